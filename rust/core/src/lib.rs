@@ -1,0 +1,59 @@
+//! Planar linkages: description, Assur groups, position, analogues.
+//!
+//! A planar linkage is a driver plus Assur groups attached one after another.
+//! [`Description`] says what the mechanism is; [`Mechanism`] finds its structure
+//! and compiles it; [`Mechanism::solve`] gives positions and *analogues*
+//! (derivatives with respect to the driver's coordinate) of many designs at many
+//! positions.
+//!
+//! # Examples
+//!
+//! A central slider-crank at 90°:
+//!
+//! ```
+//! use assur::{Coordinates, Description, Mechanism, Outputs, Request};
+//!
+//! let engine = Mechanism::new(
+//!     &Description::new()
+//!         .joint("O", [0.0, 0.0])
+//!         .joint("A", [0.03, 0.04])
+//!         .joint("B", [0.2, 0.0])
+//!         .link("ground", ["O"])
+//!         .link("crank", ["O", "A"])
+//!         .link("rod", ["A", "B"])
+//!         .link("piston", ["B"])
+//!         .slide("bore", "piston", "ground", 0.0, Some("O"))
+//!         .driver("crank"),
+//! )?;
+//! let motion = engine.solve(&Request {
+//!     dimensions: engine.drawing(),
+//!     coordinates: Coordinates::Shared(&[std::f64::consts::FRAC_PI_2]),
+//!     signs: engine.signs(),
+//!     order: 1,
+//!     outputs: &Outputs::all(&engine),
+//! })?;
+//! let bore = &motion.slides[0];
+//! let rod2 = 0.17_f64.powi(2) + 0.04_f64.powi(2);
+//! assert!((bore.derivatives[0][0] - (rod2 - 0.05_f64.powi(2)).sqrt()).abs() < 1e-15);
+//! assert!((bore.derivatives[1][0] + 0.05).abs() < 1e-15);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod error;
+pub mod linkage;
+mod mechanism;
+pub mod motion;
+pub mod plan;
+pub mod plane;
+pub mod structure;
+pub mod tolerance;
+
+pub use error::{Named, SolveError, StructureError};
+pub use linkage::{
+    Description, Dimension, Dimensions, Driver, DriverDescription, FourBar, FourBarMode, Linkage,
+    SlideDescription, SliderCrank,
+};
+pub use mechanism::Mechanism;
+pub use motion::{Coordinates, Diagnosis, Motion, Outputs, Request, Status, Track};
+pub use plane::Vector;
+pub use structure::{Group, Structure};

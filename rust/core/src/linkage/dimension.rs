@@ -1,0 +1,187 @@
+//! The numbers that make one design: names, kinds, and values in the drawing.
+
+use super::{Axis, Linkage, nearest, polar};
+use crate::error::{Named, SolveError};
+
+/// What one dimension measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// x of a ground joint in the drawing's frame, m.
+    GroundX { joint: usize },
+    /// y of a ground joint in the drawing's frame, m.
+    GroundY { joint: usize },
+    /// Distance from first to second joint, m; positive.
+    Length { link: usize },
+    /// x of a further joint in the link's frame, m.
+    JointX { link: usize, joint: usize },
+    /// y of a further joint in the link's frame, m.
+    JointY { link: usize, joint: usize },
+    /// Direction of a guide in the frame of the link that carries it, rad.
+    SlideAngle { slide: usize },
+    /// Direction of a guide in the frame of the sliding link, rad.
+    SlideLinkAngle { slide: usize },
+    /// Distance of the sliding point's path from the origin, m, positive to the
+    /// left of the guide.
+    SlideOffset { slide: usize },
+    /// x of the value 0 in the frame of the link that carries the guide, m.
+    SlideOriginX { slide: usize },
+    /// y of the value 0 in the frame of the link that carries the guide, m.
+    SlideOriginY { slide: usize },
+}
+
+impl Dimension {
+    /// Whether the dimension is a length (scaled with the size), not an angle.
+    #[must_use]
+    pub fn is_length(self) -> bool {
+        !matches!(self, Self::SlideAngle { .. } | Self::SlideLinkAngle { .. })
+    }
+
+    /// What is wrong with this value, if anything.
+    #[must_use]
+    pub fn fault(self, value: f64) -> Option<&'static str> {
+        if !value.is_finite() {
+            Some("a finite number is needed")
+        } else if matches!(self, Self::Length { .. }) && value <= 0.0 {
+            Some("a length must be positive")
+        } else {
+            None
+        }
+    }
+}
+
+/// The dimensions of a linkage, in a fixed order, with their names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dimensions {
+    entries: Vec<(String, Dimension)>,
+}
+
+impl Dimensions {
+    /// All dimensions of a linkage.
+    #[must_use]
+    pub fn of(linkage: &Linkage) -> Self {
+        let mut entries = Vec::new();
+        let mut add = |owner: &str, what: &str, dimension| {
+            entries.push((format!("{owner}.{what}"), dimension));
+        };
+        for (index, link) in linkage.links.iter().enumerate() {
+            for (place, &joint) in link.joints.iter().enumerate() {
+                let name = &linkage.joints[joint].name;
+                if index == linkage.ground {
+                    add(&link.name, &format!("{name}.x"), Dimension::GroundX { joint });
+                    add(&link.name, &format!("{name}.y"), Dimension::GroundY { joint });
+                } else if place == 1 {
+                    add(&link.name, "length", Dimension::Length { link: index });
+                } else if place > 1 {
+                    add(&link.name, &format!("{name}.x"), Dimension::JointX { link: index, joint });
+                    add(&link.name, &format!("{name}.y"), Dimension::JointY { link: index, joint });
+                }
+            }
+        }
+        for (slide, s) in linkage.slides.iter().enumerate() {
+            if linkage.axis(s.on) != Axis::Slide(slide) {
+                add(&s.name, "angle", Dimension::SlideAngle { slide });
+            }
+            if linkage.axis(s.link) != Axis::Slide(slide) {
+                add(&s.name, "link_angle", Dimension::SlideLinkAngle { slide });
+            }
+            add(&s.name, "offset", Dimension::SlideOffset { slide });
+            if s.origin.is_none() {
+                add(&s.name, "origin.x", Dimension::SlideOriginX { slide });
+                add(&s.name, "origin.y", Dimension::SlideOriginY { slide });
+            }
+        }
+        Self { entries }
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Names and kinds in order.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, Dimension)> {
+        self.entries.iter().map(|(n, d)| (n.as_str(), *d))
+    }
+
+    /// Place of a dimension by name.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Unknown`], with the nearest names.
+    pub fn position(&self, name: &str) -> Result<usize, SolveError> {
+        self.entries.iter().position(|(n, _)| n == name).ok_or_else(|| SolveError::Unknown {
+            kind: Named::Dimension,
+            name: name.into(),
+            hint: nearest(name, self.entries.iter().map(|(n, _)| n.as_str())),
+        })
+    }
+
+    /// Values in the drawing, in order.
+    #[must_use]
+    pub fn of_drawing(&self, linkage: &Linkage) -> Vec<f64> {
+        self.entries.iter().map(|(_, d)| drawing_value(linkage, *d)).collect()
+    }
+
+    /// The first dimension whose value is no dimension.
+    #[must_use]
+    pub fn first_fault(&self, values: &[f64]) -> Option<SolveError> {
+        self.entries.iter().zip(values).find_map(|((name, d), &value)| {
+            d.fault(value).map(|need| SolveError::BadDimension { name: name.clone(), value, need })
+        })
+    }
+}
+
+/// `point` in the drawing, seen in the frame of a link.
+fn in_frame(linkage: &Linkage, link: usize, point: [f64; 2]) -> [f64; 2] {
+    let origin = if link == linkage.ground {
+        [0.0; 2]
+    } else {
+        linkage.reference_point(link).unwrap_or([0.0; 2])
+    };
+    let (x, y) = (point[0] - origin[0], point[1] - origin[1]);
+    match (linkage.axis(link), &linkage.links[link].joints[..]) {
+        (Axis::Joints, &[first, second, ..]) => {
+            // With the unit vector of the joints, not its angle: exact for axis-parallel links.
+            let (a, b) = (linkage.joints[first].at, linkage.joints[second].at);
+            let length = polar(a, b).0;
+            let (c, s) = ((b[0] - a[0]) / length, (b[1] - a[1]) / length);
+            [x * c + y * s, y * c - x * s]
+        }
+        _ => {
+            let (s, c) = linkage.drawing_angle(link).sin_cos();
+            [x * c + y * s, y * c - x * s]
+        }
+    }
+}
+
+fn drawing_value(linkage: &Linkage, dimension: Dimension) -> f64 {
+    let guide_angle = |slide: usize, link: usize| {
+        linkage.slides[slide].angle - linkage.drawing_angle(link)
+    };
+    match dimension {
+        Dimension::GroundX { joint } => linkage.joints[joint].at[0],
+        Dimension::GroundY { joint } => linkage.joints[joint].at[1],
+        Dimension::Length { link } => {
+            let joints = &linkage.links[link].joints;
+            polar(linkage.joints[joints[0]].at, linkage.joints[joints[1]].at).0
+        }
+        Dimension::JointX { link, joint } => in_frame(linkage, link, linkage.joints[joint].at)[0],
+        Dimension::JointY { link, joint } => in_frame(linkage, link, linkage.joints[joint].at)[1],
+        Dimension::SlideAngle { slide } => guide_angle(slide, linkage.slides[slide].on),
+        Dimension::SlideLinkAngle { slide } => guide_angle(slide, linkage.slides[slide].link),
+        Dimension::SlideOffset { slide } => linkage.drawing_slide(slide).1,
+        Dimension::SlideOriginX { slide } => {
+            in_frame(linkage, linkage.slides[slide].on, linkage.slide_origin(slide))[0]
+        }
+        Dimension::SlideOriginY { slide } => {
+            in_frame(linkage, linkage.slides[slide].on, linkage.slide_origin(slide))[1]
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The four-bar linkage, by its lengths.
+
+use super::Description;
+
+/// Which way a four-bar is assembled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum FourBarMode {
+    /// C to the right of the ray from D to B.
+    #[default]
+    Open,
+    /// C to the left of it.
+    Crossed,
+}
+
+/// A four-bar by its lengths: joints A, B, C, D, the ground along +x from A to D.
+///
+/// # Examples
+///
+/// ```
+/// use assur::{FourBar, FourBarMode, Mechanism};
+///
+/// let four_bar = FourBar { crank: 40.0, coupler: 120.0, rocker: 80.0, ground: 100.0, mode: FourBarMode::Open };
+/// let mechanism = Mechanism::new(&FourBar::description(four_bar.mode))?;
+/// let dimensions = four_bar.dimensions(&mechanism);
+/// assert_eq!(dimensions.len(), mechanism.dimensions().len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FourBar {
+    /// A to B, m.
+    pub crank: f64,
+    /// B to C, m.
+    pub coupler: f64,
+    /// D to C, m.
+    pub rocker: f64,
+    /// A to D, m.
+    pub ground: f64,
+    /// The assembly.
+    pub mode: FourBarMode,
+}
+
+impl FourBar {
+    /// The linkage, drawn with lengths of its own, the crank upright: the assembly
+    /// and the starting position do not depend on the dimensions of any design.
+    #[must_use]
+    pub fn description(mode: FourBarMode) -> Description {
+        // Right and left of the ray from D to B, which points along (−3, 1).
+        let c = match mode {
+            FourBarMode::Open => [3.0, 2.0],
+            FourBarMode::Crossed => [1.8, -1.6],
+        };
+        Description::new()
+            .joint("A", [0.0, 0.0])
+            .joint("B", [0.0, 1.0])
+            .joint("C", c)
+            .joint("D", [3.0, 0.0])
+            .link("ground", ["A", "D"])
+            .link("crank", ["A", "B"])
+            .link("coupler", ["B", "C"])
+            .link("rocker", ["D", "C"])
+            .driver("crank")
+    }
+
+    /// The dimensions in the order of the mechanism made from
+    /// [`FourBar::description`].
+    #[must_use]
+    pub fn dimensions(&self, mechanism: &crate::Mechanism) -> Vec<f64> {
+        mechanism
+            .dimensions()
+            .iter()
+            .zip(mechanism.drawing())
+            .map(|((name, _), &drawn)| match name {
+                "crank.length" => self.crank,
+                "coupler.length" => self.coupler,
+                "rocker.length" => self.rocker,
+                "ground.D.x" => self.ground,
+                _ => drawn,
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,137 @@
+//! Frames of links in the drawing.
+//!
+//! A link with two joints or more has its frame at the first, x toward the
+//! second. A link with one joint, or none, takes the direction of the first
+//! slide it takes part in; a link without joints is placed where its first two
+//! guides that are not parallel cross.
+
+use super::{Driver, Linkage};
+use crate::tolerance::PARALLEL;
+
+/// What the x axis of a link's frame follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axis {
+    /// The axes of the drawing (the ground).
+    Ground,
+    /// First to second joint.
+    Joints,
+    /// The guide of this slide.
+    Slide(usize),
+    /// Nothing: one joint and no slide; the drawing's x axis is taken.
+    Free,
+}
+
+/// Length and angle of the vector from `a` to `b`.
+#[must_use]
+pub fn polar(a: [f64; 2], b: [f64; 2]) -> (f64, f64) {
+    let (x, y) = (b[0] - a[0], b[1] - a[1]);
+    (x.hypot(y), y.atan2(x))
+}
+
+/// The same angle in (−π, π].
+fn principal(angle: f64) -> f64 {
+    if angle > -std::f64::consts::PI && angle <= std::f64::consts::PI {
+        return angle;
+    }
+    let (sin, cos) = angle.sin_cos();
+    sin.atan2(cos)
+}
+
+impl Linkage {
+    /// What the x axis of the link's frame follows.
+    #[must_use]
+    pub fn axis(&self, link: usize) -> Axis {
+        if link == self.ground {
+            return Axis::Ground;
+        }
+        if self.links[link].joints.len() >= 2 {
+            return Axis::Joints;
+        }
+        match self.slides.iter().position(|s| s.link == link || s.on == link) {
+            Some(slide) => Axis::Slide(slide),
+            None => Axis::Free,
+        }
+    }
+
+    /// Angle of the link's frame in the drawing, in (−π, π].
+    #[must_use]
+    pub fn drawing_angle(&self, link: usize) -> f64 {
+        match self.axis(link) {
+            Axis::Ground | Axis::Free => 0.0,
+            Axis::Joints => {
+                let joints = &self.links[link].joints;
+                polar(self.joints[joints[0]].at, self.joints[joints[1]].at).1
+            }
+            Axis::Slide(slide) => principal(self.slides[slide].angle),
+        }
+    }
+
+    /// The point of the link that carries its place: the first joint, or, for a
+    /// link without joints, where its guides cross. None if they do not.
+    #[must_use]
+    pub fn reference_point(&self, link: usize) -> Option<[f64; 2]> {
+        if let Some(&joint) = self.links[link].joints.first() {
+            return Some(self.joints[joint].at);
+        }
+        if link == self.ground {
+            return Some([0.0; 2]);
+        }
+        let guides: Vec<([f64; 2], f64)> = (self.slides.iter())
+            .filter(|s| s.link == link || s.on == link)
+            .map(|s| (self.guide_point(s, link), s.angle))
+            .collect();
+        let (&(p, alpha), rest) = guides.split_first()?;
+        let &(r, beta) = rest.iter().find(|(_, b)| (b - alpha).sin().abs() > PARALLEL)?;
+        // p + t (cos α, sin α) on the line through r along β (Cramer).
+        let t = ((r[0] - p[0]) * beta.sin() - (r[1] - p[1]) * beta.cos()) / (beta - alpha).sin();
+        Some([p[0] + t * alpha.cos(), p[1] + t * alpha.sin()])
+    }
+
+    /// A point of a guide of a link without joints, in the drawing.
+    fn guide_point(&self, slide: &super::Slide, link: usize) -> [f64; 2] {
+        let other = if slide.link == link { slide.on } else { slide.link };
+        // A guide carried by the jointless link passes through the place of the
+        // other link's first joint; one it slides on passes through its origin.
+        let joint = match slide.origin {
+            Some(origin) if slide.link == link => Some(origin),
+            _ => self.links[other].joints.first().copied(),
+        };
+        joint.map_or([0.0; 2], |j| self.joints[j].at)
+    }
+
+    /// Point of the drawing whose path is the slide's: the sliding link's first
+    /// joint, or its reference point.
+    #[must_use]
+    pub fn sliding_point(&self, slide: usize) -> [f64; 2] {
+        self.reference_point(self.slides[slide].link).unwrap_or([0.0; 2])
+    }
+
+    /// Point of the drawing where the slide's value is 0.
+    #[must_use]
+    pub fn slide_origin(&self, slide: usize) -> [f64; 2] {
+        match self.slides[slide].origin {
+            Some(joint) => self.joints[joint].at,
+            None => self.sliding_point(slide),
+        }
+    }
+
+    /// Value and offset of a slide in the drawing, m.
+    #[must_use]
+    pub fn drawing_slide(&self, slide: usize) -> (f64, f64) {
+        let (o, p) = (self.slide_origin(slide), self.sliding_point(slide));
+        let (x, y) = (p[0] - o[0], p[1] - o[1]);
+        let (sin, cos) = self.slides[slide].angle.sin_cos();
+        (x * cos + y * sin, y * cos - x * sin)
+    }
+
+    /// Coordinate of a driver in the drawing: rad or m.
+    #[must_use]
+    pub fn drawing_coordinate(&self, driver: Driver) -> f64 {
+        match driver {
+            Driver::Slide(slide) => self.drawing_slide(slide).0,
+            Driver::Angle { link, relative_to } => {
+                self.drawing_angle(link) - self.drawing_angle(relative_to)
+            }
+        }
+    }
+}

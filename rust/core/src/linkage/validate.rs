@@ -1,0 +1,255 @@
+//! From a [`Description`] to a [`Linkage`]: names resolved, mistakes refused.
+
+use std::collections::HashMap;
+
+use super::{Description, Driver, DriverDescription, Joint, Link, Linkage, Slide, nearest};
+use crate::error::{Named, StructureError};
+use crate::tolerance::ZERO_LENGTH;
+
+impl Linkage {
+    /// Resolves every name of a description.
+    ///
+    /// # Errors
+    ///
+    /// The first mistake found: bad, doubled or unknown names, coordinates that
+    /// are not finite, joints on no link, links of length zero, a slide or driver
+    /// that relates a link to itself, no ground, no driver.
+    pub fn new(description: &Description) -> Result<Self, StructureError> {
+        check_names(description)?;
+        let joints = joints(description)?;
+        let joint_index: HashMap<&str, usize> =
+            joints.iter().enumerate().map(|(i, j)| (j.name.as_str(), i)).collect();
+        let links = links(description, &joint_index)?;
+        let link_index: HashMap<&str, usize> =
+            links.iter().enumerate().map(|(i, l)| (l.name.as_str(), i)).collect();
+        let ground = *link_index.get("ground").ok_or(StructureError::NoGround)?;
+        let slides = slides(description, &joint_index, &link_index, &links)?;
+        let mut linkage = Self {
+            joints: joints.clone(),
+            links: links.clone(),
+            slides,
+            drivers: Vec::new(),
+            ground,
+            assembly: Vec::new(),
+        };
+        linkage.refuse_loose_joints()?;
+        linkage.refuse_zero_lengths()?;
+        linkage.refuse_unplaced_links()?;
+        linkage.drivers = drivers(description, &linkage)?;
+        linkage.assembly = assembly(description)?;
+        Ok(linkage)
+    }
+
+    fn refuse_loose_joints(&self) -> Result<(), StructureError> {
+        match (0..self.joints.len()).find(|&j| self.links_at(j).next().is_none()) {
+            Some(j) => Err(StructureError::LooseJoint { joint: self.joints[j].name.clone() }),
+            None => Ok(()),
+        }
+    }
+
+    fn refuse_zero_lengths(&self) -> Result<(), StructureError> {
+        for (index, link) in self.links.iter().enumerate() {
+            let [first, second, ..] = link.joints[..] else { continue };
+            let (a, b) = (&self.joints[first], &self.joints[second]);
+            let span = (b.at[0] - a.at[0]).hypot(b.at[1] - a.at[1]);
+            let size = a.at.iter().chain(&b.at).fold(0.0_f64, |m, x| m.max(x.abs()));
+            if index != self.ground && span <= ZERO_LENGTH * size {
+                return Err(StructureError::ZeroLength {
+                    link: link.name.clone(),
+                    first: a.name.clone(),
+                    second: b.name.clone(),
+                    x: a.at[0],
+                    y: a.at[1],
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn refuse_unplaced_links(&self) -> Result<(), StructureError> {
+        for slide in &self.slides {
+            if self.links[slide.link].joints.is_empty() && slide.origin.is_none() {
+                return Err(StructureError::GuideNowhere {
+                    slide: slide.name.clone(),
+                    link: self.links[slide.link].name.clone(),
+                    on: self.links[slide.on].name.clone(),
+                });
+            }
+        }
+        for link in 0..self.links.len() {
+            if link != self.ground && self.reference_point(link).is_none() {
+                return Err(StructureError::Unplaced { link: self.links[link].name.clone() });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn check_names(description: &Description) -> Result<(), StructureError> {
+    let names = (description.joints.iter().map(|(n, _)| (n, Named::Joint)))
+        .chain(description.links.iter().map(|(n, _)| (n, Named::Link)))
+        .chain(description.slides.iter().map(|s| (&s.name, Named::Slide)));
+    let mut seen: HashMap<&str, Named> = HashMap::new();
+    for (name, kind) in names {
+        let forbidden = |c: char| c.is_whitespace() || c.is_control() || "./\\'\"`()[]{}<>".contains(c);
+        if name.is_empty() || name.contains(forbidden) {
+            return Err(StructureError::BadName { kind, name: name.clone() });
+        }
+        if let Some(&first) = seen.get(name.as_str()) {
+            return Err(StructureError::DoubledName { name: name.clone(), first, second: kind });
+        }
+        seen.insert(name, kind);
+    }
+    Ok(())
+}
+
+fn finite(value: f64, kind: Named, name: &str, what: &'static str) -> Result<(), StructureError> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(StructureError::NotFinite { kind, name: name.into(), what, value })
+}
+
+fn joints(description: &Description) -> Result<Vec<Joint>, StructureError> {
+    description
+        .joints
+        .iter()
+        .map(|(name, at)| {
+            finite(at[0], Named::Joint, name, "x coordinate")?;
+            finite(at[1], Named::Joint, name, "y coordinate")?;
+            Ok(Joint { name: name.clone(), at: *at })
+        })
+        .collect()
+}
+
+fn find(
+    index: &HashMap<&str, usize>,
+    kind: Named,
+    name: &str,
+    place: impl FnOnce() -> String,
+) -> Result<usize, StructureError> {
+    index.get(name).copied().ok_or_else(|| StructureError::Unknown {
+        kind,
+        name: name.into(),
+        place: place(),
+        hint: nearest(name, index.keys().copied()),
+    })
+}
+
+fn links(
+    description: &Description,
+    joint_index: &HashMap<&str, usize>,
+) -> Result<Vec<Link>, StructureError> {
+    let mut links = Vec::new();
+    for (name, members) in &description.links {
+        let mut joints = Vec::new();
+        for member in members {
+            let joint = find(joint_index, Named::Joint, member, || format!("link {name:?}"))?;
+            if joints.contains(&joint) {
+                return Err(StructureError::DoubledJoint {
+                    link: name.clone(),
+                    joint: member.clone(),
+                });
+            }
+            joints.push(joint);
+        }
+        links.push(Link { name: name.clone(), joints });
+    }
+    Ok(links)
+}
+
+fn slides(
+    description: &Description,
+    joint_index: &HashMap<&str, usize>,
+    link_index: &HashMap<&str, usize>,
+    links: &[Link],
+) -> Result<Vec<Slide>, StructureError> {
+    let mut slides = Vec::new();
+    for s in &description.slides {
+        let place = || format!("slide {:?}", s.name);
+        finite(s.angle, Named::Slide, &s.name, "angle")?;
+        let link = find(link_index, Named::Link, &s.link, place)?;
+        let on = find(link_index, Named::Link, &s.on, place)?;
+        if link == on {
+            return Err(StructureError::SameLink { place: place(), link: s.link.clone() });
+        }
+        let origin = match &s.origin {
+            None => None,
+            Some(name) => {
+                let joint = find(joint_index, Named::Joint, name, place)?;
+                if !links[on].joints.contains(&joint) {
+                    return Err(StructureError::OriginNotOnLink {
+                        slide: s.name.clone(),
+                        joint: name.clone(),
+                        link: s.on.clone(),
+                    });
+                }
+                Some(joint)
+            }
+        };
+        slides.push(Slide { name: s.name.clone(), link, on, angle: s.angle, origin });
+    }
+    Ok(slides)
+}
+
+fn drivers(description: &Description, linkage: &Linkage) -> Result<Vec<Driver>, StructureError> {
+    let link_index: HashMap<&str, usize> =
+        linkage.links.iter().enumerate().map(|(i, l)| (l.name.as_str(), i)).collect();
+    let mut drivers: Vec<Driver> = Vec::new();
+    for d in &description.drivers {
+        let driver = match d {
+            DriverDescription::Named(name) => {
+                match linkage.slides.iter().position(|s| &s.name == name) {
+                    Some(slide) => Driver::Slide(slide),
+                    None => {
+                        let names = linkage.slides.iter().map(|s| s.name.as_str());
+                        let link = link_index.get(name.as_str()).copied().ok_or_else(|| {
+                            StructureError::Unknown {
+                                kind: Named::Link,
+                                name: name.clone(),
+                                place: "driver".into(),
+                                hint: nearest(name, link_index.keys().copied().chain(names)),
+                            }
+                        })?;
+                        Driver::Angle { link, relative_to: linkage.ground }
+                    }
+                }
+            }
+            DriverDescription::Relative { link, relative_to } => {
+                let place = || "Drive".to_string();
+                let a = find(&link_index, Named::Link, link, place)?;
+                let b = find(&link_index, Named::Link, relative_to, place)?;
+                if a == b {
+                    return Err(StructureError::SameLink { place: place(), link: link.clone() });
+                }
+                Driver::Angle { link: a, relative_to: b }
+            }
+        };
+        if let Driver::Angle { link, relative_to } = driver
+            && link == linkage.ground
+            && relative_to == linkage.ground
+        {
+            return Err(StructureError::GroundDriven { driver: "ground".into() });
+        }
+        if drivers.contains(&driver) {
+            return Err(StructureError::DoubledDriver { driver: linkage.driver_name(driver) });
+        }
+        drivers.push(driver);
+    }
+    if drivers.is_empty() {
+        return Err(StructureError::NoDriver);
+    }
+    Ok(drivers)
+}
+
+fn assembly(description: &Description) -> Result<Vec<(String, i8)>, StructureError> {
+    description
+        .assembly
+        .iter()
+        .map(|(name, sign)| match sign {
+            1 => Ok((name.clone(), 1)),
+            -1 => Ok((name.clone(), -1)),
+            &value => Err(StructureError::BadSign { name: name.clone(), value }),
+        })
+        .collect()
+}

@@ -1,0 +1,242 @@
+//! A mechanism ready to be moved: description, structure, plan, assembly.
+
+use std::f64::consts::TAU;
+
+use crate::error::{Named, SolveError, StructureError};
+use crate::linkage::{Description, Dimensions, Linkage, nearest};
+use crate::motion::{Motion, Request};
+use crate::plan::{Dyad, Form, Plan, Step, Unknown};
+use crate::plane::Vector;
+use crate::structure::{Closure, Structure};
+use crate::tolerance::FLAT_SINE;
+
+/// A mechanism: what it is, how it is built, and how it is solved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mechanism {
+    linkage: Linkage,
+    structure: Structure,
+    plan: Plan,
+    dimensions: Dimensions,
+    drawing: Vec<f64>,
+    q0: Vec<f64>,
+    signs: Vec<i8>,
+    /// Angle of every class in the drawing.
+    pub(crate) class_angle: Vec<f64>,
+    /// Whole turns between a link's drawing angle and that of its class plus offsets.
+    pub(crate) whole_turns: Vec<f64>,
+}
+
+impl Mechanism {
+    /// Analyses and compiles a description.
+    ///
+    /// # Errors
+    ///
+    /// [`StructureError`]: whatever keeps the description from being a mechanism
+    /// with as many drivers as freedoms and a definite assembly.
+    pub fn new(description: &Description) -> Result<Self, StructureError> {
+        let linkage = Linkage::new(description)?;
+        let closure = Closure::of(&linkage);
+        let structure = Structure::of(&linkage, &closure)?;
+        let plan = Plan::new(&linkage, &closure, &structure)?;
+        let dimensions = Dimensions::of(&linkage);
+        let drawing = dimensions.of_drawing(&linkage);
+        let q0: Vec<f64> = linkage.drivers.iter().map(|&d| linkage.drawing_coordinate(d)).collect();
+        let signs = drawing_signs(&linkage, &plan)?;
+        let class_angle = class_angles(&linkage, &plan);
+        let bound = crate::plan::bind::Bound::new(&plan, &linkage, &dimensions, &drawing);
+        let whole_turns = (0..linkage.links.len())
+            .map(|l| {
+                let r = &plan.rotation[l];
+                let driven: f64 = r.turns.iter().zip(&q0).map(|(&t, q)| f64::from(t) * q).sum();
+                let angle = class_angle[r.class] + bound.offset[l] + driven;
+                ((linkage.drawing_angle(l) - angle) / TAU).round()
+            })
+            .collect();
+        Ok(Self { linkage, structure, plan, dimensions, drawing, q0, signs, class_angle, whole_turns })
+    }
+
+    /// The description with names resolved.
+    #[must_use]
+    pub fn linkage(&self) -> &Linkage {
+        &self.linkage
+    }
+
+    /// Mobility, Assur groups, redundant links.
+    #[must_use]
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// The compiled steps.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Names and kinds of the dimensions.
+    #[must_use]
+    pub fn dimensions(&self) -> &Dimensions {
+        &self.dimensions
+    }
+
+    /// Dimensions of the drawing, in the order of [`Mechanism::dimensions`].
+    #[must_use]
+    pub fn drawing(&self) -> &[f64] {
+        &self.drawing
+    }
+
+    /// Coordinates of the drawing, one a driver, rad or m.
+    #[must_use]
+    pub fn q0(&self) -> &[f64] {
+        &self.q0
+    }
+
+    /// Assembly of the drawing: +1 or −1 for every dyad that has two solutions.
+    #[must_use]
+    pub fn signs(&self) -> &[i8] {
+        &self.signs
+    }
+
+    /// Solves designs at positions.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError`] for what concerns the whole request (a group of higher
+    /// class, shapes, orders); single positions that cannot be had get NaN and a
+    /// status.
+    pub fn solve(&self, request: &Request<'_>) -> Result<Motion, SolveError> {
+        crate::motion::solve(self, request)
+    }
+
+    /// Refuses what cannot be solved yet.
+    pub(crate) fn require_closed_form(&self) -> Result<(), SolveError> {
+        match &self.plan.higher {
+            Some(higher) => Err(SolveError::HigherClass {
+                group: format!("{}({})", higher.class, higher.links),
+                class: higher.class.clone(),
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Index of a joint by name.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Unknown`] with the nearest names.
+    pub fn joint(&self, name: &str) -> Result<usize, SolveError> {
+        find(name, Named::Joint, self.linkage.joints.iter().map(|x| x.name.as_str()))
+    }
+
+    /// Index of a link by name.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Unknown`] with the nearest names.
+    pub fn link(&self, name: &str) -> Result<usize, SolveError> {
+        find(name, Named::Link, self.linkage.links.iter().map(|x| x.name.as_str()))
+    }
+
+    /// Index of a slide by name.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Unknown`] with the nearest names.
+    pub fn slide(&self, name: &str) -> Result<usize, SolveError> {
+        find(name, Named::Slide, self.linkage.slides.iter().map(|x| x.name.as_str()))
+    }
+}
+
+fn find<'a>(
+    name: &str,
+    kind: Named,
+    names: impl Iterator<Item = &'a str> + Clone,
+) -> Result<usize, SolveError> {
+    names.clone().position(|n| n == name).ok_or_else(|| SolveError::Unknown {
+        kind,
+        name: name.into(),
+        hint: nearest(name, names),
+    })
+}
+
+/// The angle, in the drawing, of the first link of every class.
+fn class_angles(linkage: &Linkage, plan: &Plan) -> Vec<f64> {
+    let mut angles = vec![0.0; plan.classes];
+    for (l, r) in plan.rotation.iter().enumerate() {
+        if r.class != 0 && r.slides.is_empty() && r.turns.iter().all(|&t| t == 0) {
+            angles[r.class] = linkage.drawing_angle(l);
+        }
+    }
+    angles
+}
+
+/// Signs of the drawing, or as the user names them.
+fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureError> {
+    for (name, _) in &linkage.assembly {
+        if !plan.dyad_names.contains(name) {
+            return Err(StructureError::Unknown {
+                kind: Named::Dyad,
+                name: name.clone(),
+                place: "assembly".into(),
+                hint: nearest(name, plan.dyad_names.iter().map(String::as_str)),
+            });
+        }
+    }
+    let mut signs = vec![1; plan.signs()];
+    for step in &plan.steps {
+        let Step::Dyad(dyad) = step else { continue };
+        let Some(place) = dyad.sign else { continue };
+        let name = &plan.dyad_names[place];
+        let named = linkage.assembly.iter().rev().find(|(n, _)| n == name);
+        let sine = drawn_sine(linkage, plan, dyad);
+        signs[place] = match named {
+            Some((_, sign)) => *sign,
+            None if sine.abs() >= FLAT_SINE => if sine > 0.0 { 1 } else { -1 },
+            None => {
+                return Err(StructureError::FlatDyad {
+                    dyad: plan.dyad_links[place].clone(),
+                    name: name.clone(),
+                    sine,
+                });
+            }
+        };
+    }
+    Ok(signs)
+}
+
+/// Sine of the angle between a dyad's legs in the drawing, with the sign of the
+/// assembly.
+fn drawn_sine(linkage: &Linkage, plan: &Plan, dyad: &Dyad) -> f64 {
+    let at = |point: usize| {
+        let place = match point.checked_sub(1) {
+            None => [0.0; 2],
+            Some(j) if j < linkage.joints.len() => linkage.joints[j].at,
+            Some(_) => {
+                let link = plan.reference.iter().position(|&r| r == point).unwrap_or(0);
+                linkage.reference_point(link).unwrap_or([0.0; 2])
+            }
+        };
+        Vector::new(place[0], place[1])
+    };
+    let mut terms = [Vector::ZERO; 2];
+    let mut guide = Vector::ZERO;
+    for &(e, backward) in &dyad.path {
+        let edge = &plan.edges[e];
+        let signed = |v: Vector| if backward { -v } else { v };
+        let class = Unknown::Class(plan.class_of(e));
+        if let Some(place) = dyad.unknowns.iter().position(|&u| u == class) {
+            terms[place] += signed(at(edge.edge.to) - at(edge.edge.from));
+        }
+        if let Some(slide) = edge.edge.slide()
+            && dyad.unknowns.contains(&Unknown::Slide(slide))
+        {
+            guide = signed(Vector::at_angle(linkage.slides[slide].angle));
+        }
+    }
+    match dyad.form {
+        Form::TwoCircles => terms[1].cross(terms[0]) / (terms[0].norm() * terms[1].norm()),
+        Form::CircleAndLine => -guide.dot(terms[0]) / terms[0].norm(),
+        Form::TurningGuide => guide.dot(terms[0]) / terms[0].norm(),
+        Form::TwoLines => 1.0,
+    }
+}

@@ -1,0 +1,155 @@
+//! Why a position is what it is: status, residual, condition, a sentence.
+
+use super::solve::Units;
+use super::state::{Context, Fault, State, Status};
+use crate::error::SolveError;
+use crate::mechanism::Mechanism;
+use crate::plan::bind::Bound;
+use crate::plan::jet::Jets;
+use crate::plan::{Along, Plan, Step};
+
+/// One position looked at closely.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// How it came out.
+    pub status: Status,
+    /// Greatest misfit of a closure equation at the coordinates returned, as a
+    /// part of the size; NaN where there is no position.
+    pub residual: f64,
+    /// Product of the conditions along the worst chain of dyads; NaN where there
+    /// is no position.
+    pub condition: f64,
+    /// The dyad (inner joint or slide), redundant link or dimension concerned.
+    pub name: Option<String>,
+    /// What happened, with the numbers.
+    pub sentence: String,
+}
+
+impl Mechanism {
+    /// Looks closely at one position of one design.
+    ///
+    /// # Errors
+    ///
+    /// A group of higher class.
+    pub fn diagnose(&self, dimensions: &[f64], q: &[f64], signs: &[i8]) -> Result<Diagnosis, SolveError> {
+        self.require_closed_form()?;
+        let nothing = |status, name, sentence| Diagnosis {
+            status,
+            residual: f64::NAN,
+            condition: f64::NAN,
+            name,
+            sentence,
+        };
+        if let Some(fault) = self.dimensions().first_fault(dimensions) {
+            let name = match &fault {
+                SolveError::BadDimension { name, .. } => Some(name.clone()),
+                _ => None,
+            };
+            return Ok(nothing(Status::BadDimension, name, fault.to_string()));
+        }
+        let jets = Jets::new(self.q0().len(), 0);
+        let bound = Bound::new(self.plan(), self.linkage(), self.dimensions(), dimensions);
+        let signs: Vec<f64> = signs.iter().map(|&s| f64::from(s)).collect();
+        let cx = Context { plan: self.plan(), bound: &bound, jets: &jets, signs: &signs };
+        let unit = Units::new(self, &cx);
+        let scaled: Vec<f64> = q.iter().zip(&unit.coordinate).map(|(q, u)| q * u).collect();
+        let mut state = State::new(self.plan(), &jets, self.linkage().slides.len());
+        state.solve(&cx, &scaled);
+        let at = place_of(q);
+        Ok(match state.status {
+            Status::BadInput => {
+                nothing(Status::BadInput, None, format!("q = {at} is no number: a finite coordinate is needed"))
+            }
+            Status::Unreachable => {
+                let (name, sentence) = self.unreachable(&state, bound.scale, &at);
+                nothing(Status::Unreachable, Some(name), sentence)
+            }
+            status => {
+                let name = state.fault.map(|fault| self.step_name(fault));
+                let condition = state.condition;
+                let sentence = match status {
+                    Status::Singular => format!(
+                        "at q = {at} dyad {:?} is flat: the position is given, its analogues do not exist",
+                        name.as_deref().unwrap_or("?")
+                    ),
+                    Status::NearSingular => {
+                        format!("at q = {at} the condition is {condition:.1e}: fewer than 6 digits of the analogues remain")
+                    }
+                    _ => format!("at q = {at} the position is solved, condition {condition:.1e}"),
+                };
+                Diagnosis { status, residual: residual(&cx, &state), condition, name, sentence }
+            }
+        })
+    }
+
+    fn step_name(&self, fault: Fault) -> String {
+        let (Fault::Open { step, .. } | Fault::Misfit { step, .. } | Fault::Flat { step }) = fault;
+        match &self.plan().steps[step] {
+            Step::Dyad(dyad) => match dyad.sign {
+                Some(sign) => self.plan().dyad_names[sign].clone(),
+                None => two_lines_name(self.plan(), self, dyad),
+            },
+            Step::Fit(fit) => fit.name.clone(),
+            Step::Place { .. } => String::new(),
+        }
+    }
+
+    fn unreachable(&self, state: &State, scale: f64, at: &str) -> (String, String) {
+        let Some(fault) = state.fault else {
+            return (String::new(), format!("q = {at} cannot be reached"));
+        };
+        let name = self.step_name(fault);
+        let sentence = match fault {
+            Fault::Misfit { gap, .. } => format!(
+                "at q = {at} the redundant {name:?} does not fit: it misses by {:.3e} m",
+                gap * scale
+            ),
+            Fault::Open { gap, .. } if gap == 0.0 => format!(
+                "at q = {at} the outer joints of dyad {name:?} coincide: its links may stand in any direction"
+            ),
+            Fault::Open { gap, .. } if !gap.is_finite() => {
+                format!("at q = {at} the guides {name:?} are parallel")
+            }
+            Fault::Open { gap, .. } => format!(
+                "at q = {at} dyad {name:?} does not close: {:.3e} m are missing",
+                gap * scale
+            ),
+            Fault::Flat { .. } => format!("at q = {at} dyad {name:?} is flat"),
+        };
+        (name, sentence)
+    }
+}
+
+fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::Dyad) -> String {
+    let slides: Vec<&str> = dyad
+        .path
+        .iter()
+        .filter_map(|&(e, _)| match plan.edges[e].along {
+            Along::Slide(s) => Some(mechanism.linkage().slides[s].name.as_str()),
+            _ => None,
+        })
+        .collect();
+    slides.join("-")
+}
+
+fn place_of(q: &[f64]) -> String {
+    match q {
+        [one] => format!("{one}"),
+        many => format!("{many:?}"),
+    }
+}
+
+/// Greatest misfit of any edge, of the size.
+fn residual(cx: &Context<'_>, state: &State) -> f64 {
+    let len = state.len;
+    (cx.plan.edges.iter().zip(&cx.bound.rigid).zip(&cx.bound.guide))
+        .map(|((e, &rigid), &guide)| {
+            let mut span = rigid;
+            if let Along::Slide(s) | Along::Driver { slide: s, .. } = e.along {
+                span += guide.scale(state.slides[s * len]);
+            }
+            let turned = state.orient[e.orientation * len] * span;
+            (state.points[e.edge.to * len] - state.points[e.edge.from * len] - turned).norm()
+        })
+        .fold(0.0, f64::max)
+}

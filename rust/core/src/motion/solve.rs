@@ -1,0 +1,355 @@
+//! From a request (designs, coordinates, wanted outputs) to arrays.
+
+use super::lift::Lift;
+use super::state::{Context, State, Status};
+use crate::error::SolveError;
+use crate::mechanism::Mechanism;
+use crate::plan::bind::Bound;
+use crate::plan::jet::Jets;
+use crate::structure::closure::point_of_joint;
+
+/// Where the coordinates are taken from; `drivers` numbers a position.
+#[derive(Debug, Clone, Copy)]
+pub enum Coordinates<'a> {
+    /// The same positions for every design.
+    Shared(&'a [f64]),
+    /// Positions of every design, one design after another.
+    PerDesign(&'a [f64]),
+}
+
+/// What is kept: indices of joints, links and slides.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Outputs {
+    /// Joints.
+    pub joints: Vec<usize>,
+    /// Links (angle, and place of the reference point).
+    pub links: Vec<usize>,
+    /// Slides.
+    pub slides: Vec<usize>,
+}
+
+impl Outputs {
+    /// Everything a mechanism has.
+    #[must_use]
+    pub fn all(mechanism: &Mechanism) -> Self {
+        let linkage = mechanism.linkage();
+        Self {
+            joints: (0..linkage.joints.len()).collect(),
+            links: (0..linkage.links.len()).collect(),
+            slides: (0..linkage.slides.len()).collect(),
+        }
+    }
+}
+
+/// What to solve.
+#[derive(Debug, Clone)]
+pub struct Request<'a> {
+    /// Dimensions, one design after another.
+    pub dimensions: &'a [f64],
+    /// Coordinates, rad or m.
+    pub coordinates: Coordinates<'a>,
+    /// Assembly signs, +1 or −1 for every dyad with two solutions.
+    pub signs: &'a [i8],
+    /// Highest order of the analogues, 0 to 3.
+    pub order: usize,
+    /// What to keep.
+    pub outputs: &'a Outputs,
+}
+
+/// Value and analogues of one quantity over all designs and positions.
+///
+/// `derivatives[k]` is of order k (0: the value). Entries run over designs,
+/// positions, components (2 for a point) and k driver indices, last fastest.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Track {
+    /// Index of the joint, link or slide.
+    pub index: usize,
+    /// Arrays by order.
+    pub derivatives: Vec<Vec<f64>>,
+}
+
+/// The motion of a batch of designs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Motion {
+    /// Number of designs.
+    pub designs: usize,
+    /// Positions of each design.
+    pub positions: usize,
+    /// Joints' places, m.
+    pub joints: Vec<Track>,
+    /// Links' angles, rad.
+    pub links: Vec<Track>,
+    /// Places of the links' reference points (first joint), m.
+    pub places: Vec<Track>,
+    /// Slides' values, m.
+    pub slides: Vec<Track>,
+    /// One [`Status`] code a position.
+    pub status: Vec<u8>,
+}
+
+/// Solves a request; see [`Mechanism::solve`].
+///
+/// # Errors
+///
+/// Those of [`Mechanism::solve`].
+pub fn solve(mechanism: &Mechanism, request: &Request<'_>) -> Result<Motion, SolveError> {
+    mechanism.require_closed_form()?;
+    let shape = Shape::of(mechanism, request)?;
+    let jets = Jets::new(shape.drivers, request.order);
+    let layout = Layout::new(&jets);
+    let mut motion = empty(&shape, request, &layout);
+    let signs: Vec<f64> = request.signs.iter().map(|&s| f64::from(s)).collect();
+    let mut state = State::new(mechanism.plan(), &jets, mechanism.linkage().slides.len());
+    let lifts = !request.outputs.links.is_empty();
+    for design in 0..shape.designs {
+        let values = &request.dimensions[design * shape.dimensions..][..shape.dimensions];
+        let q_all = match request.coordinates {
+            Coordinates::Shared(q) => q,
+            Coordinates::PerDesign(q) => &q[design * shape.positions * shape.drivers..][..shape.positions * shape.drivers],
+        };
+        if mechanism.dimensions().first_fault(values).is_some() {
+            let rows = design * shape.positions..(design + 1) * shape.positions;
+            motion.status[rows].fill(Status::BadDimension as u8);
+            continue;
+        }
+        let bound = Bound::new(mechanism.plan(), mechanism.linkage(), mechanism.dimensions(), values);
+        let cx = Context { plan: mechanism.plan(), bound: &bound, jets: &jets, signs: &signs };
+        let unit = Units::new(mechanism, &cx);
+        let scaled: Vec<f64> = q_all.iter().enumerate().map(|(i, &q)| q * unit.coordinate[i % shape.drivers]).collect();
+        let angles = lifts.then(|| Angles::new(mechanism, &cx, &scaled, &unit));
+        for position in 0..shape.positions {
+            let row = design * shape.positions + position;
+            let q = &scaled[position * shape.drivers..][..shape.drivers];
+            state.solve(&cx, q);
+            motion.status[row] = state.status as u8;
+            if matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular) {
+                let write = Write { mechanism, cx: &cx, state: &state, unit: &unit, layout: &layout, row };
+                write.all(&mut motion, angles.as_ref(), q);
+            }
+        }
+    }
+    Ok(motion)
+}
+
+struct Shape {
+    designs: usize,
+    positions: usize,
+    drivers: usize,
+    dimensions: usize,
+}
+
+impl Shape {
+    fn of(mechanism: &Mechanism, request: &Request<'_>) -> Result<Self, SolveError> {
+        if request.order > 3 {
+            return Err(SolveError::Order(request.order));
+        }
+        let (dimensions, drivers) = (mechanism.dimensions().len(), mechanism.q0().len());
+        let wrong = |what: String| Err(SolveError::Shape(what));
+        if request.signs.len() != mechanism.plan().signs() {
+            return wrong(format!(
+                "{} assembly signs were given, this mechanism has {} dyads with two solutions",
+                request.signs.len(),
+                mechanism.plan().signs()
+            ));
+        }
+        let designs = if dimensions == 0 { 1 } else { request.dimensions.len() / dimensions };
+        if designs * dimensions != request.dimensions.len() {
+            return wrong(format!(
+                "{} numbers are not a whole number of designs of {dimensions} dimensions",
+                request.dimensions.len()
+            ));
+        }
+        let (count, per) = match request.coordinates {
+            Coordinates::Shared(q) => (q.len(), drivers),
+            Coordinates::PerDesign(q) => (q.len(), drivers * designs),
+        };
+        if per == 0 || count % per != 0 {
+            return wrong(format!("{count} coordinates do not divide into positions of {drivers} drivers"));
+        }
+        Ok(Self { designs, positions: count / per, drivers, dimensions })
+    }
+}
+
+/// Entries of the jets that make the tensors of every order.
+struct Layout {
+    tensors: Vec<Vec<usize>>,
+}
+
+impl Layout {
+    fn new(jets: &Jets) -> Self {
+        Self { tensors: (0..=jets.order).map(|order| jets.tensor(order)).collect() }
+    }
+}
+
+fn empty(shape: &Shape, request: &Request<'_>, layout: &Layout) -> Motion {
+    let rows = shape.designs * shape.positions;
+    let track = |components: usize| {
+        move |&index: &usize| Track {
+            index,
+            derivatives: layout
+                .tensors
+                .iter()
+                .map(|t| vec![f64::NAN; rows * components * t.len()])
+                .collect(),
+        }
+    };
+    Motion {
+        designs: shape.designs,
+        positions: shape.positions,
+        joints: request.outputs.joints.iter().map(track(2)).collect(),
+        links: request.outputs.links.iter().map(track(1)).collect(),
+        places: request.outputs.links.iter().map(track(2)).collect(),
+        slides: request.outputs.slides.iter().map(track(1)).collect(),
+        status: vec![Status::Ok as u8; rows],
+    }
+}
+
+/// Powers of two between the design's own unit of length and the metre.
+pub(crate) struct Units {
+    /// Factor of every coordinate, into the design's unit.
+    pub coordinate: Vec<f64>,
+    /// Factor of every jet entry of a length, into metres.
+    pub length: Vec<f64>,
+    /// Factor of every jet entry of an angle.
+    pub angle: Vec<f64>,
+}
+
+impl Units {
+    pub(crate) fn new(mechanism: &Mechanism, cx: &Context<'_>) -> Self {
+        let per = 1.0 / cx.bound.scale;
+        let coordinate: Vec<f64> = (0..mechanism.q0().len())
+            .map(|d| if cx.plan.driven_slide(d).is_some() { per } else { 1.0 })
+            .collect();
+        let angle: Vec<f64> = cx
+            .jets
+            .powers
+            .iter()
+            .map(|power| {
+                let factors = power.iter().zip(&coordinate);
+                factors.map(|(&p, &c)| c.powi(i32::try_from(p).unwrap_or(0))).product()
+            })
+            .collect();
+        let length = angle.iter().map(|f| f * cx.bound.scale).collect();
+        Self { coordinate, length, angle }
+    }
+}
+
+/// The lifted angles of one design.
+enum Angles {
+    /// One path serves all positions.
+    OnePath(Lift),
+    /// Every position has its own path from the drawing.
+    OwnPath { jets: Jets, q0: Vec<f64> },
+}
+
+impl Angles {
+    fn new(mechanism: &Mechanism, cx: &Context<'_>, scaled: &[f64], unit: &Units) -> Self {
+        let jets = Jets::new(mechanism.q0().len(), 1);
+        let q0: Vec<f64> = mechanism.q0().iter().zip(&unit.coordinate).map(|(q, u)| q * u).collect();
+        let [start] = q0[..] else { return Self::OwnPath { jets, q0 } };
+        let cx = Context { jets: &jets, ..*cx };
+        let mut state = State::new(cx.plan, &jets, mechanism.linkage().slides.len());
+        let angles = &mechanism.class_angle;
+        if cx.plan.driven_slide(0).is_none() {
+            return Self::OnePath(Lift::turning(&cx, &mut state, start, angles));
+        }
+        let finite = || scaled.iter().copied().filter(|q| q.is_finite());
+        let range = [finite().fold(start, f64::min), finite().fold(start, f64::max)];
+        // Beyond the sum of all lengths no slide reaches.
+        let lengths = cx.bound.rigid.iter().chain(&cx.bound.fixed).map(|w| w.norm());
+        let reach = 2.0 * lengths.sum::<f64>() + 1.0;
+        Self::OnePath(Lift::sliding(&cx, &mut state, start, range, reach, angles))
+    }
+}
+
+/// Writes one solved position into its row.
+struct Write<'a> {
+    mechanism: &'a Mechanism,
+    cx: &'a Context<'a>,
+    state: &'a State,
+    unit: &'a Units,
+    layout: &'a Layout,
+    row: usize,
+}
+
+impl Write<'_> {
+    fn all(&self, motion: &mut Motion, angles: Option<&Angles>, q: &[f64]) {
+        for track in &mut motion.joints {
+            self.point(track, point_of_joint(track.index));
+        }
+        for track in &mut motion.places {
+            self.point(track, self.cx.plan.reference[track.index]);
+        }
+        for track in &mut motion.slides {
+            let slide = track.index * self.state.len;
+            self.scalar(track, &self.unit.length, |k| self.state.slides[slide + k]);
+        }
+        let Some(angles) = angles else { return };
+        let own;
+        let (lift, at) = match angles {
+            Angles::OnePath(lift) => (lift, q[0]),
+            Angles::OwnPath { jets, q0 } => {
+                let cx = Context { jets, ..*self.cx };
+                let slides = self.mechanism.linkage().slides.len();
+                let mut state = State::new(cx.plan, jets, slides);
+                own = Lift::straight(&cx, &mut state, q0, q, &self.mechanism.class_angle);
+                (&own, 1.0)
+            }
+        };
+        for track in &mut motion.links {
+            let o = self.cx.plan.link_orientation[track.index];
+            let value = self.link_angle(track.index, lift, at, q);
+            self.scalar(track, &self.unit.angle, |k| {
+                if k == 0 { value } else { self.state.theta_of(self.cx, o, k) }
+            });
+        }
+    }
+
+    /// Lifted angle of the class, plus what turns the link against it.
+    fn link_angle(&self, link: usize, lift: &Lift, at: f64, q: &[f64]) -> f64 {
+        let rotation = &self.cx.plan.rotation[link];
+        let mut angle = 0.0;
+        if rotation.class != 0 {
+            let principal = self.state.class[rotation.class].angle();
+            angle = lift.angle(at, rotation.class, principal);
+        }
+        for (&turns, &q) in rotation.turns.iter().zip(q) {
+            if turns != 0 {
+                angle += f64::from(turns) * q;
+            }
+        }
+        let whole = std::f64::consts::TAU * self.mechanism.whole_turns[link];
+        angle + (self.cx.bound.offset[link] + whole)
+    }
+
+    fn point(&self, track: &mut Track, point: usize) {
+        let origin = self.cx.bound.origin;
+        for (order, (array, tensor)) in track.derivatives.iter_mut().zip(&self.layout.tensors).enumerate() {
+            let out = &mut array[self.row * 2 * tensor.len()..][..2 * tensor.len()];
+            for (place, &k) in tensor.iter().enumerate() {
+                let p = self.state.points[point * self.state.len + k].scale(self.unit.length[k]);
+                if order == 0 {
+                    (out[0], out[1]) = (p.x + origin[0], p.y + origin[1]);
+                } else {
+                    let p = self.analogue(p.x, p.y);
+                    (out[place], out[tensor.len() + place]) = p;
+                }
+            }
+        }
+    }
+
+    fn scalar(&self, track: &mut Track, factor: &[f64], entry: impl Fn(usize) -> f64) {
+        for (order, (array, tensor)) in track.derivatives.iter_mut().zip(&self.layout.tensors).enumerate() {
+            let out = &mut array[self.row * tensor.len()..][..tensor.len()];
+            for (place, &k) in tensor.iter().enumerate() {
+                let value = entry(k) * factor[k];
+                out[place] = if order == 0 { value } else { self.analogue(value, 0.0).0 };
+            }
+        }
+    }
+
+    /// A singular position has no analogues.
+    fn analogue(&self, x: f64, y: f64) -> (f64, f64) {
+        if self.state.status == Status::Singular { (f64::NAN, f64::NAN) } else { (x, y) }
+    }
+}

@@ -1,0 +1,169 @@
+//! Partial derivatives of products, to order 3, in any number of drivers.
+//!
+//! A jet is the list of all partial derivatives of one quantity, in graded
+//! order; the tables here say which entries make the derivative of a product
+//! (Leibniz) and of a unit vector `U = exp(iΘ)`, from `∂U = i U ∂Θ`.
+
+/// One term `factor · a[left] · b[right]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Term {
+    /// Product of binomial coefficients.
+    pub factor: f64,
+    /// Entry of the first jet.
+    pub left: usize,
+    /// Entry of the second jet.
+    pub right: usize,
+}
+
+/// Index tables for jets of a given order in a given number of drivers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Jets {
+    /// Number of drivers.
+    pub drivers: usize,
+    /// Highest order.
+    pub order: usize,
+    /// Multi-indices in graded order; the first is the value itself.
+    pub powers: Vec<Vec<usize>>,
+    /// Terms of the derivative of a product, for every multi-index.
+    pub product: Vec<Vec<Term>>,
+    /// Terms of the derivative of a unit vector (times i), without the term in
+    /// the highest derivative of its angle: left is U, right is Θ.
+    pub rotation: Vec<Vec<Term>>,
+}
+
+impl Jets {
+    /// Tables to the given order.
+    #[must_use]
+    pub fn new(drivers: usize, order: usize) -> Self {
+        let mut powers = vec![vec![0; drivers]];
+        let mut layer = powers.clone();
+        for _ in 0..order {
+            let mut next: Vec<Vec<usize>> = Vec::new();
+            for driver in 0..drivers {
+                for power in &layer {
+                    let mut raised = power.clone();
+                    raised[driver] += 1;
+                    if !next.contains(&raised) {
+                        next.push(raised);
+                    }
+                }
+            }
+            powers.extend(next.iter().cloned());
+            layer = next;
+        }
+        let find = |p: &[usize]| powers.iter().position(|q| q == p).unwrap_or(0);
+        let product = powers.iter().map(|alpha| leibniz(alpha, &find)).collect();
+        let rotation = powers
+            .iter()
+            .enumerate()
+            .map(|(index, alpha)| {
+                let Some(driver) = alpha.iter().position(|&a| a > 0) else { return Vec::new() };
+                let raise = |p: &[usize]| {
+                    let mut raised = p.to_vec();
+                    raised[driver] += 1;
+                    find(&raised)
+                };
+                let mut lowered = alpha.clone();
+                lowered[driver] -= 1;
+                leibniz(&lowered, &find)
+                    .into_iter()
+                    .map(|t| Term { right: raise(&powers[t.right]), ..t })
+                    .filter(|t| t.right != index)
+                    .collect()
+            })
+            .collect();
+        Self { drivers, order, powers, product, rotation }
+    }
+
+    /// Entries in a jet.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.powers.len()
+    }
+
+    /// Never: a jet has at least its value.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.powers.is_empty()
+    }
+
+    /// The driver of a first-order entry, else none.
+    #[must_use]
+    pub fn driver_of(&self, index: usize) -> Option<usize> {
+        let power = &self.powers[index];
+        (power.iter().sum::<usize>() == 1).then(|| power.iter().position(|&p| p == 1)).flatten()
+    }
+
+    /// Entries of the full symmetric tensor of one order, last driver fastest.
+    #[must_use]
+    pub fn tensor(&self, order: usize) -> Vec<usize> {
+        let mut entries = Vec::new();
+        for mut code in 0..self.drivers.pow(u32::try_from(order).unwrap_or(0)) {
+            let mut power = vec![0; self.drivers];
+            for _ in 0..order {
+                power[code % self.drivers] += 1;
+                code /= self.drivers;
+            }
+            entries.push(self.powers.iter().position(|p| *p == power).unwrap_or(0));
+        }
+        entries
+    }
+}
+
+/// All splittings of `alpha` in two, with the product of binomials.
+fn leibniz(alpha: &[usize], find: &impl Fn(&[usize]) -> usize) -> Vec<Term> {
+    let mut splits: Vec<(f64, Vec<usize>)> = vec![(1.0, Vec::new())];
+    for &a in alpha {
+        let mut next = Vec::new();
+        for (factor, head) in &splits {
+            let mut binomial = 1.0;
+            for b in 0..=a {
+                let mut longer = head.clone();
+                longer.push(b);
+                next.push((factor * binomial, longer));
+                #[allow(clippy::cast_precision_loss)] // a ≤ 3
+                let ratio = (a - b) as f64 / (b + 1) as f64;
+                binomial *= ratio;
+            }
+        }
+        splits = next;
+    }
+    splits
+        .into_iter()
+        .map(|(factor, right)| {
+            let left: Vec<usize> = alpha.iter().zip(&right).map(|(a, b)| a - b).collect();
+            Term { factor, left: find(&left), right: find(&right) }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_driver_has_the_binomial_rows() {
+        let jets = Jets::new(1, 3);
+        assert_eq!(jets.len(), 4);
+        let third: Vec<f64> = jets.product[3].iter().map(|t| t.factor).collect();
+        assert_eq!(third, [1.0, 3.0, 3.0, 1.0]);
+        // U''' = i (U'' Θ' + 2 U' Θ'') + i U Θ'''
+        let terms: Vec<_> = jets.rotation[3].iter().map(|t| (t.factor, t.left, t.right)).collect();
+        assert_eq!(terms, [(1.0, 2, 1), (2.0, 1, 2)]);
+    }
+
+    #[test]
+    fn counts_are_binomials() {
+        for (drivers, order, count) in [(2, 3, 10), (3, 3, 20), (3, 2, 10), (1, 0, 1)] {
+            assert_eq!(Jets::new(drivers, order).len(), count);
+        }
+    }
+
+    #[test]
+    fn the_tensor_is_symmetric() {
+        let jets = Jets::new(2, 2);
+        let t = jets.tensor(2);
+        assert_eq!(t.len(), 4);
+        assert_eq!(t[1], t[2]);
+    }
+}

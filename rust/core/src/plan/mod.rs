@@ -1,0 +1,215 @@
+//! The description compiled: a list of steps, made once, run for any number of
+//! designs and positions.
+//!
+//! The closure equations are split into the smallest blocks that determine
+//! something. A block with two unknown rotations or slides is one vector
+//! equation (a dyad) solved in closed form; a block with none only places
+//! points. A driver appears nowhere as a step: a driven angle makes the
+//! orientation of two links differ by q, a driven slide is a known length.
+
+pub mod bind;
+mod block;
+pub mod jet;
+
+use crate::error::StructureError;
+use crate::linkage::{Driver, Linkage};
+use crate::structure::closure::{Edge, Span, rotations};
+use crate::plane::Vector;
+use crate::structure::{Closure, Rotation, Structure};
+use bind::Bound;
+pub use block::{Dyad, Form, Unknown};
+
+/// Value of a slide on an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Along {
+    /// A rigid edge.
+    Nothing,
+    /// The slide's value is unknown until its dyad is solved.
+    Slide(usize),
+    /// The slide is this driver.
+    Driver { slide: usize, driver: usize },
+}
+
+/// An edge with the orientation that turns it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PlanEdge {
+    /// Its points, link and span.
+    pub edge: Edge,
+    /// Index of its link's orientation.
+    pub orientation: usize,
+    /// The slide along it.
+    pub along: Along,
+}
+
+/// An orientation: rotation of a class plus multiples of driven angles.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Orientation {
+    /// The class.
+    pub class: usize,
+    /// Multiples of the drivers.
+    pub turns: Vec<i8>,
+}
+
+/// One thing to do at every position.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Step {
+    /// Solve a dyad.
+    Dyad(Dyad),
+    /// Place one end of an edge from the other.
+    Place { edge: usize, backward: bool },
+    /// Place a redundant link and check that it fits.
+    Fit(Fit),
+}
+
+/// A redundant link (or slide): what places it, and what must then fit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fit {
+    /// Name used when it does not fit.
+    pub name: String,
+    /// How its orientation is found; none for a slide alone.
+    pub turned: Option<Turned>,
+    /// Edges whose far point is not placed by anything else, with direction.
+    pub places: Vec<(usize, bool)>,
+    /// Edges that must close (a slide along them takes the value that fits best).
+    pub checks: Vec<usize>,
+    /// Slides whose two links must keep their angle.
+    pub parallel: Vec<usize>,
+}
+
+/// How a redundant link's orientation is found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Turned {
+    /// By two joints that other links carry: edges from the link's first joint
+    /// (none: the first joint itself).
+    Joints { link: usize, first: Option<usize>, second: Option<usize>, points: [usize; 2] },
+    /// By a slide.
+    Slide { link: usize, slide: usize },
+}
+
+/// A group that has no closed form.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Higher {
+    /// Its links.
+    pub links: String,
+    /// Its class in Roman numerals.
+    pub class: String,
+}
+
+/// The compiled mechanism.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// The drivers, in the order of q.
+    pub drivers: Vec<Driver>,
+    /// The two links of every slide: sliding, carrying.
+    pub slide_links: Vec<[usize; 2]>,
+    /// Number of points (joints, and reference points of links without joints).
+    pub points: usize,
+    /// Number of rotation classes; 0 is the ground's.
+    pub classes: usize,
+    /// Distinct orientations.
+    pub orientations: Vec<Orientation>,
+    /// Edges, as in the closure.
+    pub edges: Vec<PlanEdge>,
+    /// Rotation of every link.
+    pub rotation: Vec<Rotation>,
+    /// Orientation of every link.
+    pub link_orientation: Vec<usize>,
+    /// Reference point of every link.
+    pub reference: Vec<usize>,
+    /// Points fixed to the ground.
+    pub fixed: Vec<bool>,
+    /// What to do, in order.
+    pub steps: Vec<Step>,
+    /// Inner joint or slide of every dyad that has two solutions, in order.
+    pub dyad_names: Vec<String>,
+    /// Names of the same dyads' links.
+    pub dyad_links: Vec<String>,
+    /// The first group without a closed form.
+    pub higher: Option<Higher>,
+}
+
+impl Plan {
+    /// Compiles a linkage whose structure has been found.
+    ///
+    /// # Errors
+    ///
+    /// Only for what [`Structure::of`] would have refused before.
+    pub fn new(linkage: &Linkage, closure: &Closure, structure: &Structure) -> Result<Self, StructureError> {
+        let (rotation, classes) = rotations(linkage, &structure.redundant, true)?;
+        let mut orientations: Vec<Orientation> = Vec::new();
+        let mut link_orientation = Vec::new();
+        for r in &rotation {
+            let orientation = Orientation { class: r.class, turns: r.turns.clone() };
+            let place = orientations.iter().position(|o| *o == orientation).unwrap_or_else(|| {
+                orientations.push(orientation);
+                orientations.len() - 1
+            });
+            link_orientation.push(place);
+        }
+        let edges = closure
+            .edges
+            .iter()
+            .map(|&edge| {
+                let along = match edge.span {
+                    Span::Joint { .. } => Along::Nothing,
+                    Span::Guide { slide } => {
+                        let driver = linkage.drivers.iter().position(|d| *d == Driver::Slide(slide));
+                        driver.map_or(Along::Slide(slide), |driver| Along::Driver { slide, driver })
+                    }
+                };
+                PlanEdge { edge, orientation: link_orientation[edge.link], along }
+            })
+            .collect();
+        let mut plan = Self {
+            drivers: linkage.drivers.clone(),
+            slide_links: linkage.slides.iter().map(|s| [s.link, s.on]).collect(),
+            points: closure.points,
+            classes,
+            orientations,
+            edges,
+            rotation,
+            link_orientation,
+            reference: closure.reference.clone(),
+            fixed: closure.fixed.clone(),
+            steps: Vec::new(),
+            dyad_names: Vec::new(),
+            dyad_links: Vec::new(),
+            higher: None,
+        };
+        let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
+        let placed = block::add_steps(&mut plan, linkage, structure, &kept)?;
+        block::add_fits(&mut plan, linkage, closure, structure, placed);
+        Ok(plan)
+    }
+
+    /// Class of an edge's rotation.
+    #[must_use]
+    pub fn class_of(&self, edge: usize) -> usize {
+        self.orientations[self.edges[edge].orientation].class
+    }
+
+    /// The slide that is driver number `driver`, if it is one.
+    #[must_use]
+    pub fn driven_slide(&self, driver: usize) -> Option<usize> {
+        match self.drivers[driver] {
+            Driver::Slide(slide) => Some(slide),
+            Driver::Angle { .. } => None,
+        }
+    }
+
+    /// The link on the other side of a slide, and the constant turn from its
+    /// orientation to that of `link`.
+    #[must_use]
+    pub fn across_slide(&self, bound: &Bound, link: usize, slide: usize) -> (usize, Vector) {
+        let [sliding, carrying] = self.slide_links[slide];
+        let turn = bound.slide_turn[slide];
+        let (other, turn) = if link == sliding { (carrying, turn) } else { (sliding, turn.conj()) };
+        (other, bound.turn[other] * turn * bound.turn[link].conj())
+    }
+
+    /// Number of dyads with two solutions.
+    #[must_use]
+    pub fn signs(&self) -> usize {
+        self.dyad_names.len()
+    }
+}

@@ -1,0 +1,268 @@
+//! The linkage as a graph of points: its closure equations.
+//!
+//! Vertices are points (joints, reference points of links without joints, the
+//! origin of the ground); every edge is one vector equation
+//!
+//! ```text
+//! P_to − P_from = U_link · (w + s·d)
+//! ```
+//!
+//! where `U_link` is the link's orientation (a unit complex number), `w` and `d`
+//! are fixed in the link's frame and `s` is the value of a slide (absent on a
+//! rigid edge). A loop of edges is a loop closure. Links that only translate
+//! relative to each other (sliding pairs) share one unknown rotation, their
+//! *class*; a driven angle puts two links into one class with a known offset.
+
+use crate::error::StructureError;
+use crate::linkage::{Driver, Linkage};
+
+/// Index of the ground's origin among the points.
+pub const GROUND_POINT: usize = 0;
+
+/// What an edge spans in its link's frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Span {
+    /// From the link's first joint to another of its joints.
+    Joint { link: usize, joint: usize },
+    /// Along a guide: from its origin (or from the reference point of the link
+    /// that carries it) to the sliding point.
+    Guide { slide: usize },
+}
+
+/// One vector equation of the closure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edge {
+    /// Point where it starts.
+    pub from: usize,
+    /// Point where it ends.
+    pub to: usize,
+    /// Link whose orientation turns it.
+    pub link: usize,
+    /// What it spans.
+    pub span: Span,
+}
+
+impl Edge {
+    /// The slide along this edge.
+    #[must_use]
+    pub fn slide(&self) -> Option<usize> {
+        match self.span {
+            Span::Guide { slide } => Some(slide),
+            Span::Joint { .. } => None,
+        }
+    }
+}
+
+/// How a link's orientation follows from the rotation of its class:
+/// `θ = θ_class + Σ ±(angle − link_angle of slides) + Σ ±q`.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Rotation {
+    /// The class; 0 is the ground's.
+    pub class: usize,
+    /// Slides passed on the way from the class's first link, with sign.
+    pub slides: Vec<(usize, i8)>,
+    /// Multiples of each driven coordinate.
+    pub turns: Vec<i8>,
+}
+
+/// What is taken part of the linkage.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Links left out with all their pairs.
+    pub links: Vec<usize>,
+    /// Slides left out.
+    pub slides: Vec<usize>,
+}
+
+impl LeftOut {
+    /// Whether a slide, or one of its links, is left out.
+    #[must_use]
+    pub fn has_slide(&self, linkage: &Linkage, slide: usize) -> bool {
+        let s = &linkage.slides[slide];
+        self.slides.contains(&slide) || self.links.contains(&s.link) || self.links.contains(&s.on)
+    }
+}
+
+/// All edges of a linkage, whatever is left out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Closure {
+    /// Number of points.
+    pub points: usize,
+    /// Reference point of every link.
+    pub reference: Vec<usize>,
+    /// Edges of moving links first, then of slides.
+    pub edges: Vec<Edge>,
+    /// Whether a point is fixed to the ground.
+    pub fixed: Vec<bool>,
+}
+
+/// Index of a joint among the points.
+#[must_use]
+pub fn point_of_joint(joint: usize) -> usize {
+    joint + 1
+}
+
+impl Closure {
+    /// The graph of a linkage.
+    #[must_use]
+    pub fn of(linkage: &Linkage) -> Self {
+        let mut points = 1 + linkage.joints.len();
+        let mut reference = Vec::with_capacity(linkage.links.len());
+        for (index, link) in linkage.links.iter().enumerate() {
+            reference.push(match link.joints.first() {
+                _ if index == linkage.ground => GROUND_POINT,
+                Some(&joint) => point_of_joint(joint),
+                None => {
+                    points += 1;
+                    points - 1
+                }
+            });
+        }
+        let mut fixed = vec![false; points];
+        fixed[GROUND_POINT] = true;
+        for &joint in &linkage.links[linkage.ground].joints {
+            fixed[point_of_joint(joint)] = true;
+        }
+        let mut edges = Vec::new();
+        for (index, link) in linkage.links.iter().enumerate() {
+            if index == linkage.ground {
+                continue;
+            }
+            for &joint in link.joints.iter().skip(1) {
+                let span = Span::Joint { link: index, joint };
+                edges.push(Edge { from: reference[index], to: point_of_joint(joint), link: index, span });
+            }
+        }
+        for (slide, s) in linkage.slides.iter().enumerate() {
+            let to = match linkage.links[s.link].joints.first() {
+                Some(&joint) => point_of_joint(joint),
+                None => reference[s.link],
+            };
+            let from = s.origin.map_or(reference[s.on], point_of_joint);
+            edges.push(Edge { from, to, link: s.on, span: Span::Guide { slide } });
+        }
+        Self { points, reference, edges, fixed }
+    }
+
+    /// The edges that are not left out.
+    pub fn kept<'a>(
+        &'a self,
+        linkage: &'a Linkage,
+        left_out: &'a LeftOut,
+    ) -> impl Iterator<Item = usize> + 'a {
+        (0..self.edges.len()).filter(move |&e| match self.edges[e].span {
+            Span::Joint { link, .. } => !left_out.links.contains(&link),
+            Span::Guide { slide } => !left_out.has_slide(linkage, slide),
+        })
+    }
+}
+
+/// Rotations of all links; with `locked`, driven angles join classes.
+///
+/// # Errors
+///
+/// A closed chain of sliding pairs, or a driven angle between two links that
+/// cannot turn relative to each other.
+pub fn rotations(
+    linkage: &Linkage,
+    left_out: &LeftOut,
+    locked: bool,
+) -> Result<(Vec<Rotation>, usize), StructureError> {
+    let drivers: &[Driver] = if locked { &linkage.drivers } else { &[] };
+    let turns = vec![0; linkage.drivers.len()];
+    let mut rotation: Vec<Option<Rotation>> = vec![None; linkage.links.len()];
+    let mut used_slides = vec![false; linkage.slides.len()];
+    let mut used_drivers = vec![false; drivers.len()];
+    let mut classes = 0;
+    let order = std::iter::once(linkage.ground).chain(0..linkage.links.len());
+    for root in order {
+        if rotation[root].is_some() {
+            continue;
+        }
+        rotation[root] = Some(Rotation { class: classes, slides: vec![], turns: turns.clone() });
+        classes += 1;
+        let mut queue = std::collections::VecDeque::from([root]);
+        while let Some(here) = queue.pop_front() {
+            let Some(base) = rotation[here].clone() else { continue };
+            for (slide, s) in linkage.slides.iter().enumerate() {
+                // From the carrier to the sliding link: + angle − link_angle.
+                let (next, sign) = match here {
+                    h if h == s.on => (s.link, 1),
+                    h if h == s.link => (s.on, -1),
+                    _ => continue,
+                };
+                if used_slides[slide] || left_out.has_slide(linkage, slide) {
+                    continue;
+                }
+                used_slides[slide] = true;
+                if rotation[next].is_some() {
+                    check_slide_cycle(linkage, &rotation, slide)?;
+                    continue;
+                }
+                let mut reached = base.clone();
+                reached.slides.push((slide, sign));
+                rotation[next] = Some(reached);
+                queue.push_back(next);
+            }
+            for (index, driver) in drivers.iter().enumerate() {
+                let Driver::Angle { link, relative_to } = *driver else { continue };
+                let (next, sign) = match here {
+                    h if h == relative_to => (link, 1),
+                    h if h == link => (relative_to, -1),
+                    _ => continue,
+                };
+                if used_drivers[index] {
+                    continue;
+                }
+                used_drivers[index] = true;
+                if rotation[next].is_some() {
+                    return Err(StructureError::CannotDrive {
+                        driver: linkage.driver_name(*driver),
+                        reason: format!(
+                            "links {:?} and {:?} cannot turn relative to each other (slides or other drivers fix the angle between them)",
+                            linkage.links[link].name, linkage.links[relative_to].name
+                        ),
+                    });
+                }
+                let mut reached = base.clone();
+                reached.turns[index] += sign;
+                rotation[next] = Some(reached);
+                queue.push_back(next);
+            }
+        }
+    }
+    Ok((rotation.into_iter().map(Option::unwrap_or_default).collect(), classes))
+}
+
+/// A slide that closes a cycle of slides: two between the same links may be a
+/// doubled guide (ranks decide); three or more are PPP.
+fn check_slide_cycle(
+    linkage: &Linkage,
+    rotation: &[Option<Rotation>],
+    slide: usize,
+) -> Result<(), StructureError> {
+    let s = &linkage.slides[slide];
+    let path = |link: usize| rotation[link].as_ref().map(|r| &r.slides[..]).unwrap_or_default();
+    let (a, b) = (path(s.link), path(s.on));
+    let common = a.iter().zip(b).take_while(|(x, y)| x == y).count();
+    let mut cycle: Vec<usize> = a[common..].iter().chain(&b[common..]).map(|x| x.0).collect();
+    let turns = |link: usize| rotation[link].as_ref().map(|r| &r.turns[..]).unwrap_or_default();
+    if let Some(driver) = turns(s.link).iter().zip(turns(s.on)).position(|(x, y)| x != y) {
+        return Err(StructureError::CannotDrive {
+            driver: linkage.driver_name(linkage.drivers[driver]),
+            reason: format!("slide {:?} fixes the angle that it would change", s.name),
+        });
+    }
+    if cycle.len() < 2 {
+        return Ok(());
+    }
+    cycle.push(slide);
+    cycle.sort_unstable();
+    let slides = list(cycle.iter().map(|&c| linkage.slides[c].name.as_str()));
+    Err(StructureError::SlidesOnly { slides })
+}
+
+/// Names in quotes, separated by commas.
+pub fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.map(|n| format!("{n:?}")).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,73 @@
+//! Every threshold of the library, in one place, each with its reason.
+//!
+//! All are pure numbers: they are compared with lengths divided by the size of
+//! the mechanism, or with sines of angles. None is an absolute length.
+
+/// Unit roundoff of binary64 as used in the error bounds (the spacing at 1).
+pub const UNIT_ROUNDOFF: f64 = f64::EPSILON;
+
+/// Two joints nearer than this part of their coordinates coincide: the distance
+/// is then nothing but the rounding of the coordinates.
+pub const ZERO_LENGTH: f64 = 4.0 * UNIT_ROUNDOFF;
+
+/// Sine below which two guides of a drawing are parallel (angles carry a few u).
+pub const PARALLEL: f64 = 1.0e-12;
+
+/// A dyad drawn with a smaller |sine| between its legs shows no side.
+///
+/// Lengths taken from coordinates are good to a few u; near the flat dyad the
+/// sine of the angle between the legs is the square root of such a difference,
+/// so anything below a few √u = 1.5e-8 cannot be told from 0.
+pub const FLAT_SINE: f64 = 6.0e-8;
+
+/// How far (relative to the longer side) a triangle of lengths may fail to
+/// close and still be taken as exactly flat: the closing side is a sum of a few
+/// rounded terms, each good to u.
+pub const FLAT_CLOSURE: f64 = 16.0 * UNIT_ROUNDOFF;
+
+/// Singular values below this fraction of the largest count as zero when ranks
+/// are taken. Columns are scaled to unit length before; coordinates carry u,
+/// and a factor of 1e7 covers drawings typed with nine digits.
+pub const RANK: f64 = 2.0e-9;
+
+/// Residual (of the size) to which a displaced mechanism must close before its
+/// rank is believed: Gauss-Newton converges quadratically, so it is either here
+/// or far away.
+pub const REGULAR_CLOSURE: f64 = 1.0e-12;
+
+/// A redundant link fits while its misfit is below this part of the size (or
+/// below [`CLOSURE_PER_CONDITION`] times the condition). It is the drawing's
+/// rounding (a few u for each link), carried through ten or twenty links.
+pub const REDUNDANT_CLOSURE: f64 = 1024.0 * UNIT_ROUNDOFF;
+
+/// Error of a position per unit of condition, of the size: 2 u measured on the
+/// dyad RRR, 8 u with a margin (the design's bound).
+pub const CLOSURE_PER_CONDITION: f64 = 8.0 * UNIT_ROUNDOFF;
+
+/// Error of an analogue per unit of squared condition, of the analogue's size.
+pub const ANALOGUE_PER_CONDITION_SQUARED: f64 = 64.0 * UNIT_ROUNDOFF;
+
+/// Positions whose analogues keep fewer digits than this are NEAR_SINGULAR.
+pub const DIGITS_LEFT: f64 = 1.0e-6;
+
+/// Condition from which a position is NEAR_SINGULAR:
+/// 64 u κ² reaches [`DIGITS_LEFT`], about 8.4e3.
+#[must_use]
+pub fn near_singular_condition() -> f64 {
+    (DIGITS_LEFT / ANALOGUE_PER_CONDITION_SQUARED).sqrt()
+}
+
+/// Condition of a dyad from which it cannot be told from a flat one: 1/κ is the
+/// square root of a difference of lengths that carry u times the condition of
+/// what the dyad hangs on, so beyond 1/(4 √(u κ₀)) nothing of it is left.
+#[must_use]
+pub fn singular_condition(before: f64) -> f64 {
+    0.25 / (UNIT_ROUNDOFF * before).sqrt()
+}
+
+/// Largest turn of a link between two neighbouring knots of the path along
+/// which angles are followed; half a turn would already be ambiguous.
+pub const LIFT_TURN: f64 = std::f64::consts::FRAC_PI_4;
+
+/// Halvings of one cell of that path: 2^-40 of a cell is below the spacing of q.
+pub const LIFT_HALVINGS: u32 = 40;
