@@ -57,3 +57,6 @@ pub use mechanism::Mechanism;
 pub use motion::{Coordinates, Diagnosis, Motion, Outputs, Request, Status, Track};
 pub use plane::Vector;
 pub use structure::{Group, Structure};
+
+/// Version of the crate.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

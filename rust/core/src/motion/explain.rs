@@ -21,6 +21,8 @@ pub struct Diagnosis {
     pub condition: f64,
     /// The dyad (inner joint or slide), redundant link or dimension concerned.
     pub name: Option<String>,
+    /// The step of the plan concerned.
+    pub step: Option<usize>,
     /// What happened, with the numbers.
     pub sentence: String,
 }
@@ -38,6 +40,7 @@ impl Mechanism {
             residual: f64::NAN,
             condition: f64::NAN,
             name,
+            step: None,
             sentence,
         };
         if let Some(fault) = self.dimensions().first_fault(dimensions) {
@@ -62,7 +65,7 @@ impl Mechanism {
             }
             Status::Unreachable => {
                 let (name, sentence) = self.unreachable(&state, bound.scale, &at);
-                nothing(Status::Unreachable, Some(name), sentence)
+                Diagnosis { step: state.fault.map(Fault::step), ..nothing(Status::Unreachable, Some(name), sentence) }
             }
             status => {
                 let name = state.fault.map(|fault| self.step_name(fault));
@@ -77,14 +80,66 @@ impl Mechanism {
                     }
                     _ => format!("at q = {at} the position is solved, condition {condition:.1e}"),
                 };
-                Diagnosis { status, residual: residual(&cx, &state), condition, name, sentence }
+                let step = state.fault.map(Fault::step);
+                Diagnosis { status, residual: residual(&cx, &state), condition, name, step, sentence }
             }
         })
     }
 
+    /// Every assembly that exists at `q`, as signs in the order of
+    /// [`Plan::dyad_names`].
+    ///
+    /// # Errors
+    ///
+    /// A group of higher class.
+    pub fn assemblies(&self, dimensions: &[f64], q: &[f64]) -> Result<Vec<Vec<i8>>, SolveError> {
+        self.require_closed_form()?;
+        let count = self.plan().signs();
+        let mut found = vec![Vec::new()];
+        // Sign by sign: a choice that already fails needs no completion.
+        for place in 0..count {
+            let mut longer = Vec::new();
+            for head in found {
+                for sign in [1, -1] {
+                    let mut signs: Vec<i8> = head.clone();
+                    signs.push(sign);
+                    longer.push(signs);
+                }
+            }
+            found = longer;
+            let mut open = Vec::new();
+            for signs in found {
+                let mut trial = signs.clone();
+                trial.resize(count, 1);
+                if self.exists(dimensions, q, &trial, place)? {
+                    open.push(signs);
+                }
+            }
+            found = open;
+        }
+        if count == 0 && !self.exists(dimensions, q, &[], 0)? {
+            found.clear();
+        }
+        Ok(found)
+    }
+
+    /// Whether the dyads up to sign number `place` close.
+    fn exists(&self, dimensions: &[f64], q: &[f64], signs: &[i8], place: usize) -> Result<bool, SolveError> {
+        let diagnosis = self.diagnose(dimensions, q, signs)?;
+        let last = place + 1 >= signs.len();
+        let beyond = |step: usize| match &self.plan().steps[step] {
+            Step::Dyad(dyad) => dyad.sign.is_none_or(|s| s > place),
+            _ => true,
+        };
+        Ok(match diagnosis.status {
+            Status::Unreachable => !last && diagnosis.step.is_some_and(beyond),
+            Status::BadInput | Status::BadDimension => false,
+            _ => true,
+        })
+    }
+
     fn step_name(&self, fault: Fault) -> String {
-        let (Fault::Open { step, .. } | Fault::Misfit { step, .. } | Fault::Flat { step }) = fault;
-        match &self.plan().steps[step] {
+        match &self.plan().steps[fault.step()] {
             Step::Dyad(dyad) => match dyad.sign {
                 Some(sign) => self.plan().dyad_names[sign].clone(),
                 None => two_lines_name(self.plan(), self, dyad),

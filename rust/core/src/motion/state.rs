@@ -40,6 +40,16 @@ pub enum Fault {
     Flat { step: usize },
 }
 
+impl Fault {
+    /// Index of the step of the plan that failed.
+    #[must_use]
+    pub fn step(self) -> usize {
+        match self {
+            Self::Open { step, .. } | Self::Misfit { step, .. } | Self::Flat { step } => step,
+        }
+    }
+}
+
 /// Work space for one position; made once, used for all.
 #[derive(Debug, Clone)]
 pub struct State {

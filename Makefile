@@ -1,0 +1,92 @@
+# make run    builds everything and runs the first example
+# make test   every check there is
+# make help   the rest
+
+.DELETE_ON_ERROR:
+MAKEFLAGS += --no-builtin-rules
+.NOTPARALLEL:
+
+# Python to make the environment with (default: the first of python3, python3.14 … of 3.10 or
+# later), the environment, extra flags for cargo (`LOCKED=--locked`: Cargo.lock must fit).
+PYTHON ?=
+VENV   ?= .venv
+LOCKED ?=
+
+PY        := $(VENV)/bin/python
+RUN_STAMP := $(VENV)/.run-stamp
+DEV_STAMP := $(VENV)/.dev-stamp
+EXTENSION := $(VENV)/.extension-stamp
+SOURCES   := $(shell find rust/core rust/py Cargo.toml $(wildcard Cargo.lock) pyproject.toml -not -name '.*')
+
+# One Python for every cargo command, so that nothing is compiled twice; the same random cases
+# in every run of the Rust tests (`PROPTEST_RNG_SEED=… PROPTEST_CASES=…` for others).
+export PYO3_PYTHON := $(abspath $(PY))
+export PROPTEST_RNG_SEED ?= 1
+export MPLBACKEND ?= Agg
+
+.PHONY: help run test rust-test python-test bench clean rust-tools lint-tools
+.DEFAULT_GOAL := help
+
+help:
+	@echo "make run          build, then run examples/first_run.py"
+	@echo "make test         format, lints, types, unit, integration and documentation tests"
+	@echo "make rust-test    the Rust half of it"
+	@echo "make python-test  the Python half of it"
+	@echo "make bench        benchmarks"
+	@echo "make clean        remove everything that was built, the environment too"
+
+run: rust-tools $(EXTENSION)
+	@$(PY) examples/first_run.py
+
+test: lint-tools rust-test python-test
+	@echo "All checks passed."
+
+rust-test: lint-tools $(RUN_STAMP)
+	cargo fmt --all --check
+	cargo clippy $(LOCKED) --workspace --all-targets -- -D warnings
+	cargo test $(LOCKED)
+	RUSTDOCFLAGS="-D warnings" cargo doc $(LOCKED) --workspace --no-deps
+
+python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
+	$(PY) -m ruff check
+	$(PY) -m ruff format --check
+	$(PY) -m mypy
+	$(PY) -m mypy.stubtest --mypy-config-file pyproject.toml assur._core
+	$(PY) -m pytest -q
+
+bench: rust-tools $(EXTENSION) $(DEV_STAMP)
+	cargo bench $(LOCKED)
+	@if ls benches/python/*.py >/dev/null 2>&1; then $(PY) -m pytest benches/python; fi
+
+clean:
+	cargo clean
+	rm -rf $(VENV) out dist .benchmarks .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -f python/assur/_core*.so
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# The extension module, built in place (python/assur) and made importable in the environment.
+$(EXTENSION): $(SOURCES) $(RUN_STAMP)
+	VIRTUAL_ENV=$(abspath $(VENV)) PIP_QUIET=1 $(PY) -m maturin develop --release --group run $(LOCKED)
+	@touch $@
+
+$(DEV_STAMP): pyproject.toml $(RUN_STAMP)
+	$(PY) -m pip install --quiet --group dev
+	@touch $@
+
+$(RUN_STAMP): pyproject.toml $(VENV)/pyvenv.cfg
+	$(PY) -m pip install --quiet --group run
+	@touch $@
+
+$(VENV)/pyvenv.cfg:
+	@python=$$(tools/find_python $(PYTHON)) || exit 1; \
+	echo "Making $(VENV) with $$python"; \
+	"$$python" -m venv --clear $(VENV) || { rm -rf $(VENV); \
+	  echo "error: $$python cannot make a virtual environment: install its venv and ensurepip" \
+	    "modules (Debian, Ubuntu: apt install python3-venv)" >&2; exit 1; }
+	$(PY) -m pip install --quiet --upgrade "pip>=25.1"
+
+rust-tools:
+	@tools/check_rust
+
+lint-tools: rust-tools
+	@tools/check_rust fmt clippy

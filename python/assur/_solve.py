@@ -1,0 +1,174 @@
+"""From ``Mechanism.solve`` to the core and back: shapes, names, errors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur.description import Status
+from assur.errors import AssurError, DimensionError, InputError, PositionError
+from assur.motion import Motion, Tracks
+
+if TYPE_CHECKING:
+    from assur.mechanism import Mechanism
+
+Float: TypeAlias = npt.NDArray[np.float64]
+
+
+def solve(
+    mechanism: Mechanism,
+    q: npt.ArrayLike,
+    order: int,
+    outputs: Iterable[str] | None,
+    assembly: Mapping[str, int] | None,
+    on_error: str,
+) -> Motion:
+    """See `Mechanism.solve`."""
+    if on_error not in ("raise", "nan"):
+        message = f'on_error is {on_error!r}: "raise" or "nan"'
+        raise InputError(message)
+    if isinstance(order, bool) or not isinstance(order, int) or not 0 <= order <= 3:
+        message = f"order is {order!r}: 0, 1, 2 or 3"
+        raise InputError(message)
+    core = mechanism._core
+    coordinates, positions, per_design = _coordinates(mechanism, q)
+    signs = _signs(mechanism, assembly)
+    joints, links, slides = _outputs(mechanism, outputs)
+    arrays = core.solve(
+        np.ascontiguousarray(mechanism._values).reshape(-1),
+        np.ascontiguousarray(coordinates).reshape(-1),
+        per_design,
+        signs,
+        order,
+        list(joints.values()),
+        list(links.values()),
+        list(slides.values()),
+    )
+    shape = (*mechanism.shape, *positions)
+    drivers = len(core.q0)
+    tracks = Tracks(
+        joints={n: _shaped(arrays["joints"][i], (*shape, 2), drivers) for n, i in joints.items()},
+        links={n: _shaped(arrays["links"][i], shape, drivers) for n, i in links.items()},
+        places={n: _shaped(arrays["places"][i], (*shape, 2), drivers) for n, i in links.items()},
+        slides={n: _shaped(arrays["slides"][i], shape, drivers) for n, i in slides.items()},
+    )
+    status = arrays["status"].reshape(shape)
+    status.flags.writeable = False
+    motion = Motion(mechanism, coordinates, positions, per_design, order, signs, tracks, status)
+    if on_error == "raise":
+        _raise_first(motion)
+    return motion
+
+
+def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[int, ...], bool]:
+    """The coordinates, the shape of positions, and whether each design has its own."""
+    try:
+        array = np.array(q, dtype=np.float64, order="C")
+    except (TypeError, ValueError) as error:
+        message = f"q is {q!r}: a number or an array of numbers is needed"
+        raise InputError(message) from error
+    drivers = len(mechanism._core.q0)
+    shape = array.shape
+    if drivers > 1:
+        if not shape or shape[-1] != drivers:
+            message = f"q has shape {shape}: the last axis must hold the {drivers} drivers"
+            raise InputError(message)
+        shape = shape[:-1]
+    designs = mechanism.shape
+    if len(shape) <= 1 or not designs:
+        return array, shape, False
+    if shape[:-1] == designs:
+        return array, shape[-1:], True
+    message = f"q has shape {shape}: for designs {designs} a scalar, (N,) or {(*designs, 'N')}"
+    raise InputError(message)
+
+
+def _signs(mechanism: Mechanism, assembly: Mapping[str, int] | None) -> list[int]:
+    signs = dict(mechanism._core.assembly)
+    for name, sign in (assembly or {}).items():
+        if name not in signs:
+            message = f"assembly: no dyad has the inner pair {name!r}; there are {list(signs)}"
+            raise InputError(message, joint=name)
+        if sign not in (1, -1):
+            message = f"assembly[{name!r}] is {sign!r}: it must be +1 or -1"
+            raise InputError(message, joint=name)
+        signs[name] = int(sign)
+    return list(signs.values())
+
+
+def _outputs(
+    mechanism: Mechanism, names: Iterable[str] | None
+) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
+    joints = {name: i for i, (name, _, _) in enumerate(mechanism._parts[0])}
+    links = {name: i for i, (name, _) in enumerate(mechanism._parts[1])}
+    slides = {name: i for i, (name, _) in enumerate(mechanism._parts[2])}
+    if names is None:
+        return joints, links, slides
+    if isinstance(names, str):
+        message = f"outputs={names!r}: a list of names is needed, [{names!r}]"
+        raise InputError(message)
+    wanted = list(names)
+    for name in wanted:
+        if name not in joints and name not in links and name not in slides:
+            known = ", ".join(repr(n) for n in (*joints, *links, *slides))
+            message = f"outputs: nothing is called {name!r}; there are {known}"
+            raise InputError(message)
+    return (
+        {n: joints[n] for n in wanted if n in joints},
+        {n: links[n] for n in wanted if n in links},
+        {n: slides[n] for n in wanted if n in slides},
+    )
+
+
+def _shaped(arrays: list[Float], shape: tuple[int, ...], drivers: int) -> tuple[Float, ...]:
+    """Arrays by order; one axis more for every order if there are several drivers."""
+    shaped = []
+    for order, array in enumerate(arrays):
+        out = array.reshape(shape + (drivers,) * order if drivers > 1 else shape)
+        out.flags.writeable = False
+        shaped.append(out)
+    return tuple(shaped)
+
+
+def _raise_first(motion: Motion) -> None:
+    allowed = Status.NEAR_SINGULAR if motion.order > 0 else Status.SINGULAR
+    bad = motion.status > allowed
+    if not bad.any():
+        return
+    index = tuple(int(i) for i in np.argwhere(bad)[0])
+    q = motion.coordinate(index)
+    status, name, sentence = motion._explain(index)
+    more = int(bad.sum()) - 1
+    designs = len(motion.mechanism.shape)
+    design = index[:designs] if designs else None
+    where = f"design {design}: " if design is not None else ""
+    rest = f" (and {more} more of {bad.size} positions; on_error='nan' keeps the others)" if more else ""
+    message = f"{where}{sentence}{rest}"
+    kinds: dict[int, type[AssurError]] = {
+        Status.BAD_DIMENSION: DimensionError,
+        Status.BAD_INPUT: InputError,
+    }
+    kind = kinds.get(status, PositionError)
+    is_dimension = status == Status.BAD_DIMENSION
+    joints, links, slides = _outputs(motion.mechanism, None)
+    raise kind(
+        message,
+        joint=name if name in joints else None,
+        link=name if name in links else None,
+        slide=name if name in slides else None,
+        dimension=name if is_dimension else None,
+        design=design,
+        q=q,
+        value=_value(motion, index, name) if is_dimension else None,
+    )
+
+
+def _value(motion: Motion, index: tuple[int, ...], name: str | None) -> float:
+    if name is None:
+        return math.nan
+    value = motion.mechanism.dimensions[name]
+    return float(value[index[: len(motion.mechanism.shape)]] if motion.mechanism.shape else value)

@@ -1,0 +1,129 @@
+"""What a user writes besides joints and links: slides, drives, assemblies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from enum import IntEnum
+
+from assur.errors import InputError
+
+__all__ = ["Assembly", "Drive", "Slide", "Status"]
+
+
+class Status(IntEnum):
+    """How a position came out; the codes of ``Motion.status``."""
+
+    OK = 0
+    """Solved."""
+    NEAR_SINGULAR = 1
+    """Solved; fewer than six digits of the analogues remain."""
+    SINGULAR = 2
+    """The position is given; it has no analogues (NaN)."""
+    UNREACHABLE = 3
+    """This assembly does not exist at this coordinate (NaN)."""
+    LOST = 4
+    """Beyond a fold of a group above class II; not followed (NaN)."""
+    NOT_CONVERGED = 5
+    """The iteration of a group above class II did not end (NaN)."""
+    BAD_DIMENSION = 6
+    """A dimension of this design is not finite, or a length not positive (NaN)."""
+    BAD_INPUT = 7
+    """The coordinate is no number (NaN)."""
+
+
+@dataclass(frozen=True)
+class Slide:
+    """A sliding pair: `link` slides along a guide that is fixed to `on`.
+
+    Parameters
+    ----------
+    link : str
+        The sliding link. Its first joint (its place in the drawing if it has
+        none) is the point whose distance along the guide is the slide's value.
+    on : str
+        The link that carries the guide; the guide turns with it.
+    angle : float
+        Direction of the guide in the drawing, rad.
+    origin : str, optional
+        The joint of `on` from which the value is measured. Without it the
+        drawing's place is 0.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.Slide("piston", on="ground", angle=0.0, origin="O")
+    Slide(link='piston', on='ground', angle=0.0, origin='O')
+    """
+
+    link: str
+    on: str
+    angle: float
+    origin: str | None = None
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A driven angle between any two links: q is the difference of their angles.
+
+    Parameters
+    ----------
+    link : str
+        The driven link.
+    relative_to : str, optional
+        The link against which its angle is measured; they need not share a joint.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.Drive("forearm", relative_to="upper_arm")
+    Drive(link='forearm', relative_to='upper_arm')
+    """
+
+    link: str
+    relative_to: str = "ground"
+
+
+class Assembly(Mapping[str, int]):
+    """Which of its two solutions every dyad takes: +1 or −1 by inner joint or slide.
+
+    Examples
+    --------
+    >>> import assur
+    >>> a = assur.Assembly({"C": 1})
+    >>> a
+    Assembly({'C': 1})
+    >>> a["C"], -a
+    (1, Assembly({'C': -1}))
+    """
+
+    __slots__ = ("_signs",)
+
+    def __init__(self, signs: Mapping[str, int]) -> None:
+        for name, sign in signs.items():
+            if sign not in (1, -1):
+                message = f"assembly[{name!r}] is {sign!r}: it must be +1 or -1"
+                raise InputError(message, joint=name)
+        self._signs = tuple((str(name), int(sign)) for name, sign in signs.items())
+
+    def __getitem__(self, name: str) -> int:
+        for key, sign in self._signs:
+            if key == name:
+                return sign
+        raise KeyError(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for name, _ in self._signs)
+
+    def __len__(self) -> int:
+        return len(self._signs)
+
+    def __hash__(self) -> int:
+        return hash(frozenset(self._signs))
+
+    def __neg__(self) -> Assembly:
+        """Return the assembly with every sign turned."""
+        return Assembly({name: -sign for name, sign in self._signs})
+
+    def __repr__(self) -> str:
+        return f"Assembly({dict(self._signs)!r})"

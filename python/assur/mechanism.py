@@ -1,0 +1,455 @@
+"""Mechanisms: described once, solved anywhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur import _core, _solve
+from assur.description import Assembly, Drive, Slide
+from assur.errors import InputError
+from assur.motion import Motion
+from assur.structure import Group, Structure
+
+__all__ = ["Mechanism"]
+
+Float: TypeAlias = npt.NDArray[np.float64]
+DriverLike: TypeAlias = str | Drive
+Parts: TypeAlias = tuple[
+    tuple[tuple[str, float, float], ...],
+    tuple[tuple[str, tuple[str, ...]], ...],
+    tuple[tuple[str, Slide], ...],
+    tuple[DriverLike, ...],
+    tuple[tuple[str, int], ...],
+]
+
+
+class Mechanism:
+    """A planar linkage with its drivers, or a batch of designs of one.
+
+    Parameters
+    ----------
+    joints : mapping of str to (x, y)
+        A drawing, m: it gives the dimensions and the assembly.
+    links : mapping of str to sequence of str
+        The joints of every link; ``"ground"`` is the frame.
+    driver : str, Drive or sequence of them
+        A link (q is its angle, rad), a slide (q is its value, m) or a `Drive`;
+        several make a mechanism of higher mobility.
+    slides : mapping of str to Slide, optional
+        Sliding pairs.
+    assembly : mapping of str to int, optional
+        +1 or −1 for dyads that the drawing leaves open because it shows them
+        flat, by inner joint or slide.
+
+    Raises
+    ------
+    StructureError
+        If this is not a mechanism with as many drivers as freedoms; the sentence
+        names the joint, link or slide.
+
+    Notes
+    -----
+    Mechanisms do not change; they can be hashed, compared and pickled.
+
+    Examples
+    --------
+    >>> import assur
+    >>> m = assur.Mechanism(
+    ...     joints={"A": (0, 0), "B": (1, 0), "C": (4.1, 3.2), "D": (4.8, 0)},
+    ...     links={"ground": "AD", "crank": "AB", "coupler": "BC", "rocker": "DC"},
+    ...     driver="crank",
+    ... )
+    >>> m.structure.formula
+    'I(crank) → II(coupler, rocker)'
+    >>> m.solve(0.5).joint("C").value
+    array([4.25..., 3.22...])
+    """
+
+    __slots__ = ("__weakref__", "_core", "_joints", "_parts", "_structure", "_values")
+    _core: _core.Mechanism
+    _parts: Parts
+    _values: Float
+    _structure: Structure | None
+    _joints: MappingProxyType[str, Any] | None
+
+    def __init__(
+        self,
+        joints: Mapping[str, Sequence[float]],
+        links: Mapping[str, Iterable[str]],
+        driver: DriverLike | Sequence[DriverLike],
+        slides: Mapping[str, Slide] | None = None,
+        assembly: Mapping[str, int] | None = None,
+    ) -> None:
+        parts: Parts = (
+            tuple(_joint(name, at) for name, at in _items(joints, "joints")),
+            tuple((name, tuple(on)) for name, on in _items(links, "links")),
+            tuple((name, _slide(name, s)) for name, s in _items(slides or {}, "slides")),
+            _drivers(driver),
+            tuple((assembly or {}).items()),
+        )
+        self._begin(parts, None)
+
+    def _begin(self, parts: Parts, values: Float | None, core: _core.Mechanism | None = None) -> None:
+        core = core or _compile(parts)
+        array = np.array(core.drawing if values is None else values, dtype=np.float64, order="C")
+        array.flags.writeable = False
+        for name, value in (
+            ("_core", core),
+            ("_parts", parts),
+            ("_values", array),
+            ("_structure", None),
+            ("_joints", None),
+        ):
+            object.__setattr__(self, name, value)
+
+    @classmethod
+    def _make(cls, parts: Parts, values: Float | None, core: _core.Mechanism | None = None) -> Mechanism:
+        mechanism = object.__new__(Mechanism)
+        mechanism._begin(parts, values, core)
+        return mechanism
+
+    def __setattr__(self, name: str, value: object) -> None:
+        message = f"a Mechanism does not change (setting {name!r}); see with_dimensions, with_driver"
+        raise AttributeError(message)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_rebuild, (self._parts, np.array(self._values)))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Mechanism):
+            return NotImplemented
+        return (
+            self._parts == other._parts
+            and self._values.shape == other._values.shape
+            and self._values.tobytes() == other._values.tobytes()
+        )
+
+    def __hash__(self) -> int:
+        return hash((self._parts, self._values.shape, self._values.tobytes()))
+
+    def __repr__(self) -> str:
+        batch = f", {self.shape} designs" if self.shape else ""
+        return f"<assur.Mechanism {self._core.formula}{batch}>"
+
+    # -- what it is ---------------------------------------------------------
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Design shape S: ``()`` for one mechanism."""
+        return self._values.shape[:-1]
+
+    @property
+    def joints(self) -> Mapping[str, Any]:
+        """Places of the joints at `q0`, m: (x, y), or arrays S + (2,) of a batch.
+
+        NaN where a design cannot stand at `q0`.
+        """
+        if self._joints is None:
+            drawn = {name: (x, y) for name, x, y in self._parts[0]}
+            if self._values.ndim > 1 or self._values.tolist() != self._core.drawing:
+                motion = self.solve(self._q0_array(), order=0, on_error="nan")
+                arrays = {name: motion.joint(name).value for name in drawn}
+                single = not self.shape
+                drawn = {n: tuple(a.tolist()) if single else a for n, a in arrays.items()}
+            object.__setattr__(self, "_joints", MappingProxyType(drawn))
+        assert self._joints is not None
+        return self._joints
+
+    @property
+    def links(self) -> Mapping[str, tuple[str, ...]]:
+        """Joints of every link."""
+        return MappingProxyType(dict(self._parts[1]))
+
+    @property
+    def slides(self) -> Mapping[str, Slide]:
+        """The sliding pairs."""
+        return MappingProxyType(dict(self._parts[2]))
+
+    @property
+    def driver(self) -> DriverLike | tuple[DriverLike, ...]:
+        """The driver, or a tuple of them."""
+        drivers = self._parts[3]
+        return drivers[0] if len(drivers) == 1 else drivers
+
+    @property
+    def q0(self) -> float | Float:
+        """Coordinate of the drawing, rad or m; an array (n,) for n drivers."""
+        q0 = self._q0_array()
+        return float(q0) if q0.ndim == 0 else q0
+
+    def _q0_array(self) -> Float:
+        q0 = np.array(self._core.q0)
+        return q0[0] if len(q0) == 1 else q0
+
+    @property
+    def structure(self) -> Structure:
+        """Mobility, structural formula, Assur groups, redundant links."""
+        if self._structure is None:
+            real, drawn, counted = self._core.mobility
+            links, slides = self._core.redundant
+            groups = tuple(
+                Group(cls, order, kind, number, tuple(on), tuple(pins), tuple(guides))
+                for cls, order, kind, number, on, pins, guides in self._core.groups
+            )
+            structure = Structure(
+                mobility=real,
+                mobility_at_drawing=drawn,
+                mobility_counted=counted,
+                cls=self._core.cls,
+                formula=self._core.formula,
+                groups=groups,
+                redundant=(*links, *slides),
+            )
+            object.__setattr__(self, "_structure", structure)
+        assert self._structure is not None
+        return self._structure
+
+    @property
+    def assembly(self) -> Assembly:
+        """The assembly of the drawing."""
+        return Assembly(dict(self._core.assembly))
+
+    @property
+    def dimensions(self) -> Mapping[str, Any]:
+        """The dimensions by name: floats, or arrays of shape S.
+
+        Examples
+        --------
+        >>> import assur
+        >>> dict(assur.SliderCrank(1.0, 3.0).dimensions)["rod.length"]
+        3.0
+        """
+        values = np.moveaxis(self._values, -1, 0)
+        names = self._core.dimension_names
+        if not self.shape:
+            return MappingProxyType(dict(zip(names, values.tolist(), strict=True)))
+        return MappingProxyType(dict(zip(names, values, strict=True)))
+
+    # -- other mechanisms ---------------------------------------------------
+
+    def with_dimensions(
+        self, dimensions: Mapping[str, npt.ArrayLike] | None = None, **by_name: npt.ArrayLike
+    ) -> Mechanism:
+        """Return the mechanism with other dimensions; arrays make a batch of designs.
+
+        Parameters
+        ----------
+        dimensions : mapping of str to array_like
+            New values, m or rad; arrays broadcast by NumPy's rules, with each
+            other and with the designs there are, to the design shape S.
+
+        Returns
+        -------
+        Mechanism
+            Of design shape S.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown (the nearest are named) or shapes do not broadcast.
+        DimensionError
+            If this is one mechanism and a value is no dimension; in a batch such
+            designs get ``Status.BAD_DIMENSION``.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> m = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+        >>> m.with_dimensions({"coupler.length": np.linspace(2.8, 3.2, 5)}).shape
+        (5,)
+        """
+        wanted = {**(dimensions or {}), **by_name}
+        places = [self._core.dimension(name) for name in wanted]
+        new = [_numbers(name, value) for name, value in wanted.items()]
+        try:
+            shape = np.broadcast_shapes(self.shape, *(array.shape for array in new))
+        except ValueError as error:
+            shapes = ", ".join(f"{n!r} {a.shape}" for n, a in zip(wanted, new, strict=True))
+            message = f"dimensions do not broadcast: {shapes}, designs {self.shape}"
+            raise InputError(message) from error
+        values = np.array(np.broadcast_to(self._values, (*shape, self._values.shape[-1])))
+        for place, array in zip(places, new, strict=True):
+            values[..., place] = array
+        if not shape:
+            self._core.check_dimensions(values.tolist())
+        return self._make(self._parts, values, self._core)
+
+    def with_driver(self, driver: DriverLike | Sequence[DriverLike]) -> Mechanism:
+        """Return the same linkage, driven at another coordinate.
+
+        Examples
+        --------
+        >>> import assur
+        >>> assur.FourBar(1.0, 3.0, 2.5, 3.0).with_driver("rocker").structure.formula
+        'I(rocker) → II(crank, coupler)'
+        """
+        joints, links, slides, _, _ = self._parts
+        return self._make((joints, links, slides, _drivers(driver), ()), np.array(self._values))
+
+    def design(self, index: int | tuple[int, ...]) -> Mechanism:
+        """Return one design of a batch as a mechanism of its own."""
+        place = index if isinstance(index, tuple) else (index,)
+        if len(place) != len(self.shape):
+            message = f"design {index!r}: the design shape is {self.shape}"
+            raise InputError(message)
+        try:
+            values = np.array(self._values[place])
+        except IndexError as error:
+            message = f"design {index!r} is outside the design shape {self.shape}"
+            raise InputError(message) from error
+        self._core.check_dimensions(values.tolist())
+        return self._make(self._parts, values, self._core)
+
+    # -- moving -------------------------------------------------------------
+
+    def solve(
+        self,
+        q: npt.ArrayLike,
+        order: int = 2,
+        outputs: Iterable[str] | None = None,
+        assembly: Mapping[str, int] | None = None,
+        on_error: Literal["raise", "nan"] = "raise",
+    ) -> Motion:
+        """Solve positions and analogues.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinate of the driver, rad or m: a scalar, ``(N,)`` or ``S + (N,)``;
+            n drivers add a last axis of n.
+        order : {2, 0, 1, 3}
+            Highest order of the analogues.
+        outputs : iterable of str, optional
+            Names of joints, links and slides to keep; all by default.
+        assembly : mapping of str to int, optional
+            Signs of dyads other than the drawing's (see `assemblies`).
+        on_error : {"raise", "nan"}
+            What to do with positions that cannot be had: raise for the first of
+            them, or leave NaN with a status in its place.
+
+        Returns
+        -------
+        Motion
+            Arrays of shape S + (N,), points with a last axis of 2.
+
+        Raises
+        ------
+        PositionError, DimensionError, InputError
+            With ``on_error="raise"``: the first position that cannot be had.
+        StructureError
+            If a group is above class II.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> motion = assur.SliderCrank(0.05, 0.2).solve(np.linspace(0, 2 * np.pi, 5))
+        >>> motion.slide("bore").value.round(4)
+        array([0.25  , 0.1936, 0.15  , 0.1936, 0.25  ])
+        """
+        return _solve.solve(self, q, order, outputs, assembly, on_error)
+
+    def assemblies(self, q: npt.ArrayLike) -> list[Assembly]:
+        """Every real assembly at one position, usable as ``solve(q, assembly=a)``.
+
+        Examples
+        --------
+        >>> import assur
+        >>> assur.FourBar(40, 120, 80, 100).assemblies(0.7)
+        [Assembly({'C': 1}), Assembly({'C': -1})]
+        """
+        if self.shape:
+            message = f"assemblies: take one design of the {self.shape} first, with design(i)"
+            raise InputError(message)
+        one = np.atleast_1d(np.asarray(q, dtype=np.float64))
+        if one.shape != (len(self._core.q0),):
+            message = f"assemblies takes one position of {len(self._core.q0)} drivers, not {one.shape}"
+            raise InputError(message)
+        names = [name for name, _ in self._core.assembly]
+        found = self._core.assemblies(self._values.tolist(), one.tolist())
+        return [Assembly(dict(zip(names, signs, strict=True))) for signs in found]
+
+    def plot(self, q: float | None = None, ax: Any = None) -> Any:
+        """Draw the mechanism at one position (needs matplotlib).
+
+        Parameters
+        ----------
+        q : float, optional
+            Coordinate; the drawing's by default.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure by default.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        from assur import plot
+
+        return plot.mechanism(self, q, ax)
+
+
+def _rebuild(parts: Parts, values: Float) -> Mechanism:
+    return Mechanism._make(parts, values)
+
+
+def _compile(parts: Parts) -> _core.Mechanism:
+    joints, links, slides, drivers, assembly = parts
+    return _core.Mechanism(
+        joints=list(joints),
+        links=[(name, list(on)) for name, on in links],
+        slides=[(name, s.link, s.on, s.angle, s.origin) for name, s in slides],
+        drivers=[(d.link, d.relative_to) if isinstance(d, Drive) else (d, None) for d in drivers],
+        assembly=list(assembly),
+    )
+
+
+def _items(mapping: Mapping[str, Any], what: str) -> list[tuple[str, Any]]:
+    if not isinstance(mapping, Mapping):
+        message = f"{what} must be a mapping of names, not {type(mapping).__name__}"
+        raise InputError(message)
+    for name in mapping:
+        if not isinstance(name, str):
+            message = f"{what}: the name {name!r} is not a string"
+            raise InputError(message)
+    return list(mapping.items())
+
+
+def _joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
+    try:
+        x, y = (float(v) for v in at)
+    except (TypeError, ValueError) as error:
+        message = f"joint {name!r} is at {at!r}: two numbers (x, y) are needed"
+        raise InputError(message, joint=name) from error
+    return (name, x, y)
+
+
+def _slide(name: str, slide: Slide) -> Slide:
+    if not isinstance(slide, Slide):
+        message = f"slide {name!r} is {slide!r}: an assur.Slide is needed"
+        raise InputError(message, slide=name)
+    try:
+        return Slide(slide.link, slide.on, float(slide.angle), slide.origin)
+    except (TypeError, ValueError) as error:
+        message = f"slide {name!r} has angle {slide.angle!r}: a number (rad) is needed"
+        raise InputError(message, slide=name) from error
+
+
+def _drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]:
+    drivers = (driver,) if isinstance(driver, str | Drive) else tuple(driver)
+    for d in drivers:
+        if not isinstance(d, str | Drive):
+            message = f"driver {d!r}: a name or an assur.Drive is needed"
+            raise InputError(message)
+    return drivers
+
+
+def _numbers(name: str, value: npt.ArrayLike) -> Float:
+    try:
+        return np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        message = f"dimension {name!r} is {value!r}: a number or an array of numbers is needed"
+        raise InputError(message, dimension=name) from error

@@ -1,0 +1,340 @@
+"""Motions: positions and analogues as arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur import _core, transmission
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from assur.mechanism import Mechanism
+
+__all__ = ["Analogues", "Motion"]
+
+Float: TypeAlias = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Tracks:
+    """What a motion holds, by name: arrays by order."""
+
+    joints: dict[str, tuple[Float, ...]]
+    links: dict[str, tuple[Float, ...]]
+    places: dict[str, tuple[Float, ...]]
+    slides: dict[str, tuple[Float, ...]]
+
+
+class Analogues:
+    """A quantity and its analogues, the derivatives with respect to q.
+
+    Arrays of shape S + (N,), points with a last axis of 2; with n drivers each
+    order adds a last axis of n.
+
+    Attributes
+    ----------
+    value, d1, d2, d3 : numpy.ndarray
+        Value and analogues of orders 1 to 3, as far as the motion was solved.
+    """
+
+    __slots__ = ("_arrays", "_drivers", "_name", "_point")
+
+    def __init__(self, name: str, arrays: tuple[Float, ...], drivers: int, point: bool) -> None:
+        self._name = name
+        self._arrays = arrays
+        self._drivers = drivers
+        self._point = point
+
+    def _order(self, order: int) -> Float:
+        if order >= len(self._arrays):
+            message = (
+                f"{self._name!r}: this motion was solved to order {len(self._arrays) - 1}; "
+                f"solve(q, order={order}) has d{order}"
+            )
+            raise InputError(message)
+        return self._arrays[order]
+
+    @property
+    def value(self) -> Float:
+        """The quantity itself: m, or rad for a link."""
+        return self._order(0)
+
+    @property
+    def d1(self) -> Float:
+        """First analogue (velocity analogue)."""
+        return self._order(1)
+
+    @property
+    def d2(self) -> Float:
+        """Second analogue (acceleration analogue)."""
+        return self._order(2)
+
+    @property
+    def d3(self) -> Float:
+        """Third analogue."""
+        return self._order(3)
+
+    def velocity(self, omega: npt.ArrayLike) -> Float:
+        """Velocity for a driver's speed: ``d1 ω``.
+
+        Parameters
+        ----------
+        omega : array_like
+            dq/dt, rad/s or m/s; broadcast against S + (N,). With n drivers the
+            last axis is n.
+
+        Returns
+        -------
+        numpy.ndarray
+            m/s, or rad/s for a link.
+        """
+        return self._contract(self.d1, self._speeds(omega))
+
+    def acceleration(self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0) -> Float:
+        """Acceleration for a driver's speed and acceleration: ``d2 ω² + d1 α``."""
+        w, a = self._speeds(omega), self._speeds(alpha)
+        return self._contract(self.d2, w, w) + self._contract(self.d1, a)
+
+    def jerk(
+        self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0, beta: npt.ArrayLike = 0.0
+    ) -> Float:
+        """Jerk: ``d3 ω³ + 3 d2 ω α + d1 β`` with β the driver's jerk."""
+        w, a, b = self._speeds(omega), self._speeds(alpha), self._speeds(beta)
+        mixed = self._contract(self.d2, w, a)
+        return self._contract(self.d3, w, w, w) + 3.0 * mixed + self._contract(self.d1, b)
+
+    def _speeds(self, given: npt.ArrayLike) -> Float:
+        """Speeds with an axis for the components, and a last one for the drivers."""
+        array = np.asarray(given, dtype=np.float64)
+        if self._drivers == 1:
+            array = array[..., np.newaxis]
+        elif array.ndim == 0 and array == 0.0:
+            array = np.zeros(self._drivers)
+        elif array.ndim == 0 or array.shape[-1] != self._drivers:
+            message = f"shape {array.shape}: the last axis must hold the {self._drivers} drivers"
+            raise InputError(message)
+        return array[..., np.newaxis, :] if self._point else array
+
+    def _contract(self, derivative: Float, *speeds: Float) -> Float:
+        array = derivative.reshape(derivative.shape + (1,) * len(speeds)) if self._drivers == 1 else derivative
+        for speed in reversed(speeds):
+            axes = array.ndim - (self.value.ndim + 1)
+            aligned = speed.reshape(speed.shape[:-1] + (1,) * axes + speed.shape[-1:])
+            array = (array * aligned).sum(axis=-1)
+        return array
+
+    def __repr__(self) -> str:
+        return f"<{self._name}: shape {self.value.shape}, order {len(self._arrays) - 1}>"
+
+
+class Motion:
+    """Positions and analogues of a mechanism; made by ``Mechanism.solve``.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        What moves.
+    q : numpy.ndarray
+        The coordinates.
+    order : int
+        Highest order of the analogues.
+    status : numpy.ndarray of uint8
+        One `Status` a position.
+    """
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        q: Float,
+        positions: tuple[int, ...],
+        per_design: bool,
+        order: int,
+        signs: list[int],
+        tracks: Tracks,
+        status: npt.NDArray[np.uint8],
+    ) -> None:
+        q.flags.writeable = False
+        self.mechanism = mechanism
+        self.q = q
+        self.order = order
+        self.status = status
+        self._positions = positions
+        self._per_design = per_design
+        self._signs = signs
+        self._tracks = tracks
+        self._drivers = len(mechanism._core.q0)
+        self._diagnostics: tuple[Float, Float] | None = None
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """S + (N,)."""
+        return self.status.shape
+
+    def __repr__(self) -> str:
+        return f"<assur.Motion of {self.mechanism._core.formula}, shape {self.shape}, order {self.order}>"
+
+    def _find(self, kind: str, held: dict[str, tuple[Float, ...]], name: str) -> tuple[Float, ...]:
+        if name not in held:
+            self.mechanism._core.require(kind, name)
+            message = f"{kind} {name!r} was not among the outputs of this motion"
+            raise InputError(message, **{kind: name})  # type: ignore[arg-type]
+        return held[name]
+
+    def joint(self, name: str) -> Analogues:
+        """Place of a joint, m, and its analogues."""
+        return Analogues(name, self._find("joint", self._tracks.joints, name), self._drivers, True)
+
+    def link(self, name: str) -> Analogues:
+        """Angle of a link, rad, continuous along q, and its analogues."""
+        return Analogues(name, self._find("link", self._tracks.links, name), self._drivers, False)
+
+    def slide(self, name: str) -> Analogues:
+        """Value of a slide, m, and its analogues."""
+        return Analogues(name, self._find("slide", self._tracks.slides, name), self._drivers, False)
+
+    def _place(self, link: str) -> Analogues:
+        return Analogues(link, self._find("link", self._tracks.places, link), self._drivers, True)
+
+    def _one_driver(self, what: str) -> None:
+        if self._drivers > 1:
+            message = f"{what} is defined for one driver; this mechanism has {self._drivers}"
+            raise InputError(message)
+
+    def curvature(self, joint: str) -> Float:
+        """Curvature of a joint's path, 1/m, positive where it turns left as q grows.
+
+        NaN where the joint stands still (a cusp or a dwell).
+        """
+        self._one_driver("curvature")
+        point = self.joint(joint)
+        values = _core.curvature(point.d1.reshape(-1), point.d2.reshape(-1))
+        return values.reshape(self.shape)
+
+    def instant_centre(self, link: str, other: str = "ground") -> Float:
+        """Instant centre of two links in the frame of the ground, m, S + (N, 2).
+
+        Infinite where the links only translate relative to each other, NaN where
+        they do not move relative to each other.
+        """
+        self._one_driver("instant_centre")
+        parts = [
+            (
+                self._place(name).value.reshape(-1),
+                self._place(name).d1.reshape(-1),
+                self.link(name).d1.reshape(-1),
+            )
+            for name in (link, other)
+        ]
+        return _core.instant_centre(parts[0], parts[1]).reshape((*self.shape, 2))
+
+    def mechanical_advantage(self, name: str) -> Float:
+        """Output torque (of a link) or force (of a slide) over the driver's, lossless.
+
+        By equal power the inverse of the output's first analogue: infinite at its
+        dead points.
+        """
+        self._one_driver("mechanical_advantage")
+        output = self.slide(name) if name in self.mechanism.slides else self.link(name)
+        with np.errstate(divide="ignore"):
+            ratio: Float = 1.0 / output.d1
+        return ratio
+
+    def transmission_angle(self, name: str, between: tuple[str, str] | None = None) -> Float:
+        """Acute angle at which force is passed on, rad, in 0..π/2.
+
+        Parameters
+        ----------
+        name : str
+            A joint where two links meet (the angle between them), or a slide or
+            the joint of a sliding link (the complement of the pressure angle).
+        between : (str, str), optional
+            Two joints: the angle between the lines from `name` to them. Needed
+            where more than two links meet, or a link has several other joints.
+
+        Returns
+        -------
+        numpy.ndarray
+            Shape S + (N,).
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> motion = assur.FourBar(1.0, 4.5, 1.5, 4.8).solve(np.pi)
+        >>> motion.transmission_angle("C").round(6)
+        array(0.600266)
+        """
+        return transmission.angle(self, name, between)
+
+    @property
+    def residual(self) -> Float:
+        """Greatest misfit of a closure equation at the coordinates, of the size."""
+        return self._diagnose()[0]
+
+    @property
+    def condition(self) -> Float:
+        """Condition κ of every position: 1/sin of the angle between a dyad's legs.
+
+        Of dyads in sequence the product along the worst chain.
+        """
+        return self._diagnose()[1]
+
+    def _diagnose(self) -> tuple[Float, Float]:
+        if self._diagnostics is None:
+            residual, condition = self.mechanism._core.diagnostics(
+                np.ascontiguousarray(self.mechanism._values).reshape(-1),
+                np.ascontiguousarray(self.q).reshape(-1),
+                self._per_design,
+                self._signs,
+            )
+            self._diagnostics = (residual.reshape(self.shape), condition.reshape(self.shape))
+        return self._diagnostics
+
+    def coordinate(self, index: int | tuple[int, ...]) -> float | tuple[float, ...]:
+        """Return the coordinate at an index of `shape`; a tuple for several drivers."""
+        place = index if isinstance(index, tuple) else (index,)
+        designs = 0 if self._per_design else len(self.mechanism.shape)
+        q = self.q[place[designs:]] if self._positions else self.q
+        return float(q) if self._drivers == 1 else tuple(float(x) for x in q)
+
+    def explain(self, index: int | tuple[int, ...] = ()) -> str:
+        """Return what happened at one position: the sentence ``on_error="raise"`` gives.
+
+        Examples
+        --------
+        >>> import assur
+        >>> m = assur.FourBar(40, 120, 80, 300)
+        >>> m.solve([0.0, 3.0], on_error="nan").explain(1)
+        "at q = 3 dyad 'C' does not close: 1.396e2 m are missing"
+        """
+        return self._explain(index if isinstance(index, tuple) else (index,))[2]
+
+    def _explain(self, index: tuple[int, ...]) -> tuple[int, str | None, str]:
+        try:
+            self.status[index]
+            q = self.coordinate(index)
+        except IndexError as error:
+            message = f"index {index} is outside the shape {self.shape}"
+            raise InputError(message) from error
+        values = self.mechanism._values[index[: len(self.mechanism.shape)]]
+        one = [q] if isinstance(q, float) else list(q)
+        return self.mechanism._core.explain(values.tolist(), one, self._signs)
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas DataFrame, one row a position (needs pandas).
+
+        Columns: the design's index, q, status, and every value and analogue held,
+        such as ``C.x``, ``C.x.d1``, ``coupler``, ``coupler.d1``.
+        """
+        from assur.table import dataframe
+
+        return dataframe(self)
+
+    def plot(self, joint: str, ax: Any = None) -> Any:
+        """Draw a joint's path with the mechanism at the first position (needs matplotlib)."""
+        from assur import plot
+
+        return plot.path(self, joint, ax)

@@ -1,0 +1,116 @@
+"""Named mechanisms: short constructors over the same machinery."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy.typing as npt
+
+from assur.description import Slide
+from assur.errors import InputError
+from assur.mechanism import Mechanism
+
+__all__ = ["FourBar", "SliderCrank"]
+
+
+class FourBar(Mechanism):
+    """A four-bar linkage by its lengths.
+
+    Joints A, B, C, D, the ground along +x from A to D; links crank A-B, coupler
+    B-C, rocker D-C; driven by the crank. The drawing has the crank upright.
+
+    Parameters
+    ----------
+    crank, coupler, rocker, ground : array_like
+        Lengths, m; arrays make a batch of designs.
+    mode : {"open", "crossed"}
+        C to the right of the ray from D to B, or to its left.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> m = assur.FourBar(40, 120, 80, 100)
+    >>> motion = m.solve(np.deg2rad(40))
+    >>> np.rad2deg([motion.link("coupler").value, motion.link("rocker").value]).round(3)
+    array([20.298, 57.325])
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        crank: npt.ArrayLike,
+        coupler: npt.ArrayLike,
+        rocker: npt.ArrayLike,
+        ground: npt.ArrayLike,
+        mode: Literal["open", "crossed"] = "open",
+    ) -> None:
+        if mode not in ("open", "crossed"):
+            message = f'mode is {mode!r}: "open" or "crossed"'
+            raise InputError(message)
+        # Drawn with lengths of its own, so that neither the assembly nor q0
+        # depends on the dimensions (or on the neighbours in a batch).
+        drawn = Mechanism(
+            joints={
+                "A": (0.0, 0.0),
+                "B": (0.0, 1.0),
+                "C": (3.0, 2.0) if mode == "open" else (1.8, -1.6),
+                "D": (3.0, 0.0),
+            },
+            links={
+                "ground": ["A", "D"],
+                "crank": ["A", "B"],
+                "coupler": ["B", "C"],
+                "rocker": ["D", "C"],
+            },
+            driver="crank",
+        )
+        _adopt(
+            self,
+            drawn,
+            {
+                "crank.length": crank,
+                "coupler.length": coupler,
+                "rocker.length": rocker,
+                "ground.D.x": ground,
+            },
+        )
+
+
+class SliderCrank(Mechanism):
+    """A slider-crank by its lengths.
+
+    Joints O, A, B; links crank O-A, rod A-B, piston; slide bore along +x on the
+    ground, its line `offset` to the left of O, B ahead of A; driven by the crank.
+
+    Parameters
+    ----------
+    crank, rod : array_like
+        Lengths, m; arrays make a batch of designs.
+    offset : array_like, optional
+        Distance of the bore's line from O, m, positive to the left of +x.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.SliderCrank(1.0, 3.0).solve(0.0, order=0).slide("bore").value
+    array(4.)
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self, crank: npt.ArrayLike, rod: npt.ArrayLike, offset: npt.ArrayLike = 0.0
+    ) -> None:
+        drawn = Mechanism(
+            joints={"O": (0.0, 0.0), "A": (1.0, 0.0), "B": (4.0, 0.0)},
+            links={"ground": ["O"], "crank": ["O", "A"], "rod": ["A", "B"], "piston": ["B"]},
+            slides={"bore": Slide("piston", on="ground", angle=0.0, origin="O")},
+            driver="crank",
+        )
+        _adopt(self, drawn, {"crank.length": crank, "rod.length": rod, "bore.offset": offset})
+
+
+def _adopt(mechanism: Mechanism, drawn: Mechanism, dimensions: dict[str, npt.ArrayLike]) -> None:
+    sized = drawn.with_dimensions(dimensions)
+    mechanism._begin(sized._parts, sized._values, sized._core)

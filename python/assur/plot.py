@@ -1,0 +1,112 @@
+"""Drawing mechanisms and paths with matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from assur.mechanism import Mechanism
+    from assur.motion import Motion
+
+# Okabe and Ito's colours (2008): told apart in print and by colour-blind eyes.
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+
+
+def _axes(ax: Any) -> Any:
+    if ax is not None:
+        return ax
+    try:
+        import matplotlib.pyplot as plt
+    except ImportError as error:  # pragma: no cover
+        message = "drawing needs matplotlib: pip install matplotlib"
+        raise ImportError(message) from error
+    return plt.subplots(layout="constrained")[1]
+
+
+def mechanism(mechanism: Mechanism, q: float | None, ax: Any) -> Any:
+    """See `Mechanism.plot`."""
+    if mechanism.shape:
+        message = f"plot draws one mechanism: take one of the {mechanism.shape} designs, design(i)"
+        raise InputError(message)
+    motion = mechanism.solve(mechanism._q0_array() if q is None else q, order=0)
+    return _draw(motion, (), _axes(ax))
+
+
+def path(motion: Motion, joint: str, ax: Any) -> Any:
+    """See `Motion.plot`."""
+    if motion.mechanism.shape or not motion.shape:
+        message = f"plot draws a path over q of one mechanism; this motion has shape {motion.shape}"
+        raise InputError(message)
+    ax = _axes(ax)
+    points = motion.joint(joint).value
+    reached = np.flatnonzero(np.isfinite(points[:, 0]))
+    if reached.size:
+        _draw(motion, (int(reached[0]),), ax)
+    ax.plot(points[:, 0], points[:, 1], color="0.35", linewidth=1.2, zorder=1)
+    return ax
+
+
+def _draw(motion: Motion, index: tuple[int, ...], ax: Any) -> Any:
+    """Draw one position: links, slides, joints, ground."""
+    mechanism = motion.mechanism
+    at = {name: motion.joint(name).value[index] for name in mechanism.joints}
+    size = _size(list(at.values()))
+    for name, slide in mechanism.slides.items():
+        _guide(motion, index, name, slide.on, size, ax)
+    moving = [name for name in mechanism.links if name != "ground"]
+    for number, name in enumerate(moving):
+        points = np.array([at[j] for j in mechanism.links[name]])
+        colour = _COLOURS[number % len(_COLOURS)]
+        if len(points) > 2:
+            corners = _hull(points)
+            ax.fill(corners[:, 0], corners[:, 1], color=colour, alpha=0.18, linewidth=0)
+            ax.plot(*np.vstack([corners, corners[:1]]).T, color=colour, linewidth=2, label=name)
+        elif len(points) == 2:
+            ax.plot(*points.T, color=colour, linewidth=3, solid_capstyle="round", label=name)
+    for name, point in at.items():
+        ax.plot(*point, "o", color="black", markerfacecolor="white", markersize=6, zorder=4)
+        ax.annotate(name, point, xytext=(5, 5), textcoords="offset points", zorder=5)
+    for joint in mechanism.links["ground"]:
+        x, y = at[joint]
+        ax.fill(
+            [x, x - 0.03 * size, x + 0.03 * size],
+            [y, y - 0.05 * size, y - 0.05 * size],
+            color="0.75",
+            zorder=0,
+        )
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_xlabel("x, m")
+    ax.set_ylabel("y, m")
+    return ax
+
+
+def _size(points: list[Any]) -> float:
+    array = np.array(points)
+    return float(np.ptp(array, axis=0).max()) or 1.0
+
+
+def _hull(points: Any) -> Any:
+    """Corners in order around their middle (links are drawn as polygons)."""
+    middle = points.mean(axis=0)
+    order = np.argsort(np.arctan2(*(points - middle).T[::-1]))
+    return points[order]
+
+
+def _guide(motion: Motion, index: tuple[int, ...], name: str, on: str, size: float, ax: Any) -> None:
+    """A guide through the sliding point, and the block on it."""
+    slide = motion.mechanism.slides[name]
+    joints = motion.mechanism.links[slide.link]
+    middle = motion.joint(joints[0]).value[index] if joints else motion._place(slide.link).value[index]
+    own = motion.mechanism.dimensions.get(f"{name}.angle", 0.0)
+    angle = float(motion.link(on).value[index]) + float(own)
+    along = np.array([np.cos(angle), np.sin(angle)])
+    across = np.array([-along[1], along[0]])
+    ends = np.array([middle - 0.3 * size * along, middle + 0.3 * size * along])
+    ax.plot(*ends.T, color="0.6", linewidth=1, linestyle=(0, (6, 3)), zorder=0)
+    a, b = 0.05 * size * along, 0.03 * size * across
+    block = np.array([middle - a - b, middle + a - b, middle + a + b, middle - a + b])
+    ax.fill(*block.T, facecolor="0.9", edgecolor="0.3", zorder=1)

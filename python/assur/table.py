@@ -1,0 +1,56 @@
+"""Motions as tables (pandas)."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from assur.motion import Motion
+
+
+def dataframe(motion: Motion) -> Any:
+    """See `Motion.to_dataframe`."""
+    try:
+        import pandas as pd
+    except ImportError as error:  # pragma: no cover
+        message = "to_dataframe needs pandas: pip install pandas"
+        raise ImportError(message) from error
+    shape, drivers = motion.shape, motion._drivers
+    columns: dict[str, Any] = {}
+    designs = len(motion.mechanism.shape)
+    for axis in range(designs):
+        name = "design" if designs == 1 else f"design{axis}"
+        index = np.arange(shape[axis]).reshape((-1,) + (1,) * (len(shape) - axis - 1))
+        columns[name] = np.broadcast_to(index, shape).reshape(-1)
+    q = motion.q if drivers > 1 else motion.q[..., np.newaxis]
+    for k in range(drivers):
+        name = "q" if drivers == 1 else f"q{k}"
+        columns[name] = np.broadcast_to(q[..., k], shape).reshape(-1)
+    columns["status"] = motion.status.reshape(-1)
+    tracks = motion._tracks
+    for name, arrays in tracks.joints.items():
+        for order, array in enumerate(arrays):
+            tail = _tails(order, drivers)
+            flat = array.reshape(-1, 2, len(tail))
+            for component, letter in enumerate("xy"):
+                for k, suffix in enumerate(tail):
+                    columns[f"{name}.{letter}{suffix}"] = flat[:, component, k]
+    for name, arrays in (*tracks.links.items(), *tracks.slides.items()):
+        for order, array in enumerate(arrays):
+            tail = _tails(order, drivers)
+            flat = array.reshape(-1, len(tail))
+            for k, suffix in enumerate(tail):
+                columns[f"{name}{suffix}"] = flat[:, k]
+    return pd.DataFrame(columns)
+
+
+def _tails(order: int, drivers: int) -> list[str]:
+    if order == 0:
+        return [""]
+    if drivers == 1:
+        return [f".d{order}"]
+    places = product(range(drivers), repeat=order)
+    return [f".d{order}[{','.join(map(str, place))}]" for place in places]

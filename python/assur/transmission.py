@@ -1,0 +1,117 @@
+"""Transmission angles: which two lines meet at a joint or slide."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur import _core
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from assur.mechanism import Mechanism
+    from assur.motion import Motion
+
+Float: TypeAlias = npt.NDArray[np.float64]
+
+
+def angle(motion: Motion, name: str, between: tuple[str, str] | None) -> Float:
+    """See `Motion.transmission_angle`."""
+    mechanism = motion.mechanism
+    if between is not None:
+        first, second = between
+        return _acute(motion, _line(motion, name, first), _line(motion, name, second))
+    slide = name if name in mechanism.slides else _slide_at(mechanism, name)
+    if slide is not None:
+        return _at_slide(motion, slide)
+    mechanism._core.require("joint", name)
+    meeting = [link for link, on in mechanism.links.items() if name in on]
+    if len(meeting) != 2:
+        message = f"{len(meeting)} links meet at joint {name!r}: say between=(joint, joint)"
+        raise InputError(message, joint=name)
+    first, second = (_other_joint(mechanism, link, name) for link in meeting)
+    return _acute(motion, _line(motion, name, first), _line(motion, name, second))
+
+
+def _acute(motion: Motion, a: Float, b: Float) -> Float:
+    shape = (*motion.shape, 2)
+    flat = [np.ascontiguousarray(np.broadcast_to(x, shape)).reshape(-1) for x in (a, b)]
+    return _core.acute(flat[0], flat[1]).reshape(motion.shape)
+
+
+def _line(motion: Motion, start: str, end: str) -> Float:
+    line: Float = motion.joint(end).value - motion.joint(start).value
+    return line
+
+
+def _pairs(mechanism: Mechanism, joint: str) -> int:
+    return sum(joint in on for on in mechanism.links.values())
+
+
+def _other_joint(mechanism: Mechanism, link: str, joint: str) -> str:
+    """The link's one other joint where it meets other links."""
+    others = [j for j in mechanism.links[link] if j != joint]
+    joined = [j for j in others if _pairs(mechanism, j) > 1]
+    if len(joined) == 1:
+        return joined[0]
+    if not joined and len(others) == 1:
+        return others[0]
+    what = "several other joints" if others else "no other joint"
+    message = f"link {link!r} has {what} besides {joint!r}: say between=(joint, joint)"
+    raise InputError(message, link=link, joint=joint)
+
+
+def _slide_at(mechanism: Mechanism, joint: str) -> str | None:
+    """The slide of a one-joint link at this joint, if there is one."""
+    for name, slide in mechanism.slides.items():
+        if tuple(mechanism.links[slide.link]) == (joint,):
+            return name
+    return None
+
+
+def _at_slide(motion: Motion, name: str) -> Float:
+    """Complement of the pressure angle.
+
+    On a fixed guide the pressure angle is between the link that pushes and the
+    guide. A turning guide is pushed along its normal, and its own point moves
+    across the line from its pivot: the pressure angle is between that line and
+    the guide.
+    """
+    mechanism = motion.mechanism
+    slide = mechanism.slides[name]
+    joints = tuple(mechanism.links[slide.link])
+    if not joints:
+        message = f"slide {name!r}: link {slide.link!r} has no joint to push it"
+        raise InputError(message, slide=name)
+    at = joints[0]
+    if slide.on == "ground":
+        pushing = [k for k, on in mechanism.links.items() if at in on and k != slide.link]
+        if len(pushing) != 1:
+            message = f"slide {name!r}: {len(pushing)} links push joint {at!r}: say between="
+            raise InputError(message, slide=name, joint=at)
+        line = _line(motion, at, _other_joint(mechanism, pushing[0], at))
+    else:
+        line = _line(motion, at, _pivot(mechanism, slide.on))
+    pressure = _acute(motion, line, _guide(motion, name))
+    complement: Float = 0.5 * np.pi - pressure
+    return complement
+
+
+def _pivot(mechanism: Mechanism, link: str) -> str:
+    joined = [j for j in mechanism.links[link] if _pairs(mechanism, j) > 1]
+    if len(joined) != 1:
+        message = f"link {link!r} turns about {len(joined)} joints: the pressure angle is not defined"
+        raise InputError(message, link=link)
+    return joined[0]
+
+
+def _guide(motion: Motion, name: str) -> Float:
+    """Direction of a guide, S + (N, 2)."""
+    mechanism = motion.mechanism
+    own = np.asarray(mechanism.dimensions.get(f"{name}.angle", 0.0))
+    if motion.shape[len(mechanism.shape) :]:
+        own = own[..., np.newaxis]
+    direction = motion.link(mechanism.slides[name].on).value + own
+    return np.stack([np.cos(direction), np.sin(direction)], axis=-1)

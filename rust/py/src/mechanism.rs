@@ -1,0 +1,256 @@
+//! The mechanism as Python sees it: names in, arrays out.
+
+use assur::{
+    Coordinates, Description, DriverDescription, Motion, Outputs, Request, SlideDescription, Status,
+    Track,
+};
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::error;
+
+type SlideArguments = (String, String, String, f64, Option<String>);
+type GroupParts = (usize, usize, Option<&'static str>, Option<usize>, Vec<String>, Vec<String>, Vec<String>);
+
+/// A compiled mechanism.
+#[pyclass(frozen, module = "assur._core")]
+pub(crate) struct Mechanism {
+    inner: assur::Mechanism,
+}
+
+#[pymethods]
+impl Mechanism {
+    #[new]
+    fn new(
+        joints: Vec<(String, f64, f64)>,
+        links: Vec<(String, Vec<String>)>,
+        slides: Vec<SlideArguments>,
+        drivers: Vec<(String, Option<String>)>,
+        assembly: Vec<(String, i64)>,
+    ) -> PyResult<Self> {
+        let description = Description {
+            joints: joints.into_iter().map(|(name, x, y)| (name, [x, y])).collect(),
+            links,
+            slides: slides
+                .into_iter()
+                .map(|(name, link, on, angle, origin)| SlideDescription { name, link, on, angle, origin })
+                .collect(),
+            drivers: drivers
+                .into_iter()
+                .map(|(name, relative_to)| match relative_to {
+                    None => DriverDescription::Named(name),
+                    Some(relative_to) => DriverDescription::Relative { link: name, relative_to },
+                })
+                .collect(),
+            assembly,
+        };
+        let inner = assur::Mechanism::new(&description).map_err(error::structure)?;
+        Ok(Self { inner })
+    }
+
+    /// Names of the dimensions, in order.
+    #[getter]
+    fn dimension_names(&self) -> Vec<String> {
+        self.inner.dimensions().iter().map(|(name, _)| name.to_owned()).collect()
+    }
+
+    /// Dimensions of the drawing.
+    #[getter]
+    fn drawing(&self) -> Vec<f64> {
+        self.inner.drawing().to_vec()
+    }
+
+    /// Coordinates of the drawing.
+    #[getter]
+    fn q0(&self) -> Vec<f64> {
+        self.inner.q0().to_vec()
+    }
+
+    /// Inner pairs of the dyads with two solutions, with the drawing's signs.
+    #[getter]
+    fn assembly(&self) -> Vec<(String, i8)> {
+        let names = self.inner.plan().dyad_names.iter().cloned();
+        names.zip(self.inner.signs().iter().copied()).collect()
+    }
+
+    /// The structural formula.
+    #[getter]
+    fn formula(&self) -> String {
+        self.inner.structure().formula()
+    }
+
+    /// Mobility by rank, at the drawing, and counted.
+    #[getter]
+    fn mobility(&self) -> (usize, usize, i64) {
+        let s = self.inner.structure();
+        (s.mobility, s.mobility_at_drawing, s.mobility_counted)
+    }
+
+    /// Class of the mechanism.
+    #[getter]
+    fn cls(&self) -> usize {
+        self.inner.structure().class()
+    }
+
+    /// Redundant links and slides.
+    #[getter]
+    fn redundant(&self) -> (Vec<String>, Vec<String>) {
+        let redundant = &self.inner.structure().redundant;
+        let linkage = self.inner.linkage();
+        (
+            redundant.links.iter().map(|&l| linkage.links[l].name.clone()).collect(),
+            redundant.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect(),
+        )
+    }
+
+    /// Groups: class, order, kind, Artobolevsky's number, links, joints, slides.
+    #[getter]
+    fn groups(&self) -> Vec<GroupParts> {
+        let linkage = self.inner.linkage();
+        let groups = self.inner.structure().groups.iter();
+        groups
+            .map(|g| {
+                (
+                    g.class,
+                    g.order,
+                    g.kind,
+                    g.artobolevsky_kind(),
+                    g.links.iter().map(|&l| linkage.links[l].name.clone()).collect(),
+                    g.joints.iter().map(|&j| linkage.joints[j].name.clone()).collect(),
+                    g.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect(),
+                )
+            })
+            .collect()
+    }
+
+    /// Place of a dimension; an unknown name is refused with the nearest ones.
+    fn dimension(&self, name: &str) -> PyResult<usize> {
+        self.inner.dimensions().position(name).map_err(error::solve)
+    }
+
+    /// Refuses a name that is no joint, link or slide.
+    fn require(&self, kind: &str, name: &str) -> PyResult<usize> {
+        match kind {
+            "joint" => self.inner.joint(name),
+            "link" => self.inner.link(name),
+            _ => self.inner.slide(name),
+        }
+        .map_err(error::solve)
+    }
+
+    /// Refuses the first value that is no dimension.
+    fn check_dimensions(&self, values: Vec<f64>) -> PyResult<()> {
+        self.inner.dimensions().first_fault(&values).map_or(Ok(()), |e| Err(error::solve(e)))
+    }
+
+    /// Solves designs at positions; see `assur.Mechanism.solve`.
+    #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
+    fn solve<'py>(
+        &self,
+        py: Python<'py>,
+        dimensions: PyReadonlyArray1<'py, f64>,
+        q: PyReadonlyArray1<'py, f64>,
+        per_design: bool,
+        signs: Vec<i8>,
+        order: usize,
+        joints: Vec<usize>,
+        links: Vec<usize>,
+        slides: Vec<usize>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
+        let motion = py
+            .detach(|| {
+                let outputs = Outputs { joints, links, slides };
+                self.inner.solve(&Request {
+                    dimensions: &dimensions,
+                    coordinates: if per_design { Coordinates::PerDesign(&q) } else { Coordinates::Shared(&q) },
+                    signs: &signs,
+                    order,
+                    outputs: &outputs,
+                })
+            })
+            .map_err(error::solve)?;
+        arrays(py, motion)
+    }
+
+    /// Residual and condition of every position.
+    fn diagnostics<'py>(
+        &self,
+        py: Python<'py>,
+        dimensions: PyReadonlyArray1<'py, f64>,
+        q: PyReadonlyArray1<'py, f64>,
+        per_design: bool,
+        signs: Vec<i8>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+        let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
+        let both = py
+            .detach(|| {
+                let (size, drivers) = (self.inner.dimensions().len(), self.inner.q0().len());
+                let designs = dimensions.len().checked_div(size).unwrap_or(1);
+                let positions = q.len() / drivers / if per_design { designs.max(1) } else { 1 };
+                let (mut residual, mut condition) = (Vec::new(), Vec::new());
+                for design in 0..designs {
+                    for position in 0..positions {
+                        let row = if per_design { design * positions + position } else { position };
+                        let d = self.inner.diagnose(
+                            &dimensions[design * size..(design + 1) * size],
+                            &q[row * drivers..(row + 1) * drivers],
+                            &signs,
+                        )?;
+                        residual.push(d.residual);
+                        condition.push(d.condition);
+                    }
+                }
+                Ok((residual, condition))
+            })
+            .map_err(error::solve)?;
+        Ok((PyArray1::from_vec(py, both.0), PyArray1::from_vec(py, both.1)))
+    }
+
+    /// One position looked at closely: status, name concerned, sentence.
+    fn explain(&self, dimensions: Vec<f64>, q: Vec<f64>, signs: Vec<i8>) -> PyResult<(u8, Option<String>, String)> {
+        let d = self.inner.diagnose(&dimensions, &q, &signs).map_err(error::solve)?;
+        Ok((d.status as u8, d.name, d.sentence))
+    }
+
+    /// Every assembly that exists at `q`, as signs.
+    fn assemblies(&self, dimensions: Vec<f64>, q: Vec<f64>) -> PyResult<Vec<Vec<i8>>> {
+        self.inner.assemblies(&dimensions, &q).map_err(error::solve)
+    }
+
+    /// Names and codes of the statuses.
+    #[staticmethod]
+    fn statuses() -> Vec<(&'static str, u8)> {
+        [
+            ("OK", Status::Ok),
+            ("NEAR_SINGULAR", Status::NearSingular),
+            ("SINGULAR", Status::Singular),
+            ("UNREACHABLE", Status::Unreachable),
+            ("LOST", Status::Lost),
+            ("NOT_CONVERGED", Status::NotConverged),
+            ("BAD_DIMENSION", Status::BadDimension),
+            ("BAD_INPUT", Status::BadInput),
+        ]
+        .map(|(name, status)| (name, status as u8))
+        .to_vec()
+    }
+}
+
+fn arrays(py: Python<'_>, motion: Motion) -> PyResult<Bound<'_, PyDict>> {
+    let tracks = |tracks: Vec<Track>| -> PyResult<Bound<'_, PyDict>> {
+        let dict = PyDict::new(py);
+        for track in tracks {
+            let arrays: Vec<_> = track.derivatives.into_iter().map(|v| PyArray1::from_vec(py, v)).collect();
+            dict.set_item(track.index, arrays)?;
+        }
+        Ok(dict)
+    };
+    let out = PyDict::new(py);
+    out.set_item("joints", tracks(motion.joints)?)?;
+    out.set_item("links", tracks(motion.links)?)?;
+    out.set_item("places", tracks(motion.places)?)?;
+    out.set_item("slides", tracks(motion.slides)?)?;
+    out.set_item("status", PyArray1::from_vec(py, motion.status))?;
+    Ok(out)
+}

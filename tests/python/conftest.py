@@ -1,0 +1,15 @@
+"""Hypothesis profiles: `fast` (the same cases every time), `slow` (HYPOTHESIS_PROFILE=slow)."""
+
+import os
+
+from hypothesis import HealthCheck, settings
+
+settings.register_profile("fast", deadline=None, derandomize=True, max_examples=200)
+settings.register_profile(
+    "slow",
+    deadline=None,
+    max_examples=10_000,
+    print_blob=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fast"))
