@@ -14,7 +14,7 @@ import numpy as np
 import assur
 
 mpl.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402 - the backend is chosen first
+import matplotlib.pyplot as plt
 
 OUT = Path(__file__).resolve().parent.parent / "out"
 
@@ -35,7 +35,9 @@ def engine() -> assur.Mechanism:
     )
 
 
-def table(title: str, names: tuple[str, ...], degrees: np.ndarray, columns: list[np.ndarray]) -> None:
+def table(
+    title: str, names: tuple[str, ...], degrees: np.ndarray, columns: list[np.ndarray]
+) -> None:
     """Print columns over the crank angle."""
     print(f"\n{title}\n{'q, deg':>8}" + "".join(f"{name:>12}" for name in names))
     for row, q in enumerate(degrees):
@@ -71,7 +73,7 @@ def main() -> None:
     motion = four_bar.solve(np.deg2rad(few))
     rocker, gamma = motion.link("rocker"), motion.transmission_angle("C")
     table(
-        f"Crank-rocker, {four_bar.structure.formula} (rocker's angle, rad; transmission angle, rad)",
+        f"Crank-rocker, {four_bar.structure.formula} (angles in rad)",
         ("rocker", "rocker'", "rocker''", "gamma"),
         few,
         [rocker.value, rocker.d1, rocker.d2, gamma],

@@ -2,6 +2,7 @@ from typing import TypedDict
 
 import numpy as np
 import numpy.typing as npt
+from typing_extensions import Self
 
 __all__ = ["Mechanism", "acute", "curvature", "instant_centre", "version"]
 
@@ -20,7 +21,7 @@ class Mechanism:
         slides: list[tuple[str, str, str, float, str | None]],
         drivers: list[tuple[str, str | None]],
         assembly: list[tuple[str, int]],
-    ) -> Mechanism: ...
+    ) -> Self: ...
     @property
     def dimension_names(self) -> list[str]: ...
     @property
@@ -69,9 +70,7 @@ class Mechanism:
     @staticmethod
     def statuses() -> list[tuple[str, int]]: ...
 
-def acute(
-    a: npt.NDArray[np.float64], b: npt.NDArray[np.float64]
-) -> npt.NDArray[np.float64]: ...
+def acute(a: npt.NDArray[np.float64], b: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
 def curvature(
     d1: npt.NDArray[np.float64], d2: npt.NDArray[np.float64]
 ) -> npt.NDArray[np.float64]: ...

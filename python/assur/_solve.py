@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +13,8 @@ from assur.errors import AssurError, DimensionError, InputError, PositionError
 from assur.motion import Motion, Tracks
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
     from assur.mechanism import Mechanism
 
 Float: TypeAlias = npt.NDArray[np.float64]
@@ -22,7 +23,7 @@ Float: TypeAlias = npt.NDArray[np.float64]
 def solve(
     mechanism: Mechanism,
     q: npt.ArrayLike,
-    order: int,
+    order: Any,
     outputs: Iterable[str] | None,
     assembly: Mapping[str, int] | None,
     on_error: str,
@@ -65,7 +66,7 @@ def solve(
 
 
 def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[int, ...], bool]:
-    """The coordinates, the shape of positions, and whether each design has its own."""
+    """Coordinates, the shape of positions, and whether each design has its own."""
     try:
         array = np.array(q, dtype=np.float64, order="C")
     except (TypeError, ValueError) as error:
@@ -146,7 +147,7 @@ def _raise_first(motion: Motion) -> None:
     designs = len(motion.mechanism.shape)
     design = index[:designs] if designs else None
     where = f"design {design}: " if design is not None else ""
-    rest = f" (and {more} more of {bad.size} positions; on_error='nan' keeps the others)" if more else ""
+    rest = f" (and {more} more of {bad.size}; on_error='nan' keeps the others)" if more else ""
     message = f"{where}{sentence}{rest}"
     kinds: dict[int, type[AssurError]] = {
         Status.BAD_DIMENSION: DimensionError,

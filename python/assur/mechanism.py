@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from assur import _core, _solve
+from assur import _solve
+from assur._core import Mechanism as Core
 from assur.description import Assembly, Drive, Slide
 from assur.errors import InputError
-from assur.motion import Motion
 from assur.structure import Group, Structure
+
+if TYPE_CHECKING:
+    from assur.motion import Motion
 
 __all__ = ["Mechanism"]
 
@@ -71,7 +74,7 @@ class Mechanism:
     """
 
     __slots__ = ("__weakref__", "_core", "_joints", "_parts", "_structure", "_values")
-    _core: _core.Mechanism
+    _core: Core
     _parts: Parts
     _values: Float
     _structure: Structure | None
@@ -94,7 +97,7 @@ class Mechanism:
         )
         self._begin(parts, None)
 
-    def _begin(self, parts: Parts, values: Float | None, core: _core.Mechanism | None = None) -> None:
+    def _begin(self, parts: Parts, values: Float | None, core: Core | None = None) -> None:
         core = core or _compile(parts)
         array = np.array(core.drawing if values is None else values, dtype=np.float64, order="C")
         array.flags.writeable = False
@@ -108,13 +111,13 @@ class Mechanism:
             object.__setattr__(self, name, value)
 
     @classmethod
-    def _make(cls, parts: Parts, values: Float | None, core: _core.Mechanism | None = None) -> Mechanism:
+    def _make(cls, parts: Parts, values: Float | None, core: Core | None = None) -> Mechanism:
         mechanism = object.__new__(Mechanism)
         mechanism._begin(parts, values, core)
         return mechanism
 
     def __setattr__(self, name: str, value: object) -> None:
-        message = f"a Mechanism does not change (setting {name!r}); see with_dimensions, with_driver"
+        message = f"a Mechanism does not change ({name!r}): see with_dimensions, with_driver"
         raise AttributeError(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -150,7 +153,7 @@ class Mechanism:
         NaN where a design cannot stand at `q0`.
         """
         if self._joints is None:
-            drawn = {name: (x, y) for name, x, y in self._parts[0]}
+            drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._parts[0]}
             if self._values.ndim > 1 or self._values.tolist() != self._core.drawing:
                 motion = self.solve(self._q0_array(), order=0, on_error="nan")
                 arrays = {name: motion.joint(name).value for name in drawn}
@@ -367,7 +370,7 @@ class Mechanism:
             raise InputError(message)
         one = np.atleast_1d(np.asarray(q, dtype=np.float64))
         if one.shape != (len(self._core.q0),):
-            message = f"assemblies takes one position of {len(self._core.q0)} drivers, not {one.shape}"
+            message = f"q has shape {one.shape}: one position of {len(self._core.q0)} drivers"
             raise InputError(message)
         names = [name for name, _ in self._core.assembly]
         found = self._core.assemblies(self._values.tolist(), one.tolist())
@@ -396,9 +399,9 @@ def _rebuild(parts: Parts, values: Float) -> Mechanism:
     return Mechanism._make(parts, values)
 
 
-def _compile(parts: Parts) -> _core.Mechanism:
+def _compile(parts: Parts) -> Core:
     joints, links, slides, drivers, assembly = parts
-    return _core.Mechanism(
+    return Core(
         joints=list(joints),
         links=[(name, list(on)) for name, on in links],
         slides=[(name, s.link, s.on, s.angle, s.origin) for name, s in slides],
@@ -407,7 +410,7 @@ def _compile(parts: Parts) -> _core.Mechanism:
     )
 
 
-def _items(mapping: Mapping[str, Any], what: str) -> list[tuple[str, Any]]:
+def _items(mapping: Any, what: str) -> list[tuple[str, Any]]:
     if not isinstance(mapping, Mapping):
         message = f"{what} must be a mapping of names, not {type(mapping).__name__}"
         raise InputError(message)
@@ -427,7 +430,7 @@ def _joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
     return (name, x, y)
 
 
-def _slide(name: str, slide: Slide) -> Slide:
+def _slide(name: str, slide: Any) -> Slide:
     if not isinstance(slide, Slide):
         message = f"slide {name!r} is {slide!r}: an assur.Slide is needed"
         raise InputError(message, slide=name)
@@ -439,7 +442,7 @@ def _slide(name: str, slide: Slide) -> Slide:
 
 
 def _drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]:
-    drivers = (driver,) if isinstance(driver, str | Drive) else tuple(driver)
+    drivers: tuple[Any, ...] = (driver,) if isinstance(driver, str | Drive) else tuple(driver)
     for d in drivers:
         if not isinstance(d, str | Drive):
             message = f"driver {d!r}: a name or an assur.Drive is needed"

@@ -120,7 +120,9 @@ class Analogues:
         return array[..., np.newaxis, :] if self._point else array
 
     def _contract(self, derivative: Float, *speeds: Float) -> Float:
-        array = derivative.reshape(derivative.shape + (1,) * len(speeds)) if self._drivers == 1 else derivative
+        array = derivative
+        if self._drivers == 1:
+            array = array.reshape(array.shape + (1,) * len(speeds))
         for speed in reversed(speeds):
             axes = array.ndim - (self.value.ndim + 1)
             aligned = speed.reshape(speed.shape[:-1] + (1,) * axes + speed.shape[-1:])
@@ -175,7 +177,8 @@ class Motion:
         return self.status.shape
 
     def __repr__(self) -> str:
-        return f"<assur.Motion of {self.mechanism._core.formula}, shape {self.shape}, order {self.order}>"
+        formula = self.mechanism._core.formula
+        return f"<assur.Motion of {formula}, shape {self.shape}, order {self.order}>"
 
     def _find(self, kind: str, held: dict[str, tuple[Float, ...]], name: str) -> tuple[Float, ...]:
         if name not in held:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Literal
 
 from assur.description import Slide
 from assur.errors import InputError
 from assur.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 __all__ = ["FourBar", "SliderCrank"]
 

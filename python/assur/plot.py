@@ -30,7 +30,7 @@ def _axes(ax: Any) -> Any:
 def mechanism(mechanism: Mechanism, q: float | None, ax: Any) -> Any:
     """See `Mechanism.plot`."""
     if mechanism.shape:
-        message = f"plot draws one mechanism: take one of the {mechanism.shape} designs, design(i)"
+        message = f"plot draws one mechanism: take one of the designs {mechanism.shape}: design(i)"
         raise InputError(message)
     motion = mechanism.solve(mechanism._q0_array() if q is None else q, order=0)
     return _draw(motion, (), _axes(ax))
@@ -96,11 +96,14 @@ def _hull(points: Any) -> Any:
     return points[order]
 
 
-def _guide(motion: Motion, index: tuple[int, ...], name: str, on: str, size: float, ax: Any) -> None:
-    """A guide through the sliding point, and the block on it."""
+def _guide(
+    motion: Motion, index: tuple[int, ...], name: str, on: str, size: float, ax: Any
+) -> None:
+    """Draw a guide through the sliding point, and the block on it."""
     slide = motion.mechanism.slides[name]
     joints = motion.mechanism.links[slide.link]
-    middle = motion.joint(joints[0]).value[index] if joints else motion._place(slide.link).value[index]
+    place = motion.joint(joints[0]) if joints else motion._place(slide.link)
+    middle = place.value[index]
     own = motion.mechanism.dimensions.get(f"{name}.angle", 0.0)
     angle = float(motion.link(on).value[index]) + float(own)
     along = np.array([np.cos(angle), np.sin(angle)])

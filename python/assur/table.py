@@ -30,21 +30,21 @@ def dataframe(motion: Motion) -> Any:
         name = "q" if drivers == 1 else f"q{k}"
         columns[name] = np.broadcast_to(q[..., k], shape).reshape(-1)
     columns["status"] = motion.status.reshape(-1)
-    tracks = motion._tracks
-    for name, arrays in tracks.joints.items():
-        for order, array in enumerate(arrays):
-            tail = _tails(order, drivers)
-            flat = array.reshape(-1, 2, len(tail))
-            for component, letter in enumerate("xy"):
-                for k, suffix in enumerate(tail):
-                    columns[f"{name}.{letter}{suffix}"] = flat[:, component, k]
-    for name, arrays in (*tracks.links.items(), *tracks.slides.items()):
-        for order, array in enumerate(arrays):
-            tail = _tails(order, drivers)
-            flat = array.reshape(-1, len(tail))
-            for k, suffix in enumerate(tail):
-                columns[f"{name}{suffix}"] = flat[:, k]
+    columns.update(_columns(motion))
     return pd.DataFrame(columns)
+
+
+def _columns(motion: Motion) -> dict[str, Any]:
+    tracks, drivers = motion._tracks, motion._drivers
+    named = [(f"{n}.{xy}", a, k) for n, a in tracks.joints.items() for k, xy in enumerate("xy")]
+    named += [(n, a, 0) for n, a in (*tracks.links.items(), *tracks.slides.items())]
+    columns: dict[str, Any] = {}
+    for name, arrays, component in named:
+        for order, array in enumerate(arrays):
+            tails = _tails(order, drivers)
+            flat = array.reshape(motion.status.size, -1, len(tails))[:, component]
+            columns.update({name + tail: flat[:, k] for k, tail in enumerate(tails)})
+    return columns
 
 
 def _tails(order: int, drivers: int) -> list[str]:

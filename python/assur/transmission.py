@@ -51,7 +51,7 @@ def _pairs(mechanism: Mechanism, joint: str) -> int:
 
 
 def _other_joint(mechanism: Mechanism, link: str, joint: str) -> str:
-    """The link's one other joint where it meets other links."""
+    """Return the link's one other joint where it meets other links."""
     others = [j for j in mechanism.links[link] if j != joint]
     joined = [j for j in others if _pairs(mechanism, j) > 1]
     if len(joined) == 1:
@@ -64,7 +64,7 @@ def _other_joint(mechanism: Mechanism, link: str, joint: str) -> str:
 
 
 def _slide_at(mechanism: Mechanism, joint: str) -> str | None:
-    """The slide of a one-joint link at this joint, if there is one."""
+    """Return the slide of a one-joint link at this joint, if there is one."""
     for name, slide in mechanism.slides.items():
         if tuple(mechanism.links[slide.link]) == (joint,):
             return name
@@ -102,7 +102,7 @@ def _at_slide(motion: Motion, name: str) -> Float:
 def _pivot(mechanism: Mechanism, link: str) -> str:
     joined = [j for j in mechanism.links[link] if _pairs(mechanism, j) > 1]
     if len(joined) != 1:
-        message = f"link {link!r} turns about {len(joined)} joints: the pressure angle is not defined"
+        message = f"link {link!r} turns about {len(joined)} joints: no pressure angle is defined"
         raise InputError(message, link=link)
     return joined[0]
 

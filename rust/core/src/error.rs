@@ -34,12 +34,17 @@ impl std::fmt::Display for Named {
 /// Why a description is not a mechanism that can be solved.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the sentences say what the fields are")]
 pub enum StructureError {
     /// A name that is empty or has a blank, dot, slash, quote or bracket.
-    #[error("{kind} name {name:?} is not allowed: a name is not empty and has no blanks, dots, slashes, quotes or brackets")]
+    #[error(
+        "{kind} name {name:?} is not allowed: a name is not empty and has no blanks, dots, slashes, quotes or brackets"
+    )]
     BadName { kind: Named, name: String },
     /// Two things share a name.
-    #[error("the name {name:?} is used twice ({first} and {second}): every joint, link and slide needs a name of its own")]
+    #[error(
+        "the name {name:?} is used twice ({first} and {second}): every joint, link and slide needs a name of its own"
+    )]
     DoubledName { name: String, first: Named, second: Named },
     /// A joint is listed twice in one link.
     #[error("link {link:?} lists joint {joint:?} twice")]
@@ -51,25 +56,37 @@ pub enum StructureError {
     #[error("{what} of {kind} {name:?} is {value}: a finite number is needed")]
     NotFinite { kind: Named, name: String, what: &'static str, value: f64 },
     /// A joint that no link has.
-    #[error("joint {joint:?} is on no link: add it to the list of the link it belongs to, or leave it out")]
+    #[error(
+        "joint {joint:?} is on no link: add it to the list of the link it belongs to, or leave it out"
+    )]
     LooseJoint { joint: String },
     /// First and second joint of a link coincide.
-    #[error("link {link:?} has length zero: its first two joints {first:?} and {second:?} are both at ({x}, {y})")]
+    #[error(
+        "link {link:?} has length zero: its first two joints {first:?} and {second:?} are both at ({x}, {y})"
+    )]
     ZeroLength { link: String, first: String, second: String, x: f64, y: f64 },
     /// There is no link called `ground`.
-    #[error("there is no link \"ground\": add links[\"ground\"] with the fixed joints (an empty list if only slides are fixed)")]
+    #[error(
+        "there is no link \"ground\": add links[\"ground\"] with the fixed joints (an empty list if only slides are fixed)"
+    )]
     NoGround,
     /// A slide or driver that relates a link to itself.
     #[error("{place} relates link {link:?} to itself")]
     SameLink { place: String, link: String },
     /// The named origin is not a joint of the link that carries the guide.
-    #[error("slide {slide:?} has origin {joint:?}, which is not a joint of link {link:?} that carries the guide")]
+    #[error(
+        "slide {slide:?} has origin {joint:?}, which is not a joint of link {link:?} that carries the guide"
+    )]
     OriginNotOnLink { slide: String, joint: String, link: String },
     /// A slide of a link without joints, with no origin.
-    #[error("slide {slide:?}: link {link:?} has no joint, so the drawing does not say where the guide passes: give the slide an origin, a joint of link {on:?}")]
+    #[error(
+        "slide {slide:?}: link {link:?} has no joint, so the drawing does not say where the guide passes: give the slide an origin, a joint of link {on:?}"
+    )]
     GuideNowhere { slide: String, link: String, on: String },
     /// A link without joints whose guides do not place it.
-    #[error("link {link:?} has no joint and its guides do not cross: it needs two slides that are not parallel")]
+    #[error(
+        "link {link:?} has no joint and its guides do not cross: it needs two slides that are not parallel"
+    )]
     Unplaced { link: String },
     /// No driver given.
     #[error("the mechanism has no driver: name a link, a slide or a Drive")]
@@ -84,22 +101,37 @@ pub enum StructureError {
     #[error("not connected to the ground by any joint or slide: {links}")]
     Unconnected { links: String },
     /// A closed chain of sliding pairs only.
-    #[error("slides {slides} form a closed chain of sliding pairs only (PPP): links joined so cannot turn, and the chain is no Assur group")]
+    #[error(
+        "slides {slides} form a closed chain of sliding pairs only (PPP): links joined so cannot turn, and the chain is no Assur group"
+    )]
     SlidesOnly { slides: String },
     /// Real mobility is zero.
     #[error("the linkage cannot move (mobility 0, counted {counted} by Chebyshev-Grübler){over}")]
     Immovable { counted: i64, over: String },
     /// Real mobility differs from the number of drivers.
-    #[error("mobility is {mobility} (counted {counted} by Chebyshev-Grübler) but there {drivers_are}{under}{over}")]
-    Mobility { mobility: usize, counted: i64, drivers: usize, drivers_are: String, under: String, over: String },
+    #[error(
+        "mobility is {mobility} (counted {counted} by Chebyshev-Grübler) but there {drivers_are}{under}{over}"
+    )]
+    Mobility {
+        mobility: usize,
+        counted: i64,
+        drivers: usize,
+        drivers_are: String,
+        under: String,
+        over: String,
+    },
     /// A driver that fixes nothing that can move.
     #[error("driver {driver} cannot drive: {reason}")]
     CannotDrive { driver: String, reason: String },
     /// Too many constraints, and no whole link to leave out.
-    #[error("over-constrained by {excess}: {links}; no whole link or slide can be left out of them without freeing the linkage")]
+    #[error(
+        "over-constrained by {excess}: {links}; no whole link or slide can be left out of them without freeing the linkage"
+    )]
     OverConstrained { excess: usize, links: String },
     /// A dyad drawn flat.
-    #[error("dyad {dyad} is drawn flat (sine {sine:.1e} between its legs): the drawing does not say on which side {name:?} is; draw it to one side, or name the assembly: assembly={{{name:?}: +1}} or -1")]
+    #[error(
+        "dyad {dyad} is drawn flat (sine {sine:.1e} between its legs): the drawing does not say on which side {name:?} is; draw it to one side, or name the assembly: assembly={{{name:?}: +1}} or -1"
+    )]
     FlatDyad { dyad: String, name: String, sine: f64 },
     /// An assembly sign that is not ±1.
     #[error("assembly[{name:?}] is {value}: it must be +1 or -1")]
@@ -109,6 +141,7 @@ pub enum StructureError {
 /// Why a motion cannot be computed at all.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the sentences say what the fields are")]
 pub enum SolveError {
     /// A group above class II.
     #[error("group {group} is of class {class}: only groups of class II can be solved so far")]

@@ -52,7 +52,17 @@ impl Mechanism {
                 ((linkage.drawing_angle(l) - angle) / TAU).round()
             })
             .collect();
-        Ok(Self { linkage, structure, plan, dimensions, drawing, q0, signs, class_angle, whole_turns })
+        Ok(Self {
+            linkage,
+            structure,
+            plan,
+            dimensions,
+            drawing,
+            q0,
+            signs,
+            class_angle,
+            whole_turns,
+        })
     }
 
     /// The description with names resolved.
@@ -191,7 +201,13 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
         let sine = drawn_sine(linkage, plan, dyad);
         signs[place] = match named {
             Some((_, sign)) => *sign,
-            None if sine.abs() >= FLAT_SINE => if sine > 0.0 { 1 } else { -1 },
+            None if sine.abs() >= FLAT_SINE => {
+                if sine > 0.0 {
+                    1
+                } else {
+                    -1
+                }
+            }
             None => {
                 return Err(StructureError::FlatDyad {
                     dyad: plan.dyad_links[place].clone(),

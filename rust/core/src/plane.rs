@@ -126,9 +126,6 @@ impl Mul for Vector {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        Self {
-            x: self.x * other.x - self.y * other.y,
-            y: self.x * other.y + self.y * other.x,
-        }
+        Self { x: self.x * other.x - self.y * other.y, y: self.x * other.y + self.y * other.x }
     }
 }

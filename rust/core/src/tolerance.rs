@@ -47,10 +47,10 @@ pub const CLOSURE_PER_CONDITION: f64 = 8.0 * UNIT_ROUNDOFF;
 /// Error of an analogue per unit of squared condition, of the analogue's size.
 pub const ANALOGUE_PER_CONDITION_SQUARED: f64 = 64.0 * UNIT_ROUNDOFF;
 
-/// Positions whose analogues keep fewer digits than this are NEAR_SINGULAR.
+/// Positions whose analogues keep fewer digits than this are near-singular.
 pub const DIGITS_LEFT: f64 = 1.0e-6;
 
-/// Condition from which a position is NEAR_SINGULAR:
+/// Condition from which a position is near-singular:
 /// 64 u κ² reaches [`DIGITS_LEFT`], about 8.4e3.
 #[must_use]
 pub fn near_singular_condition() -> f64 {

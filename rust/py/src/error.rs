@@ -49,7 +49,9 @@ pub(crate) fn structure(error: StructureError) -> PyErr {
     let fields = match &error {
         E::BadName { kind, name } | E::Unknown { kind, name, .. } => Fields::named(*kind, name),
         E::DoubledName { name, second, .. } => Fields::named(*second, name),
-        E::NotFinite { kind, name, value, .. } => Fields { value: Some(*value), ..Fields::named(*kind, name) },
+        E::NotFinite { kind, name, value, .. } => {
+            Fields { value: Some(*value), ..Fields::named(*kind, name) }
+        }
         E::DoubledJoint { link, joint } => {
             Fields { link: Some(link), joint: Some(joint), ..Fields::default() }
         }
@@ -57,16 +59,18 @@ pub(crate) fn structure(error: StructureError) -> PyErr {
         E::ZeroLength { link, second, .. } => {
             Fields { link: Some(link), joint: Some(second), value: Some(0.0), ..Fields::default() }
         }
-        E::SameLink { link, .. } | E::Unplaced { link } => Fields { link: Some(link), ..Fields::default() },
+        E::SameLink { link, .. } | E::Unplaced { link } => {
+            Fields { link: Some(link), ..Fields::default() }
+        }
         E::OriginNotOnLink { slide, joint, link } => {
             Fields { slide: Some(slide), joint: Some(joint), link: Some(link), ..Fields::default() }
         }
         E::GuideNowhere { slide, link, .. } => {
             Fields { slide: Some(slide), link: Some(link), ..Fields::default() }
         }
-        E::GroundDriven { driver } | E::DoubledDriver { driver } | E::CannotDrive { driver, .. } => {
-            Fields { driver: Some(driver), ..Fields::default() }
-        }
+        E::GroundDriven { driver }
+        | E::DoubledDriver { driver }
+        | E::CannotDrive { driver, .. } => Fields { driver: Some(driver), ..Fields::default() },
         E::Unconnected { links } | E::OverConstrained { links, .. } => {
             Fields { link: first_quoted(links), ..Fields::default() }
         }
@@ -101,7 +105,9 @@ pub(crate) fn solve(error: SolveError) -> PyErr {
             let fields = Fields { dimension: Some(name), value: Some(*value), ..Fields::default() };
             raise("DimensionError", message, &fields)
         }
-        SolveError::Unknown { kind, name, .. } => raise("InputError", message, &Fields::named(*kind, name)),
+        SolveError::Unknown { kind, name, .. } => {
+            raise("InputError", message, &Fields::named(*kind, name))
+        }
         _ => raise("InputError", message, &Fields::default()),
     }
 }

@@ -1,8 +1,8 @@
 //! The mechanism as Python sees it: names in, arrays out.
 
 use assur::{
-    Coordinates, Description, DriverDescription, Motion, Outputs, Request, SlideDescription, Status,
-    Track,
+    Coordinates, Description, DriverDescription, Motion, Outputs, Request, SlideDescription,
+    Status, Track,
 };
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -10,8 +10,11 @@ use pyo3::types::PyDict;
 
 use crate::error;
 
+/// Residuals and conditions.
+type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 type SlideArguments = (String, String, String, f64, Option<String>);
-type GroupParts = (usize, usize, Option<&'static str>, Option<usize>, Vec<String>, Vec<String>, Vec<String>);
+type GroupParts =
+    (usize, usize, Option<&'static str>, Option<usize>, Vec<String>, Vec<String>, Vec<String>);
 
 /// A compiled mechanism.
 #[pyclass(frozen, module = "assur._core")]
@@ -34,7 +37,13 @@ impl Mechanism {
             links,
             slides: slides
                 .into_iter()
-                .map(|(name, link, on, angle, origin)| SlideDescription { name, link, on, angle, origin })
+                .map(|(name, link, on, angle, origin)| SlideDescription {
+                    name,
+                    link,
+                    on,
+                    angle,
+                    origin,
+                })
                 .collect(),
             drivers: drivers
                 .into_iter()
@@ -164,7 +173,11 @@ impl Mechanism {
                 let outputs = Outputs { joints, links, slides };
                 self.inner.solve(&Request {
                     dimensions: &dimensions,
-                    coordinates: if per_design { Coordinates::PerDesign(&q) } else { Coordinates::Shared(&q) },
+                    coordinates: if per_design {
+                        Coordinates::PerDesign(&q)
+                    } else {
+                        Coordinates::Shared(&q)
+                    },
                     signs: &signs,
                     order,
                     outputs: &outputs,
@@ -182,7 +195,7 @@ impl Mechanism {
         q: PyReadonlyArray1<'py, f64>,
         per_design: bool,
         signs: Vec<i8>,
-    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+    ) -> PyResult<Diagnostics<'py>> {
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
         let both = py
             .detach(|| {
@@ -209,7 +222,12 @@ impl Mechanism {
     }
 
     /// One position looked at closely: status, name concerned, sentence.
-    fn explain(&self, dimensions: Vec<f64>, q: Vec<f64>, signs: Vec<i8>) -> PyResult<(u8, Option<String>, String)> {
+    fn explain(
+        &self,
+        dimensions: Vec<f64>,
+        q: Vec<f64>,
+        signs: Vec<i8>,
+    ) -> PyResult<(u8, Option<String>, String)> {
         let d = self.inner.diagnose(&dimensions, &q, &signs).map_err(error::solve)?;
         Ok((d.status as u8, d.name, d.sentence))
     }
@@ -241,7 +259,8 @@ fn arrays(py: Python<'_>, motion: Motion) -> PyResult<Bound<'_, PyDict>> {
     let tracks = |tracks: Vec<Track>| -> PyResult<Bound<'_, PyDict>> {
         let dict = PyDict::new(py);
         for track in tracks {
-            let arrays: Vec<_> = track.derivatives.into_iter().map(|v| PyArray1::from_vec(py, v)).collect();
+            let arrays: Vec<_> =
+                track.derivatives.into_iter().map(|v| PyArray1::from_vec(py, v)).collect();
             dict.set_item(track.index, arrays)?;
         }
         Ok(dict)

@@ -12,7 +12,11 @@ fn pairs(array: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<Vector>> {
 }
 
 fn same(a: usize, b: usize) -> PyResult<()> {
-    if a == b { Ok(()) } else { Err(PyValueError::new_err(format!("{a} and {b} entries do not match"))) }
+    if a == b {
+        Ok(())
+    } else {
+        Err(PyValueError::new_err(format!("{a} and {b} entries do not match")))
+    }
 }
 
 /// Acute angles between pairs of directions (flat x, y).

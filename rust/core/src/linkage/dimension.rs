@@ -5,6 +5,7 @@ use crate::error::{Named, SolveError};
 
 /// What one dimension measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the fields are indices of what their names say")]
 pub enum Dimension {
     /// x of a ground joint in the drawing's frame, m.
     GroundX { joint: usize },
@@ -146,25 +147,22 @@ fn in_frame(linkage: &Linkage, link: usize, point: [f64; 2]) -> [f64; 2] {
         linkage.reference_point(link).unwrap_or([0.0; 2])
     };
     let (x, y) = (point[0] - origin[0], point[1] - origin[1]);
-    match (linkage.axis(link), &linkage.links[link].joints[..]) {
-        (Axis::Joints, &[first, second, ..]) => {
-            // With the unit vector of the joints, not its angle: exact for axis-parallel links.
-            let (a, b) = (linkage.joints[first].at, linkage.joints[second].at);
-            let length = polar(a, b).0;
-            let (c, s) = ((b[0] - a[0]) / length, (b[1] - a[1]) / length);
-            [x * c + y * s, y * c - x * s]
-        }
-        _ => {
-            let (s, c) = linkage.drawing_angle(link).sin_cos();
-            [x * c + y * s, y * c - x * s]
-        }
-    }
+    let joints = &linkage.links[link].joints;
+    let (c, s) = if linkage.axis(link) == Axis::Joints {
+        // The joints' own unit vector, not their angle: exact along the axes.
+        let (a, b) = (linkage.joints[joints[0]].at, linkage.joints[joints[1]].at);
+        let length = polar(a, b).0;
+        ((b[0] - a[0]) / length, (b[1] - a[1]) / length)
+    } else {
+        let (sin, cos) = linkage.drawing_angle(link).sin_cos();
+        (cos, sin)
+    };
+    [x * c + y * s, y * c - x * s]
 }
 
 fn drawing_value(linkage: &Linkage, dimension: Dimension) -> f64 {
-    let guide_angle = |slide: usize, link: usize| {
-        linkage.slides[slide].angle - linkage.drawing_angle(link)
-    };
+    let guide_angle =
+        |slide: usize, link: usize| linkage.slides[slide].angle - linkage.drawing_angle(link);
     match dimension {
         Dimension::GroundX { joint } => linkage.joints[joint].at[0],
         Dimension::GroundY { joint } => linkage.joints[joint].at[1],

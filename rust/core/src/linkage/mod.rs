@@ -5,8 +5,8 @@
 //! give the dimensions and the assembly.
 
 mod dimension;
-mod frame;
 mod four_bar;
+mod frame;
 mod names;
 mod slider_crank;
 mod validate;
@@ -152,7 +152,14 @@ impl Description {
 
     /// Adds a slide: `link` slides on `on` along `angle` (rad, in the drawing).
     #[must_use]
-    pub fn slide(mut self, name: &str, link: &str, on: &str, angle: f64, origin: Option<&str>) -> Self {
+    pub fn slide(
+        mut self,
+        name: &str,
+        link: &str,
+        on: &str,
+        angle: f64,
+        origin: Option<&str>,
+    ) -> Self {
         self.slides.push(SlideDescription {
             name: name.into(),
             link: link.into(),

@@ -5,7 +5,7 @@
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let mut ranked: Vec<(usize, &str)> = known.map(|k| (distance(name, k), k)).collect();
-    ranked.sort();
+    ranked.sort_unstable();
     if ranked.is_empty() {
         return String::new();
     }

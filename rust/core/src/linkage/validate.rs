@@ -91,7 +91,8 @@ fn check_names(description: &Description) -> Result<(), StructureError> {
         .chain(description.slides.iter().map(|s| (&s.name, Named::Slide)));
     let mut seen: HashMap<&str, Named> = HashMap::new();
     for (name, kind) in names {
-        let forbidden = |c: char| c.is_whitespace() || c.is_control() || "./\\'\"`()[]{}<>".contains(c);
+        let forbidden =
+            |c: char| c.is_whitespace() || c.is_control() || "./\\'\"`()[]{}<>".contains(c);
         if name.is_empty() || name.contains(forbidden) {
             return Err(StructureError::BadName { kind, name: name.clone() });
         }
@@ -199,20 +200,19 @@ fn drivers(description: &Description, linkage: &Linkage) -> Result<Vec<Driver>, 
     for d in &description.drivers {
         let driver = match d {
             DriverDescription::Named(name) => {
-                match linkage.slides.iter().position(|s| &s.name == name) {
-                    Some(slide) => Driver::Slide(slide),
-                    None => {
-                        let names = linkage.slides.iter().map(|s| s.name.as_str());
-                        let link = link_index.get(name.as_str()).copied().ok_or_else(|| {
-                            StructureError::Unknown {
-                                kind: Named::Link,
-                                name: name.clone(),
-                                place: "driver".into(),
-                                hint: nearest(name, link_index.keys().copied().chain(names)),
-                            }
-                        })?;
-                        Driver::Angle { link, relative_to: linkage.ground }
-                    }
+                let names = linkage.slides.iter().map(|s| s.name.as_str());
+                let by_link = || link_index.get(name.as_str()).copied();
+                if let Some(slide) = names.clone().position(|s| s == name) {
+                    Driver::Slide(slide)
+                } else if let Some(link) = by_link() {
+                    Driver::Angle { link, relative_to: linkage.ground }
+                } else {
+                    return Err(StructureError::Unknown {
+                        kind: Named::Link,
+                        name: name.clone(),
+                        place: "driver".into(),
+                        hint: nearest(name, link_index.keys().copied().chain(names)),
+                    });
                 }
             }
             DriverDescription::Relative { link, relative_to } => {

@@ -87,8 +87,11 @@ impl State {
             let mut rigid = cx.bound.rigid[e];
             match edge.along {
                 Along::Nothing => {}
-                Along::Driver { slide, .. } => rigid += cx.bound.guide[e].scale(self.slides[slide * len]),
-                Along::Slide(s) => match dyad.unknowns.iter().position(|&u| u == Unknown::Slide(s)) {
+                Along::Driver { slide, .. } => {
+                    rigid += cx.bound.guide[e].scale(self.slides[slide * len]);
+                }
+                Along::Slide(s) => match dyad.unknowns.iter().position(|&u| u == Unknown::Slide(s))
+                {
                     Some(place) => terms[place] += signed(unit * cx.bound.guide[e]),
                     None => rigid += cx.bound.guide[e].scale(self.slides[s * len]),
                 },
@@ -204,7 +207,8 @@ mod tests {
     #[test]
     fn right_triangle_three_four_five() {
         let (u, v, flat) =
-            two_circles(Vector::new(3.0, 0.0), Vector::new(4.0, 0.0), Vector::new(5.0, 0.0), 1.0).unwrap();
+            two_circles(Vector::new(3.0, 0.0), Vector::new(4.0, 0.0), Vector::new(5.0, 0.0), 1.0)
+                .unwrap();
         assert!(!flat);
         assert!((u.x - 0.6).abs() < TOLERANCE && (u.y - 0.8).abs() < TOLERANCE);
         assert!((v.x - 0.8).abs() < TOLERANCE && (v.y + 0.6).abs() < TOLERANCE);

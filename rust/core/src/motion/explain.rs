@@ -33,7 +33,12 @@ impl Mechanism {
     /// # Errors
     ///
     /// A group of higher class.
-    pub fn diagnose(&self, dimensions: &[f64], q: &[f64], signs: &[i8]) -> Result<Diagnosis, SolveError> {
+    pub fn diagnose(
+        &self,
+        dimensions: &[f64],
+        q: &[f64],
+        signs: &[i8],
+    ) -> Result<Diagnosis, SolveError> {
         self.require_closed_form()?;
         let nothing = |status, name, sentence| Diagnosis {
             status,
@@ -60,12 +65,17 @@ impl Mechanism {
         state.solve(&cx, &scaled);
         let at = place_of(q);
         Ok(match state.status {
-            Status::BadInput => {
-                nothing(Status::BadInput, None, format!("q = {at} is no number: a finite coordinate is needed"))
-            }
+            Status::BadInput => nothing(
+                Status::BadInput,
+                None,
+                format!("q = {at} is no number: a finite coordinate is needed"),
+            ),
             Status::Unreachable => {
                 let (name, sentence) = self.unreachable(&state, bound.scale, &at);
-                Diagnosis { step: state.fault.map(Fault::step), ..nothing(Status::Unreachable, Some(name), sentence) }
+                Diagnosis {
+                    step: state.fault.map(Fault::step),
+                    ..nothing(Status::Unreachable, Some(name), sentence)
+                }
             }
             status => {
                 let name = state.fault.map(|fault| self.step_name(fault));
@@ -76,12 +86,21 @@ impl Mechanism {
                         name.as_deref().unwrap_or("?")
                     ),
                     Status::NearSingular => {
-                        format!("at q = {at} the condition is {condition:.1e}: fewer than 6 digits of the analogues remain")
+                        format!(
+                            "at q = {at} the condition is {condition:.1e}: fewer than 6 digits of the analogues remain"
+                        )
                     }
                     _ => format!("at q = {at} the position is solved, condition {condition:.1e}"),
                 };
                 let step = state.fault.map(Fault::step);
-                Diagnosis { status, residual: residual(&cx, &state), condition, name, step, sentence }
+                Diagnosis {
+                    status,
+                    residual: residual(&cx, &state),
+                    condition,
+                    name,
+                    step,
+                    sentence,
+                }
             }
         })
     }
@@ -124,7 +143,13 @@ impl Mechanism {
     }
 
     /// Whether the dyads up to sign number `place` close.
-    fn exists(&self, dimensions: &[f64], q: &[f64], signs: &[i8], place: usize) -> Result<bool, SolveError> {
+    fn exists(
+        &self,
+        dimensions: &[f64],
+        q: &[f64],
+        signs: &[i8],
+        place: usize,
+    ) -> Result<bool, SolveError> {
         let diagnosis = self.diagnose(dimensions, q, signs)?;
         let last = place + 1 >= signs.len();
         let beyond = |step: usize| match &self.plan().steps[step] {
@@ -159,7 +184,7 @@ impl Mechanism {
                 "at q = {at} the redundant {name:?} does not fit: it misses by {:.3e} m",
                 gap * scale
             ),
-            Fault::Open { gap, .. } if gap == 0.0 => format!(
+            Fault::Open { gap: 0.0, .. } => format!(
                 "at q = {at} the outer joints of dyad {name:?} coincide: its links may stand in any direction"
             ),
             Fault::Open { gap, .. } if !gap.is_finite() => {

@@ -35,10 +35,18 @@ impl State {
 
     /// Orientation from two joints that others carry; returns the misfit of
     /// their distance.
-    fn turn_by_joints(&mut self, cx: &Context<'_>, link: usize, arm: Vector, points: [usize; 2]) -> f64 {
+    fn turn_by_joints(
+        &mut self,
+        cx: &Context<'_>,
+        link: usize,
+        arm: Vector,
+        points: [usize; 2],
+    ) -> f64 {
         let len = self.len;
         let o = cx.plan.link_orientation[link];
-        let span = |state: &Self, k: usize| state.points[points[1] * len + k] - state.points[points[0] * len + k];
+        let span = |state: &Self, k: usize| {
+            state.points[points[1] * len + k] - state.points[points[0] * len + k]
+        };
         let chord = span(self, 0);
         let (length, distance) = (arm.norm(), chord.norm());
         let per = 1.0 / (length * distance);
@@ -108,7 +116,9 @@ impl State {
 
     /// Sine of the angle by which two links miss their angle at a slide.
     fn angle_misfit(&self, cx: &Context<'_>, slide: usize) -> f64 {
-        let Some(e) = cx.plan.edges.iter().find(|e| e.along == Along::Slide(slide)) else { return 0.0 };
+        let Some(e) = cx.plan.edges.iter().find(|e| e.along == Along::Slide(slide)) else {
+            return 0.0;
+        };
         let on = e.edge.link;
         let (link, constant) = cx.plan.across_slide(cx.bound, on, slide);
         let turned = self.orient[cx.plan.link_orientation[link] * self.len] * constant;

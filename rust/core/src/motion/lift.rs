@@ -59,11 +59,13 @@ impl Walker<'_, '_> {
     fn knot(&mut self, at: f64, from: &[f64]) -> Knot {
         (self.path.point)(at, &mut self.q);
         self.state.solve(self.cx, &self.q);
-        let reached = matches!(self.state.status, Status::Ok | Status::NearSingular | Status::Singular);
+        let reached =
+            matches!(self.state.status, Status::Ok | Status::NearSingular | Status::Singular);
         if !reached {
             return Knot { at, reached, angles: from.to_vec(), rates: vec![0.0; from.len()] };
         }
-        let angles = self.state.class.iter().zip(from).map(|(u, &near)| nearest(u.angle(), near)).collect();
+        let angles =
+            self.state.class.iter().zip(from).map(|(u, &near)| nearest(u.angle(), near)).collect();
         let len = self.state.len;
         let rates = (0..from.len())
             .map(|c| {
@@ -105,8 +107,8 @@ fn too_far(a: &Knot, b: &Knot, depth: u32) -> bool {
     let cell = (b.at - a.at).abs();
     let turned = a.angles.iter().zip(&b.angles).any(|(x, y)| (x - y).abs() > LIFT_TURN);
     // Near a dead point rates grow without bound while the angle does not.
-    let fast = depth < EDGE_HALVINGS
-        && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > LIFT_TURN);
+    let fast =
+        depth < EDGE_HALVINGS && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > LIFT_TURN);
     a.reached && (turned || fast)
 }
 
@@ -164,7 +166,13 @@ impl Lift {
 
     /// Straight from the drawing to one point of several coordinates.
     #[must_use]
-    pub fn straight(cx: &Context<'_>, state: &mut State, q0: &[f64], q1: &[f64], start: &[f64]) -> Self {
+    pub fn straight(
+        cx: &Context<'_>,
+        state: &mut State,
+        q0: &[f64],
+        q1: &[f64],
+        start: &[f64],
+    ) -> Self {
         let rates: Vec<f64> = q0.iter().zip(q1).map(|(a, b)| b - a).collect();
         let point = |at: f64, q: &mut [f64]| {
             for ((x, &a), &rate) in q.iter_mut().zip(q0).zip(&rates) {

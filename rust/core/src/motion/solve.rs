@@ -105,17 +105,24 @@ pub fn solve(mechanism: &Mechanism, request: &Request<'_>) -> Result<Motion, Sol
         let values = &request.dimensions[design * shape.dimensions..][..shape.dimensions];
         let q_all = match request.coordinates {
             Coordinates::Shared(q) => q,
-            Coordinates::PerDesign(q) => &q[design * shape.positions * shape.drivers..][..shape.positions * shape.drivers],
+            Coordinates::PerDesign(q) => {
+                &q[design * shape.positions * shape.drivers..][..shape.positions * shape.drivers]
+            }
         };
         if mechanism.dimensions().first_fault(values).is_some() {
             let rows = design * shape.positions..(design + 1) * shape.positions;
             motion.status[rows].fill(Status::BadDimension as u8);
             continue;
         }
-        let bound = Bound::new(mechanism.plan(), mechanism.linkage(), mechanism.dimensions(), values);
+        let bound =
+            Bound::new(mechanism.plan(), mechanism.linkage(), mechanism.dimensions(), values);
         let cx = Context { plan: mechanism.plan(), bound: &bound, jets: &jets, signs: &signs };
         let unit = Units::new(mechanism, &cx);
-        let scaled: Vec<f64> = q_all.iter().enumerate().map(|(i, &q)| q * unit.coordinate[i % shape.drivers]).collect();
+        let scaled: Vec<f64> = q_all
+            .iter()
+            .enumerate()
+            .map(|(i, &q)| q * unit.coordinate[i % shape.drivers])
+            .collect();
         let angles = lifts.then(|| Angles::new(mechanism, &cx, &scaled, &unit));
         for position in 0..shape.positions {
             let row = design * shape.positions + position;
@@ -123,7 +130,8 @@ pub fn solve(mechanism: &Mechanism, request: &Request<'_>) -> Result<Motion, Sol
             state.solve(&cx, q);
             motion.status[row] = state.status as u8;
             if matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular) {
-                let write = Write { mechanism, cx: &cx, state: &state, unit: &unit, layout: &layout, row };
+                let write =
+                    Write { mechanism, cx: &cx, state: &state, unit: &unit, layout: &layout, row };
                 write.all(&mut motion, angles.as_ref(), q);
             }
         }
@@ -152,7 +160,7 @@ impl Shape {
                 mechanism.plan().signs()
             ));
         }
-        let designs = if dimensions == 0 { 1 } else { request.dimensions.len() / dimensions };
+        let designs = request.dimensions.len().checked_div(dimensions).unwrap_or(1);
         if designs * dimensions != request.dimensions.len() {
             return wrong(format!(
                 "{} numbers are not a whole number of designs of {dimensions} dimensions",
@@ -164,7 +172,9 @@ impl Shape {
             Coordinates::PerDesign(q) => (q.len(), drivers * designs),
         };
         if per == 0 || count % per != 0 {
-            return wrong(format!("{count} coordinates do not divide into positions of {drivers} drivers"));
+            return wrong(format!(
+                "{count} coordinates do not divide into positions of {drivers} drivers"
+            ));
         }
         Ok(Self { designs, positions: count / per, drivers, dimensions })
     }
@@ -245,7 +255,8 @@ enum Angles {
 impl Angles {
     fn new(mechanism: &Mechanism, cx: &Context<'_>, scaled: &[f64], unit: &Units) -> Self {
         let jets = Jets::new(mechanism.q0().len(), 1);
-        let q0: Vec<f64> = mechanism.q0().iter().zip(&unit.coordinate).map(|(q, u)| q * u).collect();
+        let q0: Vec<f64> =
+            mechanism.q0().iter().zip(&unit.coordinate).map(|(q, u)| q * u).collect();
         let [start] = q0[..] else { return Self::OwnPath { jets, q0 } };
         let cx = Context { jets: &jets, ..*cx };
         let mut state = State::new(cx.plan, &jets, mechanism.linkage().slides.len());
@@ -324,7 +335,9 @@ impl Write<'_> {
 
     fn point(&self, track: &mut Track, point: usize) {
         let origin = self.cx.bound.origin;
-        for (order, (array, tensor)) in track.derivatives.iter_mut().zip(&self.layout.tensors).enumerate() {
+        for (order, (array, tensor)) in
+            track.derivatives.iter_mut().zip(&self.layout.tensors).enumerate()
+        {
             let out = &mut array[self.row * 2 * tensor.len()..][..2 * tensor.len()];
             for (place, &k) in tensor.iter().enumerate() {
                 let p = self.state.points[point * self.state.len + k].scale(self.unit.length[k]);
@@ -339,7 +352,9 @@ impl Write<'_> {
     }
 
     fn scalar(&self, track: &mut Track, factor: &[f64], entry: impl Fn(usize) -> f64) {
-        for (order, (array, tensor)) in track.derivatives.iter_mut().zip(&self.layout.tensors).enumerate() {
+        for (order, (array, tensor)) in
+            track.derivatives.iter_mut().zip(&self.layout.tensors).enumerate()
+        {
             let out = &mut array[self.row * tensor.len()..][..tensor.len()];
             for (place, &k) in tensor.iter().enumerate() {
                 let value = entry(k) * factor[k];

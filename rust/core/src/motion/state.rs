@@ -31,6 +31,7 @@ pub enum Status {
 
 /// Where and why a position failed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the fields are indices of what their names say")]
 pub enum Fault {
     /// Dyad (step) whose triangle does not close, by this part of the size.
     Open { step: usize, gap: f64 },
@@ -313,7 +314,8 @@ impl State {
                 self.orient[o * len + k] = partial + self.orient[o * len].left().scale(driven);
             }
             let known = self.closure(cx, dyad, k);
-            let values = [columns[1].cross(known) / determinant, known.cross(columns[0]) / determinant];
+            let values =
+                [columns[1].cross(known) / determinant, known.cross(columns[0]) / determinant];
             for (unknown, value) in dyad.unknowns.into_iter().zip(values) {
                 match unknown {
                     Unknown::Slide(s) => self.slides[s * len + k] = value,

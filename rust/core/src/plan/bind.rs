@@ -59,7 +59,9 @@ impl Bound {
                 Span::Guide { slide } => {
                     let direction = unit(read.slide_angle(slide));
                     let mut start = read.slide_origin(slide);
-                    if linkage.slides[slide].on == linkage.ground && linkage.slides[slide].origin.is_none() {
+                    if linkage.slides[slide].on == linkage.ground
+                        && linkage.slides[slide].origin.is_none()
+                    {
                         start = start - Vector::new(origin[0], origin[1]);
                     }
                     (start + direction.left().scale(read.slide_offset(slide)), direction)
@@ -155,8 +157,12 @@ fn scale(linkage: &Linkage, read: &Reader<'_>, origin: [f64; 2]) -> f64 {
         let length = match dimension {
             Dimension::GroundX { .. } => value - origin[0],
             Dimension::GroundY { .. } => value - origin[1],
-            Dimension::SlideOriginX { slide } if linkage.slides[slide].on == linkage.ground => value - origin[0],
-            Dimension::SlideOriginY { slide } if linkage.slides[slide].on == linkage.ground => value - origin[1],
+            Dimension::SlideOriginX { slide } if linkage.slides[slide].on == linkage.ground => {
+                value - origin[0]
+            }
+            Dimension::SlideOriginY { slide } if linkage.slides[slide].on == linkage.ground => {
+                value - origin[1]
+            }
             d if d.is_length() => value,
             _ => 0.0,
         };
@@ -181,7 +187,9 @@ mod tests {
 
     #[test]
     fn powers_of_two() {
-        for (x, p) in [(1.0, 1.0), (1.99, 1.0), (0.3, 0.25), (4.8, 4.0), (0.0, 1.0), (f64::NAN, 1.0)] {
+        for (x, p) in
+            [(1.0, 1.0), (1.99, 1.0), (0.3, 0.25), (4.8, 4.0), (0.0, 1.0), (f64::NAN, 1.0)]
+        {
             assert!(power_of_two(x) == p, "{x}");
         }
         assert!(power_of_two(1e-150) <= 1e-150 && power_of_two(1e150) <= 1e150);

@@ -65,7 +65,8 @@ pub fn add_steps(
     let mut known = plan.fixed.clone();
     for block in &blocks {
         let mut edges: Vec<usize> = block.equations.iter().map(|&e| kept[e]).collect();
-        let mut unknowns: Vec<Unknown> = block.unknowns.iter().filter_map(|&u| nodes.unknown(u)).collect();
+        let mut unknowns: Vec<Unknown> =
+            block.unknowns.iter().filter_map(|&u| nodes.unknown(u)).collect();
         match unknowns.len() {
             0 => {}
             2 => {
@@ -73,7 +74,9 @@ pub fn add_steps(
                 plan.steps.push(Step::Dyad(dyad));
             }
             _ => {
-                plan.higher.get_or_insert_with(|| higher(plan_links(linkage, &plan.edges, &edges), linkage, structure));
+                plan.higher.get_or_insert_with(|| {
+                    higher(plan_links(linkage, &plan.edges, &edges), linkage, structure)
+                });
             }
         }
         place(plan, &mut known, edges);
@@ -126,7 +129,8 @@ impl Nodes {
         }
         for &e in kept {
             let edge = &plan.edges[e];
-            let mut touches: Vec<usize> = [point[edge.edge.from], point[edge.edge.to]].into_iter().flatten().collect();
+            let mut touches: Vec<usize> =
+                [point[edge.edge.from], point[edge.edge.to]].into_iter().flatten().collect();
             touches.extend(class[plan.class_of(e)]);
             if let Along::Slide(s) = edge.along {
                 touches.push(nodes.add(1, Some(Unknown::Slide(s))));
@@ -230,7 +234,8 @@ fn dyad(
     let form = form(plan, unknowns);
     let sign = (form != Form::TwoLines).then(|| {
         let name = inner_pair(plan, linkage, &loop_path, form, unknowns, &tip, &tail);
-        let links = plan_links(linkage, &plan.edges, &loop_path.iter().map(|x| x.0).collect::<Vec<_>>());
+        let links =
+            plan_links(linkage, &plan.edges, &loop_path.iter().map(|x| x.0).collect::<Vec<_>>());
         let moving: Vec<&str> = links
             .iter()
             .filter(|&&l| plan.rotation[l].class != 0 || linkage.slides.iter().any(|s| s.link == l))
@@ -250,7 +255,10 @@ fn dyad(
 fn order_unknowns(plan: &Plan, path: &[(usize, bool)], unknowns: &mut [Unknown]) {
     unknowns.sort_by_key(|u| match *u {
         Unknown::Class(c) => {
-            let first = path.iter().filter(|(e, _)| plan.class_of(*e) == c).map(|(e, _)| plan.edges[*e].edge.link);
+            let first = path
+                .iter()
+                .filter(|(e, _)| plan.class_of(*e) == c)
+                .map(|(e, _)| plan.edges[*e].edge.link);
             (0, first.min().unwrap_or(usize::MAX))
         }
         Unknown::Slide(s) => (1, s),
@@ -263,7 +271,11 @@ fn form(plan: &Plan, unknowns: [Unknown; 2]) -> Form {
         [Unknown::Slide(_), _] => Form::TwoLines,
         [Unknown::Class(c), Unknown::Slide(s)] => {
             let edge = plan.edges.iter().position(|e| e.along == Along::Slide(s));
-            if edge.is_some_and(|e| plan.class_of(e) == c) { Form::TurningGuide } else { Form::CircleAndLine }
+            if edge.is_some_and(|e| plan.class_of(e) == c) {
+                Form::TurningGuide
+            } else {
+                Form::CircleAndLine
+            }
         }
     }
 }
@@ -291,14 +303,17 @@ fn inner_pair(
         return slide_name(unknowns[1]).unwrap_or_default();
     }
     let ranks = |u| path.iter().enumerate().filter(move |(_, x)| carries(x.0, u)).map(|(i, _)| i);
-    let (first, second) = (ranks(unknowns[0]).collect::<Vec<_>>(), ranks(unknowns[1]).collect::<Vec<_>>());
+    let (first, second) =
+        (ranks(unknowns[0]).collect::<Vec<_>>(), ranks(unknowns[1]).collect::<Vec<_>>());
     let point = match (first.last(), second.first()) {
         (Some(&a), Some(&b)) if a < b => tip(path[a]),
         _ => first.first().map_or(0, |&a| tail(path[a])),
     };
     match point.checked_sub(1).and_then(|j| linkage.joints.get(j)) {
         Some(joint) => joint.name.clone(),
-        None => slide_name(unknowns[1]).unwrap_or_else(|| format!("dyad{}", plan.dyad_names.len() + 1)),
+        None => {
+            slide_name(unknowns[1]).unwrap_or_else(|| format!("dyad{}", plan.dyad_names.len() + 1))
+        }
     }
 }
 
@@ -333,7 +348,13 @@ pub fn add_fits(
         if !checked.contains(&slide) {
             let checks = slide_edge(closure, slide).into_iter().collect();
             let name = linkage.slides[slide].name.clone();
-            plan.steps.push(Step::Fit(Fit { name, turned: None, places: vec![], checks, parallel: vec![slide] }));
+            plan.steps.push(Step::Fit(Fit {
+                name,
+                turned: None,
+                places: vec![],
+                checks,
+                parallel: vec![slide],
+            }));
         }
     }
 }
@@ -351,12 +372,15 @@ fn fit_link(
     known: &mut [bool],
 ) -> Option<Fit> {
     let joints = &linkage.links[link].joints;
-    let edge_to = |joint: usize| closure.edges.iter().position(|e| e.span == Span::Joint { link, joint });
-    let carried: Vec<usize> = joints.iter().copied().filter(|&j| known[point_of_joint(j)]).collect();
+    let edge_to =
+        |joint: usize| closure.edges.iter().position(|e| e.span == Span::Joint { link, joint });
+    let carried: Vec<usize> =
+        joints.iter().copied().filter(|&j| known[point_of_joint(j)]).collect();
     let slides: Vec<usize> = (0..linkage.slides.len())
         .filter(|&s| {
             let x = &linkage.slides[s];
-            (x.link == link && placed_links.contains(&x.on)) || (x.on == link && placed_links.contains(&x.link))
+            (x.link == link && placed_links.contains(&x.on))
+                || (x.on == link && placed_links.contains(&x.link))
         })
         .collect();
     let turned = match (&carried[..], &slides[..]) {
@@ -371,11 +395,11 @@ fn fit_link(
     };
     let (mut places, mut checks) = (Vec::new(), Vec::new());
     let first = plan.reference[link];
-    if !known[first] {
-        if let Some(edge) = carried.first().and_then(|&a| edge_to(a)) {
-            places.push((edge, true));
-            known[first] = true;
-        }
+    if !known[first]
+        && let Some(edge) = carried.first().and_then(|&a| edge_to(a))
+    {
+        places.push((edge, true));
+        known[first] = true;
     }
     for &joint in joints.iter().skip(1) {
         let Some(edge) = edge_to(joint) else { continue };

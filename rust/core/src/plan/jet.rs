@@ -121,7 +121,6 @@ fn leibniz(alpha: &[usize], find: &impl Fn(&[usize]) -> usize) -> Vec<Term> {
                 let mut longer = head.clone();
                 longer.push(b);
                 next.push((factor * binomial, longer));
-                #[allow(clippy::cast_precision_loss)] // a ≤ 3
                 let ratio = (a - b) as f64 / (b + 1) as f64;
                 binomial *= ratio;
             }

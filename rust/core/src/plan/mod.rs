@@ -13,14 +13,15 @@ pub mod jet;
 
 use crate::error::StructureError;
 use crate::linkage::{Driver, Linkage};
-use crate::structure::closure::{Edge, Span, rotations};
 use crate::plane::Vector;
+use crate::structure::closure::{Edge, Span, rotations};
 use crate::structure::{Closure, Rotation, Structure};
 use bind::Bound;
 pub use block::{Dyad, Form, Unknown};
 
 /// Value of a slide on an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the fields are indices of what their names say")]
 pub enum Along {
     /// A rigid edge.
     Nothing,
@@ -52,6 +53,7 @@ pub struct Orientation {
 
 /// One thing to do at every position.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the fields are indices of what their names say")]
 pub enum Step {
     /// Solve a dyad.
     Dyad(Dyad),
@@ -78,6 +80,7 @@ pub struct Fit {
 
 /// How a redundant link's orientation is found.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the fields are indices of what their names say")]
 pub enum Turned {
     /// By two joints that other links carry: edges from the link's first joint
     /// (none: the first joint itself).
@@ -134,7 +137,11 @@ impl Plan {
     /// # Errors
     ///
     /// Only for what [`Structure::of`] would have refused before.
-    pub fn new(linkage: &Linkage, closure: &Closure, structure: &Structure) -> Result<Self, StructureError> {
+    pub fn new(
+        linkage: &Linkage,
+        closure: &Closure,
+        structure: &Structure,
+    ) -> Result<Self, StructureError> {
         let (rotation, classes) = rotations(linkage, &structure.redundant, true)?;
         let mut orientations: Vec<Orientation> = Vec::new();
         let mut link_orientation = Vec::new();
@@ -153,7 +160,8 @@ impl Plan {
                 let along = match edge.span {
                     Span::Joint { .. } => Along::Nothing,
                     Span::Guide { slide } => {
-                        let driver = linkage.drivers.iter().position(|d| *d == Driver::Slide(slide));
+                        let driver =
+                            linkage.drivers.iter().position(|d| *d == Driver::Slide(slide));
                         driver.map_or(Along::Slide(slide), |driver| Along::Driver { slide, driver })
                     }
                 };

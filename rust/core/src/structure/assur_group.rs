@@ -70,9 +70,11 @@ impl<'a> Bodies<'a> {
                 Driver::Slide(s) => (linkage.slides[s].link, linkage.slides[s].on),
                 Driver::Angle { link, relative_to } => (link, relative_to),
             };
-            let shares = linkage.links[a].joints.iter().any(|j| linkage.links[b].joints.contains(j));
+            let shares =
+                linkage.links[a].joints.iter().any(|j| linkage.links[b].joints.contains(j));
             if matches!(driver, Driver::Slide(_)) || shares {
-                let (keep, drop) = if of[a] == of[linkage.ground] { (of[a], of[b]) } else { (of[b], of[a]) };
+                let (keep, drop) =
+                    if of[a] == of[linkage.ground] { (of[a], of[b]) } else { (of[b], of[a]) };
                 of.iter_mut().filter(|x| **x == drop).for_each(|x| *x = keep);
             } else {
                 loose.push((a, b));
@@ -98,7 +100,8 @@ enum Node {
 #[must_use]
 pub fn groups(linkage: &Linkage, left_out: &LeftOut) -> Option<Vec<Group>> {
     let bodies = Bodies::new(linkage);
-    let kept: Vec<usize> = (0..linkage.links.len()).filter(|l| !left_out.links.contains(l)).collect();
+    let kept: Vec<usize> =
+        (0..linkage.links.len()).filter(|l| !left_out.links.contains(l)).collect();
     let mut pattern = Pattern::default();
     let mut nodes: Vec<Node> = Vec::new();
     let mut body_node = vec![None; linkage.links.len()];
@@ -193,11 +196,13 @@ impl Members {
         let mut inner: Vec<(usize, BTreeSet<usize>)> = Vec::new();
         let mut outer: Vec<(usize, char)> = Vec::new();
         let (mut joints, mut slides) = (Vec::new(), Vec::new());
-        for (j, (on, _)) in touching.iter().enumerate() {
+        for (j, (on, grounded)) in touching.iter().enumerate() {
             let here: Vec<usize> = self.bodies.iter().copied().filter(|b| on.contains(b)).collect();
             let is_inner = self.joints.contains(&j);
             let others = on.iter().any(|b| self.points.contains(b));
-            if here.is_empty() || (is_inner && here.len() < 2 && !others) {
+            let before = |b: &usize| solved.contains(b) && !self.bodies.contains(b);
+            let hangs = *grounded || on.iter().any(before);
+            if here.is_empty() || (is_inner && here.len() < 2 && !others) || !(is_inner || hangs) {
                 continue;
             }
             joints.push(j);
@@ -211,7 +216,8 @@ impl Members {
                 outer.extend(here.into_iter().map(|b| (b, 'R')));
             }
         }
-        let mut inner: Vec<(char, BTreeSet<usize>)> = inner.into_iter().map(|(_, s)| ('R', s)).collect();
+        let mut inner: Vec<(char, BTreeSet<usize>)> =
+            inner.into_iter().map(|(_, s)| ('R', s)).collect();
         for (s, slide) in linkage.slides.iter().enumerate() {
             if left_out.has_slide(linkage, s) || linkage.drivers.contains(&Driver::Slide(s)) {
                 continue;

@@ -21,6 +21,7 @@ pub const GROUND_POINT: usize = 0;
 
 /// What an edge spans in its link's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the fields are indices of what their names say")]
 pub enum Span {
     /// From the link's first joint to another of its joints.
     Joint { link: usize, joint: usize },
@@ -130,7 +131,12 @@ impl Closure {
             }
             for &joint in link.joints.iter().skip(1) {
                 let span = Span::Joint { link: index, joint };
-                edges.push(Edge { from: reference[index], to: point_of_joint(joint), link: index, span });
+                edges.push(Edge {
+                    from: reference[index],
+                    to: point_of_joint(joint),
+                    link: index,
+                    span,
+                });
             }
         }
         for (slide, s) in linkage.slides.iter().enumerate() {

@@ -22,6 +22,21 @@ pub struct Pose {
     slide: Vec<f64>,
 }
 
+impl Pose {
+    /// The pose after a step in the unknowns of a system.
+    fn moved(&self, step: &DVector<f64>, system: &System) -> Self {
+        let mut next = self.clone();
+        for (unknown, delta) in system.unknowns.iter().zip(step.iter()) {
+            match *unknown {
+                Unknown::Point { point, axis } => next.points[point][axis] += delta,
+                Unknown::Class(class) => next.turn[class] += delta,
+                Unknown::Slide(slide) => next.slide[slide] += delta,
+            }
+        }
+        next
+    }
+}
+
 /// One unknown of the closure equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unknown {
@@ -117,7 +132,12 @@ pub struct Skeleton<'a> {
 impl<'a> Skeleton<'a> {
     /// Takes the drawing; `free` are the rotations with no driver locked.
     #[must_use]
-    pub fn new(linkage: &'a Linkage, closure: &'a Closure, free: &'a [Rotation], classes: usize) -> Self {
+    pub fn new(
+        linkage: &'a Linkage,
+        closure: &'a Closure,
+        free: &'a [Rotation],
+        classes: usize,
+    ) -> Self {
         let size = linkage.size();
         let origin = linkage.joints.first().map_or([0.0; 2], |j| j.at);
         let place = |at: [f64; 2]| [(at[0] - origin[0]) / size, (at[1] - origin[1]) / size];
@@ -143,7 +163,8 @@ impl<'a> Skeleton<'a> {
                 Span::Joint { .. } => [0.0; 2],
             })
             .collect();
-        let start = Pose { points, turn: vec![0.0; classes], slide: vec![0.0; linkage.slides.len()] };
+        let start =
+            Pose { points, turn: vec![0.0; classes], slide: vec![0.0; linkage.slides.len()] };
         Self { linkage, closure, free, vector, direction, start }
     }
 
@@ -233,18 +254,6 @@ impl<'a> Skeleton<'a> {
         Rank { mobility, excess, motions, stresses }
     }
 
-    fn moved(&self, system: &System, pose: &Pose, step: &DVector<f64>) -> Pose {
-        let mut next = pose.clone();
-        for (unknown, delta) in system.unknowns.iter().zip(step.iter()) {
-            match *unknown {
-                Unknown::Point { point, axis } => next.points[point][axis] += delta,
-                Unknown::Class(class) => next.turn[class] += delta,
-                Unknown::Slide(slide) => next.slide[slide] += delta,
-            }
-        }
-        next
-    }
-
     /// A regular position: displaced along the null space in fixed pseudo-random
     /// directions, where the linkage lets itself be displaced. None: it is rigid.
     #[must_use]
@@ -258,7 +267,8 @@ impl<'a> Skeleton<'a> {
         for _ in 0..3 {
             let (pose, rank) = best.clone().unwrap_or_else(|| (self.start.clone(), here.clone()));
             for reach in [0.1, 0.03, -0.1, -0.03, 0.01, 0.003] {
-                let weights = DVector::from_fn(rank.motions.ncols(), |_, _| next_random(&mut random));
+                let weights =
+                    DVector::from_fn(rank.motions.ncols(), |_, _| next_random(&mut random));
                 let direction = &rank.motions * weights;
                 let step = direction.scale(reach / direction.amax().max(f64::MIN_POSITIVE));
                 if let Some(reached) = self.project(system, &pose, &step) {
@@ -275,7 +285,7 @@ impl<'a> Skeleton<'a> {
 
     /// Gauss-Newton back onto the closure; None if it fails or goes back.
     fn project(&self, system: &System, from: &Pose, step: &DVector<f64>) -> Option<Pose> {
-        let mut pose = self.moved(system, from, step);
+        let mut pose = from.moved(step, system);
         let mut total = step.clone();
         for _ in 0..30 {
             let residual = self.residual(system, &pose);
@@ -289,7 +299,7 @@ impl<'a> Skeleton<'a> {
                 return None;
             }
             total += &correction;
-            pose = self.moved(system, &pose, &correction);
+            pose = pose.moved(&correction, system);
         }
         None
     }
@@ -342,7 +352,7 @@ fn next_random(state: &mut u64) -> f64 {
     *state ^= *state << 25;
     *state ^= *state >> 27;
     let bits = state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11;
-    #[allow(clippy::cast_precision_loss)] // 53 bits fit a double exactly
+    // 53 bits fit a double exactly.
     let unit = bits as f64 / (1_u64 << 53) as f64;
     2.0 * unit - 1.0
 }

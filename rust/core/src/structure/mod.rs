@@ -10,6 +10,8 @@ mod redundancy;
 pub use assur_group::{Group, roman};
 pub use closure::{Closure, LeftOut, Rotation};
 
+use std::fmt::Write as _;
+
 use crate::error::StructureError;
 use crate::linkage::{Driver, Linkage};
 use closure::{list, rotations};
@@ -39,8 +41,9 @@ impl Structure {
     pub fn formula(&self) -> String {
         let mut text = format!("I({})", self.drivers.join(", "));
         for group in &self.groups {
-            let names: Vec<&str> = group.links.iter().map(|&l| self.link_names[l].as_str()).collect();
-            text.push_str(&format!(" → {}({})", roman(group.class), names.join(", ")));
+            let names: Vec<&str> =
+                group.links.iter().map(|&l| self.link_names[l].as_str()).collect();
+            let _ = write!(text, " → {}({})", roman(group.class), names.join(", "));
         }
         text
     }
@@ -64,14 +67,11 @@ impl Structure {
         let skeleton = Skeleton::new(linkage, closure, &free, classes);
         let system = System::new(linkage, closure, &everything, &free, false);
         let at_drawing = skeleton.rank(&system, skeleton.drawing());
-        let (pose, rank) = match skeleton.regular(&system) {
-            Some(found) => found,
-            None => {
-                return Err(StructureError::Immovable {
-                    counted: counted(linkage),
-                    over: over_constrained(linkage, &skeleton, &system, &at_drawing, &everything),
-                });
-            }
+        let Some((pose, rank)) = skeleton.regular(&system) else {
+            return Err(StructureError::Immovable {
+                counted: counted(linkage),
+                over: over_constrained(linkage, &skeleton, &system, &at_drawing, &everything),
+            });
         };
         let (redundant, excess) =
             redundancy::leave_out(linkage, closure, &skeleton, &pose, &rank, everything)?;
@@ -91,7 +91,10 @@ impl Structure {
         refuse_idle_drivers(linkage, closure, &skeleton, &pose, &redundant)?;
         if excess > 0 {
             let names = skeleton.stressed_links(&system, &rank.stresses);
-            return Err(StructureError::OverConstrained { excess, links: link_list(linkage, &names) });
+            return Err(StructureError::OverConstrained {
+                excess,
+                links: link_list(linkage, &names),
+            });
         }
         let groups = assur_group::groups(linkage, &redundant).ok_or_else(|| {
             StructureError::OverConstrained {
@@ -162,7 +165,8 @@ fn over_constrained(
         return String::new();
     }
     let links = link_list(linkage, &skeleton.stressed_links(system, &rank.stresses));
-    let mut spare: Vec<&str> = redundant.links.iter().map(|&l| linkage.links[l].name.as_str()).collect();
+    let mut spare: Vec<&str> =
+        redundant.links.iter().map(|&l| linkage.links[l].name.as_str()).collect();
     spare.extend(redundant.slides.iter().map(|&s| linkage.slides[s].name.as_str()));
     let spare = if spare.is_empty() {
         String::new()
@@ -188,7 +192,9 @@ fn under_constrained(
         return Ok("; leave out drivers".into());
     }
     let links = link_list(linkage, &skeleton.moving_links(&locked, &rank.motions));
-    Ok(format!("; with every driver held still, {links} can still move: add a driver or a link there"))
+    Ok(format!(
+        "; with every driver held still, {links} can still move: add a driver or a link there"
+    ))
 }
 
 /// With all drivers locked nothing may move any more.
@@ -217,9 +223,20 @@ fn refuse_idle_drivers(
         let mut others = linkage.drivers.clone();
         others.remove(index);
         if freedom(&others)?.1.mobility == rank.mobility {
-            return Err(StructureError::CannotDrive { driver: linkage.driver_name(driver), reason });
+            return Err(StructureError::CannotDrive {
+                driver: linkage.driver_name(driver),
+                reason,
+            });
         }
     }
-    let driver = list(linkage.drivers.iter().map(|&d| linkage.driver_name(d)).collect::<Vec<_>>().iter().map(String::as_str));
+    let driver = list(
+        linkage
+            .drivers
+            .iter()
+            .map(|&d| linkage.driver_name(d))
+            .collect::<Vec<_>>()
+            .iter()
+            .map(String::as_str),
+    );
     Err(StructureError::CannotDrive { driver, reason })
 }

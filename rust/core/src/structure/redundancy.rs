@@ -95,4 +95,3 @@ fn still_placed(linkage: &Linkage, closure: &Closure, left_out: &LeftOut) -> boo
         .count();
     joints >= 2 || (joints >= 1 && slides >= 1)
 }
-
