@@ -1,4 +1,4 @@
-from typing import TypedDict
+from typing import TypedDict, final
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,7 @@ class _Arrays(TypedDict):
     slides: dict[int, list[npt.NDArray[np.float64]]]
     status: npt.NDArray[np.uint8]
 
+@final
 class Mechanism:
     def __new__(
         cls,

@@ -70,7 +70,7 @@ class Mechanism:
     >>> m.structure.formula
     'I(crank) → II(coupler, rocker)'
     >>> m.solve(0.5).joint("C").value
-    array([4.25..., 3.22...])
+    array([4.368934, 3.247181])
     """
 
     __slots__ = ("__weakref__", "_core", "_joints", "_parts", "_structure", "_values")
@@ -282,8 +282,20 @@ class Mechanism:
             self._core.check_dimensions(values.tolist())
         return self._make(self._parts, values, self._core)
 
-    def with_driver(self, driver: DriverLike | Sequence[DriverLike]) -> Mechanism:
+    def with_driver(
+        self,
+        driver: DriverLike | Sequence[DriverLike],
+        assembly: Mapping[str, int] | None = None,
+    ) -> Mechanism:
         """Return the same linkage, driven at another coordinate.
+
+        Parameters
+        ----------
+        driver : str, Drive or sequence of them
+            As for the mechanism itself.
+        assembly : mapping of str to int, optional
+            Signs of dyads that the drawing shows flat; which dyads there are
+            depends on the driver.
 
         Examples
         --------
@@ -292,7 +304,10 @@ class Mechanism:
         'I(rocker) → II(crank, coupler)'
         """
         joints, links, slides, _, _ = self._parts
-        return self._make((joints, links, slides, _drivers(driver), ()), np.array(self._values))
+        return self._make(
+            (joints, links, slides, _drivers(driver), tuple((assembly or {}).items())),
+            np.array(self._values),
+        )
 
     def design(self, index: int | tuple[int, ...]) -> Mechanism:
         """Return one design of a batch as a mechanism of its own."""

@@ -1,0 +1,159 @@
+"""Agreement of `assur` with the oracle, in the terms of the design's "Numbers".
+
+The law: "A position is good to about 8 u κ of the size, an analogue of any order to about
+64 u κ² of its own size."  Here κ is `motion.condition`, u = 2.2e-16, and
+
+- the size is the greatest extent: of joints (drawn and as they stand) from the ground's first
+  joint, of links, of slides' values;
+- an angle is measured by what it displaces: it may be wrong by 8 u κ times size over arm, the
+  arm being the extent of what turns with that angle (see `_arms`);
+- the size of an analogue of order k is the greatest of all outputs' partials of order k, an
+  angle's taken times its arm: a single component near zero has no relative error.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+import assur
+import models
+import oracle
+from oracle import GROUND, Description, Pose
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+Array: TypeAlias = NDArray[np.float64]
+Q: TypeAlias = tuple[float, ...]
+U = 2.220446049250313e-16
+POSITION = 8 * U
+ANALOGUE = 64 * U
+LEAST_STEP = 1e-4  # along the path: a fold is then met to its square
+FAR = 1e4  # sizes: a pole
+
+
+@dataclass(frozen=True)
+class Path:
+    """Where a ray from the drawing was followed to: poses at its stops, and the fold if any."""
+
+    poses: list[Pose]
+    fold: Q | None
+
+
+class Tracer:
+    """`oracle.follow` in arrays, with stops on the way: the same equations, steps and tests."""
+
+    def __init__(self, description: Description) -> None:
+        self.system = system = oracle.System(description, exact=False)
+        z, q = system.drawing()
+        self.z0, self.q0, self.unit = np.array(z), np.array(q), np.array(system.unit)
+        self.pin_a = np.array([p[0] for p in system.pins], int)
+        self.pin_b = np.array([p[2] for p in system.pins], int)
+        self.pin_u = np.array([p[1] for p in system.pins]).reshape(-1, 2)
+        self.pin_w = np.array([p[3] for p in system.pins]).reshape(-1, 2)
+        self.turn_a = np.array([t.a for t in system.turns], int)
+        self.turn_b = np.array([t.b for t in system.turns], int)
+        self.shift = np.array([t.shift for t in system.turns])
+        self.reach_a = np.array([r.a for r in system.reaches], int)
+        self.reach_b = np.array([r.b for r in system.reaches], int)
+        self.reach_u = np.array([r.u for r in system.reaches]).reshape(-1, 2)
+        self.reach_w = np.array([r.w for r in system.reaches]).reshape(-1, 2)
+        self.reach_d = np.array([r.d for r in system.reaches]).reshape(-1, 2)
+        pins, turns, reaches = len(system.pins), len(system.turns), len(system.reaches)
+        self.rows = 2 * pins + turns + reaches
+        self.at = (2 * np.arange(pins), 2 * pins + np.arange(turns))
+        self.at_reach = 2 * pins + turns + np.arange(reaches)
+        self.driver_rows = system._driver_rows()
+
+    def equations(
+        self, z: Array, q: Array
+    ) -> tuple[Array, Array]:
+        """Residuals and Jacobian at z (scaled)."""
+        x, y, t = np.concatenate([np.zeros(3), z]).reshape(-1, 3).T
+        c, s = np.cos(t), np.sin(t)
+        out, jac = np.empty(self.rows), np.zeros((self.rows, 3 * len(x)))
+        row, turn = self.at
+        sides: list[Any] = []
+        for body, u, sign in ((self.pin_a, self.pin_u, 1.0), (self.pin_b, self.pin_w, -1.0)):
+            ax, ay = c[body] * u[:, 0] - s[body] * u[:, 1], s[body] * u[:, 0] + c[body] * u[:, 1]
+            sides.append((x[body] + ax, y[body] + ay))
+            jac[row, 3 * body] = jac[row + 1, 3 * body + 1] = sign
+            jac[row, 3 * body + 2], jac[row + 1, 3 * body + 2] = -sign * ay, sign * ax
+        out[row], out[row + 1] = sides[0][0] - sides[1][0], sides[0][1] - sides[1][1]
+        out[turn] = t[self.turn_a] - t[self.turn_b] + self.shift
+        jac[turn, 3 * self.turn_a + 2], jac[turn, 3 * self.turn_b + 2] = 1.0, -1.0
+        a, b, u, w, d = self.reach_a, self.reach_b, self.reach_u, self.reach_w, self.reach_d
+        dx, dy = c[b] * d[:, 0] - s[b] * d[:, 1], s[b] * d[:, 0] + c[b] * d[:, 1]
+        px, py = c[a] * u[:, 0] - s[a] * u[:, 1], s[a] * u[:, 0] + c[a] * u[:, 1]
+        wx, wy = c[b] * w[:, 0] - s[b] * w[:, 1], s[b] * w[:, 0] + c[b] * w[:, 1]
+        gx, gy = x[a] + px - x[b], y[a] + py - y[b]
+        row = self.at_reach
+        out[row] = dx * (gx - wx) + dy * (gy - wy)
+        jac[row, 3 * a], jac[row, 3 * a + 1], jac[row, 3 * a + 2] = dx, dy, dy * px - dx * py
+        jac[row, 3 * b], jac[row, 3 * b + 1], jac[row, 3 * b + 2] = -dx, -dy, dx * gy - dy * gx
+        out[self.driver_rows] -= q
+        return out, jac[:, 3:]
+
+    def orientation(self, pose: Pose) -> float:
+        """Sign of the Jacobian's determinant at a pose."""
+        scale = np.array([self.system.size, self.system.size, 1.0])
+        z = np.concatenate([np.array(pose[n]) / scale for n in self.system.names[1:]])
+        return float(np.linalg.slogdet(self.equations(z, self.q0)[1])[0])
+
+    def follow(self, move: Sequence[float], stops: Sequence[float]) -> Path:
+        """From the drawing along q0 + t move, with a pose at each of the increasing stops.
+
+        By arc length, so that a fold (or a pole, where something runs to infinity) is met in a
+        few steps; the path ends before it.
+        """
+        delta = np.array(move) / self.unit
+        drive = np.zeros((self.rows, 1))
+        drive[self.driver_rows, 0] = delta
+        last = np.zeros(len(self.z0) + 1)
+        last[-1] = 1.0  # a tangent at the start: any vector with growing t
+
+        def curve(w: Array) -> tuple[Array, Array]:
+            rows, jacobian = self.equations(w[:-1], self.q0 + w[-1] * delta)
+            return rows, np.hstack([jacobian, -drive])
+
+        def refine(w: Array, across: Array) -> tuple[Array, Array] | None:
+            """Newton, in the plane through w across a direction; and the tangent there."""
+            start = w
+            for _ in range(6):
+                rows, jacobian = curve(w)
+                matrix = np.vstack([jacobian, across])
+                if np.max(np.abs(rows)) < oracle.FLOAT_TOL:
+                    along = np.linalg.solve(matrix, end)
+                    return w, along / np.linalg.norm(along)
+                w = w - np.linalg.solve(matrix, np.append(rows, across @ (w - start)))
+            return None
+
+        end = last.copy()
+        w, h, poses = np.append(self.z0, 0.0), 0.05, list[Pose]()
+        tangent = np.linalg.solve(np.vstack([curve(w)[1], last]), end)
+        tangent /= np.linalg.norm(tangent)
+        for stop in stops:
+            while w[-1] < stop:
+                h = min(h, 0.3 * max(1.0, float(np.max(np.abs(w)))))
+                onto = w[-1] + h * tangent[-1] >= stop
+                step, across = ((stop - w[-1]) / tangent[-1], last) if onto else (h, tangent)
+                found = refine(w + step * tangent, across)
+                bend = np.max(np.abs(found[0] - w - step * tangent)) if found else np.inf
+                good = found and bend <= 0.1 * step + oracle.FLOAT_TOL and found[1] @ tangent > 0.9
+                if found and good and found[1][-1] > 0 and (onto or found[0][-1] < stop):
+                    w, tangent = found
+                    w[-1] = stop if onto else w[-1]
+                    h *= 1.0 if onto else 1.5
+                    continue
+                h = step / 2
+                if h < LEAST_STEP or np.max(np.abs(w)) > FAR:
+                    return Path(poses, tuple(((self.q0 + w[-1] * delta) * self.unit).tolist()))
+            self.system.put(0, w[:-1].tolist())
+            poses.append(self.system.pose())
+        return Path(poses, None)
