@@ -136,8 +136,9 @@ def _shaped(arrays: list[Float], shape: tuple[int, ...], drivers: int) -> tuple[
 
 
 def _raise_first(motion: Motion) -> None:
-    allowed = Status.NEAR_SINGULAR if motion.order > 0 else Status.SINGULAR
-    bad = motion.status > allowed
+    bad = motion.status > Status.SINGULAR
+    if motion.order > 0:
+        bad |= (motion.status == Status.SINGULAR) & _no_analogues(motion)
     if not bad.any():
         return
     index = tuple(int(i) for i in np.argwhere(bad)[0])
@@ -166,6 +167,16 @@ def _raise_first(motion: Motion) -> None:
         q=q,
         value=_value(motion, index, name) if is_dimension else None,
     )
+
+
+def _no_analogues(motion: Motion) -> npt.NDArray[np.bool_]:
+    """Where a flat dyad leaves none; at a change point there are."""
+    tracks = motion._tracks
+    held = (tracks.joints, tracks.links, tracks.slides)
+    missing = np.zeros(motion.shape, dtype=np.bool_)
+    for arrays in (a for kind in held for a in kind.values()):
+        missing |= np.isnan(arrays[1]).reshape((*motion.shape, -1)).any(axis=-1)
+    return missing
 
 
 def _value(motion: Motion, index: tuple[int, ...], name: str | None) -> float:

@@ -106,6 +106,11 @@ class Tracer:
         z = np.concatenate([np.array(pose[n]) / scale for n in self.system.names[1:]])
         return float(np.linalg.slogdet(self.equations(z, self.q0)[1])[0])
 
+    def sign(self, w: Array, delta: Array) -> float:
+        """Of the Jacobian's determinant; it keeps until the next fold."""
+        _, jacobian = self.equations(w[:-1], self.q0 + w[-1] * delta)
+        return float(np.linalg.slogdet(jacobian)[0])
+
     def follow(self, move: Sequence[float], stops: Sequence[float]) -> Path:
         """From the drawing along q0 + t move, with a pose at each of the increasing stops.
 
@@ -138,6 +143,7 @@ class Tracer:
         w, h, poses = np.append(self.z0, 0.0), 0.05, list[Pose]()
         tangent = np.linalg.solve(np.vstack([curve(w)[1], last]), end)
         tangent /= np.linalg.norm(tangent)
+        sign = self.sign(w, delta)
         for stop in stops:
             while w[-1] < stop:
                 h = min(h, 0.3 * max(1.0, float(np.max(np.abs(w)))))
@@ -146,7 +152,8 @@ class Tracer:
                 found = refine(w + step * tangent, across)
                 bend = np.max(np.abs(found[0] - w - step * tangent)) if found else np.inf
                 good = found and bend <= 0.1 * step + oracle.FLOAT_TOL and found[1] @ tangent > 0.9
-                if found and good and found[1][-1] > 0 and (onto or found[0][-1] < stop):
+                good = good and self.sign(found[0], delta) == sign
+                if good and found[1][-1] > 0 and (onto or found[0][-1] < stop):
                     w, tangent = found
                     w[-1] = stop if onto else w[-1]
                     h *= 1.0 if onto else 1.5
@@ -157,3 +164,77 @@ class Tracer:
             self.system.put(0, w[:-1].tolist())
             poses.append(self.system.pose())
         return Path(poses, None)
+
+
+def arms(description: Description, solution: oracle.Solution, size: float) -> dict[str, float]:
+    """Extent of what turns with each link: of its joints and of those of links it slides on."""
+    tied = {name: {name} for name in description.links}
+    for slide in description.slides.values():
+        both = tied[slide.link] | tied[slide.on]
+        for name in both:
+            tied[name] = both
+    out = {}
+    for name, links in tied.items():
+        joints = {j for n in links for j in description.links[n]}
+        places = np.array([solution.joints[j].value for j in joints]).reshape(-1, 2)
+        gaps = np.linalg.norm(places[:, None] - places[None], axis=-1)
+        out[name] = float(np.max(gaps, initial=0.0)) or size
+    return out
+
+
+def extent(description: Description, solution: oracle.Solution) -> float:
+    """Greatest coordinate from the ground's first joint, drawn or now; greatest slide value."""
+    base = np.array(description.joints[description.links[GROUND][0]])
+    places = [*description.joints.values(), *(j.value for j in solution.joints.values())]
+    values = [abs(float(s.value)) for s in solution.slides.values()]
+    return float(max(np.max(np.abs(np.array(places) - base)), *values, 0.0))
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Greatest errors of one position, as fractions of what the law allows (1: just so)."""
+
+    q: Q
+    condition: float
+    position: float
+    analogues: tuple[float, ...]
+    worst: tuple[str, ...]  # whose error it is, for each order
+
+    @property
+    def greatest(self) -> float:
+        """Over all orders."""
+        return max(self.position, *self.analogues, 0.0)
+
+
+def compare(
+    description: Description,
+    motion: assur.Motion,
+    index: tuple[int, ...],
+    solution: oracle.Solution,
+    order: int,
+    turns: dict[str, float] | None = None,
+) -> Gap:
+    """Errors of `motion` at an index; `turns` are the whole turns to take from its angles."""
+    size, kappa = extent(description, solution), float(motion.condition[index])
+    arm = arms(description, solution, size)
+    found: list[float] = []
+    worst: list[str] = []
+    for k in range(order + 1):
+        errors: dict[str, float] = {}
+        own = 0.0
+        for kind in ("joint", "link", "slide"):
+            for name, jet in getattr(solution, kind + "s").items():
+                want = jet.tensor(k)
+                got = getattr(getattr(motion, kind)(name), "d" * (k > 0) + (str(k) if k else "value"))
+                unit = arm[name] if kind == "link" else 1.0
+                less = turns[name] if turns and kind == "link" and k == 0 else 0.0
+                error = float(np.max(np.abs(got[index] - less - want)))
+                errors[f"{kind} {name}"] = error * unit
+                own = max(own, float(np.max(np.abs(want))) * unit)
+        worst.append(max(errors, key=lambda n: errors[n]))
+        most = errors[worst[-1]]
+        allowed = ANALOGUE * kappa**2 * own if k else POSITION * kappa * size
+        found.append(most / allowed if most else 0.0)
+    q = motion.coordinate(index)
+    q = (q,) if isinstance(q, float) else q
+    return Gap(q, kappa, found[0], tuple(found[1:]), tuple(worst))

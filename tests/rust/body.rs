@@ -154,18 +154,14 @@ impl Oracle {
     /// Coefficient `k` of a point of a body.
     pub fn point(&self, at: &Position, body: usize, u: Point, k: usize) -> Point {
         let b = &at.bodies[body];
-        [
-            b.x[k] + b.cos[k] * u[0] - b.sin[k] * u[1],
-            b.y[k] + b.sin[k] * u[0] + b.cos[k] * u[1],
-        ]
+        [b.x[k] + b.cos[k] * u[0] - b.sin[k] * u[1], b.y[k] + b.sin[k] * u[0] + b.cos[k] * u[1]]
     }
 
     /// Coefficient `k` of a reach.
     pub fn reach(&self, at: &Position, r: &Reach, k: usize) -> Dd {
         let b = &at.bodies[r.b];
         self.tables.product[k].iter().fold(Dd::ZERO, |sum, t| {
-            let (p, o) =
-                (self.point(at, r.a, r.u, t.right), self.point(at, r.b, r.w, t.right));
+            let (p, o) = (self.point(at, r.a, r.u, t.right), self.point(at, r.b, r.w, t.right));
             let (c, s) = (b.cos[t.left], b.sin[t.left]);
             let direction = [c * r.d[0] - s * r.d[1], s * r.d[0] + c * r.d[1]];
             sum + direction[0] * (p[0] - o[0]) + direction[1] * (p[1] - o[1])

@@ -1,1 +1,11 @@
 //! Integration tests of the core: one binary, one module per subject.
+
+mod agreement;
+mod assembly;
+mod body;
+mod builder;
+mod double_double;
+mod drawing;
+mod newton;
+mod random;
+mod series;

@@ -41,8 +41,7 @@ impl Tables {
             .map(|whole| {
                 let splits = exponents.iter().enumerate().filter_map(|(left, part)| {
                     let pairs = whole.iter().zip(part);
-                    let rest: Option<Vec<usize>> =
-                        pairs.map(|(w, p)| w.checked_sub(*p)).collect();
+                    let rest: Option<Vec<usize>> = pairs.map(|(w, p)| w.checked_sub(*p)).collect();
                     Some(Term { factor: 1.0, left, right: place(&rest?)? })
                 });
                 splits.collect()

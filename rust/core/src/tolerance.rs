@@ -65,6 +65,19 @@ pub fn singular_condition(before: f64) -> f64 {
     0.25 / (UNIT_ROUNDOFF * before).sqrt()
 }
 
+/// Step, as a part of a cell of the path, of the six points from which a change
+/// point is judged: far enough for the spread to be well conditioned, near enough
+/// for a polynomial of degree six (error of the order of its sixth power).
+pub const CHANGE_STEP: f64 = 1.0 / 128.0;
+
+/// Least squared spread, per condition of what the dyad hangs on, that counts as
+/// none: six values, each good to a few u, weighted by up to 15/10.
+pub const CHANGE_SPREAD: f64 = 64.0 * UNIT_ROUNDOFF;
+
+/// How near (rad, or units of the scale) a flat dyad must be to a change point to
+/// be one: a flat dyad shows within √u of it, and chains of dyads widen that.
+pub const CHANGE_REACH: f64 = 1.0e-6;
+
 /// Largest turn of a link between two neighbouring knots of the path along
 /// which angles are followed; half a turn would already be ambiguous.
 pub const LIFT_TURN: f64 = std::f64::consts::FRAC_PI_4;

@@ -204,13 +204,11 @@ impl Mechanism {
                 let positions = q.len() / drivers / if per_design { designs.max(1) } else { 1 };
                 let (mut residual, mut condition) = (Vec::new(), Vec::new());
                 for design in 0..designs {
-                    for position in 0..positions {
-                        let row = if per_design { design * positions + position } else { position };
-                        let d = self.inner.diagnose(
-                            &dimensions[design * size..(design + 1) * size],
-                            &q[row * drivers..(row + 1) * drivers],
-                            &signs,
-                        )?;
+                    let values = &dimensions[design * size..][..size];
+                    let own = if per_design { design * positions * drivers } else { 0 };
+                    for d in
+                        self.inner.diagnose(values, &q[own..][..positions * drivers], &signs)?
+                    {
                         residual.push(d.residual);
                         condition.push(d.condition);
                     }
@@ -228,8 +226,10 @@ impl Mechanism {
         q: Vec<f64>,
         signs: Vec<i8>,
     ) -> PyResult<(u8, Option<String>, String)> {
-        let d = self.inner.diagnose(&dimensions, &q, &signs).map_err(error::solve)?;
-        Ok((d.status as u8, d.name, d.sentence))
+        let found = self.inner.diagnose(&dimensions, &q, &signs).map_err(error::solve)?;
+        let one = found.into_iter().next();
+        one.map(|d| (d.status as u8, d.name, d.sentence))
+            .ok_or_else(|| pyo3::exceptions::PyValueError::new_err("no coordinate"))
     }
 
     /// Every assembly that exists at `q`, as signs.

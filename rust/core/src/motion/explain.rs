@@ -1,10 +1,9 @@
 //! Why a position is what it is: status, residual, condition, a sentence.
 
-use super::solve::Units;
+use super::design::Design;
 use super::state::{Context, Fault, State, Status};
 use crate::error::SolveError;
 use crate::mechanism::Mechanism;
-use crate::plan::bind::Bound;
 use crate::plan::jet::Jets;
 use crate::plan::{Along, Plan, Step};
 
@@ -27,8 +26,15 @@ pub struct Diagnosis {
     pub sentence: String,
 }
 
+impl Diagnosis {
+    /// Nothing but a status and a sentence.
+    fn bare(status: Status, sentence: String) -> Self {
+        Self { status, residual: f64::NAN, condition: f64::NAN, name: None, step: None, sentence }
+    }
+}
+
 impl Mechanism {
-    /// Looks closely at one position of one design.
+    /// Looks closely at every position of one design (`q`: drivers fastest).
     ///
     /// # Errors
     ///
@@ -38,71 +44,65 @@ impl Mechanism {
         dimensions: &[f64],
         q: &[f64],
         signs: &[i8],
-    ) -> Result<Diagnosis, SolveError> {
+    ) -> Result<Vec<Diagnosis>, SolveError> {
         self.require_closed_form()?;
-        let nothing = |status, name, sentence| Diagnosis {
-            status,
-            residual: f64::NAN,
-            condition: f64::NAN,
-            name,
-            step: None,
-            sentence,
-        };
+        let drivers = self.q0().len();
         if let Some(fault) = self.dimensions().first_fault(dimensions) {
             let name = match &fault {
                 SolveError::BadDimension { name, .. } => Some(name.clone()),
                 _ => None,
             };
-            return Ok(nothing(Status::BadDimension, name, fault.to_string()));
+            let one =
+                Diagnosis { name, ..Diagnosis::bare(Status::BadDimension, fault.to_string()) };
+            return Ok(vec![one; q.len() / drivers]);
         }
-        let jets = Jets::new(self.q0().len(), 0);
-        let bound = Bound::new(self.plan(), self.linkage(), self.dimensions(), dimensions);
+        let jets = Jets::new(drivers, 0);
         let signs: Vec<f64> = signs.iter().map(|&s| f64::from(s)).collect();
-        let cx = Context { plan: self.plan(), bound: &bound, jets: &jets, signs: &signs };
-        let unit = Units::new(self, &cx);
-        let scaled: Vec<f64> = q.iter().zip(&unit.coordinate).map(|(q, u)| q * u).collect();
-        let mut state = State::new(self.plan(), &jets, self.linkage().slides.len());
-        state.solve(&cx, &scaled);
-        let at = place_of(q);
-        Ok(match state.status {
-            Status::BadInput => nothing(
-                Status::BadInput,
-                None,
-                format!("q = {at} is no number: a finite coordinate is needed"),
-            ),
+        let design = Design::new(self, dimensions, &signs, &jets, q);
+        let mut state = design.state(&jets);
+        let look = |(scaled, q): (&[f64], &[f64])| {
+            let (way, at) = design.way(scaled);
+            let analogues = design.solve(&mut state, &way, at, scaled);
+            self.describe(&design, &state, &jets, &place_of(q), analogues)
+        };
+        Ok(design.scaled(q).chunks_exact(drivers).zip(q.chunks_exact(drivers)).map(look).collect())
+    }
+
+    fn describe(
+        &self,
+        design: &Design<'_>,
+        state: &State,
+        jets: &Jets,
+        at: &str,
+        analogues: bool,
+    ) -> Diagnosis {
+        let step = state.fault.map(Fault::step);
+        let condition = state.condition;
+        let named = state.fault.map(|fault| self.step_name(fault));
+        let dyad = named.as_deref().unwrap_or("?");
+        let sentence = match state.status {
+            Status::BadInput => {
+                let sentence = format!("q = {at} is no number: a finite coordinate is needed");
+                return Diagnosis::bare(Status::BadInput, sentence);
+            }
             Status::Unreachable => {
-                let (name, sentence) = self.unreachable(&state, bound.scale, &at);
-                Diagnosis {
-                    step: state.fault.map(Fault::step),
-                    ..nothing(Status::Unreachable, Some(name), sentence)
-                }
+                let (name, sentence) = self.unreachable(state, design.bound.scale, at);
+                let bare = Diagnosis::bare(Status::Unreachable, sentence);
+                return Diagnosis { name: Some(name), step, ..bare };
             }
-            status => {
-                let name = state.fault.map(|fault| self.step_name(fault));
-                let condition = state.condition;
-                let sentence = match status {
-                    Status::Singular => format!(
-                        "at q = {at} dyad {:?} is flat: the position is given, its analogues do not exist",
-                        name.as_deref().unwrap_or("?")
-                    ),
-                    Status::NearSingular => {
-                        format!(
-                            "at q = {at} the condition is {condition:.1e}: fewer than 6 digits of the analogues remain"
-                        )
-                    }
-                    _ => format!("at q = {at} the position is solved, condition {condition:.1e}"),
-                };
-                let step = state.fault.map(Fault::step);
-                Diagnosis {
-                    status,
-                    residual: residual(&cx, &state),
-                    condition,
-                    name,
-                    step,
-                    sentence,
-                }
-            }
-        })
+            Status::Singular if analogues => format!(
+                "at q = {at} dyad {dyad:?} is flat: a change point, the smooth motion goes on through it"
+            ),
+            Status::Singular => format!(
+                "at q = {at} dyad {dyad:?} is flat: the position is given, its analogues do not exist"
+            ),
+            Status::NearSingular => format!(
+                "at q = {at} the condition is {condition:.1e}: fewer than 6 digits of the analogues remain"
+            ),
+            _ => format!("at q = {at} the position is solved, condition {condition:.1e}"),
+        };
+        let residual = residual(&design.context(jets), state);
+        Diagnosis { status: state.status, residual, condition, name: named, step, sentence }
     }
 
     /// Every assembly that exists at `q`, as signs in the order of
@@ -150,7 +150,8 @@ impl Mechanism {
         signs: &[i8],
         place: usize,
     ) -> Result<bool, SolveError> {
-        let diagnosis = self.diagnose(dimensions, q, signs)?;
+        let found = self.diagnose(dimensions, q, signs)?;
+        let Some(diagnosis) = found.first() else { return Ok(false) };
         let last = place + 1 >= signs.len();
         let beyond = |step: usize| match &self.plan().steps[step] {
             Step::Dyad(dyad) => dyad.sign.is_none_or(|s| s > place),

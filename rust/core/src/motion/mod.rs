@@ -1,12 +1,14 @@
 //! Motions: designs × positions, with analogues.
 
+mod change;
+mod design;
 mod dyad;
 mod explain;
 mod fit;
-mod lift;
 pub mod metrics;
 mod solve;
 mod state;
+mod track;
 
 pub use explain::Diagnosis;
 pub use solve::{Coordinates, Motion, Outputs, Request, Track, solve};

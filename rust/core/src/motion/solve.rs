@@ -1,10 +1,10 @@
 //! From a request (designs, coordinates, wanted outputs) to arrays.
 
-use super::lift::Lift;
+use super::design::{Design, Units};
 use super::state::{Context, State, Status};
+use super::track::Track as Way;
 use crate::error::SolveError;
 use crate::mechanism::Mechanism;
-use crate::plan::bind::Bound;
 use crate::plan::jet::Jets;
 use crate::structure::closure::point_of_joint;
 
@@ -15,6 +15,16 @@ pub enum Coordinates<'a> {
     Shared(&'a [f64]),
     /// Positions of every design, one design after another.
     PerDesign(&'a [f64]),
+}
+
+impl<'a> Coordinates<'a> {
+    /// The `count` numbers of one design.
+    pub(crate) fn of(self, design: usize, count: usize) -> &'a [f64] {
+        match self {
+            Self::Shared(q) => q,
+            Self::PerDesign(q) => &q[design * count..][..count],
+        }
+    }
 }
 
 /// What is kept: indices of joints, links and slides.
@@ -99,44 +109,51 @@ pub fn solve(mechanism: &Mechanism, request: &Request<'_>) -> Result<Motion, Sol
     let layout = Layout::new(&jets);
     let mut motion = empty(&shape, request, &layout);
     let signs: Vec<f64> = request.signs.iter().map(|&s| f64::from(s)).collect();
-    let mut state = State::new(mechanism.plan(), &jets, mechanism.linkage().slides.len());
-    let lifts = !request.outputs.links.is_empty();
     for design in 0..shape.designs {
         let values = &request.dimensions[design * shape.dimensions..][..shape.dimensions];
-        let q_all = match request.coordinates {
-            Coordinates::Shared(q) => q,
-            Coordinates::PerDesign(q) => {
-                &q[design * shape.positions * shape.drivers..][..shape.positions * shape.drivers]
-            }
-        };
         if mechanism.dimensions().first_fault(values).is_some() {
             let rows = design * shape.positions..(design + 1) * shape.positions;
             motion.status[rows].fill(Status::BadDimension as u8);
             continue;
         }
-        let bound =
-            Bound::new(mechanism.plan(), mechanism.linkage(), mechanism.dimensions(), values);
-        let cx = Context { plan: mechanism.plan(), bound: &bound, jets: &jets, signs: &signs };
-        let unit = Units::new(mechanism, &cx);
-        let scaled: Vec<f64> = q_all
-            .iter()
-            .enumerate()
-            .map(|(i, &q)| q * unit.coordinate[i % shape.drivers])
-            .collect();
-        let angles = lifts.then(|| Angles::new(mechanism, &cx, &scaled, &unit));
-        for position in 0..shape.positions {
-            let row = design * shape.positions + position;
-            let q = &scaled[position * shape.drivers..][..shape.drivers];
-            state.solve(&cx, q);
-            motion.status[row] = state.status as u8;
-            if matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular) {
-                let write =
-                    Write { mechanism, cx: &cx, state: &state, unit: &unit, layout: &layout, row };
-                write.all(&mut motion, angles.as_ref(), q);
-            }
-        }
+        let q = request.coordinates.of(design, shape.positions * shape.drivers);
+        solve_design(
+            &Design::new(mechanism, values, &signs, &jets, q),
+            (&jets, &layout, q),
+            &mut motion,
+            design * shape.positions,
+        );
     }
     Ok(motion)
+}
+
+/// All positions of one design, into the rows from `first` on.
+fn solve_design(
+    design: &Design<'_>,
+    (jets, layout, q): (&Jets, &Layout, &[f64]),
+    motion: &mut Motion,
+    first: usize,
+) {
+    let mut state = design.state(jets);
+    let cx = design.context(jets);
+    for (position, q) in design.scaled(q).chunks_exact(design.unit.coordinate.len()).enumerate() {
+        let row = first + position;
+        let (way, at) = design.way(q);
+        let analogues = design.solve(&mut state, &way, at, q);
+        motion.status[row] = state.status as u8;
+        if matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular) {
+            let write = Write {
+                mechanism: design.mechanism,
+                cx: &cx,
+                state: &state,
+                unit: &design.unit,
+                layout,
+                row,
+                analogues,
+            };
+            write.all(motion, &way, at, q);
+        }
+    }
 }
 
 struct Shape {
@@ -214,65 +231,6 @@ fn empty(shape: &Shape, request: &Request<'_>, layout: &Layout) -> Motion {
     }
 }
 
-/// Powers of two between the design's own unit of length and the metre.
-pub(crate) struct Units {
-    /// Factor of every coordinate, into the design's unit.
-    pub coordinate: Vec<f64>,
-    /// Factor of every jet entry of a length, into metres.
-    pub length: Vec<f64>,
-    /// Factor of every jet entry of an angle.
-    pub angle: Vec<f64>,
-}
-
-impl Units {
-    pub(crate) fn new(mechanism: &Mechanism, cx: &Context<'_>) -> Self {
-        let per = 1.0 / cx.bound.scale;
-        let coordinate: Vec<f64> = (0..mechanism.q0().len())
-            .map(|d| if cx.plan.driven_slide(d).is_some() { per } else { 1.0 })
-            .collect();
-        let angle: Vec<f64> = cx
-            .jets
-            .powers
-            .iter()
-            .map(|power| {
-                let factors = power.iter().zip(&coordinate);
-                factors.map(|(&p, &c)| c.powi(i32::try_from(p).unwrap_or(0))).product()
-            })
-            .collect();
-        let length = angle.iter().map(|f| f * cx.bound.scale).collect();
-        Self { coordinate, length, angle }
-    }
-}
-
-/// The lifted angles of one design.
-enum Angles {
-    /// One path serves all positions.
-    OnePath(Lift),
-    /// Every position has its own path from the drawing.
-    OwnPath { jets: Jets, q0: Vec<f64> },
-}
-
-impl Angles {
-    fn new(mechanism: &Mechanism, cx: &Context<'_>, scaled: &[f64], unit: &Units) -> Self {
-        let jets = Jets::new(mechanism.q0().len(), 1);
-        let q0: Vec<f64> =
-            mechanism.q0().iter().zip(&unit.coordinate).map(|(q, u)| q * u).collect();
-        let [start] = q0[..] else { return Self::OwnPath { jets, q0 } };
-        let cx = Context { jets: &jets, ..*cx };
-        let mut state = State::new(cx.plan, &jets, mechanism.linkage().slides.len());
-        let angles = &mechanism.class_angle;
-        if cx.plan.driven_slide(0).is_none() {
-            return Self::OnePath(Lift::turning(&cx, &mut state, start, angles));
-        }
-        let finite = || scaled.iter().copied().filter(|q| q.is_finite());
-        let range = [finite().fold(start, f64::min), finite().fold(start, f64::max)];
-        // Beyond the sum of all lengths no slide reaches.
-        let lengths = cx.bound.rigid.iter().chain(&cx.bound.fixed).map(|w| w.norm());
-        let reach = 2.0 * lengths.sum::<f64>() + 1.0;
-        Self::OnePath(Lift::sliding(&cx, &mut state, start, range, reach, angles))
-    }
-}
-
 /// Writes one solved position into its row.
 struct Write<'a> {
     mechanism: &'a Mechanism,
@@ -281,10 +239,11 @@ struct Write<'a> {
     unit: &'a Units,
     layout: &'a Layout,
     row: usize,
+    analogues: bool,
 }
 
 impl Write<'_> {
-    fn all(&self, motion: &mut Motion, angles: Option<&Angles>, q: &[f64]) {
+    fn all(&self, motion: &mut Motion, way: &Way, at: f64, q: &[f64]) {
         for track in &mut motion.joints {
             self.point(track, point_of_joint(track.index));
         }
@@ -295,21 +254,9 @@ impl Write<'_> {
             let slide = track.index * self.state.len;
             self.scalar(track, &self.unit.length, |k| self.state.slides[slide + k]);
         }
-        let Some(angles) = angles else { return };
-        let own;
-        let (lift, at) = match angles {
-            Angles::OnePath(lift) => (lift, q[0]),
-            Angles::OwnPath { jets, q0 } => {
-                let cx = Context { jets, ..*self.cx };
-                let slides = self.mechanism.linkage().slides.len();
-                let mut state = State::new(cx.plan, jets, slides);
-                own = Lift::straight(&cx, &mut state, q0, q, &self.mechanism.class_angle);
-                (&own, 1.0)
-            }
-        };
         for track in &mut motion.links {
             let o = self.cx.plan.link_orientation[track.index];
-            let value = self.link_angle(track.index, lift, at, q);
+            let value = self.link_angle(track.index, way, at, q);
             self.scalar(track, &self.unit.angle, |k| {
                 if k == 0 { value } else { self.state.theta_of(self.cx, o, k) }
             });
@@ -317,12 +264,12 @@ impl Write<'_> {
     }
 
     /// Lifted angle of the class, plus what turns the link against it.
-    fn link_angle(&self, link: usize, lift: &Lift, at: f64, q: &[f64]) -> f64 {
+    fn link_angle(&self, link: usize, way: &Way, at: f64, q: &[f64]) -> f64 {
         let rotation = &self.cx.plan.rotation[link];
         let mut angle = 0.0;
         if rotation.class != 0 {
             let principal = self.state.class[rotation.class].angle();
-            angle = lift.angle(at, rotation.class, principal);
+            angle = way.angle(at, rotation.class, principal);
         }
         for (&turns, &q) in rotation.turns.iter().zip(q) {
             if turns != 0 {
@@ -365,6 +312,6 @@ impl Write<'_> {
 
     /// A singular position has no analogues.
     fn analogue(&self, x: f64, y: f64) -> (f64, f64) {
-        if self.state.status == Status::Singular { (f64::NAN, f64::NAN) } else { (x, y) }
+        if self.analogues { (x, y) } else { (f64::NAN, f64::NAN) }
     }
 }

@@ -1,0 +1,164 @@
+//! Change points: where both solutions of a dyad meet and the smooth motion goes
+//! from one to the other.
+//!
+//! The signed spread N of the dyad (sine between its legs, or its chord) crosses
+//! zero there; computed with a fixed sign it touches zero from one side. N² is a
+//! smooth function of q either way, so its least value, found from points at a
+//! distance where nothing is singular, tells a change point (0, to rounding) from
+//! a near miss (positive) and from a gap between two dead points (negative).
+
+use super::state::{Context, State};
+use super::track::{Knot, Track, Walker};
+use crate::plan::Dyad;
+use crate::tolerance::{CHANGE_SPREAD, CHANGE_STEP};
+
+/// A change point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Change {
+    /// Parameter.
+    pub at: f64,
+    /// The sign that changes.
+    pub sign: usize,
+}
+
+/// Looks for the first change point between two knots and records it; the caller
+/// solves the second knot again with the new sign and asks once more.
+pub(crate) fn pass(walker: &mut Walker<'_, '_>, a: &Knot, b: &Knot) -> bool {
+    if !(a.reached && b.reached) {
+        return false;
+    }
+    let dyads: Vec<&Dyad> = walker.dyads().collect();
+    for (place, dyad) in dyads.into_iter().enumerate() {
+        let Some(sign) = dyad.sign else { continue };
+        let here = |c: &Change| c.sign == sign && (c.at - a.at) * walker.way > 0.0;
+        if walker.changes.iter().any(here) {
+            continue;
+        }
+        let ((from, fall), (to, rise)) = (a.spread[place], b.spread[place]);
+        // |N| falls at the one end and rises at the other.
+        let dips = from * fall * walker.way < 0.0 && to * rise * walker.way > 0.0;
+        if !dips || from * to <= 0.0 {
+            continue;
+        }
+        if let Some(at) = locate(walker, dyad, a.at, b.at) {
+            walker.changes.push(Change { at, sign });
+            return true;
+        }
+    }
+    false
+}
+
+/// The change point between `a` and `b`, if there is one.
+fn locate(walker: &mut Walker<'_, '_>, dyad: &Dyad, a: f64, b: f64) -> Option<f64> {
+    let (mut low, mut high) = (a, b);
+    let step = CHANGE_STEP * (b - a);
+    // Halving by the golden section keeps clear of the change point itself, which
+    // likes to be in the middle.
+    while (high - low).abs() > 4.0 * step.abs() {
+        let middle = low + 0.381_966_011_250_105 * (high - low);
+        if !walker.visit(middle) {
+            return None;
+        }
+        let (value, rate) = walker.spread(dyad);
+        if rate.is_nan() {
+            (low, high) = (middle - step, middle + step);
+            break;
+        }
+        if value * rate * walker.way < 0.0 { low = middle } else { high = middle }
+    }
+    let mut centre = 0.5 * (low + high);
+    for _ in 0..3 {
+        let fit = Fit::around(walker, dyad, centre, step)?;
+        let zero = fit.zero();
+        if zero.abs() < 1e-6 {
+            let allowed = CHANGE_SPREAD * fit.before + (fit.slope * zero * step).powi(2);
+            return (fit.least.abs() <= allowed).then_some(centre + zero * step);
+        }
+        centre += zero.clamp(-4.0, 4.0) * step;
+    }
+    None
+}
+
+/// The spread on both sides of a point, as if it were a change point.
+struct Fit {
+    /// N at the centre, by an even polynomial through six points.
+    value: f64,
+    /// Its rate by the parameter.
+    slope: f64,
+    /// N² at the centre, likewise.
+    least: f64,
+    /// Greatest condition of what the dyad hangs on, at the points.
+    before: f64,
+    step: f64,
+}
+
+impl Fit {
+    fn around(walker: &mut Walker<'_, '_>, dyad: &Dyad, centre: f64, step: f64) -> Option<Self> {
+        let sign = dyad.sign?;
+        let (mut n, mut square, mut odd) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        let mut before = 1.0_f64;
+        for (place, reach) in [1.0, 2.0, 3.0].into_iter().enumerate() {
+            for side in [-1.0, 1.0] {
+                if !walker.visit(centre + side * reach * step) {
+                    return None;
+                }
+                let (value, _) = walker.spread(dyad);
+                let value = value.abs() * side;
+                n[place] += 0.5 * value;
+                odd[place] += 0.5 * side * value / (reach * step);
+                square[place] += 0.5 * value * value;
+                before = before.max(walker.state.before[sign]);
+            }
+        }
+        // Even polynomials through ±1, ±2, ±3 steps, at 0: weights 15, −6, 1 of 10.
+        let at_zero = |e: [f64; 3]| (15.0 * e[0] - 6.0 * e[1] + e[2]) / 10.0;
+        Some(Self { value: at_zero(n), slope: at_zero(odd), least: at_zero(square), before, step })
+    }
+
+    /// Where N crosses zero, in steps from the centre.
+    fn zero(&self) -> f64 {
+        -self.value / (self.slope * self.step)
+    }
+}
+
+/// Nodes of the polynomial through a change point: Chebyshev's, so that none is
+/// at it.
+const NODES: u32 = 16;
+
+/// Position and analogues of the smooth motion at (or beside) a change point: the
+/// polynomial through states around it. False if there is no room around it.
+pub(crate) fn bridge(
+    cx: &Context<'_>,
+    state: &mut State,
+    track: &Track,
+    q: f64,
+    change: f64,
+) -> bool {
+    let mut reach = 0.1;
+    while reach > 1e-3 {
+        let mut states = Vec::new();
+        let mut nodes = Vec::new();
+        for node in 0..NODES {
+            let angle = std::f64::consts::PI * (f64::from(node) + 0.5) / f64::from(NODES);
+            let at = change + reach * angle.cos();
+            let mut trial = state.clone();
+            trial.solve(&Context { signs: track.signs(at), ..*cx }, &[at]);
+            if trial.fault.is_some() || trial.points.iter().any(|p| p.x.is_nan()) {
+                break;
+            }
+            // Weights of Chebyshev's nodes of the first kind (Berrut & Trefethen 2004, 5.3).
+            let weight = if node % 2 == 0 { angle.sin() } else { -angle.sin() };
+            nodes.push((at, weight));
+            states.push(trial);
+        }
+        if nodes.len() == NODES as usize {
+            let raw: Vec<f64> = nodes.iter().map(|(at, w)| w / (q - at)).collect();
+            let total: f64 = raw.iter().sum();
+            let weights: Vec<f64> = raw.iter().map(|w| w / total).collect();
+            state.blend(&states, &weights);
+            return true;
+        }
+        reach *= 0.5;
+    }
+    false
+}

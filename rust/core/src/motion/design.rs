@@ -1,0 +1,149 @@
+//! One design ready to be solved: its numbers, its unit of length, its way from
+//! the drawing.
+
+use std::rc::Rc;
+
+use super::change::bridge;
+use super::state::{Context, State, Status};
+use super::track::Track;
+use crate::mechanism::Mechanism;
+use crate::plan::bind::Bound;
+use crate::plan::jet::Jets;
+use crate::tolerance::CHANGE_REACH;
+
+/// Powers of two between the design's own unit of length and the metre.
+pub(crate) struct Units {
+    /// Factor of every coordinate, into the design's unit.
+    pub coordinate: Vec<f64>,
+    /// Factor of every jet entry of a length, into metres.
+    pub length: Vec<f64>,
+    /// Factor of every jet entry of an angle.
+    pub angle: Vec<f64>,
+}
+
+impl Units {
+    fn new(mechanism: &Mechanism, cx: &Context<'_>) -> Self {
+        let per = 1.0 / cx.bound.scale;
+        let coordinate: Vec<f64> = (0..mechanism.q0().len())
+            .map(|d| if cx.plan.driven_slide(d).is_some() { per } else { 1.0 })
+            .collect();
+        let angle: Vec<f64> = cx
+            .jets
+            .powers
+            .iter()
+            .map(|power| {
+                let factors = power.iter().zip(&coordinate);
+                factors.map(|(&p, &c)| c.powi(i32::try_from(p).unwrap_or(0))).product()
+            })
+            .collect();
+        let length = angle.iter().map(|f| f * cx.bound.scale).collect();
+        Self { coordinate, length, angle }
+    }
+}
+
+/// The ways from the drawing to the positions.
+enum Ways {
+    /// One path serves all positions.
+    One(Rc<Track>),
+    /// Every position has its own path from the drawing.
+    Own(Vec<f64>),
+}
+
+/// One design with the assembly asked for.
+pub(crate) struct Design<'a> {
+    pub mechanism: &'a Mechanism,
+    pub bound: Bound,
+    pub unit: Units,
+    jets: &'a Jets,
+    signs: &'a [f64],
+    ways: Ways,
+}
+
+impl<'a> Design<'a> {
+    /// Binds the dimensions and finds the way along the coordinates `q` (all
+    /// positions, rad or m).
+    pub(crate) fn new(
+        mechanism: &'a Mechanism,
+        values: &[f64],
+        signs: &'a [f64],
+        jets: &'a Jets,
+        q: &[f64],
+    ) -> Self {
+        let plan = mechanism.plan();
+        let bound = Bound::new(plan, mechanism.linkage(), mechanism.dimensions(), values);
+        let unit = Units::new(mechanism, &Context { plan, bound: &bound, jets, signs });
+        let mut design = Self { mechanism, bound, unit, jets, signs, ways: Ways::Own(Vec::new()) };
+        let q0 = design.scaled(mechanism.q0());
+        design.ways = match q0[..] {
+            [start] => Ways::One(Rc::new(design.only_way(start, &design.scaled(q)))),
+            _ => Ways::Own(q0),
+        };
+        design
+    }
+
+    /// What a position is solved with; the signs are those at the drawing.
+    pub(crate) fn context<'b>(&'b self, jets: &'b Jets) -> Context<'b> {
+        Context { plan: self.mechanism.plan(), bound: &self.bound, jets, signs: self.signs }
+    }
+
+    /// Coordinates in the design's own unit of length.
+    pub(crate) fn scaled(&self, q: &[f64]) -> Vec<f64> {
+        let units = self.unit.coordinate.iter().cycle();
+        q.iter().zip(units).map(|(q, unit)| q * unit).collect()
+    }
+
+    pub(crate) fn state(&self, jets: &Jets) -> State {
+        State::new(self.mechanism.plan(), jets, self.mechanism.linkage().slides.len())
+    }
+
+    fn only_way(&self, start: f64, scaled: &[f64]) -> Track {
+        let jets = Jets::new(1, 1);
+        let cx = self.context(&jets);
+        let mut state = self.state(&jets);
+        let angles = &self.mechanism.class_angle;
+        if cx.plan.driven_slide(0).is_none() {
+            return Track::turning(&cx, &mut state, start, angles);
+        }
+        let finite = || scaled.iter().copied().filter(|q| q.is_finite());
+        let range = [finite().fold(start, f64::min), finite().fold(start, f64::max)];
+        // Beyond the sum of all lengths no slide reaches.
+        let lengths = cx.bound.rigid.iter().chain(&cx.bound.fixed).map(|w| w.norm());
+        let reach = 2.0 * lengths.sum::<f64>() + 1.0;
+        Track::sliding(&cx, &mut state, start, range, reach, angles)
+    }
+
+    /// The way to one position (scaled coordinates), and its parameter there.
+    pub(crate) fn way(&self, q: &[f64]) -> (Rc<Track>, f64) {
+        match &self.ways {
+            Ways::One(track) => (Rc::clone(track), q[0]),
+            Ways::Own(q0) => {
+                let jets = Jets::new(q0.len(), 1);
+                let finite = q.iter().all(|x| x.is_finite());
+                let end = if finite { q } else { q0 };
+                let angles = &self.mechanism.class_angle;
+                let track =
+                    Track::straight(&self.context(&jets), &mut self.state(&jets), q0, end, angles);
+                (Rc::new(track), 1.0)
+            }
+        }
+    }
+
+    /// Solves one position with the signs of its place on the way; true if the
+    /// analogues exist.
+    pub(crate) fn solve(&self, state: &mut State, track: &Track, at: f64, q: &[f64]) -> bool {
+        let cx = self.context(self.jets);
+        state.solve(&Context { signs: track.signs(at), ..cx }, q);
+        if !matches!(state.status, Status::Singular | Status::Unreachable) {
+            return true;
+        }
+        // A flat dyad at a change point: the smooth motion goes on through it.
+        if let [one] = *q
+            && let Some(change) = track.change_near(at, CHANGE_REACH)
+            && bridge(&cx, state, track, one, change)
+        {
+            state.status = Status::Singular;
+            return true;
+        }
+        false
+    }
+}
