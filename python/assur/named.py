@@ -55,7 +55,7 @@ class FourBar(Mechanism):
             joints={
                 "A": (0.0, 0.0),
                 "B": (0.0, 1.0),
-                "C": (3.0, 2.0) if mode == "open" else (1.8, -1.6),
+                "C": (2.5, 2.0) if mode == "open" else (1.8, -1.6),
                 "D": (3.0, 0.0),
             },
             links={

@@ -34,6 +34,7 @@ Q: TypeAlias = tuple[float, ...]
 U = 2.220446049250313e-16
 POSITION = 8 * U
 ANALOGUE = 64 * U
+ORACLE = 1e-40  # sizes: what the oracle gives for an analogue that is 0
 LEAST_STEP = 1e-4  # along the path: a fold is then met to its square
 FAR = 1e4  # sizes: a pole
 
@@ -234,7 +235,7 @@ def compare(
         worst.append(max(errors, key=lambda n: errors[n]))
         most = errors[worst[-1]]
         allowed = ANALOGUE * kappa**2 * own if k else POSITION * kappa * size
-        found.append(most / allowed if most else 0.0)
+        found.append(most / (allowed + ORACLE * size))
     q = motion.coordinate(index)
     q = (q,) if isinstance(q, float) else q
     return Gap(q, kappa, found[0], tuple(found[1:]), tuple(worst))

@@ -1,8 +1,9 @@
-//! The core against the oracle: random mechanisms of every dyad kind, every
-//! driver and sequences of dyads, none thrown away.
-//!
-//! Positions agree within 8 u κ of the size, analogues within 64 u κ² of their
-//! own size (design.md, "Numbers"), κ the condition that the core itself states.
+#![allow(unsafe_code)]
+// The core against the oracle: random mechanisms of every dyad kind, every
+// driver and sequences of dyads, none thrown away.
+//
+// Positions agree within 8 u κ of the size, analogues within 64 u κ² of their
+// own size (design.md, "Numbers"), κ the condition that the core itself states.
 
 use assur::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, CLOSURE_PER_CONDITION};
 use assur::{Coordinates, Mechanism, Motion, Outputs, Request, Status, Track};
@@ -90,16 +91,24 @@ impl Comparison<'_> {
         }
         for t in &motion.links {
             let drawn = oracle.angle0[t.index];
-            parts.push(self.track(t, order, false, 1, |_, k| {
+            let (worst, squares) = self.track(t, order, false, 1, |_, k| {
                 let turned = at.bodies[t.index].turn[k];
                 if k == 0 { turned + drawn } else { turned }
-            }));
+            });
+            let reach = oracle.reaches[t.index];
+            parts.push((worst * reach, squares * reach * reach));
         }
         for t in &motion.slides {
             let value = &oracle.values[t.index];
             parts.push(self.track(t, order, true, 1, |_, k| oracle.reach(at, value, k)));
         }
         let worst = parts.iter().map(|p| p.0).fold(0.0, f64::max);
+        if std::env::var("DETAIL").is_ok() {
+            let n: Vec<String> = motion.joints.iter().map(|t| format!("joint {}", t.index)).chain(motion.places.iter().filter(|t| t.index != oracle.ground).map(|t| format!("place {}", t.index))).chain(motion.links.iter().map(|t| format!("angle {}", t.index))).chain(motion.slides.iter().map(|t| format!("slide {}", t.index))).collect();
+            let i = parts.iter().position(|p| p.0 == worst).unwrap();
+            let i2 = parts.iter().enumerate().filter(|(i, _)| !n[*i].starts_with("angle")).map(|(_, p)| p.0).fold(0.0, f64::max);
+            println!("DETAIL order {order} worst {} {worst:e} value {} norm {} worst not angle {i2:e} size {}", n[i], parts[i].1.sqrt(), parts.iter().map(|p| p.1).sum::<f64>().sqrt(), oracle.size);
+        }
         (worst, parts.iter().map(|p| p.1).sum::<f64>().sqrt())
     }
 }
@@ -187,7 +196,7 @@ fn run(cases: impl Strategy<Value = Case>, seed: u64) {
         let out = if std::env::var("EXPLORE").is_ok() {
             match std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| check(&case))) {
                 Ok(Ok(v)) => v,
-                Ok(Err(e)) => { println!("FAIL {:?} {} ## {:?}", case.kinds, e.to_string().lines().next().unwrap(), case.sines); vec![] }
+                Ok(Err(e)) => { unsafe { std::env::set_var("DETAIL", "1") }; let _ = check(&case); unsafe { std::env::remove_var("DETAIL") }; println!("{:?}", case.description); println!("FAIL {:?} {} ## {:?}", case.kinds, e.to_string().lines().next().unwrap(), case.sines); vec![] }
                 Err(p) => { println!("PANIC {:?} {:?}", case.kinds, p.downcast_ref::<String>()); vec![] }
             }
         } else { check(&case)? };

@@ -46,7 +46,7 @@ impl FourBar {
     pub fn description(mode: FourBarMode) -> Description {
         // Right and left of the ray from D to B, which points along (−3, 1).
         let c = match mode {
-            FourBarMode::Open => [3.0, 2.0],
+            FourBarMode::Open => [2.5, 2.0],
             FourBarMode::Crossed => [1.8, -1.6],
         };
         Description::new()
