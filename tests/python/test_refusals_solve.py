@@ -6,6 +6,7 @@ import copy
 import math
 import pickle
 from functools import partial
+from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 M = build()
-APART = assur.FourBar(40, 120, 80, 300)  # opens near the top of the turn
+APART = assur.FourBar(40, 120, 80, 210)  # opens near the top of the turn
 TWO = build(joints=FIVE, links=FIVE_LINKS, driver=["left", "right"])
 BATCH = M.with_dimensions({"coupler.length": [4.4, math.nan, -1, 0, math.inf, 4.5, 20]})
 nan, inf = math.nan, math.inf
@@ -179,14 +180,16 @@ def test_many_turns() -> None:
 
 
 def test_many_turns_of_one_of_two_drivers() -> None:
-    """Neither time nor memory may grow with q (a process was killed at q = 1e9)."""
+    """Neither time nor memory grows with q (knots along the path: 12 s at 3e6, killed at 1e9)."""
     m = build(
         joints={"O": (0, 0), "A": (0.3, 0.4), "B": (2.3, 0), "G": (5, 1)},
         links={"ground": "O", "crank": "OA", "cart": "B", "long": "AG", "short": "GB"},
         slides={"s": slide("cart", "ground", 0)},
         driver=["crank", "s"],
     )
-    assert m.solve([3e5, 1.0], on_error="nan").status == Status.OK
+    start = perf_counter()
+    assert m.solve([1e6, 1.0], on_error="nan").status == Status.OK
+    assert perf_counter() - start < 0.5
 
 
 @pytest.mark.parametrize("q", [1.0, 1e3, 1e16, 1e153, 1e160, 1e300, -1e300])

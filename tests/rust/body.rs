@@ -65,6 +65,8 @@ pub struct Oracle {
     pub unit: Vec<f64>,
     /// A body and a point on it, for every joint.
     pub joints: Vec<(usize, Point)>,
+    /// Every joint as a point of every body it is on.
+    pub pins: Vec<(usize, Point)>,
     /// For every slide, what its value measures.
     pub values: Vec<Reach>,
     /// Angle of every link in the drawing.
@@ -82,6 +84,7 @@ impl Oracle {
             size: drawing.size,
             unit: Vec::new(),
             joints: Vec::new(),
+            pins: Vec::new(),
             values: Vec::new(),
             angle0: (0..description.links.len()).map(|l| drawing.angle(l)).collect(),
             ground: drawing.link("ground"),
@@ -102,6 +105,7 @@ impl Oracle {
                 .collect();
             let local: Vec<Point> = on.iter().map(|&l| drawing.local(l, place)).collect();
             self.joints.push((on[0], local[0]));
+            self.pins.extend(on.iter().copied().zip(local.iter().copied()));
             for k in 1..on.len() {
                 let (a, u, b, w) = (on[0], local[0], on[k], local[k]);
                 self.equations.push(Equation::Pin { a, u, b, w });

@@ -3,7 +3,7 @@
 
 use nalgebra::{DVector, Dyn, LU};
 
-use crate::body::{Oracle, Position};
+use crate::body::{Oracle, Point, Position};
 use crate::double_double::Dd;
 use crate::series::convolve;
 
@@ -17,6 +17,8 @@ const ITERATIONS: usize = 40;
 const LEAST_STEP: f64 = 1.0 / 256.0;
 /// How far from its prediction a position may be, as part of the step.
 const BEND: f64 = 0.2;
+/// Greatest turn of a body in one step, rad: no angle may slip by whole turns.
+const TURN: f64 = 0.5;
 /// Corrections of a series coefficient, each gaining 1e-16 times the condition.
 const REFINEMENTS: usize = 12;
 
@@ -95,11 +97,13 @@ impl Oracle {
                 *q = *f + *w * Dd::from(gone + step);
             }
             let tangent = solve(&factors, &self.residual(&guess, 0))?;
+            let turned = tangent.iter().skip(2).step_by(3).fold(0.0, |m: f64, t| m.max(t.abs()));
             self.correct(&mut guess, 0, &tangent);
             let predicted = guess.clone();
             match self.assemble(guess) {
                 Some((reached, new))
-                    if new.determinant().signum() == sign
+                    if turned <= TURN
+                        && new.determinant().signum() == sign
                         && distance(&predicted, &reached) <= BEND * tangent.amax() + 1e-12 =>
                 {
                     (at, factors) = (reached, new);
@@ -135,6 +139,46 @@ impl Oracle {
                 }
             }
         }
+    }
+}
+
+impl Oracle {
+    /// Greatest coordinate, as a part of `size`: of joints and links' own points (seen
+    /// from the ground's first joint, where it has one) and of slides.
+    pub fn extent(&self, at: &Position) -> f64 {
+        let place = |joint: &(usize, Point)| self.point(at, joint.0, joint.1, 0);
+        let base = self.joints.iter().find(|j| j.0 == self.ground).map(place);
+        let base = base.unwrap_or([Dd::ZERO; 2]);
+        let own = at.bodies.iter().map(|b| [b.x[0], b.y[0]]);
+        let far = |p: Point| {
+            f64::from(p[0] - base[0]).abs().max(f64::from(p[1] - base[1]).abs())
+        };
+        let slides = self.values.iter().map(|v| f64::from(self.reach(at, v, 0)).abs());
+        self.joints.iter().map(place).chain(own).map(far).chain(slides).fold(0.0, f64::max)
+    }
+
+    /// By what an angle's error is to be multiplied to be a length: for every link
+    /// the greatest distance between joints that turn with it (on it or on links
+    /// tied to it by slides), as a part of `size`; 1 where there are no two.
+    pub fn arms(&self, at: &Position) -> Vec<f64> {
+        let mut tied: Vec<usize> = (0..at.bodies.len()).collect();
+        for v in &self.values {
+            let (from, to) = (tied[v.a], tied[v.b]);
+            tied.iter_mut().filter(|t| **t == from).for_each(|t| *t = to);
+        }
+        let arm = |class: usize| {
+            let joints: Vec<Point> = self
+                .pins
+                .iter()
+                .filter(|(body, _)| tied[*body] == class)
+                .map(|&(body, u)| self.point(at, body, u, 0))
+                .collect();
+            let gap = |p: Point, r: Point| f64::from(p[0] - r[0]).hypot(f64::from(p[1] - r[1]));
+            let all = joints.iter().flat_map(|&p| joints.iter().map(move |&r| gap(p, r)));
+            let greatest = all.fold(0.0, f64::max);
+            if greatest > 0.0 { greatest } else { 1.0 }
+        };
+        tied.iter().map(|&class| arm(class)).collect()
     }
 }
 

@@ -1,0 +1,173 @@
+"""assur against the oracle, within the law of the design's "Numbers" (see agreement.py).
+
+Every random mechanism is tried at its drawing and at three other q: half way and all the way
+forward, and backward; where a fold comes before, half way to it.  Beyond a fold assur must either
+decline or stand where its own assembly really closes.  No case is thrown away.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from hypothesis import Phase, given, settings
+from hypothesis import strategies as st
+
+import agreement
+import assur
+import models
+import oracle
+from agreement import Q
+from assur import Status
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from oracle import Description
+
+NO_SHRINK = settings(phases=(Phase.explicit, Phase.reuse, Phase.generate))  # seeds: no simpler
+moves = st.tuples(st.floats(0.05, 3.0), st.floats(0.05, 3.0))
+ALL_ORDERS = os.environ.get("HYPOTHESIS_PROFILE") == "slow"  # at every q, else at two of four
+
+
+def along(start: Q, move: Q, t: float) -> Q:
+    return tuple(a + t * b for a, b in zip(start, move, strict=True))
+
+
+def solve(mechanism: assur.Mechanism, qs: list[Q]) -> assur.Motion:
+    points = np.array(qs)
+    points = points[:, 0] if points.shape[1] == 1 else points
+    return mechanism.solve(points, order=3, on_error="nan")
+
+
+def check_law(d: Description, q: Q, solution: oracle.Solution, gap: agreement.Gap) -> None:
+    """Nothing is further off than the law allows; else say by how much, and whether it could."""
+    for k, (used, whose) in enumerate(zip((gap.position, *gap.analogues), gap.worst, strict=True)):
+        if used > 1:
+            own = agreement.inherent(d, q, solution, k)
+            pytest.fail(
+                f"order {k}, {whose}: {used:.3g} times what the law allows, {gap.errors[k]:.3g} "
+                f"(condition {gap.condition:.3g}; half a u of the size in the drawing "
+                f"changes this order by {own:.3g}) at q = {q} of {d}"
+            )
+
+
+def check_beyond(case: models.Case, tracer: agreement.Tracer, motion: assur.Motion, i: int) -> None:
+    """Past a fold: NaN and a status, or a position of this assembly that closes."""
+    d, status = case.description, motion.status[i]
+    joints = {n: motion.joint(n).value[i] for n in d.joints}
+    if status > Status.SINGULAR:
+        assert status == Status.UNREACHABLE
+        assert all(np.isnan(p).all() for p in joints.values())
+        return
+    angles = {n: float(motion.link(n).value[i]) for n in d.links}
+    guess = oracle.guess_from_joints(d, joints, angles)
+    q = motion.coordinate(i)
+    q = (q,) if isinstance(q, float) else q
+    solution = oracle.solve(d, q, guess, 0)
+    turns = whole_turns(motion, i, solution)
+    check_law(d, q, solution, agreement.compare(d, motion, (i,), solution, 0, turns))
+    # the sign of the determinant is the product of the dyads' signs; a PRP has none, and its
+    # guides may have turned past each other
+    if status == Status.OK and not any(kind == "PRP" for kind, _ in case.dyads):
+        assert tracer.orientation(solution.pose) == tracer.orientation(oracle.drawing_pose(d))
+
+
+def whole_turns(motion: assur.Motion, i: int, solution: oracle.Solution) -> dict[str, float]:
+    gaps = {n: float(motion.link(n).value[i] - j.value) for n, j in solution.links.items()}
+    return {n: math.tau * round(gap / math.tau) for n, gap in gaps.items()}
+
+
+def check(case: models.Case, forward: float, backward: float) -> None:
+    d = case.description
+    mechanism, tracer = assur.Mechanism(**models.arguments(d)), agreement.Tracer(d)
+    start = oracle.drawing_q(d)
+    for mine, its in zip(np.atleast_1d(mechanism.q0), start, strict=True):
+        assert math.remainder(mine - its, math.tau) == pytest.approx(0, abs=1e-14)
+    qs, poses, beyond = [start], [oracle.drawing_pose(d)], list[Q]()
+    for size, stops in ((forward, [0.5, 1.0]), (-backward, [1.0])):
+        # two drivers go different ways
+        move = tuple(size * (1 - 1.6 * k) for k in range(len(start)))
+        path = tracer.follow(move, stops)
+        if path.fold is not None:
+            to_fold = tuple(f - a for f, a in zip(path.fold, start, strict=True))
+            beyond += [along(start, to_fold, 1.02), along(start, move, 1.0)]
+            move = tuple(f / 2 for f in to_fold)
+            path = tracer.follow(move, stops)
+            assert path.fold is None
+        qs += [along(start, move, t) for t in stops]
+        poses += path.poses
+    motion = solve(mechanism, qs + beyond)
+    turns: dict[str, float] = {}
+    for i, (q, pose) in enumerate(zip(qs, poses, strict=True)):
+        # the oracle came here without a fold: so must assur
+        assert motion.status[i] <= Status.NEAR_SINGULAR, motion.explain(i)
+        order = 3 if ALL_ORDERS or i in (0, 2) else 0
+        solution = oracle.solve(d, q, pose, order)
+        turns = turns or whole_turns(motion, i, solution)  # of the drawing: −π or π
+        check_law(d, q, solution, agreement.compare(d, motion, (i,), solution, order, turns))
+    for i in range(len(qs), len(qs) + len(beyond)):
+        check_beyond(case, tracer, motion, i)
+
+
+@pytest.mark.parametrize("kind", models.KINDS)
+def test_dyads(kind: str) -> None:
+    @NO_SHRINK
+    @given(models.dyads(kind), moves)
+    def run(case: models.Case, move: tuple[float, float]) -> None:
+        check(case, *move)
+
+    run()
+
+
+@pytest.mark.parametrize("driver", models.DRIVERS)
+def test_drivers(driver: str) -> None:
+    @NO_SHRINK
+    @given(models.driven_by(driver), moves)
+    def run(case: models.Case, move: tuple[float, float]) -> None:
+        check(case, *move)
+
+    run()
+
+
+@NO_SHRINK
+@given(models.sequences(), moves)
+def test_sequences(case: models.Case, move: tuple[float, float]) -> None:
+    check(case, *move)
+
+
+@pytest.mark.parametrize("make", models.NAMED.values(), ids=models.NAMED)
+def test_named(make: Callable[[], Description]) -> None:
+    d = make()
+    if d == models.parallelogram():  # the tracer takes no redundant link
+        q = oracle.drawing_q(d)
+        motion = solve(assur.Mechanism(**models.arguments(d)), [q])
+        solution = oracle.solve(d, q, oracle.drawing_pose(d))
+        check_law(d, q, solution, agreement.compare(d, motion, (0,), solution, 3))
+        return
+    check(models.Case(d, "", (("PRP", ("", "")),), 0), 0.9, 0.9)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_tracer_is_follow(seed: int) -> None:
+    """The fast tracer against the oracle's own `follow`."""
+    d = models.random_case(seed, 3).description
+    move = (0.3,) * len(d.drivers)
+    q = along(oracle.drawing_q(d), move, 1.0)
+    path = agreement.Tracer(d).follow(move, [1.0])
+    pose, stuck = None, None
+    try:
+        pose = oracle.follow(d, q, 8)  # eighths add up to 1 exactly
+    except oracle.StuckError as error:
+        stuck = error
+    assert (path.fold is None) == (stuck is None)
+    if stuck is not None and path.fold is not None:
+        # it gets a little nearer
+        q0 = oracle.drawing_q(d)
+        assert path.fold == pytest.approx(stuck.q, abs=1e-3)
+        assert math.dist(path.fold, q0) >= math.dist(stuck.q, q0) - 1e-6
+    for name, place in (pose or {}).items():
+        assert path.poses[0][name] == pytest.approx(place, abs=1e-9)
