@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from assur._checks import checked_order, checked_signs, real_array
 from assur.description import Status
 from assur.errors import AssurError, DimensionError, InputError, PositionError
 from assur.motion import Motion, Tracks
@@ -32,9 +33,7 @@ def solve(
     if on_error not in ("raise", "nan"):
         message = f'on_error is {on_error!r}: "raise" or "nan"'
         raise InputError(message)
-    if isinstance(order, bool) or not isinstance(order, int) or not 0 <= order <= 3:
-        message = f"order is {order!r}: 0, 1, 2 or 3"
-        raise InputError(message)
+    order = checked_order(order)
     core = mechanism._core
     coordinates, positions, per_design = _coordinates(mechanism, q)
     signs = _signs(mechanism, assembly)
@@ -67,11 +66,7 @@ def solve(
 
 def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[int, ...], bool]:
     """Coordinates, the shape of positions, and whether each design has its own."""
-    try:
-        array = np.array(q, dtype=np.float64, order="C")
-    except (TypeError, ValueError) as error:
-        message = f"q is {q!r}: a number or an array of numbers is needed"
-        raise InputError(message) from error
+    array = np.array(real_array(q, "q"), order="C")
     drivers = len(mechanism._core.q0)
     shape = array.shape
     if drivers > 1:
@@ -90,14 +85,11 @@ def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[i
 
 def _signs(mechanism: Mechanism, assembly: Mapping[str, int] | None) -> list[int]:
     signs = dict(mechanism._core.assembly)
-    for name, sign in (assembly or {}).items():
+    for name, sign in checked_signs(assembly):
         if name not in signs:
             message = f"assembly: no dyad has the inner pair {name!r}; there are {list(signs)}"
             raise InputError(message, joint=name)
-        if sign not in (1, -1):
-            message = f"assembly[{name!r}] is {sign!r}: it must be +1 or -1"
-            raise InputError(message, joint=name)
-        signs[name] = int(sign)
+        signs[name] = sign
     return list(signs.values())
 
 
@@ -112,9 +104,14 @@ def _outputs(
     if isinstance(names, str):
         message = f"outputs={names!r}: a list of names is needed, [{names!r}]"
         raise InputError(message)
-    wanted = list(names)
+    everything = {**joints, **links, **slides}
+    try:
+        wanted: list[Any] = list(names)
+    except TypeError as error:
+        message = f"outputs is {names!r}: a list of names is needed"
+        raise InputError(message) from error
     for name in wanted:
-        if name not in joints and name not in links and name not in slides:
+        if not isinstance(name, str) or name not in everything:
             known = ", ".join(repr(n) for n in (*joints, *links, *slides))
             message = f"outputs: nothing is called {name!r}; there are {known}"
             raise InputError(message)
@@ -175,7 +172,8 @@ def _no_analogues(motion: Motion) -> npt.NDArray[np.bool_]:
     held = (tracks.joints, tracks.links, tracks.slides)
     missing = np.zeros(motion.shape, dtype=np.bool_)
     for arrays in (a for kind in held for a in kind.values()):
-        missing |= np.isnan(arrays[1]).reshape((*motion.shape, -1)).any(axis=-1)
+        beyond = tuple(range(len(motion.shape), arrays[1].ndim))
+        missing |= np.isnan(arrays[1]).any(axis=beyond)
     return missing
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 
-from assur.errors import InputError
+from assur._checks import checked_signs
 
 __all__ = ["Assembly", "Drive", "Slide", "Status"]
 
@@ -100,11 +100,7 @@ class Assembly(Mapping[str, int]):
     __slots__ = ("_signs",)
 
     def __init__(self, signs: Mapping[str, int]) -> None:
-        for name, sign in signs.items():
-            if sign not in (1, -1):
-                message = f"assembly[{name!r}] is {sign!r}: it must be +1 or -1"
-                raise InputError(message, joint=name)
-        self._signs = tuple((str(name), int(sign)) for name, sign in signs.items())
+        self._signs = checked_signs(signs)
 
     def __getitem__(self, name: str) -> int:
         for key, sign in self._signs:

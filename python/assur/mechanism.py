@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _solve
+from assur._checks import checked_index, checked_signs, real_array
 from assur._core import Mechanism as Core
 from assur.description import Assembly, Drive, Slide
 from assur.errors import InputError
@@ -90,10 +91,10 @@ class Mechanism:
     ) -> None:
         parts: Parts = (
             tuple(_joint(name, at) for name, at in _items(joints, "joints")),
-            tuple((name, tuple(on)) for name, on in _items(links, "links")),
+            tuple((name, _members(name, on)) for name, on in _items(links, "links")),
             tuple((name, _slide(name, s)) for name, s in _items(slides or {}, "slides")),
             _drivers(driver),
-            tuple((assembly or {}).items()),
+            checked_signs(assembly, strict=False),
         )
         self._begin(parts, None)
 
@@ -154,7 +155,9 @@ class Mechanism:
         """
         if self._joints is None:
             drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._parts[0]}
-            if self._values.ndim > 1 or self._values.tolist() != self._core.drawing:
+            # A named assembly may be other than the drawing's.
+            as_drawn = self._values.tolist() == self._core.drawing and not self._parts[4]
+            if not as_drawn:
                 motion = self.solve(self._q0_array(), order=0, on_error="nan")
                 arrays = {name: motion.joint(name).value for name in drawn}
                 single = not self.shape
@@ -268,7 +271,7 @@ class Mechanism:
         """
         wanted = {**(dimensions or {}), **by_name}
         places = [self._core.dimension(name) for name in wanted]
-        new = [_numbers(name, value) for name, value in wanted.items()]
+        new = [real_array(value, f"dimension {name!r}") for name, value in wanted.items()]
         try:
             shape = np.broadcast_shapes(self.shape, *(array.shape for array in new))
         except ValueError as error:
@@ -305,21 +308,14 @@ class Mechanism:
         """
         joints, links, slides, _, _ = self._parts
         return self._make(
-            (joints, links, slides, _drivers(driver), tuple((assembly or {}).items())),
+            (joints, links, slides, _drivers(driver), checked_signs(assembly, strict=False)),
             np.array(self._values),
         )
 
     def design(self, index: int | tuple[int, ...]) -> Mechanism:
         """Return one design of a batch as a mechanism of its own."""
-        place = index if isinstance(index, tuple) else (index,)
-        if len(place) != len(self.shape):
-            message = f"design {index!r}: the design shape is {self.shape}"
-            raise InputError(message)
-        try:
-            values = np.array(self._values[place])
-        except IndexError as error:
-            message = f"design {index!r} is outside the design shape {self.shape}"
-            raise InputError(message) from error
+        place = checked_index(index, self.shape, "design")
+        values = np.array(self._values[place])
         self._core.check_dimensions(values.tolist())
         return self._make(self._parts, values, self._core)
 
@@ -383,10 +379,13 @@ class Mechanism:
         if self.shape:
             message = f"assemblies: take one design of the {self.shape} first, with design(i)"
             raise InputError(message)
-        one = np.atleast_1d(np.asarray(q, dtype=np.float64))
+        one = np.atleast_1d(real_array(q, "q"))
         if one.shape != (len(self._core.q0),):
             message = f"q has shape {one.shape}: one position of {len(self._core.q0)} drivers"
             raise InputError(message)
+        if not np.isfinite(one).all():
+            message = f"q = {q!r}: a finite coordinate is needed"
+            raise InputError(message, value=float(one[~np.isfinite(one)][0]))
         names = [name for name, _ in self._core.assembly]
         found = self._core.assemblies(self._values.tolist(), one.tolist())
         return [Assembly(dict(zip(names, signs, strict=True))) for signs in found]
@@ -433,13 +432,16 @@ def _items(mapping: Any, what: str) -> list[tuple[str, Any]]:
         if not isinstance(name, str):
             message = f"{what}: the name {name!r} is not a string"
             raise InputError(message)
+        if any("\ud800" <= letter <= "\udfff" for letter in name):
+            message = f"{what}: the name {name!a} is no Unicode text"
+            raise InputError(message)
     return list(mapping.items())
 
 
 def _joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
     try:
         x, y = (float(v) for v in at)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         message = f"joint {name!r} is at {at!r}: two numbers (x, y) are needed"
         raise InputError(message, joint=name) from error
     return (name, x, y)
@@ -450,24 +452,36 @@ def _slide(name: str, slide: Any) -> Slide:
         message = f"slide {name!r} is {slide!r}: an assur.Slide is needed"
         raise InputError(message, slide=name)
     try:
-        return Slide(slide.link, slide.on, float(slide.angle), slide.origin)
-    except (TypeError, ValueError) as error:
+        checked = Slide(slide.link, slide.on, float(slide.angle), slide.origin)
+    except (TypeError, ValueError, OverflowError) as error:
         message = f"slide {name!r} has angle {slide.angle!r}: a number (rad) is needed"
         raise InputError(message, slide=name) from error
+    words: tuple[Any, ...] = (slide.link, slide.on, slide.origin or "")
+    for word in words:
+        if not isinstance(word, str):
+            message = f"slide {name!r}: {word!r} is not a name"
+            raise InputError(message, slide=name)
+    return checked
 
 
 def _drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]:
-    drivers: tuple[Any, ...] = (driver,) if isinstance(driver, str | Drive) else tuple(driver)
+    drivers: tuple[Any, ...] = tuple(driver) if isinstance(driver, list | tuple) else (driver,)
     for d in drivers:
-        if not isinstance(d, str | Drive):
-            message = f"driver {d!r}: a name or an assur.Drive is needed"
+        words: tuple[Any, ...] = (d.link, d.relative_to) if isinstance(d, Drive) else (d,)
+        if not all(isinstance(word, str) for word in words):
+            message = f"driver {d!r}: the name of a link or slide, or an assur.Drive, is needed"
             raise InputError(message)
     return drivers
 
 
-def _numbers(name: str, value: npt.ArrayLike) -> Float:
+def _members(name: str, joints: Any) -> tuple[str, ...]:
     try:
-        return np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        message = f"dimension {name!r} is {value!r}: a number or an array of numbers is needed"
-        raise InputError(message, dimension=name) from error
+        members = tuple(joints)
+    except TypeError as error:
+        message = f"link {name!r} is {joints!r}: a list of names of joints is needed"
+        raise InputError(message, link=name) from error
+    for member in members:
+        if not isinstance(member, str):
+            message = f"link {name!r}: {member!r} is not the name of a joint"
+            raise InputError(message, link=name)
+    return members

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core, transmission
+from assur._checks import checked_index, real_array
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -109,7 +110,7 @@ class Analogues:
 
     def _speeds(self, given: npt.ArrayLike) -> Float:
         """Speeds with an axis for the components, and a last one for the drivers."""
-        array = np.asarray(given, dtype=np.float64)
+        array = real_array(given, "a speed or acceleration")
         if self._drivers == 1:
             array = array[..., np.newaxis]
         elif array.ndim == 0 and array == 0.0:
@@ -126,7 +127,14 @@ class Analogues:
         for speed in reversed(speeds):
             axes = array.ndim - (self.value.ndim + 1)
             aligned = speed.reshape(speed.shape[:-1] + (1,) * axes + speed.shape[-1:])
-            array = (array * aligned).sum(axis=-1)
+            try:
+                array = (array * aligned).sum(axis=-1)
+            except ValueError as error:
+                given, shape = speed.shape[:-1], self.value.shape
+                if self._point:
+                    given, shape = given[:-1], shape[:-1]
+                message = f"shape {given} does not broadcast to {shape}"
+                raise InputError(message) from error
         return array
 
     def __repr__(self) -> str:
@@ -170,6 +178,15 @@ class Motion:
         self._tracks = tracks
         self._drivers = len(mechanism._core.q0)
         self._diagnostics: tuple[Float, Float] | None = None
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        tracks = self._tracks
+        for held in (tracks.joints, tracks.links, tracks.places, tracks.slides):
+            for array in (a for arrays in held.values() for a in arrays):
+                array.flags.writeable = False
+        for array in (self.q, self.status, *(self._diagnostics or ())):
+            array.flags.writeable = False
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -294,11 +311,13 @@ class Motion:
                 self._signs,
             )
             self._diagnostics = (residual.reshape(self.shape), condition.reshape(self.shape))
+            for array in self._diagnostics:
+                array.flags.writeable = False
         return self._diagnostics
 
     def coordinate(self, index: int | tuple[int, ...]) -> float | tuple[float, ...]:
         """Return the coordinate at an index of `shape`; a tuple for several drivers."""
-        place = index if isinstance(index, tuple) else (index,)
+        place = checked_index(index, self.shape, "index")
         designs = 0 if self._per_design else len(self.mechanism.shape)
         q = self.q[place[designs:]] if self._positions else self.q
         return float(q) if self._drivers == 1 else tuple(float(x) for x in q)
@@ -313,16 +332,12 @@ class Motion:
         >>> m.solve([0.0, 3.0], on_error="nan").explain(1)
         'at q = 3 dyad "C" does not close: 1.396e2 m are missing'
         """
-        return self._explain(index if isinstance(index, tuple) else (index,))[2]
+        return self._explain(index)[2]
 
-    def _explain(self, index: tuple[int, ...]) -> tuple[int, str | None, str]:
-        try:
-            self.status[index]
-            q = self.coordinate(index)
-        except IndexError as error:
-            message = f"index {index} is outside the shape {self.shape}"
-            raise InputError(message) from error
-        values = self.mechanism._values[index[: len(self.mechanism.shape)]]
+    def _explain(self, index: int | tuple[int, ...]) -> tuple[int, str | None, str]:
+        place = checked_index(index, self.shape, "index")
+        q = self.coordinate(place)
+        values = self.mechanism._values[place[: len(self.mechanism.shape)]]
         one = [q] if isinstance(q, float) else list(q)
         return self.mechanism._core.explain(values.tolist(), one, self._signs)
 

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
+from assur._checks import real_array
 from assur.description import Slide
-from assur.errors import InputError
+from assur.errors import DimensionError, InputError
 from assur.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -46,6 +49,10 @@ class FourBar(Mechanism):
         ground: npt.ArrayLike,
         mode: Literal["open", "crossed"] = "open",
     ) -> None:
+        length = real_array(ground, "ground")
+        if length.ndim == 0 and length <= 0.0:
+            message = f"ground is {ground!r}: a length must be positive"
+            raise DimensionError(message, dimension="ground.D.x", value=float(length))
         if mode not in ("open", "crossed"):
             message = f'mode is {mode!r}: "open" or "crossed"'
             raise InputError(message)
@@ -73,7 +80,8 @@ class FourBar(Mechanism):
                 "crank.length": crank,
                 "coupler.length": coupler,
                 "rocker.length": rocker,
-                "ground.D.x": ground,
+                # Of a batch, designs without a ground get Status.BAD_DIMENSION.
+                "ground.D.x": np.where(length > 0.0, length, np.nan),
             },
         )
 

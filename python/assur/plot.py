@@ -33,6 +33,9 @@ def mechanism(mechanism: Mechanism, q: float | None, ax: Any) -> Any:
         message = f"plot draws one mechanism: take one of the designs {mechanism.shape}: design(i)"
         raise InputError(message)
     motion = mechanism.solve(mechanism._q0_array() if q is None else q, order=0)
+    if motion.shape:
+        message = f"plot draws one position: q has shape {motion.shape}"
+        raise InputError(message)
     return _draw(motion, (), _axes(ax))
 
 

@@ -36,13 +36,13 @@ def dataframe(motion: Motion) -> Any:
 
 def _columns(motion: Motion) -> dict[str, Any]:
     tracks, drivers = motion._tracks, motion._drivers
-    named = [(f"{n}.{xy}", a, k) for n, a in tracks.joints.items() for k, xy in enumerate("xy")]
-    named += [(n, a, 0) for n, a in (*tracks.links.items(), *tracks.slides.items())]
+    named = [(f"{n}.{xy}", a, k, 2) for n, a in tracks.joints.items() for k, xy in enumerate("xy")]
+    named += [(n, a, 0, 1) for n, a in (*tracks.links.items(), *tracks.slides.items())]
     columns: dict[str, Any] = {}
-    for name, arrays, component in named:
+    for name, arrays, component, width in named:
         for order, array in enumerate(arrays):
             tails = _tails(order, drivers)
-            flat = array.reshape(motion.status.size, -1, len(tails))[:, component]
+            flat = array.reshape(motion.status.size, width, len(tails))[:, component]
             columns.update({name + tail: flat[:, k] for k, tail in enumerate(tails)})
     return columns
 

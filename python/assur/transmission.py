@@ -17,10 +17,13 @@ if TYPE_CHECKING:
 Float: TypeAlias = npt.NDArray[np.float64]
 
 
-def angle(motion: Motion, name: str, between: tuple[str, str] | None) -> Float:
+def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
     """See `Motion.transmission_angle`."""
     mechanism = motion.mechanism
     if between is not None:
+        if len(between) != 2 or len({name, *between}) != 3:
+            message = f"between={between!r}: two joints are needed, neither of them {name!r}"
+            raise InputError(message, joint=name)
         first, second = between
         return _acute(motion, _line(motion, name, first), _line(motion, name, second))
     slide = name if name in mechanism.slides else _slide_at(mechanism, name)

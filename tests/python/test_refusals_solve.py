@@ -6,7 +6,6 @@ import copy
 import math
 import pickle
 from functools import partial
-from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -180,16 +179,18 @@ def test_many_turns() -> None:
 
 
 def test_many_turns_of_one_of_two_drivers() -> None:
-    """Neither time nor memory grows with q (knots along the path: 12 s at 3e6, killed at 1e9)."""
+    """Too far to be followed from the drawing: said so, at once, instead of hours of following."""
     m = build(
         joints={"O": (0, 0), "A": (0.3, 0.4), "B": (2.3, 0), "G": (5, 1)},
         links={"ground": "O", "crank": "OA", "cart": "B", "long": "AG", "short": "GB"},
         slides={"s": slide("cart", "ground", 0)},
         driver=["crank", "s"],
     )
-    start = perf_counter()
-    assert m.solve([1e6, 1.0], on_error="nan").status == Status.OK
-    assert perf_counter() - start < 0.5
+    q0 = np.asarray(m.q0)
+    far = m.solve([[1e9, 1.0], q0.tolist()], on_error="nan")
+    assert far.status.tolist() == [Status.BAD_INPUT, Status.OK]
+    assert "1000 turns" in far.explain(0)
+    assert m.solve(q0 + np.array([60 * np.pi, 0.0]), on_error="nan").status == Status.OK
 
 
 @pytest.mark.parametrize("q", [1.0, 1e3, 1e16, 1e153, 1e160, 1e300, -1e300])
@@ -209,16 +210,16 @@ def test_a_slide_pulled_too_far(q: float) -> None:
 
 @pytest.mark.parametrize("far", [1e4, 1e6, 1e8, 1e12, 1e160, 1e300])
 def test_a_far_coupler_point_leaves_the_rest_alone(far: float) -> None:
-    """Else NaN with a status that says so; never NaN without an error."""
+    """Beyond the range of lengths it is refused."""
+    if far > 1e153:
+        refused(
+            assur.DimensionError, "coupler.P.x 1e", lambda: M.with_dimensions({"coupler.P.x": far})
+        )
+        return
     m = M.with_dimensions({"coupler.P.x": far})
     motion = m.solve(1.0, order=0, on_error="nan")
-    if far < 1e150:
-        assert m.solve(1.0).status <= Status.NEAR_SINGULAR
-        np.testing.assert_allclose(
-            motion.joint("C").value, M.solve(1.0).joint("C").value, rtol=1e-12
-        )
-    else:
-        assert np.isfinite(motion.joint("P").value).all() == (motion.status <= Status.SINGULAR)
+    assert m.solve(1.0).status <= Status.NEAR_SINGULAR
+    np.testing.assert_allclose(motion.joint("C").value, M.solve(1.0).joint("C").value, rtol=1e-12)
 
 
 def test_positions_out_of_reach() -> None:

@@ -28,7 +28,6 @@ impl Builder<'_> {
             {
                 let angle = self.angle();
                 self.joint_beyond(self.joints[first], angle, link);
-                self.coupler_points = true;
             }
         }
     }

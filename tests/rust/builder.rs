@@ -20,7 +20,6 @@ pub struct Builder<'a> {
     /// Sliding link, carrying link, angle, origin.
     pub slides: Vec<(usize, usize, f64, Option<usize>)>,
     pub sines: Vec<f64>,
-    pub coupler_points: bool,
     pub drivers: Description,
 }
 
@@ -52,7 +51,6 @@ impl<'a> Builder<'a> {
             links: vec![Vec::new()],
             slides: Vec::new(),
             sines: Vec::new(),
-            coupler_points: false,
             drivers: Description::new(),
         }
     }

@@ -150,9 +150,7 @@ impl Oracle {
         let base = self.joints.iter().find(|j| j.0 == self.ground).map(place);
         let base = base.unwrap_or([Dd::ZERO; 2]);
         let own = at.bodies.iter().map(|b| [b.x[0], b.y[0]]);
-        let far = |p: Point| {
-            f64::from(p[0] - base[0]).abs().max(f64::from(p[1] - base[1]).abs())
-        };
+        let far = |p: Point| f64::from(p[0] - base[0]).abs().max(f64::from(p[1] - base[1]).abs());
         let slides = self.values.iter().map(|v| f64::from(self.reach(at, v, 0)).abs());
         self.joints.iter().map(place).chain(own).map(far).chain(slides).fold(0.0, f64::max)
     }

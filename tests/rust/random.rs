@@ -38,8 +38,6 @@ pub struct Case {
     pub kinds: Vec<&'static str>,
     /// |sine| between the legs of each of them in the drawing.
     pub sines: Vec<f64>,
-    /// Whether further points were put on links (they make levers longer).
-    pub coupler_points: bool,
     /// Steps of every driver, rad or m, either way.
     pub steps: [[f64; 2]; 2],
 }
@@ -72,6 +70,6 @@ fn build(tape: &[f64], driven: Driven, kinds: &[&'static str]) -> Case {
             if builder.coin(0.5) { size } else { -size }
         })
     });
-    let (sines, coupler_points) = (builder.sines.clone(), builder.coupler_points);
-    Case { description: builder.finish(), kinds: kinds.to_vec(), sines, coupler_points, steps }
+    let sines = builder.sines.clone();
+    Case { description: builder.finish(), kinds: kinds.to_vec(), sines, steps }
 }

@@ -53,8 +53,13 @@ pub enum StructureError {
     #[error("{place} names the {kind} {name:?}, which does not exist{hint}")]
     Unknown { kind: Named, name: String, place: String, hint: String },
     /// A coordinate or angle that is NaN or infinite.
-    #[error("{what} of {kind} {name:?} is {value}: a finite number is needed")]
+    #[error("{what} of {kind} {name:?} is {}: a finite number is needed", number(*value))]
     NotFinite { kind: Named, name: String, what: &'static str, value: f64 },
+    /// A coordinate or length beyond the range of 1e-153 to 1e153.
+    #[error(
+        "{what} of {kind} {name:?} is {value:e}: lengths from 1e-153 to 1e153 can be computed with; choose another unit"
+    )]
+    OutOfRange { kind: Named, name: String, what: &'static str, value: f64 },
     /// A joint that no link has.
     #[error(
         "joint {joint:?} is on no link: add it to the list of the link it belongs to, or leave it out"
@@ -106,7 +111,9 @@ pub enum StructureError {
     )]
     SlidesOnly { slides: String },
     /// Real mobility is zero.
-    #[error("the linkage cannot move (mobility 0, counted {counted} by Chebyshev-Grübler){over}")]
+    #[error(
+        "the linkage cannot move (mobility 0, counted {counted} by Chebyshev-Grübler){over}: take out a link or a pair there"
+    )]
     Immovable { counted: i64, over: String },
     /// Real mobility differs from the number of drivers.
     #[error(
@@ -138,6 +145,15 @@ pub enum StructureError {
     BadSign { name: String, value: i64 },
 }
 
+/// A number as short as it can be read again: no rows of zeros.
+#[must_use]
+pub fn number(x: f64) -> String {
+    match x.abs() {
+        0.0 | 1e-4..1e7 => format!("{x}"),
+        _ => format!("{x:e}"),
+    }
+}
+
 /// Why a motion cannot be computed at all.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -147,7 +163,7 @@ pub enum SolveError {
     #[error("group {group} is of class {class}: only groups of class II can be solved so far")]
     HigherClass { group: String, class: String },
     /// A dimension that is NaN, infinite, or a length that is not positive.
-    #[error("dimension {name:?} is {value}: {need}")]
+    #[error("dimension {name:?} is {}: {need}", number(*value))]
     BadDimension { name: String, value: f64, need: &'static str },
     /// A name that nothing has.
     #[error("there is no {kind} {name:?}{hint}")]

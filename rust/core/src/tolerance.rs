@@ -6,6 +6,13 @@
 /// Unit roundoff of binary64 as used in the error bounds (the spacing at 1).
 pub const UNIT_ROUNDOFF: f64 = f64::EPSILON;
 
+/// Lengths and coordinates beyond this are refused: their squares, and the third
+/// analogues of slides, would leave the range of numbers.
+pub const GREATEST_LENGTH: f64 = 1.0e153;
+
+/// Lengths below this are refused, for the same reason.
+pub const LEAST_LENGTH: f64 = 1.0e-153;
+
 /// Two joints nearer than this part of their coordinates coincide: the distance
 /// is then nothing but the rounding of the coordinates.
 pub const ZERO_LENGTH: f64 = 4.0 * UNIT_ROUNDOFF;

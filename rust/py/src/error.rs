@@ -49,7 +49,7 @@ pub(crate) fn structure(error: StructureError) -> PyErr {
     let fields = match &error {
         E::BadName { kind, name } | E::Unknown { kind, name, .. } => Fields::named(*kind, name),
         E::DoubledName { name, second, .. } => Fields::named(*second, name),
-        E::NotFinite { kind, name, value, .. } => {
+        E::NotFinite { kind, name, value, .. } | E::OutOfRange { kind, name, value, .. } => {
             Fields { value: Some(*value), ..Fields::named(*kind, name) }
         }
         E::DoubledJoint { link, joint } => {
@@ -100,7 +100,11 @@ pub(crate) fn structure(error: StructureError) -> PyErr {
 pub(crate) fn solve(error: SolveError) -> PyErr {
     let message = error.to_string();
     match &error {
-        SolveError::HigherClass { .. } => raise("StructureError", message, &Fields::default()),
+        SolveError::HigherClass { group, .. } => {
+            // "III(a, b, c)": the first link.
+            let inner = group.split(['(', ',', ')']).nth(1);
+            raise("StructureError", message, &Fields { link: inner, ..Fields::default() })
+        }
         SolveError::BadDimension { name, value, .. } => {
             let fields = Fields { dimension: Some(name), value: Some(*value), ..Fields::default() };
             raise("DimensionError", message, &fields)

@@ -2,6 +2,7 @@
 
 use super::{Axis, Linkage, nearest, polar};
 use crate::error::{Named, SolveError};
+use crate::tolerance::{GREATEST_LENGTH, LEAST_LENGTH};
 
 /// What one dimension measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,6 +45,10 @@ impl Dimension {
             Some("a finite number is needed")
         } else if matches!(self, Self::Length { .. }) && value <= 0.0 {
             Some("a length must be positive")
+        } else if value.abs() > GREATEST_LENGTH
+            || (matches!(self, Self::Length { .. }) && value < LEAST_LENGTH)
+        {
+            Some("a length must be within 1e-153 to 1e153")
         } else {
             None
         }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::{Description, Driver, DriverDescription, Joint, Link, Linkage, Slide, nearest};
 use crate::error::{Named, StructureError};
-use crate::tolerance::ZERO_LENGTH;
+use crate::tolerance::{GREATEST_LENGTH, LEAST_LENGTH, ZERO_LENGTH};
 
 impl Linkage {
     /// Resolves every name of a description.
@@ -53,6 +53,14 @@ impl Linkage {
             let (a, b) = (&self.joints[first], &self.joints[second]);
             let span = (b.at[0] - a.at[0]).hypot(b.at[1] - a.at[1]);
             let size = a.at.iter().chain(&b.at).fold(0.0_f64, |m, x| m.max(x.abs()));
+            if index != self.ground && span > ZERO_LENGTH * size && span < LEAST_LENGTH {
+                return Err(StructureError::OutOfRange {
+                    kind: Named::Link,
+                    name: link.name.clone(),
+                    what: "length",
+                    value: span,
+                });
+            }
             if index != self.ground && span <= ZERO_LENGTH * size {
                 return Err(StructureError::ZeroLength {
                     link: link.name.clone(),
@@ -85,14 +93,16 @@ impl Linkage {
     }
 }
 
+/// Dots, slashes, quotes, brackets, and what cannot be seen (besides blanks).
+const FORBIDDEN: &str = "./\\'\"`()[]{}<>‘’‚“”„«»‹›（）［］｛｝〈〉《》「」『』【】\u{ad}\u{200b}\u{200c}\u{200d}\u{200e}\u{200f}\u{2060}\u{feff}";
+
 fn check_names(description: &Description) -> Result<(), StructureError> {
     let names = (description.joints.iter().map(|(n, _)| (n, Named::Joint)))
         .chain(description.links.iter().map(|(n, _)| (n, Named::Link)))
         .chain(description.slides.iter().map(|s| (&s.name, Named::Slide)));
     let mut seen: HashMap<&str, Named> = HashMap::new();
     for (name, kind) in names {
-        let forbidden =
-            |c: char| c.is_whitespace() || c.is_control() || "./\\'\"`()[]{}<>".contains(c);
+        let forbidden = |c: char| c.is_whitespace() || c.is_control() || FORBIDDEN.contains(c);
         if name.is_empty() || name.contains(forbidden) {
             return Err(StructureError::BadName { kind, name: name.clone() });
         }
@@ -105,10 +115,13 @@ fn check_names(description: &Description) -> Result<(), StructureError> {
 }
 
 fn finite(value: f64, kind: Named, name: &str, what: &'static str) -> Result<(), StructureError> {
-    if value.is_finite() {
-        return Ok(());
+    if !value.is_finite() {
+        return Err(StructureError::NotFinite { kind, name: name.into(), what, value });
     }
-    Err(StructureError::NotFinite { kind, name: name.into(), what, value })
+    if value.abs() > GREATEST_LENGTH {
+        return Err(StructureError::OutOfRange { kind, name: name.into(), what, value });
+    }
+    Ok(())
 }
 
 fn joints(description: &Description) -> Result<Vec<Joint>, StructureError> {

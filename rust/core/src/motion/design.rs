@@ -49,6 +49,18 @@ enum Ways {
     Own(Vec<f64>),
 }
 
+/// A place on a way.
+pub(crate) struct Place {
+    /// The way.
+    pub track: Rc<Track>,
+    /// Its parameter there.
+    pub at: f64,
+}
+
+/// Farthest coordinate (rad, or units of the scale) from the drawing to which
+/// several drivers are followed: 1000 turns; a position costs time in proportion.
+const FARTHEST: f64 = 1000.0 * std::f64::consts::TAU;
+
 /// One design with the assembly asked for.
 pub(crate) struct Design<'a> {
     pub mechanism: &'a Mechanism,
@@ -112,33 +124,42 @@ impl<'a> Design<'a> {
         Track::sliding(&cx, &mut state, start, range, reach, angles)
     }
 
-    /// The way to one position (scaled coordinates), and its parameter there.
-    pub(crate) fn way(&self, q: &[f64]) -> (Rc<Track>, f64) {
+    /// The way to one position (scaled coordinates); none if it is no number or too
+    /// far to be followed.
+    pub(crate) fn way(&self, q: &[f64]) -> Option<Place> {
+        if q.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
         match &self.ways {
-            Ways::One(track) => (Rc::clone(track), q[0]),
+            Ways::One(track) => Some(Place { track: Rc::clone(track), at: q[0] }),
             Ways::Own(q0) => {
-                let jets = Jets::new(q0.len(), 1);
-                let finite = q.iter().all(|x| x.is_finite());
-                let end = if finite { q } else { q0 };
-                let angles = &self.mechanism.class_angle;
-                let track =
-                    Track::straight(&self.context(&jets), &mut self.state(&jets), q0, end, angles);
-                (Rc::new(track), 1.0)
+                let far = q.iter().zip(q0).any(|(a, b)| (a - b).abs() > FARTHEST);
+                (!far).then(|| {
+                    let jets = Jets::new(q0.len(), 1);
+                    let angles = &self.mechanism.class_angle;
+                    let cx = self.context(&jets);
+                    let track = Track::straight(&cx, &mut self.state(&jets), q0, q, angles);
+                    Place { track: Rc::new(track), at: 1.0 }
+                })
             }
         }
     }
 
     /// Solves one position with the signs of its place on the way; true if the
     /// analogues exist.
-    pub(crate) fn solve(&self, state: &mut State, track: &Track, at: f64, q: &[f64]) -> bool {
+    pub(crate) fn solve(&self, state: &mut State, q: &[f64], place: Option<&Place>) -> bool {
+        let Some(Place { track, at }) = place else {
+            state.refuse();
+            return false;
+        };
         let cx = self.context(self.jets);
-        state.solve(&Context { signs: track.signs(at), ..cx }, q);
+        state.solve(&Context { signs: track.signs(*at), ..cx }, q);
         if !matches!(state.status, Status::Singular | Status::Unreachable) {
             return true;
         }
         // A flat dyad at a change point: the smooth motion goes on through it.
         if let [one] = *q
-            && let Some(change) = track.change_near(at, CHANGE_REACH)
+            && let Some(change) = track.change_near(*at, CHANGE_REACH)
             && bridge(&cx, state, track, one, change)
         {
             state.status = Status::Singular;

@@ -12,6 +12,8 @@ pub(crate) struct Solved {
     /// Size of the inverse of the scaled closure matrix: for a dyad of two
     /// binary links 1/sin of the angle between its legs.
     pub condition: f64,
+    /// The same for the directions of the columns alone, whatever their lengths.
+    pub angle: f64,
     /// Flat: the two solutions coincide, to rounding.
     pub flat: bool,
 }
@@ -32,8 +34,13 @@ impl State {
     pub(crate) fn close(&mut self, cx: &Context<'_>, dyad: &Dyad) -> Result<Solved, f64> {
         let Sorted { first: a, second: b, known: k } = self.sorted(cx, dyad);
         let sign = dyad.sign.map_or(1.0, |s| cx.signs[s]);
+        // A column of a rotation in units of the greatest arm that turns with it. The
+        // joints it hangs on carry the rounding of their coordinates: an arm below half
+        // of these feels it (half and more is within the margins of the bounds).
+        let ends = [dyad.start, dyad.end].map(|p| self.points[p * self.len].norm());
+        let data = 0.5 * ends[0].max(ends[1]);
         let lever = |unknown: Unknown, at_least: f64| match unknown {
-            Unknown::Class(c) => cx.bound.lever[c].max(at_least),
+            Unknown::Class(c) => cx.bound.lever[c].max(at_least).max(data),
             Unknown::Slide(_) => 1.0,
         };
         let [u, v] = dyad.unknowns;
@@ -65,8 +72,11 @@ impl State {
             }
         };
         let size = columns[0].norm().max(columns[1].norm());
-        let condition = size / columns[0].cross(columns[1]).abs();
-        Ok(Solved { condition: if condition.is_nan() { f64::INFINITY } else { condition }, flat })
+        let determinant = columns[0].cross(columns[1]).abs();
+        let known = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
+        let condition = known(size / determinant);
+        let angle = known(columns[0].norm() * columns[1].norm() / determinant);
+        Ok(Solved { condition, angle, flat })
     }
 
     /// Sums of the path, by what they turn with.
@@ -125,12 +135,12 @@ impl State {
 /// A factor that vanishes where the dyad is flat: negative by rounding counts
 /// as 0 (flat), by more as open.
 fn factor(difference: f64, size: f64) -> Result<(f64, bool), f64> {
-    if difference > 0.0 {
+    if !(difference.is_finite() && size.is_finite()) {
+        Err(f64::INFINITY)
+    } else if difference > 0.0 {
         Ok((difference, false))
     } else if difference >= -FLAT_CLOSURE * size {
         Ok((0.0, true))
-    } else if difference.is_nan() {
-        Err(f64::NAN)
     } else {
         Err(-difference)
     }

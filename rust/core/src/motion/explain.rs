@@ -2,7 +2,7 @@
 
 use super::design::Design;
 use super::state::{Context, Fault, State, Status};
-use crate::error::SolveError;
+use crate::error::{SolveError, number};
 use crate::mechanism::Mechanism;
 use crate::plan::jet::Jets;
 use crate::plan::{Along, Plan, Step};
@@ -61,9 +61,8 @@ impl Mechanism {
         let design = Design::new(self, dimensions, &signs, &jets, q);
         let mut state = design.state(&jets);
         let look = |(scaled, q): (&[f64], &[f64])| {
-            let (way, at) = design.way(scaled);
-            let analogues = design.solve(&mut state, &way, at, scaled);
-            self.describe(&design, &state, &jets, &place_of(q), analogues)
+            let analogues = design.solve(&mut state, scaled, design.way(scaled).as_ref());
+            self.describe(&design, &state, &jets, q, analogues)
         };
         Ok(design.scaled(q).chunks_exact(drivers).zip(q.chunks_exact(drivers)).map(look).collect())
     }
@@ -73,17 +72,22 @@ impl Mechanism {
         design: &Design<'_>,
         state: &State,
         jets: &Jets,
-        at: &str,
+        q: &[f64],
         analogues: bool,
     ) -> Diagnosis {
+        let at = &place_of(q);
         let step = state.fault.map(Fault::step);
         let condition = state.condition;
         let named = state.fault.map(|fault| self.step_name(fault));
         let dyad = named.as_deref().unwrap_or("?");
         let sentence = match state.status {
             Status::BadInput => {
-                let sentence = format!("q = {at} is no number: a finite coordinate is needed");
-                return Diagnosis::bare(Status::BadInput, sentence);
+                let why = if q.iter().any(|x| !x.is_finite()) {
+                    "is no number: a finite coordinate is needed"
+                } else {
+                    "is too far from the drawing to be followed with several drivers: at most 1000 turns, or 1000 times the size"
+                };
+                return Diagnosis::bare(Status::BadInput, format!("q = {at} {why}"));
             }
             Status::Unreachable => {
                 let (name, sentence) = self.unreachable(state, design.bound.scale, at);
@@ -188,9 +192,12 @@ impl Mechanism {
             Fault::Open { gap: 0.0, .. } => format!(
                 "at q = {at} the outer joints of dyad {name:?} coincide: its links may stand in any direction"
             ),
-            Fault::Open { gap, .. } if !gap.is_finite() => {
-                format!("at q = {at} the guides {name:?} are parallel")
-            }
+            Fault::Open { gap, step } if !gap.is_finite() => match &self.plan().steps[step] {
+                Step::Dyad(dyad) if dyad.sign.is_none() => {
+                    format!("at q = {at} the guides {name:?} are parallel")
+                }
+                _ => format!("at q = {at} dyad {name:?} does not close, by far"),
+            },
             Fault::Open { gap, .. } => format!(
                 "at q = {at} dyad {name:?} does not close: {:.3e} m are missing",
                 gap * scale
@@ -215,8 +222,8 @@ fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::Dyad) 
 
 fn place_of(q: &[f64]) -> String {
     match q {
-        [one] => format!("{one}"),
-        many => format!("{many:?}"),
+        [one] => number(*one),
+        many => format!("({})", many.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", ")),
     }
 }
 

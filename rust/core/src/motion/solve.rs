@@ -138,10 +138,11 @@ fn solve_design(
     let cx = design.context(jets);
     for (position, q) in design.scaled(q).chunks_exact(design.unit.coordinate.len()).enumerate() {
         let row = first + position;
-        let (way, at) = design.way(q);
-        let analogues = design.solve(&mut state, &way, at, q);
+        let place = design.way(q);
+        let analogues = design.solve(&mut state, q, place.as_ref());
         motion.status[row] = state.status as u8;
-        if matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular) {
+        let solved = matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular);
+        if let (true, Some(place)) = (solved, &place) {
             let write = Write {
                 mechanism: design.mechanism,
                 cx: &cx,
@@ -151,7 +152,7 @@ fn solve_design(
                 row,
                 analogues,
             };
-            write.all(motion, &way, at, q);
+            write.all(motion, &place.track, place.at, q);
         }
     }
 }

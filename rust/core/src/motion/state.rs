@@ -153,6 +153,12 @@ impl State {
         }
     }
 
+    /// A coordinate that cannot be computed with.
+    pub(crate) fn refuse(&mut self) {
+        self.fault = None;
+        self.status = Status::BadInput;
+    }
+
     fn start(&mut self, cx: &Context<'_>, q: &[f64]) {
         let len = self.len;
         self.fault = None;
@@ -277,7 +283,7 @@ impl State {
                 Unknown::Slide(s) => self.slide_condition[s] = condition,
             }
         }
-        if solved.flat || solved.condition > singular_condition(before) {
+        if solved.flat || solved.angle > singular_condition(before) {
             self.no_analogues(cx, dyad);
             return Err(Fault::Flat { step: index });
         }

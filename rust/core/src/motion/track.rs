@@ -198,9 +198,8 @@ impl<'a, 'b> Walker<'a, 'b> {
 
     /// Signs between the changes, in the direction of growing parameter.
     fn stretches(&self) -> Vec<Stretch> {
-        let Some(first) = self.knots.first() else { return Vec::new() };
         let mut signs = self.start_signs.clone();
-        let mut stretches = vec![Stretch { from: first.at, signs: signs.clone() }];
+        let mut stretches = vec![Stretch { from: f64::NEG_INFINITY, signs: signs.clone() }];
         for change in &self.changes {
             signs[change.sign] = -signs[change.sign];
             stretches.push(Stretch { from: change.at, signs: signs.clone() });
@@ -321,6 +320,8 @@ impl Track {
         while cell < cells {
             cell += 1.0;
             walker.advance(cell / cells);
+            // Only the end is asked for.
+            walker.knots.drain(..walker.knots.len() - 1);
         }
         let stretches = walker.stretches();
         let Walker { knots, changes, .. } = walker;

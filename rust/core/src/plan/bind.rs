@@ -34,7 +34,7 @@ impl Bound {
     pub fn new(plan: &Plan, linkage: &Linkage, dimensions: &Dimensions, values: &[f64]) -> Self {
         let read = Reader { dimensions, values };
         let origin = ground_origin(linkage, &read);
-        let scale = scale(linkage, &read, origin);
+        let scale = scale(plan, linkage, &read, origin);
         let offset: Vec<f64> = plan
             .rotation
             .iter()
@@ -77,7 +77,7 @@ impl Bound {
             fixed[joint + 1] = (at - Vector::new(origin[0], origin[1])).scale(unit_of);
         }
         let mut lever = vec![0.0_f64; plan.classes];
-        for (e, w) in plan.edges.iter().zip(&rigid) {
+        for (e, w) in plan.edges.iter().zip(&rigid).filter(|(e, _)| e.paired) {
             let class = plan.orientations[e.orientation].class;
             lever[class] = lever[class].max(w.norm());
         }
@@ -151,7 +151,12 @@ fn ground_origin(linkage: &Linkage, read: &Reader<'_>) -> [f64; 2] {
 }
 
 /// Power of two at or below the greatest length.
-fn scale(linkage: &Linkage, read: &Reader<'_>, origin: [f64; 2]) -> f64 {
+fn scale(plan: &Plan, linkage: &Linkage, read: &Reader<'_>, origin: [f64; 2]) -> f64 {
+    let paired = |joint: usize| {
+        plan.edges
+            .iter()
+            .any(|e| e.paired && matches!(e.edge.span, Span::Joint { joint: j, .. } if j == joint))
+    };
     let mut greatest = 0.0_f64;
     for ((_, dimension), &value) in read.dimensions.iter().zip(read.values) {
         let length = match dimension {
@@ -162,6 +167,10 @@ fn scale(linkage: &Linkage, read: &Reader<'_>, origin: [f64; 2]) -> f64 {
             }
             Dimension::SlideOriginY { slide } if linkage.slides[slide].on == linkage.ground => {
                 value - origin[1]
+            }
+            // A coupler point far away is no part of the closure.
+            Dimension::JointX { joint, .. } | Dimension::JointY { joint, .. } if !paired(joint) => {
+                0.0
             }
             d if d.is_length() => value,
             _ => 0.0,

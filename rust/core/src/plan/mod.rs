@@ -40,6 +40,8 @@ pub struct PlanEdge {
     pub orientation: usize,
     /// The slide along it.
     pub along: Along,
+    /// Whether the motion depends on it (not on that of a coupler point).
+    pub paired: bool,
 }
 
 /// An orientation: rotation of a class plus multiples of driven angles.
@@ -156,7 +158,8 @@ impl Plan {
         let edges = closure
             .edges
             .iter()
-            .map(|&edge| {
+            .enumerate()
+            .map(|(index, &edge)| {
                 let along = match edge.span {
                     Span::Joint { .. } => Along::Nothing,
                     Span::Guide { slide } => {
@@ -165,7 +168,8 @@ impl Plan {
                         driver.map_or(Along::Slide(slide), |driver| Along::Driver { slide, driver })
                     }
                 };
-                PlanEdge { edge, orientation: link_orientation[edge.link], along }
+                let paired = closure.is_paired(linkage, index);
+                PlanEdge { edge, orientation: link_orientation[edge.link], along, paired }
             })
             .collect();
         let mut plan = Self {

@@ -150,6 +150,20 @@ impl Closure {
         Self { points, reference, edges, fixed }
     }
 
+    /// Whether anything but its link knows the far end of an edge: if not (a
+    /// coupler point), the edge says nothing about the motion.
+    #[must_use]
+    pub fn is_paired(&self, linkage: &Linkage, edge: usize) -> bool {
+        let Span::Joint { joint, .. } = self.edges[edge].span else { return true };
+        let point = point_of_joint(joint);
+        let ends = self
+            .edges
+            .iter()
+            .enumerate()
+            .any(|(e, other)| e != edge && (other.from == point || other.to == point));
+        ends || linkage.links_at(joint).nth(1).is_some()
+    }
+
     /// The edges that are not left out.
     pub fn kept<'a>(
         &'a self,
@@ -252,15 +266,15 @@ fn check_slide_cycle(
     let (a, b) = (path(s.link), path(s.on));
     let common = a.iter().zip(b).take_while(|(x, y)| x == y).count();
     let mut cycle: Vec<usize> = a[common..].iter().chain(&b[common..]).map(|x| x.0).collect();
-    let turns = |link: usize| rotation[link].as_ref().map(|r| &r.turns[..]).unwrap_or_default();
-    if let Some(driver) = turns(s.link).iter().zip(turns(s.on)).position(|(x, y)| x != y) {
-        return Err(StructureError::CannotDrive {
-            driver: linkage.driver_name(linkage.drivers[driver]),
-            reason: format!("slide {:?} fixes the angle that it would change", s.name),
-        });
-    }
     if cycle.len() < 2 {
-        return Ok(());
+        let turns = |link: usize| rotation[link].as_ref().map(|r| &r.turns[..]).unwrap_or_default();
+        let unequal = turns(s.link).iter().zip(turns(s.on)).position(|(x, y)| x != y);
+        return unequal.map_or(Ok(()), |driver| {
+            Err(StructureError::CannotDrive {
+                driver: linkage.driver_name(linkage.drivers[driver]),
+                reason: format!("slide {:?} fixes the angle that it would change", s.name),
+            })
+        });
     }
     cycle.push(slide);
     cycle.sort_unstable();

@@ -69,7 +69,8 @@ impl System {
         rotation: &[Rotation],
         locked: bool,
     ) -> Self {
-        let edges: Vec<usize> = closure.kept(linkage, left_out).collect();
+        let edges: Vec<usize> =
+            (closure.kept(linkage, left_out)).filter(|&e| closure.is_paired(linkage, e)).collect();
         let links: Vec<usize> =
             (0..linkage.links.len()).filter(|l| !left_out.links.contains(l)).collect();
         let mut point_used = vec![false; closure.points];
@@ -138,7 +139,7 @@ impl<'a> Skeleton<'a> {
         free: &'a [Rotation],
         classes: usize,
     ) -> Self {
-        let size = linkage.size();
+        let size = paired_size(linkage);
         let origin = linkage.joints.first().map_or([0.0; 2], |j| j.at);
         let place = |at: [f64; 2]| [(at[0] - origin[0]) / size, (at[1] - origin[1]) / size];
         let mut points = vec![[0.0; 2]; closure.points];
@@ -254,33 +255,33 @@ impl<'a> Skeleton<'a> {
         Rank { mobility, excess, motions, stresses }
     }
 
-    /// A regular position: displaced along the null space in fixed pseudo-random
-    /// directions, where the linkage lets itself be displaced. None: it is rigid.
+    /// Positions to which the linkage lets itself be displaced from the drawing, along
+    /// its null space in fixed pseudo-random directions, the most regular first.
+    /// Empty: it is rigid.
     #[must_use]
-    pub fn regular(&self, system: &System) -> Option<(Pose, Rank)> {
+    pub fn displaced(&self, system: &System) -> Vec<(Pose, Rank)> {
         let here = self.rank(system, &self.start);
         if here.mobility == 0 {
-            return None;
+            return Vec::new();
         }
         let mut random = 0x9E37_79B9_7F4A_7C15_u64;
-        let mut best: Option<(Pose, Rank)> = None;
-        for _ in 0..3 {
-            let (pose, rank) = best.clone().unwrap_or_else(|| (self.start.clone(), here.clone()));
+        let mut found: Vec<(Pose, Rank)> = Vec::new();
+        // Several, because a singular drawing lies on several branches of motion.
+        for _ in 0..8 {
             for reach in [0.1, 0.03, -0.1, -0.03, 0.01, 0.003] {
                 let weights =
-                    DVector::from_fn(rank.motions.ncols(), |_, _| next_random(&mut random));
-                let direction = &rank.motions * weights;
+                    DVector::from_fn(here.motions.ncols(), |_, _| next_random(&mut random));
+                let direction = &here.motions * weights;
                 let step = direction.scale(reach / direction.amax().max(f64::MIN_POSITIVE));
-                if let Some(reached) = self.project(system, &pose, &step) {
+                if let Some(reached) = self.project(system, &self.start, &step) {
                     let rank = self.rank(system, &reached);
-                    if best.as_ref().is_none_or(|(_, b)| rank.mobility <= b.mobility) {
-                        best = Some((reached, rank));
-                    }
+                    found.push((reached, rank));
                     break;
                 }
             }
         }
-        best
+        found.sort_by_key(|(_, rank)| rank.mobility);
+        found
     }
 
     /// Gauss-Newton back onto the closure; None if it fails or goes back.
@@ -325,24 +326,37 @@ impl<'a> Skeleton<'a> {
             .collect()
     }
 
-    /// The links whose equations take part in a self-stress.
+    /// The links and slides whose equations take part in a self-stress, by name.
     #[must_use]
-    pub fn stressed_links(&self, system: &System, stresses: &DMatrix<f64>) -> Vec<usize> {
+    pub fn stressed(&self, system: &System, stresses: &DMatrix<f64>) -> Vec<String> {
         let limit = 1e-6 * stresses.amax().max(f64::MIN_POSITIVE);
-        let mut links: Vec<usize> = Vec::new();
+        let (mut links, mut slides) = (Vec::new(), Vec::new());
         for (row, &e) in system.edges.iter().enumerate() {
             if stresses.ncols() > 0 && stresses.rows(2 * row, 2).amax() > limit {
                 links.push(self.closure.edges[e].link);
                 if let Some(slide) = self.closure.edges[e].slide() {
                     links.push(self.linkage.slides[slide].link);
+                    slides.push(slide);
                 }
             }
         }
         links.sort_unstable();
         links.dedup();
         links.retain(|&l| l != self.linkage.ground);
-        links
+        let links = links.into_iter().map(|l| self.linkage.links[l].name.clone());
+        links.chain(slides.into_iter().map(|s| self.linkage.slides[s].name.clone())).collect()
     }
+}
+
+/// Greatest extent of the joints that are pairs.
+fn paired_size(linkage: &Linkage) -> f64 {
+    let mut trimmed = linkage.clone();
+    let paired = |j: usize| linkage.links_at(j).nth(1).is_some();
+    trimmed.joints = (0..linkage.joints.len())
+        .filter(|&j| paired(j))
+        .map(|j| linkage.joints[j].clone())
+        .collect();
+    if trimmed.joints.len() > 1 { trimmed.size() } else { linkage.size() }
 }
 
 /// xorshift64* in (−1, 1) (Marsaglia 2003, Vigna 2016); fixed seed, so that

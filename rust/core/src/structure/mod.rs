@@ -67,14 +67,27 @@ impl Structure {
         let skeleton = Skeleton::new(linkage, closure, &free, classes);
         let system = System::new(linkage, closure, &everything, &free, false);
         let at_drawing = skeleton.rank(&system, skeleton.drawing());
-        let Some((pose, rank)) = skeleton.regular(&system) else {
+        let drives = |pose: &Pose| {
+            idle(linkage, closure, &skeleton, pose, &everything)
+                .is_ok_and(|rank| rank.mobility == 0)
+        };
+        // The drawing itself, if all its equations are independent; else displaced, on
+        // a branch on which the drivers drive, if there is one.
+        let drawing = (skeleton.drawing().clone(), at_drawing.clone());
+        let chosen = if at_drawing.excess == 0 && at_drawing.mobility > 0 && drives(&drawing.0) {
+            Some(drawing)
+        } else {
+            let poses = skeleton.displaced(&system);
+            poses.iter().find(|(pose, _)| drives(pose)).or(poses.first()).cloned()
+        };
+        let Some((pose, rank)) = chosen else {
             return Err(StructureError::Immovable {
                 counted: counted(linkage),
-                over: over_constrained(linkage, &skeleton, &system, &at_drawing, &everything),
+                over: rigid(linkage, &skeleton, &system, &at_drawing),
             });
         };
         let (redundant, excess) =
-            redundancy::leave_out(linkage, closure, &skeleton, &pose, &rank, everything)?;
+            redundancy::leave_out(linkage, closure, &skeleton, &pose, &rank, everything.clone())?;
         if rank.mobility != linkage.drivers.len() {
             return Err(StructureError::Mobility {
                 mobility: rank.mobility,
@@ -90,10 +103,10 @@ impl Structure {
         }
         refuse_idle_drivers(linkage, closure, &skeleton, &pose, &redundant)?;
         if excess > 0 {
-            let names = skeleton.stressed_links(&system, &rank.stresses);
+            let names = skeleton.stressed(&system, &rank.stresses);
             return Err(StructureError::OverConstrained {
                 excess,
-                links: link_list(linkage, &names),
+                links: list(names.iter().map(String::as_str)),
             });
         }
         let groups = assur_group::groups(linkage, &redundant).ok_or_else(|| {
@@ -153,6 +166,15 @@ fn refuse_unconnected(linkage: &Linkage) -> Result<(), StructureError> {
     Err(StructureError::Unconnected { links: link_list(linkage, &apart) })
 }
 
+/// The links of a structure: the over-constrained ones, or all.
+fn rigid(linkage: &Linkage, skeleton: &Skeleton<'_>, system: &System, rank: &Rank) -> String {
+    if rank.excess > 0 {
+        return over_constrained(linkage, skeleton, system, rank, &LeftOut::default());
+    }
+    let moving: Vec<usize> = (0..linkage.links.len()).filter(|&l| l != linkage.ground).collect();
+    format!("; {} form a structure", link_list(linkage, &moving))
+}
+
 /// `; over-constrained: …`, or nothing.
 fn over_constrained(
     linkage: &Linkage,
@@ -164,7 +186,8 @@ fn over_constrained(
     if rank.excess == 0 {
         return String::new();
     }
-    let links = link_list(linkage, &skeleton.stressed_links(system, &rank.stresses));
+    let names = skeleton.stressed(system, &rank.stresses);
+    let links = list(names.iter().map(String::as_str));
     let mut spare: Vec<&str> =
         redundant.links.iter().map(|&l| linkage.links[l].name.as_str()).collect();
     spare.extend(redundant.slides.iter().map(|&s| linkage.slides[s].name.as_str()));
@@ -197,6 +220,19 @@ fn under_constrained(
     ))
 }
 
+/// What still moves with all drivers locked.
+fn idle(
+    linkage: &Linkage,
+    closure: &Closure,
+    skeleton: &Skeleton<'_>,
+    pose: &Pose,
+    redundant: &LeftOut,
+) -> Result<Rank, StructureError> {
+    let (rotation, _) = rotations(linkage, redundant, true)?;
+    let system = System::new(linkage, closure, redundant, &rotation, true);
+    Ok(skeleton.rank(&system, pose))
+}
+
 /// With all drivers locked nothing may move any more.
 fn refuse_idle_drivers(
     linkage: &Linkage,
@@ -205,24 +241,23 @@ fn refuse_idle_drivers(
     pose: &Pose,
     redundant: &LeftOut,
 ) -> Result<(), StructureError> {
-    let freedom = |drivers: &[Driver]| -> Result<(System, Rank), StructureError> {
+    let freedom = |drivers: &[Driver]| -> Result<Rank, StructureError> {
         let mut trial = linkage.clone();
         trial.drivers = drivers.to_vec();
-        let (rotation, _) = rotations(&trial, redundant, true)?;
-        let system = System::new(&trial, closure, redundant, &rotation, true);
-        let rank = skeleton.rank(&system, pose);
-        Ok((system, rank))
+        idle(&trial, closure, skeleton, pose, redundant)
     };
-    let (system, rank) = freedom(&linkage.drivers)?;
+    let rank = freedom(&linkage.drivers)?;
     if rank.mobility == 0 {
         return Ok(());
     }
+    let (rotation, _) = rotations(linkage, redundant, true)?;
+    let system = System::new(linkage, closure, redundant, &rotation, true);
     let still = link_list(linkage, &skeleton.moving_links(&system, &rank.motions));
     let reason = format!("with it held still, {still} can still move");
     for (index, &driver) in linkage.drivers.iter().enumerate() {
         let mut others = linkage.drivers.clone();
         others.remove(index);
-        if freedom(&others)?.1.mobility == rank.mobility {
+        if freedom(&others)?.mobility == rank.mobility {
             return Err(StructureError::CannotDrive {
                 driver: linkage.driver_name(driver),
                 reason,
