@@ -1,6 +1,7 @@
 """Kinematics and dynamics of planar linkages, solved one Assur group after another."""
 
 from assur._core import version
+from assur.analogues import Analogues
 from assur.description import Assembly, Drive, Slide, Status
 from assur.errors import (
     AssurError,
@@ -11,7 +12,7 @@ from assur.errors import (
     StructureError,
 )
 from assur.mechanism import Mechanism
-from assur.motion import Analogues, Motion
+from assur.motion import Motion
 from assur.named import FourBar, SliderCrank
 from assur.structure import Group, Structure
 

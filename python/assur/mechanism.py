@@ -2,34 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from assur import _solve
+from assur import _parts, _solve
 from assur._checks import checked_index, checked_signs, real_array
-from assur._core import Mechanism as Core
-from assur.description import Assembly, Drive, Slide
+from assur.description import Assembly, Slide
 from assur.errors import InputError
 from assur.structure import Group, Structure
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from assur._core import Mechanism as Core
+    from assur._parts import DriverLike, Parts
     from assur.motion import Motion
 
 __all__ = ["Mechanism"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
-DriverLike: TypeAlias = str | Drive
-Parts: TypeAlias = tuple[
-    tuple[tuple[str, float, float], ...],
-    tuple[tuple[str, tuple[str, ...]], ...],
-    tuple[tuple[str, Slide], ...],
-    tuple[DriverLike, ...],
-    tuple[tuple[str, int], ...],
-]
 
 
 class Mechanism:
@@ -90,16 +84,18 @@ class Mechanism:
         assembly: Mapping[str, int] | None = None,
     ) -> None:
         parts: Parts = (
-            tuple(_joint(name, at) for name, at in _items(joints, "joints")),
-            tuple((name, _members(name, on)) for name, on in _items(links, "links")),
-            tuple((name, _slide(name, s)) for name, s in _items(slides or {}, "slides")),
-            _drivers(driver),
+            tuple(_parts.joint(name, at) for name, at in _parts.items(joints, "joints")),
+            tuple((name, _parts.members(name, on)) for name, on in _parts.items(links, "links")),
+            tuple(
+                (name, _parts.slide(name, s)) for name, s in _parts.items(slides or {}, "slides")
+            ),
+            _parts.drivers(driver),
             checked_signs(assembly, strict=False),
         )
         self._begin(parts, None)
 
     def _begin(self, parts: Parts, values: Float | None, core: Core | None = None) -> None:
-        core = core or _compile(parts)
+        core = core or _parts.core_of(parts)
         array = np.array(core.drawing if values is None else values, dtype=np.float64, order="C")
         array.flags.writeable = False
         for name, value in (
@@ -308,7 +304,7 @@ class Mechanism:
         """
         joints, links, slides, _, _ = self._parts
         return self._make(
-            (joints, links, slides, _drivers(driver), checked_signs(assembly, strict=False)),
+            (joints, links, slides, _parts.drivers(driver), checked_signs(assembly, strict=False)),
             np.array(self._values),
         )
 
@@ -411,77 +407,3 @@ class Mechanism:
 
 def _rebuild(parts: Parts, values: Float) -> Mechanism:
     return Mechanism._make(parts, values)
-
-
-def _compile(parts: Parts) -> Core:
-    joints, links, slides, drivers, assembly = parts
-    return Core(
-        joints=list(joints),
-        links=[(name, list(on)) for name, on in links],
-        slides=[(name, s.link, s.on, s.angle, s.origin) for name, s in slides],
-        drivers=[(d.link, d.relative_to) if isinstance(d, Drive) else (d, None) for d in drivers],
-        assembly=list(assembly),
-    )
-
-
-def _items(mapping: Any, what: str) -> list[tuple[str, Any]]:
-    if not isinstance(mapping, Mapping):
-        message = f"{what} must be a mapping of names, not {type(mapping).__name__}"
-        raise InputError(message)
-    for name in mapping:
-        if not isinstance(name, str):
-            message = f"{what}: the name {name!r} is not a string"
-            raise InputError(message)
-        if any("\ud800" <= letter <= "\udfff" for letter in name):
-            message = f"{what}: the name {name!a} is no Unicode text"
-            raise InputError(message)
-    return list(mapping.items())
-
-
-def _joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
-    try:
-        x, y = (float(v) for v in at)
-    except (TypeError, ValueError, OverflowError) as error:
-        message = f"joint {name!r} is at {at!r}: two numbers (x, y) are needed"
-        raise InputError(message, joint=name) from error
-    return (name, x, y)
-
-
-def _slide(name: str, slide: Any) -> Slide:
-    if not isinstance(slide, Slide):
-        message = f"slide {name!r} is {slide!r}: an assur.Slide is needed"
-        raise InputError(message, slide=name)
-    try:
-        checked = Slide(slide.link, slide.on, float(slide.angle), slide.origin)
-    except (TypeError, ValueError, OverflowError) as error:
-        message = f"slide {name!r} has angle {slide.angle!r}: a number (rad) is needed"
-        raise InputError(message, slide=name) from error
-    words: tuple[Any, ...] = (slide.link, slide.on, slide.origin or "")
-    for word in words:
-        if not isinstance(word, str):
-            message = f"slide {name!r}: {word!r} is not a name"
-            raise InputError(message, slide=name)
-    return checked
-
-
-def _drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]:
-    drivers: tuple[Any, ...] = tuple(driver) if isinstance(driver, list | tuple) else (driver,)
-    for d in drivers:
-        words: tuple[Any, ...] = (d.link, d.relative_to) if isinstance(d, Drive) else (d,)
-        if not all(isinstance(word, str) for word in words):
-            message = f"driver {d!r}: the name of a link or slide, or an assur.Drive, is needed"
-            raise InputError(message)
-    return drivers
-
-
-def _members(name: str, joints: Any) -> tuple[str, ...]:
-    try:
-        members = tuple(joints)
-    except TypeError as error:
-        message = f"link {name!r} is {joints!r}: a list of names of joints is needed"
-        raise InputError(message, link=name) from error
-    for member in members:
-        if not isinstance(member, str):
-            message = f"link {name!r}: {member!r} is not the name of a joint"
-            raise InputError(message, link=name)
-    return members

@@ -9,13 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core, transmission
-from assur._checks import checked_index, real_array
+from assur._checks import checked_index
+from assur.analogues import Analogues
 from assur.errors import InputError
 
 if TYPE_CHECKING:
     from assur.mechanism import Mechanism
 
-__all__ = ["Analogues", "Motion"]
+__all__ = ["Motion"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
@@ -28,117 +29,6 @@ class Tracks:
     links: dict[str, tuple[Float, ...]]
     places: dict[str, tuple[Float, ...]]
     slides: dict[str, tuple[Float, ...]]
-
-
-class Analogues:
-    """A quantity and its analogues, the derivatives with respect to q.
-
-    Arrays of shape S + (N,), points with a last axis of 2; with n drivers each
-    order adds a last axis of n.
-
-    Attributes
-    ----------
-    value, d1, d2, d3 : numpy.ndarray
-        Value and analogues of orders 1 to 3, as far as the motion was solved.
-    """
-
-    __slots__ = ("_arrays", "_drivers", "_name", "_point")
-
-    def __init__(self, name: str, arrays: tuple[Float, ...], drivers: int, point: bool) -> None:
-        self._name = name
-        self._arrays = arrays
-        self._drivers = drivers
-        self._point = point
-
-    def _order(self, order: int) -> Float:
-        if order >= len(self._arrays):
-            message = (
-                f"{self._name!r}: this motion was solved to order {len(self._arrays) - 1}; "
-                f"solve(q, order={order}) has d{order}"
-            )
-            raise InputError(message)
-        return self._arrays[order]
-
-    @property
-    def value(self) -> Float:
-        """The quantity itself: m, or rad for a link."""
-        return self._order(0)
-
-    @property
-    def d1(self) -> Float:
-        """First analogue (velocity analogue)."""
-        return self._order(1)
-
-    @property
-    def d2(self) -> Float:
-        """Second analogue (acceleration analogue)."""
-        return self._order(2)
-
-    @property
-    def d3(self) -> Float:
-        """Third analogue."""
-        return self._order(3)
-
-    def velocity(self, omega: npt.ArrayLike) -> Float:
-        """Velocity for a driver's speed: ``d1 ω``.
-
-        Parameters
-        ----------
-        omega : array_like
-            dq/dt, rad/s or m/s; broadcast against S + (N,). With n drivers the
-            last axis is n.
-
-        Returns
-        -------
-        numpy.ndarray
-            m/s, or rad/s for a link.
-        """
-        return self._contract(self.d1, self._speeds(omega))
-
-    def acceleration(self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0) -> Float:
-        """Acceleration for a driver's speed and acceleration: ``d2 ω² + d1 α``."""
-        w, a = self._speeds(omega), self._speeds(alpha)
-        return self._contract(self.d2, w, w) + self._contract(self.d1, a)
-
-    def jerk(
-        self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0, beta: npt.ArrayLike = 0.0
-    ) -> Float:
-        """Jerk: ``d3 ω³ + 3 d2 ω α + d1 β`` with β the driver's jerk."""
-        w, a, b = self._speeds(omega), self._speeds(alpha), self._speeds(beta)
-        mixed = self._contract(self.d2, w, a)
-        return self._contract(self.d3, w, w, w) + 3.0 * mixed + self._contract(self.d1, b)
-
-    def _speeds(self, given: npt.ArrayLike) -> Float:
-        """Speeds with an axis for the components, and a last one for the drivers."""
-        array = real_array(given, "a speed or acceleration")
-        if self._drivers == 1:
-            array = array[..., np.newaxis]
-        elif array.ndim == 0 and array == 0.0:
-            array = np.zeros(self._drivers)
-        elif array.ndim == 0 or array.shape[-1] != self._drivers:
-            message = f"shape {array.shape}: the last axis must hold the {self._drivers} drivers"
-            raise InputError(message)
-        return array[..., np.newaxis, :] if self._point else array
-
-    def _contract(self, derivative: Float, *speeds: Float) -> Float:
-        array = derivative
-        if self._drivers == 1:
-            array = array.reshape(array.shape + (1,) * len(speeds))
-        for speed in reversed(speeds):
-            axes = array.ndim - (self.value.ndim + 1)
-            aligned = speed.reshape(speed.shape[:-1] + (1,) * axes + speed.shape[-1:])
-            try:
-                array = (array * aligned).sum(axis=-1)
-            except ValueError as error:
-                given, shape = speed.shape[:-1], self.value.shape
-                if self._point:
-                    given, shape = given[:-1], shape[:-1]
-                message = f"shape {given} does not broadcast to {shape}"
-                raise InputError(message) from error
-        return array
-
-    def __repr__(self) -> str:
-        return f"<{self._name}: shape {self.value.shape}, order {len(self._arrays) - 1}>"
 
 
 class Motion:

@@ -35,7 +35,7 @@ U = 2.220446049250313e-16
 POSITION = 8 * U
 ANALOGUE = 64 * U
 ORACLE = 1e-40  # sizes: what the oracle gives for an analogue that is 0
-LEAST_STEP = 1e-2  # along the path: a fold is then met to its square
+LEAST_STEP = 3e-3  # along the path: a fold is then met to its square
 GUESS = 1e-9  # residual of a pose that the oracle then refines
 FAR = 1e4  # sizes: a pole
 
@@ -124,8 +124,8 @@ class Tracer:
                 continue
             h = step / 2
             if h < LEAST_STEP or np.max(np.abs(w)) > FAR:
-                return Path(self, delta, knots, float(w[-1]))
-        return Path(self, delta, knots, None)
+                return Path(self, delta, knots, float(w[-1]), sign)
+        return Path(self, delta, knots, None, sign)
 
     def refine(self, start: Array, across: Array, delta: Array) -> tuple[Array, Array, float]:
         """Newton in the plane across a direction; the tangent there (0: none), sign of det."""
@@ -151,6 +151,7 @@ class Path:
     delta: Array
     knots: list[Array]
     fold: float | None
+    sign: float  # of the determinant, all the way
 
     def pose(self, t: float) -> Pose:
         """The pose at t, which the path passed."""
@@ -159,8 +160,9 @@ class Path:
         part = (t - before[-1]) / (after[-1] - before[-1]) if i else 0.0
         guess = before + part * (after - before)
         guess[-1] = t
-        w, _, _ = self.tracer.refine(guess, self.tracer.upward, self.delta)
-        assert np.max(np.abs(w - guess)) <= 0.2 * np.linalg.norm(after - before)
+        w, _, sign = self.tracer.refine(guess, self.tracer.upward, self.delta)
+        assert sign == self.sign
+        assert np.max(np.abs(w - guess)) <= 0.5 * np.linalg.norm(after - before)
         self.tracer.system.put(0, w[:-1].tolist())
         return self.tracer.system.pose()
 

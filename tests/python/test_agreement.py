@@ -2,8 +2,9 @@
 
 Every random mechanism is tried at its drawing and at three other q: half way and all the way
 forward, and backward; where a fold comes before, half way to it.  Analogues to order 3 are
-compared at one of the four, whichever the seed says (at all of them in the slow profile).  Beyond a fold assur must either
-decline or stand where its own assembly really closes.  No case is thrown away.
+compared at one of the four, whichever the seed says (at all of them in the slow profile).
+Beyond a fold assur must either decline or stand where its own assembly really closes.  No case
+is thrown away.
 """
 
 from __future__ import annotations

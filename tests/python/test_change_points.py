@@ -26,7 +26,8 @@ def bounds(motion: assur.Motion) -> tuple[Float, Float]:
 
 def gaps(angle: Float) -> Float:
     """Angles apart from whole turns."""
-    return np.abs(np.angle(np.exp(1j * angle)))
+    apart: Float = np.abs(np.angle(np.exp(1j * angle)))
+    return apart
 
 
 @pytest.mark.parametrize("q", GRIDS, ids=len)

@@ -1,5 +1,6 @@
 //! Motions: designs × positions, with analogues.
 
+mod analogue;
 mod change;
 mod design;
 mod dyad;
@@ -7,6 +8,7 @@ mod explain;
 mod fit;
 pub mod metrics;
 mod solve;
+mod spread;
 mod state;
 mod track;
 

@@ -9,6 +9,7 @@
 
 pub mod bind;
 mod block;
+mod fit;
 pub mod jet;
 
 use crate::error::StructureError;
@@ -190,7 +191,7 @@ impl Plan {
         };
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
         let placed = block::add_steps(&mut plan, linkage, structure, &kept)?;
-        block::add_fits(&mut plan, linkage, closure, structure, placed);
+        fit::add_fits(&mut plan, linkage, closure, structure, placed);
         Ok(plan)
     }
 

@@ -1,0 +1,112 @@
+//! Redundant links: how each is placed and what must then close.
+
+use super::{Fit, Plan, Step, Turned};
+use crate::linkage::Linkage;
+use crate::structure::Structure;
+use crate::structure::closure::{Closure, Span, point_of_joint};
+
+/// Adds the placing and checking of redundant links and slides.
+pub fn add_fits(
+    plan: &mut Plan,
+    linkage: &Linkage,
+    closure: &Closure,
+    structure: &Structure,
+    mut known: Vec<bool>,
+) {
+    let left_out = &structure.redundant;
+    let mut waiting: Vec<usize> = left_out.links.iter().rev().copied().collect();
+    let mut placed_links: Vec<usize> =
+        (0..linkage.links.len()).filter(|l| !left_out.links.contains(l)).collect();
+    let mut checked = Vec::new();
+    while !waiting.is_empty() {
+        let before = waiting.len();
+        waiting.retain(|&link| {
+            let fit = fit_link(plan, linkage, closure, link, &placed_links, &mut known);
+            let Some(fit) = fit else { return true };
+            checked.extend(fit.parallel.iter().copied());
+            plan.steps.push(Step::Fit(fit));
+            placed_links.push(link);
+            false
+        });
+        if waiting.len() == before {
+            break;
+        }
+    }
+    for &slide in &left_out.slides {
+        if !checked.contains(&slide) {
+            let checks = slide_edge(closure, slide).into_iter().collect();
+            let name = linkage.slides[slide].name.clone();
+            plan.steps.push(Step::Fit(Fit {
+                name,
+                turned: None,
+                places: vec![],
+                checks,
+                parallel: vec![slide],
+            }));
+        }
+    }
+}
+
+fn slide_edge(closure: &Closure, slide: usize) -> Option<usize> {
+    closure.edges.iter().position(|e| e.span == Span::Guide { slide })
+}
+
+fn fit_link(
+    plan: &Plan,
+    linkage: &Linkage,
+    closure: &Closure,
+    link: usize,
+    placed_links: &[usize],
+    known: &mut [bool],
+) -> Option<Fit> {
+    let joints = &linkage.links[link].joints;
+    let edge_to =
+        |joint: usize| closure.edges.iter().position(|e| e.span == Span::Joint { link, joint });
+    let carried: Vec<usize> =
+        joints.iter().copied().filter(|&j| known[point_of_joint(j)]).collect();
+    let slides: Vec<usize> = (0..linkage.slides.len())
+        .filter(|&s| {
+            let x = &linkage.slides[s];
+            (x.link == link && placed_links.contains(&x.on))
+                || (x.on == link && placed_links.contains(&x.link))
+        })
+        .collect();
+    let turned = match (&carried[..], &slides[..]) {
+        (&[a, b, ..], _) => Turned::Joints {
+            link,
+            first: edge_to(a),
+            second: edge_to(b),
+            points: [point_of_joint(a), point_of_joint(b)],
+        },
+        (&[_], &[slide, ..]) => Turned::Slide { link, slide },
+        _ => return None,
+    };
+    let (mut places, mut checks) = (Vec::new(), Vec::new());
+    let first = plan.reference[link];
+    if !known[first]
+        && let Some(edge) = carried.first().and_then(|&a| edge_to(a))
+    {
+        places.push((edge, true));
+        known[first] = true;
+    }
+    for &joint in joints.iter().skip(1) {
+        let Some(edge) = edge_to(joint) else { continue };
+        if places.contains(&(edge, true)) {
+            continue;
+        }
+        if known[point_of_joint(joint)] {
+            checks.push(edge);
+        } else {
+            places.push((edge, false));
+            known[point_of_joint(joint)] = true;
+        }
+    }
+    checks.extend(slides.iter().filter_map(|&s| slide_edge(closure, s)));
+    Some(Fit {
+        name: linkage.links[link].name.clone(),
+        turned: Some(turned),
+        places,
+        checks,
+        parallel: slides,
+    })
+}
