@@ -37,7 +37,7 @@ ANALOGUE = 64 * U
 ORACLE = 1e-40  # sizes: what the oracle gives for an analogue that is 0
 LEAST_STEP = 3e-3  # along the path: a fold is then met to its square
 GUESS = 1e-9  # residual of a pose that the oracle then refines
-FAR = 1e4  # sizes: a pole
+FAR = 1e2  # sizes: a pole
 
 
 class Tracer:

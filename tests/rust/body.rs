@@ -56,6 +56,14 @@ pub struct Position {
     pub bodies: Vec<Body>,
 }
 
+impl Position {
+    /// Coefficient `k` of a point of a body.
+    pub fn point(&self, body: usize, u: Point, k: usize) -> Point {
+        let b = &self.bodies[body];
+        [b.x[k] + b.cos[k] * u[0] - b.sin[k] * u[1], b.y[k] + b.sin[k] * u[0] + b.cos[k] * u[1]]
+    }
+}
+
 /// The equations of a linkage, lengths divided by `size` (a power of two).
 #[derive(Debug)]
 pub struct Oracle {
@@ -155,17 +163,11 @@ impl Oracle {
         &self.start
     }
 
-    /// Coefficient `k` of a point of a body.
-    pub fn point(&self, at: &Position, body: usize, u: Point, k: usize) -> Point {
-        let b = &at.bodies[body];
-        [b.x[k] + b.cos[k] * u[0] - b.sin[k] * u[1], b.y[k] + b.sin[k] * u[0] + b.cos[k] * u[1]]
-    }
-
     /// Coefficient `k` of a reach.
     pub fn reach(&self, at: &Position, r: &Reach, k: usize) -> Dd {
         let b = &at.bodies[r.b];
         self.tables.product[k].iter().fold(Dd::ZERO, |sum, t| {
-            let (p, o) = (self.point(at, r.a, r.u, t.right), self.point(at, r.b, r.w, t.right));
+            let (p, o) = (at.point(r.a, r.u, t.right), at.point(r.b, r.w, t.right));
             let (c, s) = (b.cos[t.left], b.sin[t.left]);
             let direction = [c * r.d[0] - s * r.d[1], s * r.d[0] + c * r.d[1]];
             sum + direction[0] * (p[0] - o[0]) + direction[1] * (p[1] - o[1])
@@ -183,7 +185,7 @@ impl Oracle {
         for equation in &self.equations {
             match *equation {
                 Equation::Pin { a, u, b, w } => {
-                    let (p, r) = (self.point(at, a, u, k), self.point(at, b, w, k));
+                    let (p, r) = (at.point(a, u, k), at.point(b, w, k));
                     rows.extend([p[0] - r[0], p[1] - r[1]]);
                 }
                 Equation::Turn { a, b, shift, q } => {
@@ -207,7 +209,7 @@ impl Oracle {
         let n = 3 * (at.bodies.len() - 1);
         let mut m = DMatrix::zeros(n, n);
         let arm = |body: usize, u: Point| {
-            let (p, o) = (self.point(at, body, u, 0), &at.bodies[body]);
+            let (p, o) = (at.point(body, u, 0), &at.bodies[body]);
             [f64::from(p[0] - o.x[0]), f64::from(p[1] - o.y[0])]
         };
         let mut row = 0;
@@ -231,7 +233,7 @@ impl Oracle {
                     row += 1;
                 }
                 Equation::Reach(r, _) => {
-                    let p = self.point(at, r.a, r.u, 0);
+                    let p = at.point(r.a, r.u, 0);
                     let direction = arm(r.b, r.d);
                     let [ax, ay] = arm(r.a, r.u);
                     // Both the direction and the point w turn with b: the arm to P_a.

@@ -112,7 +112,9 @@ impl Builder<'_> {
     pub fn joint(&mut self, place: Place, links: &[usize]) -> usize {
         self.joints.push(place);
         let joint = self.joints.len() - 1;
-        links.iter().for_each(|&l| self.links[l].push(joint));
+        for &link in links {
+            self.links[link].push(joint);
+        }
         joint
     }
 
@@ -142,16 +144,12 @@ impl Builder<'_> {
         if !old.is_empty() && self.coin(0.4) {
             return self.among(&old);
         }
-        match self.links[link].first() {
-            Some(&first) => {
-                let angle = self.angle();
-                self.joint_beyond(self.joints[first], angle, link)
-            }
-            None => {
-                let place = self.near();
-                self.joint(place, &[link])
-            }
+        if let Some(&first) = self.links[link].first() {
+            let angle = self.angle();
+            return self.joint_beyond(self.joints[first], angle, link);
         }
+        let place = self.near();
+        self.joint(place, &[link])
     }
 
     /// A sliding pair; either link may carry the guide, with an origin or without.

@@ -4,8 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use assur::{Description, Mechanism, StructureError};
 
-use crate::agreement::compare;
 use crate::body::Oracle;
+use crate::law::compare;
 
 /// The bounds at steps from the drawing.
 fn assert_bounds(description: &Description, steps: &[f64]) {
@@ -146,4 +146,42 @@ fn crank_drawn_at_its_dead_point() {
     assert!(matches!(&error, StructureError::FlatDyad { name, .. } if name == "C"), "{error}");
     let named = Mechanism::new(&linkage.assembly("C", 1));
     assert!(named.is_ok(), "{named:?}");
+}
+
+/// The third analogue of a guide whose pivots are a third of the size apart.
+#[test]
+#[ignore = "bound: 80 u κ² where 64 are promised (κ = 1.4)"]
+fn third_analogue_of_a_guide() {
+    let linkage = Description::new()
+        .joint("J0", [-2.0, -2.0])
+        .joint("J1", [-2.3, -2.0])
+        .joint("J2", [-0.9022808876860997, -1.0999954497398154])
+        .joint("J3", [-0.9022808876860997, -0.6291973386885243])
+        .link("ground", ["J2", "J0"])
+        .link("L1", ["J0", "J1", "J3"])
+        .link("L2", ["J2"])
+        .link("L3", ["J3"])
+        .slide("s0", "L2", "L3", -0.7647151453865852, Some("J3"))
+        .driver("L1");
+    assert_bounds(&linkage, &[0.01]);
+}
+
+/// A short rod on a long link with its block on the crank.
+#[test]
+#[ignore = "bound: a position of 8.4 u κ where 8 are promised (κ = 1.4)"]
+fn position_of_a_short_rod() {
+    let linkage = Description::new()
+        .joint("J0", [-0.3198745679272663, -2.0])
+        .joint("J1", [0.6651107688765014, -1.7490073494006766])
+        .joint("J2", [-0.9659782968431766, -2.112512322003571])
+        .joint("J3", [-0.7892694658423416, -1.7250346507608767])
+        .joint("J4", [-1.9450181910717563, -4.286976764868248])
+        .joint("J5", [-3.21125473528392, -3.332332196635937])
+        .link("L1", ["J1", "J0"])
+        .link("L2", ["J2", "J4", "J3"])
+        .link("L3", ["J5", "J3"])
+        .link("ground", ["J2", "J0"])
+        .slide("s0", "L3", "L1", -0.5121762056554706, Some("J0"))
+        .driver("L1");
+    assert_bounds(&linkage, &[0.22041186363970888]);
 }

@@ -146,7 +146,7 @@ impl Oracle {
     /// Greatest coordinate, as a part of `size`: of joints and links' own points (seen
     /// from the ground's first joint, where it has one) and of slides.
     pub fn extent(&self, at: &Position) -> f64 {
-        let place = |joint: &(usize, Point)| self.point(at, joint.0, joint.1, 0);
+        let place = |joint: &(usize, Point)| at.point(joint.0, joint.1, 0);
         let base = self.joints.iter().find(|j| j.0 == self.ground).map(place);
         let base = base.unwrap_or([Dd::ZERO; 2]);
         let own = at.bodies.iter().map(|b| [b.x[0], b.y[0]]);
@@ -169,7 +169,7 @@ impl Oracle {
                 .pins
                 .iter()
                 .filter(|(body, _)| tied[*body] == class)
-                .map(|&(body, u)| self.point(at, body, u, 0))
+                .map(|&(body, u)| at.point(body, u, 0))
                 .collect();
             let gap = |p: Point, r: Point| f64::from(p[0] - r[0]).hypot(f64::from(p[1] - r[1]));
             let all = joints.iter().flat_map(|&p| joints.iter().map(move |&r| gap(p, r)));

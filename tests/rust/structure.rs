@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use assur::{Description, Mechanism, SliderCrank, StructureError};
+use assur::{Description, Group, Mechanism, SliderCrank, StructureError};
 
 use crate::linkages as l;
 
@@ -56,7 +56,7 @@ fn artobolevskys_numbers() {
     {
         let mechanism = mechanism(&description);
         let groups = mechanism.structure().groups.iter();
-        assert_eq!(groups.filter_map(|g| g.artobolevsky_kind()).collect::<Vec<_>>(), numbers);
+        assert_eq!(groups.filter_map(Group::artobolevsky_kind).collect::<Vec<_>>(), numbers);
     }
 }
 

@@ -1,0 +1,266 @@
+"""What must not matter: frame, scale, order of the description, grid; and redundant links.
+
+Two solutions of the same motion may each be off by the law (agreement.py), and the moved drawing
+is itself rounded: they agree to three times what the law allows.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from hypothesis import Phase, given, settings
+from hypothesis import strategies as st
+
+import agreement
+import assur
+import models
+from assur import Status
+from oracle import GROUND, Description
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+NO_SHRINK = settings(phases=(Phase.explicit, Phase.reuse, Phase.generate))  # seeds: no simpler
+moves = st.floats(-0.5, 0.5)
+
+
+def made(d: Description) -> assur.Mechanism:
+    return assur.Mechanism(**models.arguments(d))
+
+
+def solve(m: assur.Mechanism, change: NDArray[np.float64]) -> assur.Motion:
+    q = np.atleast_1d(m.q0) + change
+    return m.solve(q if q.size > 1 else q[0], order=3, on_error="nan")
+
+
+@dataclass(frozen=True)
+class Frame:
+    """x -> scale (mirror, then turn) x + shift."""
+
+    turn: float = 0.0
+    shift: tuple[float, float] = (0.0, 0.0)
+    mirror: bool = False
+    scale: float = 1.0
+
+    @property
+    def matrix(self) -> NDArray[np.float64]:
+        c, s = math.cos(self.turn), math.sin(self.turn)
+        hand = -1.0 if self.mirror else 1.0
+        return self.scale * np.array([[c, -s * hand], [s, c * hand]])
+
+    def of(self, d: Description) -> Description:
+        """The drawing in this frame."""
+        moved = {n: tuple(self.matrix @ np.array(p) + self.shift) for n, p in d.joints.items()}
+        joints = {n: (float(x), float(y)) for n, (x, y) in moved.items()}
+        hand = -1 if self.mirror else 1
+        slides = {n: replace(s, angle=hand * s.angle + self.turn) for n, s in d.slides.items()}
+        return Description(joints, d.links, slides, d.drivers)
+
+
+def check_same(
+    d: Description, motions: tuple[assur.Motion, assur.Motion], frame: Frame, shifted: bool = False
+) -> None:
+    """Values and analogues of two motions, the second in another frame.
+
+    Angles (and, where `shifted`, slides' values) are compared from the drawing on.
+    """
+    one, two = motions
+    size = max(float(np.max(np.abs(one.joint(n).value))) for n in d.joints)
+    size = max(size, *(abs(float(one.slide(n).value)) for n in d.slides), 1e-300)
+    offset = max(map(abs, frame.shift)) / frame.scale  # lost in rounding the moved drawing
+    size = 2 * max(size, offset, *(max(map(abs, p)) for p in d.joints.values()))
+    kappa = max(float(one.condition), float(two.condition))
+    hand = -1.0 if frame.mirror else 1.0
+    units = [frame.scale if kind == "slide" else hand for kind, *_ in d.drivers]
+    drawn = [m.mechanism.solve(m.mechanism.q0, order=0) for m in motions]
+    for k in range(4):
+        index = "value" if k == 0 else f"d{k}"
+        shape = (len(units),) * k if len(units) > 1 else ()
+        grow = np.ones(shape)  # of dq' for dq, for each partial
+        for place in np.ndindex((len(units),) * k):
+            part = math.prod(units[i] for i in place)
+            if shape:
+                grow[place] = part
+            else:
+                grow = np.array(part)
+        own, worst, whose = 0.0, 0.0, ""
+        for name in d.joints:
+            a, b = (getattr(m.joint(name), index) for m in motions)
+            want = np.tensordot(frame.matrix, a, (1, 0))
+            want = want + np.array(frame.shift) if k == 0 else want
+            own, error = max(own, float(np.max(np.abs(a)))), np.abs(b * grow - want) / frame.scale
+            worst, whose = max((worst, whose), (float(np.max(error)), f"joint {name}"))
+        for name in d.slides:
+            a, b = (getattr(m.slide(name), index) for m in motions)
+            if k == 0 and shifted:
+                a, b = a - drawn[0].slide(name).value, b - drawn[1].slide(name).value
+            own, error = max(own, float(np.max(np.abs(a)))), np.abs(b * grow / frame.scale - a)
+            worst, whose = max((worst, whose), (float(np.max(error)), f"slide {name}"))
+        arm = min(
+            (math.dist(d.joints[n[0]], d.joints[n[1]]) for n in d.links.values() if n[1:]),
+            default=size,
+        )
+        for name in d.links:
+            a, b = (getattr(m.link(name), index) for m in motions)
+            if k == 0:
+                a, b = a - drawn[0].link(name).value, b - drawn[1].link(name).value
+            own = max(own, arm * float(np.max(np.abs(a))))
+            error = arm * np.abs(b * grow - hand * a)
+            worst, whose = max((worst, whose), (float(np.max(error)), f"link {name}"))
+        law = agreement.ANALOGUE * kappa**2 * own if k else agreement.POSITION * kappa * size
+        assert worst <= 3 * law + 1e-300, f"order {k}, {whose}: {worst / law:.3g} of the law"
+
+
+def check_frame(case: models.Case, move: float, frame: Frame) -> None:
+    d = case.description
+    hand = -1.0 if frame.mirror else 1.0
+    one, two = made(d), made(frame.of(d))
+    assert one.structure.formula == two.structure.formula
+    units = [frame.scale if kind == "slide" else hand for kind, *_ in d.drivers]
+    motions = solve(one, move * np.ones(len(units))), solve(two, move * np.array(units))
+    check_status(*motions)
+    if motions[0].status <= Status.NEAR_SINGULAR:
+        check_same(d, motions, frame)
+
+
+def check_status(one: assur.Motion, two: assur.Motion) -> None:
+    assert one.status == two.status
+
+
+@NO_SHRINK
+@given(models.sequences(), moves, st.floats(-math.pi, math.pi))
+def test_rotation(case: models.Case, move: float, turn: float) -> None:
+    check_frame(case, move, Frame(turn=turn))
+
+
+@NO_SHRINK
+@given(models.sequences(), moves, st.tuples(st.floats(-9, 9), st.floats(-9, 9)))
+def test_translation(case: models.Case, move: float, shift: tuple[float, float]) -> None:
+    check_frame(case, move, Frame(shift=shift))
+
+
+@NO_SHRINK
+@given(models.sequences(), moves, st.booleans())
+def test_mirror(case: models.Case, move: float, upright: bool) -> None:
+    check_frame(case, move, Frame(mirror=True, turn=0.0 if upright else math.pi))
+
+
+@NO_SHRINK
+@given(models.sequences(), moves, st.floats(1e-3, 1e3))
+def test_scale(case: models.Case, move: float, scale: float) -> None:
+    check_frame(case, move, Frame(scale=scale))
+
+
+@NO_SHRINK
+@given(models.sequences(), moves, st.integers(-400, 400))
+def test_scale_by_a_power_of_two(case: models.Case, move: float, power: int) -> None:
+    """Not a bit changes."""
+    d, scale = case.description, 2.0**power
+    one, two = made(d), made(Frame(scale=scale).of(d))
+    slide = [kind == "slide" for kind, *_ in d.drivers]
+    q = np.atleast_1d(one.q0) + move
+    q_two = q * np.where(slide, scale, 1.0)
+    flat = len(slide) == 1
+    motions = [
+        m.solve(x[0] if flat else x, order=3, on_error="nan") for m, x in ((one, q), (two, q_two))
+    ]
+    check_status(*motions)
+    for k, index in enumerate(("value", "d1", "d2", "d3")):
+        unit = scale ** -(k if slide[0] else 0)  # mixed drivers are not among DRIVERS
+        for kind, names, length in (
+            ("joint", d.joints, scale),
+            ("slide", d.slides, scale),
+            ("link", d.links, 1.0),
+        ):
+            for name in names:
+                a, b = (getattr(getattr(m, kind)(name), index) for m in motions)
+                # a scale beyond 2^1023 comes in two steps
+                assert np.array_equal(a * length * unit, b, equal_nan=True), (kind, name, index)
+
+
+@NO_SHRINK
+@given(models.sequences(), moves, st.integers(0, 2**32 - 1))
+def test_order_of_the_description(case: models.Case, move: float, seed: int) -> None:
+    """Joints, links and slides in any order, and the joints inside links."""
+    rng = random.Random(seed)
+    d = case.description
+
+    def mixed(table: dict[str, models.T]) -> dict[str, models.T]:
+        return dict(rng.sample(list(table.items()), len(table)))
+
+    # a first and second joint far enough apart to give the angle as well as before
+    links = {n: rng.sample(on, len(on)) if len(on) < 3 else on for n, on in d.links.items()}
+    links[GROUND] = rng.sample(d.links[GROUND], len(d.links[GROUND]))
+    for name, on in links.items():
+        if name != GROUND and len(on) > 2:
+            rest = rng.sample(on[2:], len(on) - 2)
+            links[name] = [*rng.sample(on[:2], 2), *rest]
+    other = Description(mixed(d.joints), mixed(links), mixed(d.slides), d.drivers)
+    one, two = made(d), made(other)
+    change = move * np.ones(len(d.drivers))
+    motions = solve(one, change), solve(two, change)
+    check_status(*motions)
+    if motions[0].status <= Status.NEAR_SINGULAR:
+        check_same(d, motions, Frame(), shifted=True)
+
+
+# -- a redundant link -----------------------------------------------------------------------------
+
+
+def test_third_bar() -> None:
+    """A locomotive's rods: solved, reported, and checked."""
+    d = models.parallelogram()
+    m = made(d)
+    assert m.structure.mobility == 1
+    assert len(m.structure.redundant) == 1
+    (extra,) = m.structure.redundant
+    q = np.linspace(m.q0 - 0.7, m.q0 + 0.7, 15)
+    motion = m.solve(q, order=3)
+    assert np.all(motion.status == Status.OK)
+    for name in ("crank", "second", "third"):
+        assert motion.link(name).value == pytest.approx(q, abs=16 * agreement.U * 4)
+        assert motion.link(name).d1 == pytest.approx(np.ones(15), abs=64 * agreement.U * 4)
+    moved = motion.joint("F").value - motion.joint("B").value
+    assert moved == pytest.approx(np.tile([1.5, 0.0], (15, 1)), abs=16 * agreement.U * 4)
+    for wrong in (1.3, 1.25 * (1 + 1e-9)):
+        bad = m.with_dimensions({"third.length": wrong})
+        caught = bad.solve(m.q0 + 0.1, on_error="nan")
+        assert caught.status == Status.UNREACHABLE
+        assert np.isnan(caught.joint("C").value).all()
+        assert repr(extra) in caught.explain() or f'"{extra}"' in caught.explain()
+        with pytest.raises(assur.PositionError, match=extra):
+            bad.solve(m.q0 + 0.1)
+
+
+# -- angles ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "make",
+    [models.crank_rocker, models.whitworth, models.jansen, models.oldham, models.engine,
+     models.trammel, models.scotch_yoke],
+)  # fmt: skip
+def test_angles_do_not_depend_on_the_grid(make: object) -> None:
+    """Continuous over four turns each way; the same bits alone, coarse, backwards or fine."""
+    d = make()  # type: ignore[operator]
+    m = made(d)
+    fine = m.q0 + np.linspace(-4 * math.tau, 4 * math.tau, 4001)
+    motion = m.solve(fine, order=1)
+    coarse = np.random.default_rng(1).permutation(np.arange(3, 4001, 371))
+    jumps = m.solve(fine[coarse], order=1)
+    for name in d.links:
+        angle = motion.link(name)
+        step, rate = np.diff(angle.value), angle.d1
+        assert np.all(np.abs(step) <= np.abs(fine[1] - fine[0]) * np.max(np.abs(rate)) * 1.001)
+        assert -math.pi < angle.value[2000] <= math.pi
+        assert np.array_equal(jumps.link(name).value, angle.value[coarse])
+        for i in coarse[:4]:
+            assert m.solve(fine[i], order=0).link(name).value == angle.value[i]
+        turns = (angle.value[::500] - angle.value[0]) / math.tau  # one driver's turn apart
+        assert turns == pytest.approx(np.round(turns), abs=1e-12)
+        assert np.ptp(np.diff(np.round(turns))) == 0  # the same number in each
