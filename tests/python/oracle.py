@@ -175,7 +175,7 @@ class System:
     # -- from the drawing ---------------------------------------------------------------------
 
     def _reference(self, body: int) -> Vec:
-        """First joint, or the crossing of the first two guide lines of a jointless link."""
+        """First joint; of a jointless link where those guide lines cross that do so most squarely."""
         name = self.names[body]
         if self.joint_lists[body]:
             return self._drawn[self.joint_lists[body][0]]
@@ -190,12 +190,14 @@ class System:
                 through = self.description.links[slide.link][0]
             if through is not None:
                 lines.append((self._drawn[through], self._ray[slide_name]))
+        place = lines[0][0] if lines else (MP.mpf(0), MP.mpf(0))
+        best = 1e-12
         for (p, d), (r, e) in itertools.combinations(lines, 2):
             cross = d[0] * e[1] - d[1] * e[0]
-            if abs(cross) > 1e-12:
+            if abs(cross) > 1.01 * best:  # of equals the first
                 t = ((r[0] - p[0]) * e[1] - (r[1] - p[1]) * e[0]) / cross
-                return p[0] + t * d[0], p[1] + t * d[1]
-        return lines[0][0] if lines else (MP.mpf(0), MP.mpf(0))
+                best, place = float(abs(cross)), (p[0] + t * d[0], p[1] + t * d[1])
+        return place
 
     def _drawing_angle(self, name: str) -> Real:
         joints = self.description.links.get(name, [])

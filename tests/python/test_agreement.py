@@ -83,7 +83,9 @@ def whole_turns(motion: assur.Motion, i: int, solution: oracle.Solution) -> dict
     return {n: math.tau * round(gap / math.tau) for n, gap in gaps.items()}
 
 
-def check(case: models.Case, forward: float, backward: float) -> None:
+def check(
+    case: models.Case, forward: float, backward: float, all_orders: bool = ALL_ORDERS
+) -> None:
     d = case.description
     mechanism, tracer = assur.Mechanism(**models.arguments(d)), agreement.Tracer(d)
     start = oracle.drawing_q(d)
@@ -105,7 +107,7 @@ def check(case: models.Case, forward: float, backward: float) -> None:
     for i, (q, pose) in enumerate(zip(qs, poses, strict=True)):
         # the oracle came here without a fold: so must assur
         assert motion.status[i] <= Status.NEAR_SINGULAR, motion.explain(i)
-        order = 3 if ALL_ORDERS or i == with_analogues else 0
+        order = 3 if all_orders or i == with_analogues else 0
         solution = oracle.solve(d, q, pose, order)
         turns = turns or whole_turns(motion, i, solution)  # of the drawing: −π or π
         check_law(d, q, solution, agreement.compare(d, motion, (i,), solution, order, turns))
@@ -137,6 +139,26 @@ def test_drivers(driver: str) -> None:
 @given(models.sequences(), moves)
 def test_sequences(case: models.Case, move: tuple[float, float]) -> None:
     check(case, *move)
+
+
+@pytest.mark.parametrize(
+    ("seed", "driver", "kind", "forward", "backward"),
+    [
+        (1080, "crank", "RRR", 1.355866827652872, 1.562472926088054),  # d3: 1.3 times
+        (33, "crank", "RPR", 0.71, 2.34),  # d3: 2.5 times
+        (1, "slide", "RPR", 0.07, 2.98),  # d2 2.5, d3 2.5 times
+        (69, "two_cranks", "RPR", 1.43, 1.62),  # an angle: 1.2 times
+    ],
+)
+def test_law_at_its_limit(
+    seed: int, driver: str, kind: str, forward: float, backward: float
+) -> None:
+    """Rare cases (1 in 300) in which the law is missed though assur is as good as its input.
+
+    An error of the same size follows from half a u in the drawing (`agreement.inherent`): the
+    analogue is small by accident, or an arm is short, and κ does not know it.
+    """
+    check(models.build(seed, driver, (kind,)), forward, backward, all_orders=True)
 
 
 @pytest.mark.parametrize("make", models.NAMED.values(), ids=models.NAMED)

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 NO_SHRINK = settings(phases=(Phase.explicit, Phase.reuse, Phase.generate))  # seeds: no simpler
 moves = st.floats(-0.5, 0.5)
+PARTS = (0.0, 0.1, 1.0)  # of a move: half of the whole ones end beyond a fold
 
 
 def made(d: Description) -> assur.Mechanism:
@@ -77,6 +78,8 @@ def check_same(
     kappa = max(float(one.condition), float(two.condition))
     hand = -1.0 if frame.mirror else 1.0
     units = [frame.scale if kind == "slide" else hand for kind, *_ in d.drivers]
+    # where an order vanishes (pure translation) the one below, by the size, stands for its size
+    least, long = 0.0, size if d.drivers[0][0] == "slide" else 1.0
     drawn = [m.mechanism.solve(m.mechanism.q0, order=0) for m in motions]
     for k in range(4):
         index = "value" if k == 0 else f"d{k}"
@@ -112,8 +115,10 @@ def check_same(
             own = max(own, arm * float(np.max(np.abs(a))))
             error = arm * np.abs(b * grow - hand * a)
             worst, whose = max((worst, whose), (float(np.max(error)), f"link {name}"))
-        law = agreement.ANALOGUE * kappa**2 * own if k else agreement.POSITION * kappa * size
-        assert worst <= 3 * law + 1e-300, f"order {k}, {whose}: {worst / law:.3g} of the law"
+        if k:
+            least = own if k == 1 else max(own, least / long)
+        law = agreement.ANALOGUE * kappa**2 * least if k else agreement.POSITION * kappa * size
+        assert worst <= 3 * law + 1e-300, f"order {k}, {whose}: {worst:.3g}, law {law:.3g}"
 
 
 def check_frame(case: models.Case, move: float, frame: Frame) -> None:
@@ -122,14 +127,12 @@ def check_frame(case: models.Case, move: float, frame: Frame) -> None:
     one, two = made(d), made(frame.of(d))
     assert one.structure.formula == two.structure.formula
     units = [frame.scale if kind == "slide" else hand for kind, *_ in d.drivers]
-    motions = solve(one, move * np.ones(len(units))), solve(two, move * np.array(units))
-    check_status(*motions)
-    if motions[0].status <= Status.NEAR_SINGULAR:
-        check_same(d, motions, frame)
-
-
-def check_status(one: assur.Motion, two: assur.Motion) -> None:
-    assert one.status == two.status
+    for part in PARTS:
+        change = part * move
+        motions = solve(one, change * np.ones(len(units))), solve(two, change * np.array(units))
+        assert motions[0].status == motions[1].status
+        if motions[0].status <= Status.NEAR_SINGULAR:
+            check_same(d, motions, frame)
 
 
 @NO_SHRINK
@@ -157,30 +160,30 @@ def test_scale(case: models.Case, move: float, scale: float) -> None:
 
 
 @NO_SHRINK
-@given(models.sequences(), moves, st.integers(-400, 400))
+@given(models.sequences(), moves, st.integers(-300, 300))
 def test_scale_by_a_power_of_two(case: models.Case, move: float, power: int) -> None:
     """Not a bit changes."""
     d, scale = case.description, 2.0**power
     one, two = made(d), made(Frame(scale=scale).of(d))
     slide = [kind == "slide" for kind, *_ in d.drivers]
-    q = np.atleast_1d(one.q0) + move
+    q = np.atleast_1d(one.q0) + move / 8
     q_two = q * np.where(slide, scale, 1.0)
     flat = len(slide) == 1
     motions = [
         m.solve(x[0] if flat else x, order=3, on_error="nan") for m, x in ((one, q), (two, q_two))
     ]
-    check_status(*motions)
+    assert motions[0].status == motions[1].status
     for k, index in enumerate(("value", "d1", "d2", "d3")):
-        unit = scale ** -(k if slide[0] else 0)  # mixed drivers are not among DRIVERS
+        per_q = k if slide[0] else 0  # mixed drivers are not among DRIVERS
         for kind, names, length in (
-            ("joint", d.joints, scale),
-            ("slide", d.slides, scale),
-            ("link", d.links, 1.0),
+            ("joint", d.joints, 1),
+            ("slide", d.slides, 1),
+            ("link", d.links, 0),
         ):
             for name in names:
                 a, b = (getattr(getattr(m, kind)(name), index) for m in motions)
-                # a scale beyond 2^1023 comes in two steps
-                assert np.array_equal(a * length * unit, b, equal_nan=True), (kind, name, index)
+                want = np.ldexp(a, power * (length - per_q))
+                assert np.array_equal(want, b, equal_nan=True), (kind, name, index)
 
 
 @NO_SHRINK
@@ -202,11 +205,14 @@ def test_order_of_the_description(case: models.Case, move: float, seed: int) -> 
             links[name] = [*rng.sample(on[:2], 2), *rest]
     other = Description(mixed(d.joints), mixed(links), mixed(d.slides), d.drivers)
     one, two = made(d), made(other)
-    change = move * np.ones(len(d.drivers))
-    motions = solve(one, change), solve(two, change)
-    check_status(*motions)
-    if motions[0].status <= Status.NEAR_SINGULAR:
-        check_same(d, motions, Frame(), shifted=True)
+    for part in PARTS:
+        change = part * move * np.ones(len(d.drivers))
+        motions = solve(one, change), solve(two, change)
+        # a joint of several links is reached by another of them: κ, hence NEAR, may differ
+        there = [m.status <= Status.NEAR_SINGULAR for m in motions]
+        assert there[0] == there[1]
+        if motions[0].status <= Status.NEAR_SINGULAR:
+            check_same(d, motions, Frame(), shifted=True)
 
 
 # -- a redundant link -----------------------------------------------------------------------------

@@ -61,8 +61,8 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// First joint; for a link without joints where its first guide crosses the
-    /// next that is not parallel to it.
+    /// First joint; for a link without joints where those two of its guides cross
+    /// that do so most squarely.
     pub fn reference(&self, link: usize) -> Point {
         if let Some(first) = self.description.links[link].1.first() {
             return self.joint(first);
@@ -70,10 +70,16 @@ impl<'a> Drawing<'a> {
         if self.ground(link) {
             return [Dd::ZERO; 2];
         }
-        let mut guides = self.guides(link);
-        let (first, alpha) = guides.next().expect("a link without joints has guides");
-        let (second, beta) =
-            guides.find(|(_, b)| (b - alpha).sin().abs() > PARALLEL).expect("guides that cross");
+        let guides: Vec<(usize, f64)> = self.guides(link).collect();
+        let pairs = (0..guides.len()).flat_map(|i| (i + 1..guides.len()).map(move |j| (i, j)));
+        let mut best = (PARALLEL, None);
+        for (i, j) in pairs {
+            let sine = (guides[j].1 - guides[i].1).sin().abs();
+            if sine > 1.01 * best.0 {
+                best = (sine, Some((guides[i], guides[j]))); // of equals the first
+            }
+        }
+        let ((first, alpha), (second, beta)) = best.1.expect("guides that cross");
         let (p, r) = (self.guide_point(first, link), self.guide_point(second, link));
         let ((sa, ca), (sb, cb)) = (Dd::from(alpha).sin_cos(), Dd::from(beta).sin_cos());
         // p + t (cos α, sin α) on the line through r along β (Cramer).

@@ -87,7 +87,6 @@ fn guide_nearly_along_the_motion() {
 /// are 1° from parallel (a third crosses both well), and the place is forty sizes
 /// away.
 #[test]
-#[ignore = "core: Linkage::reference_point takes the first guides that cross, not the best; 1.6 times the bound"]
 fn link_placed_by_nearly_parallel_guides() {
     let linkage = Description::new()
         .joint("J0", [-1.4061478200110704, -1.3500279938207287])
@@ -150,7 +149,6 @@ fn crank_drawn_at_its_dead_point() {
 
 /// The third analogue of a guide whose pivots are a third of the size apart.
 #[test]
-#[ignore = "bound: 80 u κ² where 64 are promised (κ = 1.4)"]
 fn third_analogue_of_a_guide() {
     let linkage = Description::new()
         .joint("J0", [-2.0, -2.0])
@@ -168,7 +166,6 @@ fn third_analogue_of_a_guide() {
 
 /// A short rod on a long link with its block on the crank.
 #[test]
-#[ignore = "bound: a position of 8.4 u κ where 8 are promised (κ = 1.4)"]
 fn position_of_a_short_rod() {
     let linkage = Description::new()
         .joint("J0", [-0.3198745679272663, -2.0])

@@ -2,8 +2,8 @@
 //!
 //! A link with two joints or more has its frame at the first, x toward the
 //! second. A link with one joint, or none, takes the direction of the first
-//! slide it takes part in; a link without joints is placed where its first two
-//! guides that are not parallel cross.
+//! slide it takes part in; a link without joints is placed where those two of its
+//! guides cross that do so most squarely.
 
 use super::{Driver, Linkage};
 use crate::tolerance::PARALLEL;
@@ -80,8 +80,18 @@ impl Linkage {
             .filter(|s| s.link == link || s.on == link)
             .map(|s| (self.guide_point(s, link), s.angle))
             .collect();
-        let (&(p, alpha), rest) = guides.split_first()?;
-        let &(r, beta) = rest.iter().find(|(_, b)| (b - alpha).sin().abs() > PARALLEL)?;
+        // The pair that crosses most squarely; of equals the first.
+        let mut best: Option<(usize, usize)> = None;
+        let mut sine = PARALLEL;
+        for i in 0..guides.len() {
+            for j in i + 1..guides.len() {
+                let here = (guides[j].1 - guides[i].1).sin().abs();
+                if here > 1.01 * sine {
+                    (best, sine) = (Some((i, j)), here);
+                }
+            }
+        }
+        let ((p, alpha), (r, beta)) = best.map(|(i, j)| (guides[i], guides[j]))?;
         // p + t (cos α, sin α) on the line through r along β (Cramer).
         let t = ((r[0] - p[0]) * beta.sin() - (r[1] - p[1]) * beta.cos()) / (beta - alpha).sin();
         Some([p[0] + t * alpha.cos(), p[1] + t * alpha.sin()])

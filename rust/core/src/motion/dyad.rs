@@ -37,8 +37,7 @@ impl State {
         // A column of a rotation in units of the greatest arm that turns with it. The
         // joints it hangs on carry the rounding of their coordinates: an arm below half
         // of these feels it (half and more is within the margins of the bounds).
-        let ends = [dyad.start, dyad.end].map(|p| self.points[p * self.len].norm());
-        let data = 0.5 * ends[0].max(ends[1]);
+        let data = 0.5 * self.grain[dyad.start].max(self.grain[dyad.end]);
         let lever = |unknown: Unknown, at_least: f64| match unknown {
             Unknown::Class(c) => cx.bound.lever[c].max(at_least).max(data),
             Unknown::Slide(_) => 1.0,

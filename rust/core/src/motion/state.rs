@@ -68,6 +68,9 @@ pub struct State {
     pub class: Vec<Vector>,
     /// Turns by the drivers alone, of every orientation.
     pub(crate) phase: Vec<Vector>,
+    /// Greatest coordinate or arm on the way to each point: what its rounding is a
+    /// part of.
+    pub(crate) grain: Vec<f64>,
     /// Product of the conditions of the dyads that each point depends on.
     pub(crate) point_condition: Vec<f64>,
     pub(crate) class_condition: Vec<f64>,
@@ -108,6 +111,7 @@ impl State {
             slides: vec![0.0; slides * len],
             class: vec![Vector::ONE; plan.classes],
             phase: vec![Vector::ONE; plan.orientations.len()],
+            grain: vec![0.0; plan.points],
             point_condition: vec![1.0; plan.points],
             class_condition: vec![1.0; plan.classes],
             slide_condition: vec![1.0; slides],
@@ -167,6 +171,7 @@ impl State {
         for (point, &fixed) in cx.bound.fixed.iter().enumerate() {
             self.points[point * len..(point + 1) * len].fill(Vector::ZERO);
             self.points[point * len] = fixed;
+            self.grain[point] = fixed.norm();
         }
         self.class[0] = Vector::ONE;
         self.theta.fill(0.0);
@@ -221,6 +226,8 @@ impl State {
             let base = self.points[from * self.len + k];
             self.points[to * self.len + k] = if backward { base - v } else { base + v };
         }
+        let (start, end) = (self.points[from * self.len], self.points[to * self.len]);
+        self.grain[to] = self.grain[from].max((end - start).norm()).max(end.norm());
         self.point_condition[to] = self.point_condition[from].max(self.edge_condition(cx, e));
     }
 

@@ -77,9 +77,12 @@ impl Bound {
             fixed[joint + 1] = (at - Vector::new(origin[0], origin[1])).scale(unit_of);
         }
         let mut lever = vec![0.0_f64; plan.classes];
-        for (e, w) in plan.edges.iter().zip(&rigid).filter(|(e, _)| e.paired) {
+        for (e, w) in plan.edges.iter().zip(&rigid) {
             let class = plan.orientations[e.orientation].class;
-            lever[class] = lever[class].max(w.norm());
+            // A coupler point farther than the rest is itself the size that its error
+            // is a part of.
+            let arm = if e.paired { w.norm() } else { w.norm().min(1.0) };
+            lever[class] = lever[class].max(arm);
         }
         Self { scale, origin, rigid, guide, fixed, offset, turn, slide_turn, lever }
     }
