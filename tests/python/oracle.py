@@ -591,7 +591,7 @@ def follow(description: Description, q_target: Any, steps: int = 100) -> Pose:
             h = min(2 * h, 1.0 / steps)
         else:
             h /= 2
-        if h < LEAST_STEP:
+        if h < LEAST_STEP and t < 1.0:
             system.put(0, z.tolist())
             raise StuckError(tuple(((start + t * delta) * unit).tolist()), system.pose())
     system.put(0, z.tolist())
