@@ -175,7 +175,7 @@ class System:
     # -- from the drawing ---------------------------------------------------------------------
 
     def _reference(self, body: int) -> Vec:
-        """First joint; of a jointless link where those guide lines cross that do so most squarely."""
+        """First joint; without joints where the two guides cross that do so most squarely."""
         name = self.names[body]
         if self.joint_lists[body]:
             return self._drawn[self.joint_lists[body][0]]
