@@ -21,7 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import oracle
-from oracle import GROUND, Description, Pose
+from description import GROUND, Description
+from oracle_system import MP, Pose, System
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -41,10 +42,10 @@ FAR = 1e2  # sizes: a pole
 
 
 class Tracer:
-    """`oracle.follow` in arrays: the same equations, ten times as fast."""
+    """`oracle_guess.follow` in arrays: the same equations, ten times as fast."""
 
     def __init__(self, description: Description) -> None:
-        self.system = system = oracle.System(description, exact=False)
+        self.system = system = System(description, exact=False)
         z, q = system.drawing()
         self.z0, self.q0, self.unit = np.array(z), np.array(q), np.array(system.unit)
         self.pin_a = np.array([p[0] for p in system.pins], int)
@@ -247,7 +248,7 @@ def inherent(description: Description, q: Q, solution: oracle.Solution, order: i
     No program that takes the drawing as doubles can be better: it tells a bound that is missed
     by assur from one that nobody can keep.
     """
-    mp, size = oracle.MP.mpf, extent(description, solution)
+    mp, size = MP.mpf, extent(description, solution)
     arm, most, bit = arms(description, solution, size), 0.0, U / 2
     for seed in range(4):
         rng = random.Random(seed)

@@ -21,14 +21,16 @@ from hypothesis import strategies as st
 import agreement
 import assur
 import models
+import named_models
 import oracle
+import oracle_guess
 from agreement import Q
 from assur import Status
+from description import Description, arguments
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from oracle import Description
 
 NO_SHRINK = settings(phases=(Phase.explicit, Phase.reuse, Phase.generate))  # seeds: no simpler
 moves = st.tuples(st.floats(0.05, 3.0), st.floats(0.05, 3.0))
@@ -76,7 +78,7 @@ def check_beyond(case: models.Case, tracer: agreement.Tracer, motion: assur.Moti
         assert all(np.isnan(p).all() for p in joints.values())
         return
     angles = {n: float(motion.link(n).value[i]) for n in d.links}
-    guess = oracle.guess_from_joints(d, joints, angles)
+    guess = oracle_guess.guess_from_joints(d, joints, angles)
     q = motion.coordinate(i)
     q = (q,) if isinstance(q, float) else q
     solution = oracle.solve(d, q, guess, 0)
@@ -85,7 +87,7 @@ def check_beyond(case: models.Case, tracer: agreement.Tracer, motion: assur.Moti
     # the sign of the determinant is the product of the dyads' signs; a PRP has none, and its
     # guides may have turned past each other
     if status == Status.OK and not any(kind == "PRP" for kind, _ in case.dyads):
-        assert tracer.orientation(solution.pose) == tracer.orientation(oracle.drawing_pose(d))
+        assert tracer.orientation(solution.pose) == tracer.orientation(oracle_guess.drawing_pose(d))
 
 
 def whole_turns(motion: assur.Motion, i: int, solution: oracle.Solution) -> dict[str, float]:
@@ -97,11 +99,11 @@ def check(
     case: models.Case, forward: float, backward: float, all_orders: bool = ALL_ORDERS
 ) -> None:
     d = case.description
-    mechanism, tracer = assur.Mechanism(**models.arguments(d)), agreement.Tracer(d)
-    start = oracle.drawing_q(d)
+    mechanism, tracer = assur.Mechanism(**arguments(d)), agreement.Tracer(d)
+    start = oracle_guess.drawing_q(d)
     for mine, its in zip(np.atleast_1d(mechanism.q0), start, strict=True):
         assert math.remainder(mine - its, math.tau) == pytest.approx(0, abs=1e-14)
-    qs, poses, beyond = [start], [oracle.drawing_pose(d)], list[Q]()
+    qs, poses, beyond = [start], [oracle_guess.drawing_pose(d)], list[Q]()
     for size, stops in ((forward, [0.5, 1.0]), (-backward, [1.0])):
         # two drivers go different ways
         move = tuple(size * (1 - 1.6 * k) for k in range(len(start)))
@@ -171,13 +173,13 @@ def test_law_at_its_limit(
     check(models.build(seed, driver, (kind,)), forward, backward, all_orders=True)
 
 
-@pytest.mark.parametrize("make", models.NAMED.values(), ids=models.NAMED)
+@pytest.mark.parametrize("make", named_models.NAMED.values(), ids=named_models.NAMED)
 def test_named(make: Callable[[], Description]) -> None:
     d = make()
-    if d == models.parallelogram():  # the tracer takes no redundant link
-        q = oracle.drawing_q(d)
-        motion = solve(assur.Mechanism(**models.arguments(d)), [q])
-        solution = oracle.solve(d, q, oracle.drawing_pose(d))
+    if d == named_models.parallelogram():  # the tracer takes no redundant link
+        q = oracle_guess.drawing_q(d)
+        motion = solve(assur.Mechanism(**arguments(d)), [q])
+        solution = oracle.solve(d, q, oracle_guess.drawing_pose(d))
         check_law(d, q, solution, agreement.compare(d, motion, (0,), solution, 3))
         return
     check(models.Case(d, "", (("PRP", ("", "")),), 0), 0.9, 0.9)
@@ -188,15 +190,15 @@ def test_tracer_is_follow(seed: int) -> None:
     """The fast tracer against the oracle's own `follow`."""
     d = models.random_case(seed, 3).description
     move = (0.3,) * len(d.drivers)
-    q = along(oracle.drawing_q(d), move, 1.0)
+    q = along(oracle_guess.drawing_q(d), move, 1.0)
     path = agreement.Tracer(d).follow(move)
     pose, stuck = None, None
     try:
-        pose = oracle.follow(d, q, 8)  # eighths add up to 1 exactly
-    except oracle.StuckError as error:
+        pose = oracle_guess.follow(d, q, 8)  # eighths add up to 1 exactly
+    except oracle_guess.StuckError as error:
         stuck = error
     assert (path.fold is None) == (stuck is None)
     if stuck is not None and path.fold is not None:
-        assert along(oracle.drawing_q(d), move, path.fold) == pytest.approx(stuck.q, abs=3e-3)
+        assert along(oracle_guess.drawing_q(d), move, path.fold) == pytest.approx(stuck.q, abs=3e-3)
     for name, place in (pose or {}).items():
         assert path.pose(1.0)[name] == pytest.approx(place, abs=1e-8)

@@ -19,8 +19,9 @@ from hypothesis import strategies as st
 import agreement
 import assur
 import models
+import named_models
 from assur import Status
-from oracle import GROUND, Description
+from description import GROUND, Description, arguments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,7 +32,7 @@ PARTS = (0.0, 0.1, 1.0)  # of a move: half of the whole ones end beyond a fold
 
 
 def made(d: Description) -> assur.Mechanism:
-    return assur.Mechanism(**models.arguments(d))
+    return assur.Mechanism(**arguments(d))
 
 
 def solve(m: assur.Mechanism, change: NDArray[np.float64]) -> assur.Motion:
@@ -193,7 +194,7 @@ def test_order_of_the_description(case: models.Case, move: float, seed: int) -> 
     rng = random.Random(seed)
     d = case.description
 
-    def mixed(table: dict[str, models.T]) -> dict[str, models.T]:
+    def mixed(table: dict[str, named_models.T]) -> dict[str, named_models.T]:
         return dict(rng.sample(list(table.items()), len(table)))
 
     # a first and second joint far enough apart to give the angle as well as before
@@ -220,7 +221,7 @@ def test_order_of_the_description(case: models.Case, move: float, seed: int) -> 
 
 def test_third_bar() -> None:
     """A locomotive's rods: solved, reported, and checked."""
-    d = models.parallelogram()
+    d = named_models.parallelogram()
     m = made(d)
     assert m.structure.mobility == 1
     assert len(m.structure.redundant) == 1
@@ -248,8 +249,8 @@ def test_third_bar() -> None:
 
 @pytest.mark.parametrize(
     "make",
-    [models.crank_rocker, models.whitworth, models.jansen, models.oldham, models.engine,
-     models.trammel, models.scotch_yoke],
+    [named_models.crank_rocker, named_models.whitworth, named_models.jansen, named_models.oldham, named_models.engine,
+     named_models.trammel, named_models.scotch_yoke],
 )  # fmt: skip
 def test_angles_do_not_depend_on_the_grid(make: object) -> None:
     """Continuous over four turns each way; the same bits alone, coarse, backwards or fine."""

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import assur
-import models
+import named_models
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -47,7 +47,7 @@ L4 = (4.8, 4.85, 4.9, 4.95, 4.995)
 @pytest.mark.parametrize("turned", range(4))
 def test_jansen_foot(turned: int) -> None:
     """Foot 7 at crank angle 0, with the joints of the links in either order."""
-    d = models.jansen()
+    d = named_models.jansen()
     links = {
         name: joints[::-1] if turned & 1 and name != "crank" else joints
         for name, joints in d.links.items()

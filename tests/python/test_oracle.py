@@ -12,8 +12,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import models
+import named_models
 import oracle
-from oracle import MP, Description, SlideSpec, solve
+import oracle_guess
+from description import Description, SlideSpec
+from oracle import solve
+from oracle_system import MP, Pose, System
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,18 +27,18 @@ QUICK = settings(max_examples=15, deadline=None)
 
 
 def at_drawing(d: Description, order: int = 3) -> oracle.Solution:
-    return solve(d, oracle.drawing_q(d), oracle.drawing_pose(d), order)
+    return solve(d, oracle_guess.drawing_q(d), oracle_guess.drawing_pose(d), order)
 
 
-def near_drawing(d: Description, move: float) -> tuple[tuple[float, ...], oracle.Pose]:
+def near_drawing(d: Description, move: float) -> tuple[tuple[float, ...], Pose]:
     """Towards q0 + move, or half of the way to the fold before it."""
-    start = oracle.drawing_q(d)
+    start = oracle_guess.drawing_q(d)
     q = tuple(v + move for v in start)
     try:
-        return q, oracle.follow(d, q, 4)
-    except oracle.StuckError as stuck:
+        return q, oracle_guess.follow(d, q, 4)
+    except oracle_guess.StuckError as stuck:
         q = tuple((a + b) / 2 for a, b in zip(start, stuck.q, strict=True))
-        return q, oracle.follow(d, q, 4)
+        return q, oracle_guess.follow(d, q, 4)
 
 
 def check_rigid(d: Description, s: oracle.Solution) -> None:
@@ -50,7 +54,7 @@ def check_rigid(d: Description, s: oracle.Solution) -> None:
         assert abs((turns[0] - turns[1]) - (drawn[0] - drawn[1])) < TINY
 
 
-def check_derivatives(d: Description, q: tuple[float, ...], guess: oracle.Pose) -> None:
+def check_derivatives(d: Description, q: tuple[float, ...], guess: Pose) -> None:
     """Each partial of order k + 1 against the difference of partials of order k."""
     h = MP.mpf("1e-12")
     here = solve(d, q, guess)
@@ -73,7 +77,7 @@ def check_derivatives(d: Description, q: tuple[float, ...], guess: oracle.Pose) 
                         assert abs((p - m) / (2 * h) - w) < h * size
 
 
-@pytest.mark.parametrize("make", models.NAMED.values(), ids=models.NAMED)
+@pytest.mark.parametrize("make", named_models.NAMED.values(), ids=named_models.NAMED)
 def test_named(make: Callable[[], Description]) -> None:
     d = make()
     s = at_drawing(d)
@@ -93,7 +97,7 @@ def test_random(case: models.Case, move: float) -> None:
     q, pose = near_drawing(d, move)
     s = solve(d, q, pose, 1)
     check_rigid(d, s)
-    guess = oracle.guess_from_joints(
+    guess = oracle_guess.guess_from_joints(
         d,
         {n: j.value for n, j in s.joints.items()},
         {n: float(j.value) for n, j in s.links.items()},
@@ -106,13 +110,13 @@ def test_random(case: models.Case, move: float) -> None:
 @pytest.mark.parametrize("kind", models.KINDS)
 def test_analogues_are_differences(driver: str, kind: str) -> None:
     d = models.build(7, driver, (kind,)).description
-    check_derivatives(d, oracle.drawing_q(d), oracle.drawing_pose(d))
+    check_derivatives(d, oracle_guess.drawing_q(d), oracle_guess.drawing_pose(d))
 
 
 @QUICK
 @given(models.sequences())
 def test_jacobian(case: models.Case) -> None:
-    system = oracle.System(case.description, exact=False)
+    system = System(case.description, exact=False)
     z, q = system.drawing()
     z = [v + 0.1 * math.sin(i) for i, v in enumerate(z)]  # off the drawing, not assembled
     system.put(0, z)
@@ -146,7 +150,7 @@ def test_slider_crank_closed_form() -> None:
     links = {"ground": ["O"], "piston": ["B"], "crank": ["O", "A"], "rod": ["A", "B"]}
     slides = {"bore": SlideSpec("piston", "ground", 0.0, "O")}
     d = Description(joints, links, slides, [("angle", "crank", "ground")])
-    s = solve(d, q, oracle.follow(d, float(q)))
+    s = solve(d, q, oracle_guess.follow(d, float(q)))
     for k, index in enumerate([(), (0,), (0, 0), (0, 0, 0)]):
         # numerical differentiation keeps only a part of the digits
         want = MP.diff(x, q, k) if k else x(q)
@@ -160,35 +164,35 @@ def test_slider_crank_closed_form() -> None:
     ("sign", "coupler", "rocker"), [(-1, 20.298, 57.325), (1, -60.978, -98.005)]
 )
 def test_four_bar_numbers(sign: int, coupler: float, rocker: float) -> None:
-    d = models.four_bar(40, 120, 80, 100, q=1.0, sign=sign)
+    d = named_models.four_bar(40, 120, 80, 100, q=1.0, sign=sign)
     q = math.radians(40)
-    s = solve(d, q, oracle.follow(d, q))
+    s = solve(d, q, oracle_guess.follow(d, q))
     assert math.degrees(s.links["coupler"].value) == pytest.approx(coupler, abs=5e-4)
     assert math.degrees(s.links["rocker"].value) == pytest.approx(rocker, abs=5e-4)
 
 
 def test_jansen_foot() -> None:
-    d = models.jansen()
-    foot = solve(d, 0.0, oracle.follow(d, 0.0)).joints["7"]
+    d = named_models.jansen()
+    foot = solve(d, 0.0, oracle_guess.follow(d, 0.0)).joints["7"]
     assert foot.value == pytest.approx([-43.170055, -91.753226], abs=5e-7)
 
 
 def test_whole_turn_comes_back() -> None:
-    d = models.crank_rocker()
-    q = oracle.drawing_q(d)[0] + math.tau
-    s = solve(d, q, oracle.follow(d, q), 0)
+    d = named_models.crank_rocker()
+    q = oracle_guess.drawing_q(d)[0] + math.tau
+    s = solve(d, q, oracle_guess.follow(d, q), 0)
     assert s.joints["C"].value == pytest.approx(d.joints["C"], abs=1e-12)
     assert s.links["crank"].value == pytest.approx(math.tau)
     # the same place asked from a guess one turn away
-    s = solve(d, q, oracle.drawing_pose(d), 0)
+    s = solve(d, q, oracle_guess.drawing_pose(d), 0)
     assert abs(oracle.angle_gap(s.links["crank"].value, q)) < 1e-15
 
 
 def test_stuck_at_a_dead_point() -> None:
-    c = models.crank_rocker()
+    c = named_models.crank_rocker()
     d = Description(c.joints, c.links, {}, [("angle", "rocker", "ground")])
-    with pytest.raises(oracle.StuckError) as caught:
-        oracle.follow(d, oracle.drawing_q(d)[0] + 2.0)
+    with pytest.raises(oracle_guess.StuckError) as caught:
+        oracle_guess.follow(d, oracle_guess.drawing_q(d)[0] + 2.0)
     # there crank and coupler are in line: B, A, C
     s = solve(d, caught.value.q, caught.value.pose, 0)
     gap = oracle.angle_gap(s.links["crank"].value, s.links["coupler"].value)
@@ -196,42 +200,42 @@ def test_stuck_at_a_dead_point() -> None:
 
 
 def test_no_assembly_is_an_error() -> None:
-    c = models.crank_rocker()
+    c = named_models.crank_rocker()
     d = Description(c.joints, c.links, {}, [("angle", "rocker", "ground")])
     with pytest.raises(oracle.NoConvergenceError):
-        solve(d, oracle.drawing_q(d)[0] + 2.0, oracle.drawing_pose(d))
+        solve(d, oracle_guess.drawing_q(d)[0] + 2.0, oracle_guess.drawing_pose(d))
 
 
 @pytest.mark.parametrize("name", ["triangle", "four_bar_with_diagonal"])
 def test_locked_has_no_motion(name: str) -> None:
-    d = models.locked()[name]
-    system = oracle.System(d)
+    d = named_models.locked()[name]
+    system = System(d)
     system.drawing()
     assert np.linalg.matrix_rank(system.jacobian()[:-1]) == system.jacobian().shape[1]
 
 
 def test_known_motions() -> None:
-    yoke = at_drawing(models.scotch_yoke())
+    yoke = at_drawing(named_models.scotch_yoke())
     assert yoke.slides["bed"].d1 == pytest.approx(-0.8, rel=1e-15)
     assert yoke.slides["bed"].d2 == pytest.approx(-0.6, rel=1e-15)
     assert yoke.joints["Y"].value.tolist() == [2.0, 0.0]
-    shafts = at_drawing(models.oldham())
+    shafts = at_drawing(named_models.oldham())
     assert shafts.links["shaft2"].d1 == 1.0
     assert abs(shafts.links["shaft2"].d2) < 1e-40
     assert shafts.links["shaft2"].value == pytest.approx(0.4 + math.pi / 2)
     # the disc's centre runs twice a turn round the circle on O1 O2: its value is the projection
     along = 0.3 * math.cos(0.4) + 0.1 * math.sin(0.4)
     assert shafts.slides["tongue1"].value == pytest.approx(along, rel=1e-14)
-    boom = models.excavator()
-    s = solve(boom, 2.3, oracle.follow(boom, 2.3), 0)
+    boom = named_models.excavator()
+    s = solve(boom, 2.3, oracle_guess.follow(boom, 2.3), 0)
     assert math.dist(s.joints["O"].value, s.joints["T"].value) == pytest.approx(2.3, rel=1e-15)
-    arm = at_drawing(models.coupler_driven())
-    plain = at_drawing(models.crank_rocker())
+    arm = at_drawing(named_models.coupler_driven())
+    plain = at_drawing(named_models.crank_rocker())
     assert arm.links["crank"].d1 == pytest.approx(1 / plain.links["coupler"].d1, rel=1e-14)
 
 
 def test_two_drivers_shapes() -> None:
-    s = at_drawing(models.five_bar())
+    s = at_drawing(named_models.five_bar())
     c, link = s.joints["C"], s.links["l2"]
     assert [c.tensor(k).shape for k in range(4)] == [(2,), (2, 2), (2, 2, 2), (2, 2, 2, 2)]
     assert [link.tensor(k).shape for k in range(4)] == [(), (2,), (2, 2), (2, 2, 2)]

@@ -9,10 +9,11 @@ import pytest
 
 import agreement
 import assur
-import models
+import named_models
 import oracle
+import oracle_guess
 from assur import Slide, Status
-from oracle import GROUND, Description, DriverSpec, SlideSpec
+from description import GROUND, Description, DriverSpec, SlideSpec, arguments
 
 U = agreement.U
 TURN = np.linspace(0.0, math.tau, 97)  # with the quarters, to the last bit
@@ -20,12 +21,12 @@ CRANK: DriverSpec = ("angle", "crank", GROUND)
 
 
 def made(d: Description) -> assur.Mechanism:
-    return assur.Mechanism(**models.arguments(d))
+    return assur.Mechanism(**arguments(d))
 
 
 def against_oracle(d: Description, moves: list[tuple[float, ...]]) -> None:
     """The law, all orders, at the drawing and at moves from it that the oracle can follow."""
-    start, mechanism = oracle.drawing_q(d), made(d)
+    start, mechanism = oracle_guess.drawing_q(d), made(d)
     tracer = agreement.Tracer(d)
     for move in [(0.0,) * len(start), *moves]:
         q = tuple(a + b for a, b in zip(start, move, strict=True))
@@ -47,7 +48,7 @@ def whole_turn(d: Description, pieces: int = 12) -> None:
 def test_central_slider_crank() -> None:
     """Drawn at its dead point, joints in one line with the guide."""
     r, rod = 0.05, 0.2
-    d = models.engine(r, rod)
+    d = named_models.engine(r, rod)
     motion = made(d).solve(TURN, order=1)
     s = r * np.sin(TURN)
     assert np.all(motion.status == Status.OK)
@@ -87,7 +88,7 @@ def test_two_joints_with_the_same_y() -> None:
     d = Description(joints, links, {}, [CRANK])
     assert made(d).solve(math.pi / 2).joint("C").value == pytest.approx([3.5, 1.0], abs=4 * U * 3.5)
     against_oracle(d, [(move,) for move in (-0.7, -0.5, 0.5, 1.0, 3.0)])
-    d = models.jansen()
+    d = named_models.jansen()
     d.joints["5"] = (d.joints["5"][0], d.joints["6"][1])
     whole_turn(d)
 
@@ -97,7 +98,7 @@ def test_two_joints_with_the_same_y() -> None:
 
 def test_whitworth() -> None:
     """Block on a swinging arm; the arm turns fully if the crank passes its pivot, else swings."""
-    d = models.whitworth()
+    d = named_models.whitworth()
     m = made(d)
     motion = m.solve(m.q0 + TURN, order=1)
     r = math.hypot(1.0, 0.5)
@@ -114,7 +115,7 @@ def test_whitworth() -> None:
 
 def test_cylinder_between_moving_links() -> None:
     """A boom on a cylinder, an arm at its tip, a second cylinder from boom to arm."""
-    e = models.excavator()
+    e = named_models.excavator()
     joints = {**e.joints, "R": (1.5, 1.6), "S": (4.2, 2.3), "bucket": (5.5, -0.5)}
     links = {**e.links, "boom": ["D", "T", "tip", "R"], "arm": ["tip", "S", "bucket"]}
     links = {**links, "barrel2": ["R"], "rod2": ["S"]}
@@ -135,7 +136,7 @@ def test_cylinder_between_moving_links() -> None:
 
 def test_oldham() -> None:
     """Shafts turn alike; the disc's middle runs twice as fast round the circle on O1 O2."""
-    d = models.oldham()
+    d = named_models.oldham()
     o1, o2 = np.array(d.joints["O1"]), np.array(d.joints["O2"])
     t = 0.4
     ray = np.array([math.cos(t), math.sin(t)])
@@ -178,7 +179,7 @@ def test_oldham() -> None:
 
 def test_coupler_driven() -> None:
     """Backwards through the crank-driven linkage."""
-    d, plain = models.coupler_driven(), made(models.crank_rocker())
+    d, plain = named_models.coupler_driven(), made(named_models.crank_rocker())
     m = made(d)
     forward = plain.solve(np.linspace(plain.q0 - 0.4, plain.q0 + 0.4, 17), order=1)
     back = m.solve(forward.link("coupler").value, order=1, on_error="nan")
@@ -210,19 +211,19 @@ def test_scotch_yoke() -> None:
     for got, want in ((bed.value, c), (bed.d1, -s), (bed.d2, -c), (bed.d3, s)):
         assert np.max(np.abs(got - want)) <= 2 * U
     assert np.max(np.abs(motion.slide("slot").value - s)) <= 2 * U
-    whole_turn(models.scotch_yoke())
+    whole_turn(named_models.scotch_yoke())
 
 
 @pytest.mark.parametrize("driver", ["rod", "x"])
 def test_trammel(driver: str) -> None:
     """Every point of the rod but A and B traces an ellipse."""
-    m = made(models.trammel(driver))
+    m = made(named_models.trammel(driver))
     q = m.q0 + TURN if driver == "rod" else np.linspace(-1.299, 1.299, 53)
     motion = m.solve(q, order=0)
     x, y = motion.joint("P").value.T
     error = np.abs((x / 2.6) ** 2 + (y / 1.3) ** 2 - 1)
     assert np.all(error <= 2 * 8 * U * motion.condition * 2)
     if driver == "rod":
-        whole_turn(models.trammel())
+        whole_turn(named_models.trammel())
     else:
-        against_oracle(models.trammel("x"), [(0.09,), (-1.0,), (-2.4,)])
+        against_oracle(named_models.trammel("x"), [(0.09,), (-1.0,), (-2.4,)])

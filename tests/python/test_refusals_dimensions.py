@@ -1,0 +1,103 @@
+"""Bad dimensions and designs: named errors, or a status in their own place."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import assur
+from assur import Status
+from refusals import BATCH, M, refused
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+nan, inf = math.nan, math.inf
+
+
+@pytest.mark.parametrize("value", [0, -0.0, -1, nan, inf, -inf])
+def test_a_length_that_is_none(value: float) -> None:
+    def ask() -> object:
+        return M.with_dimensions({"coupler.length": value})
+
+    error = refused(assur.DimensionError, "coupler.length", ask)
+    assert isinstance(error, ValueError)
+    assert error.dimension == "coupler.length"
+    np.testing.assert_equal(error.value, float(value))
+
+
+@pytest.mark.parametrize("make", [assur.FourBar, assur.SliderCrank])
+def test_named_mechanisms_refuse_bad_lengths(make: Callable[..., assur.Mechanism]) -> None:
+    lengths: list[Any] = [1.0, 3.0, 2.5, 3.0] if make is assur.FourBar else [1.0, 3.0]
+    for place in range(len(lengths)):
+        for bad in (0.0, -3.0, nan):
+            with pytest.raises(assur.DimensionError):
+                make(*lengths[:place], bad, *lengths[place + 1 :])
+    refused(assur.InputError, "mode open crossed", lambda: assur.FourBar(1, 3, 2.5, 3, "x"))  # type: ignore[arg-type]
+
+
+def test_unknown_dimensions_name_the_nearest() -> None:
+    error = refused(
+        assur.InputError,
+        "cupler.length coupler.length",
+        lambda: M.with_dimensions({"cupler.length": 1}),
+    )
+    assert error.dimension == "cupler.length"
+
+
+@pytest.mark.parametrize("value", ["x", 1 + 2j, np.array([1 + 2j]), [[1, 2], [3]], 10**400])
+def test_values_that_are_no_numbers(value: Any) -> None:
+    refused(
+        assur.InputError, "coupler.length", lambda: M.with_dimensions({"coupler.length": value})
+    )
+
+
+def test_shapes_that_do_not_broadcast() -> None:
+    wanted: dict[str, Any] = {"coupler.length": [4, 5, 6], "rocker.length": [1, 2]}
+    refused(
+        assur.InputError,
+        "coupler.length (3,) rocker.length (2,)",
+        lambda: M.with_dimensions(wanted),
+    )
+
+
+def test_single_bad_designs_stay_in_their_place() -> None:
+    motion = BATCH.solve([0.0, 1.0], on_error="nan")
+    bad, far = Status.BAD_DIMENSION, Status.UNREACHABLE
+    assert motion.status[:, 0].tolist() == [Status.OK, bad, bad, bad, bad, Status.OK, far]
+    reached = np.isfinite(motion.joint("C").value).all(axis=(1, 2))
+    assert reached.tolist() == [True, False, False, False, False, True, False]
+    alone = BATCH.design(5).solve([0.0, 1.0])
+    assert motion.joint("C").value[5].tobytes() == alone.joint("C").value.tobytes()
+    assert "coupler.length" in motion.explain((2, 1))
+    assert "-1" in motion.explain((2, 1))
+    assert '"C" does not close' in motion.explain((6, 0))
+
+
+def test_the_first_bad_design_is_named_and_the_rest_counted() -> None:
+    error = refused(
+        assur.DimensionError, "(1,) coupler.length NaN 9 14", lambda: BATCH.solve([0.0, 1.0])
+    )
+    assert (error.design, error.dimension, error.q) == ((1,), "coupler.length", 0.0)
+    assert error.value is not None
+    assert math.isnan(error.value)
+
+
+@pytest.mark.parametrize("index", [7, -8, (0, 0), (), 1.5, "0", True, slice, 10**30])
+def test_designs_that_are_not_there(index: Any) -> None:
+    index = np.s_[0:2] if index is slice else index
+    refused(assur.InputError, "design", lambda: BATCH.design(index))
+
+
+def test_designs_that_are_there() -> None:
+    assert BATCH.design(-2) == BATCH.design(5) == BATCH.design(np.int64(5))  # type: ignore[arg-type]
+    refused(assur.DimensionError, "coupler.length NaN", lambda: BATCH.design(1))
+    refused(assur.InputError, "design (7,)", lambda: BATCH.assemblies(1.0))
+
+
+def test_an_empty_batch() -> None:
+    motion = M.with_dimensions({"coupler.length": []}).solve([1.0, 2.0])
+    assert motion.joint("C").value.shape == (0, 2, 2)
