@@ -136,3 +136,21 @@ def test_a_gap_is_no_change_point() -> None:
     assert (motion.status == Status.UNREACHABLE).any()
     beyond = motion.link("rocker").value[np.isclose(q, 1.5 * np.pi)]
     assert np.isfinite(beyond).all()
+
+
+@pytest.mark.parametrize("step", [45.0, 7.5, 0.5])
+def test_chain_of_ten_parallelograms(step: float) -> None:
+    """All of them change at once, each upon the other; their rods stay parallel to the ground."""
+    crank, rod = np.array([np.cos(1.0), np.sin(1.0)]), 2.0 * np.array([np.cos(0.3), np.sin(0.3)])
+    joints = {f"O{i}": tuple(i * rod) for i in range(11)}
+    joints |= {f"A{i}": tuple(i * rod + crank) for i in range(11)}
+    links = {"ground": [f"O{i}" for i in range(11)]}
+    links |= {f"crank{i}": [f"O{i}", f"A{i}"] for i in range(11)}
+    links |= {f"rod{i}": [f"A{i - 1}", f"A{i}"] for i in range(1, 11)}
+    m = assur.Mechanism(joints=joints, links=links, driver="crank0")
+    q = 0.3 + np.deg2rad(np.arange(0.0, 1440.0 + step / 2, step))  # in line at 0.3 + k π
+    motion = m.solve(q, order=1)
+    for i in range(1, 11):
+        assert np.abs(motion.link(f"crank{i}").value - q).max() < 1e-11
+        assert np.abs(motion.link(f"crank{i}").d1 - 1.0).max() < 1e-7
+        assert np.abs(motion.link(f"rod{i}").value - 0.3).max() < 1e-11

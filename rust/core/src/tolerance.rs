@@ -65,11 +65,12 @@ pub fn near_singular_condition() -> f64 {
 }
 
 /// Condition of a dyad from which it cannot be told from a flat one: 1/κ is the
-/// square root of a difference of lengths that carry u times the condition of
-/// what the dyad hangs on, so beyond 1/(4 √(u κ₀)) nothing of it is left.
+/// square root of a difference of rounded lengths, so beyond 1/(4 √u) nothing of
+/// it is left. (What the dyad hangs on may carry more, but seldom across the flat
+/// dyad: chains of parallelograms pass their change points without loss.)
 #[must_use]
-pub fn singular_condition(before: f64) -> f64 {
-    0.25 / (UNIT_ROUNDOFF * before).sqrt()
+pub fn singular_condition() -> f64 {
+    0.25 / UNIT_ROUNDOFF.sqrt()
 }
 
 /// Step, as a part of a cell of the path, of the six points from which a change
@@ -80,6 +81,10 @@ pub const CHANGE_STEP: f64 = 1.0 / 128.0;
 /// Least squared spread, per condition of what the dyad hangs on, that counts as
 /// none: six values, each good to a few u, weighted by up to 15/10.
 pub const CHANGE_SPREAD: f64 = 64.0 * UNIT_ROUNDOFF;
+
+/// Condition of what a dyad hangs on that is counted there, at most: the product of
+/// the conditions overrates chains that are singular together.
+pub const CHANGE_CONDITION: f64 = 1.0e3;
 
 /// How near (rad, or units of the scale) a flat dyad must be to a change point to
 /// be one: a flat dyad shows within √u of it, and chains of dyads widen that.

@@ -10,7 +10,7 @@
 use super::state::{Context, State};
 use super::track::{Knot, Track, Walker};
 use crate::plan::Dyad;
-use crate::tolerance::{CHANGE_SPREAD, CHANGE_STEP};
+use crate::tolerance::{CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP};
 
 /// A change point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +71,8 @@ fn locate(walker: &mut Walker<'_, '_>, dyad: &Dyad, a: f64, b: f64) -> Option<f6
         let fit = Fit::around(walker, dyad, centre, step)?;
         let zero = fit.zero();
         if zero.abs() < 1e-6 {
-            let allowed = CHANGE_SPREAD * fit.before + (fit.slope * zero * step).powi(2);
+            let noise = CHANGE_SPREAD * fit.before.min(CHANGE_CONDITION);
+            let allowed = noise + (fit.slope * zero * step).powi(2);
             return (fit.least.abs() <= allowed).then_some(centre + zero * step);
         }
         centre += zero.clamp(-4.0, 4.0) * step;

@@ -247,7 +247,7 @@ impl State {
                 Unknown::Slide(s) => self.slide_condition[s] = condition,
             }
         }
-        if solved.flat || solved.angle > singular_condition(before) {
+        if solved.flat || solved.angle > singular_condition() {
             self.no_analogues(cx, dyad);
             return Err(Fault::Flat { step: index });
         }
