@@ -75,6 +75,7 @@ M = build()
 APART = assur.FourBar(40, 120, 80, 210)  # opens near the top of the turn
 TWO = build(joints=FIVE, links=FIVE_LINKS, driver=["left", "right"])
 BATCH = M.with_dimensions({"coupler.length": [4.4, math.nan, -1, 0, math.inf, 4.5, 20]})
+MOTION = M.solve([0.0, 1.0, 2.0])
 
 
 def refused(

@@ -31,7 +31,6 @@ from description import Description, arguments
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-
 NO_SHRINK = settings(phases=(Phase.explicit, Phase.reuse, Phase.generate))  # seeds: no simpler
 moves = st.tuples(st.floats(0.05, 3.0), st.floats(0.05, 3.0))
 ALL_ORDERS = os.environ.get("HYPOTHESIS_PROFILE") == "slow"  # at every q, else at one of four

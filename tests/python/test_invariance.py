@@ -194,7 +194,7 @@ def test_order_of_the_description(case: models.Case, move: float, seed: int) -> 
     rng = random.Random(seed)
     d = case.description
 
-    def mixed(table: dict[str, named_models.T]) -> dict[str, named_models.T]:
+    def mixed(table: dict[str, models.T]) -> dict[str, models.T]:
         return dict(rng.sample(list(table.items()), len(table)))
 
     # a first and second joint far enough apart to give the angle as well as before
@@ -249,9 +249,12 @@ def test_third_bar() -> None:
 
 @pytest.mark.parametrize(
     "make",
-    [named_models.crank_rocker, named_models.whitworth, named_models.jansen, named_models.oldham, named_models.engine,
-     named_models.trammel, named_models.scotch_yoke],
-)  # fmt: skip
+    [
+        *(named_models.crank_rocker, named_models.whitworth, named_models.jansen),
+        *(named_models.oldham, named_models.engine, named_models.trammel),
+        named_models.scotch_yoke,
+    ],
+)
 def test_angles_do_not_depend_on_the_grid(make: object) -> None:
     """Continuous over four turns each way; the same bits alone, coarse, backwards or fine."""
     d = make()  # type: ignore[operator]

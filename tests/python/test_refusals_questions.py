@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import Status
-from refusals import M, refused
+from refusals import MOTION, M, refused
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -52,8 +52,6 @@ def test_assemblies_refuse_other_signs() -> None:
 
 
 # -- questions to a motion -----------------------------------------------------------------------
-
-MOTION = M.solve([0.0, 1.0, 2.0])
 
 
 @pytest.mark.parametrize(

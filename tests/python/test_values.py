@@ -8,7 +8,7 @@ import pickle
 import pytest
 
 import assur
-from refusals import APART, BATCH, TWO, M, refused
+from refusals import APART, BATCH, MOTION, TWO, M, refused
 
 
 def test_results_are_read_only() -> None:
