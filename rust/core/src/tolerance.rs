@@ -47,6 +47,9 @@ pub const REGULAR_CLOSURE: f64 = 1.0e-12;
 /// rounding (a few u for each link), carried through ten or twenty links.
 pub const REDUNDANT_CLOSURE: f64 = 1024.0 * UNIT_ROUNDOFF;
 
+/// No redundant link fits with a greater misfit, however bad the condition.
+pub const REDUNDANT_GREATEST: f64 = 1.0e-6;
+
 /// Error of a position per unit of condition, of the size: 2 u measured on the
 /// dyad RRR, 8 u with a margin (the design's bound).
 pub const CLOSURE_PER_CONDITION: f64 = 8.0 * UNIT_ROUNDOFF;

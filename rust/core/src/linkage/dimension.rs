@@ -48,7 +48,7 @@ impl Dimension {
         } else if value.abs() > GREATEST_LENGTH
             || (matches!(self, Self::Length { .. }) && value < LEAST_LENGTH)
         {
-            Some("a length must be within 1e-153 to 1e153")
+            Some("it must be within 1e-153 to 1e153")
         } else {
             None
         }

@@ -68,7 +68,7 @@ fn locate(walker: &mut Walker<'_, '_>, dyad: &Dyad, a: f64, b: f64) -> Option<f6
     }
     let mut centre = 0.5 * (low + high);
     for _ in 0..3 {
-        let fit = Fit::around(walker, dyad, centre, step)?;
+        let fit = Sides::around(walker, dyad, centre, step)?;
         let zero = fit.zero();
         if zero.abs() < 1e-6 {
             let noise = CHANGE_SPREAD * fit.before.min(CHANGE_CONDITION);
@@ -81,7 +81,7 @@ fn locate(walker: &mut Walker<'_, '_>, dyad: &Dyad, a: f64, b: f64) -> Option<f6
 }
 
 /// The spread on both sides of a point, as if it were a change point.
-struct Fit {
+struct Sides {
     /// N at the centre, by an even polynomial through six points.
     value: f64,
     /// Its rate by the parameter.
@@ -93,7 +93,7 @@ struct Fit {
     step: f64,
 }
 
-impl Fit {
+impl Sides {
     fn around(walker: &mut Walker<'_, '_>, dyad: &Dyad, centre: f64, step: f64) -> Option<Self> {
         let sign = dyad.sign?;
         let (mut n, mut square, mut odd) = ([0.0; 3], [0.0; 3], [0.0; 3]);

@@ -81,16 +81,32 @@ impl<'a> Design<'a> {
         jets: &'a Jets,
         q: &[f64],
     ) -> Self {
-        let plan = mechanism.plan();
-        let bound = Bound::new(plan, mechanism.linkage(), mechanism.dimensions(), values);
-        let unit = Units::new(mechanism, &Context { plan, bound: &bound, jets, signs });
-        let mut design = Self { mechanism, bound, unit, jets, signs, ways: Ways::Own(Vec::new()) };
+        let mut design = Self { signs, ..Self::bare(mechanism, values, jets) };
         let q0 = design.scaled(mechanism.q0());
         design.ways = match q0[..] {
             [start] => Ways::One(Rc::new(design.only_way(start, &design.scaled(q)))),
             _ => Ways::Own(q0),
         };
         design
+    }
+
+    /// A design without its way from the drawing.
+    pub(crate) fn bare(mechanism: &'a Mechanism, values: &[f64], jets: &'a Jets) -> Self {
+        let plan = mechanism.plan();
+        let bound = Bound::new(plan, mechanism.linkage(), mechanism.dimensions(), values);
+        let unit = Units::new(mechanism, &Context { plan, bound: &bound, jets, signs: &[] });
+        Self { mechanism, bound, unit, jets, signs: &[], ways: Ways::Own(Vec::new()) }
+    }
+
+    /// The signs at the drawing from which the straight way leads to these at `q`
+    /// (scaled); walked backward.
+    pub(crate) fn at_drawing(&self, signs: &[f64], q: &[f64]) -> Vec<i8> {
+        let jets = Jets::new(q.len(), 1);
+        let cx = Context { signs, ..self.context(&jets) };
+        let q0 = self.scaled(self.mechanism.q0());
+        let angles = &self.mechanism.class_angle;
+        let track = Track::straight(&cx, &mut self.state(&jets), q, &q0, angles);
+        track.signs(1.0).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
     }
 
     /// What a position is solved with; the signs are those at the drawing.
@@ -119,7 +135,8 @@ impl<'a> Design<'a> {
         let finite = || scaled.iter().copied().filter(|q| q.is_finite());
         let range = [finite().fold(start, f64::min), finite().fold(start, f64::max)];
         // Beyond the sum of all lengths no slide reaches.
-        let lengths = cx.bound.rigid.iter().chain(&cx.bound.fixed).map(|w| w.norm());
+        let paired = cx.plan.edges.iter().zip(&cx.bound.rigid).filter(|(e, _)| e.paired);
+        let lengths = paired.map(|(_, w)| w).chain(&cx.bound.fixed).map(|w| w.norm());
         let reach = 2.0 * lengths.sum::<f64>() + 1.0;
         Track::sliding(&cx, &mut state, start, range, reach, angles)
     }
@@ -152,6 +169,10 @@ impl<'a> Design<'a> {
             state.refuse();
             return false;
         };
+        if !track.covers(*at) {
+            state.lose();
+            return false;
+        }
         let cx = self.context(self.jets);
         state.solve(&Context { signs: track.signs(*at), ..cx }, q);
         if !matches!(state.status, Status::Singular | Status::Unreachable) {

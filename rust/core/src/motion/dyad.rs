@@ -153,8 +153,8 @@ fn two_circles(a: Vector, b: Vector, k: Vector, sign: f64) -> Result<(Vector, Ve
     let size = la.max(lb).max(d);
     let (outer, flat_out) = factor((la + lb) - d, size)?;
     let (inner, flat_in) = factor(d - (la - lb).abs(), size)?;
-    if d2 == 0.0 {
-        // Outer joints coincide: every attitude closes.
+    if d2 == 0.0 || a2 == 0.0 || b2 == 0.0 {
+        // Outer joints coincide, or a leg has no length: any attitude closes.
         return Err(0.0);
     }
     // Heron: (2 d h)² = (a+b−d)(a+b+d)(d−a+b)(d+a−b), h the height on k.
@@ -178,6 +178,9 @@ fn circle_and_line(a: Vector, b: Vector, k: Vector, sign: f64) -> Result<(Vector
     let a2 = a.norm2();
     let la = a2.sqrt();
     let (inner, flat) = factor(la - across.abs(), la.max(k.norm()))?;
+    if a2 == 0.0 {
+        return Err(0.0);
+    }
     let chord = sign * (inner * (la + across.abs())).sqrt();
     let leg = b * Vector::new(-chord, across);
     Ok(((leg * a.conj()).scale(1.0 / a2), along + chord, flat))

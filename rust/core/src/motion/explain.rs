@@ -38,14 +38,14 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// A group of higher class.
+    /// A group of higher class, or slices of the wrong length.
     pub fn diagnose(
         &self,
         dimensions: &[f64],
         q: &[f64],
         signs: &[i8],
     ) -> Result<Vec<Diagnosis>, SolveError> {
-        self.require_closed_form()?;
+        self.check(dimensions, q, signs)?;
         let drivers = self.q0().len();
         if let Some(fault) = self.dimensions().first_fault(dimensions) {
             let name = match &fault {
@@ -89,6 +89,12 @@ impl Mechanism {
                 };
                 return Diagnosis::bare(Status::BadInput, format!("q = {at} {why}"));
             }
+            Status::Lost => {
+                let sentence = format!(
+                    "at q = {at} the assembly is not known: its signs do not return within 64 turns"
+                );
+                return Diagnosis::bare(Status::Lost, sentence);
+            }
             Status::Unreachable => {
                 let (name, sentence) = self.unreachable(state, design.bound.scale, at);
                 let bare = Diagnosis::bare(Status::Unreachable, sentence);
@@ -110,62 +116,76 @@ impl Mechanism {
     }
 
     /// Every assembly that exists at `q`, as signs in the order of
-    /// [`Plan::dyad_names`].
+    /// [`crate::plan::Plan::dyad_names`], each as it is at the drawing (on the way
+    /// from there a sign may change at change points).
     ///
     /// # Errors
     ///
-    /// A group of higher class.
+    /// A group of higher class, or slices of the wrong length.
     pub fn assemblies(&self, dimensions: &[f64], q: &[f64]) -> Result<Vec<Vec<i8>>, SolveError> {
-        self.require_closed_form()?;
         let count = self.plan().signs();
-        let mut found = vec![Vec::new()];
+        self.check(dimensions, q, &vec![1; count])?;
+        if self.dimensions().first_fault(dimensions).is_some() || q.len() != self.q0().len() {
+            return Ok(Vec::new());
+        }
+        let jets = Jets::new(q.len(), 1);
+        let design = Design::bare(self, dimensions, &jets);
+        let scaled = design.scaled(q);
+        let mut state = design.state(&jets);
+        let mut found: Vec<Vec<f64>> = vec![Vec::new()];
         // Sign by sign: a choice that already fails needs no completion.
-        for place in 0..count {
+        for place in 0..count.max(1) {
+            let choices: &[f64] = if count == 0 { &[] } else { &[1.0, -1.0] };
             let mut longer = Vec::new();
-            for head in found {
-                for sign in [1, -1] {
-                    let mut signs: Vec<i8> = head.clone();
-                    signs.push(sign);
-                    longer.push(signs);
+            for head in &found {
+                longer.extend(choices.iter().map(|&sign| [&head[..], &[sign]].concat()));
+                if choices.is_empty() {
+                    longer.push(Vec::new());
                 }
             }
-            found = longer;
-            let mut open = Vec::new();
-            for signs in found {
+            longer.retain(|signs| {
                 let mut trial = signs.clone();
-                trial.resize(count, 1);
-                if self.exists(dimensions, q, &trial, place)? {
-                    open.push(signs);
+                trial.resize(count, 1.0);
+                state.solve(&Context { signs: &trial, ..design.context(&jets) }, &scaled);
+                match (state.status, state.fault) {
+                    (Status::Unreachable, Some(fault)) => {
+                        place + 1 < count && self.is_beyond(fault.step(), place)
+                    }
+                    (Status::Unreachable | Status::BadInput, _) => false,
+                    _ => true,
                 }
-            }
-            found = open;
+            });
+            found = longer;
         }
-        if count == 0 && !self.exists(dimensions, q, &[], 0)? {
-            found.clear();
-        }
-        Ok(found)
+        Ok(found.iter().map(|signs| design.at_drawing(signs, &scaled)).collect())
     }
 
-    /// Whether the dyads up to sign number `place` close.
-    fn exists(
-        &self,
-        dimensions: &[f64],
-        q: &[f64],
-        signs: &[i8],
-        place: usize,
-    ) -> Result<bool, SolveError> {
-        let found = self.diagnose(dimensions, q, signs)?;
-        let Some(diagnosis) = found.first() else { return Ok(false) };
-        let last = place + 1 >= signs.len();
-        let beyond = |step: usize| match &self.plan().steps[step] {
+    /// Whether a step comes after the dyad with sign number `place`.
+    fn is_beyond(&self, step: usize, place: usize) -> bool {
+        match &self.plan().steps[step] {
             Step::Dyad(dyad) => dyad.sign.is_none_or(|s| s > place),
             _ => true,
-        };
-        Ok(match diagnosis.status {
-            Status::Unreachable => !last && diagnosis.step.is_some_and(beyond),
-            Status::BadInput | Status::BadDimension => false,
-            _ => true,
-        })
+        }
+    }
+
+    /// Refuses slices that do not fit this mechanism.
+    fn check(&self, dimensions: &[f64], q: &[f64], signs: &[i8]) -> Result<(), SolveError> {
+        self.require_closed_form()?;
+        let fits = dimensions.len() == self.dimensions().len()
+            && q.len().is_multiple_of(self.q0().len())
+            && signs.len() == self.plan().signs();
+        if fits {
+            return Ok(());
+        }
+        Err(SolveError::Shape(format!(
+            "{} dimensions, {} coordinates and {} signs were given; this mechanism has {}, {} and {}",
+            dimensions.len(),
+            q.len(),
+            signs.len(),
+            self.dimensions().len(),
+            self.q0().len(),
+            self.plan().signs()
+        )))
     }
 
     fn step_name(&self, fault: Fault) -> String {
@@ -190,7 +210,7 @@ impl Mechanism {
                 gap * scale
             ),
             Fault::Open { gap: 0.0, .. } => format!(
-                "at q = {at} the outer joints of dyad {name:?} coincide: its links may stand in any direction"
+                "at q = {at} dyad {name:?} has coinciding outer joints, or a leg of no length: its links may stand in any direction"
             ),
             Fault::Open { gap, step } if !gap.is_finite() => match &self.plan().steps[step] {
                 Step::Dyad(dyad) if dyad.sign.is_none() => {

@@ -3,7 +3,7 @@
 use super::state::{Context, Fault, State};
 use crate::plan::{Along, Fit, Turned};
 use crate::plane::Vector;
-use crate::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE};
+use crate::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, REDUNDANT_GREATEST};
 
 impl State {
     pub(crate) fn fit(&mut self, cx: &Context<'_>, fit: &Fit, index: usize) -> Result<(), Fault> {
@@ -27,9 +27,15 @@ impl State {
         for &slide in &fit.parallel {
             gap = gap.max(self.angle_misfit(cx, slide));
         }
-        let condition = self.point_condition.iter().copied().fold(1.0, f64::max);
-        let allowed = REDUNDANT_CLOSURE.max(CLOSURE_PER_CONDITION * condition);
-        // A position that is singular without it has no analogues to compare, but fits or not.
+        let ends = |&e: &usize| [cx.plan.edges[e].edge.from, cx.plan.edges[e].edge.to];
+        let touched = fit.checks.iter().chain(fit.places.iter().map(|(e, _)| e)).flat_map(ends);
+        let own = match &fit.turned {
+            Some(Turned::Joints { points, .. }) => *points,
+            _ => [0, 0],
+        };
+        let condition = touched.chain(own).map(|p| self.point_condition[p]).fold(1.0, f64::max);
+        let allowed =
+            (CLOSURE_PER_CONDITION * condition).clamp(REDUNDANT_CLOSURE, REDUNDANT_GREATEST);
         if gap <= allowed { Ok(()) } else { Err(Fault::Misfit { step: index, gap }) }
     }
 
@@ -114,7 +120,7 @@ impl State {
         (self.points[to] - self.points[from] - self.edge(cx, e, 0)).norm()
     }
 
-    /// Sine of the angle by which two links miss their angle at a slide.
+    /// How far two links miss their angle at a slide (a half turn: by 2).
     fn angle_misfit(&self, cx: &Context<'_>, slide: usize) -> f64 {
         let Some(e) = cx.plan.edges.iter().find(|e| e.along == Along::Slide(slide)) else {
             return 0.0;
@@ -123,6 +129,6 @@ impl State {
         let (link, constant) = cx.plan.across_slide(cx.bound, on, slide);
         let turned = self.orient[cx.plan.link_orientation[link] * self.len] * constant;
         let actual = self.orient[cx.plan.link_orientation[on] * self.len];
-        turned.cross(actual).abs()
+        (turned - actual).norm()
     }
 }

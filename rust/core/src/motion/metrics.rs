@@ -17,18 +17,19 @@ pub fn curvature(first: Vector, second: Vector) -> f64 {
 ///
 /// Each link is given by one of its points, that point's first analogue and the
 /// link's angular one. The centre is where both links have the same velocity
-/// (Kennedy 1886): infinite when they only translate relative to each other,
-/// not a number when they do not move relative to each other.
+/// (Kennedy 1886): at infinity, across the motion, when they only translate relative
+/// to each other; not a number when they do not move relative to each other.
 #[must_use]
 pub fn instant_centre(a: (Vector, Vector, f64), b: (Vector, Vector, f64)) -> Vector {
-    // a' + ωa J (p − a) = b' + ωb J (p − b), solved from the middle of a and b.
+    // a' + ωa J (p − a) = b' + ωb J (p − b).
     let (pa, va, wa) = a;
     let (pb, vb, wb) = b;
     let rest = (va - pa.left().scale(wa)) - (vb - pb.left().scale(wb));
     let turn = wa - wb;
     // (ωa − ωb) J p = −rest, J⁻¹ = −J.
     let p = rest.left();
-    Vector::new(p.x / turn, p.y / turn)
+    let part = |x: f64| if x == 0.0 { 0.0 } else { x / turn };
+    if p == Vector::ZERO && turn == 0.0 { Vector::NAN } else { Vector::new(part(p.x), part(p.y)) }
 }
 
 /// Acute angle between two directions, rad in 0..π/2.
@@ -55,6 +56,15 @@ mod tests {
         let ground = (Vector::ZERO, Vector::ZERO, 0.0);
         let p = instant_centre((Vector::new(0.0, 1.0), Vector::new(1.0, 0.0), -1.0), ground);
         assert!(p.norm() < 1e-15, "{p:?}");
+    }
+
+    #[test]
+    fn centre_of_a_translation_is_at_infinity() {
+        let ground = (Vector::ZERO, Vector::ZERO, 0.0);
+        let p = instant_centre((Vector::ZERO, Vector::new(2.0, 0.0), 0.0), ground);
+        assert!(p.x == 0.0 && p.y.is_infinite(), "{p:?}");
+        let still = instant_centre((Vector::ZERO, Vector::ZERO, 0.0), ground);
+        assert!(still.x.is_nan());
     }
 
     #[test]

@@ -170,6 +170,15 @@ impl Shape {
             return Err(SolveError::Order(request.order));
         }
         let (dimensions, drivers) = (mechanism.dimensions().len(), mechanism.q0().len());
+        let linkage = mechanism.linkage();
+        let within = |wanted: &[usize], have: usize| wanted.iter().all(|&i| i < have);
+        let held = request.outputs;
+        if !(within(&held.joints, linkage.joints.len())
+            && within(&held.links, linkage.links.len())
+            && within(&held.slides, linkage.slides.len()))
+        {
+            return Err(SolveError::Shape("an output's index is beyond what there is".into()));
+        }
         let wrong = |what: String| Err(SolveError::Shape(what));
         if request.signs.len() != mechanism.plan().signs() {
             return wrong(format!(

@@ -19,7 +19,7 @@ pub enum Status {
     Singular = 2,
     /// This assembly does not exist at this coordinate.
     Unreachable = 3,
-    /// Beyond a fold of a higher group: not followed.
+    /// The way from the drawing to here is not known (beyond a fold of a higher group).
     Lost = 4,
     /// The iteration of a higher group did not end.
     NotConverged = 5,
@@ -138,10 +138,13 @@ impl State {
                 Step::Fit(fit) => self.fit(cx, fit, index),
             };
             if let Err(fault) = result {
-                self.fault.get_or_insert(fault);
                 match fault {
-                    Fault::Flat { .. } => self.status = Status::Singular,
+                    Fault::Flat { .. } => {
+                        self.fault.get_or_insert(fault);
+                        self.status = Status::Singular;
+                    }
                     Fault::Open { .. } | Fault::Misfit { .. } => {
+                        self.fault = Some(fault);
                         self.status = Status::Unreachable;
                         return;
                     }
@@ -161,6 +164,12 @@ impl State {
     pub(crate) fn refuse(&mut self) {
         self.fault = None;
         self.status = Status::BadInput;
+    }
+
+    /// A place to which the way from the drawing is not known.
+    pub(crate) fn lose(&mut self) {
+        self.fault = None;
+        self.status = Status::Lost;
     }
 
     fn start(&mut self, cx: &Context<'_>, q: &[f64]) {

@@ -63,6 +63,8 @@ pub(crate) struct Track {
     /// Gain of every class over a period.
     gain: Vec<f64>,
     period: Option<f64>,
+    /// Where the way is known; none: everywhere.
+    covered: Option<[f64; 2]>,
 }
 
 /// Walks along a path and lays knots.
@@ -232,15 +234,14 @@ impl Track {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
         let mut walker = Walker::new(cx, state, &point, &[1.0], (q0, 1.0), start);
         let mut turns = 0;
-        while turns < MOST_TURNS {
+        let mut returned = false;
+        while turns < MOST_TURNS && !returned {
             for cell in 1..=CELLS_A_TURN {
                 let turned = f64::from(turns) + f64::from(cell) / f64::from(CELLS_A_TURN);
                 walker.advance(q0 + TAU * turned);
             }
             turns += 1;
-            if walker.signs_at(f64::INFINITY) == walker.start_signs {
-                break;
-            }
+            returned = walker.signs_at(f64::INFINITY) == walker.start_signs;
         }
         let stretches = walker.stretches();
         let Walker { knots, changes, .. } = walker;
@@ -251,7 +252,10 @@ impl Track {
             }
             _ => vec![0.0; start.len()],
         };
-        Self { knots, stretches, changes, gain, period: Some(TAU * f64::from(turns)) }
+        let period = returned.then_some(TAU * f64::from(turns));
+        let end = if returned { f64::INFINITY } else { q0 + TAU * f64::from(turns) };
+        let covered = [if returned { f64::NEG_INFINITY } else { q0 }, end];
+        Self { knots, stretches, changes, gain, period, covered: Some(covered) }
     }
 
     /// Along one driven slide, from `q0` both ways to `low` and `high`
@@ -325,7 +329,14 @@ impl Track {
         }
         let stretches = walker.stretches();
         let Walker { knots, changes, .. } = walker;
-        Self { knots, stretches, changes, gain: vec![0.0; start.len()], period: None }
+        Self {
+            knots,
+            stretches,
+            changes,
+            gain: vec![0.0; start.len()],
+            period: None,
+            covered: None,
+        }
     }
 
     /// The parameter within the first period, and whole periods before it.
@@ -339,6 +350,11 @@ impl Track {
         }
     }
 
+    /// Whether the way to a parameter is known.
+    pub(crate) fn covers(&self, at: f64) -> bool {
+        self.covered.is_none_or(|[low, high]| (low..=high).contains(&at))
+    }
+
     /// The assembly signs at a parameter.
     pub(crate) fn signs(&self, at: f64) -> &[f64] {
         let (place, _) = self.reduced(at);
@@ -346,7 +362,7 @@ impl Track {
         self.stretches.get(after.saturating_sub(1)).map_or(&[], |s| &s.signs)
     }
 
-    /// The change points within `reach` of a parameter: (place, distance to it).
+    /// The change point nearest to a parameter, if within `reach` of it.
     pub(crate) fn change_near(&self, at: f64, reach: f64) -> Option<f64> {
         let (place, whole) = self.reduced(at);
         let shift = whole * self.period.unwrap_or(0.0);

@@ -140,15 +140,10 @@ impl Reader<'_> {
     }
 }
 
-/// First ground joint, or where the first guide on the ground starts.
+/// The first ground joint; without one the drawing's own origin.
 fn ground_origin(linkage: &Linkage, read: &Reader<'_>) -> [f64; 2] {
-    if let Some(&joint) = linkage.links[linkage.ground].joints.first() {
+    linkage.links[linkage.ground].joints.first().map_or([0.0; 2], |&joint| {
         let at = read.ground(joint);
-        return [at.x, at.y];
-    }
-    let guide = linkage.slides.iter().position(|s| s.on == linkage.ground);
-    guide.map_or([0.0; 2], |slide| {
-        let at = read.slide_origin(slide);
         [at.x, at.y]
     })
 }

@@ -227,11 +227,16 @@ fn dyad(
         if backward { edge.from } else { edge.to }
     };
     let tail = |(e, backward): (usize, bool)| tip((e, !backward));
-    let start = loop_path.first().map_or(0, |&x| tail(x));
-    let end = loop_path.last().map_or(0, |&x| tip(x));
     order_unknowns(plan, &loop_path, unknowns);
     let unknowns = [unknowns[0], unknowns[1]];
     let form = form(plan, unknowns);
+    let start = loop_path.first().map_or(0, |&x| tail(x));
+    let end = loop_path.last().map_or(0, |&x| tip(x));
+    if start == end {
+        rotate_to_first(plan, &mut loop_path, unknowns[0]);
+    }
+    let start = loop_path.first().map_or(0, |&x| tail(x));
+    let end = loop_path.last().map_or(0, |&x| tip(x));
     let sign = (form != Form::TwoLines).then(|| {
         let name = inner_pair(plan, linkage, &loop_path, form, unknowns, &tip, &tail);
         let links =
@@ -244,11 +249,25 @@ fn dyad(
         (name, moving.join("-"))
     });
     let sign = sign.map(|(name, links)| {
+        // Loops through links with driven angles may share their inner joint.
+        let name = if plan.dyad_names.contains(&name) { links.clone() } else { name };
         plan.dyad_names.push(name);
         plan.dyad_links.push(links);
         plan.dyad_names.len() - 1
     });
     Dyad { form, unknowns, path: loop_path, start, end, sign }
+}
+
+/// A closed loop may start anywhere on it: at the run of edges of its first unknown
+/// (of which then one end is the inner pair).
+fn rotate_to_first(plan: &Plan, path: &mut [(usize, bool)], first: Unknown) {
+    let carries = |e: usize| match first {
+        Unknown::Class(c) => plan.class_of(e) == c,
+        Unknown::Slide(s) => plan.edges[e].along == Along::Slide(s),
+    };
+    let n = path.len();
+    let begin = (0..n).find(|&i| carries(path[i].0) && !carries(path[(i + n - 1) % n].0));
+    path.rotate_left(begin.unwrap_or(0));
 }
 
 /// Rotations before slides; of two rotations, that of the link listed first.

@@ -231,12 +231,18 @@ impl Members {
             }
             slides.push(s);
         }
+        // An angle locked between two bodies of the group closes a contour like a pair.
+        let locked =
+            bodies.loose.iter().map(|&(x, y)| BTreeSet::from([bodies.of[x], bodies.of[y]]));
+        let contours: Vec<BTreeSet<usize>> = (inner.iter().map(|(_, set)| set.clone()))
+            .chain(locked.filter(|set| set.iter().all(|b| self.bodies.contains(b))))
+            .collect();
         let mut links: Vec<usize> = (0..linkage.links.len())
             .filter(|&l| !left_out.links.contains(&l) && self.bodies.contains(&bodies.of[l]))
             .collect();
         links.sort_unstable();
         Group {
-            class: self.class(&inner, &outer),
+            class: self.class(&contours),
             order: outer.len(),
             kind: self.kind(&inner, &outer),
             links,
@@ -245,23 +251,19 @@ impl Members {
         }
     }
 
-    fn class(&self, inner: &[(char, BTreeSet<usize>)], outer: &[(usize, char)]) -> usize {
+    fn class(&self, inner: &[BTreeSet<usize>]) -> usize {
         if self.bodies.len() <= 2 {
             return 2;
         }
         let place = |b: usize| self.bodies.iter().position(|&x| x == b);
         let mut edges = Vec::new();
-        for (e, (_, set)) in inner.iter().enumerate() {
+        for (e, set) in inner.iter().enumerate() {
             edges.extend(set.iter().filter_map(|&b| place(b)).map(|b| (b, self.bodies.len() + e)));
         }
         let contours = minimum_cycle_basis(self.bodies.len() + inner.len(), &edges);
         let longest = contours.into_iter().map(|length| length / 2).max().unwrap_or(0);
-        let elements = |b: usize| {
-            inner.iter().filter(|(_, set)| set.contains(&b)).count()
-                + outer.iter().filter(|(x, _)| *x == b).count()
-        };
-        let ternary = self.bodies.iter().any(|&b| elements(b) >= 3);
-        longest.max(if ternary { 3 } else { 2 })
+        // More than two links close no dyad: at least a link with three pairs stands there.
+        longest.max(3)
     }
 
     fn kind(
@@ -269,14 +271,30 @@ impl Members {
         inner: &[(char, BTreeSet<usize>)],
         outer: &[(usize, char)],
     ) -> Option<&'static str> {
-        let ([first, second], [(middle, _)]) = (&self.bodies[..], inner) else { return None };
-        let end = |b: &usize| outer.iter().find(|(x, _)| x == b).map(|(_, c)| *c);
-        match (end(first)?, *middle, end(second)?) {
-            ('R', 'R', 'R') => Some("RRR"),
-            ('R', 'R', 'P') | ('P', 'R', 'R') => Some("RRP"),
-            ('R', 'P', 'R') => Some("RPR"),
-            ('P', 'R', 'P') => Some("PRP"),
-            ('R', 'P', 'P') | ('P', 'P', 'R') => Some("RPP"),
+        let [first, second] = self.bodies[..] else { return None };
+        let end = |b: usize| outer.iter().find(|(x, _)| *x == b).map(|(_, c)| *c);
+        let letters = if let [(middle, _)] = inner {
+            [end(first)?, *middle, end(second)?]
+        } else {
+            // Both ends hang on one link that a driven angle leaves no turn of its own.
+            let mut all: Vec<char> = outer.iter().map(|(_, c)| *c).collect();
+            all.extend(inner.iter().map(|(c, _)| *c));
+            let slides = inner.iter().filter(|(c, _)| *c == 'P').count();
+            match (all.iter().filter(|&&c| c == 'P').count(), slides) {
+                (0, _) => ['R', 'R', 'R'],
+                (1, 0) => ['R', 'R', 'P'],
+                (1, _) => ['R', 'P', 'R'],
+                (2, 0) => ['P', 'R', 'P'],
+                (2, _) => ['R', 'P', 'P'],
+                _ => return None,
+            }
+        };
+        match letters {
+            ['R', 'R', 'R'] => Some("RRR"),
+            ['R', 'R', 'P'] | ['P', 'R', 'R'] => Some("RRP"),
+            ['R', 'P', 'R'] => Some("RPR"),
+            ['P', 'R', 'P'] => Some("PRP"),
+            ['R', 'P', 'P'] | ['P', 'P', 'R'] => Some("RPP"),
             _ => None,
         }
     }

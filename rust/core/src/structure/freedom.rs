@@ -99,7 +99,7 @@ impl System {
         Self { edges, unknowns, class_of }
     }
 
-    /// Rows minus columns would be, for independent equations, minus the mobility.
+    /// Number of scalar equations.
     #[must_use]
     pub fn rows(&self) -> usize {
         2 * self.edges.len()

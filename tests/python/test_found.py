@@ -1,0 +1,138 @@
+"""Faults that were found once, kept with their smallest examples."""
+
+from __future__ import annotations
+
+from math import atan2, pi
+
+import numpy as np
+import pytest
+
+import assur
+from assur import Slide, Status
+
+
+def chain(loops: int, third: bool = True) -> assur.Mechanism:
+    """Parallelograms in a row at 30°, a third bar in the first."""
+    crank, rod = np.array([np.cos(pi / 6), np.sin(pi / 6)]), np.array([1.0, 0.0])
+    joints = {f"O{i}": tuple(i * rod) for i in range(loops + 1)}
+    joints |= {f"A{i}": tuple(i * rod + crank) for i in range(loops + 1)}
+    links = {"ground": [f"O{i}" for i in range(loops + 1)]}
+    links |= {f"crank{i}": [f"O{i}", f"A{i}"] for i in range(loops + 1)}
+    links |= {f"rod{i}": [f"A{i - 1}", f"A{i}"] for i in range(1, loops + 1)}
+    if third:
+        joints |= {"F": (0.5, 0.0), "E": tuple(crank + rod / 2)}
+        links["ground"].append("F")
+        links["rod1"].append("E")
+        links["third"] = ["F", "E"]
+    return assur.Mechanism(joints=joints, links=links, driver="crank0")
+
+
+@pytest.mark.parametrize("loops", [1, 3, 26])
+def test_a_bad_condition_excuses_no_misfit(loops: int) -> None:
+    m = chain(loops)
+    assert m.solve(m.q0).status <= Status.NEAR_SINGULAR
+    for length in (1.05, 1.0 + 1e-8):
+        misfit = m.with_dimensions({"third.length": length}).solve(m.q0, on_error="nan")
+        assert misfit.status == Status.UNREACHABLE
+        assert "third" in misfit.explain()
+
+
+def test_a_ground_without_joints_is_where_it_was_drawn() -> None:
+    m = assur.Mechanism(
+        joints={"A": (5, 3), "B": (2, 7)},
+        links={"ground": [], "a": ["A"], "b": ["B"], "c": ["A", "B"]},
+        slides={
+            "s1": Slide("a", on="ground", angle=0.0),
+            "s2": Slide("ground", on="b", angle=pi / 2, origin="B"),
+        },
+        driver="s1",
+    )
+    np.testing.assert_allclose(m.solve(m.q0).joint("B").value, (2, 7), atol=1e-14)
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_excavators_with_two_drivers_each(count: int) -> None:
+    """The arm's angle is driven from afar; the dyad's loop begins and ends at the boom."""
+    joints: dict[str, tuple[float, float]] = {"O": (0, 0)}
+    links: dict[str, list[str]] = {"ground": ["O"]}
+    slides, drivers = dict[str, Slide](), list[str]()
+    for i in range(count):
+        a, b, c = f"A{i}", f"B{i}", f"C{i}"
+        joints |= {a: (2, 1), b: (1, 0.8), c: (2.5, 1.8)}
+        links |= {f"boom{i}": ["O", a, b], f"arm{i}": [a, c], f"cyl{i}": [b], f"rod{i}": [c]}
+        slides[f"s{i}"] = Slide(f"rod{i}", on=f"cyl{i}", angle=atan2(1, 1.5), origin=b)
+        drivers += [f"s{i}", f"arm{i}"]
+    m = assur.Mechanism(joints=joints, links=links, slides=slides, driver=drivers)
+    assert set(m.assembly) == {f"B{i}" for i in range(count)}
+    assert {g.kind for g in m.structure.groups} == {"RRR"}
+    np.testing.assert_allclose(m.solve(m.q0).joint("C0").value, (2.5, 1.8), atol=1e-14)
+
+
+def test_a_locked_angle_makes_a_group_of_class_three() -> None:
+    places = {"A": (0, 0), "B": (1, 0.4), "C": (3, 1.6), "D": (4, 0), "F": (1.5, 3.3)}
+    m = assur.Mechanism(
+        joints=places | {"G": (5, 2.5), "H": (5.6, 0), "M": (-0.3, 4)},
+        links={
+            "ground": "ADHM",
+            "crank": "AB",
+            "b": "BC",
+            "r": "DC",
+            "p": "CG",
+            "h": "HG",
+            "q": "CF",
+            "m": "MF",
+        },
+        driver=assur.Drive("q", "h"),
+    )
+    assert m.structure.cls == 3
+    with pytest.raises(assur.StructureError, match="class III"):
+        m.solve(m.q0)
+
+
+def test_a_leg_of_no_length_is_no_position() -> None:
+    m = assur.Mechanism(
+        joints={"A": (0, 0), "B": (1, 0), "C": (4.1, 3.2), "D": (4.8, 0), "E": (3, 4)},
+        links={"ground": "AD", "crank": "AB", "coupler": "BEC", "rocker": "DC"},
+        driver="crank",
+    ).with_dimensions({"coupler.C.x": 0.0, "coupler.C.y": 0.0, "rocker.length": 3.8})
+    motion = m.solve(0.0, on_error="nan")
+    assert motion.status == Status.UNREACHABLE
+    assert "no length" in motion.explain()
+
+
+def test_a_translation_has_its_centre_at_infinity() -> None:
+    motion = assur.SliderCrank(1.0, 3.0, 0.2).solve(1.0)
+    centre = motion.instant_centre("piston", "ground")
+    assert centre[0] == 0.0 and np.isinf(centre[1])
+
+
+def test_a_doubled_guide_turned_round_does_not_fit() -> None:
+    m = assur.Mechanism(
+        joints={"O": (0, 0), "A": (0.3, 0.4), "B": (2.3, 0), "E": (2.6, 0)},
+        links={"ground": "O", "crank": "OA", "rod": "AB", "piston": "BE"},
+        slides={
+            "bore": Slide("piston", on="ground", angle=0.0, origin="O"),
+            "tail": Slide("piston", on="ground", angle=0.0, origin="O"),
+        },
+        driver="crank",
+    )
+    assert m.structure.redundant == ("tail",)
+    turned = m.with_dimensions({"tail.link_angle": pi})
+    assert m.solve(1.0).status == Status.OK
+    assert turned.solve(1.0, on_error="nan").status == Status.UNREACHABLE
+
+
+def test_every_assembly_of_a_chain_is_found_at_once() -> None:
+    m = chain(8, third=False)
+    found = m.assemblies(m.q0)
+    assert len(set(found)) == 256
+    assert (m.solve(m.q0, order=0, assembly=found[100]).status) <= Status.SINGULAR
+
+
+def test_assemblies_beyond_a_change_point_lead_there() -> None:
+    m = assur.FourBar(1.0, 3.0, 1.0, 3.0)
+    places = {
+        tuple(m.solve(4.0, order=0, assembly=a).joint("C").value.round(9))
+        for a in m.assemblies(4.0)
+    }
+    assert len(places) == 2
