@@ -21,6 +21,13 @@ const CELLS_A_LENGTH: f64 = 16.0;
 /// Halvings where a stretch that can be reached begins or ends: what is left of
 /// the turn there goes with the square root of the cell.
 const EDGE_HALVINGS: u32 = 14;
+/// How fast (of the size, by unit of the path) the gap of a dyad that does not close
+/// may shrink; between two knots where it is greater no island is looked for.
+const ISLAND_RATE: f64 = 8.0;
+/// Halvings in search of an island: down to a tenth of a degree.
+const ISLAND_HALVINGS: u32 = 7;
+/// The same where different dyads do not close at the two ends.
+const UNLIKE_HALVINGS: u32 = 4;
 /// Part of a cell by which a knot that falls on a flat dyad is put off, and how
 /// often: change points of several dyads seldom follow so closely.
 const NUDGE: f64 = 0.0625;
@@ -39,6 +46,8 @@ pub(crate) struct Knot {
     rates: Vec<f64>,
     /// Spread of every dyad with a sign, and its rate along the path.
     pub spread: Vec<(f64, f64)>,
+    /// Where not reached: the step that does not close, and by how much.
+    open: Option<(usize, f64)>,
 }
 
 /// Signs on one stretch of the path, from its beginning on.
@@ -148,7 +157,11 @@ impl<'a, 'b> Walker<'a, 'b> {
         let nothing = vec![(0.0, 0.0); self.start_signs.len()];
         if !reached {
             let rates = vec![0.0; from.len()];
-            return Knot { at, reached, angles: from.to_vec(), rates, spread: nothing };
+            let open = match self.state.fault {
+                Some(Fault::Open { step, gap }) => Some((step, gap)),
+                _ => None,
+            };
+            return Knot { at, reached, angles: from.to_vec(), rates, spread: nothing, open };
         }
         let angles =
             self.state.class.iter().zip(from).map(|(u, &near)| nearest(u.angle(), near)).collect();
@@ -157,7 +170,7 @@ impl<'a, 'b> Walker<'a, 'b> {
             .map(|c| self.along(|d| self.state.theta[c * len + 1 + d]).abs())
             .collect();
         let spread = self.dyads().map(|dyad| self.spread(dyad)).collect();
-        Knot { at, reached, angles, rates, spread }
+        Knot { at, reached, angles, rates, spread, open: None }
     }
 
     /// Spread of a dyad at the position just visited, and its rate along the path.
@@ -221,11 +234,24 @@ fn too_far(a: &Knot, b: &Knot, depth: u32) -> bool {
         return depth < EDGE_HALVINGS;
     }
     let cell = (b.at - a.at).abs();
+    if !a.reached {
+        return may_hide_island(a, b, cell, depth);
+    }
     let turned = a.angles.iter().zip(&b.angles).any(|(x, y)| (x - y).abs() > LIFT_TURN);
     // Near a dead point rates grow without bound while the angle does not.
     let fast =
         depth < EDGE_HALVINGS && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > LIFT_TURN);
-    a.reached && (turned || fast)
+    turned || fast
+}
+
+/// Whether a stretch that can be reached may lie between two knots that cannot.
+fn may_hide_island(a: &Knot, b: &Knot, cell: f64, depth: u32) -> bool {
+    match (a.open, b.open) {
+        (Some((i, g)), Some((j, h))) if i == j => {
+            depth < ISLAND_HALVINGS && g + h < ISLAND_RATE * cell
+        }
+        _ => depth < UNLIKE_HALVINGS,
+    }
 }
 
 impl Track {
