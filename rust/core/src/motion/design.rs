@@ -162,6 +162,16 @@ impl<'a> Design<'a> {
         }
     }
 
+    /// The way that tells the angles at a place: its own, but on an island that this
+    /// has not seen.
+    pub(crate) fn angles(&self, place: &Place) -> Rc<Track> {
+        if !place.track.hides(place.at) {
+            return Rc::clone(&place.track);
+        }
+        let jets = Jets::new(1, 1);
+        Rc::new(place.track.island(&self.context(&jets), &mut self.state(&jets), place.at))
+    }
+
     /// Solves one position with the signs of its place on the way; true if the
     /// analogues exist.
     pub(crate) fn solve(&self, state: &mut State, q: &[f64], place: Option<&Place>) -> bool {

@@ -152,7 +152,7 @@ fn solve_design(
                 row,
                 analogues,
             };
-            write.all(motion, &place.track, place.at, q);
+            write.all(motion, &design.angles(place), place.at, q);
         }
     }
 }

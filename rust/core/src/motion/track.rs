@@ -28,6 +28,8 @@ const ISLAND_RATE: f64 = 8.0;
 const ISLAND_HALVINGS: u32 = 7;
 /// The same where different dyads do not close at the two ends.
 const UNLIKE_HALVINGS: u32 = 4;
+/// Steps of a cell in which an island that no knot has seen is measured.
+const ISLAND_STEPS: f64 = 1024.0;
 /// Part of a cell by which a knot that falls on a flat dyad is put off, and how
 /// often: change points of several dyads seldom follow so closely.
 const NUDGE: f64 = 0.0625;
@@ -402,13 +404,62 @@ impl Track {
         ((nearest - place).abs() <= reach).then_some(nearest + shift)
     }
 
+    /// The knots on both sides of a place.
+    fn around(&self, place: f64) -> (Option<&Knot>, Option<&Knot>) {
+        let after = self.knots.partition_point(|k| k.at <= place);
+        (after.checked_sub(1).and_then(|i| self.knots.get(i)), self.knots.get(after))
+    }
+
+    /// Whether a parameter lies on an island that no knot has seen.
+    pub(crate) fn hides(&self, at: f64) -> bool {
+        match self.around(self.reduced(at).0) {
+            (Some(left), Some(right)) => !left.reached && !right.reached,
+            _ => false,
+        }
+    }
+
+    /// The way along such an island, from its lower end to the parameter.
+    pub(crate) fn island(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Self {
+        let (place, whole) = self.reduced(at);
+        let (Some(left), Some(right)) = self.around(place) else { return Self::default() };
+        let cx = Context { signs: self.signs(at), ..*cx };
+        let point = |at: f64, q: &mut [f64]| q[0] = at;
+        let mut walker = Walker::new(&cx, state, &point, &[1.0], (place, 1.0), &left.angles);
+        let step = (right.at - left.at) / ISLAND_STEPS;
+        let (mut inside, mut outside) = (place, left.at);
+        while inside - step > left.at {
+            if !walker.visit(inside - step) {
+                outside = inside - step;
+                break;
+            }
+            inside -= step;
+        }
+        loop {
+            let middle = 0.5 * (inside + outside);
+            if middle == inside || middle == outside {
+                break;
+            }
+            if walker.visit(middle) { inside = middle } else { outside = middle }
+        }
+        let mut walker = Walker::new(&cx, state, &point, &[1.0], (inside, 1.0), &left.angles);
+        walker.advance(place);
+        let Walker { mut knots, .. } = walker;
+        for knot in &mut knots {
+            knot.at += at - place;
+            for (angle, gain) in knot.angles.iter_mut().zip(&self.gain) {
+                *angle += whole * gain;
+            }
+        }
+        Self { knots, gain: self.gain.clone(), ..Self::default() }
+    }
+
     /// The angle of a class at a parameter, given its value up to whole turns.
     pub(crate) fn angle(&self, at: f64, class: usize, principal: f64) -> f64 {
         let Some(first) = self.knots.first() else { return principal };
         let (place, whole) = self.reduced(at);
-        let after = self.knots.partition_point(|k| k.at <= place);
-        let left = self.knots.get(after.saturating_sub(1)).unwrap_or(first);
-        let knot = match self.knots.get(after) {
+        let (left, right) = self.around(place);
+        let left = left.unwrap_or(first);
+        let knot = match right {
             Some(right) if !left.reached && right.reached => right,
             _ => left,
         };
