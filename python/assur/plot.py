@@ -60,10 +60,9 @@ def _draw(motion: Motion, index: tuple[int, ...], ax: Any) -> Any:
     size = _size(list(at.values()))
     for name, slide in mechanism.slides.items():
         _guide(motion, index, name, slide.on, size, ax)
-    moving = [name for name in mechanism.links if name != "ground"]
-    for number, name in enumerate(moving):
+    for name in (name for name in mechanism.links if name != "ground"):
         points = np.array([at[j] for j in mechanism.links[name]])
-        colour = _COLOURS[number % len(_COLOURS)]
+        colour = _colour(mechanism, name)
         if len(points) > 2:
             corners = _hull(points)
             ax.fill(corners[:, 0], corners[:, 1], color=colour, alpha=0.18, linewidth=0)
@@ -85,6 +84,11 @@ def _draw(motion: Motion, index: tuple[int, ...], ax: Any) -> Any:
     ax.set_xlabel("x, m")
     ax.set_ylabel("y, m")
     return ax
+
+
+def _colour(mechanism: Mechanism, link: str) -> str:
+    moving = [name for name in mechanism.links if name != "ground"]
+    return _COLOURS[moving.index(link) % len(_COLOURS)]
 
 
 def _size(points: list[Any]) -> float:
@@ -111,8 +115,15 @@ def _guide(
     angle = float(motion.link(on).value[index]) + float(own)
     along = np.array([np.cos(angle), np.sin(angle)])
     across = np.array([-along[1], along[0]])
-    ends = np.array([middle - 0.3 * size * along, middle + 0.3 * size * along])
-    ax.plot(*ends.T, color="0.6", linewidth=1, linestyle=(0, (6, 3)), zorder=0)
+    # The guide as far as the joint it is measured from, or that carries it.
+    carriers = motion.mechanism.links[on]
+    base = slide.origin or (carriers[0] if carriers and on != "ground" else None)
+    to_base = 0.0 if base is None else float(along @ (motion.joint(base).value[index] - middle))
+    reach = 0.3 * size
+    low, high = min(-reach, to_base), max(reach, to_base)
+    ends = np.array([middle + low * along, middle + high * along])
+    colour = "0.6" if on == "ground" else _colour(motion.mechanism, on)
+    ax.plot(*ends.T, color=colour, linewidth=1.2, linestyle=(0, (6, 3)), zorder=0)
     a, b = 0.05 * size * along, 0.03 * size * across
     block = np.array([middle - a - b, middle + a - b, middle + a + b, middle - a + b])
     ax.fill(*block.T, facecolor="0.9", edgecolor="0.3", zorder=1)
