@@ -28,6 +28,9 @@ const ISLAND_RATE: f64 = 8.0;
 const ISLAND_HALVINGS: u32 = 7;
 /// The same where different dyads do not close at the two ends.
 const UNLIKE_HALVINGS: u32 = 4;
+/// Knots after which cells are no longer halved: where angles are nothing but
+/// rounding (a link of 1e-17 of the size) no cell would ever be fine enough.
+const MOST_KNOTS: usize = 100_000;
 /// Steps of a cell in which an island that no knot has seen is measured.
 const ISLAND_STEPS: f64 = 1024.0;
 /// Part of a cell by which a knot that falls on a flat dyad is put off, and how
@@ -201,7 +204,8 @@ impl<'a, 'b> Walker<'a, 'b> {
                 knot = self.knot(end, &from.angles);
             }
             let middle = 0.5 * (from.at + end);
-            let can_halve = middle != from.at && middle != end;
+            let room = self.knots.len() < MOST_KNOTS;
+            let can_halve = room && middle != from.at && middle != end;
             if can_halve && depth < LIFT_HALVINGS && too_far(&from, &knot, depth) {
                 // The halves find what was found on the whole again.
                 self.changes.retain(|c| (c.at - from.at) * self.way <= 0.0);
