@@ -54,17 +54,7 @@ impl State {
         v
     }
 
-    /// Every class that turns with one unknown class, in every orientation.
-    pub(crate) fn orientations_of<'a>(
-        cx: &Context<'a>,
-        dyad: &'a Dyad,
-    ) -> impl Iterator<Item = usize> + 'a {
-        let plan = cx.plan;
-        (0..plan.orientations.len())
-            .filter(move |&o| dyad.unknowns.contains(&Unknown::Class(plan.orientations[o].class)))
-    }
-
-    pub(crate) fn no_analogues(&mut self, cx: &Context<'_>, dyad: &Dyad) {
+    pub(crate) fn no_analogues(&mut self, dyad: &Dyad) {
         let len = self.len;
         for unknown in dyad.unknowns {
             let jet = match unknown {
@@ -73,7 +63,7 @@ impl State {
             };
             jet[1..].fill(f64::NAN);
         }
-        for o in Self::orientations_of(cx, dyad) {
+        for &o in dyad.turned.iter().flatten() {
             self.orient[o * len + 1..(o + 1) * len].fill(Vector::NAN);
         }
     }
@@ -85,7 +75,7 @@ impl State {
         let columns = dyad.unknowns.map(|unknown| self.column(cx, dyad, unknown));
         let determinant = columns[0].cross(columns[1]);
         for k in 1..len {
-            for o in Self::orientations_of(cx, dyad) {
+            for &o in dyad.turned.iter().flatten() {
                 // The angle's own analogue is still 0 here.
                 let partial = self.orientation_without_top(cx, o, k);
                 let driven = self.theta_of(cx, o, k);
@@ -94,18 +84,16 @@ impl State {
             let known = self.closure(cx, dyad, k);
             let values =
                 [columns[1].cross(known) / determinant, known.cross(columns[0]) / determinant];
-            for (unknown, value) in dyad.unknowns.into_iter().zip(values) {
+            for ((unknown, value), turned) in
+                dyad.unknowns.into_iter().zip(values).zip(&dyad.turned)
+            {
                 match unknown {
                     Unknown::Slide(s) => self.slides[s * len + k] = value,
-                    Unknown::Class(c) => {
-                        self.theta[c * len + k] = value;
-                        for o in 0..cx.plan.orientations.len() {
-                            if cx.plan.orientations[o].class == c {
-                                let top = self.orient[o * len].left().scale(value);
-                                self.orient[o * len + k] += top;
-                            }
-                        }
-                    }
+                    Unknown::Class(c) => self.theta[c * len + k] = value,
+                }
+                for &o in turned {
+                    let top = self.orient[o * len].left().scale(value);
+                    self.orient[o * len + k] += top;
                 }
             }
         }

@@ -46,20 +46,20 @@ impl State {
         let (columns, flat) = match dyad.form {
             Form::TwoCircles => {
                 let (first, second, flat) = two_circles(a, b, k, sign)?;
-                self.turn(cx, u, first);
-                self.turn(cx, v, second);
+                self.turn(dyad, 0, first);
+                self.turn(dyad, 1, second);
                 let (x, y) = ((first * a).left(), (second * b).left());
                 ([x.scale(1.0 / lever(u, a.norm())), y.scale(1.0 / lever(v, b.norm()))], flat)
             }
             Form::CircleAndLine => {
                 let (first, s, flat) = circle_and_line(a, b, k, sign)?;
-                self.turn(cx, u, first);
+                self.turn(dyad, 0, first);
                 self.slide(v, s);
                 ([(first * a).left().scale(1.0 / lever(u, a.norm())), b], flat)
             }
             Form::TurningGuide => {
                 let (first, s, flat) = turning_guide(a, b, k, sign)?;
-                self.turn(cx, u, first);
+                self.turn(dyad, 0, first);
                 self.slide(v, s);
                 ([k.left().scale(1.0 / lever(u, k.norm())), first * b], flat)
             }
@@ -114,13 +114,11 @@ impl State {
         Sorted { first: terms[0], second: terms[1], known }
     }
 
-    fn turn(&mut self, cx: &Context<'_>, unknown: Unknown, rotation: Vector) {
-        let Unknown::Class(class) = unknown else { return };
+    fn turn(&mut self, dyad: &Dyad, place: usize, rotation: Vector) {
+        let Unknown::Class(class) = dyad.unknowns[place] else { return };
         self.class[class] = rotation;
-        for (o, orientation) in cx.plan.orientations.iter().enumerate() {
-            if orientation.class == class {
-                self.orient[o * self.len] = rotation * self.phase[o];
-            }
+        for &o in &dyad.turned[place] {
+            self.orient[o * self.len] = rotation * self.phase[o];
         }
     }
 

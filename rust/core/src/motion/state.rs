@@ -257,7 +257,7 @@ impl State {
             }
         }
         if solved.flat || solved.angle > singular_condition() {
-            self.no_analogues(cx, dyad);
+            self.no_analogues(dyad);
             return Err(Fault::Flat { step: index });
         }
         self.analogues(cx, dyad);

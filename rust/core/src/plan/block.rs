@@ -40,6 +40,8 @@ pub struct Dyad {
     /// The unknowns; a rotation comes before a slide, and the rotation of the
     /// link listed first before the other.
     pub unknowns: [Unknown; 2],
+    /// The orientations that turn with each unknown (none with a slide).
+    pub turned: [Vec<usize>; 2],
     /// The loop, edge by edge; `backward` runs from `to` to `from`.
     pub path: Vec<(usize, bool)>,
     /// Known point where the path starts.
@@ -255,7 +257,11 @@ fn dyad(
         plan.dyad_links.push(links);
         plan.dyad_names.len() - 1
     });
-    Dyad { form, unknowns, path: loop_path, start, end, sign }
+    let turned = unknowns.map(|unknown| {
+        let with = |o: &usize| unknown == Unknown::Class(plan.orientations[*o].class);
+        (0..plan.orientations.len()).filter(with).collect()
+    });
+    Dyad { form, unknowns, turned, path: loop_path, start, end, sign }
 }
 
 /// A closed loop may start anywhere on it: at the run of edges of its first unknown
