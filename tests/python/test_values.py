@@ -8,6 +8,7 @@ import pickle
 import pytest
 
 import assur
+from assur import _core
 from refusals import APART, BATCH, MOTION, TWO, M, refused
 
 
@@ -39,3 +40,7 @@ def test_errors_are_pickled_with_their_fields() -> None:
     again = pickle.loads(pickle.dumps(error))
     assert type(again) is type(error)
     assert (str(again), again.__dict__) == (str(error), error.__dict__)
+
+
+def test_codes_are_those_of_the_core() -> None:
+    assert dict(_core.Mechanism.statuses()) == {s.name: s.value for s in assur.Status}
