@@ -103,11 +103,14 @@ def _at_slide(motion: Motion, name: str) -> Float:
 
 
 def _pivot(mechanism: Mechanism, link: str) -> str:
+    """Return the joint about which a guide's link turns: on the ground, or its only one."""
     joined = [j for j in mechanism.links[link] if _pairs(mechanism, j) > 1]
-    if len(joined) != 1:
-        message = f"link {link!r} turns about {len(joined)} joints: no pressure angle is defined"
+    fixed = [j for j in joined if j in mechanism.links["ground"]]
+    pivots = fixed or joined
+    if len(pivots) != 1:
+        message = f"link {link!r} turns about {len(pivots)} joints: no pressure angle is defined"
         raise InputError(message, link=link)
-    return joined[0]
+    return pivots[0]
 
 
 def _guide(motion: Motion, name: str) -> Float:

@@ -137,3 +137,29 @@ def test_assemblies_beyond_a_change_point_lead_there() -> None:
         for a in m.assemblies(4.0)
     }
     assert len(places) == 2
+
+
+def test_transmission_in_a_slot_of_an_arm_with_two_joints() -> None:
+    """A Whitworth: the guide passes through the arm's pivot, so all force is passed on."""
+    m = assur.Mechanism(
+        joints={"O": (0, 0), "A": (0.1, 0), "D": (0, -0.25), "E": (0.26, 0.4), "F": (-0.3, 0.5)},
+        links={
+            "ground": "OD",
+            "crank": "OA",
+            "arm": "DE",
+            "block": "A",
+            "rod": "EF",
+            "ram": "F",
+        },
+        slides={
+            "slot": Slide("block", on="arm", angle=atan2(0.25, 0.1), origin="D"),
+            "way": Slide("ram", on="ground", angle=0.0),
+        },
+        driver="crank",
+    )
+    motion = m.solve(np.linspace(0, 2 * pi, 9))
+    np.testing.assert_allclose(motion.transmission_angle("slot"), pi / 2, atol=1e-14)
+    rod = motion.link("rod").value
+    np.testing.assert_allclose(
+        motion.transmission_angle("F"), np.arcsin(np.abs(np.cos(rod))), atol=1e-14
+    )
