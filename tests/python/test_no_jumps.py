@@ -48,3 +48,9 @@ def test_nothing_jumps(part: int) -> None:
         case = models.random_case(seed, max_dyads=4)
         if len(case.description.drivers) == 1:
             assert not jumps(case), f"seed {seed}: {jumps(case)}"
+
+
+# Islands between gaps, and guides that pass parallel beside a gap, found in longer scans.
+@pytest.mark.parametrize("seed", [649, 1276, 1636, 5571, 17859, 22685, 66560])
+def test_nothing_jumps_where_it_once_did(seed: int) -> None:
+    assert not jumps(models.random_case(seed, max_dyads=4))

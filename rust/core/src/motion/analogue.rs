@@ -72,7 +72,7 @@ impl State {
     /// the same two columns, and as right-hand side what is known of that order.
     pub(crate) fn analogues(&mut self, cx: &Context<'_>, dyad: &Dyad) {
         let len = self.len;
-        let columns = dyad.unknowns.map(|unknown| self.column(cx, dyad, unknown));
+        let columns = self.columns(cx, dyad);
         let determinant = columns[0].cross(columns[1]);
         for k in 1..len {
             for &o in dyad.turned.iter().flatten() {
@@ -107,6 +107,17 @@ impl State {
             sum = if backward { sum - v } else { sum + v };
         }
         sum
+    }
+
+    /// Derivatives of the closure with respect to the unknowns.
+    fn columns(&self, cx: &Context<'_>, dyad: &Dyad) -> [Vector; 2] {
+        dyad.unknowns.map(|unknown| self.column(cx, dyad, unknown))
+    }
+
+    /// Determinant of the closure's matrix.
+    pub(crate) fn determinant(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
+        let [first, second] = self.columns(cx, dyad);
+        first.cross(second)
     }
 
     /// Derivative of the closure with respect to one unknown.

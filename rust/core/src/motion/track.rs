@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use super::change::{self, Change};
 use super::state::{Context, Fault, State, Status};
-use crate::plan::{Dyad, Step};
+use crate::plan::{Dyad, Form, Step};
 use crate::tolerance::{LIFT_HALVINGS, LIFT_TURN};
 
 /// Cells in a turn of a driven angle.
@@ -51,6 +51,9 @@ pub(crate) struct Knot {
     rates: Vec<f64>,
     /// Spread of every dyad with a sign, and its rate along the path.
     pub spread: Vec<(f64, f64)>,
+    /// On which side of parallel the guides of every dyad of two known directions are;
+    /// between the sides its point passes through infinity.
+    sides: Vec<bool>,
     /// Where not reached: the step that does not close, and by how much.
     open: Option<(usize, f64)>,
 }
@@ -166,7 +169,8 @@ impl<'a, 'b> Walker<'a, 'b> {
                 Some(Fault::Open { step, gap }) => Some((step, gap)),
                 _ => None,
             };
-            return Knot { at, reached, angles: from.to_vec(), rates, spread: nothing, open };
+            let (angles, sides) = (from.to_vec(), Vec::new());
+            return Knot { at, reached, angles, rates, spread: nothing, sides, open };
         }
         let angles =
             self.state.class.iter().zip(from).map(|(u, &near)| nearest(u.angle(), near)).collect();
@@ -175,7 +179,12 @@ impl<'a, 'b> Walker<'a, 'b> {
             .map(|c| self.along(|d| self.state.theta[c * len + 1 + d]).abs())
             .collect();
         let spread = self.dyads().map(|dyad| self.spread(dyad)).collect();
-        Knot { at, reached, angles, rates, spread, open: None }
+        let lines = self.cx.plan.steps.iter().filter_map(|step| match step {
+            Step::Dyad(dyad) if dyad.form == Form::TwoLines => Some(dyad),
+            _ => None,
+        });
+        let sides = lines.map(|dyad| self.state.determinant(&self.cx, dyad) > 0.0).collect();
+        Knot { at, reached, angles, rates, spread, sides, open: None }
     }
 
     /// Spread of a dyad at the position just visited, and its rate along the path.
@@ -247,7 +256,8 @@ fn too_far(a: &Knot, b: &Knot, depth: u32) -> bool {
     // Near a dead point rates grow without bound while the angle does not.
     let fast =
         depth < EDGE_HALVINGS && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > LIFT_TURN);
-    turned || fast
+    let through_infinity = depth < EDGE_HALVINGS && a.sides != b.sides;
+    turned || fast || through_infinity
 }
 
 /// Whether a stretch that can be reached may lie between two knots that cannot.
