@@ -1,46 +1,115 @@
-//! Speed of the core: positions a second, with and without analogues.
+//! Speed of the core: many positions of one design, and many designs.
+//!
+//! Medians and ratios are what counts: baseline beside AVX2 and AVX-512, one thread
+//! beside two, every case in the same run.
+
+mod mechanisms;
 
 use std::hint::black_box;
+use std::mem::MaybeUninit;
+use std::num::NonZeroUsize;
 
-use assur::{Coordinates, Description, FourBar, FourBarMode, Mechanism, Outputs, Request};
+use assur::motion::{Arrays, Column, Control, Simd, fill};
+use assur::{Coordinates, Mechanism, Outputs, Request};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
-fn four_bar() -> Mechanism {
-    Mechanism::new(&FourBar::description(FourBarMode::Open)).expect("a mechanism")
+const POSITIONS: u32 = 360;
+
+/// Arrays that a request fills, kept from one run to the next.
+struct Buffers {
+    columns: Vec<Vec<MaybeUninit<f64>>>,
+    status: Vec<MaybeUninit<u8>>,
 }
 
-fn jansen() -> Mechanism {
-    let places = [
-        (0.0, 0.0),
-        (9.61, 11.52),
-        (-38.0, -7.8),
-        (-35.24, 33.61),
-        (-77.75, -2.54),
-        (-20.1, -42.79),
-        (-56.05, -35.42),
-        (-22.22, -91.74),
-    ];
-    let mut leg = Description::new();
-    for (joint, (x, y)) in places.into_iter().enumerate() {
-        leg = leg.joint(&joint.to_string(), [x, y]);
+impl Buffers {
+    fn new(columns: &[Column], rows: usize) -> Self {
+        let empty = |c: &Column| vec![MaybeUninit::new(0.0); rows * c.width];
+        Self {
+            columns: columns.iter().map(empty).collect(),
+            status: vec![MaybeUninit::new(0); rows],
+        }
     }
-    let leg = leg
-        .link("ground", ["0", "2"])
-        .link("crank", ["0", "1"])
-        .link("upper", ["1", "3"])
-        .link("shoulder", ["2", "3", "4"])
-        .link("lower", ["1", "5"])
-        .link("arm", ["2", "5"])
-        .link("rod", ["4", "6"])
-        .link("foot", ["5", "6", "7"]);
-    Mechanism::new(&leg.driver("crank")).expect("a mechanism")
+
+    fn arrays(&mut self) -> Arrays<'_> {
+        Arrays {
+            columns: self.columns.iter_mut().map(Vec::as_mut_slice).collect(),
+            status: &mut self.status,
+        }
+    }
 }
 
-fn positions(c: &mut Criterion) {
-    let q: Vec<f64> = (0..3600).map(|i| f64::from(i) * std::f64::consts::TAU / 3600.0).collect();
-    let mut group = c.benchmark_group("positions");
-    group.throughput(Throughput::Elements(3600));
-    for (name, mechanism) in [("four_bar", four_bar()), ("jansen", jansen())] {
+fn turn() -> Vec<f64> {
+    (0..POSITIONS).map(|i| f64::from(i) * std::f64::consts::TAU / f64::from(POSITIONS)).collect()
+}
+
+/// Dimensions of designs near the drawing's, all of the same type of motion.
+fn designs(mechanism: &Mechanism, count: u32) -> Vec<f64> {
+    let stretch = |design: u32, place: usize| {
+        let step = (design * 7 + u32::try_from(place).unwrap_or(0) * 3) % 101;
+        1.0 + 2e-4 * f64::from(step)
+    };
+    let one = mechanism.drawing();
+    (0..count)
+        .flat_map(|design| one.iter().enumerate().map(move |(i, x)| x * stretch(design, i)))
+        .collect()
+}
+
+fn batch(c: &mut Criterion, designs_of_each: u32) {
+    let q = turn();
+    for (name, mechanism, outputs, order) in [
+        ("four_bar", mechanisms::four_bar(), &["B", "C", "coupler", "rocker"][..], 2),
+        ("jansen", mechanisms::jansen(), &["1", "3", "4", "5", "6", "7"][..], 0),
+    ] {
+        let mut kept = Outputs::default();
+        for output in outputs {
+            match mechanism.joint(output) {
+                Ok(joint) => kept.joints.push(joint),
+                Err(_) => kept.links.extend(mechanism.link(output)),
+            }
+        }
+        let dimensions = designs(&mechanism, designs_of_each);
+        let request = Request {
+            dimensions: &dimensions,
+            coordinates: Coordinates::Shared(&q),
+            signs: mechanism.signs(),
+            order,
+            outputs: &kept,
+        };
+        let rows = designs_of_each as usize * q.len();
+        let mut buffers = Buffers::new(&request.columns(&mechanism), rows);
+        let mut group = c.benchmark_group(format!("{name}/{designs_of_each}x{POSITIONS}"));
+        group.throughput(Throughput::Elements(u64::from(designs_of_each * POSITIONS)));
+        group.sample_size(10);
+        for simd in [Simd::Baseline, Simd::Avx2, Simd::Avx512] {
+            if simd > Simd::best() {
+                continue;
+            }
+            for threads in [1, 2] {
+                let id = BenchmarkId::new(format!("{simd:?}"), format!("{threads} threads"));
+                let control = Control { threads: NonZeroUsize::new(threads), simd, cancel: None };
+                group.bench_function(id, |b| {
+                    b.iter(|| {
+                        fill(&mechanism, black_box(&request), buffers.arrays(), &control)
+                            .expect("solved");
+                    });
+                });
+            }
+        }
+        group.finish();
+    }
+}
+
+fn many_designs(c: &mut Criterion) {
+    batch(c, 20);
+    batch(c, 10_000);
+}
+
+/// A student's call: one mechanism, one turn, everything kept.
+fn one_design(c: &mut Criterion) {
+    let q = turn();
+    let mut group = c.benchmark_group("one_design");
+    group.throughput(Throughput::Elements(u64::from(POSITIONS)));
+    for (name, mechanism) in mechanisms::all() {
         let outputs = Outputs::all(&mechanism);
         for order in [0, 2] {
             group.bench_function(BenchmarkId::new(name, order), |b| {
@@ -60,5 +129,5 @@ fn positions(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, positions);
+criterion_group!(benches, many_designs, one_design);
 criterion_main!(benches);

@@ -13,6 +13,9 @@ from assur.errors import InputError
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
+# More would only take memory; no machine has them.
+MOST_THREADS = 4096
+
 
 def real_array(value: Any, what: str) -> Float:
     """An array of float64, or an error that names what it should have been."""
@@ -87,3 +90,17 @@ def checked_index(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, .
             message = f"{what} {index!r} is outside the shape {shape}"
             raise InputError(message)
     return tuple(i % size for i, size in zip(place, shape, strict=True))
+
+
+def checked_threads(threads: Any) -> int | None:
+    """A number of threads, or none."""
+    if threads is None:
+        return None
+    try:
+        number = operator.index(threads)
+    except TypeError:
+        number = 0
+    if isinstance(threads, bool) or not 1 <= number <= MOST_THREADS:
+        message = f"threads is {threads!r}: a whole number from 1 to {MOST_THREADS} is needed"
+        raise InputError(message)
+    return number

@@ -1,17 +1,21 @@
-from typing import TypedDict, final
+from typing import TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
 from typing_extensions import Self
 
-__all__ = ["Mechanism", "acute", "curvature", "instant_centre", "version"]
+__all__ = [
+    "Mechanism",
+    "acute",
+    "asin",
+    "atan2",
+    "curvature",
+    "instant_centre",
+    "sin_cos",
+    "version",
+]
 
-class _Arrays(TypedDict):
-    joints: dict[int, list[npt.NDArray[np.float64]]]
-    links: dict[int, list[npt.NDArray[np.float64]]]
-    places: dict[int, list[npt.NDArray[np.float64]]]
-    slides: dict[int, list[npt.NDArray[np.float64]]]
-    status: npt.NDArray[np.uint8]
+_Float: TypeAlias = npt.NDArray[np.float64]
 
 @final
 class Mechanism:
@@ -48,22 +52,21 @@ class Mechanism:
     def check_dimensions(self, values: list[float]) -> None: ...
     def solve(
         self,
-        dimensions: npt.NDArray[np.float64],
-        q: npt.NDArray[np.float64],
+        dimensions: _Float,
+        q: _Float,
         per_design: bool,
         signs: list[int],
         order: int,
-        joints: list[int],
-        links: list[int],
-        slides: list[int],
-    ) -> _Arrays: ...
+        outputs: tuple[list[int], list[int], list[int], list[int]],
+        threads: int | None,
+    ) -> tuple[dict[tuple[str, int, int], _Float], npt.NDArray[np.uint8]]: ...
     def diagnostics(
         self,
-        dimensions: npt.NDArray[np.float64],
-        q: npt.NDArray[np.float64],
+        dimensions: _Float,
+        q: _Float,
         per_design: bool,
         signs: list[int],
-    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]: ...
+    ) -> tuple[_Float, _Float]: ...
     def explain(
         self, dimensions: list[float], q: list[float], signs: list[int]
     ) -> tuple[int, str | None, str]: ...
@@ -71,12 +74,13 @@ class Mechanism:
     @staticmethod
     def statuses() -> list[tuple[str, int]]: ...
 
-def acute(a: npt.NDArray[np.float64], b: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
-def curvature(
-    d1: npt.NDArray[np.float64], d2: npt.NDArray[np.float64]
-) -> npt.NDArray[np.float64]: ...
+def asin(x: _Float) -> _Float: ...
+def atan2(y: _Float, x: _Float) -> _Float: ...
+def sin_cos(x: _Float) -> tuple[_Float, _Float]: ...
+def acute(a: _Float, b: _Float) -> _Float: ...
+def curvature(d1: _Float, d2: _Float) -> _Float: ...
 def instant_centre(
-    a: tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]],
-    b: tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]],
-) -> npt.NDArray[np.float64]: ...
+    a: tuple[_Float, _Float, _Float],
+    b: tuple[_Float, _Float, _Float],
+) -> _Float: ...
 def version() -> str: ...

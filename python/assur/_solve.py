@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._checks import checked_order, checked_signs, real_array
+from assur._call import Call
+from assur._checks import checked_order, checked_signs, checked_threads, real_array
 from assur.description import Status
 from assur.errors import AssurError, DimensionError, InputError, PositionError
-from assur.motion import Motion, Tracks
+from assur.motion import Motion
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -28,37 +29,25 @@ def solve(
     outputs: Iterable[str] | None,
     assembly: Mapping[str, int] | None,
     on_error: str,
+    threads: Any,
 ) -> Motion:
     """See `Mechanism.solve`."""
     if on_error not in ("raise", "nan"):
         message = f'on_error is {on_error!r}: "raise" or "nan"'
         raise InputError(message)
     order = checked_order(order)
-    core = mechanism._core
     coordinates, positions, per_design = _coordinates(mechanism, q)
-    signs = _signs(mechanism, assembly)
-    joints, links, slides = _outputs(mechanism, outputs)
-    arrays = core.solve(
-        np.ascontiguousarray(mechanism._values).reshape(-1),
-        np.ascontiguousarray(coordinates).reshape(-1),
-        per_design,
-        signs,
-        order,
-        list(joints.values()),
-        list(links.values()),
-        list(slides.values()),
+    coordinates.flags.writeable = False
+    call = Call(
+        mechanism=mechanism,
+        q=coordinates,
+        positions=positions,
+        per_design=per_design,
+        order=order,
+        signs=_signs(mechanism, assembly),
+        threads=checked_threads(threads),
     )
-    shape = (*mechanism.shape, *positions)
-    drivers = len(core.q0)
-    tracks = Tracks(
-        joints={n: _shaped(arrays["joints"][i], (*shape, 2), drivers) for n, i in joints.items()},
-        links={n: _shaped(arrays["links"][i], shape, drivers) for n, i in links.items()},
-        places={n: _shaped(arrays["places"][i], (*shape, 2), drivers) for n, i in links.items()},
-        slides={n: _shaped(arrays["slides"][i], shape, drivers) for n, i in slides.items()},
-    )
-    status = arrays["status"].reshape(shape)
-    status.flags.writeable = False
-    motion = Motion(mechanism, coordinates, positions, per_design, order, signs, tracks, status)
+    motion = Motion(call, *call.arrays(*_outputs(mechanism, outputs)))
     if on_error == "raise":
         _raise_first(motion)
     return motion
@@ -122,20 +111,11 @@ def _outputs(
     )
 
 
-def _shaped(arrays: list[Float], shape: tuple[int, ...], drivers: int) -> tuple[Float, ...]:
-    """Arrays by order; one axis more for every order if there are several drivers."""
-    shaped = []
-    for order, array in enumerate(arrays):
-        out = array.reshape(shape + (drivers,) * order if drivers > 1 else shape)
-        out.flags.writeable = False
-        shaped.append(out)
-    return tuple(shaped)
-
-
 def _raise_first(motion: Motion) -> None:
     bad = motion.status > Status.SINGULAR
-    if motion.order > 0:
-        bad |= (motion.status == Status.SINGULAR) & _no_analogues(motion)
+    singular = motion.status == Status.SINGULAR
+    if motion.order > 0 and singular.any():
+        bad |= singular & _no_analogues(motion, singular)
     if not bad.any():
         return
     index = tuple(int(i) for i in np.argwhere(bad)[0])
@@ -166,14 +146,13 @@ def _raise_first(motion: Motion) -> None:
     )
 
 
-def _no_analogues(motion: Motion) -> npt.NDArray[np.bool_]:
+def _no_analogues(motion: Motion, singular: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
     """Where a flat dyad leaves none; at a change point there are."""
-    tracks = motion._tracks
-    held = (tracks.joints, tracks.links, tracks.slides)
+    held = motion._tracks
     missing = np.zeros(motion.shape, dtype=np.bool_)
-    for arrays in (a for kind in held for a in kind.values()):
-        beyond = tuple(range(len(motion.shape), arrays[1].ndim))
-        missing |= np.isnan(arrays[1]).any(axis=beyond)
+    for arrays in (a for kind in (held.joints, held.links, held.slides) for a in kind.values()):
+        rows = arrays[1][singular]
+        missing[singular] |= np.isnan(rows).reshape(len(rows), -1).any(axis=1)
     return missing
 
 

@@ -324,6 +324,7 @@ class Mechanism:
         outputs: Iterable[str] | None = None,
         assembly: Mapping[str, int] | None = None,
         on_error: Literal["raise", "nan"] = "raise",
+        threads: int | None = None,
     ) -> Motion:
         """Solve positions and analogues.
 
@@ -341,6 +342,9 @@ class Mechanism:
         on_error : {"raise", "nan"}
             What to do with positions that cannot be had: raise for the first of
             them, or leave NaN with a status in its place.
+        threads : int, optional
+            Threads at most; by default as many as there are cores, and one for small
+            work. The numbers do not depend on it.
 
         Returns
         -------
@@ -361,7 +365,7 @@ class Mechanism:
         >>> motion.slide("bore").value.round(4)
         array([0.25  , 0.1936, 0.15  , 0.1936, 0.25  ])
         """
-        return _solve.solve(self, q, order, outputs, assembly, on_error)
+        return _solve.solve(self, q, order, outputs, assembly, on_error, threads)
 
     def assemblies(self, q: npt.ArrayLike) -> list[Assembly]:
         """Every real assembly at one position, usable as ``solve(q, assembly=a)``.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -14,21 +13,11 @@ from assur.analogues import Analogues
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.mechanism import Mechanism
+    from assur._call import Call, Tracks
 
 __all__ = ["Motion"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Tracks:
-    """What a motion holds, by name: arrays by order."""
-
-    joints: dict[str, tuple[Float, ...]]
-    links: dict[str, tuple[Float, ...]]
-    places: dict[str, tuple[Float, ...]]
-    slides: dict[str, tuple[Float, ...]]
 
 
 class Motion:
@@ -46,35 +35,22 @@ class Motion:
         One `Status` a position.
     """
 
-    def __init__(
-        self,
-        mechanism: Mechanism,
-        q: Float,
-        positions: tuple[int, ...],
-        per_design: bool,
-        order: int,
-        signs: list[int],
-        tracks: Tracks,
-        status: npt.NDArray[np.uint8],
-    ) -> None:
-        q.flags.writeable = False
-        self.mechanism = mechanism
-        self.q = q
-        self.order = order
+    def __init__(self, call: Call, tracks: Tracks, status: npt.NDArray[np.uint8]) -> None:
+        self.mechanism = call.mechanism
+        self.q = call.q
+        self.order = call.order
         self.status = status
-        self._positions = positions
-        self._per_design = per_design
-        self._signs = signs
+        self._call = call
         self._tracks = tracks
-        self._drivers = len(mechanism._core.q0)
+        self._drivers = len(call.mechanism._core.q0)
+        self._places: dict[str, tuple[Float, ...]] = {}
         self._diagnostics: tuple[Float, Float] | None = None
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
-        tracks = self._tracks
-        for held in (tracks.joints, tracks.links, tracks.places, tracks.slides):
-            for array in (a for arrays in held.values() for a in arrays):
-                array.flags.writeable = False
+        held = (self._tracks.joints, self._tracks.links, self._tracks.slides, self._places)
+        for array in (a for kind in held for arrays in kind.values() for a in arrays):
+            array.flags.writeable = False
         for array in (self.q, self.status, *(self._diagnostics or ())):
             array.flags.writeable = False
 
@@ -107,7 +83,10 @@ class Motion:
         return Analogues(name, self._find("slide", self._tracks.slides, name), self._drivers, False)
 
     def _place(self, link: str) -> Analogues:
-        return Analogues(link, self._find("link", self._tracks.places, link), self._drivers, True)
+        # Seldom asked for, so solved for then.
+        if link not in self._places:
+            self._places[link] = self._call.place(link)
+        return Analogues(link, self._places[link], self._drivers, True)
 
     def _one_driver(self, what: str) -> None:
         if self._drivers > 1:
@@ -195,10 +174,7 @@ class Motion:
     def _diagnose(self) -> tuple[Float, Float]:
         if self._diagnostics is None:
             residual, condition = self.mechanism._core.diagnostics(
-                np.ascontiguousarray(self.mechanism._values).reshape(-1),
-                np.ascontiguousarray(self.q).reshape(-1),
-                self._per_design,
-                self._signs,
+                *self._call.flat(), self._call.per_design, self._call.signs
             )
             self._diagnostics = (residual.reshape(self.shape), condition.reshape(self.shape))
             for array in self._diagnostics:
@@ -208,8 +184,8 @@ class Motion:
     def coordinate(self, index: int | tuple[int, ...]) -> float | tuple[float, ...]:
         """Return the coordinate at an index of `shape`; a tuple for several drivers."""
         place = checked_index(index, self.shape, "index")
-        designs = 0 if self._per_design else len(self.mechanism.shape)
-        q = self.q[place[designs:]] if self._positions else self.q
+        designs = 0 if self._call.per_design else len(self.mechanism.shape)
+        q = self.q[place[designs:]] if self._call.positions else self.q
         return float(q) if self._drivers == 1 else tuple(float(x) for x in q)
 
     def explain(self, index: int | tuple[int, ...] = ()) -> str:
@@ -229,7 +205,7 @@ class Motion:
         q = self.coordinate(place)
         values = self.mechanism._values[place[: len(self.mechanism.shape)]]
         one = [q] if isinstance(q, float) else list(q)
-        return self.mechanism._core.explain(values.tolist(), one, self._signs)
+        return self.mechanism._core.explain(values.tolist(), one, self._call.signs)
 
     def to_dataframe(self) -> Any:
         """Return a pandas DataFrame, one row a position (needs pandas).

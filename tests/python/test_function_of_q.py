@@ -20,7 +20,7 @@ def bits(motion: assur.Motion) -> list[npt.NDArray[np.uint8]]:
     """Everything the motion holds, one row a position, as bytes."""
     held = motion._tracks
     rows = [motion.status.reshape(motion.status.size, 1)]
-    for kind in (held.joints, held.links, held.places, held.slides):
+    for kind in (held.joints, held.links, held.slides):
         for arrays in kind.values():
             for array in arrays:
                 width = int(np.prod(array.shape[motion.status.ndim :]))

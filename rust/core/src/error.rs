@@ -159,6 +159,9 @@ pub fn number(x: f64) -> String {
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the sentences say what the fields are")]
 pub enum SolveError {
+    /// The work was called off.
+    #[error("the work was interrupted")]
+    Interrupted,
     /// A group above class II.
     #[error("group {group} is of class {class}: only groups of class II can be solved so far")]
     HigherClass { group: String, class: String },

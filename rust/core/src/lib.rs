@@ -40,6 +40,7 @@
 //! ```
 
 pub mod error;
+pub mod lanes;
 pub mod linkage;
 mod mechanism;
 pub mod motion;

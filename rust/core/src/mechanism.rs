@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use crate::error::{Named, SolveError, StructureError};
 use crate::linkage::{Description, Dimensions, Linkage, nearest};
 use crate::motion::{Motion, Request};
-use crate::plan::{Dyad, Form, Plan, Step, Unknown};
+use crate::plan::bind::{Bound, Slots};
+use crate::plan::{Dyad, Form, Plan, Step};
 use crate::plane::Vector;
 use crate::structure::{Closure, Structure};
 use crate::tolerance::FLAT_SINE;
@@ -20,6 +21,8 @@ pub struct Mechanism {
     drawing: Vec<f64>,
     q0: Vec<f64>,
     signs: Vec<i8>,
+    /// Where the dimensions of edges and slides stand.
+    pub(crate) slots: Slots,
     /// Angle of every class in the drawing.
     pub(crate) class_angle: Vec<f64>,
     /// Whole turns between a link's drawing angle and that of its class plus offsets.
@@ -43,7 +46,8 @@ impl Mechanism {
         let q0: Vec<f64> = linkage.drivers.iter().map(|&d| linkage.drawing_coordinate(d)).collect();
         let signs = drawing_signs(&linkage, &plan)?;
         let class_angle = class_angles(&linkage, &plan);
-        let bound = crate::plan::bind::Bound::new(&plan, &linkage, &dimensions, &drawing);
+        let slots = Slots::new(&plan, &linkage, &dimensions);
+        let bound = Bound::new(&plan, &slots, &drawing);
         let whole_turns = (0..linkage.links.len())
             .map(|l| {
                 let r = &plan.rotation[l];
@@ -60,6 +64,7 @@ impl Mechanism {
             drawing,
             q0,
             signs,
+            slots,
             class_angle,
             whole_turns,
         })
@@ -236,16 +241,13 @@ fn drawn_sine(linkage: &Linkage, plan: &Plan, dyad: &Dyad) -> f64 {
     };
     let mut terms = [Vector::ZERO; 2];
     let mut guide = Vector::ZERO;
-    for &(e, backward) in &dyad.path {
-        let edge = &plan.edges[e];
-        let signed = |v: Vector| if backward { -v } else { v };
-        let class = Unknown::Class(plan.class_of(e));
-        if let Some(place) = dyad.unknowns.iter().position(|&u| u == class) {
+    for part in &dyad.path {
+        let edge = &plan.edges[part.edge];
+        let signed = |v: Vector| if part.backward { -v } else { v };
+        if let Some(place) = part.turns {
             terms[place] += signed(at(edge.edge.to) - at(edge.edge.from));
         }
-        if let Some(slide) = edge.edge.slide()
-            && dyad.unknowns.contains(&Unknown::Slide(slide))
-        {
+        if let (Some(slide), Some(_)) = (edge.edge.slide(), part.slides) {
             guide = signed(Vector::at_angle(linkage.slides[slide].angle));
         }
     }

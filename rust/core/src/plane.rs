@@ -2,129 +2,149 @@
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
-/// A vector (or a unit vector standing for an orientation).
+use crate::lanes::{Real, trig};
+
+/// A vector (or a unit vector standing for an orientation); over [`crate::lanes::Lanes`]
+/// eight of them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Vector {
+pub struct Vector<R = f64> {
     /// Component along x.
-    pub x: f64,
+    pub x: R,
     /// Component along y.
-    pub y: f64,
+    pub y: R,
 }
 
-impl Vector {
+impl<R: Real> Vector<R> {
     /// The zero vector.
-    pub const ZERO: Self = Self { x: 0.0, y: 0.0 };
+    pub const ZERO: Self = Self { x: R::ZERO, y: R::ZERO };
     /// No turn.
-    pub const ONE: Self = Self { x: 1.0, y: 0.0 };
-    /// Neither component is a number.
-    pub const NAN: Self = Self { x: f64::NAN, y: f64::NAN };
+    pub const ONE: Self = Self { x: R::ONE, y: R::ZERO };
 
     /// From components.
-    #[inline]
+    #[inline(always)]
     #[must_use]
-    pub const fn new(x: f64, y: f64) -> Self {
+    pub const fn new(x: R, y: R) -> Self {
         Self { x, y }
     }
 
-    /// Unit vector at an angle.
-    #[inline]
+    /// The same vector on every lane.
+    #[inline(always)]
     #[must_use]
-    pub fn at_angle(angle: f64) -> Self {
-        let (y, x) = angle.sin_cos();
+    pub fn splat(one: Vector) -> Self {
+        Self { x: R::splat(one.x), y: R::splat(one.y) }
+    }
+
+    /// Unit vector at an angle.
+    #[inline(always)]
+    #[must_use]
+    pub fn at_angle(angle: R) -> Self {
+        let (y, x) = trig::sin_cos(angle);
         Self { x, y }
     }
 
     /// Turned by the same angle to the other side.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn conj(self) -> Self {
         Self { x: self.x, y: -self.y }
     }
 
     /// Turned by a right angle, counter-clockwise.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn left(self) -> Self {
         Self { x: -self.y, y: self.x }
     }
 
     /// Stretched.
-    #[inline]
+    #[inline(always)]
     #[must_use]
-    pub fn scale(self, factor: f64) -> Self {
+    pub fn scale(self, factor: R) -> Self {
         Self { x: self.x * factor, y: self.y * factor }
     }
 
     /// Scalar product.
-    #[inline]
+    #[inline(always)]
     #[must_use]
-    pub fn dot(self, other: Self) -> f64 {
+    pub fn dot(self, other: Self) -> R {
         self.x * other.x + self.y * other.y
     }
 
     /// Vector product: positive when `other` is to the left.
-    #[inline]
+    #[inline(always)]
     #[must_use]
-    pub fn cross(self, other: Self) -> f64 {
+    pub fn cross(self, other: Self) -> R {
         self.x * other.y - self.y * other.x
     }
 
     /// Square of the length.
-    #[inline]
+    #[inline(always)]
     #[must_use]
-    pub fn norm2(self) -> f64 {
+    pub fn norm2(self) -> R {
         self.dot(self)
     }
 
     /// Length (no guard against overflow: lengths are scaled to about 1).
-    #[inline]
+    #[inline(always)]
     #[must_use]
-    pub fn norm(self) -> f64 {
+    pub fn norm(self) -> R {
         self.norm2().sqrt()
     }
 
-    /// Angle in (−π, π].
-    #[inline]
+    /// The greater of the components' sizes: the length to a factor of √2, without a root.
+    #[inline(always)]
     #[must_use]
-    pub fn angle(self) -> f64 {
-        self.y.atan2(self.x)
+    pub fn size(self) -> R {
+        self.x.abs().max(self.y.abs())
+    }
+
+    /// Angle in [−π, π].
+    #[inline(always)]
+    #[must_use]
+    pub fn angle(self) -> R {
+        trig::atan2(self.y, self.x)
     }
 }
 
-impl Add for Vector {
+impl Vector {
+    /// Neither component is a number.
+    pub const NAN: Self = Self { x: f64::NAN, y: f64::NAN };
+}
+
+impl<R: Real> Add for Vector<R> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self { x: self.x + other.x, y: self.y + other.y }
     }
 }
 
-impl AddAssign for Vector {
-    #[inline]
+impl<R: Real> AddAssign for Vector<R> {
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl Sub for Vector {
+impl<R: Real> Sub for Vector<R> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self { x: self.x - other.x, y: self.y - other.y }
     }
 }
 
-impl Neg for Vector {
+impl<R: Real> Neg for Vector<R> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self { x: -self.x, y: -self.y }
     }
 }
 
-impl Mul for Vector {
+impl<R: Real> Mul for Vector<R> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self { x: self.x * other.x - self.y * other.y, y: self.x * other.y + self.y * other.x }
     }

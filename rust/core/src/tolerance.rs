@@ -60,21 +60,14 @@ pub const ANALOGUE_PER_CONDITION_SQUARED: f64 = 64.0 * UNIT_ROUNDOFF;
 /// Positions whose analogues keep fewer digits than this are near-singular.
 pub const DIGITS_LEFT: f64 = 1.0e-6;
 
-/// Condition from which a position is near-singular:
-/// 64 u κ² reaches [`DIGITS_LEFT`], about 8.4e3.
-#[must_use]
-pub fn near_singular_condition() -> f64 {
-    (DIGITS_LEFT / ANALOGUE_PER_CONDITION_SQUARED).sqrt()
-}
+/// Condition from which a position is near-singular: 64 u κ² reaches [`DIGITS_LEFT`].
+pub const NEAR_SINGULAR_CONDITION: f64 = 8388.608;
 
 /// Condition of a dyad from which it cannot be told from a flat one: 1/κ is the
-/// square root of a difference of rounded lengths, so beyond 1/(4 √u) nothing of
+/// square root of a difference of rounded lengths, so beyond 1/(4 √u) = 2^24 nothing of
 /// it is left. (What the dyad hangs on may carry more, but seldom across the flat
 /// dyad: chains of parallelograms pass their change points without loss.)
-#[must_use]
-pub fn singular_condition() -> f64 {
-    0.25 / UNIT_ROUNDOFF.sqrt()
-}
+pub const SINGULAR_CONDITION: f64 = 16_777_216.0;
 
 /// Step, as a part of a cell of the path, of the six points from which a change
 /// point is judged: far enough for the spread to be well conditioned, near enough

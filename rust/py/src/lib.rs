@@ -2,8 +2,10 @@
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
 mod error;
+mod gate;
 mod mechanism;
 mod metrics;
+mod trig;
 
 use pyo3::prelude::*;
 
@@ -15,6 +17,8 @@ mod _core {
     #[pymodule_export]
     use super::metrics::{acute, curvature, instant_centre};
     use super::pyfunction;
+    #[pymodule_export]
+    use super::trig::{asin, atan2, sin_cos};
 
     /// The version of the compiled core.
     #[pyfunction]

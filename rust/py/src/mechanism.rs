@@ -1,15 +1,25 @@
 //! The mechanism as Python sees it: names in, arrays out.
 
+use std::mem::MaybeUninit;
+use std::num::NonZeroUsize;
+use std::sync::Mutex;
+
+use assur::motion::{Arrays, Control, Quantity, fill};
 use assur::{
-    Coordinates, Description, DriverDescription, Motion, Outputs, Request, SlideDescription,
-    Status, Track,
+    Coordinates, Description, DriverDescription, Outputs, Request, SlideDescription, Status,
 };
-use numpy::{PyArray1, PyReadonlyArray1};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::error;
+use crate::{error, gate};
 
+/// Positions (times the fourth power of the drivers) below which a call ends sooner
+/// than a person can interrupt it: some milliseconds.
+const SMALL: usize = 100_000;
+
+/// Arrays by kind ("joint", "link", "place", "slide"), index and order; statuses.
+type Solved<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>);
 /// Residuals and conditions.
 type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 type SlideArguments = (String, String, String, f64, Option<String>);
@@ -153,7 +163,8 @@ impl Mechanism {
         self.inner.dimensions().first_fault(&values).map_or(Ok(()), |e| Err(error::solve(e)))
     }
 
-    /// Solves designs at positions; see `assur.Mechanism.solve`.
+    /// Solves designs at positions; see `assur.Mechanism.solve`. Outputs: indices of
+    /// joints, links, links whose places are wanted, slides.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     fn solve<'py>(
         &self,
@@ -163,28 +174,48 @@ impl Mechanism {
         per_design: bool,
         signs: Vec<i8>,
         order: usize,
-        joints: Vec<usize>,
-        links: Vec<usize>,
-        slides: Vec<usize>,
-    ) -> PyResult<Bound<'py, PyDict>> {
+        outputs: [Vec<usize>; 4],
+        threads: Option<NonZeroUsize>,
+    ) -> PyResult<Solved<'py>> {
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
-        let motion = py
-            .detach(|| {
-                let outputs = Outputs { joints, links, slides };
-                self.inner.solve(&Request {
-                    dimensions: &dimensions,
-                    coordinates: if per_design {
-                        Coordinates::PerDesign(&q)
-                    } else {
-                        Coordinates::Shared(&q)
-                    },
-                    signs: &signs,
-                    order,
-                    outputs: &outputs,
-                })
-            })
-            .map_err(error::solve)?;
-        arrays(py, motion)
+        let [joints, links, places, slides] = outputs;
+        let outputs = Outputs { joints, links, places, slides };
+        let coordinates =
+            if per_design { Coordinates::PerDesign(&q) } else { Coordinates::Shared(&q) };
+        let request = Request {
+            dimensions: &dimensions,
+            coordinates,
+            signs: &signs,
+            order,
+            outputs: &outputs,
+        };
+        let [designs, positions] = request.shape(&self.inner).map_err(error::solve)?;
+        let rows = designs * positions;
+        let columns = request.columns(&self.inner);
+        let mut values: Vec<_> = columns.iter().map(|c| unwritten(py, rows * c.width)).collect();
+        let mut status = unwritten(py, rows);
+        let arrays = Mutex::new(Some(Arrays {
+            columns: values.iter_mut().map(places_of).collect(),
+            status: places_of(&mut status),
+        }));
+        let small = rows * self.inner.q0().len().pow(4) < SMALL;
+        gate::run(py, small, |cancel| {
+            let control = Control { threads, cancel: Some(cancel), ..Control::default() };
+            let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
+            arrays.map_or(Ok(()), |arrays| fill(&self.inner, &request, arrays, &control))
+        })?
+        .map_err(error::solve)?;
+        let dict = PyDict::new(py);
+        for (column, values) in columns.iter().zip(values) {
+            let (kind, index) = match column.quantity {
+                Quantity::Joint(index) => ("joint", index),
+                Quantity::Angle(index) => ("link", index),
+                Quantity::Place(index) => ("place", index),
+                Quantity::Slide(index) => ("slide", index),
+            };
+            dict.set_item((kind, index, column.order), values)?;
+        }
+        Ok((dict, status))
     }
 
     /// Residual and condition of every position.
@@ -255,21 +286,22 @@ impl Mechanism {
     }
 }
 
-fn arrays(py: Python<'_>, motion: Motion) -> PyResult<Bound<'_, PyDict>> {
-    let tracks = |tracks: Vec<Track>| -> PyResult<Bound<'_, PyDict>> {
-        let dict = PyDict::new(py);
-        for track in tracks {
-            let arrays: Vec<_> =
-                track.derivatives.into_iter().map(|v| PyArray1::from_vec(py, v)).collect();
-            dict.set_item(track.index, arrays)?;
-        }
-        Ok(dict)
-    };
-    let out = PyDict::new(py);
-    out.set_item("joints", tracks(motion.joints)?)?;
-    out.set_item("links", tracks(motion.links)?)?;
-    out.set_item("places", tracks(motion.places)?)?;
-    out.set_item("slides", tracks(motion.slides)?)?;
-    out.set_item("status", PyArray1::from_vec(py, motion.status))?;
-    Ok(out)
+/// A NumPy array whose numbers are yet to be written.
+fn unwritten<T: numpy::Element>(py: Python<'_>, len: usize) -> Bound<'_, PyArray1<T>> {
+    #[allow(unsafe_code, reason = "large results are not written twice")]
+    // SAFETY: `fill` writes every number before anything reads one.
+    unsafe {
+        PyArray1::new(py, len, false)
+    }
+}
+
+/// The places of an array that nobody else has seen yet.
+fn places_of<'a, T: numpy::Element + Copy>(
+    array: &'a mut Bound<'_, PyArray1<T>>,
+) -> &'a mut [MaybeUninit<T>] {
+    #[allow(unsafe_code, reason = "NumPy knows no places that are not written")]
+    // SAFETY: a new contiguous array of this length, of which no other view exists.
+    unsafe {
+        std::slice::from_raw_parts_mut(array.data().cast(), array.len())
+    }
 }

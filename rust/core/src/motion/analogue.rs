@@ -7,51 +7,109 @@
 //! dyads, all orders, any number of drivers.
 
 use super::state::{Context, State};
-use crate::plan::{Along, Dyad, Unknown};
+use crate::lanes::Real;
+use crate::plan::{Along, Dyad, Part, Unknown};
 use crate::plane::Vector;
 
-impl State {
-    /// Value and all analogues of an orientation from its class's.
-    pub(crate) fn orient_class(&mut self, cx: &Context<'_>, o: usize) {
-        self.orient[o * self.len] = self.class[cx.plan.orientations[o].class] * self.phase[o];
+impl<R: Real> State<R> {
+    /// Value and analogues of an orientation that the drivers alone give:
+    /// `∂U = i U` times its turns.
+    #[inline(always)]
+    pub(crate) fn orient_driven(&mut self, cx: &Context<'_, R>, o: usize) {
+        let orientation = &cx.plan.orientations[o];
+        self.orient[o * self.len] = self.phase[o];
         for k in 1..self.len {
-            let partial = self.orientation_without_top(cx, o, k);
-            let top = self.theta_of(cx, o, k);
-            self.orient[o * self.len + k] = partial + self.orient[o * self.len].left().scale(top);
+            let (driver, lower) = cx.jets.lowered[k];
+            let turns = R::splat(f64::from(orientation.turns[driver]));
+            self.orient[o * self.len + k] = self.orient[o * self.len + lower].left().scale(turns);
         }
     }
 
-    /// Analogue `k` of an orientation's angle.
-    pub(crate) fn theta_of(&self, cx: &Context<'_>, o: usize, k: usize) -> f64 {
-        let orientation = &cx.plan.orientations[o];
-        let driven = cx.jets.driver_of(k).map_or(0.0, |d| f64::from(orientation.turns[d]));
-        self.theta[orientation.class * self.len + k] + driven
+    /// What the drivers add to analogue `k` of an orientation's angle.
+    #[inline(always)]
+    fn driven(cx: &Context<'_, R>, o: usize, k: usize) -> R {
+        let turns = &cx.plan.orientations[o].turns;
+        R::splat(if let Some(driver) = cx.jets.driver_of[k] {
+            f64::from(turns[driver])
+        } else {
+            0.0
+        })
     }
 
-    /// Analogue `k` of an orientation but for the term in its angle's own `k`.
-    pub(crate) fn orientation_without_top(&self, cx: &Context<'_>, o: usize, k: usize) -> Vector {
+    /// Analogue `k` of an orientation's angle.
+    #[inline(always)]
+    pub(crate) fn theta_of(&self, cx: &Context<'_, R>, o: usize, k: usize) -> R {
+        let orientation = &cx.plan.orientations[o];
+        let own = self.theta[orientation.class * self.len + k];
+        if orientation.driven { own + Self::driven(cx, o, k) } else { own }
+    }
+
+    /// Analogue `k` of an orientation but for the term in its class's own `k`.
+    #[inline(always)]
+    pub(crate) fn orientation_without_top(
+        &self,
+        cx: &Context<'_, R>,
+        o: usize,
+        k: usize,
+    ) -> Vector<R> {
         let mut sum = Vector::ZERO;
         for term in &cx.jets.rotation[k] {
-            let rate = self.theta_of(cx, o, term.right);
-            sum += self.orient[o * self.len + term.left].scale(term.factor * rate);
+            let rate = R::splat(term.factor) * self.theta_of(cx, o, term.right);
+            sum += self.orient[o * self.len + term.left].scale(rate);
+        }
+        if cx.plan.orientations[o].driven {
+            sum += self.orient[o * self.len].scale(Self::driven(cx, o, k));
         }
         sum.left()
     }
 
     /// Entry `k` of an edge's vector.
-    pub(crate) fn edge(&self, cx: &Context<'_>, e: usize, k: usize) -> Vector {
+    #[inline(always)]
+    pub(crate) fn edge(&self, cx: &Context<'_, R>, e: usize, k: usize) -> Vector<R> {
         let edge = &cx.plan.edges[e];
-        let unit = edge.orientation * self.len;
-        let mut v = self.orient[unit + k] * cx.bound.rigid[e];
-        if let Along::Slide(slide) | Along::Driver { slide, .. } = edge.along {
-            let mut along = Vector::ZERO;
-            for term in &cx.jets.product[k] {
-                let s = self.slides[slide * self.len + term.right];
-                along += self.orient[unit + term.left].scale(term.factor * s);
+        let rigid = self.orient[edge.orientation * self.len + k] * Vector::splat(cx.bound.rigid[e]);
+        match edge.along {
+            Along::Nothing => rigid,
+            Along::Slide(slide) | Along::Driver { slide, .. } => {
+                rigid + self.along(cx, e, slide, k)
             }
-            v += along * cx.bound.guide[e];
         }
-        v
+    }
+
+    /// Entry `k` of the part along its slide.
+    #[inline(always)]
+    fn along(&self, cx: &Context<'_, R>, e: usize, slide: usize, k: usize) -> Vector<R> {
+        let unit = cx.plan.edges[e].orientation * self.len;
+        let mut along = Vector::ZERO;
+        for term in &cx.jets.product[k] {
+            let s = R::splat(term.factor) * self.slides[slide * self.len + term.right];
+            along += self.orient[unit + term.left].scale(s);
+        }
+        along * Vector::splat(cx.bound.guide[e])
+    }
+
+    /// Entry `k` of what a part adds beside the legs.
+    #[inline(always)]
+    pub(crate) fn part(&self, cx: &Context<'_, R>, part: &Part, k: usize) -> Vector<R> {
+        let v = match cx.plan.edges[part.edge].along {
+            Along::Slide(slide) if part.in_leg => self.along(cx, part.edge, slide, k),
+            _ => self.edge(cx, part.edge, k),
+        };
+        if part.backward { -v } else { v }
+    }
+
+    /// Entry `k` of a leg; zero if there is none of its own.
+    #[inline(always)]
+    pub(crate) fn leg(
+        &self,
+        cx: &Context<'_, R>,
+        dyad: &Dyad,
+        place: usize,
+        k: usize,
+    ) -> Vector<R> {
+        let Some(o) = dyad.leg[place] else { return Vector::ZERO };
+        let vector = cx.bound.legs[dyad.index][place].vector;
+        self.orient[o * self.len + k] * Vector::splat(vector)
     }
 
     pub(crate) fn no_analogues(&mut self, dyad: &Dyad) {
@@ -61,38 +119,44 @@ impl State {
                 Unknown::Class(c) => &mut self.theta[c * len..(c + 1) * len],
                 Unknown::Slide(s) => &mut self.slides[s * len..(s + 1) * len],
             };
-            jet[1..].fill(f64::NAN);
+            jet[1..].fill(R::splat(f64::NAN));
         }
         for &o in dyad.turned.iter().flatten() {
-            self.orient[o * len + 1..(o + 1) * len].fill(Vector::NAN);
+            self.orient[o * len + 1..(o + 1) * len].fill(Vector::splat(Vector::NAN));
         }
     }
 
     /// Analogues of a dyad's unknowns from its closure equation: at every order
     /// the same two columns, and as right-hand side what is known of that order.
-    pub(crate) fn analogues(&mut self, cx: &Context<'_>, dyad: &Dyad) {
+    #[inline(always)]
+    pub(crate) fn analogues(&mut self, cx: &Context<'_, R>, dyad: &Dyad) {
         let len = self.len;
-        let columns = self.columns(cx, dyad);
-        let determinant = columns[0].cross(columns[1]);
+        if len == 1 {
+            return;
+        }
+        let columns = [self.column(cx, dyad, 0), self.column(cx, dyad, 1)];
+        let per = R::ONE / columns[0].cross(columns[1]);
         for k in 1..len {
-            for &o in dyad.turned.iter().flatten() {
-                // The angle's own analogue is still 0 here.
-                let partial = self.orientation_without_top(cx, o, k);
-                let driven = self.theta_of(cx, o, k);
-                self.orient[o * len + k] = partial + self.orient[o * len].left().scale(driven);
+            for turned in &dyad.turned {
+                for &o in turned {
+                    self.orient[o * len + k] = self.orientation_without_top(cx, o, k);
+                }
+            }
+            // What is yet unknown counts as 0.
+            for unknown in dyad.unknowns {
+                if let Unknown::Slide(s) = unknown {
+                    self.slides[s * len + k] = R::ZERO;
+                }
             }
             let known = self.closure(cx, dyad, k);
-            let values =
-                [columns[1].cross(known) / determinant, known.cross(columns[0]) / determinant];
-            for ((unknown, value), turned) in
-                dyad.unknowns.into_iter().zip(values).zip(&dyad.turned)
-            {
-                match unknown {
-                    Unknown::Slide(s) => self.slides[s * len + k] = value,
-                    Unknown::Class(c) => self.theta[c * len + k] = value,
+            let values = [columns[1].cross(known) * per, known.cross(columns[0]) * per];
+            for place in 0..2 {
+                match dyad.unknowns[place] {
+                    Unknown::Slide(s) => self.slides[s * len + k] = values[place],
+                    Unknown::Class(c) => self.theta[c * len + k] = values[place],
                 }
-                for &o in turned {
-                    let top = self.orient[o * len].left().scale(value);
+                for &o in &dyad.turned[place] {
+                    let top = self.orient[o * len].left().scale(values[place]);
                     self.orient[o * len + k] += top;
                 }
             }
@@ -100,39 +164,66 @@ impl State {
     }
 
     /// Entry `k` of `P_start + Σ ±edges − P_end`.
-    pub(crate) fn closure(&self, cx: &Context<'_>, dyad: &Dyad, k: usize) -> Vector {
+    #[inline(always)]
+    pub(crate) fn closure(&self, cx: &Context<'_, R>, dyad: &Dyad, k: usize) -> Vector<R> {
         let mut sum = self.points[dyad.start * self.len + k] - self.points[dyad.end * self.len + k];
-        for &(e, backward) in &dyad.path {
-            let v = self.edge(cx, e, k);
-            sum = if backward { sum - v } else { sum + v };
+        for place in 0..2 {
+            sum += self.leg(cx, dyad, place, k);
+        }
+        for part in &dyad.others {
+            sum += self.part(cx, part, k);
         }
         sum
     }
 
-    /// Derivatives of the closure with respect to the unknowns.
-    fn columns(&self, cx: &Context<'_>, dyad: &Dyad) -> [Vector; 2] {
-        dyad.unknowns.map(|unknown| self.column(cx, dyad, unknown))
-    }
-
     /// Determinant of the closure's matrix.
-    pub(crate) fn determinant(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
-        let [first, second] = self.columns(cx, dyad);
-        first.cross(second)
+    pub(crate) fn determinant(&self, cx: &Context<'_, R>, dyad: &Dyad) -> R {
+        self.column(cx, dyad, 0).cross(self.column(cx, dyad, 1))
     }
 
     /// Derivative of the closure with respect to one unknown.
-    fn column(&self, cx: &Context<'_>, dyad: &Dyad, unknown: Unknown) -> Vector {
+    #[inline(always)]
+    fn column(&self, cx: &Context<'_, R>, dyad: &Dyad, place: usize) -> Vector<R> {
+        match dyad.unknowns[place] {
+            Unknown::Class(_) => self.turning(cx, dyad, place, 0).left(),
+            Unknown::Slide(_) => self.sliding(cx, dyad, place, 0),
+        }
+    }
+
+    /// Entry `k` of the sum of what turns with an unknown.
+    #[inline(always)]
+    pub(crate) fn turning(
+        &self,
+        cx: &Context<'_, R>,
+        dyad: &Dyad,
+        place: usize,
+        k: usize,
+    ) -> Vector<R> {
+        let mut sum = self.leg(cx, dyad, place, k);
+        for part in &dyad.others {
+            if part.turns == Some(place) {
+                sum += self.part(cx, part, k);
+            }
+        }
+        sum
+    }
+
+    /// Entry `k` of the direction of the slide that is an unknown.
+    #[inline(always)]
+    pub(crate) fn sliding(
+        &self,
+        cx: &Context<'_, R>,
+        dyad: &Dyad,
+        place: usize,
+        k: usize,
+    ) -> Vector<R> {
         let mut sum = Vector::ZERO;
-        for &(e, backward) in &dyad.path {
-            let edge = &cx.plan.edges[e];
-            let v = match unknown {
-                Unknown::Class(c) if cx.plan.class_of(e) == c => self.edge(cx, e, 0).left(),
-                Unknown::Slide(s) if edge.along == Along::Slide(s) => {
-                    self.orient[edge.orientation * self.len] * cx.bound.guide[e]
-                }
-                _ => continue,
-            };
-            sum = if backward { sum - v } else { sum + v };
+        for part in &dyad.others {
+            if part.slides == Some(place) {
+                let unit = self.orient[cx.plan.edges[part.edge].orientation * self.len + k];
+                let v = unit * Vector::splat(cx.bound.guide[part.edge]);
+                sum = if part.backward { -v } else { v };
+            }
         }
         sum
     }

@@ -8,7 +8,8 @@
 //! a near miss (positive) and from a gap between two dead points (negative).
 
 use super::state::{Context, State};
-use super::track::{Knot, Track, Walker};
+use super::track::Track;
+use super::walk::{Knot, Walker};
 use crate::plan::Dyad;
 use crate::tolerance::{CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP};
 
@@ -35,9 +36,7 @@ pub(crate) fn pass(walker: &mut Walker<'_, '_>, a: &Knot, b: &Knot) -> bool {
             continue;
         }
         let ((from, fall), (to, rise)) = (a.spread[place], b.spread[place]);
-        // |N| falls at the one end and rises at the other.
-        let dips = from * fall * walker.way < 0.0 && to * rise * walker.way > 0.0;
-        if !dips || from * to <= 0.0 {
+        if !may_touch((from, fall), (to, rise), walker.way * (b.at - a.at).abs()) {
             continue;
         }
         if let Some(at) = locate(walker, dyad, a.at, b.at) {
@@ -46,6 +45,24 @@ pub(crate) fn pass(walker: &mut Walker<'_, '_>, a: &Knot, b: &Knot) -> bool {
         }
     }
     false
+}
+
+/// How many times the fall over a whole cell the spread at its ends may be, and the
+/// cell still be searched: at a change point within the cell it is at most once, as
+/// long as the spread is about straight.
+const FALLS: f64 = 4.0;
+
+/// Whether a spread may touch 0 between two knots, given it and its rate there (`cell`:
+/// the step, with the sign of the way).
+#[inline(always)]
+pub(crate) fn may_touch((from, fall): (f64, f64), (to, rise): (f64, f64), cell: f64) -> bool {
+    // |N| falls at the one end and rises at the other, and fast enough.
+    let (fall, rise) = (from.signum() * fall * cell, to.signum() * rise * cell);
+    fall < 0.0
+        && rise > 0.0
+        && from * to > 0.0
+        && from.abs() < -FALLS * fall
+        && to.abs() < FALLS * rise
 }
 
 /// The change point between `a` and `b`, if there is one.
@@ -108,7 +125,7 @@ impl Sides {
                 n[place] += 0.5 * value;
                 odd[place] += 0.5 * side * value / (reach * step);
                 square[place] += 0.5 * value * value;
-                before = before.max(walker.state.before[sign]);
+                before = before.max(walker.state.before[sign].sqrt());
             }
         }
         // Even polynomials through ±1, ±2, ±3 steps, at 0: weights 15, −6, 1 of 10.
@@ -127,14 +144,14 @@ impl Sides {
 const NODES: u32 = 16;
 
 /// Position and analogues of the smooth motion at (or beside) a change point: the
-/// polynomial through states around it. False if there is no room around it.
+/// polynomial through states around it. None if there is no room around it.
 pub(crate) fn bridge(
     cx: &Context<'_>,
-    state: &mut State,
+    state: &State,
     track: &Track,
     q: f64,
     change: f64,
-) -> bool {
+) -> Option<State> {
     let mut reach = 0.1;
     while reach > 1e-3 {
         let mut states = Vec::new();
@@ -156,10 +173,11 @@ pub(crate) fn bridge(
             let raw: Vec<f64> = nodes.iter().map(|(at, w)| w / (q - at)).collect();
             let total: f64 = raw.iter().sum();
             let weights: Vec<f64> = raw.iter().map(|w| w / total).collect();
-            state.blend(&states, &weights);
-            return true;
+            let mut smooth = state.clone();
+            smooth.blend(&states, &weights);
+            return Some(smooth);
         }
         reach *= 0.5;
     }
-    false
+    None
 }

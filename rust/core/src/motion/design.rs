@@ -1,9 +1,10 @@
 //! One design ready to be solved: its numbers, its unit of length, its way from
 //! the drawing.
 
-use std::rc::Rc;
+use std::borrow::Cow;
 
 use super::change::bridge;
+use super::quick::Quick;
 use super::state::{Context, State, Status};
 use super::track::Track;
 use crate::mechanism::Mechanism;
@@ -12,6 +13,7 @@ use crate::plan::jet::Jets;
 use crate::tolerance::CHANGE_REACH;
 
 /// Powers of two between the design's own unit of length and the metre.
+#[derive(Debug, Default)]
 pub(crate) struct Units {
     /// Factor of every coordinate, into the design's unit.
     pub coordinate: Vec<f64>,
@@ -22,37 +24,31 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    fn new(mechanism: &Mechanism, cx: &Context<'_>) -> Self {
-        let per = 1.0 / cx.bound.scale;
-        let coordinate: Vec<f64> = (0..mechanism.q0().len())
-            .map(|d| if cx.plan.driven_slide(d).is_some() { per } else { 1.0 })
-            .collect();
-        let angle: Vec<f64> = cx
-            .jets
-            .powers
-            .iter()
-            .map(|power| {
-                let factors = power.iter().zip(&coordinate);
-                factors.map(|(&p, &c)| c.powi(i32::try_from(p).unwrap_or(0))).product()
-            })
-            .collect();
-        let length = angle.iter().map(|f| f * cx.bound.scale).collect();
-        Self { coordinate, length, angle }
+    fn set(&mut self, mechanism: &Mechanism, scale: f64, jets: &Jets) {
+        let per = 1.0 / scale;
+        let slides = |d: usize| mechanism.plan().driven_slide(d).is_some();
+        self.coordinate.clear();
+        self.coordinate
+            .extend((0..mechanism.q0().len()).map(|d| if slides(d) { per } else { 1.0 }));
+        self.angle.clear();
+        self.length.clear();
+        for power in &jets.powers {
+            let mut factor = 1.0;
+            for (&power, &unit) in power.iter().zip(&self.coordinate) {
+                for _ in 0..power {
+                    factor *= unit;
+                }
+            }
+            self.angle.push(factor);
+            self.length.push(factor * scale);
+        }
     }
 }
 
-/// The ways from the drawing to the positions.
-enum Ways {
-    /// One path serves all positions.
-    One(Rc<Track>),
-    /// Every position has its own path from the drawing.
-    Own(Vec<f64>),
-}
-
-/// A place on a way.
-pub(crate) struct Place {
+/// A place on a way from the drawing.
+pub(crate) struct Place<'a> {
     /// The way.
-    pub track: Rc<Track>,
+    pub track: Cow<'a, Track>,
     /// Its parameter there.
     pub at: f64,
 }
@@ -61,57 +57,49 @@ pub(crate) struct Place {
 /// several drivers are followed: 1000 turns; a position costs time in proportion.
 const FARTHEST: f64 = 1000.0 * std::f64::consts::TAU;
 
-/// One design with the assembly asked for.
+/// One design after another, with the assembly asked for.
 pub(crate) struct Design<'a> {
     pub mechanism: &'a Mechanism,
     pub bound: Bound,
     pub unit: Units,
-    jets: &'a Jets,
-    signs: &'a [f64],
-    ways: Ways,
+    /// Tables of the order asked for.
+    pub jets: &'a Jets,
+    /// Tables of the first order, for the way.
+    first: Jets,
+    signs: Vec<f64>,
+    /// Scaled coordinates of the drawing.
+    q0: Vec<f64>,
+    /// The way from the drawing, if one serves all positions.
+    pub track: Track,
 }
 
 impl<'a> Design<'a> {
-    /// Binds the dimensions and finds the way along the coordinates `q` (all
-    /// positions, rad or m).
-    pub(crate) fn new(
-        mechanism: &'a Mechanism,
-        values: &[f64],
-        signs: &'a [f64],
-        jets: &'a Jets,
-        q: &[f64],
-    ) -> Self {
-        let mut design = Self { signs, ..Self::bare(mechanism, values, jets) };
-        let q0 = design.scaled(mechanism.q0());
-        design.ways = match q0[..] {
-            [start] => Ways::One(Rc::new(design.only_way(start, &design.scaled(q)))),
-            _ => Ways::Own(q0),
-        };
-        design
+    /// A design still without numbers.
+    pub(crate) fn new(mechanism: &'a Mechanism, signs: &[i8], jets: &'a Jets) -> Self {
+        Self {
+            mechanism,
+            bound: Bound::default(),
+            unit: Units::default(),
+            jets,
+            first: Jets::new(mechanism.q0().len(), 1),
+            signs: signs.iter().map(|&s| f64::from(s)).collect(),
+            q0: Vec::new(),
+            track: Track::default(),
+        }
     }
 
-    /// A design without its way from the drawing.
-    pub(crate) fn bare(mechanism: &'a Mechanism, values: &[f64], jets: &'a Jets) -> Self {
-        let plan = mechanism.plan();
-        let bound = Bound::new(plan, mechanism.linkage(), mechanism.dimensions(), values);
-        let unit = Units::new(mechanism, &Context { plan, bound: &bound, jets, signs: &[] });
-        Self { mechanism, bound, unit, jets, signs: &[], ways: Ways::Own(Vec::new()) }
-    }
-
-    /// The signs at the drawing from which the straight way leads to these at `q`
-    /// (scaled); walked backward.
-    pub(crate) fn at_drawing(&self, signs: &[f64], q: &[f64]) -> Vec<i8> {
-        let jets = Jets::new(q.len(), 1);
-        let cx = Context { signs, ..self.context(&jets) };
-        let q0 = self.scaled(self.mechanism.q0());
-        let angles = &self.mechanism.class_angle;
-        let track = Track::straight(&cx, &mut self.state(&jets), q, &q0, angles);
-        track.signs(1.0).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
+    /// Takes the dimensions of a design; its way is yet to be laid.
+    pub(crate) fn bind(&mut self, values: &[f64]) {
+        let mechanism = self.mechanism;
+        self.bound.bind(mechanism.plan(), &mechanism.slots, values);
+        self.unit.set(mechanism, self.bound.scale, self.jets);
+        self.q0.clear();
+        self.q0.extend(mechanism.q0().iter().zip(&self.unit.coordinate).map(|(q, unit)| q * unit));
     }
 
     /// What a position is solved with; the signs are those at the drawing.
     pub(crate) fn context<'b>(&'b self, jets: &'b Jets) -> Context<'b> {
-        Context { plan: self.mechanism.plan(), bound: &self.bound, jets, signs: self.signs }
+        Context { plan: self.mechanism.plan(), bound: &self.bound, jets, signs: &self.signs }
     }
 
     /// Coordinates in the design's own unit of length.
@@ -120,61 +108,102 @@ impl<'a> Design<'a> {
         q.iter().zip(units).map(|(q, unit)| q * unit).collect()
     }
 
+    /// Work space of some order.
     pub(crate) fn state(&self, jets: &Jets) -> State {
-        State::new(self.mechanism.plan(), jets, self.mechanism.linkage().slides.len())
+        let mut state = State::new(self.mechanism.plan(), jets);
+        state.prepare(&self.bound);
+        state
     }
 
-    fn only_way(&self, start: f64, scaled: &[f64]) -> Track {
-        let jets = Jets::new(1, 1);
-        let cx = self.context(&jets);
-        let mut state = self.state(&jets);
-        let angles = &self.mechanism.class_angle;
-        if cx.plan.driven_slide(0).is_none() {
-            return Track::turning(&cx, &mut state, start, angles);
+    /// Work space for [`Design::lay_turn`].
+    pub(crate) fn quick(&self) -> Quick {
+        Quick::new(self.mechanism.plan(), &self.first)
+    }
+
+    /// Whether one way serves all positions, and whether it is that of an angle.
+    fn is_turning(&self) -> bool {
+        self.q0.len() == 1 && self.mechanism.plan().driven_slide(0).is_none()
+    }
+
+    /// The quick way, where there is one.
+    #[inline(always)]
+    pub(crate) fn lay_quick(&mut self, quick: &mut Quick) -> bool {
+        if !self.is_turning() {
+            return false;
         }
-        let finite = || scaled.iter().copied().filter(|q| q.is_finite());
-        let range = [finite().fold(start, f64::min), finite().fold(start, f64::max)];
-        // Beyond the sum of all lengths no slide reaches.
-        let paired = cx.plan.edges.iter().zip(&cx.bound.rigid).filter(|(e, _)| e.paired);
-        let lengths = paired.map(|(_, w)| w).chain(&cx.bound.fixed).map(|w| w.norm());
-        let reach = 2.0 * lengths.sum::<f64>() + 1.0;
-        Track::sliding(&cx, &mut state, start, range, reach, angles)
+        let mut track = std::mem::take(&mut self.track);
+        let start = &self.mechanism.class_angle;
+        let done = quick.turn(&self.context(&self.first), self.q0[0], start, &mut track);
+        self.track = track;
+        done
+    }
+
+    /// Walks the way along the coordinates `q` (all positions, rad or m).
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn lay_way(&mut self, q: &[f64]) {
+        let [start] = self.q0[..] else { return };
+        let mut state = self.state(&self.first);
+        let cx = self.context(&self.first);
+        let angles = &self.mechanism.class_angle;
+        self.track = if self.is_turning() {
+            Track::turning(&cx, &mut state, start, angles)
+        } else {
+            let scaled = || q.iter().map(|q| q * self.unit.coordinate[0]).filter(|q| q.is_finite());
+            let range = [scaled().fold(start, f64::min), scaled().fold(start, f64::max)];
+            // Beyond the sum of all lengths no slide reaches.
+            let paired = cx.plan.edges.iter().zip(&cx.bound.rigid).filter(|(e, _)| e.paired);
+            let lengths = paired.map(|(_, w)| w).chain(&cx.bound.fixed).map(|w| w.norm());
+            let reach = 2.0 * lengths.sum::<f64>() + 1.0;
+            Track::sliding(&cx, &mut state, start, range, reach, angles)
+        };
+    }
+
+    /// The signs at the drawing from which the straight way leads to these at `q`
+    /// (scaled); walked backward.
+    pub(crate) fn at_drawing(&self, signs: &[f64], q: &[f64]) -> Vec<i8> {
+        let cx = Context { signs, ..self.context(&self.first) };
+        let angles = &self.mechanism.class_angle;
+        let mut state = self.state(&self.first);
+        let track = Track::straight(&cx, &mut state, q, &self.q0, angles);
+        track.signs(1.0).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
     }
 
     /// The way to one position (scaled coordinates); none if it is no number or too
     /// far to be followed.
-    pub(crate) fn way(&self, q: &[f64]) -> Option<Place> {
+    pub(crate) fn way(&self, q: &[f64]) -> Option<Place<'_>> {
         if q.iter().any(|x| !x.is_finite()) {
             return None;
         }
-        match &self.ways {
-            Ways::One(track) => Some(Place { track: Rc::clone(track), at: q[0] }),
-            Ways::Own(q0) => {
-                let far = q.iter().zip(q0).any(|(a, b)| (a - b).abs() > FARTHEST);
-                (!far).then(|| {
-                    let jets = Jets::new(q0.len(), 1);
-                    let angles = &self.mechanism.class_angle;
-                    let cx = self.context(&jets);
-                    let track = Track::straight(&cx, &mut self.state(&jets), q0, q, angles);
-                    Place { track: Rc::new(track), at: 1.0 }
-                })
-            }
+        if let [at] = *q {
+            return Some(Place { track: Cow::Borrowed(&self.track), at });
         }
+        let far = q.iter().zip(&self.q0).any(|(a, b)| (a - b).abs() > FARTHEST);
+        (!far).then(|| {
+            let cx = self.context(&self.first);
+            let angles = &self.mechanism.class_angle;
+            let mut state = self.state(&self.first);
+            let track = Track::straight(&cx, &mut state, &self.q0, q, angles);
+            Place { track: Cow::Owned(track), at: 1.0 }
+        })
     }
 
-    /// The way that tells the angles at a place: its own, but on an island that this
-    /// has not seen.
-    pub(crate) fn angles(&self, place: &Place) -> Rc<Track> {
-        if !place.track.hides(place.at) {
-            return Rc::clone(&place.track);
+    /// Angles of classes near those at a place, by which whole turns are told.
+    pub(crate) fn near(&self, place: &Place<'_>, classes: usize) -> Vec<f64> {
+        let spot = place.track.spot(place.at);
+        if place.track.hides(&spot, 0) {
+            // An island that the way has not seen.
+            let cx = self.context(&self.first);
+            let own = place.track.island(&cx, &mut self.state(&self.first), place.at);
+            let spot = own.spot(place.at);
+            return (0..classes).map(|class| own.near(&spot, class)).collect();
         }
-        let jets = Jets::new(1, 1);
-        Rc::new(place.track.island(&self.context(&jets), &mut self.state(&jets), place.at))
+        (0..classes).map(|class| place.track.near(&spot, class)).collect()
     }
 
     /// Solves one position with the signs of its place on the way; true if the
     /// analogues exist.
-    pub(crate) fn solve(&self, state: &mut State, q: &[f64], place: Option<&Place>) -> bool {
+    pub(crate) fn solve(&self, state: &mut State, q: &[f64], place: Option<&Place<'_>>) -> bool {
         let Some(Place { track, at }) = place else {
             state.refuse();
             return false;
@@ -184,6 +213,7 @@ impl<'a> Design<'a> {
             return false;
         }
         let cx = self.context(self.jets);
+        state.prepare(&self.bound);
         state.solve(&Context { signs: track.signs(*at), ..cx }, q);
         if !matches!(state.status, Status::Singular | Status::Unreachable) {
             return true;
@@ -191,8 +221,9 @@ impl<'a> Design<'a> {
         // A flat dyad at a change point: the smooth motion goes on through it.
         if let [one] = *q
             && let Some(change) = track.change_near(*at, CHANGE_REACH)
-            && bridge(&cx, state, track, one, change)
+            && let Some(smooth) = bridge(&cx, state, track, one, change)
         {
+            *state = smooth;
             state.status = Status::Singular;
             return true;
         }

@@ -2,111 +2,124 @@
 //! unknowns, by square roots and divisions only.
 
 use super::state::{Context, State};
+use crate::lanes::{Mask, Real};
+use crate::plan::bind::Leg;
 use crate::plan::{Along, Dyad, Form, Unknown};
 use crate::plane::Vector;
 use crate::tolerance::FLAT_CLOSURE;
 
 /// How a dyad came out.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Solved {
-    /// Size of the inverse of the scaled closure matrix: for a dyad of two
-    /// binary links 1/sin of the angle between its legs.
-    pub condition: f64,
-    /// The same for the directions of the columns alone, whatever their lengths.
-    pub angle: f64,
-    /// Flat: the two solutions coincide, to rounding.
-    pub flat: bool,
+pub(crate) struct Solved<R: Real> {
+    /// Where it does not close.
+    pub open: R::Mask,
+    /// By how much, of the size (found with one lane only).
+    pub gap: R,
+    /// Where it is flat: the two solutions coincide, to rounding.
+    pub flat: R::Mask,
+    /// Square of the sine of the angle between the columns of the closure matrix: between
+    /// the legs of two binary links.
+    pub sine2: R,
+    /// Square of the greatest lever of a leg, in lengths of the leg; at least 1. The size
+    /// of the inverse of the scaled closure matrix is lever by sine.
+    pub arm2: R,
 }
 
 /// The dyad's equation, sorted: `a u₁ + b u₂ = k` with slides put in for the
 /// terms that are missing.
-struct Sorted {
-    /// What turns with the first unknown.
-    first: Vector,
+struct Sorted<R> {
+    /// What turns with the first unknown, unless it is a leg.
+    first: Vector<R>,
     /// What turns with the second unknown, or the direction of its slide.
-    second: Vector,
+    second: Vector<R>,
     /// The known rest.
-    known: Vector,
+    known: Vector<R>,
 }
 
-impl State {
-    /// Solves for the value of the unknowns; the error is the gap, of the size.
-    pub(crate) fn close(&mut self, cx: &Context<'_>, dyad: &Dyad) -> Result<Solved, f64> {
-        let Sorted { first: a, second: b, known: k } = self.sorted(cx, dyad);
-        let sign = dyad.sign.map_or(1.0, |s| cx.signs[s]);
-        // A column of a rotation in units of the greatest arm that turns with it. The
-        // joints it hangs on carry the rounding of their coordinates: an arm below half
-        // of these feels it (half and more is within the margins of the bounds).
-        let data = 0.5 * self.grain[dyad.start].max(self.grain[dyad.end]);
-        let lever = |unknown: Unknown, at_least: f64| match unknown {
-            Unknown::Class(c) => cx.bound.lever[c].max(at_least).max(data),
-            Unknown::Slide(_) => 1.0,
+impl<R: Real> State<R> {
+    /// Solves for the value of the unknowns.
+    #[inline(always)]
+    pub(crate) fn close(&mut self, cx: &Context<'_, R>, dyad: &Dyad) -> Solved<R> {
+        let Sorted { first, second, known: k } = self.sorted(cx, dyad);
+        let sign = if let Some(s) = dyad.sign { cx.signs[s] } else { R::ONE };
+        // A column of a rotation is measured in units of the greatest arm that turns
+        // with it. The joints it hangs on carry the rounding of their coordinates: an
+        // arm below half of these feels it (half and more is within the margins of the
+        // bounds).
+        let data = R::splat(0.25) * self.grain[dyad.start].max(self.grain[dyad.end]);
+        let lever = |unknown: Unknown, per: R| match unknown {
+            Unknown::Class(c) => R::splat(cx.bound.lever2[c]).max(data) * per,
+            Unknown::Slide(_) => R::ONE,
         };
         let [u, v] = dyad.unknowns;
-        let (columns, flat) = match dyad.form {
+        let leg = |place: usize, vector: Vector<R>| {
+            let rigid = &cx.bound.legs[dyad.index][place];
+            if dyad.leg[place].is_some() { rigid.on_lanes() } else { Leg::of(vector) }
+        };
+        match dyad.form {
             Form::TwoCircles => {
-                let (first, second, flat) = two_circles(a, b, k, sign)?;
-                self.turn(dyad, 0, first);
-                self.turn(dyad, 1, second);
-                let (x, y) = ((first * a).left(), (second * b).left());
-                ([x.scale(1.0 / lever(u, a.norm())), y.scale(1.0 / lever(v, b.norm()))], flat)
+                let (a, b) = (leg(0, first), leg(1, second));
+                let (x, y, closed) = two_circles(&a, &b, k, sign);
+                self.turn(cx, dyad, 0, x);
+                self.turn(cx, dyad, 1, y);
+                closed.with(lever(u, a.per).max(lever(v, b.per)))
             }
             Form::CircleAndLine => {
-                let (first, s, flat) = circle_and_line(a, b, k, sign)?;
-                self.turn(dyad, 0, first);
+                let a = leg(0, first);
+                let (x, s, closed) = circle_and_line(&a, second, k, sign);
+                self.turn(cx, dyad, 0, x);
                 self.slide(v, s);
-                ([(first * a).left().scale(1.0 / lever(u, a.norm())), b], flat)
+                closed.with(lever(u, a.per))
             }
             Form::TurningGuide => {
-                let (first, s, flat) = turning_guide(a, b, k, sign)?;
-                self.turn(dyad, 0, first);
+                let rigid = Vector::splat(cx.bound.legs[dyad.index][0].vector);
+                let a = if dyad.leg[0].is_some() { rigid } else { first };
+                let (x, s, per, closed) = turning_guide(a, second, k, sign);
+                self.turn(cx, dyad, 0, x);
                 self.slide(v, s);
-                ([k.left().scale(1.0 / lever(u, k.norm())), first * b], flat)
+                closed.with(lever(u, per))
             }
             Form::TwoLines => {
-                let (s, t) = two_lines(a, b, k)?;
+                let (s, t, closed) = two_lines(first, second, k);
                 self.slide(u, s);
                 self.slide(v, t);
-                ([a, b], false)
+                closed
             }
-        };
-        let size = columns[0].norm().max(columns[1].norm());
-        let determinant = columns[0].cross(columns[1]).abs();
-        let known = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
-        let condition = known(size / determinant);
-        let angle = known(columns[0].norm() * columns[1].norm() / determinant);
-        Ok(Solved { condition, angle, flat })
+        }
     }
 
-    /// Sums of the path, by what they turn with.
-    fn sorted(&self, cx: &Context<'_>, dyad: &Dyad) -> Sorted {
+    /// Sums of the path, by what they turn with; legs are not in them.
+    #[inline(always)]
+    fn sorted(&self, cx: &Context<'_, R>, dyad: &Dyad) -> Sorted<R> {
         let len = self.len;
         let mut terms = [Vector::ZERO; 2];
         let mut known = self.points[dyad.end * len] - self.points[dyad.start * len];
-        for &(e, backward) in &dyad.path {
+        for part in &dyad.others {
+            let e = part.edge;
             let edge = &cx.plan.edges[e];
-            let signed = |v: Vector| if backward { -v } else { v };
-            let class = Unknown::Class(cx.plan.class_of(e));
-            let turning = dyad.unknowns.iter().position(|&u| u == class);
-            // The part of the orientation that is known.
-            let unit = match turning {
-                Some(_) => self.phase[edge.orientation],
-                None => self.orient[edge.orientation * len],
+            let driven = cx.plan.orientations[edge.orientation].driven;
+            let signed = |v: Vector<R>| if part.backward { -v } else { v };
+            // By the part of the orientation that is known.
+            let turned = |v: Vector<R>| match part.turns {
+                None => self.orient[edge.orientation * len] * v,
+                Some(_) if driven => self.phase[edge.orientation] * v,
+                Some(_) => v,
             };
-            let mut rigid = cx.bound.rigid[e];
-            match edge.along {
-                Along::Nothing => {}
-                Along::Driver { slide, .. } => {
-                    rigid += cx.bound.guide[e].scale(self.slides[slide * len]);
-                }
-                Along::Slide(s) => match dyad.unknowns.iter().position(|&u| u == Unknown::Slide(s))
-                {
-                    Some(place) => terms[place] += signed(unit * cx.bound.guide[e]),
-                    None => rigid += cx.bound.guide[e].scale(self.slides[s * len]),
-                },
+            let guide = Vector::splat(cx.bound.guide[e]);
+            if let Some(place) = part.slides {
+                terms[place] += signed(turned(guide));
             }
-            let v = signed(unit * rigid);
-            match turning {
+            if part.in_leg {
+                continue;
+            }
+            let mut rigid = Vector::splat(cx.bound.rigid[e]);
+            if let (Along::Slide(slide) | Along::Driver { slide, .. }, None) =
+                (edge.along, part.slides)
+            {
+                rigid += guide.scale(self.slides[slide * len]);
+            }
+            let v = signed(turned(rigid));
+            match part.turns {
                 Some(place) => terms[place] += v,
                 None => known = known - v,
             }
@@ -114,98 +127,168 @@ impl State {
         Sorted { first: terms[0], second: terms[1], known }
     }
 
-    fn turn(&mut self, dyad: &Dyad, place: usize, rotation: Vector) {
+    #[inline(always)]
+    fn turn(&mut self, cx: &Context<'_, R>, dyad: &Dyad, place: usize, rotation: Vector<R>) {
         let Unknown::Class(class) = dyad.unknowns[place] else { return };
         self.class[class] = rotation;
         for &o in &dyad.turned[place] {
-            self.orient[o * self.len] = rotation * self.phase[o];
+            let driven = cx.plan.orientations[o].driven;
+            self.orient[o * self.len] = if driven { rotation * self.phase[o] } else { rotation };
         }
     }
 
-    fn slide(&mut self, unknown: Unknown, value: f64) {
+    #[inline(always)]
+    fn slide(&mut self, unknown: Unknown, value: R) {
         if let Unknown::Slide(slide) = unknown {
             self.slides[slide * self.len] = value;
         }
     }
 }
 
+impl<R: Real> Solved<R> {
+    /// With the levers of the legs.
+    #[inline(always)]
+    fn with(self, arm2: R) -> Self {
+        Self { arm2: arm2.max(R::ONE), ..self }
+    }
+}
+
 /// A factor that vanishes where the dyad is flat: negative by rounding counts
 /// as 0 (flat), by more as open.
-fn factor(difference: f64, size: f64) -> Result<(f64, bool), f64> {
-    if !(difference.is_finite() && size.is_finite()) {
-        Err(f64::INFINITY)
-    } else if difference > 0.0 {
-        Ok((difference, false))
-    } else if difference >= -FLAT_CLOSURE * size {
-        Ok((0.0, true))
-    } else {
-        Err(-difference)
+struct Factor<R: Real> {
+    value: R,
+    flat: R::Mask,
+    open: R::Mask,
+}
+
+impl<R: Real> Factor<R> {
+    #[inline(always)]
+    fn of(difference: R, size: R) -> Self {
+        let positive = R::ZERO.lt(difference);
+        let within = (R::splat(-FLAT_CLOSURE) * size).le(difference);
+        let value = R::select(positive, difference, R::ZERO);
+        Self { value, flat: positive.not().and(within), open: positive.or(within).not() }
+    }
+
+    /// What is missing where it is open (with one lane), else `or`.
+    #[inline(always)]
+    fn gap(&self, difference: R, or: R) -> R {
+        R::select(self.open, -difference, or)
     }
 }
 
 /// `a u₁ + b u₂ = k` for unit vectors u₁, u₂: the intersection of two circles.
 /// `sign` > 0: `a u₁` points to the left of `k`.
-fn two_circles(a: Vector, b: Vector, k: Vector, sign: f64) -> Result<(Vector, Vector, bool), f64> {
-    let (a2, b2, d2) = (a.norm2(), b.norm2(), k.norm2());
-    let (la, lb, d) = (a2.sqrt(), b2.sqrt(), d2.sqrt());
-    let size = la.max(lb).max(d);
-    let (outer, flat_out) = factor((la + lb) - d, size)?;
-    let (inner, flat_in) = factor(d - (la - lb).abs(), size)?;
-    if d2 == 0.0 || a2 == 0.0 || b2 == 0.0 {
-        // Outer joints coincide, or a leg has no length: any attitude closes.
-        return Err(0.0);
-    }
+#[inline(always)]
+fn two_circles<R: Real>(
+    a: &Leg<R>,
+    b: &Leg<R>,
+    k: Vector<R>,
+    sign: R,
+) -> (Vector<R>, Vector<R>, Solved<R>) {
+    let d2 = k.norm2();
+    let d = d2.sqrt();
+    let (sum, difference) = (a.norm + b.norm, a.norm - b.norm);
+    let size = a.norm.max(b.norm).max(d);
+    let outer = Factor::of(sum - d, size);
+    let inner = Factor::of(d - difference.abs(), size);
+    // Outer joints coincide, or a leg has no length: any attitude closes.
+    let loose = R::ZERO.lt(d2.min(a.norm2).min(b.norm2)).not();
     // Heron: (2 d h)² = (a+b−d)(a+b+d)(d−a+b)(d+a−b), h the height on k.
-    let area = (outer * (la + lb + d) * inner * (d + (la - lb).abs())).sqrt();
-    let half = 0.5 / d2;
+    let area2 = outer.value * (sum + d) * inner.value * (d + difference.abs());
+    let area = area2.sqrt();
+    let half = R::splat(0.5) / d2;
     // Along and across k, as parts of it; (a−b)(a+b) keeps digits when a ≈ b.
-    let split = (la - lb) * (la + lb);
+    let split = difference * sum;
     let (x, y) = ((d2 + split) * half, sign * area * half);
     let first = k * Vector::new(x, y);
     let second = k * Vector::new((d2 - split) * half, -y);
-    let first = (first * a.conj()).scale(1.0 / a2);
-    let second = (second * b.conj()).scale(1.0 / b2);
-    Ok((first, second, flat_out || flat_in))
+    let first = (first * a.vector.conj()).scale(a.per);
+    let second = (second * b.vector.conj()).scale(b.per);
+    let far = size.finite().not();
+    let gap = outer.gap(sum - d, inner.gap(d - difference.abs(), R::ZERO));
+    let solved = Solved {
+        open: outer.open.or(inner.open).or(loose).or(far),
+        gap: R::select(far, R::splat(f64::INFINITY), gap),
+        flat: outer.flat.or(inner.flat),
+        // The area is half of Heron's, and half of the legs' product by the sine.
+        sine2: area2 * (R::splat(0.25) * a.per * b.per),
+        arm2: R::ONE,
+    };
+    (first, second, solved)
 }
 
 /// `a u + s b = k` for a unit vector u and a slide s along the unit vector b: a
 /// circle and a line. `sign` > 0: the slide is ahead of the foot of the
 /// perpendicular from the circle's centre.
-fn circle_and_line(a: Vector, b: Vector, k: Vector, sign: f64) -> Result<(Vector, f64, bool), f64> {
+#[inline(always)]
+fn circle_and_line<R: Real>(
+    a: &Leg<R>,
+    b: Vector<R>,
+    k: Vector<R>,
+    sign: R,
+) -> (Vector<R>, R, Solved<R>) {
     let (along, across) = (b.dot(k), b.cross(k));
-    let a2 = a.norm2();
-    let la = a2.sqrt();
-    let (inner, flat) = factor(la - across.abs(), la.max(k.norm()))?;
-    if a2 == 0.0 {
-        return Err(0.0);
-    }
-    let chord = sign * (inner * (la + across.abs())).sqrt();
-    let leg = b * Vector::new(-chord, across);
-    Ok(((leg * a.conj()).scale(1.0 / a2), along + chord, flat))
+    let size = a.norm.max(k.size());
+    let inner = Factor::of(a.norm - across.abs(), size);
+    let chord2 = inner.value * (a.norm + across.abs());
+    let signed = sign * chord2.sqrt();
+    let leg = b * Vector::new(-signed, across);
+    let far = size.finite().not();
+    let solved = Solved {
+        open: inner.open.or(R::ZERO.lt(a.norm2).not()).or(far),
+        gap: R::select(far, R::splat(f64::INFINITY), inner.gap(a.norm - across.abs(), R::ZERO)),
+        flat: inner.flat,
+        sine2: chord2 * a.per,
+        arm2: R::ONE,
+    };
+    ((leg * a.vector.conj()).scale(a.per), along + signed, solved)
 }
 
 /// `(a + s b) u = k` for a unit vector u and a slide s along the unit vector b
 /// that turns with it. `sign` > 0: the slide is above the value at which it is
-/// nearest to the far joint.
-fn turning_guide(a: Vector, b: Vector, k: Vector, sign: f64) -> Result<(Vector, f64, bool), f64> {
+/// nearest to the far joint. Third: 1/|k|².
+#[inline(always)]
+fn turning_guide<R: Real>(
+    a: Vector<R>,
+    b: Vector<R>,
+    k: Vector<R>,
+    sign: R,
+) -> (Vector<R>, R, R, Solved<R>) {
     let (along, across) = (b.dot(a), b.cross(a));
     let d2 = k.norm2();
     let d = d2.sqrt();
-    let (inner, flat) = factor(d - across.abs(), d.max(a.norm()))?;
-    if d2 == 0.0 {
+    let size = d.max(a.size());
+    let inner = Factor::of(d - across.abs(), size);
+    let chord2 = inner.value * (d + across.abs());
+    let signed = sign * chord2.sqrt();
+    let arm = b * Vector::new(signed, across);
+    let per = R::ONE / d2;
+    let far = size.finite().not();
+    let solved = Solved {
         // The far joint is on the guide's own pivot: every attitude closes.
-        return Err(0.0);
-    }
-    let chord = sign * (inner * (d + across.abs())).sqrt();
-    let arm = b * Vector::new(chord, across);
-    Ok(((k * arm.conj()).scale(1.0 / d2), chord - along, flat))
+        open: inner.open.or(R::ZERO.lt(d2).not()).or(far),
+        gap: R::select(far, R::splat(f64::INFINITY), inner.gap(d - across.abs(), R::ZERO)),
+        flat: inner.flat,
+        sine2: chord2 * per,
+        arm2: R::ONE,
+    };
+    ((k * arm.conj()).scale(per), signed - along, per, solved)
 }
 
 /// `s a + t b = k` for two slides along unit vectors (Cramer).
-fn two_lines(a: Vector, b: Vector, k: Vector) -> Result<(f64, f64), f64> {
+#[inline(always)]
+fn two_lines<R: Real>(a: Vector<R>, b: Vector<R>, k: Vector<R>) -> (R, R, Solved<R>) {
     let determinant = a.cross(b);
     let (s, t) = (k.cross(b) / determinant, a.cross(k) / determinant);
-    if s.is_finite() && t.is_finite() { Ok((s, t)) } else { Err(f64::INFINITY) }
+    let solved = Solved {
+        open: s.finite().and(t.finite()).not(),
+        gap: R::splat(f64::INFINITY),
+        flat: R::Mask::NONE,
+        sine2: determinant * determinant,
+        arm2: R::ONE,
+    };
+    (s, t, solved)
 }
 
 #[cfg(test)]
@@ -214,21 +297,24 @@ mod tests {
 
     const TOLERANCE: f64 = 1e-15;
 
+    fn leg(x: f64, y: f64) -> Leg {
+        Leg::of(Vector::new(x, y))
+    }
+
     #[test]
     fn right_triangle_three_four_five() {
-        let (u, v, flat) =
-            two_circles(Vector::new(3.0, 0.0), Vector::new(4.0, 0.0), Vector::new(5.0, 0.0), 1.0)
-                .unwrap();
-        assert!(!flat);
+        let (u, v, solved) =
+            two_circles(&leg(3.0, 0.0), &leg(4.0, 0.0), Vector::new(5.0, 0.0), 1.0);
+        assert!(!solved.flat && !solved.open && (solved.sine2 - 1.0).abs() < TOLERANCE);
         assert!((u.x - 0.6).abs() < TOLERANCE && (u.y - 0.8).abs() < TOLERANCE);
         assert!((v.x - 0.8).abs() < TOLERANCE && (v.y + 0.6).abs() < TOLERANCE);
     }
 
     #[test]
     fn circles_that_do_not_meet_tell_the_gap() {
-        let unit = Vector::new(1.0, 0.0);
-        let gap = two_circles(unit, unit, Vector::new(2.5, 0.0), 1.0).unwrap_err();
-        assert!((gap - 0.5).abs() < TOLERANCE);
+        let unit = leg(1.0, 0.0);
+        let (_, _, solved) = two_circles(&unit, &unit, Vector::new(2.5, 0.0), 1.0);
+        assert!(solved.open && (solved.gap - 0.5).abs() < TOLERANCE);
     }
 
     #[test]
@@ -236,7 +322,7 @@ mod tests {
         let (a, b) = (Vector::new(5.0, 0.0), Vector::new(1.0, 0.0));
         let k = Vector::new(10.0, 3.0);
         for sign in [1.0, -1.0] {
-            let (u, s, _) = circle_and_line(a, b, k, sign).unwrap();
+            let (u, s, _) = circle_and_line(&Leg::of(a), b, k, sign);
             assert!((s - (10.0 + sign * 4.0)).abs() < TOLERANCE * 10.0);
             let closed = u * a + b.scale(s) - k;
             assert!(closed.norm() < 1e-14);
@@ -248,7 +334,7 @@ mod tests {
         let (a, b) = (Vector::new(0.3, 0.4), Vector::new(0.6, 0.8));
         let k = Vector::new(-1.0, 2.0);
         for sign in [1.0, -1.0] {
-            let (u, s, _) = turning_guide(a, b, k, sign).unwrap();
+            let (u, s, _, _) = turning_guide(a, b, k, sign);
             assert!(((a + b.scale(s)) * u - k).norm() < 1e-14);
             assert!((u.norm() - 1.0).abs() < 1e-14);
         }

@@ -57,8 +57,9 @@ impl Mechanism {
             return Ok(vec![one; q.len() / drivers]);
         }
         let jets = Jets::new(drivers, 0);
-        let signs: Vec<f64> = signs.iter().map(|&s| f64::from(s)).collect();
-        let design = Design::new(self, dimensions, &signs, &jets, q);
+        let mut design = Design::new(self, signs, &jets);
+        design.bind(dimensions);
+        design.lay_way(q);
         let mut state = design.state(&jets);
         let look = |(scaled, q): (&[f64], &[f64])| {
             let analogues = design.solve(&mut state, scaled, design.way(scaled).as_ref());
@@ -77,7 +78,7 @@ impl Mechanism {
     ) -> Diagnosis {
         let at = &place_of(q);
         let step = state.fault.map(Fault::step);
-        let condition = state.condition;
+        let condition = state.condition2.sqrt();
         let named = state.fault.map(|fault| self.step_name(fault));
         let dyad = named.as_deref().unwrap_or("?");
         let sentence = match state.status {
@@ -129,7 +130,8 @@ impl Mechanism {
             return Ok(Vec::new());
         }
         let jets = Jets::new(q.len(), 1);
-        let design = Design::bare(self, dimensions, &jets);
+        let mut design = Design::new(self, &vec![1; count], &jets);
+        design.bind(dimensions);
         let scaled = design.scaled(q);
         let mut state = design.state(&jets);
         let mut found: Vec<Vec<f64>> = vec![Vec::new()];
@@ -232,7 +234,7 @@ fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::Dyad) 
     let slides: Vec<&str> = dyad
         .path
         .iter()
-        .filter_map(|&(e, _)| match plan.edges[e].along {
+        .filter_map(|part| match plan.edges[part.edge].along {
             Along::Slide(s) => Some(mechanism.linkage().slides[s].name.as_str()),
             _ => None,
         })

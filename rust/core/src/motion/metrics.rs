@@ -1,6 +1,7 @@
 //! What is read off a motion with one driver: curvature, instant centres,
 //! transmission angles.
 
+use crate::lanes::trig;
 use crate::plane::Vector;
 
 /// Signed curvature of a path, 1/m: positive where it turns left as q grows.
@@ -35,7 +36,7 @@ pub fn instant_centre(a: (Vector, Vector, f64), b: (Vector, Vector, f64)) -> Vec
 /// Acute angle between two directions, rad in 0..π/2.
 #[must_use]
 pub fn acute(a: Vector, b: Vector) -> f64 {
-    a.cross(b).abs().atan2(a.dot(b).abs())
+    trig::atan2(a.cross(b).abs(), a.dot(b).abs())
 }
 
 #[cfg(test)]

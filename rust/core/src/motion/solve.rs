@@ -1,12 +1,13 @@
 //! From a request (designs, coordinates, wanted outputs) to arrays.
 
-use super::design::{Design, Units};
-use super::state::{Context, State, Status};
-use super::track::Track as Way;
+use std::mem::MaybeUninit;
+
+use super::outputs::{Column, Outputs, Quantity, Writer, columns};
+use super::parallel::{Chunks, Control};
+use super::rows::{Job, Worker};
 use crate::error::SolveError;
 use crate::mechanism::Mechanism;
 use crate::plan::jet::Jets;
-use crate::structure::closure::point_of_joint;
 
 /// Where the coordinates are taken from; `drivers` numbers a position.
 #[derive(Debug, Clone, Copy)]
@@ -23,30 +24,6 @@ impl<'a> Coordinates<'a> {
         match self {
             Self::Shared(q) => q,
             Self::PerDesign(q) => &q[design * count..][..count],
-        }
-    }
-}
-
-/// What is kept: indices of joints, links and slides.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// Joints.
-    pub joints: Vec<usize>,
-    /// Links (angle, and place of the reference point).
-    pub links: Vec<usize>,
-    /// Slides.
-    pub slides: Vec<usize>,
-}
-
-impl Outputs {
-    /// Everything a mechanism has.
-    #[must_use]
-    pub fn all(mechanism: &Mechanism) -> Self {
-        let linkage = mechanism.linkage();
-        Self {
-            joints: (0..linkage.joints.len()).collect(),
-            links: (0..linkage.links.len()).collect(),
-            slides: (0..linkage.slides.len()).collect(),
         }
     }
 }
@@ -97,64 +74,114 @@ pub struct Motion {
     pub status: Vec<u8>,
 }
 
+/// Arrays to be filled, in the order of [`Request::columns`]; every number is written.
+#[derive(Debug)]
+pub struct Arrays<'a> {
+    /// One array a column, of designs × positions × width numbers.
+    pub columns: Vec<&'a mut [MaybeUninit<f64>]>,
+    /// One [`crate::Status`] code a position.
+    pub status: &'a mut [MaybeUninit<u8>],
+}
+
+impl Request<'_> {
+    /// The arrays that this request fills.
+    #[must_use]
+    pub fn columns(&self, mechanism: &Mechanism) -> Vec<Column> {
+        columns(self.outputs, mechanism.q0().len(), self.order)
+    }
+
+    /// Designs and positions of each.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::solve`].
+    pub fn shape(&self, mechanism: &Mechanism) -> Result<[usize; 2], SolveError> {
+        mechanism.require_closed_form()?;
+        let shape = Shape::of(mechanism, self)?;
+        Ok([shape.designs, shape.positions])
+    }
+}
+
 /// Solves a request; see [`Mechanism::solve`].
 ///
 /// # Errors
 ///
 /// Those of [`Mechanism::solve`].
 pub fn solve(mechanism: &Mechanism, request: &Request<'_>) -> Result<Motion, SolveError> {
-    mechanism.require_closed_form()?;
-    let shape = Shape::of(mechanism, request)?;
-    let jets = Jets::new(shape.drivers, request.order);
-    let layout = Layout::new(&jets);
-    let mut motion = empty(&shape, request, &layout);
-    let signs: Vec<f64> = request.signs.iter().map(|&s| f64::from(s)).collect();
-    for design in 0..shape.designs {
-        let values = &request.dimensions[design * shape.dimensions..][..shape.dimensions];
-        if mechanism.dimensions().first_fault(values).is_some() {
-            let rows = design * shape.positions..(design + 1) * shape.positions;
-            motion.status[rows].fill(Status::BadDimension as u8);
-            continue;
+    let [designs, positions] = request.shape(mechanism)?;
+    let rows = designs * positions;
+    let columns = request.columns(mechanism);
+    let mut values: Vec<Vec<f64>> = columns.iter().map(|c| vec![0.0; rows * c.width]).collect();
+    let mut status = vec![0; rows];
+    let arrays = Arrays {
+        columns: values.iter_mut().map(|v| as_unwritten(v)).collect(),
+        status: as_unwritten(&mut status),
+    };
+    fill(mechanism, request, arrays, &Control::default())?;
+    let mut motion = Motion { designs, positions, status, ..Motion::default() };
+    for (column, values) in columns.iter().zip(values) {
+        let (list, index) = match column.quantity {
+            Quantity::Joint(index) => (&mut motion.joints, index),
+            Quantity::Place(index) => (&mut motion.places, index),
+            Quantity::Slide(index) => (&mut motion.slides, index),
+            Quantity::Angle(index) => (&mut motion.links, index),
+        };
+        if column.order == 0 {
+            list.push(Track { index, derivatives: Vec::new() });
         }
-        let q = request.coordinates.of(design, shape.positions * shape.drivers);
-        solve_design(
-            &Design::new(mechanism, values, &signs, &jets, q),
-            (&jets, &layout, q),
-            &mut motion,
-            design * shape.positions,
-        );
+        if let Some(track) = list.last_mut() {
+            track.derivatives.push(values);
+        }
     }
     Ok(motion)
 }
 
-/// All positions of one design, into the rows from `first` on.
-fn solve_design(
-    design: &Design<'_>,
-    (jets, layout, q): (&Jets, &Layout, &[f64]),
-    motion: &mut Motion,
-    first: usize,
-) {
-    let mut state = design.state(jets);
-    let cx = design.context(jets);
-    for (position, q) in design.scaled(q).chunks_exact(design.unit.coordinate.len()).enumerate() {
-        let row = first + position;
-        let place = design.way(q);
-        let analogues = design.solve(&mut state, q, place.as_ref());
-        motion.status[row] = state.status as u8;
-        let solved = matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular);
-        if let (true, Some(place)) = (solved, &place) {
-            let write = Write {
-                mechanism: design.mechanism,
-                cx: &cx,
-                state: &state,
-                unit: &design.unit,
-                layout,
-                row,
-                analogues,
-            };
-            write.all(motion, &design.angles(place), place.at, q);
-        }
+/// Numbers seen as places to be written.
+fn as_unwritten<T: Copy>(values: &mut [T]) -> &mut [MaybeUninit<T>] {
+    #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
+    // SAFETY: same layout; this module only writes values, never leaves a place unwritten.
+    unsafe {
+        &mut *(std::ptr::from_mut(values) as *mut [MaybeUninit<T>])
     }
+}
+
+/// Solves a request into arrays that are given.
+///
+/// # Errors
+///
+/// Those of [`Mechanism::solve`], and [`SolveError::Interrupted`]; also then every
+/// number is written.
+pub fn fill(
+    mechanism: &Mechanism,
+    request: &Request<'_>,
+    arrays: Arrays<'_>,
+    control: &Control<'_>,
+) -> Result<(), SolveError> {
+    mechanism.require_closed_form()?;
+    let shape = Shape::of(mechanism, request)?;
+    let jets = Jets::new(shape.drivers, request.order);
+    let columns = request.columns(mechanism);
+    check_arrays(&columns, &arrays, shape.designs * shape.positions)?;
+    let writer = Writer::new(mechanism, &jets, &columns);
+    let chunks = Chunks::new(arrays, &columns, [shape.designs, shape.positions], shape.drivers);
+    let worker = || Worker::new(mechanism, request.signs, &jets, &writer, &columns, control.simd);
+    let per_design = shape.positions * shape.drivers;
+    control.run(chunks, worker, |worker, chunk, mut rows| {
+        for design in chunk.designs.clone() {
+            let values = &request.dimensions[design * shape.dimensions..][..shape.dimensions];
+            let q = request.coordinates.of(design, per_design);
+            let q = &q[chunk.positions.start * shape.drivers..chunk.positions.end * shape.drivers];
+            let first = (design - chunk.designs.start) * chunk.positions.len();
+            worker.solve(values, Job { q, rows: &mut rows, first });
+        }
+    })
+}
+
+fn check_arrays(columns: &[Column], arrays: &Arrays<'_>, rows: usize) -> Result<(), SolveError> {
+    let fits = columns.len() == arrays.columns.len()
+        && columns.iter().zip(&arrays.columns).all(|(c, a)| a.len() == rows * c.width)
+        && arrays.status.len() == rows;
+    if fits { Ok(()) } else { Err(SolveError::Shape("the arrays do not fit the request".into())) }
 }
 
 struct Shape {
@@ -204,124 +231,5 @@ impl Shape {
             ));
         }
         Ok(Self { designs, positions: count / per, drivers, dimensions })
-    }
-}
-
-/// Entries of the jets that make the tensors of every order.
-struct Layout {
-    tensors: Vec<Vec<usize>>,
-}
-
-impl Layout {
-    fn new(jets: &Jets) -> Self {
-        Self { tensors: (0..=jets.order).map(|order| jets.tensor(order)).collect() }
-    }
-}
-
-fn empty(shape: &Shape, request: &Request<'_>, layout: &Layout) -> Motion {
-    let rows = shape.designs * shape.positions;
-    let track = |components: usize| {
-        move |&index: &usize| Track {
-            index,
-            derivatives: layout
-                .tensors
-                .iter()
-                .map(|t| vec![f64::NAN; rows * components * t.len()])
-                .collect(),
-        }
-    };
-    Motion {
-        designs: shape.designs,
-        positions: shape.positions,
-        joints: request.outputs.joints.iter().map(track(2)).collect(),
-        links: request.outputs.links.iter().map(track(1)).collect(),
-        places: request.outputs.links.iter().map(track(2)).collect(),
-        slides: request.outputs.slides.iter().map(track(1)).collect(),
-        status: vec![Status::Ok as u8; rows],
-    }
-}
-
-/// Writes one solved position into its row.
-struct Write<'a> {
-    mechanism: &'a Mechanism,
-    cx: &'a Context<'a>,
-    state: &'a State,
-    unit: &'a Units,
-    layout: &'a Layout,
-    row: usize,
-    analogues: bool,
-}
-
-impl Write<'_> {
-    fn all(&self, motion: &mut Motion, way: &Way, at: f64, q: &[f64]) {
-        for track in &mut motion.joints {
-            self.point(track, point_of_joint(track.index));
-        }
-        for track in &mut motion.places {
-            self.point(track, self.cx.plan.reference[track.index]);
-        }
-        for track in &mut motion.slides {
-            let slide = track.index * self.state.len;
-            self.scalar(track, &self.unit.length, |k| self.state.slides[slide + k]);
-        }
-        for track in &mut motion.links {
-            let o = self.cx.plan.link_orientation[track.index];
-            let value = self.link_angle(track.index, way, at, q);
-            self.scalar(track, &self.unit.angle, |k| {
-                if k == 0 { value } else { self.state.theta_of(self.cx, o, k) }
-            });
-        }
-    }
-
-    /// Lifted angle of the class, plus what turns the link against it.
-    fn link_angle(&self, link: usize, way: &Way, at: f64, q: &[f64]) -> f64 {
-        let rotation = &self.cx.plan.rotation[link];
-        let mut angle = 0.0;
-        if rotation.class != 0 {
-            let principal = self.state.class[rotation.class].angle();
-            angle = way.angle(at, rotation.class, principal);
-        }
-        for (&turns, &q) in rotation.turns.iter().zip(q) {
-            if turns != 0 {
-                angle += f64::from(turns) * q;
-            }
-        }
-        let whole = std::f64::consts::TAU * self.mechanism.whole_turns[link];
-        angle + (self.cx.bound.offset[link] + whole)
-    }
-
-    fn point(&self, track: &mut Track, point: usize) {
-        let origin = self.cx.bound.origin;
-        for (order, (array, tensor)) in
-            track.derivatives.iter_mut().zip(&self.layout.tensors).enumerate()
-        {
-            let out = &mut array[self.row * 2 * tensor.len()..][..2 * tensor.len()];
-            for (place, &k) in tensor.iter().enumerate() {
-                let p = self.state.points[point * self.state.len + k].scale(self.unit.length[k]);
-                if order == 0 {
-                    (out[0], out[1]) = (p.x + origin[0], p.y + origin[1]);
-                } else {
-                    let p = self.analogue(p.x, p.y);
-                    (out[place], out[tensor.len() + place]) = p;
-                }
-            }
-        }
-    }
-
-    fn scalar(&self, track: &mut Track, factor: &[f64], entry: impl Fn(usize) -> f64) {
-        for (order, (array, tensor)) in
-            track.derivatives.iter_mut().zip(&self.layout.tensors).enumerate()
-        {
-            let out = &mut array[self.row * tensor.len()..][..tensor.len()];
-            for (place, &k) in tensor.iter().enumerate() {
-                let value = entry(k) * factor[k];
-                out[place] = if order == 0 { value } else { self.analogue(value, 0.0).0 };
-            }
-        }
-    }
-
-    /// A singular position has no analogues.
-    fn analogue(&self, x: f64, y: f64) -> (f64, f64) {
-        if self.analogues { (x, y) } else { (f64::NAN, f64::NAN) }
     }
 }

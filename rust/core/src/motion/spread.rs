@@ -2,56 +2,39 @@
 //! change points are found and passed with.
 
 use super::state::{Context, State};
-use crate::plan::{Along, Dyad, Form, Unknown};
+use crate::lanes::Real;
+use crate::plan::{Dyad, Form};
 use crate::plane::Vector;
 
-impl State {
+impl<R: Real> State<R> {
     /// How far a dyad is from flat, with the sign of its assembly, and the rate of
     /// that by one driver (jet entry `first`): the sine of the angle between its legs (a rotation
     /// and a slide: the chord) as far as it matters near 0.
-    pub(crate) fn spread(&self, cx: &Context<'_>, dyad: &Dyad, first: usize) -> (f64, f64) {
-        let [a, da] = [0, first].map(|k| self.leg(cx, dyad, dyad.unknowns[0], k));
+    #[inline(always)]
+    pub(crate) fn spread(&self, cx: &Context<'_, R>, dyad: &Dyad, first: usize) -> (R, R) {
+        let [a, da] = [0, first].map(|k| self.turning(cx, dyad, 0, k));
         let (value, rate, size) = match dyad.form {
             Form::TwoCircles => {
-                let [b, db] = [0, first].map(|k| self.leg(cx, dyad, dyad.unknowns[1], k));
+                let [b, db] = [0, first].map(|k| self.turning(cx, dyad, 1, k));
                 (b.cross(a), db.cross(a) + b.cross(da), a.norm() * b.norm())
             }
             Form::CircleAndLine | Form::TurningGuide => {
-                let [g, dg] = [0, first].map(|k| self.guide(cx, dyad, k));
-                let sign = if dyad.form == Form::TurningGuide { 1.0 } else { -1.0 };
-                let size = if dyad.form == Form::TurningGuide { 1.0 } else { a.norm() };
-                (sign * g.dot(a), sign * (dg.dot(a) + g.dot(da)), size)
+                let [g, dg] = [0, first].map(|k| self.sliding(cx, dyad, 1, k));
+                let (value, rate) = (g.dot(a), dg.dot(a) + g.dot(da));
+                if dyad.form == Form::TurningGuide {
+                    (value, rate, R::ONE)
+                } else {
+                    (-value, -rate, a.norm())
+                }
             }
-            Form::TwoLines => (1.0, 0.0, 1.0),
+            Form::TwoLines => (R::ONE, R::ZERO, R::ONE),
         };
-        (value / size, rate / size)
+        let per = R::ONE / size;
+        (value * per, rate * per)
     }
+}
 
-    /// Entry `k` of the sum of a dyad's edges that turn with one unknown.
-    fn leg(&self, cx: &Context<'_>, dyad: &Dyad, unknown: Unknown, k: usize) -> Vector {
-        let mut sum = Vector::ZERO;
-        for &(e, backward) in &dyad.path {
-            if Unknown::Class(cx.plan.class_of(e)) == unknown {
-                let v = self.edge(cx, e, k);
-                sum = if backward { sum - v } else { sum + v };
-            }
-        }
-        sum
-    }
-
-    /// Entry `k` of the direction of a dyad's unknown slide.
-    fn guide(&self, cx: &Context<'_>, dyad: &Dyad, k: usize) -> Vector {
-        let along = |e: usize| match cx.plan.edges[e].along {
-            Along::Slide(s) => dyad.unknowns.contains(&Unknown::Slide(s)),
-            _ => false,
-        };
-        let found = dyad.path.iter().find(|(e, _)| along(*e));
-        found.map_or(Vector::ZERO, |&(e, backward)| {
-            let v = self.orient[cx.plan.edges[e].orientation * self.len + k] * cx.bound.guide[e];
-            if backward { -v } else { v }
-        })
-    }
-
+impl State {
     /// Becomes the weighted sum of other states of the same plan: a polynomial
     /// through them, evaluated between them.
     pub(crate) fn blend(&mut self, states: &[Self], weights: &[f64]) {

@@ -1,11 +1,15 @@
-//! One position of one design: every point, orientation and slide with its
+//! One position of one design, or eight: every point, orientation and slide with its
 //! analogues.
 
+use crate::lanes::{Mask, Real};
 use crate::plan::bind::Bound;
 use crate::plan::jet::Jets;
 use crate::plan::{Along, Dyad, Plan, Step, Unknown};
 use crate::plane::Vector;
-use crate::tolerance::{near_singular_condition, singular_condition};
+use crate::tolerance::{NEAR_SINGULAR_CONDITION, SINGULAR_CONDITION};
+
+/// Square of the sine of a dyad that cannot be told from a flat one.
+const FLAT2: f64 = 1.0 / (SINGULAR_CONDITION * SINGULAR_CONDITION);
 
 /// How a position came out; the codes are those of the arrays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -51,43 +55,49 @@ impl Fault {
     }
 }
 
-/// Work space for one position; made once, used for all.
+/// Work space for one position, or for as many as `R` has lanes; made once, used
+/// for all.
 #[derive(Debug, Clone)]
-pub struct State {
+pub struct State<R: Real = f64> {
     /// Entries of a jet.
     pub(crate) len: usize,
     /// Jets of points, one after another.
-    pub points: Vec<Vector>,
+    pub points: Vec<Vector<R>>,
     /// Jets of orientations.
-    pub orient: Vec<Vector>,
+    pub orient: Vec<Vector<R>>,
     /// Jets of the angles of classes; the value itself is not used.
-    pub theta: Vec<f64>,
+    pub theta: Vec<R>,
     /// Jets of slides.
-    pub slides: Vec<f64>,
+    pub slides: Vec<R>,
     /// Rotations of classes.
-    pub class: Vec<Vector>,
+    pub class: Vec<Vector<R>>,
     /// Turns by the drivers alone, of every orientation.
-    pub(crate) phase: Vec<Vector>,
-    /// Greatest coordinate or arm on the way to each point: what its rounding is a
-    /// part of.
-    pub(crate) grain: Vec<f64>,
-    /// Product of the conditions of the dyads that each point depends on.
-    pub(crate) point_condition: Vec<f64>,
-    pub(crate) class_condition: Vec<f64>,
-    pub(crate) slide_condition: Vec<f64>,
-    /// Condition of what each dyad with a sign hangs on.
-    pub(crate) before: Vec<f64>,
-    /// Greatest condition of the position.
-    pub condition: f64,
-    /// How it came out.
+    pub(crate) phase: Vec<Vector<R>>,
+    /// Unit vectors at the driven angles.
+    unit: Vec<Vector<R>>,
+    /// Square of the greatest coordinate or arm on the way to each point: what its
+    /// rounding is a part of.
+    pub(crate) grain: Vec<R>,
+    /// Square of the product of the conditions of the dyads that each point depends on
+    /// (squares need no roots).
+    pub(crate) point_condition: Vec<R>,
+    pub(crate) class_condition: Vec<R>,
+    pub(crate) slide_condition: Vec<R>,
+    /// Square of the condition of what each dyad with a sign hangs on.
+    pub(crate) before: Vec<R>,
+    /// Square of the greatest condition of the position.
+    pub condition2: R,
+    /// Lanes that did not come out as plainly solved; each is done again by itself.
+    pub care: R::Mask,
+    /// How one position by itself came out (with several lanes: see `care`).
     pub status: Status,
-    /// The first thing that failed.
+    /// The first thing that failed, likewise.
     pub fault: Option<Fault>,
 }
 
 /// What is the same for all positions of a design.
 #[derive(Debug, Clone, Copy)]
-pub struct Context<'a> {
+pub struct Context<'a, R: Real = f64> {
     /// The compiled mechanism.
     pub plan: &'a Plan,
     /// One design.
@@ -95,67 +105,86 @@ pub struct Context<'a> {
     /// Index tables of the analogues.
     pub jets: &'a Jets,
     /// Assembly signs, +1 or −1.
-    pub signs: &'a [f64],
+    pub signs: &'a [R],
 }
 
-impl State {
+impl<R: Real> State<R> {
     /// Work space for a plan.
     #[must_use]
-    pub fn new(plan: &Plan, jets: &Jets, slides: usize) -> Self {
-        let len = jets.len();
-        Self {
+    pub fn new(plan: &Plan, jets: &Jets) -> Self {
+        let (len, slides) = (jets.len(), plan.slide_links.len());
+        let mut state = Self {
             len,
             points: vec![Vector::ZERO; plan.points * len],
             orient: vec![Vector::ZERO; plan.orientations.len() * len],
-            theta: vec![0.0; plan.classes * len],
-            slides: vec![0.0; slides * len],
+            theta: vec![R::ZERO; plan.classes * len],
+            slides: vec![R::ZERO; slides * len],
             class: vec![Vector::ONE; plan.classes],
             phase: vec![Vector::ONE; plan.orientations.len()],
-            grain: vec![0.0; plan.points],
-            point_condition: vec![1.0; plan.points],
-            class_condition: vec![1.0; plan.classes],
-            slide_condition: vec![1.0; slides],
-            before: vec![1.0; plan.signs()],
-            condition: 1.0,
+            unit: vec![Vector::ONE; plan.drivers.len()],
+            grain: vec![R::ZERO; plan.points],
+            point_condition: vec![R::ONE; plan.points],
+            class_condition: vec![R::ONE; plan.classes],
+            slide_condition: vec![R::ONE; slides],
+            before: vec![R::ONE; plan.signs()],
+            condition2: R::ONE,
+            care: R::Mask::NONE,
             status: Status::Ok,
             fault: None,
+        };
+        for (o, orientation) in plan.orientations.iter().enumerate() {
+            if orientation.class == 0 {
+                state.orient[o * len] = Vector::ONE;
+            }
+        }
+        for (driver, _) in plan.drivers.iter().enumerate() {
+            let Some(slide) = plan.driven_slide(driver) else { continue };
+            for k in 1..len {
+                if jets.driver_of[k] == Some(driver) {
+                    state.slides[slide * len + k] = R::ONE;
+                }
+            }
+        }
+        state
+    }
+
+    /// Takes the fixed points of a design; before the first position of each.
+    #[inline(always)]
+    pub fn prepare(&mut self, bound: &Bound) {
+        for (point, &fixed) in bound.fixed.iter().enumerate() {
+            let fixed = Vector::splat(fixed);
+            self.points[point * self.len] = fixed;
+            self.grain[point] = fixed.norm2();
         }
     }
 
     /// Computes the position at `q` (rad; slide drivers in units of the scale).
-    pub fn solve(&mut self, cx: &Context<'_>, q: &[f64]) {
+    #[inline(always)]
+    pub fn solve(&mut self, cx: &Context<'_, R>, q: &[R]) {
         self.start(cx, q);
-        if self.status != Status::Ok {
+        if self.care.all() {
+            self.status = Status::BadInput;
             return;
         }
         for (index, step) in cx.plan.steps.iter().enumerate() {
-            let result = match step {
+            match step {
                 Step::Dyad(dyad) => self.solve_dyad(cx, dyad, index),
-                &Step::Place { edge, backward } => {
-                    self.place(cx, edge, backward);
-                    Ok(())
-                }
+                &Step::Place { edge, backward } => self.place(cx, edge, backward),
                 Step::Fit(fit) => self.fit(cx, fit, index),
-            };
-            if let Err(fault) = result {
-                match fault {
-                    Fault::Flat { .. } => {
-                        self.fault.get_or_insert(fault);
-                        self.status = Status::Singular;
-                    }
-                    Fault::Open { .. } | Fault::Misfit { .. } => {
-                        self.fault = Some(fault);
-                        self.status = Status::Unreachable;
-                        return;
-                    }
-                }
+            }
+            if self.status == Status::Unreachable {
+                return;
             }
         }
-        let greatest = |c: &[f64]| c.iter().copied().fold(1.0, f64::max);
-        self.condition = greatest(&self.point_condition)
-            .max(greatest(&self.class_condition))
-            .max(greatest(&self.slide_condition));
-        if self.status == Status::Ok && self.condition > near_singular_condition() {
+        let mut greatest = R::ONE;
+        for list in [&self.point_condition, &self.class_condition, &self.slide_condition] {
+            for &one in list {
+                greatest = one.max(greatest);
+            }
+        }
+        self.condition2 = greatest;
+        let near = R::splat(NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION).lt(greatest);
+        if self.status == Status::Ok && near.all() {
             self.status = Status::NearSingular;
         }
     }
@@ -172,54 +201,54 @@ impl State {
         self.status = Status::Lost;
     }
 
-    fn start(&mut self, cx: &Context<'_>, q: &[f64]) {
+    /// Lanes where a step did not close. With one lane, or none left, the rest is spared.
+    #[inline(always)]
+    pub(crate) fn open(&mut self, open: R::Mask, fault: impl Fn() -> Fault) {
+        if open.any() {
+            self.care = self.care.or(open);
+            if self.care.all() {
+                self.fault = Some(fault());
+                self.status = Status::Unreachable;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn start(&mut self, cx: &Context<'_, R>, q: &[R]) {
         let len = self.len;
         self.fault = None;
-        self.condition = 1.0;
-        self.status = if q.iter().all(|x| x.is_finite()) { Status::Ok } else { Status::BadInput };
-        for (point, &fixed) in cx.bound.fixed.iter().enumerate() {
-            self.points[point * len..(point + 1) * len].fill(Vector::ZERO);
-            self.points[point * len] = fixed;
-            self.grain[point] = fixed.norm();
-        }
-        self.class[0] = Vector::ONE;
-        self.theta.fill(0.0);
-        self.slides.fill(0.0);
-        self.point_condition.fill(1.0);
-        self.class_condition.fill(1.0);
-        self.slide_condition.fill(1.0);
+        self.status = Status::Ok;
+        self.condition2 = R::ONE;
+        self.care = R::Mask::NONE;
         for (driver, &value) in q.iter().enumerate() {
-            let Some(slide) = cx.plan.driven_slide(driver) else { continue };
-            self.slides[slide * len] = value;
-            for k in 1..len {
-                if cx.jets.driver_of(k) == Some(driver) {
-                    self.slides[slide * len + k] = 1.0;
-                }
+            self.care = self.care.or(value.finite().not());
+            match cx.plan.driven_slide(driver) {
+                Some(slide) => self.slides[slide * len] = value,
+                None => self.unit[driver] = Vector::at_angle(value),
             }
         }
         for (o, orientation) in cx.plan.orientations.iter().enumerate() {
-            let mut phase = Vector::ONE;
-            for (&turns, &angle) in orientation.turns.iter().zip(q) {
-                let mut unit = Vector::ONE;
-                if turns != 0 {
-                    unit = Vector::at_angle(angle);
-                }
-                if turns < 0 {
-                    unit = unit.conj();
-                }
+            if !orientation.driven {
+                continue;
+            }
+            let mut phase: Option<Vector<R>> = None;
+            for (&turns, &unit) in orientation.turns.iter().zip(&self.unit) {
+                let unit = if turns < 0 { unit.conj() } else { unit };
                 for _ in 0..turns.unsigned_abs() {
-                    phase = phase * unit;
+                    phase = Some(if let Some(p) = phase { p * unit } else { unit });
                 }
             }
+            let phase = phase.unwrap_or(Vector::ONE);
             self.phase[o] = phase;
             if orientation.class == 0 {
-                self.orient_class(cx, o);
+                self.orient_driven(cx, o);
             }
         }
     }
 
     /// Condition of what an edge starts from, without the points.
-    fn edge_condition(&self, cx: &Context<'_>, e: usize) -> f64 {
+    #[inline(always)]
+    fn edge_condition(&self, cx: &Context<'_, R>, e: usize) -> R {
         let turned = self.class_condition[cx.plan.class_of(e)];
         match cx.plan.edges[e].along {
             Along::Slide(slide) => turned.max(self.slide_condition[slide]),
@@ -227,40 +256,64 @@ impl State {
         }
     }
 
-    pub(crate) fn place(&mut self, cx: &Context<'_>, e: usize, backward: bool) {
-        let edge = &cx.plan.edges[e].edge;
-        let (from, to) = if backward { (edge.to, edge.from) } else { (edge.from, edge.to) };
-        for k in 0..self.len {
-            let v = self.edge(cx, e, k);
-            let base = self.points[from * self.len + k];
-            self.points[to * self.len + k] = if backward { base - v } else { base + v };
+    #[inline(always)]
+    pub(crate) fn place(&mut self, cx: &Context<'_, R>, e: usize, backward: bool) {
+        let edge = &cx.plan.edges[e];
+        let (mut from, mut to) = (edge.edge.from, edge.edge.to);
+        if backward {
+            (from, to) = (to, from);
         }
-        let (start, end) = (self.points[from * self.len], self.points[to * self.len]);
-        self.grain[to] = self.grain[from].max((end - start).norm()).max(end.norm());
+        let len = self.len;
+        for k in 0..len {
+            let v = self.edge(cx, e, k);
+            let base = self.points[from * len + k];
+            self.points[to * len + k] = if backward { base - v } else { base + v };
+        }
+        let (start, end) = (self.points[from * len], self.points[to * len]);
+        let arm = match edge.along {
+            Along::Nothing => R::splat(cx.bound.arm2[e]),
+            _ => (end - start).norm2(),
+        };
+        self.grain[to] = self.grain[from].max(arm).max(end.norm2());
         self.point_condition[to] = self.point_condition[from].max(self.edge_condition(cx, e));
     }
 
-    fn solve_dyad(&mut self, cx: &Context<'_>, dyad: &Dyad, index: usize) -> Result<(), Fault> {
+    #[inline(always)]
+    fn solve_dyad(&mut self, cx: &Context<'_, R>, dyad: &Dyad, index: usize) {
         let mut before = self.point_condition[dyad.start].max(self.point_condition[dyad.end]);
-        for &(e, _) in &dyad.path {
-            before = before.max(self.edge_condition(cx, e));
+        for part in &dyad.others {
+            if part.turns.is_none() {
+                before = before.max(self.class_condition[cx.plan.class_of(part.edge)]);
+            }
+            if let (Along::Slide(slide), None) = (cx.plan.edges[part.edge].along, part.slides) {
+                before = before.max(self.slide_condition[slide]);
+            }
         }
         if let Some(sign) = dyad.sign {
             self.before[sign] = before;
         }
-        let solved = self.close(cx, dyad).map_err(|gap| Fault::Open { step: index, gap })?;
-        let condition = before * solved.condition;
+        let solved = self.close(cx, dyad);
+        self.open(solved.open, || Fault::Open { step: index, gap: solved.gap.lane(0) });
+        if self.status == Status::Unreachable {
+            return;
+        }
+        let condition = before * solved.arm2 / solved.sine2;
         for unknown in dyad.unknowns {
             match unknown {
                 Unknown::Class(c) => self.class_condition[c] = condition,
                 Unknown::Slide(s) => self.slide_condition[s] = condition,
             }
         }
-        if solved.flat || solved.angle > singular_condition() {
-            self.no_analogues(dyad);
-            return Err(Fault::Flat { step: index });
+        let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));
+        if flat.any() {
+            self.care = self.care.or(flat);
+            if flat.all() {
+                self.fault.get_or_insert(Fault::Flat { step: index });
+                self.status = Status::Singular;
+                self.no_analogues(dyad);
+                return;
+            }
         }
         self.analogues(cx, dyad);
-        Ok(())
     }
 }

@@ -1,12 +1,48 @@
 //! A plan with the numbers of one design.
 
 use super::Plan;
+use crate::lanes::Real;
 use crate::linkage::{Dimension, Dimensions, Linkage};
 use crate::plane::Vector;
 use crate::structure::closure::Span;
 
+/// What turns with an unknown rotation of a dyad.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Leg<R = f64> {
+    /// In the frame of the class.
+    pub vector: Vector<R>,
+    /// Its length.
+    pub norm: R,
+    /// The square of that.
+    pub norm2: R,
+    /// 1/length².
+    pub per: R,
+}
+
+impl<R: Real> Leg<R> {
+    /// Measures a vector.
+    #[inline(always)]
+    pub fn of(vector: Vector<R>) -> Self {
+        let norm2 = vector.norm2();
+        Self { vector, norm: norm2.sqrt(), norm2, per: R::ONE / norm2 }
+    }
+}
+
+impl Leg {
+    /// The same on every lane.
+    #[inline(always)]
+    pub fn on_lanes<R: Real>(&self) -> Leg<R> {
+        Leg {
+            vector: Vector::splat(self.vector),
+            norm: R::splat(self.norm),
+            norm2: R::splat(self.norm2),
+            per: R::splat(self.per),
+        }
+    }
+}
+
 /// The fixed vectors of one design, in units of its scale.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bound {
     /// Power of two near the greatest length; results are multiplied by it.
     pub scale: f64,
@@ -14,6 +50,8 @@ pub struct Bound {
     pub origin: [f64; 2],
     /// Constant part of every edge, in the frame of its class.
     pub rigid: Vec<Vector>,
+    /// The square of its length.
+    pub arm2: Vec<f64>,
     /// Guide direction of every edge with a slide, in the frame of its class.
     pub guide: Vec<Vector>,
     /// Places of the points fixed to the ground.
@@ -24,67 +62,220 @@ pub struct Bound {
     pub turn: Vec<Vector>,
     /// Turn from the carrying to the sliding link of every slide.
     pub slide_turn: Vec<Vector>,
-    /// Greatest distance between points that turn with a class.
-    pub lever: Vec<f64>,
+    /// Square of the greatest distance between points that turn with a class.
+    pub lever2: Vec<f64>,
+    /// The legs of every dyad, where they are the same at all positions.
+    pub legs: Vec<[Leg; 2]>,
+}
+
+/// Where the dimensions of every edge and slide stand in the list of values; found
+/// once for a mechanism.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slots {
+    edges: Vec<Source>,
+    slides: Vec<SlideSlots>,
+    /// Ground joints with their coordinates.
+    ground: Vec<(usize, [Slot; 2])>,
+    /// Coordinates of the origin.
+    origin: [Slot; 2],
+    /// Lengths that make the scale, and the coordinate of the origin to take off.
+    lengths: Vec<(usize, Option<usize>)>,
+}
+
+/// Place of a value; a linkage that has no such dimension has 0.
+type Slot = Option<usize>;
+
+#[derive(Debug, Clone, PartialEq)]
+enum Source {
+    /// From the first joint of a link to another: its place in the link's frame.
+    Joint([Slot; 2]),
+    /// Along a guide.
+    Guide(usize),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct SlideSlots {
+    angle: Slot,
+    link_angle: Slot,
+    offset: Slot,
+    origin: [Slot; 2],
+    /// Whether its origin is a place in the drawing.
+    drawn: bool,
+}
+
+fn read(values: &[f64], slot: Slot) -> f64 {
+    slot.map_or(0.0, |i| values[i])
+}
+
+fn read_two(values: &[f64], slots: [Slot; 2]) -> Vector {
+    Vector::new(read(values, slots[0]), read(values, slots[1]))
+}
+
+impl SlideSlots {
+    fn angle(&self, values: &[f64]) -> f64 {
+        read(values, self.angle)
+    }
+
+    /// Turn from the carrying to the sliding link.
+    fn step(&self, values: &[f64]) -> f64 {
+        read(values, self.angle) - read(values, self.link_angle)
+    }
+}
+
+impl Slots {
+    /// Finds the places.
+    #[must_use]
+    pub fn new(plan: &Plan, linkage: &Linkage, dimensions: &Dimensions) -> Self {
+        let find = |wanted: Dimension| dimensions.iter().position(|(_, d)| d == wanted);
+        let on_ground =
+            |joint| [find(Dimension::GroundX { joint }), find(Dimension::GroundY { joint })];
+        let in_link = |link: usize, joint: usize| match linkage.links[link]
+            .joints
+            .iter()
+            .position(|&j| j == joint)
+        {
+            Some(0) => [None, None],
+            Some(1) => [find(Dimension::Length { link }), None],
+            _ => [find(Dimension::JointX { link, joint }), find(Dimension::JointY { link, joint })],
+        };
+        let edges = plan
+            .edges
+            .iter()
+            .map(|e| match e.edge.span {
+                Span::Joint { link, joint } => Source::Joint(in_link(link, joint)),
+                Span::Guide { slide } => Source::Guide(slide),
+            })
+            .collect();
+        let slides = (0..linkage.slides.len())
+            .map(|slide| SlideSlots {
+                angle: find(Dimension::SlideAngle { slide }),
+                link_angle: find(Dimension::SlideLinkAngle { slide }),
+                offset: find(Dimension::SlideOffset { slide }),
+                origin: [
+                    find(Dimension::SlideOriginX { slide }),
+                    find(Dimension::SlideOriginY { slide }),
+                ],
+                drawn: linkage.slides[slide].on == linkage.ground
+                    && linkage.slides[slide].origin.is_none(),
+            })
+            .collect();
+        let joints = &linkage.links[linkage.ground].joints;
+        let ground = joints.iter().map(|&joint| (joint, on_ground(joint))).collect();
+        // The first ground joint; without one the drawing's own origin.
+        let origin = joints.first().map_or([None, None], |&joint| on_ground(joint));
+        let lengths = lengths(plan, linkage, dimensions);
+        Self { edges, slides, ground, origin, lengths }
+    }
+}
+
+/// The dimensions that make the size of a design.
+fn lengths(plan: &Plan, linkage: &Linkage, dimensions: &Dimensions) -> Vec<(usize, Option<usize>)> {
+    let paired = |joint: usize| {
+        plan.edges
+            .iter()
+            .any(|e| e.paired && matches!(e.edge.span, Span::Joint { joint: j, .. } if j == joint))
+    };
+    let ground = |slide: usize| linkage.slides[slide].on == linkage.ground;
+    let mut out = Vec::new();
+    for (index, (_, dimension)) in dimensions.iter().enumerate() {
+        match dimension {
+            Dimension::GroundX { .. } => out.push((index, Some(0))),
+            Dimension::GroundY { .. } => out.push((index, Some(1))),
+            Dimension::SlideOriginX { slide } if ground(slide) => out.push((index, Some(0))),
+            Dimension::SlideOriginY { slide } if ground(slide) => out.push((index, Some(1))),
+            // A coupler point far away is no part of the closure.
+            Dimension::JointX { joint, .. } | Dimension::JointY { joint, .. } if !paired(joint) => {
+            }
+            d if d.is_length() => out.push((index, None)),
+            _ => {}
+        }
+    }
+    out
 }
 
 impl Bound {
     /// Binds a plan to dimensions (in the order of [`Dimensions`]).
     #[must_use]
-    pub fn new(plan: &Plan, linkage: &Linkage, dimensions: &Dimensions, values: &[f64]) -> Self {
-        let read = Reader { dimensions, values };
-        let origin = ground_origin(linkage, &read);
-        let scale = scale(plan, linkage, &read, origin);
-        let offset: Vec<f64> = plan
-            .rotation
-            .iter()
-            .map(|r| {
-                // Written as a sum from the first link on, so that 0 stays 0.
-                r.slides.iter().fold(0.0, |angle, &(slide, sign)| {
-                    let step = read.slide_angle(slide) - read.slide_link_angle(slide);
-                    if sign > 0 { angle + step } else { angle - step }
-                })
-            })
-            .collect();
-        let turn: Vec<Vector> = offset.iter().map(|&a| unit(a)).collect();
-        let slide_turn = (0..linkage.slides.len())
-            .map(|s| unit(read.slide_angle(s) - read.slide_link_angle(s)))
-            .collect();
-        let unit_of = 1.0 / scale;
-        let mut rigid = Vec::new();
-        let mut guide = Vec::new();
-        for e in &plan.edges {
-            let (w, d) = match e.edge.span {
-                Span::Joint { link, joint } => (read.joint(linkage, link, joint), Vector::ZERO),
-                Span::Guide { slide } => {
-                    let direction = unit(read.slide_angle(slide));
-                    let mut start = read.slide_origin(slide);
-                    if linkage.slides[slide].on == linkage.ground
-                        && linkage.slides[slide].origin.is_none()
-                    {
-                        start = start - Vector::new(origin[0], origin[1]);
+    pub fn new(plan: &Plan, slots: &Slots, values: &[f64]) -> Self {
+        let mut bound = Self::default();
+        bound.bind(plan, slots, values);
+        bound
+    }
+
+    /// Takes the dimensions of another design.
+    pub fn bind(&mut self, plan: &Plan, slots: &Slots, values: &[f64]) {
+        let origin = read_two(values, slots.origin);
+        self.origin = [origin.x, origin.y];
+        self.scale = scale(slots, values, self.origin);
+        let unit_of = 1.0 / self.scale;
+        self.offset.clear();
+        self.turn.clear();
+        for r in &plan.rotation {
+            // Written as a sum from the first link on, so that 0 stays 0.
+            let angle = r.slides.iter().fold(0.0, |angle, &(slide, sign)| {
+                let step = slots.slides[slide].step(values);
+                if sign > 0 { angle + step } else { angle - step }
+            });
+            self.offset.push(angle);
+            self.turn.push(unit(angle));
+        }
+        self.slide_turn.clear();
+        self.slide_turn.extend(slots.slides.iter().map(|s| unit(s.step(values))));
+        self.rigid.clear();
+        self.guide.clear();
+        self.arm2.clear();
+        for (e, source) in plan.edges.iter().zip(&slots.edges) {
+            let (w, d) = match *source {
+                Source::Joint(place) => (read_two(values, place), Vector::ZERO),
+                Source::Guide(slide) => {
+                    let slide = &slots.slides[slide];
+                    let direction = unit(slide.angle(values));
+                    let mut start = read_two(values, slide.origin);
+                    if slide.drawn {
+                        start = start - origin;
                     }
-                    (start + direction.left().scale(read.slide_offset(slide)), direction)
+                    let offset = read(values, slide.offset);
+                    (start + direction.left().scale(offset), direction)
                 }
             };
-            let turn = turn[e.edge.link];
-            rigid.push((turn * w).scale(unit_of));
-            guide.push(turn * d);
+            let turn = self.turn[e.edge.link];
+            let rigid = (turn * w).scale(unit_of);
+            self.rigid.push(rigid);
+            self.arm2.push(rigid.norm2());
+            self.guide.push(turn * d);
         }
-        let mut fixed = vec![Vector::ZERO; plan.points];
-        for &joint in &linkage.links[linkage.ground].joints {
-            let at = read.ground(joint);
-            fixed[joint + 1] = (at - Vector::new(origin[0], origin[1])).scale(unit_of);
+        self.fixed.clear();
+        self.fixed.resize(plan.points, Vector::ZERO);
+        for &(joint, place) in &slots.ground {
+            self.fixed[joint + 1] = (read_two(values, place) - origin).scale(unit_of);
         }
-        let mut lever = vec![0.0_f64; plan.classes];
-        for (e, w) in plan.edges.iter().zip(&rigid) {
+        self.lever2.clear();
+        self.lever2.resize(plan.classes, 0.0);
+        for (e, &arm2) in plan.edges.iter().zip(&self.arm2) {
             let class = plan.orientations[e.orientation].class;
             // A coupler point farther than the rest is itself the size that its error
             // is a part of.
-            let arm = if e.paired { w.norm() } else { w.norm().min(1.0) };
-            lever[class] = lever[class].max(arm);
+            let arm2 = if e.paired { arm2 } else { arm2.min(1.0) };
+            self.lever2[class] = self.lever2[class].max(arm2);
         }
-        Self { scale, origin, rigid, guide, fixed, offset, turn, slide_turn, lever }
+        self.measure_legs(plan);
+    }
+
+    fn measure_legs(&mut self, plan: &Plan) {
+        self.legs.clear();
+        for dyad in plan.dyads() {
+            self.legs.push([0, 1].map(|place| {
+                if dyad.leg[place].is_none() {
+                    return Leg::default();
+                }
+                let mut sum = Vector::ZERO;
+                for part in dyad.path.iter().filter(|part| part.turns == Some(place)) {
+                    let v = self.rigid[part.edge];
+                    sum += if part.backward { -v } else { v };
+                }
+                Leg::of(sum)
+            }));
+        }
     }
 }
 
@@ -93,86 +284,11 @@ fn unit(angle: f64) -> Vector {
     if angle == 0.0 { Vector::ONE } else { Vector::at_angle(angle) }
 }
 
-struct Reader<'a> {
-    dimensions: &'a Dimensions,
-    values: &'a [f64],
-}
-
-impl Reader<'_> {
-    /// The value of a dimension, 0 where the linkage has none of the kind.
-    fn get(&self, wanted: Dimension) -> f64 {
-        self.dimensions.iter().position(|(_, d)| d == wanted).map_or(0.0, |i| self.values[i])
-    }
-
-    fn ground(&self, joint: usize) -> Vector {
-        Vector::new(self.get(Dimension::GroundX { joint }), self.get(Dimension::GroundY { joint }))
-    }
-
-    /// A joint in the frame of its link.
-    fn joint(&self, linkage: &Linkage, link: usize, joint: usize) -> Vector {
-        match linkage.links[link].joints.iter().position(|&j| j == joint) {
-            Some(0) => Vector::ZERO,
-            Some(1) => Vector::new(self.get(Dimension::Length { link }), 0.0),
-            _ => Vector::new(
-                self.get(Dimension::JointX { link, joint }),
-                self.get(Dimension::JointY { link, joint }),
-            ),
-        }
-    }
-
-    fn slide_angle(&self, slide: usize) -> f64 {
-        self.get(Dimension::SlideAngle { slide })
-    }
-
-    fn slide_link_angle(&self, slide: usize) -> f64 {
-        self.get(Dimension::SlideLinkAngle { slide })
-    }
-
-    fn slide_offset(&self, slide: usize) -> f64 {
-        self.get(Dimension::SlideOffset { slide })
-    }
-
-    fn slide_origin(&self, slide: usize) -> Vector {
-        Vector::new(
-            self.get(Dimension::SlideOriginX { slide }),
-            self.get(Dimension::SlideOriginY { slide }),
-        )
-    }
-}
-
-/// The first ground joint; without one the drawing's own origin.
-fn ground_origin(linkage: &Linkage, read: &Reader<'_>) -> [f64; 2] {
-    linkage.links[linkage.ground].joints.first().map_or([0.0; 2], |&joint| {
-        let at = read.ground(joint);
-        [at.x, at.y]
-    })
-}
-
 /// Power of two at or below the greatest length.
-fn scale(plan: &Plan, linkage: &Linkage, read: &Reader<'_>, origin: [f64; 2]) -> f64 {
-    let paired = |joint: usize| {
-        plan.edges
-            .iter()
-            .any(|e| e.paired && matches!(e.edge.span, Span::Joint { joint: j, .. } if j == joint))
-    };
+fn scale(slots: &Slots, values: &[f64], origin: [f64; 2]) -> f64 {
     let mut greatest = 0.0_f64;
-    for ((_, dimension), &value) in read.dimensions.iter().zip(read.values) {
-        let length = match dimension {
-            Dimension::GroundX { .. } => value - origin[0],
-            Dimension::GroundY { .. } => value - origin[1],
-            Dimension::SlideOriginX { slide } if linkage.slides[slide].on == linkage.ground => {
-                value - origin[0]
-            }
-            Dimension::SlideOriginY { slide } if linkage.slides[slide].on == linkage.ground => {
-                value - origin[1]
-            }
-            // A coupler point far away is no part of the closure.
-            Dimension::JointX { joint, .. } | Dimension::JointY { joint, .. } if !paired(joint) => {
-                0.0
-            }
-            d if d.is_length() => value,
-            _ => 0.0,
-        };
+    for &(index, from) in &slots.lengths {
+        let length = values[index] - from.map_or(0.0, |axis| origin[axis]);
         greatest = greatest.max(length.abs());
     }
     power_of_two(greatest)

@@ -31,6 +31,21 @@ pub enum Form {
     TwoLines,
 }
 
+/// What an edge of a dyad's loop adds to its equation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// The edge.
+    pub edge: usize,
+    /// Run from `to` to `from`.
+    pub backward: bool,
+    /// The unknown (0 or 1) whose rotation turns it.
+    pub turns: Option<usize>,
+    /// The unknown that is the slide along it.
+    pub slides: Option<usize>,
+    /// Whether its constant part is counted in that unknown's leg.
+    pub in_leg: bool,
+}
+
 /// One vector equation with two unknowns:
 /// `P_start + Σ ±edge vectors = P_end`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,8 +57,15 @@ pub struct Dyad {
     pub unknowns: [Unknown; 2],
     /// The orientations that turn with each unknown (none with a slide).
     pub turned: [Vec<usize>; 2],
-    /// The loop, edge by edge; `backward` runs from `to` to `from`.
-    pub path: Vec<(usize, bool)>,
+    /// The loop, edge by edge.
+    pub path: Vec<Part>,
+    /// What of the loop is not wholly in a leg.
+    pub others: Vec<Part>,
+    /// Orientation of the leg that turns with an unknown: the sum of the constant parts,
+    /// if nothing else turns with it but its slide.
+    pub leg: [Option<usize>; 2],
+    /// Place among the dyads.
+    pub index: usize,
     /// Known point where the path starts.
     pub start: usize,
     /// Known point where it ends.
@@ -261,7 +283,35 @@ fn dyad(
         let with = |o: &usize| unknown == Unknown::Class(plan.orientations[*o].class);
         (0..plan.orientations.len()).filter(with).collect()
     });
-    Dyad { form, unknowns, turned, path: loop_path, start, end, sign }
+    let place = |unknown| unknowns.iter().position(|&u| u == unknown);
+    let mut path: Vec<Part> = loop_path
+        .into_iter()
+        .map(|(edge, backward)| {
+            let turns = place(Unknown::Class(plan.class_of(edge)));
+            let slides = match plan.edges[edge].along {
+                Along::Slide(s) => place(Unknown::Slide(s)),
+                _ => None,
+            };
+            Part { edge, backward, turns, slides, in_leg: false }
+        })
+        .collect();
+    let leg = [0, 1].map(|place| {
+        let rigid = path.iter().filter(|part| part.turns == Some(place)).all(|part| {
+            let edge = &plan.edges[part.edge];
+            let own = edge.along == Along::Nothing || part.slides.is_some();
+            own && !plan.orientations[edge.orientation].driven
+        });
+        path.iter()
+            .find(|part| rigid && part.turns == Some(place))
+            .map(|part| plan.edges[part.edge].orientation)
+    });
+    for part in &mut path {
+        part.in_leg = part.turns.is_some_and(|place| leg[place].is_some());
+    }
+    let others =
+        path.iter().copied().filter(|part| !part.in_leg || part.slides.is_some()).collect();
+    let index = plan.dyads().count();
+    Dyad { form, unknowns, turned, path, others, leg, index, start, end, sign }
 }
 
 /// A closed loop may start anywhere on it: at the run of edges of its first unknown

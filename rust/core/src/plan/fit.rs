@@ -23,7 +23,7 @@ pub fn add_fits(
         waiting.retain(|&link| {
             let fit = fit_link(plan, linkage, closure, link, &placed_links, &mut known);
             let Some(fit) = fit else { return true };
-            checked.extend(fit.parallel.iter().copied());
+            checked.extend(fit.parallel.iter().map(|&(slide, _)| slide));
             plan.steps.push(Step::Fit(fit));
             placed_links.push(link);
             false
@@ -34,14 +34,15 @@ pub fn add_fits(
     }
     for &slide in &left_out.slides {
         if !checked.contains(&slide) {
-            let checks = slide_edge(closure, slide).into_iter().collect();
+            let checks: Vec<usize> = slide_edge(closure, slide).into_iter().collect();
             let name = linkage.slides[slide].name.clone();
             plan.steps.push(Step::Fit(Fit {
                 name,
                 turned: None,
                 places: vec![],
+                touched: checks.clone(),
                 checks,
-                parallel: vec![slide],
+                parallel: vec![(slide, linkage.slides[slide].on)],
             }));
         }
     }
@@ -102,11 +103,13 @@ fn fit_link(
         }
     }
     checks.extend(slides.iter().filter_map(|&s| slide_edge(closure, s)));
+    let touched = checks.iter().copied().chain(places.iter().map(|&(e, _)| e)).collect();
     Some(Fit {
         name: linkage.links[link].name.clone(),
         turned: Some(turned),
         places,
         checks,
-        parallel: slides,
+        touched,
+        parallel: slides.into_iter().map(|s| (s, linkage.slides[s].on)).collect(),
     })
 }

@@ -24,6 +24,10 @@ pub struct Jets {
     pub order: usize,
     /// Multi-indices in graded order; the first is the value itself.
     pub powers: Vec<Vec<usize>>,
+    /// The driver of a first-order entry, else none.
+    pub driver_of: Vec<Option<usize>>,
+    /// A driver of every entry but the first, and the entry with one order less in it.
+    pub lowered: Vec<(usize, usize)>,
     /// Terms of the derivative of a product, for every multi-index.
     pub product: Vec<Vec<Term>>,
     /// Terms of the derivative of a unit vector (times i), without the term in
@@ -52,6 +56,20 @@ impl Jets {
             layer = next;
         }
         let find = |p: &[usize]| powers.iter().position(|q| q == p).unwrap_or(0);
+        let first = |p: &Vec<usize>| p.iter().position(|&a| a > 0);
+        let driver_of = powers
+            .iter()
+            .map(|p| if p.iter().sum::<usize>() == 1 { first(p) } else { None })
+            .collect();
+        let lowered = powers
+            .iter()
+            .map(|p| {
+                let Some(driver) = first(p) else { return (0, 0) };
+                let mut lower = p.clone();
+                lower[driver] -= 1;
+                (driver, find(&lower))
+            })
+            .collect();
         let product = powers.iter().map(|alpha| leibniz(alpha, &find)).collect();
         let rotation = powers
             .iter()
@@ -72,7 +90,7 @@ impl Jets {
                     .collect()
             })
             .collect();
-        Self { drivers, order, powers, product, rotation }
+        Self { drivers, order, powers, driver_of, lowered, product, rotation }
     }
 
     /// Entries in a jet.
@@ -85,13 +103,6 @@ impl Jets {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.powers.is_empty()
-    }
-
-    /// The driver of a first-order entry, else none.
-    #[must_use]
-    pub fn driver_of(&self, index: usize) -> Option<usize> {
-        let power = &self.powers[index];
-        (power.iter().sum::<usize>() == 1).then(|| power.iter().position(|&p| p == 1)).flatten()
     }
 
     /// Entries of the full symmetric tensor of one order, last driver fastest.

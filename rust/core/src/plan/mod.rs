@@ -18,7 +18,7 @@ use crate::plane::Vector;
 use crate::structure::closure::{Edge, Span, rotations};
 use crate::structure::{Closure, Rotation, Structure};
 use bind::Bound;
-pub use block::{Dyad, Form, Unknown};
+pub use block::{Dyad, Form, Part, Unknown};
 
 /// Value of a slide on an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,6 +52,8 @@ pub struct Orientation {
     pub class: usize,
     /// Multiples of the drivers.
     pub turns: Vec<i8>,
+    /// Whether a multiple is not 0.
+    pub driven: bool,
 }
 
 /// One thing to do at every position.
@@ -77,8 +79,10 @@ pub struct Fit {
     pub places: Vec<(usize, bool)>,
     /// Edges that must close (a slide along them takes the value that fits best).
     pub checks: Vec<usize>,
-    /// Slides whose two links must keep their angle.
-    pub parallel: Vec<usize>,
+    /// All edges that are placed or must close.
+    pub touched: Vec<usize>,
+    /// Slides whose two links must keep their angle, with the carrying link.
+    pub parallel: Vec<(usize, usize)>,
 }
 
 /// How a redundant link's orientation is found.
@@ -149,7 +153,8 @@ impl Plan {
         let mut orientations: Vec<Orientation> = Vec::new();
         let mut link_orientation = Vec::new();
         for r in &rotation {
-            let orientation = Orientation { class: r.class, turns: r.turns.clone() };
+            let driven = r.turns.iter().any(|&t| t != 0);
+            let orientation = Orientation { class: r.class, turns: r.turns.clone(), driven };
             let place = orientations.iter().position(|o| *o == orientation).unwrap_or_else(|| {
                 orientations.push(orientation);
                 orientations.len() - 1
@@ -218,6 +223,14 @@ impl Plan {
         let turn = bound.slide_turn[slide];
         let (other, turn) = if link == sliding { (carrying, turn) } else { (sliding, turn.conj()) };
         (other, bound.turn[other] * turn * bound.turn[link].conj())
+    }
+
+    /// The dyads, in order.
+    pub fn dyads(&self) -> impl Iterator<Item = &Dyad> {
+        self.steps.iter().filter_map(|step| match step {
+            Step::Dyad(dyad) => Some(dyad),
+            _ => None,
+        })
     }
 
     /// Number of dyads with two solutions.

@@ -1,0 +1,39 @@
+//! Mechanisms of the benches.
+
+use assur::{Description, FourBar, FourBarMode, Mechanism, SliderCrank};
+
+pub fn four_bar() -> Mechanism {
+    Mechanism::new(&FourBar::description(FourBarMode::Open)).expect("a mechanism")
+}
+
+pub fn jansen() -> Mechanism {
+    let places = [
+        (0.0, 0.0),
+        (9.61, 11.52),
+        (-38.0, -7.8),
+        (-35.24, 33.61),
+        (-77.75, -2.54),
+        (-20.1, -42.79),
+        (-56.05, -35.42),
+        (-22.22, -91.74),
+    ];
+    let mut leg = Description::new();
+    for (joint, (x, y)) in places.into_iter().enumerate() {
+        leg = leg.joint(&joint.to_string(), [x, y]);
+    }
+    let leg = leg
+        .link("ground", ["0", "2"])
+        .link("crank", ["0", "1"])
+        .link("upper", ["1", "3"])
+        .link("shoulder", ["2", "3", "4"])
+        .link("lower", ["1", "5"])
+        .link("arm", ["2", "5"])
+        .link("rod", ["4", "6"])
+        .link("foot", ["5", "6", "7"]);
+    Mechanism::new(&leg.driver("crank")).expect("a mechanism")
+}
+
+pub fn all() -> [(&'static str, Mechanism); 3] {
+    let engine = Mechanism::new(&SliderCrank::description()).expect("a mechanism");
+    [("four_bar", four_bar()), ("engine", engine), ("jansen", jansen())]
+}

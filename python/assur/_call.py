@@ -1,0 +1,98 @@
+"""One call of the core: what is to be solved, and its arrays by name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from assur.mechanism import Mechanism
+
+Float: TypeAlias = npt.NDArray[np.float64]
+Held: TypeAlias = dict[str, tuple[Float, ...]]
+# Indices of joints, links, links whose places are wanted, slides.
+Outputs: TypeAlias = tuple[list[int], list[int], list[int], list[int]]
+
+
+@dataclass(frozen=True)
+class Tracks:
+    """What a motion holds, by name: arrays by order."""
+
+    joints: Held
+    links: Held
+    slides: Held
+
+
+@dataclass(frozen=True)
+class Call:
+    """Everything a motion depends on."""
+
+    mechanism: Mechanism
+    q: Float
+    positions: tuple[int, ...]
+    per_design: bool
+    order: int
+    signs: list[int]
+    threads: int | None
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return (*self.mechanism.shape, *self.positions)
+
+    def arrays(
+        self, joints: dict[str, int], links: dict[str, int], slides: dict[str, int]
+    ) -> tuple[Tracks, npt.NDArray[np.uint8]]:
+        """Solve, and keep these joints, angles of links, and slides."""
+        wanted = [list(of.values()) for of in (joints, links, slides)]
+        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]))
+        shape = self.shape
+        tracks = Tracks(
+            joints=self._named("joint", joints, found, (*shape, 2)),
+            links=self._named("link", links, found, shape),
+            slides=self._named("slide", slides, found, shape),
+        )
+        status = status.reshape(shape)
+        status.flags.writeable = False
+        return tracks, status
+
+    def place(self, link: str) -> tuple[Float, ...]:
+        """Solve for the place of a link's first joint (or slide)."""
+        index = self.mechanism._core.require("link", link)
+        found, _ = self._solve(([], [], [index], []))
+        return self._named("place", {link: index}, found, (*self.shape, 2))[link]
+
+    def flat(self) -> tuple[Float, Float]:
+        """Dimensions and coordinates as the core takes them."""
+        values = np.ascontiguousarray(self.mechanism._values).reshape(-1)
+        return values, np.ascontiguousarray(self.q).reshape(-1)
+
+    def _solve(
+        self, outputs: Outputs
+    ) -> tuple[dict[tuple[str, int, int], Float], npt.NDArray[np.uint8]]:
+        values, q = self.flat()
+        return self.mechanism._core.solve(
+            values, q, self.per_design, self.signs, self.order, outputs, self.threads
+        )
+
+    def _named(
+        self,
+        kind: str,
+        names: dict[str, int],
+        found: dict[tuple[str, int, int], Float],
+        shape: tuple[int, ...],
+    ) -> Held:
+        """Arrays by order; one axis more for every order if there are several drivers."""
+        drivers = len(self.mechanism._core.q0)
+        held = {}
+        for name, index in names.items():
+            arrays = []
+            for order in range(self.order + 1):
+                tail = (drivers,) * order if drivers > 1 else ()
+                array = found[kind, index, order].reshape(shape + tail)
+                array.flags.writeable = False
+                arrays.append(array)
+            held[name] = tuple(arrays)
+        return held

@@ -1,0 +1,373 @@
+//! Numbers one at a time or eight at a time: what the executor is written over.
+//!
+//! [`Real`] is a plain `f64` or [`Lanes`], eight of them worked on together. Every
+//! operation is the one of IEEE 754 on each lane by itself (no fused multiplication,
+//! no library function), so a lane has the bits that the scalar would have, on every
+//! machine and whatever its neighbours are.
+
+pub mod trig;
+mod two_over_pi;
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+/// Numbers worked on together.
+pub const LANES: usize = 8;
+
+/// A truth value for each lane.
+pub trait Mask: Copy + Debug {
+    /// True nowhere.
+    const NONE: Self;
+    /// Whether it is true on some lane.
+    fn any(self) -> bool;
+    /// Whether it is true on every lane.
+    fn all(self) -> bool;
+    /// The value of one lane.
+    fn lane(self, lane: usize) -> bool;
+    /// True where both are.
+    #[must_use]
+    fn and(self, other: Self) -> Self;
+    /// True where one of them is.
+    #[must_use]
+    fn or(self, other: Self) -> Self;
+    /// True where it is not.
+    #[must_use]
+    fn not(self) -> Self;
+}
+
+/// A number, or several worked on together.
+pub trait Real:
+    Copy
+    + Debug
+    + Default
+    + PartialEq
+    + Add<Output = Self>
+    + AddAssign
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// What comparisons give.
+    type Mask: Mask;
+    /// How many numbers.
+    const LANES: usize;
+    /// Zero on every lane.
+    const ZERO: Self;
+    /// One on every lane.
+    const ONE: Self;
+    /// The same number on every lane.
+    fn splat(value: f64) -> Self;
+    /// A number for each lane.
+    fn from_lanes(of: impl FnMut(usize) -> f64) -> Self;
+    /// The number of one lane.
+    fn lane(self, lane: usize) -> f64;
+    /// Square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// Absolute value.
+    #[must_use]
+    fn abs(self) -> Self;
+    /// `self` where it is greater than `other`, else `other` (so also where one of
+    /// them is not a number).
+    #[must_use]
+    fn max(self, other: Self) -> Self;
+    /// `self` where it is less than `other`, else `other`.
+    #[must_use]
+    fn min(self, other: Self) -> Self;
+    /// The greatest integer that is not greater.
+    #[must_use]
+    fn floor(self) -> Self;
+    /// Own size with the sign of `sign`.
+    #[must_use]
+    fn copysign(self, sign: Self) -> Self;
+    /// Where it is less.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// Where it is less or equal.
+    fn le(self, other: Self) -> Self::Mask;
+    /// Where it is a finite number.
+    #[inline(always)]
+    fn finite(self) -> Self::Mask {
+        self.abs().lt(Self::splat(f64::INFINITY))
+    }
+    /// Where a bit of the representation is set (0: the last of the significand).
+    fn bit(self, bit: u32) -> Self::Mask;
+    /// `yes` where the mask is true, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+}
+
+impl Mask for bool {
+    const NONE: Self = false;
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn lane(self, _: usize) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        self & other
+    }
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        self | other
+    }
+    #[inline(always)]
+    fn not(self) -> Self {
+        !self
+    }
+}
+
+impl Real for f64 {
+    type Mask = bool;
+    const LANES: usize = 1;
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn from_lanes(mut of: impl FnMut(usize) -> f64) -> Self {
+        of(0)
+    }
+    #[inline(always)]
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        self.floor()
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        self.copysign(sign)
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> bool {
+        self <= other
+    }
+    #[inline(always)]
+    fn bit(self, bit: u32) -> bool {
+        self.to_bits() >> bit & 1 != 0
+    }
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+}
+
+/// Eight numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C, align(64))]
+pub struct Lanes(pub [f64; LANES]);
+
+/// Eight truth values, all bits of a word set or none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C, align(64))]
+pub struct LaneMask([u64; LANES]);
+
+impl LaneMask {
+    #[inline(always)]
+    fn each(of: impl Fn(usize) -> bool) -> Self {
+        let mut out = [0; LANES];
+        for lane in 0..LANES {
+            out[lane] = if of(lane) { u64::MAX } else { 0 };
+        }
+        Self(out)
+    }
+}
+
+impl Mask for LaneMask {
+    const NONE: Self = Self([0; LANES]);
+    #[inline(always)]
+    fn any(self) -> bool {
+        let mut some = 0;
+        for lane in 0..LANES {
+            some |= self.0[lane];
+        }
+        some != 0
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        let mut every = u64::MAX;
+        for lane in 0..LANES {
+            every &= self.0[lane];
+        }
+        every != 0
+    }
+    #[inline(always)]
+    fn lane(self, lane: usize) -> bool {
+        self.0[lane] != 0
+    }
+    #[inline(always)]
+    fn and(mut self, other: Self) -> Self {
+        for lane in 0..LANES {
+            self.0[lane] &= other.0[lane];
+        }
+        self
+    }
+    #[inline(always)]
+    fn or(mut self, other: Self) -> Self {
+        for lane in 0..LANES {
+            self.0[lane] |= other.0[lane];
+        }
+        self
+    }
+    #[inline(always)]
+    fn not(mut self) -> Self {
+        for lane in 0..LANES {
+            self.0[lane] = !self.0[lane];
+        }
+        self
+    }
+}
+
+impl Lanes {
+    #[inline(always)]
+    fn each(of: impl Fn(usize) -> f64) -> Self {
+        let mut out = [0.0; LANES];
+        for lane in 0..LANES {
+            out[lane] = of(lane);
+        }
+        Self(out)
+    }
+}
+
+impl Add for Lanes {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self::each(|i| self.0[i] + other.0[i])
+    }
+}
+
+impl AddAssign for Lanes {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Sub for Lanes {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self::each(|i| self.0[i] - other.0[i])
+    }
+}
+
+impl Mul for Lanes {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self::each(|i| self.0[i] * other.0[i])
+    }
+}
+
+impl Div for Lanes {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Self::each(|i| self.0[i] / other.0[i])
+    }
+}
+
+impl Neg for Lanes {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::each(|i| -self.0[i])
+    }
+}
+
+impl Real for Lanes {
+    type Mask = LaneMask;
+    const LANES: usize = LANES;
+    const ZERO: Self = Self([0.0; LANES]);
+    const ONE: Self = Self([1.0; LANES]);
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self([value; LANES])
+    }
+    #[inline(always)]
+    fn from_lanes(mut of: impl FnMut(usize) -> f64) -> Self {
+        let mut out = [0.0; LANES];
+        for lane in 0..LANES {
+            out[lane] = of(lane);
+        }
+        Self(out)
+    }
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self::each(|i| self.0[i].sqrt())
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::each(|i| self.0[i].abs())
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::each(|i| if self.0[i] > other.0[i] { self.0[i] } else { other.0[i] })
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::each(|i| if self.0[i] < other.0[i] { self.0[i] } else { other.0[i] })
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Self::each(|i| self.0[i].floor())
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        Self::each(|i| self.0[i].copysign(sign.0[i]))
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> LaneMask {
+        LaneMask::each(|i| self.0[i] < other.0[i])
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> LaneMask {
+        LaneMask::each(|i| self.0[i] <= other.0[i])
+    }
+    #[inline(always)]
+    fn bit(self, bit: u32) -> LaneMask {
+        LaneMask::each(|i| self.0[i].to_bits() >> bit & 1 != 0)
+    }
+    #[inline(always)]
+    fn select(mask: LaneMask, yes: Self, no: Self) -> Self {
+        Self::each(|i| {
+            f64::from_bits(yes.0[i].to_bits() & mask.0[i] | no.0[i].to_bits() & !mask.0[i])
+        })
+    }
+}

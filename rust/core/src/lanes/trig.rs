@@ -1,0 +1,393 @@
+//! Sine, cosine, arc tangent and arc sine of our own.
+//!
+//! They are made of the operations of [`Real`] only, so a number has the same bits one at a time
+//! or in lanes, on every machine; the functions of the system's library promise neither. Errors
+//! are in ulp, the unit in the last place of the exact value rounded to a double. Bounds have a
+//! small margin above the worst found in some 10^8 samples, most about the worst places;
+//! `tests/python/test_trig.py` holds them against 50 digits.
+//!
+//! The polynomials are minimax in the relative error of the function (Remez's exchange at 60
+//! digits, with mpmath); coefficients were rounded to doubles one after another from the
+//! lowest, what is above fitted again after each.
+
+use super::two_over_pi::FRAC_2_PI_BITS;
+use super::{LANES, Mask, Real};
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+
+/// (sin r − r) / r³ in r², |r| ≤ π/4; relative error of sin r 2^-57.9.
+const SIN: [f64; 6] = [
+    -0.1666666666666663,
+    0.00833333333332184,
+    -0.0001984126982935895,
+    2.755731353881218e-06,
+    -2.5050734455467174e-08,
+    1.5895438005449688e-10,
+];
+
+/// (cos r − 1 + r²/2) / r⁴ in r², |r| ≤ π/4; relative error of cos r 2^-63.9.
+const COS: [f64; 6] = [
+    0.041666666666666595,
+    -0.0013888888888873342,
+    2.4801587289002056e-05,
+    -2.75573142170319e-07,
+    2.087570539598387e-09,
+    -1.1358749309738377e-11,
+];
+
+/// (atan t − t) / t³ in t², |t| ≤ 1; relative error of atan t 2^-57.5.
+const ATAN: [f64; 20] = [
+    -0.3333333333333307,
+    0.19999999999951754,
+    -0.14285714282588358,
+    0.11111111007349522,
+    -0.09090907007917615,
+    0.07692279890134214,
+    -0.0666640443210954,
+    0.058805298546664095,
+    -0.05253526971087977,
+    0.04722348970777943,
+    -0.042192451286361406,
+    0.03664319141544307,
+    -0.029905797693023355,
+    0.021987140231768273,
+    -0.013902636356150676,
+    0.0071979253632990375,
+    -0.002885628899094812,
+    0.0008315659773338085,
+    -0.00015221243680522403,
+    1.3230122606774063e-05,
+];
+
+/// (asin t − t) / t³ in t², |t| ≤ 1/2; relative error of asin t 2^-55.8.
+const ASIN: [f64; 12] = [
+    0.16666666666665408,
+    0.07500000000337156,
+    0.044642856828199955,
+    0.030381959142605667,
+    0.02237175790853889,
+    0.01735970698729908,
+    0.013885212777740973,
+    0.012169364933771833,
+    0.006527294338695707,
+    0.019530177279440515,
+    -0.01622732974067008,
+    0.03191443179629825,
+];
+
+/// π/2 in parts of 31, 32, 28 and 53 bits: products of the first three with whole numbers up to
+/// 2^21 are exact.
+const FRAC_PI_2_PARTS: [f64; 4] =
+    [1.5707963267341256, 6.077100506303966e-11, 2.0222662487111665e-21, 8.4784276603689e-32];
+
+/// 2^21 π/2, rounded down: up to here the number of quarter turns is at most 2^21.
+const FEW_TURNS: f64 = 3294198.0;
+
+/// Added to a number below 2^51, leaves it rounded to a whole one in the last bits.
+const ROUNDER: f64 = 1.5 * (1_u64 << 52) as f64;
+
+/// π less its double.
+const PI_REST: f64 = 1.2246467991473532e-16;
+
+/// π/2 · 2^63, rounded.
+const FRAC_PI_2_BITS: u128 = 0xc90fdaa22168c235;
+
+/// Polynomial, lowest coefficient first, an even number of them. Terms go in pairs and the pairs
+/// by Horner in z²: half the latency, one multiplication more.
+#[inline(always)]
+fn polynomial<R: Real, const N: usize>(z: R, coefficients: [f64; N]) -> R {
+    let zz = z * z;
+    let pair = |i: usize| R::splat(coefficients[i]) + R::splat(coefficients[i + 1]) * z;
+    let mut i = N - 2;
+    let mut sum = pair(i);
+    while i > 0 {
+        i -= 2;
+        sum = pair(i) + sum * zz;
+    }
+    sum
+}
+
+/// Sine and cosine of an angle in radians, any double; NaN for infinities and NaN.
+///
+/// Error below 0.9 ulp (0.84 found). The sine of −0 is −0.
+///
+/// Up to 3.29e6, quarter turns are taken off with π/2 in four parts, the products exact (Cody and
+/// Waite, *Software Manual for the Elementary Functions*, 1980), and the rest is a sum of two. No
+/// double is nearer to a multiple of π/2 than 2^-61, so what is lost there, below 2^-134, does not
+/// matter. Larger angles are reduced one by one in whole numbers (Payne and Hanek, "Radian
+/// reduction for trigonometric functions", *ACM SIGNUM Newsletter* 18(1), 1983), about eight times
+/// slower; their neighbours' bits do not depend on it.
+#[inline(always)]
+pub fn sin_cos<R: Real>(x: R) -> (R, R) {
+    let rounder = R::splat(ROUNDER);
+    let parts = FRAC_PI_2_PARTS.map(R::splat);
+    // Its last two bits are the quadrant.
+    let mut turned = x * R::splat(FRAC_2_PI) + rounder;
+    let k = turned - rounder;
+    // Exact: below 1, and a multiple of 2^-53 as both operands are.
+    let first = x - k * parts[0];
+    // Where an operand of these differences is the smaller one after cancellation, they are exact;
+    // elsewhere what they lose is found exactly (Dekker).
+    let taken = k * parts[1];
+    let second = first - taken;
+    let second_lost = (first - second) - taken;
+    let taken = k * parts[2];
+    let mut r = second - taken;
+    let mut lo = (((second - r) - taken) + second_lost) - k * parts[3];
+    let near = x.abs().le(R::splat(FEW_TURNS));
+    if !near.all() {
+        [turned, r, lo] = reduce_far(x, near, [turned, r, lo]);
+    }
+
+    let z = r * r;
+    let half = z * R::splat(0.5);
+    let top = R::ONE - half; // near enough to cos r for `lo`
+    let cos_low = ((R::ONE - top) - half) - r * lo;
+    let cos = top + (cos_low + (z * z) * polynomial(z, COS));
+    // −sin r: a sum of r and its correction would give +0 for −0.
+    let minus_sin = -r - ((r * z) * polynomial(z, SIN) + lo * top);
+
+    let odd = turned.bit(0);
+    let negative = turned.bit(1);
+    let sin_here = R::select(odd, cos, -minus_sin);
+    let cos_here = R::select(odd, minus_sin, cos);
+    (R::select(negative, -sin_here, sin_here), R::select(negative, -cos_here, cos_here))
+}
+
+/// Lanes that are not `near` by [`reduce_exactly`], the others as they are.
+#[cold]
+#[inline(never)]
+fn reduce_far<R: Real>(x: R, near: R::Mask, reduced: [R; 3]) -> [R; 3] {
+    let mut lanes = [[0.0; 3]; LANES];
+    for lane in 0..R::LANES {
+        lanes[lane] = if near.lane(lane) {
+            reduced.map(|part| part.lane(lane))
+        } else {
+            reduce_exactly(x.lane(lane))
+        };
+    }
+    [0, 1, 2].map(|part| R::from_lanes(|lane| lanes[lane][part]))
+}
+
+/// Number whose last two bits are the quadrant of an angle above 2^20, and the rest of the angle
+/// as a sum of two.
+///
+/// Of x · 2/π only the bits that matter are computed (Payne and Hanek 1983): the bits of 2/π that
+/// give multiples of four are left out, and 192 from there on give two of the quadrant and 126
+/// good ones after the point, of which at most 62 cancel.
+fn reduce_exactly(x: f64) -> [f64; 3] {
+    if !x.is_finite() {
+        return [f64::NAN; 3];
+    }
+    let bits = x.to_bits();
+    let significand = u128::from(bits & ((1 << 52) - 1) | 1 << 52);
+    // |x| = significand · 2^e. Bit b of 2/π has weight 2^-b; the first to count is e − 1, which is
+    // at index e − 2 after the 64 zeros.
+    let exponent = (bits >> 52 & 0x7ff) as usize;
+    let from = exponent + 64 - 1075 - 2;
+    let word = |i: usize| {
+        let [high, low] = [0, 1].map(|j| u128::from(FRAC_2_PI_BITS[from / 64 + i + j]));
+        (high << 64 | low) << (from % 64) >> 64
+    };
+    let low = significand * word(2);
+    let middle = significand * word(1) + (low >> 64);
+    let high = significand * word(0) + (middle >> 64);
+    let product = high << 64 | middle & u128::from(u64::MAX);
+
+    // To the nearest multiple: the fraction is signed.
+    let fraction = (product << 2).cast_signed();
+    let quadrant = (product >> 126) as u64 + u64::from(fraction < 0);
+    let zeros = fraction.unsigned_abs().leading_zeros();
+    let size = fraction.unsigned_abs() << zeros >> 64;
+    let angle = size * FRAC_PI_2_BITS;
+    let unit = f64::from_bits(u64::from(1023 - 127 - zeros) << 52);
+    let head = angle >> 75 << 75;
+    let (head, tail) = (head as f64 * unit, (angle - head) as f64 * unit);
+    let r = head + tail;
+    let lo = tail - (r - head);
+    let sign = if (fraction < 0) == (x < 0.0) { 1.0 } else { -1.0 };
+    [f64::from_bits(if x < 0.0 { 4 - quadrant } else { quadrant }), sign * r, sign * lo]
+}
+
+/// Angle of the point (x, y) in [−π, π], any doubles; signed zeros and infinities as in C and
+/// IEEE 754.
+///
+/// Error below 1.7 ulp (1.63 found), subnormal coordinates and angles included. The worst places
+/// are just below powers of two, where the angle's ulp is half that of the quotient.
+///
+/// The quotient of the smaller by the larger coordinate, one division, cannot overflow; its
+/// polynomial is added to 0, π/2 or π kept as a sum of two.
+#[inline(always)]
+pub fn atan2<R: Real>(y: R, x: R) -> R {
+    let (size_x, size_y) = (x.abs(), y.abs());
+    let steep = size_x.lt(size_y);
+    let quotient = R::select(steep, -x, size_y) / R::select(steep, size_y, x);
+    // Both zero or both infinite; it changes nothing for others.
+    let equal = size_y.le(size_x).and(size_x.le(size_y));
+    let of_equal = R::select(R::ZERO.lt(size_x), R::ONE, R::ZERO).copysign(x);
+    let t = R::select(equal, of_equal, quotient);
+    let z = t * t;
+    let correction = (t * z) * polynomial(z, ATAN);
+    let half_turns = R::select(steep, R::splat(0.5), R::select(x.bit(63), R::ONE, R::ZERO));
+    add(half_turns * R::splat(PI), half_turns * R::splat(PI_REST), t, correction).copysign(y)
+}
+
+/// Arc sine; NaN outside [−1, 1].
+///
+/// Error below 1.3 ulp (1.26 found). The arc sine of −0 is −0.
+///
+/// Above 1/2 by asin x = π/2 − 2 asin √((1 − x)/2) (Cody and Waite, 1980), whose 1 − x is exact.
+#[inline(always)]
+pub fn asin<R: Real>(x: R) -> R {
+    let size = x.abs();
+    let large = R::splat(0.5).lt(size);
+    let half = (R::ONE - size) * R::splat(0.5);
+    let z = R::select(large, half, size * size);
+    let t = R::select(large, R::splat(-2.0) * half.sqrt(), size);
+    let correction = (t * z) * polynomial(z, ASIN);
+    let quarter_turn = R::select(large, R::splat(FRAC_PI_2), R::ZERO);
+    let rest = R::select(large, R::splat(0.5 * PI_REST), R::ZERO);
+    add(quarter_turn, rest, t, correction).copysign(x)
+}
+
+/// `high` + `low` + `t` + `correction`, where `high` is zero or greater than |`t`|: what the first
+/// sum loses is found exactly (Dekker).
+#[inline(always)]
+fn add<R: Real>(high: R, low: R, t: R, correction: R) -> R {
+    let sum = high + t;
+    let lost = t - (sum - high);
+    sum + (lost + (low + correction))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::Lanes;
+    use std::f64::consts::FRAC_PI_4;
+
+    const TINY: f64 = 5e-324;
+    const INFINITY: f64 = f64::INFINITY;
+
+    /// Equal bits, or both NaN.
+    fn same(a: f64, b: f64) -> bool {
+        a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
+    }
+
+    /// Doubles of all exponents and both signs, and some near one.
+    fn numbers(count: usize) -> Vec<f64> {
+        let mut state = 0x9e3779b97f4a7c15_u64;
+        let mut next = || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            f64::from_bits(state)
+        };
+        (0..count)
+            .map(|i| match i % 4 {
+                0 => next(),
+                1 => next() % 1.0,
+                2 => next() % 10.0,
+                _ => next() % 1e8,
+            })
+            .collect()
+    }
+
+    #[track_caller]
+    fn sin_cos_is(x: f64, sin: f64, cos: f64) {
+        let got = sin_cos(x);
+        assert!(same(got.0, sin) && same(got.1, cos), "{x}: {got:?}");
+    }
+
+    #[test]
+    fn sine_and_cosine_of_special_numbers() {
+        sin_cos_is(0.0, 0.0, 1.0);
+        sin_cos_is(-0.0, -0.0, 1.0);
+        sin_cos_is(TINY, TINY, 1.0);
+        sin_cos_is(-TINY, -TINY, 1.0);
+        sin_cos_is(FRAC_PI_2, 1.0, 0.5 * PI_REST);
+        sin_cos_is(PI, PI_REST, -1.0);
+        for x in [INFINITY, -INFINITY, f64::NAN] {
+            sin_cos_is(x, f64::NAN, f64::NAN);
+        }
+        // The double nearest to a multiple of π/2, relative to its size (mpmath).
+        sin_cos_is(6381956970095103.0 * 2.0_f64.powi(797), 1.0, -4.687165924254628e-19);
+    }
+
+    #[test]
+    fn ends_of_the_reduction_meet() {
+        for x in (0..4000).map(|i| 1048577.0 + 561.3 * f64::from(i)) {
+            let [turned, r, lo] = reduce_exactly(x);
+            let (sin, cos) = (r + lo).sin_cos();
+            let (sin, cos) = if turned.bit(0) { (cos, -sin) } else { (sin, cos) };
+            let sign = if turned.bit(1) { -1.0 } else { 1.0 };
+            let got = sin_cos(x);
+            assert!((got.0 - sign * sin).abs() < 4e-16 && (got.1 - sign * cos).abs() < 4e-16);
+        }
+    }
+
+    #[test]
+    fn arc_tangent_of_special_numbers() {
+        let expected = [
+            (0.0, 0.0, 0.0),
+            (0.0, -0.0, PI),
+            (0.0, 1.0, 0.0),
+            (0.0, -1.0, PI),
+            (0.0, TINY, 0.0),
+            (0.0, -TINY, PI),
+            (0.0, INFINITY, 0.0),
+            (0.0, -INFINITY, PI),
+            (TINY, 0.0, FRAC_PI_2),
+            (TINY, -0.0, FRAC_PI_2),
+            (1.0, -0.0, FRAC_PI_2),
+            (1.0, INFINITY, 0.0),
+            (1.0, -INFINITY, PI),
+            (INFINITY, 1.0, FRAC_PI_2),
+            (INFINITY, -0.0, FRAC_PI_2),
+            (INFINITY, INFINITY, FRAC_PI_4),
+            (INFINITY, -INFINITY, 3.0 * FRAC_PI_4),
+            (TINY, TINY, FRAC_PI_4),
+            (TINY, -TINY, 3.0 * FRAC_PI_4),
+            (f64::MAX, f64::MAX, FRAC_PI_4),
+            (f64::MAX, TINY, FRAC_PI_2),
+            (TINY, f64::MAX, 0.0),
+            (TINY, -f64::MAX, PI),
+            (TINY, 1.0, TINY),
+            (3.0 * TINY, 0.5, 6.0 * TINY),
+        ];
+        for (y, x, angle) in expected {
+            assert!(same(atan2(y, x), angle), "{y} {x}: {}", atan2(y, x));
+            assert!(same(atan2(-y, x), -angle), "{} {x}: {}", -y, atan2(-y, x));
+        }
+        for other in [0.0, 1.0, -INFINITY, f64::NAN] {
+            assert!(atan2(other, f64::NAN).is_nan() && atan2(f64::NAN, other).is_nan());
+        }
+    }
+
+    #[test]
+    fn arc_sine_of_special_numbers() {
+        for (x, angle) in [(0.0, 0.0), (TINY, TINY), (1.0, FRAC_PI_2)] {
+            assert!(same(asin(x), angle) && same(asin(-x), -angle), "{x}: {}", asin(x));
+        }
+        for x in [1.0 + f64::EPSILON, -1.5, INFINITY, -INFINITY, f64::NAN] {
+            assert!(asin(x).is_nan(), "{x}");
+        }
+    }
+
+    /// Small, large and infinite numbers are neighbours here.
+    #[test]
+    fn lanes_have_the_bits_of_scalars() {
+        let mut all = numbers(8000);
+        all.splice(8..8, [0.0, -0.0, INFINITY, -INFINITY, f64::NAN, f64::MAX, TINY, FEW_TURNS]);
+        let other: Vec<f64> = all.iter().rev().copied().collect();
+        for (x, y) in all.chunks_exact(LANES).zip(other.chunks_exact(LANES)) {
+            let (xs, ys) = (Lanes::from_lanes(|i| x[i]), Lanes::from_lanes(|i| y[i]));
+            let (sin, cos) = sin_cos(xs);
+            let (angle, arc) = (atan2(ys, xs), asin(xs));
+            for i in 0..LANES {
+                let (sin_alone, cos_alone) = sin_cos(x[i]);
+                assert!(same(sin.lane(i), sin_alone) && same(cos.lane(i), cos_alone), "{}", x[i]);
+                assert!(same(angle.lane(i), atan2(y[i], x[i])), "{} {}", y[i], x[i]);
+                assert!(same(arc.lane(i), asin(x[i])), "{}", x[i]);
+            }
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Work cut into chunks, and threads that take one after another.
+
+use std::mem::MaybeUninit;
+use std::num::NonZeroUsize;
+use std::ops::Range;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+
+use super::outputs::{Column, Rows};
+use super::simd::Simd;
+use super::solve::Arrays;
+use crate::error::SolveError;
+use crate::motion::Status;
+
+/// Positions in a chunk: some hundred microseconds, so that its way from the drawing
+/// and the taking of it cost little.
+const CHUNK: usize = 8192;
+/// The same with several drivers, where each position has a way of its own.
+const CHUNK_OF_WAYS: usize = 256;
+
+/// How work is done: on how many threads, and whether it is still wanted.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Control<'a> {
+    /// Threads; none: as many as the machine has cores, one for small work.
+    pub threads: Option<NonZeroUsize>,
+    /// Vector instructions, at most.
+    pub simd: Simd,
+    /// When true, work stops after the chunks at hand.
+    pub cancel: Option<&'a AtomicBool>,
+}
+
+/// Some positions of some designs.
+#[derive(Debug, Clone)]
+pub(crate) struct Chunk {
+    pub designs: Range<usize>,
+    pub positions: Range<usize>,
+}
+
+/// Chunks that are yet to be done, with the rows to be written. Each is taken by one
+/// thread; what nobody takes is written when this is dropped.
+pub(crate) struct Chunks<'a> {
+    rest: Arrays<'a>,
+    columns: &'a [Column],
+    designs: usize,
+    positions: usize,
+    next: (usize, usize),
+    size: usize,
+}
+
+impl<'a> Chunks<'a> {
+    pub(crate) fn new(
+        arrays: Arrays<'a>,
+        columns: &'a [Column],
+        [designs, positions]: [usize; 2],
+        drivers: usize,
+    ) -> Self {
+        let size = if drivers == 1 { CHUNK } else { CHUNK_OF_WAYS };
+        Self { rest: arrays, columns, designs, positions, next: (0, 0), size }
+    }
+
+    /// How many chunks there are.
+    fn count(&self) -> usize {
+        if self.positions == 0 {
+            0
+        } else if self.positions >= self.size {
+            self.designs * self.positions.div_ceil(self.size)
+        } else {
+            self.designs.div_ceil(self.size / self.positions)
+        }
+    }
+
+    fn take(&mut self) -> Option<(Chunk, Rows<'a>)> {
+        let (design, position) = self.next;
+        if design == self.designs || self.positions == 0 {
+            return None;
+        }
+        let chunk = if self.positions >= self.size {
+            let end = (position + self.size).min(self.positions);
+            self.next = if end == self.positions { (design + 1, 0) } else { (design, end) };
+            Chunk { designs: design..design + 1, positions: position..end }
+        } else {
+            let end = (design + self.size / self.positions).min(self.designs);
+            self.next = (end, 0);
+            Chunk { designs: design..end, positions: 0..self.positions }
+        };
+        let rows = self.split(chunk.designs.len() * chunk.positions.len());
+        Some((chunk, rows))
+    }
+
+    fn split(&mut self, rows: usize) -> Rows<'a> {
+        let columns = self.rest.columns.iter_mut().zip(self.columns);
+        Rows {
+            columns: columns.map(|(all, column)| front(all, rows * column.width)).collect(),
+            status: front(&mut self.rest.status, rows),
+        }
+    }
+}
+
+/// Takes the first `count` off a slice.
+#[allow(clippy::mut_mut, reason = "the slice itself is moved on")]
+fn front<'a, T>(all: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    let (front, rest) = std::mem::take(all).split_at_mut(count);
+    *all = rest;
+    front
+}
+
+impl Drop for Chunks<'_> {
+    fn drop(&mut self) {
+        for column in &mut self.rest.columns {
+            column.fill(MaybeUninit::new(f64::NAN));
+        }
+        self.rest.status.fill(MaybeUninit::new(Status::Lost as u8));
+    }
+}
+
+impl Control<'_> {
+    /// Does all chunks; each thread makes its own worker.
+    ///
+    /// Threads are made for the call and gone after it: they cost some ten
+    /// microseconds, nothing is left to break when the process is forked.
+    pub(crate) fn run<W>(
+        &self,
+        chunks: Chunks<'_>,
+        worker: impl Fn() -> W + Sync,
+        work: impl Fn(&mut W, &Chunk, Rows<'_>) + Sync,
+    ) -> Result<(), SolveError> {
+        let count = chunks.count();
+        let cores = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        let threads = self.threads.map_or_else(cores, NonZeroUsize::get).clamp(1, count.max(1));
+        let queue = Mutex::new(chunks);
+        let cancelled = || self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
+        let one = || {
+            let mut worker = worker();
+            while !cancelled() {
+                // A worker that panics does not hold the queue.
+                let next = queue.lock().ok().and_then(|mut queue| queue.take());
+                let Some((chunk, rows)) = next else { break };
+                work(&mut worker, &chunk, rows);
+            }
+        };
+        thread::scope(|scope| {
+            for _ in 1..threads {
+                // Where the system gives no thread, the others do its part.
+                let _ = thread::Builder::new().spawn_scoped(scope, one);
+            }
+            one();
+        });
+        if cancelled() { Err(SolveError::Interrupted) } else { Ok(()) }
+    }
+}

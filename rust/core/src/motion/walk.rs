@@ -1,0 +1,237 @@
+//! Walking from the drawing: knots close enough together to see every change point
+//! and to tell every angle.
+
+use super::change::{self, Change};
+use super::state::{Context, Fault, State, Status};
+use super::track::nearest;
+use crate::plan::{Dyad, Form, Step};
+use crate::tolerance::{LIFT_HALVINGS, LIFT_TURN};
+
+/// Halvings where a stretch that can be reached begins or ends: what is left of
+/// the turn there goes with the square root of the cell.
+const EDGE_HALVINGS: u32 = 14;
+/// How fast (of the size, by unit of the path) the gap of a dyad that does not close
+/// may shrink; between two knots where it is greater no island is looked for.
+const ISLAND_RATE: f64 = 8.0;
+/// Halvings in search of an island: down to a tenth of a degree.
+const ISLAND_HALVINGS: u32 = 7;
+/// The same where different dyads do not close at the two ends.
+const UNLIKE_HALVINGS: u32 = 4;
+/// Knots after which cells are no longer halved: where angles are nothing but
+/// rounding (a link of 1e-17 of the size) no cell would ever be fine enough.
+const MOST_KNOTS: usize = 100_000;
+/// Part of a cell by which a knot that falls on a flat dyad is put off, and how
+/// often: change points of several dyads seldom follow so closely.
+const NUDGE: f64 = 0.0625;
+const NUDGES: u32 = 4;
+
+/// One point of the path.
+#[derive(Debug, Clone)]
+pub(crate) struct Knot {
+    pub at: f64,
+    pub reached: bool,
+    /// Lifted angle of every class; where not reached, that of the last knot that was.
+    pub angles: Vec<f64>,
+    /// Rate of every class along the path.
+    rates: Vec<f64>,
+    /// Spread of every dyad with a sign, and its rate along the path.
+    pub spread: Vec<(f64, f64)>,
+    /// On which side of parallel the guides of every dyad of two known directions are;
+    /// between the sides its point passes through infinity.
+    sides: Vec<bool>,
+    /// Where not reached: the step that does not close, and by how much.
+    open: Option<(usize, f64)>,
+}
+
+impl Knot {
+    fn is_flat(&self) -> bool {
+        self.spread.iter().any(|(_, rate)| rate.is_nan())
+    }
+}
+
+/// Signs on one stretch of the path, from its beginning on.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Stretch {
+    pub from: f64,
+    pub signs: Vec<f64>,
+}
+
+/// Walks along a path and lays knots.
+pub(crate) struct Walker<'a, 'b> {
+    pub cx: Context<'b>,
+    pub state: &'a mut State,
+    /// Writes q at a parameter.
+    point: &'a dyn Fn(f64, &mut [f64]),
+    /// Derivatives of q by the parameter (constant: paths are straight).
+    rates: &'a [f64],
+    /// +1 or −1: the way along the parameter.
+    pub way: f64,
+    q: Vec<f64>,
+    pub knots: Vec<Knot>,
+    /// Change points passed, in the order of passing.
+    pub changes: Vec<Change>,
+    pub start_signs: Vec<f64>,
+}
+
+impl<'a, 'b> Walker<'a, 'b> {
+    pub fn new(
+        cx: &Context<'b>,
+        state: &'a mut State,
+        point: &'a dyn Fn(f64, &mut [f64]),
+        rates: &'a [f64],
+        (at, way): (f64, f64),
+        start: &[f64],
+    ) -> Self {
+        let mut walker = Self {
+            cx: *cx,
+            state,
+            point,
+            rates,
+            way,
+            q: vec![0.0; rates.len()],
+            knots: Vec::new(),
+            changes: Vec::new(),
+            start_signs: cx.signs.to_vec(),
+        };
+        let knot = walker.knot(at, start);
+        walker.knots.push(knot);
+        walker
+    }
+
+    /// The dyads with a sign, in order.
+    pub(crate) fn dyads(&self) -> impl Iterator<Item = &'b Dyad> + use<'b> {
+        self.cx.plan.steps.iter().filter_map(|step| match step {
+            Step::Dyad(dyad) if dyad.sign.is_some() => Some(dyad),
+            _ => None,
+        })
+    }
+
+    /// Signs at a parameter, after the changes on the way there.
+    pub(crate) fn signs_at(&self, at: f64) -> Vec<f64> {
+        let mut signs = self.start_signs.clone();
+        for change in self.changes.iter().filter(|c| (at - c.at) * self.way > 0.0) {
+            signs[change.sign] = -signs[change.sign];
+        }
+        signs
+    }
+
+    /// Solves at a parameter; whether it was reached.
+    pub(crate) fn visit(&mut self, at: f64) -> bool {
+        let signs = self.signs_at(at);
+        (self.point)(at, &mut self.q);
+        self.state.solve(&Context { signs: &signs, ..self.cx }, &self.q);
+        // A redundant link that does not fit is no matter of the way: beyond a change
+        // point it fits only with the sign that is yet to be found.
+        matches!(self.state.status, Status::Ok | Status::NearSingular | Status::Singular)
+            || matches!(self.state.fault, Some(Fault::Misfit { .. }))
+    }
+
+    /// Rate of a jet along the path, from its first-order entries.
+    pub(crate) fn along(&self, first: impl Fn(usize) -> f64) -> f64 {
+        self.rates.iter().enumerate().map(|(d, rate)| rate * first(d)).sum()
+    }
+
+    /// The knot at `at`, its angles nearest to those of `from`.
+    pub(crate) fn knot(&mut self, at: f64, from: &[f64]) -> Knot {
+        let reached = self.visit(at);
+        let nothing = vec![(0.0, 0.0); self.start_signs.len()];
+        if !reached {
+            let rates = vec![0.0; from.len()];
+            let open = match self.state.fault {
+                Some(Fault::Open { step, gap }) => Some((step, gap)),
+                _ => None,
+            };
+            let (angles, sides) = (from.to_vec(), Vec::new());
+            return Knot { at, reached, angles, rates, spread: nothing, sides, open };
+        }
+        let angles =
+            self.state.class.iter().zip(from).map(|(u, &near)| nearest(u.angle(), near)).collect();
+        let len = self.state.len;
+        let rates = (0..from.len())
+            .map(|c| self.along(|d| self.state.theta[c * len + 1 + d]).abs())
+            .collect();
+        let spread = self.dyads().map(|dyad| self.spread(dyad)).collect();
+        let lines = self.cx.plan.steps.iter().filter_map(|step| match step {
+            Step::Dyad(dyad) if dyad.form == Form::TwoLines => Some(dyad),
+            _ => None,
+        });
+        let sides = lines.map(|dyad| self.state.determinant(&self.cx, dyad) > 0.0).collect();
+        Knot { at, reached, angles, rates, spread, sides, open: None }
+    }
+
+    /// Spread of a dyad at the position just visited, and its rate along the path.
+    pub(crate) fn spread(&self, dyad: &Dyad) -> (f64, f64) {
+        let at = |driver: usize| self.state.spread(&self.cx, dyad, driver + 1);
+        (at(0).0, self.along(|driver| at(driver).1))
+    }
+
+    /// Lays knots from the last one to `to`, close enough to tell the angles and
+    /// to see every change point.
+    pub fn advance(&mut self, to: f64) {
+        let mut ends = vec![(to, 0_u32)];
+        while let Some((end, depth)) = ends.pop() {
+            let Some(from) = self.knots.last().cloned() else { return };
+            let mut end = end;
+            let mut knot = self.knot(end, &from.angles);
+            // A change point shows from both sides, not from where it is.
+            for _ in 0..NUDGES {
+                if !knot.is_flat() {
+                    break;
+                }
+                end += NUDGE * (end - from.at);
+                knot = self.knot(end, &from.angles);
+            }
+            while change::pass(self, &from, &knot) {
+                knot = self.knot(end, &from.angles);
+            }
+            let middle = 0.5 * (from.at + end);
+            let room = self.knots.len() < MOST_KNOTS;
+            let can_halve = room && middle != from.at && middle != end;
+            if can_halve && depth < LIFT_HALVINGS && too_far(&from, &knot, depth) {
+                // The halves find what was found on the whole again.
+                self.changes.retain(|c| (c.at - from.at) * self.way <= 0.0);
+                ends.push((end, depth + 1));
+                ends.push((middle, depth + 1));
+            } else {
+                self.knots.push(knot);
+            }
+        }
+    }
+
+    /// Signs between the changes, in the direction of growing parameter.
+    pub fn stretches(&self) -> Vec<Stretch> {
+        let mut signs = self.start_signs.clone();
+        let mut stretches = vec![Stretch { from: f64::NEG_INFINITY, signs: signs.clone() }];
+        for change in &self.changes {
+            signs[change.sign] = -signs[change.sign];
+            stretches.push(Stretch { from: change.at, signs: signs.clone() });
+        }
+        stretches
+    }
+}
+
+fn too_far(a: &Knot, b: &Knot, depth: u32) -> bool {
+    if a.reached != b.reached {
+        return depth < EDGE_HALVINGS;
+    }
+    let cell = (b.at - a.at).abs();
+    if !a.reached {
+        return may_hide_island(a, b, cell, depth);
+    }
+    let turned = a.angles.iter().zip(&b.angles).any(|(x, y)| (x - y).abs() > LIFT_TURN);
+    // Near a dead point rates grow without bound while the angle does not.
+    let fast =
+        depth < EDGE_HALVINGS && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > LIFT_TURN);
+    let through_infinity = depth < EDGE_HALVINGS && a.sides != b.sides;
+    turned || fast || through_infinity
+}
+
+/// Whether a stretch that can be reached may lie between two knots that cannot.
+fn may_hide_island(a: &Knot, b: &Knot, cell: f64, depth: u32) -> bool {
+    match (a.open, b.open) {
+        (Some((i, g)), Some((j, h))) if i == j => {
+            depth < ISLAND_HALVINGS && g + h < ISLAND_RATE * cell
+        }
+        _ => depth < UNLIKE_HALVINGS,
+    }
+}
