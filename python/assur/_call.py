@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -64,17 +65,20 @@ class Call:
         found, _ = self._solve(([], [], [index], []))
         return self._named("place", {link: index}, found, (*self.shape, 2))[link]
 
-    def flat(self) -> tuple[Float, Float]:
-        """Dimensions and coordinates as the core takes them."""
+    def flat(self) -> tuple[Float, Float, bool]:
+        """Dimensions, coordinates, whether each design has its own, as the core takes them."""
         values = np.ascontiguousarray(self.mechanism._values).reshape(-1)
-        return values, np.ascontiguousarray(self.q).reshape(-1)
+        if self.per_design and 0 in self.mechanism.shape:
+            # No design tells how many coordinates each would have.
+            drivers = len(self.mechanism._core.q0)
+            return values, np.zeros(drivers * math.prod(self.positions)), False
+        return values, np.ascontiguousarray(self.q).reshape(-1), self.per_design
 
     def _solve(
         self, outputs: Outputs
     ) -> tuple[dict[tuple[str, int, int], Float], npt.NDArray[np.uint8]]:
-        values, q = self.flat()
         return self.mechanism._core.solve(
-            values, q, self.per_design, self.signs, self.order, outputs, self.threads
+            *self.flat(), self.signs, self.order, outputs, self.threads
         )
 
     def _named(

@@ -112,6 +112,8 @@ def _outputs(
 
 
 def _raise_first(motion: Motion) -> None:
+    if motion.status.max(initial=0) < Status.SINGULAR:
+        return
     bad = motion.status > Status.SINGULAR
     singular = motion.status == Status.SINGULAR
     if motion.order > 0 and singular.any():

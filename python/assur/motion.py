@@ -174,7 +174,7 @@ class Motion:
     def _diagnose(self) -> tuple[Float, Float]:
         if self._diagnostics is None:
             residual, condition = self.mechanism._core.diagnostics(
-                *self._call.flat(), self._call.per_design, self._call.signs
+                *self._call.flat(), self._call.signs
             )
             self._diagnostics = (residual.reshape(self.shape), condition.reshape(self.shape))
             for array in self._diagnostics:

@@ -11,6 +11,7 @@ import random
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import library
 import numpy as np
 import pytest
 from hypothesis import Phase, given, settings
@@ -24,6 +25,8 @@ from assur import Status
 from description import GROUND, Description, arguments
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
 NO_SHRINK = settings(phases=(Phase.explicit, Phase.reuse, Phase.generate))  # seeds: no simpler
@@ -185,6 +188,108 @@ def test_scale_by_a_power_of_two(case: models.Case, move: float, power: int) -> 
                 a, b = (getattr(getattr(m, kind)(name), index) for m in motions)
                 want = np.ldexp(a, power * (length - per_q))
                 assert np.array_equal(want, b, equal_nan=True), (kind, name, index)
+
+
+# -- dimensions from 1e-150 to 1e150 ---------------------------------------------------------------
+
+
+def drawn_larger(m: assur.Mechanism, scale: float) -> assur.Mechanism:
+    """The same drawing, every coordinate times `scale`."""
+    joints = {n: (x * scale, y * scale) for n, (x, y) in m.joints.items()}
+    drivers = m.driver if isinstance(m.driver, (str, assur.Drive)) else list(m.driver)
+    return assur.Mechanism(joints, m.links, drivers, m.slides)
+
+
+def larger(m: assur.Mechanism, scale: float) -> assur.Mechanism:
+    """The same mechanism, every length times `scale`; the drawing stays."""
+    turns = (".angle", ".link_angle")
+    lengths = {n: v * scale for n, v in m.dimensions.items() if not n.endswith(turns)}
+    return m.with_dimensions(lengths)
+
+
+def library_motions(
+    name: str, scale: float, make: Callable[[assur.Mechanism, float], assur.Mechanism]
+) -> tuple[assur.Motion, assur.Motion]:
+    """Sixty positions over the range and the drawing's, in metres and in other units."""
+    drawn = library.LIBRARY[name]()
+    one, two = make(drawn, 1.0), make(drawn, scale)
+    low, high = (np.asarray(end) for end in library.RANGES[name])
+    t = np.linspace(0.0, 1.0, 60).reshape(-1, *(1,) * low.ndim)
+    q = np.concatenate([low + t * (high - low), [one.q0]])
+    drivers = {one.driver} if isinstance(one.driver, (str, assur.Drive)) else set(one.driver)
+    unit = scale if drivers <= set(one.slides) else 1.0
+    return one.solve(q, order=3, on_error="nan"), two.solve(q * unit, order=3, on_error="nan")
+
+
+def tracks(m: assur.Mechanism) -> list[tuple[str, str, int]]:
+    """Kind and name of every output, and its power of the length."""
+    kinds = (("joint", m.joints, 1), ("slide", m.slides, 1), ("link", m.links, 0))
+    return [(kind, name, length) for kind, names, length in kinds for name in names]
+
+
+def per_q(m: assur.Mechanism) -> int:
+    return int(set(np.atleast_1d(np.asarray(m.driver, dtype=object))) <= set(m.slides))
+
+
+# The way of a driven slide starts from its value in the drawing, which `larger` leaves as it is.
+of_library = pytest.mark.parametrize(
+    ("name", "make"),
+    [
+        *((name, drawn_larger) for name in library.LIBRARY),
+        *((name, larger) for name in library.LIBRARY if name != "excavator"),
+    ],
+)
+
+
+@of_library
+@pytest.mark.parametrize("power", [-498, -100, -10, 10, 100, 498])
+def test_library_by_a_power_of_two(
+    name: str, make: Callable[[assur.Mechanism, float], assur.Mechanism], power: int
+) -> None:
+    """2^-498 to 2^498, 1e-150 to 1e150: no bit of an angle or an analogue changes."""
+    one, two = library_motions(name, 2.0**power, make)
+    assert np.array_equal(one.status, two.status)
+    assert np.array_equal(one.condition, two.condition)
+    by = per_q(one.mechanism)
+    for kind, track, length in tracks(one.mechanism):
+        for k, index in enumerate(("value", "d1", "d2", "d3")):
+            a, b = (getattr(getattr(m, kind)(track), index) for m in (one, two))
+            with np.errstate(over="ignore"):  # angles per m³
+                want = np.ldexp(a, power * (length - by * k))
+            assert np.array_equal(want, b, equal_nan=True), (kind, track, index)
+
+
+@of_library
+@pytest.mark.parametrize("scale", [1e-150, 1e-3, 1e3, 1e150])
+def test_library_in_other_units(
+    name: str, make: Callable[[assur.Mechanism, float], assur.Mechanism], scale: float
+) -> None:
+    """Millimetres: lengths are rounded anew, so all agree to three times the law.
+
+    A second analogue loses κ³, a third κ⁴ to rounded lengths (test_change_points.py).
+    """
+    one, two = library_motions(name, scale, make)
+    m, by = one.mechanism, per_q(one.mechanism)
+    assert np.array_equal(one.status, two.status)
+    solved = one.status <= Status.NEAR_SINGULAR
+    assert solved.sum() >= len(one.q) - 4  # but for drawings and ends in line
+    kappa = np.maximum(one.condition, two.condition)[solved]
+    size = max(float(np.nanmax(np.abs(one.joint(n).value))) for n in m.joints)
+    arm = min(math.dist(m.joints[on[0]], m.joints[on[1]]) for on in m.links.values() if on[1:])
+    for k, index in enumerate(("value", "d1", "d2", "d3")):
+        own, errors = np.zeros(len(kappa)), []
+        for kind, track, length in tracks(m):
+            a, b = (getattr(getattr(motion, kind)(track), index)[solved] for motion in (one, two))
+            power, unit = by * k - length, arm if kind == "link" else 1.0
+            if abs(power * math.log10(scale)) > 307:  # beyond any number: angles per m³
+                continue
+            error = unit * np.abs(b * scale**power - a)
+            errors.append(error.reshape(len(kappa), -1).max(axis=1))
+            own = np.maximum(own, unit * np.abs(a).reshape(len(kappa), -1).max(axis=1))
+        own = np.maximum(own, size if k < 2 else 0.0)
+        law = agreement.ANALOGUE * kappa ** max(2, k + 1) * own
+        law = agreement.POSITION * kappa * size if k == 0 else law
+        assert (np.max(errors, axis=0) <= 3 * law).all(), (index, np.max(errors / law))
 
 
 @NO_SHRINK

@@ -82,9 +82,16 @@ pub const CHANGE_SPREAD: f64 = 64.0 * UNIT_ROUNDOFF;
 /// the conditions overrates chains that are singular together.
 pub const CHANGE_CONDITION: f64 = 1.0e3;
 
-/// How near (rad, or units of the scale) a flat dyad must be to a change point to
-/// be one: a flat dyad shows within √u of it, and chains of dyads widen that.
-pub const CHANGE_REACH: f64 = 1.0e-6;
+/// How near (rad, or units of the scale) to a change point the smooth motion through it
+/// is taken: where fewer than six digits of the analogues would remain.
+pub const CHANGE_REACH: f64 = 1.0 / NEAR_SINGULAR_CONDITION;
+
+/// How near it is the change point itself: nearer no dyad can be told from a flat one.
+pub const CHANGE_WIDTH: f64 = 1.0 / SINGULAR_CONDITION;
+
+/// How far (of the size, per condition) that smooth motion may be from the position
+/// solved for: the errors of both. Farther, something else happens near by.
+pub const CHANGE_MISFIT: f64 = 4.0 * CLOSURE_PER_CONDITION;
 
 /// Largest turn of a link between two neighbouring knots of the path along
 /// which angles are followed; half a turn would already be ambiguous.

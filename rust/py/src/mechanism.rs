@@ -3,6 +3,7 @@
 use std::mem::MaybeUninit;
 use std::num::NonZeroUsize;
 use std::sync::Mutex;
+use std::sync::atomic::Ordering;
 
 use assur::motion::{Arrays, Control, Quantity, fill};
 use assur::{
@@ -14,9 +15,14 @@ use pyo3::types::PyDict;
 
 use crate::{error, gate};
 
-/// Positions (times the fourth power of the drivers) below which a call ends sooner
-/// than a person can interrupt it: some milliseconds.
+/// Positions below which a call ends sooner than a person can interrupt it: some
+/// milliseconds.
 const SMALL: usize = 100_000;
+/// Positions that take as long as one way from the drawing: a design has one, with
+/// several drivers each position.
+const WAY: usize = 1000;
+/// Positions that are looked at closely before signals are.
+const LOOK: usize = 256;
 
 /// Arrays by kind ("joint", "link", "place", "slide"), index and order; statuses.
 type Solved<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>);
@@ -198,7 +204,8 @@ impl Mechanism {
             columns: values.iter_mut().map(places_of).collect(),
             status: places_of(&mut status),
         }));
-        let small = rows * self.inner.q0().len().pow(4) < SMALL;
+        let ways = if self.inner.q0().len() > 1 { rows } else { designs };
+        let small = rows.saturating_add(ways.saturating_mul(WAY)) < SMALL;
         gate::run(py, small, |cancel| {
             let control = Control { threads, cancel: Some(cancel), ..Control::default() };
             let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
@@ -228,25 +235,28 @@ impl Mechanism {
         signs: Vec<i8>,
     ) -> PyResult<Diagnostics<'py>> {
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
-        let both = py
-            .detach(|| {
-                let (size, drivers) = (self.inner.dimensions().len(), self.inner.q0().len());
-                let designs = dimensions.len().checked_div(size).unwrap_or(1);
-                let positions = q.len() / drivers / if per_design { designs.max(1) } else { 1 };
-                let (mut residual, mut condition) = (Vec::new(), Vec::new());
-                for design in 0..designs {
-                    let values = &dimensions[design * size..][..size];
-                    let own = if per_design { design * positions * drivers } else { 0 };
-                    for d in
-                        self.inner.diagnose(values, &q[own..][..positions * drivers], &signs)?
-                    {
+        let (size, drivers) = (self.inner.dimensions().len(), self.inner.q0().len());
+        let designs = dimensions.len().checked_div(size).unwrap_or(1);
+        let positions = q.len() / drivers / if per_design { designs.max(1) } else { 1 };
+        let small = designs * (positions * drivers + 1) < LOOK;
+        let both = gate::run(py, small, |cancel| {
+            let (mut residual, mut condition) = (Vec::new(), Vec::new());
+            for design in 0..designs {
+                let values = &dimensions[design * size..][..size];
+                let own = if per_design { design * positions * drivers } else { 0 };
+                for some in q[own..][..positions * drivers].chunks(LOOK * drivers) {
+                    if cancel.load(Ordering::Relaxed) {
+                        return Ok((residual, condition));
+                    }
+                    for d in self.inner.diagnose(values, some, &signs)? {
                         residual.push(d.residual);
                         condition.push(d.condition);
                     }
                 }
-                Ok((residual, condition))
-            })
-            .map_err(error::solve)?;
+            }
+            Ok((residual, condition))
+        })?
+        .map_err(error::solve)?;
         Ok((PyArray1::from_vec(py, both.0), PyArray1::from_vec(py, both.1)))
     }
 

@@ -67,6 +67,10 @@ impl<R: Real> State<R> {
     #[inline(always)]
     pub(crate) fn edge(&self, cx: &Context<'_, R>, e: usize, k: usize) -> Vector<R> {
         let edge = &cx.plan.edges[e];
+        if let Some(leg) = edge.leg {
+            let v = self.legs[leg.index * self.len + k];
+            return if leg.backward { -v } else { v };
+        }
         let rigid = self.orient[edge.orientation * self.len + k] * Vector::splat(cx.bound.rigid[e]);
         match edge.along {
             Along::Nothing => rigid,
@@ -98,18 +102,21 @@ impl<R: Real> State<R> {
         if part.backward { -v } else { v }
     }
 
-    /// Entry `k` of a leg; zero if there is none of its own.
+    /// Entry `k` of a leg but for the term in its class's own `k`; legs are not driven.
     #[inline(always)]
-    pub(crate) fn leg(
+    fn leg_without_top(
         &self,
         cx: &Context<'_, R>,
-        dyad: &Dyad,
-        place: usize,
+        leg: usize,
+        class: usize,
         k: usize,
     ) -> Vector<R> {
-        let Some(o) = dyad.leg[place] else { return Vector::ZERO };
-        let vector = cx.bound.legs[dyad.index][place].vector;
-        self.orient[o * self.len + k] * Vector::splat(vector)
+        let mut sum = Vector::ZERO;
+        for term in &cx.jets.rotation[k] {
+            let rate = R::splat(term.factor) * self.theta[class * self.len + term.right];
+            sum += self.legs[leg * self.len + term.left].scale(rate);
+        }
+        sum.left()
     }
 
     pub(crate) fn no_analogues(&mut self, dyad: &Dyad) {
@@ -121,8 +128,12 @@ impl<R: Real> State<R> {
             };
             jet[1..].fill(R::splat(f64::NAN));
         }
+        let nothing = Vector::splat(Vector::NAN);
         for &o in dyad.turned.iter().flatten() {
-            self.orient[o * len + 1..(o + 1) * len].fill(Vector::splat(Vector::NAN));
+            self.orient[o * len + 1..(o + 1) * len].fill(nothing);
+        }
+        for leg in [2 * dyad.index, 2 * dyad.index + 1] {
+            self.legs[leg * len + 1..(leg + 1) * len].fill(nothing);
         }
     }
 
@@ -134,30 +145,90 @@ impl<R: Real> State<R> {
         if len == 1 {
             return;
         }
+        if dyad.others.is_empty() {
+            self.analogues_of_legs(cx, dyad);
+            return;
+        }
         let columns = [self.column(cx, dyad, 0), self.column(cx, dyad, 1)];
         let per = R::ONE / columns[0].cross(columns[1]);
         for k in 1..len {
-            for turned in &dyad.turned {
-                for &o in turned {
-                    self.orient[o * len + k] = self.orientation_without_top(cx, o, k);
-                }
-            }
             // What is yet unknown counts as 0.
-            for unknown in dyad.unknowns {
-                if let Unknown::Slide(s) = unknown {
-                    self.slides[s * len + k] = R::ZERO;
+            for place in 0..2 {
+                match dyad.unknowns[place] {
+                    Unknown::Slide(s) => self.slides[s * len + k] = R::ZERO,
+                    Unknown::Class(class) => {
+                        let leg = 2 * dyad.index + place;
+                        if dyad.leg[place].is_some() {
+                            self.legs[leg * len + k] = self.leg_without_top(cx, leg, class, k);
+                        }
+                    }
+                }
+                for &o in &dyad.turned[place] {
+                    if cx.plan.orientations[o].used {
+                        self.orient[o * len + k] = self.orientation_without_top(cx, o, k);
+                    }
                 }
             }
             let known = self.closure(cx, dyad, k);
             let values = [columns[1].cross(known) * per, known.cross(columns[0]) * per];
             for place in 0..2 {
+                let value = values[place];
                 match dyad.unknowns[place] {
-                    Unknown::Slide(s) => self.slides[s * len + k] = values[place],
-                    Unknown::Class(c) => self.theta[c * len + k] = values[place],
+                    Unknown::Slide(s) => self.slides[s * len + k] = value,
+                    Unknown::Class(class) => {
+                        self.theta[class * len + k] = value;
+                        if dyad.leg[place].is_some() {
+                            let leg = (2 * dyad.index + place) * len;
+                            let top = self.legs[leg].left().scale(value);
+                            self.legs[leg + k] += top;
+                        }
+                    }
                 }
                 for &o in &dyad.turned[place] {
-                    let top = self.orient[o * len].left().scale(values[place]);
-                    self.orient[o * len + k] += top;
+                    if cx.plan.orientations[o].used {
+                        let top = self.orient[o * len].left().scale(value);
+                        self.orient[o * len + k] += top;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The same where there is nothing but two legs: most dyads are so.
+    #[inline(always)]
+    fn analogues_of_legs(&mut self, cx: &Context<'_, R>, dyad: &Dyad) {
+        let len = self.len;
+        let [Unknown::Class(c0), Unknown::Class(c1)] = dyad.unknowns else { return };
+        let jet = |place: usize| place * len..(place + 1) * len;
+        let (start, end) = (&self.points[jet(dyad.start)], &self.points[jet(dyad.end)]);
+        let legs = [2 * dyad.index, 2 * dyad.index + 1].map(jet);
+        let (Ok([a, b]), Ok([u, v])) =
+            (self.legs.get_disjoint_mut(legs), self.theta.get_disjoint_mut([jet(c0), jet(c1)]))
+        else {
+            return;
+        };
+        let columns = [a[0].left(), b[0].left()];
+        let per = R::ONE / columns[0].cross(columns[1]);
+        for k in 1..len {
+            let (mut first, mut second) = (Vector::ZERO, Vector::ZERO);
+            for term in &cx.jets.rotation[k] {
+                let factor = R::splat(term.factor);
+                first += a[term.left].scale(factor * u[term.right]);
+                second += b[term.left].scale(factor * v[term.right]);
+            }
+            let (first, second) = (first.left(), second.left());
+            let known = (start[k] - end[k]) + first + second;
+            u[k] = columns[1].cross(known) * per;
+            v[k] = known.cross(columns[0]) * per;
+            a[k] = first + columns[0].scale(u[k]);
+            b[k] = second + columns[1].scale(v[k]);
+        }
+        for &o in dyad.turned.iter().flatten() {
+            if cx.plan.orientations[o].used {
+                for k in 1..len {
+                    let top = self.theta[cx.plan.orientations[o].class * len + k];
+                    let rest = self.orientation_without_top(cx, o, k);
+                    self.orient[o * len + k] = rest + self.orient[o * len].left().scale(top);
                 }
             }
         }
@@ -168,7 +239,9 @@ impl<R: Real> State<R> {
     pub(crate) fn closure(&self, cx: &Context<'_, R>, dyad: &Dyad, k: usize) -> Vector<R> {
         let mut sum = self.points[dyad.start * self.len + k] - self.points[dyad.end * self.len + k];
         for place in 0..2 {
-            sum += self.leg(cx, dyad, place, k);
+            if dyad.leg[place].is_some() {
+                sum += self.legs[(2 * dyad.index + place) * self.len + k];
+            }
         }
         for part in &dyad.others {
             sum += self.part(cx, part, k);
@@ -199,7 +272,10 @@ impl<R: Real> State<R> {
         place: usize,
         k: usize,
     ) -> Vector<R> {
-        let mut sum = self.leg(cx, dyad, place, k);
+        let mut sum = Vector::ZERO;
+        if dyad.leg[place].is_some() {
+            sum = self.legs[(2 * dyad.index + place) * self.len + k];
+        }
         for part in &dyad.others {
             if part.turns == Some(place) {
                 sum += self.part(cx, part, k);

@@ -10,7 +10,7 @@ use super::track::Track;
 use crate::mechanism::Mechanism;
 use crate::plan::bind::Bound;
 use crate::plan::jet::Jets;
-use crate::tolerance::CHANGE_REACH;
+use crate::tolerance::CHANGE_WIDTH;
 
 /// Powers of two between the design's own unit of length and the metre.
 #[derive(Debug, Default)]
@@ -33,14 +33,17 @@ impl Units {
         self.angle.clear();
         self.length.clear();
         for power in &jets.powers {
-            let mut factor = 1.0;
+            // One factor after another: a length's third analogue stays within the range
+            // where the cube of the unit does not.
+            let (mut angle, mut length) = (1.0, scale);
             for (&power, &unit) in power.iter().zip(&self.coordinate) {
                 for _ in 0..power {
-                    factor *= unit;
+                    angle *= unit;
+                    length *= unit;
                 }
             }
-            self.angle.push(factor);
-            self.length.push(factor * scale);
+            self.angle.push(angle);
+            self.length.push(length);
         }
     }
 }
@@ -111,7 +114,7 @@ impl<'a> Design<'a> {
     /// Work space of some order.
     pub(crate) fn state(&self, jets: &Jets) -> State {
         let mut state = State::new(self.mechanism.plan(), jets);
-        state.prepare(&self.bound);
+        state.prepare(self.mechanism.plan(), &self.bound, jets);
         state
     }
 
@@ -213,20 +216,23 @@ impl<'a> Design<'a> {
             return false;
         }
         let cx = self.context(self.jets);
-        state.prepare(&self.bound);
+        state.prepare(cx.plan, cx.bound, cx.jets);
         state.solve(&Context { signs: track.signs(*at), ..cx }, q);
-        if !matches!(state.status, Status::Singular | Status::Unreachable) {
-            return true;
-        }
-        // A flat dyad at a change point: the smooth motion goes on through it.
+        // At a change point a dyad is flat, and beside it little is left of the
+        // analogues: the smooth motion through the point is known better.
+        let solved = matches!(state.status, Status::Ok | Status::NearSingular);
         if let [one] = *q
-            && let Some(change) = track.change_near(*at, CHANGE_REACH)
+            && state.status != Status::BadInput
+            && let Some(change) = track.change_near(*at)
             && let Some(smooth) = bridge(&cx, state, track, one, change)
+            && (!solved || smooth.is_near(state))
         {
+            let at_change = !solved || (*at - change).abs() <= CHANGE_WIDTH;
+            let status = if at_change { Status::Singular } else { state.status };
             *state = smooth;
-            state.status = Status::Singular;
+            state.status = status;
             return true;
         }
-        false
+        !matches!(state.status, Status::Singular | Status::Unreachable)
     }
 }

@@ -131,6 +131,10 @@ impl<R: Real> State<R> {
     fn turn(&mut self, cx: &Context<'_, R>, dyad: &Dyad, place: usize, rotation: Vector<R>) {
         let Unknown::Class(class) = dyad.unknowns[place] else { return };
         self.class[class] = rotation;
+        if dyad.leg[place].is_some() {
+            let vector = cx.bound.legs[dyad.index][place].vector;
+            self.legs[(2 * dyad.index + place) * self.len] = rotation * Vector::splat(vector);
+        }
         for &o in &dyad.turned[place] {
             let driven = cx.plan.orientations[o].driven;
             self.orient[o * self.len] = if driven { rotation * self.phase[o] } else { rotation };

@@ -191,7 +191,12 @@ impl<'a> Writer<'a> {
                 }
                 From::Rate { orientation } => {
                     let rate = state.theta_of(cx, orientation, k);
-                    store(out, width, place, rate * R::splat(unit.angle[k]));
+                    let mut scaled = rate * R::splat(unit.angle[k]);
+                    if unit.angle[k].is_infinite() {
+                        // Beyond the range of numbers, but for what does not turn.
+                        scaled = R::select(rate.abs().le(R::ZERO), rate, scaled);
+                    }
+                    store(out, width, place, scaled);
                 }
             }
         }

@@ -17,7 +17,9 @@ use crate::motion::Status;
 /// and the taking of it cost little.
 const CHUNK: usize = 8192;
 /// The same with several drivers, where each position has a way of its own.
-const CHUNK_OF_WAYS: usize = 256;
+const CHUNK_OF_WAYS: usize = 32;
+/// Designs in a chunk, at most: the way of one may take a millisecond.
+const CHUNK_OF_DESIGNS: usize = 64;
 
 /// How work is done: on how many threads, and whether it is still wanted.
 #[derive(Debug, Clone, Copy, Default)]
@@ -66,8 +68,13 @@ impl<'a> Chunks<'a> {
         } else if self.positions >= self.size {
             self.designs * self.positions.div_ceil(self.size)
         } else {
-            self.designs.div_ceil(self.size / self.positions)
+            self.designs.div_ceil(self.designs_together())
         }
+    }
+
+    /// Designs of a chunk that has all their positions.
+    fn designs_together(&self) -> usize {
+        (self.size / self.positions).min(CHUNK_OF_DESIGNS)
     }
 
     fn take(&mut self) -> Option<(Chunk, Rows<'a>)> {
@@ -80,7 +87,7 @@ impl<'a> Chunks<'a> {
             self.next = if end == self.positions { (design + 1, 0) } else { (design, end) };
             Chunk { designs: design..design + 1, positions: position..end }
         } else {
-            let end = (design + self.size / self.positions).min(self.designs);
+            let end = (design + self.designs_together()).min(self.designs);
             self.next = (end, 0);
             Chunk { designs: design..end, positions: 0..self.positions }
         };
@@ -126,8 +133,12 @@ impl Control<'_> {
         work: impl Fn(&mut W, &Chunk, Rows<'_>) + Sync,
     ) -> Result<(), SolveError> {
         let count = chunks.count();
-        let cores = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
-        let threads = self.threads.map_or_else(cores, NonZeroUsize::get).clamp(1, count.max(1));
+        let threads = match self.threads {
+            // Asking the system how many cores there are takes longer than small work.
+            _ if count <= 1 => 1,
+            Some(threads) => threads.get().min(count),
+            None => thread::available_parallelism().map_or(1, NonZeroUsize::get).min(count),
+        };
         let queue = Mutex::new(chunks);
         let cancelled = || self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
         let one = || {

@@ -11,6 +11,7 @@ use super::walk::Stretch;
 use crate::lanes::{Lanes, Mask, Real};
 use crate::plan::jet::Jets;
 use crate::plan::{Form, Plan};
+use crate::plane::Vector;
 use crate::tolerance::LIFT_TURN;
 
 /// Knots of a turn, its end included.
@@ -22,6 +23,10 @@ const CELL: f64 = TAU / CELLS_A_TURN as f64;
 #[derive(Debug)]
 pub(crate) struct Quick {
     state: State<Lanes>,
+    /// Drawing's angle that the knots below are for, the same for all designs.
+    q0: f64,
+    /// Angles of the driver, eight a group, and their unit vectors.
+    knots: Vec<(Lanes, Vector<Lanes>)>,
     signs: Vec<Lanes>,
     /// Spread and rate of every dyad with a sign at the last knot.
     spread: Vec<(f64, f64)>,
@@ -38,6 +43,8 @@ impl Quick {
     pub(crate) fn new(plan: &Plan, jets: &Jets) -> Self {
         Self {
             state: State::new(plan, jets),
+            q0: f64::NAN,
+            knots: Vec::new(),
             signs: Vec::new(),
             spread: vec![(0.0, 0.0); plan.signs()],
             spreads: vec![(Lanes::ZERO, Lanes::ZERO); plan.signs()],
@@ -58,14 +65,16 @@ impl Quick {
     ) -> bool {
         self.signs.clear();
         self.signs.extend(cx.signs.iter().map(|&s| Lanes::splat(s)));
-        self.state.prepare(cx.bound);
+        self.state.prepare(cx.plan, cx.bound, cx.jets);
         track.at.clear();
         track.angles.clear();
-        for first in (0..KNOTS).step_by(Lanes::LANES) {
-            let at = Lanes::from_lanes(|lane| {
-                let turned = ((first + lane) as f64) / f64::from(CELLS_A_TURN);
-                q0 + TAU * turned
-            });
+        if self.q0 != q0 {
+            self.spread_knots(q0);
+        }
+        for group in 0..self.knots.len() {
+            let (at, unit) = self.knots[group];
+            let first = group * Lanes::LANES;
+            self.state.unit[0] = unit;
             if !self.solve(cx, at) {
                 return false;
             }
@@ -94,12 +103,25 @@ impl Quick {
         true
     }
 
+    #[inline(always)]
+    fn spread_knots(&mut self, q0: f64) {
+        self.q0 = q0;
+        self.knots.clear();
+        for first in (0..KNOTS).step_by(Lanes::LANES) {
+            let at = Lanes::from_lanes(|lane| {
+                let turned = ((first + lane) as f64) / f64::from(CELLS_A_TURN);
+                q0 + TAU * turned
+            });
+            self.knots.push((at, Vector::at_angle(at)));
+        }
+    }
+
     /// Eight knots; false if one of them, by itself, needs walking.
     #[inline(always)]
     fn solve(&mut self, cx: &Context<'_>, at: Lanes) -> bool {
         let Context { plan, bound, jets, .. } = *cx;
         let cx = Context { plan, bound, jets, signs: &self.signs };
-        self.state.solve(&cx, &[at]);
+        self.state.solve_turned(&cx, &[at]);
         if self.state.care.any() {
             return false;
         }

@@ -12,6 +12,7 @@ use super::track::{Spot, nearest};
 use crate::lanes::{LANES, Lanes, Mask, Real};
 use crate::mechanism::Mechanism;
 use crate::plan::jet::Jets;
+use crate::plane::Vector;
 use crate::tolerance::NEAR_SINGULAR_CONDITION;
 
 /// Work space of one thread.
@@ -25,6 +26,9 @@ pub(crate) struct Worker<'a> {
     eight: State<Lanes>,
     signs: Vec<Lanes>,
     lifted: Vec<Lanes>,
+    /// Positions of the last job, in groups, and which they were.
+    turned: Vec<Turned>,
+    shared: Option<usize>,
 }
 
 /// Some positions of one design, and where they go.
@@ -34,6 +38,15 @@ pub(crate) struct Job<'j, 'r> {
     pub rows: &'j mut Rows<'r>,
     /// Row of the first position.
     pub first: usize,
+    /// Which coordinates these are, if other designs have the same.
+    pub shared: Option<usize>,
+}
+
+/// Eight positions of a driven angle: what does not depend on the design.
+#[derive(Debug, Clone, Copy)]
+struct Turned {
+    q: Lanes,
+    unit: Vector<Lanes>,
 }
 
 impl<'a> Worker<'a> {
@@ -53,6 +66,8 @@ impl<'a> Worker<'a> {
             eight: State::new(plan, jets),
             signs: vec![Lanes::ONE; plan.signs()],
             lifted: vec![Lanes::ZERO; plan.classes],
+            turned: Vec::new(),
+            shared: None,
             design,
             writer,
             columns,
@@ -87,10 +102,28 @@ impl<'a> Worker<'a> {
             }
             return;
         }
-        self.eight.prepare(&self.design.bound);
+        self.eight.prepare(self.design.mechanism.plan(), &self.design.bound, self.design.jets);
         self.set_signs(&Spot::default());
+        self.turn(job);
         for row in (0..count).step_by(LANES) {
             self.group(job, row, (count - row).min(LANES));
+        }
+    }
+
+    /// Coordinates in groups of eight; sines and cosines of shared ones are kept.
+    #[inline(always)]
+    fn turn(&mut self, job: &Job<'_, '_>) {
+        let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
+        if is_angle && job.shared.is_some() && self.shared == job.shared {
+            return;
+        }
+        self.shared = job.shared;
+        self.turned.clear();
+        let scale = self.design.unit.coordinate[0];
+        for eight in job.q.chunks(LANES) {
+            let q = Lanes::from_lanes(|i| eight[i.min(eight.len() - 1)] * scale);
+            let unit = if is_angle { Vector::at_angle(q) } else { Vector::ONE };
+            self.turned.push(Turned { q, unit });
         }
     }
 
@@ -105,13 +138,15 @@ impl<'a> Worker<'a> {
     /// Up to eight positions from `row` on.
     #[inline(always)]
     fn group(&mut self, job: &mut Job<'_, '_>, row: usize, count: usize) {
-        let unit = self.design.unit.coordinate[0];
-        let q = Lanes::from_lanes(|i| job.q[row + i.min(count - 1)] * unit);
+        let Turned { q, unit } = self.turned[row / LANES];
         let track = &self.design.track;
         let spot = track.spot(q);
         let mut care = <Lanes as Real>::Mask::NONE;
         if track.even.is_none() {
-            let strange = |i: usize| !track.covers(q.lane(i)) || track.hides(&spot, i);
+            let strange = |i: usize| {
+                let at = q.lane(i);
+                !track.covers(at) || track.hides(&spot, i) || track.change_near(at).is_some()
+            };
             let flags = Lanes::from_lanes(|i| if strange(i) { 1.0 } else { 0.0 });
             care = Lanes::ZERO.lt(flags);
         }
@@ -125,7 +160,8 @@ impl<'a> Worker<'a> {
             jets: design.jets,
             signs: &self.signs,
         };
-        self.eight.solve(&cx, &[q]);
+        self.eight.unit[0] = unit;
+        self.eight.solve_turned(&cx, &[q]);
         care = care.or(self.eight.care);
         if !care.all() {
             for &class in &self.writer.classes {

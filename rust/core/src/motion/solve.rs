@@ -171,8 +171,12 @@ pub fn fill(
             let values = &request.dimensions[design * shape.dimensions..][..shape.dimensions];
             let q = request.coordinates.of(design, per_design);
             let q = &q[chunk.positions.start * shape.drivers..chunk.positions.end * shape.drivers];
+            let shared = match request.coordinates {
+                Coordinates::Shared(_) => Some(chunk.positions.start),
+                Coordinates::PerDesign(_) => None,
+            };
             let first = (design - chunk.designs.start) * chunk.positions.len();
-            worker.solve(values, Job { q, rows: &mut rows, first });
+            worker.solve(values, Job { q, rows: &mut rows, first, shared });
         }
     })
 }

@@ -5,6 +5,7 @@ use super::state::{Context, State};
 use crate::lanes::Real;
 use crate::plan::{Dyad, Form};
 use crate::plane::Vector;
+use crate::tolerance::CHANGE_MISFIT;
 
 impl<R: Real> State<R> {
     /// How far a dyad is from flat, with the sign of its assembly, and the rate of
@@ -35,6 +36,14 @@ impl<R: Real> State<R> {
 }
 
 impl State {
+    /// Whether the points are where another state has them, as far as that can be known.
+    pub(crate) fn is_near(&self, other: &Self) -> bool {
+        let allowed = CHANGE_MISFIT * other.condition2.sqrt();
+        let values = |state: &Self| state.points.iter().step_by(state.len).copied().collect();
+        let (a, b): (Vec<Vector>, Vec<Vector>) = (values(self), values(other));
+        a.iter().zip(&b).all(|(&a, &b)| (a - b).norm() <= allowed)
+    }
+
     /// Becomes the weighted sum of other states of the same plan: a polynomial
     /// through them, evaluated between them.
     pub(crate) fn blend(&mut self, states: &[Self], weights: &[f64]) {

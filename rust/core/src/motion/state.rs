@@ -65,6 +65,8 @@ pub struct State<R: Real = f64> {
     pub points: Vec<Vector<R>>,
     /// Jets of orientations.
     pub orient: Vec<Vector<R>>,
+    /// Jets of the legs of dyads, two a dyad.
+    pub(crate) legs: Vec<Vector<R>>,
     /// Jets of the angles of classes; the value itself is not used.
     pub theta: Vec<R>,
     /// Jets of slides.
@@ -74,7 +76,7 @@ pub struct State<R: Real = f64> {
     /// Turns by the drivers alone, of every orientation.
     pub(crate) phase: Vec<Vector<R>>,
     /// Unit vectors at the driven angles.
-    unit: Vec<Vector<R>>,
+    pub(crate) unit: Vec<Vector<R>>,
     /// Square of the greatest coordinate or arm on the way to each point: what its
     /// rounding is a part of.
     pub(crate) grain: Vec<R>,
@@ -113,10 +115,11 @@ impl<R: Real> State<R> {
     #[must_use]
     pub fn new(plan: &Plan, jets: &Jets) -> Self {
         let (len, slides) = (jets.len(), plan.slide_links.len());
-        let mut state = Self {
+        Self {
             len,
             points: vec![Vector::ZERO; plan.points * len],
             orient: vec![Vector::ZERO; plan.orientations.len() * len],
+            legs: vec![Vector::ZERO; plan.dyads().count() * 2 * len],
             theta: vec![R::ZERO; plan.classes * len],
             slides: vec![R::ZERO; slides * len],
             class: vec![Vector::ONE; plan.classes],
@@ -131,36 +134,52 @@ impl<R: Real> State<R> {
             care: R::Mask::NONE,
             status: Status::Ok,
             fault: None,
-        };
-        for (o, orientation) in plan.orientations.iter().enumerate() {
-            if orientation.class == 0 {
-                state.orient[o * len] = Vector::ONE;
-            }
         }
-        for (driver, _) in plan.drivers.iter().enumerate() {
-            let Some(slide) = plan.driven_slide(driver) else { continue };
-            for k in 1..len {
-                if jets.driver_of[k] == Some(driver) {
-                    state.slides[slide * len + k] = R::ONE;
-                }
-            }
-        }
-        state
     }
 
-    /// Takes the fixed points of a design; before the first position of each.
+    /// Takes what is the same at all positions of a design; before the first of each.
     #[inline(always)]
-    pub fn prepare(&mut self, bound: &Bound) {
-        for (point, &fixed) in bound.fixed.iter().enumerate() {
+    pub fn prepare(&mut self, plan: &Plan, bound: &Bound, jets: &Jets) {
+        let len = self.len;
+        for (point, (&fixed, jet)) in
+            bound.fixed.iter().zip(self.points.chunks_exact_mut(len)).enumerate()
+        {
             let fixed = Vector::splat(fixed);
-            self.points[point * self.len] = fixed;
+            jet.fill(Vector::ZERO);
+            jet[0] = fixed;
             self.grain[point] = fixed.norm2();
+        }
+        self.class[0] = Vector::ONE;
+        self.theta[..len].fill(R::ZERO);
+        for (orientation, jet) in plan.orientations.iter().zip(self.orient.chunks_exact_mut(len)) {
+            if orientation.class == 0 {
+                jet.fill(Vector::ZERO);
+                jet[0] = Vector::ONE;
+            }
+        }
+        for driver in 0..plan.drivers.len() {
+            let Some(slide) = plan.driven_slide(driver) else { continue };
+            for k in 1..len {
+                let own = jets.driver_of[k] == Some(driver);
+                self.slides[slide * len + k] = if own { R::ONE } else { R::ZERO };
+            }
         }
     }
 
     /// Computes the position at `q` (rad; slide drivers in units of the scale).
     #[inline(always)]
     pub fn solve(&mut self, cx: &Context<'_, R>, q: &[R]) {
+        for (driver, &value) in q.iter().enumerate() {
+            if cx.plan.driven_slide(driver).is_none() {
+                self.unit[driver] = Vector::at_angle(value);
+            }
+        }
+        self.solve_turned(cx, q);
+    }
+
+    /// The same where `unit` holds the unit vectors of the driven angles.
+    #[inline(always)]
+    pub(crate) fn solve_turned(&mut self, cx: &Context<'_, R>, q: &[R]) {
         self.start(cx, q);
         if self.care.all() {
             self.status = Status::BadInput;
@@ -222,9 +241,8 @@ impl<R: Real> State<R> {
         self.care = R::Mask::NONE;
         for (driver, &value) in q.iter().enumerate() {
             self.care = self.care.or(value.finite().not());
-            match cx.plan.driven_slide(driver) {
-                Some(slide) => self.slides[slide * len] = value,
-                None => self.unit[driver] = Vector::at_angle(value),
+            if let Some(slide) = cx.plan.driven_slide(driver) {
+                self.slides[slide * len] = value;
             }
         }
         for (o, orientation) in cx.plan.orientations.iter().enumerate() {
@@ -264,10 +282,31 @@ impl<R: Real> State<R> {
             (from, to) = (to, from);
         }
         let len = self.len;
-        for k in 0..len {
-            let v = self.edge(cx, e, k);
-            let base = self.points[from * len + k];
-            self.points[to * len + k] = if backward { base - v } else { base + v };
+        let [from_jet, to_jet] = [from, to].map(|point| point * len..(point + 1) * len);
+        let Ok([base, out]) = self.points.get_disjoint_mut([from_jet, to_jet]) else { return };
+        match (edge.leg, edge.along) {
+            (Some(leg), _) => {
+                let leg_jet = &self.legs[leg.index * len..][..len];
+                let ahead = leg.backward == backward;
+                for ((out, &base), &v) in out.iter_mut().zip(&*base).zip(leg_jet) {
+                    *out = if ahead { base + v } else { base - v };
+                }
+            }
+            (None, Along::Nothing) => {
+                let rigid = Vector::splat(cx.bound.rigid[e]);
+                let rigid = if backward { -rigid } else { rigid };
+                let orient = &self.orient[edge.orientation * len..][..len];
+                for ((out, &base), &unit) in out.iter_mut().zip(&*base).zip(orient) {
+                    *out = base + unit * rigid;
+                }
+            }
+            _ => {
+                for k in 0..len {
+                    let v = self.edge(cx, e, k);
+                    let base = self.points[from * len + k];
+                    self.points[to * len + k] = if backward { base - v } else { base + v };
+                }
+            }
         }
         let (start, end) = (self.points[from * len], self.points[to * len]);
         let arm = match edge.along {

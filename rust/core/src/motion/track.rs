@@ -13,6 +13,7 @@ use super::change::Change;
 use super::state::{Context, State};
 use super::walk::{Knot, Stretch, Walker};
 use crate::lanes::{LANES, Real};
+use crate::tolerance::CHANGE_REACH;
 
 /// Cells in a turn of a driven angle: knots fill the lanes of four groups, and an odd
 /// number keeps them off the places half a turn from the drawing.
@@ -60,6 +61,17 @@ pub(crate) struct Spot<R = f64> {
 pub(super) fn nearest<R: Real>(angle: R, near: R) -> R {
     let turns = ((near - angle) * R::splat(1.0 / TAU) + R::splat(0.5)).floor();
     angle + R::splat(TAU) * turns
+}
+
+/// An angle less whole turns, to the last bit as long as the turns are below 2^48: 2π in
+/// parts whose products with the two halves of `turns` are exact (Cody & Waite 1980).
+fn less_turns(angle: f64, turns: f64) -> f64 {
+    /// The first 26 bits of 2π, the next 27, and the rest.
+    const PARTS: [f64; 3] = [6.283185243606567, 6.357301884918343e-8, 2.4492935982947064e-16];
+    let high = (turns * 2.0_f64.powi(-22)).floor() * 2.0_f64.powi(22);
+    let low = turns - high;
+    let rest = angle - high * PARTS[0] - high * PARTS[1] - low * PARTS[0] - low * PARTS[1];
+    rest - turns * PARTS[2]
 }
 
 /// The whole part of a number of cells; what is no cell becomes a great number or 0.
@@ -192,13 +204,16 @@ impl Track {
     /// The parameter within the first period, and whole periods before it.
     #[inline(always)]
     fn reduced<R: Real>(&self, at: R) -> (R, R) {
-        match (self.at.first(), self.period) {
-            (Some(&first), Some(period)) => {
-                let whole = ((at - R::splat(first)) * R::splat(1.0 / period)).floor();
-                (at - whole * R::splat(period), whole)
-            }
-            _ => (at, R::ZERO),
+        let (Some(&first), Some(period)) = (self.at.first(), self.period) else {
+            return (at, R::ZERO);
+        };
+        let whole = ((at - R::splat(first)) * R::splat(1.0 / period)).floor();
+        if self.even.is_some() {
+            // Only the whole turns matter.
+            return (at - whole * R::splat(period), whole);
         }
+        let turns = (period / TAU).round();
+        (R::from_lanes(|lane| less_turns(at.lane(lane), whole.lane(lane) * turns)), whole)
     }
 
     /// Whether the way to a parameter is known.
@@ -258,18 +273,17 @@ impl Track {
         self.stretches.len() == 1
     }
 
-    /// The change point nearest to a parameter, if within `reach` of it.
-    pub(crate) fn change_near(&self, at: f64, reach: f64) -> Option<f64> {
+    /// The change point that a parameter is beside, if there is one.
+    pub(crate) fn change_near(&self, at: f64) -> Option<f64> {
+        if self.changes.is_empty() {
+            return None;
+        }
         let (place, whole) = self.reduced(at);
-        let shift = whole * self.period.unwrap_or(0.0);
         let period = self.period.unwrap_or(0.0);
+        let beside = |&at: &f64| (at - place).abs() <= CHANGE_REACH;
         let images = |c: &Change| [c.at, c.at - period, c.at + period];
-        let nearest = self
-            .changes
-            .iter()
-            .flat_map(images)
-            .min_by(|a, b| (a - place).abs().total_cmp(&(b - place).abs()))?;
-        ((nearest - place).abs() <= reach).then_some(nearest + shift)
+        let found = self.changes.iter().flat_map(images).find(beside)?;
+        Some(found + whole * period)
     }
 
     /// Whether a place lies on an island that no knot has seen.

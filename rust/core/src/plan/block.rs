@@ -66,7 +66,7 @@ pub struct Dyad {
     pub leg: [Option<usize>; 2],
     /// Place among the dyads.
     pub index: usize,
-    /// Known point where the path starts.
+    /// Known point where the path starts; of a path that ends where it starts: point 0.
     pub start: usize,
     /// Known point where it ends.
     pub end: usize,
@@ -256,11 +256,14 @@ fn dyad(
     let form = form(plan, unknowns);
     let start = loop_path.first().map_or(0, |&x| tail(x));
     let end = loop_path.last().map_or(0, |&x| tip(x));
-    if start == end {
+    let (start, end) = if start == end {
         rotate_to_first(plan, &mut loop_path, unknowns[0]);
-    }
-    let start = loop_path.first().map_or(0, |&x| tail(x));
-    let end = loop_path.last().map_or(0, |&x| tip(x));
+        // A closed loop hangs on no point; it may even pass through none that is known
+        // yet. It is counted from the origin.
+        (0, 0)
+    } else {
+        (start, end)
+    };
     let sign = (form != Form::TwoLines).then(|| {
         let name = inner_pair(plan, linkage, &loop_path, form, unknowns, &tip, &tail);
         let links =
@@ -283,6 +286,19 @@ fn dyad(
         let with = |o: &usize| unknown == Unknown::Class(plan.orientations[*o].class);
         (0..plan.orientations.len()).filter(with).collect()
     });
+    let (path, leg) = parts(plan, loop_path, unknowns);
+    let others =
+        path.iter().copied().filter(|part| !part.in_leg || part.slides.is_some()).collect();
+    let index = plan.dyads().count();
+    Dyad { form, unknowns, turned, path, others, leg, index, start, end, sign }
+}
+
+/// What the edges of a loop add to its equation, and the orientations of its legs.
+fn parts(
+    plan: &Plan,
+    loop_path: Vec<(usize, bool)>,
+    unknowns: [Unknown; 2],
+) -> (Vec<Part>, [Option<usize>; 2]) {
     let place = |unknown| unknowns.iter().position(|&u| u == unknown);
     let mut path: Vec<Part> = loop_path
         .into_iter()
@@ -308,10 +324,7 @@ fn dyad(
     for part in &mut path {
         part.in_leg = part.turns.is_some_and(|place| leg[place].is_some());
     }
-    let others =
-        path.iter().copied().filter(|part| !part.in_leg || part.slides.is_some()).collect();
-    let index = plan.dyads().count();
-    Dyad { form, unknowns, turned, path, others, leg, index, start, end, sign }
+    (path, leg)
 }
 
 /// A closed loop may start anywhere on it: at the run of edges of its first unknown

@@ -43,6 +43,17 @@ pub struct PlanEdge {
     pub along: Along,
     /// Whether the motion depends on it (not on that of a coupler point).
     pub paired: bool,
+    /// The leg that it is by itself.
+    pub leg: Option<LegEdge>,
+}
+
+/// An edge that is a leg of a dyad.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LegEdge {
+    /// Place among the legs, two a dyad.
+    pub index: usize,
+    /// Run from `to` to `from`.
+    pub backward: bool,
 }
 
 /// An orientation: rotation of a class plus multiples of driven angles.
@@ -54,6 +65,8 @@ pub struct Orientation {
     pub turns: Vec<i8>,
     /// Whether a multiple is not 0.
     pub driven: bool,
+    /// Whether its analogues are asked for by something else than the legs.
+    pub used: bool,
 }
 
 /// One thing to do at every position.
@@ -154,7 +167,8 @@ impl Plan {
         let mut link_orientation = Vec::new();
         for r in &rotation {
             let driven = r.turns.iter().any(|&t| t != 0);
-            let orientation = Orientation { class: r.class, turns: r.turns.clone(), driven };
+            let orientation =
+                Orientation { class: r.class, turns: r.turns.clone(), driven, used: false };
             let place = orientations.iter().position(|o| *o == orientation).unwrap_or_else(|| {
                 orientations.push(orientation);
                 orientations.len() - 1
@@ -175,7 +189,13 @@ impl Plan {
                     }
                 };
                 let paired = closure.is_paired(linkage, index);
-                PlanEdge { edge, orientation: link_orientation[edge.link], along, paired }
+                PlanEdge {
+                    edge,
+                    orientation: link_orientation[edge.link],
+                    along,
+                    paired,
+                    leg: None,
+                }
             })
             .collect();
         let mut plan = Self {
@@ -197,7 +217,32 @@ impl Plan {
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
         let placed = block::add_steps(&mut plan, linkage, structure, &kept)?;
         fit::add_fits(&mut plan, linkage, closure, structure, placed);
+        plan.mark_legs();
         Ok(plan)
+    }
+
+    /// Finds the edges that are legs, and the orientations that other edges use.
+    fn mark_legs(&mut self) {
+        let mut found = Vec::new();
+        for dyad in self.dyads() {
+            for place in 0..2 {
+                let mut turning = dyad.path.iter().filter(|part| part.turns == Some(place));
+                if let (Some(part), None) = (turning.next(), turning.next())
+                    && part.in_leg
+                    && part.slides.is_none()
+                {
+                    let index = 2 * dyad.index + place;
+                    found.push((part.edge, LegEdge { index, backward: part.backward }));
+                }
+            }
+        }
+        for (edge, leg) in found {
+            self.edges[edge].leg = Some(leg);
+        }
+        for edge in &self.edges {
+            let orientation = &mut self.orientations[edge.orientation];
+            orientation.used |= edge.leg.is_none();
+        }
     }
 
     /// Class of an edge's rotation.

@@ -1,0 +1,93 @@
+"""The campaign's figures as a page."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import campaign_cases as cases
+import campaign_checks as checks
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+STATUSES = ("OK", "NEAR_SINGULAR", "SINGULAR", "UNREACHABLE")
+SHOWN = 50  # failures on the page
+
+
+def page(counts: Mapping[str, int], worst: Mapping[str, float], failures: Sequence[str]) -> str:
+    """Markdown."""
+
+    def n(name: str) -> str:
+        return f"{counts.get(name, 0):,}".replace(",", " ")
+
+    rows = [
+        ("mechanisms", n("mechanisms")),
+        ("of these built to have change points", n("changing")),
+        ("positions solved", n("positions")),
+        *((f"status {name} on the fine grids", n(name)) for name in STATUSES),
+        ("positions compared to the bit between grids", n("shared")),
+        ("positions whose every length, offset and guide was checked", n("closures")),
+        (f"greatest misfit, in 8 u κ of the size (allowed: {checks.TERMS:g})", w(worst, "misfit")),
+        ("pairs of neighbours looked at for jumps", n("cells")),
+        ("of these halved further", n("halved")),
+        ("points that went through infinity", n("poles")),
+        ("ends of gaps shown to be dead points", n("gaps")),
+        ("further ends where a point goes to infinity", n("infinite")),
+        (f"farthest from a fold's 1 (allowed: {checks.FOLD_RATIO:g})", w(worst, "fold")),
+        ("positions with analogues against differences", n("differences")),
+        ("greatest error there, in what is allowed", w(worst, "difference")),
+        ("**failures**", f"**{len(failures)}**"),
+    ]
+    table = "\n".join(f"| {what} | {figure} |" for what, figure in rows)
+    return TEXT.format(table=table, failed=failed(failures))
+
+
+def w(worst: Mapping[str, float], name: str) -> str:
+    return f"{worst.get(name, 0.0):.2f}"
+
+
+def failed(failures: Sequence[str]) -> str:
+    if not failures:
+        return ""
+    kinds = Counter(" ".join((text.split()[0], text.split(": ")[1])) for text in failures)
+    summary = ", ".join(f"{kind}: {count}" for kind, count in sorted(kinds.items()))
+    more = len(failures) - SHOWN
+    rest = f"\n- and {more} more" if more > 0 else ""
+    return (
+        f"\n## Failures\n\n{summary}\n\n"
+        + "\n".join(f"- {text}" for text in failures[:SHOWN])
+        + rest
+        + "\n"
+    )
+
+
+TEXT = f"""# Campaign
+
+`make campaign` draws random class II mechanisms (any driver, one to four dyads of any kind; one
+in ten with a dyad that has change points), moves each over {cases.TURNS} turns of its crank, or a
+range of its slide, and asks what no example can: that nothing goes wrong anywhere. This page is
+written by it.
+
+What is checked of every mechanism:
+
+- **The same bits.** At a user's steps (3° to 6°, or 0.03 to 0.06 m), over one turn and over all,
+  and at steps {cases.FINER} times finer: values, analogues and statuses of shared positions agree
+  to the bit.
+- **No jump.** Between neighbours no joint, slide or angle goes farther than its first analogues at
+  both ends carry it; where these do not tell it to {checks.JUMP:g} of the drawing (or rad), the
+  step is halved until they do. With change points the first analogues are carried by the second
+  likewise: the motion goes on smoothly.
+- **No false OK.** Whatever has values satisfies every pin, guide and driver of the description to
+  the law's 8 u κ of the size; the equations share no code with `assur`.
+- **Every gap is real.** Where a motion ends, the end is bisected to neighbouring numbers. There
+  the Jacobian of the bodies, which shares no code either, is singular, and its square falls
+  linearly: a dead point, beyond which this assembly does not exist. `explain` names the dyad.
+  (Or a point has gone to infinity, where guides become parallel.)
+- **Analogues** are the central differences of positions, at four positions each.
+- **Nothing raises or panics.**
+
+| | |
+| --- | --- |
+{{table}}
+{{failed}}"""

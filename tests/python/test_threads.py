@@ -1,0 +1,181 @@
+"""Threads, Ctrl-C, fork and calls at the same time; coordinates and batches at their limits."""
+
+from __future__ import annotations
+
+import math
+import multiprocessing
+import signal
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import assur
+import bits
+from assur import Status
+from bits import Float, coordinates, designs, solve
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from multiprocessing.connection import Connection
+
+STRANGE = [0.3, math.nan, math.inf, -math.inf, 1e15, -1e15, 1e300, -1e300, 1.7e308, 5e-324, -0.0]
+MANY = 30_000  # rows: more than one thread takes at a time
+Call = tuple[assur.Mechanism, Float]
+
+
+@pytest.mark.parametrize("threads", [0, -1, True, 1.5, "2", 10**6, 2**70, math.nan, [2], b"2"])
+def test_threads_refused(threads: Any) -> None:
+    with pytest.raises(assur.InputError, match=r"^threads is .*: a whole number from 1 to 4096"):
+        assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(0.0, threads=threads)
+
+
+@pytest.mark.parametrize("threads", [1, 4096, np.int8(2)])
+def test_threads_accepted(threads: int) -> None:
+    m, q = assur.FourBar(1.0, 3.0, 2.5, 3.0), np.linspace(-9.0, 9.0, MANY)
+    assert (solve(m, q, threads=threads) == solve(m, q)).all()
+
+
+# -- coordinates and dimensions -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", bits.NAMES)
+def test_strange_coordinates(name: str) -> None:
+    """Each as alone, and those beside it too."""
+    m, rng = bits.named(name), np.random.default_rng(5)
+    q = coordinates(m, rng, 3 * len(STRANGE), name)
+    strange = rng.permutation(np.repeat(STRANGE, 2))
+    if q.ndim == 1:
+        q[: len(strange)] = strange
+    else:  # far ways of several drivers are long
+        q[: len(strange), -1] = np.where(np.abs(strange) > 1.0, math.nan, strange)
+    q = rng.permutation(q)
+    motion = m.solve(q, order=3, on_error="nan")
+    refused = ~np.isfinite(q.reshape(len(q), -1)).all(axis=1)
+    assert ((motion.status == Status.BAD_INPUT) == refused).all()
+    alone = np.concatenate([solve(m, one) for one in q])
+    assert (bits.bits(motion) == alone).all()
+
+
+@pytest.mark.parametrize("size", [5e-324, 1e-310, 1e-154, 1e154, math.inf, math.nan])
+def test_dimensions_out_of_range_beside_others(size: float) -> None:
+    q = np.linspace(-9.0, 9.0, 13)
+    batch = assur.FourBar([1.0, size, 1.0], 3.0, 2.5, 3.0)
+    motion = batch.solve(q, order=3, on_error="nan")
+    assert (motion.status == np.array([[0], [Status.BAD_DIMENSION], [0]])).all()
+    rows = bits.bits(motion).reshape(3, len(q), -1)
+    alone = solve(assur.FourBar(1.0, 3.0, 2.5, 3.0), q)
+    assert (rows[[0, 2]] == alone).all()
+    with pytest.raises(assur.DimensionError, match=r"crank\.length"):
+        batch.design(1)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("count", [0, 3, MANY])
+@pytest.mark.parametrize("shape", [(0,), (0, 3), (2, 0)])
+def test_no_designs(shape: tuple[int, ...], count: int, threads: int) -> None:
+    m = assur.FourBar(np.ones(shape), 3.0, 2.5, 3.0)
+    for q in (np.ones(count), np.ones((*shape, count))):
+        motion = m.solve(q, order=3, threads=threads)
+        assert motion.shape == (*shape, count)
+        assert motion.joint("C").d3.shape == (*shape, count, 2)
+        assert motion.condition.shape == motion.shape
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("shape", [(), (5,), (0,)])
+def test_no_coordinates(shape: tuple[int, ...], threads: int) -> None:
+    motion = assur.FourBar(np.ones(shape), 3.0, 2.5, 3.0).solve([], order=3, threads=threads)
+    assert motion.shape == (*shape, 0)
+    assert motion.joint("C").d3.shape == (*shape, 0, 2)
+
+
+# -- Ctrl-C ---------------------------------------------------------------------------------------
+
+
+def many_positions(rng: np.random.Generator) -> Call:
+    m = bits.named("library excavator")
+    return m, coordinates(m, rng, 10**6, "library excavator")
+
+
+def many_designs(rng: np.random.Generator) -> Call:
+    return designs(bits.named("library peaucellier"), rng, 200_000), np.array([0.3])
+
+
+def many_designs_few_rows(rng: np.random.Generator) -> Call:
+    return designs(bits.named("library peaucellier"), rng, 20_000), np.array([0.3])
+
+
+def many_turns(rng: np.random.Generator) -> Call:
+    return bits.named("model five_bar"), rng.uniform(-314.0, 314.0, (50_000, 2))
+
+
+def many_turns_few_rows(rng: np.random.Generator) -> Call:
+    return bits.named("model five_bar"), rng.uniform(-314.0, 314.0, (5_000, 2))
+
+
+LONG = (many_positions, many_designs, many_designs_few_rows, many_turns, many_turns_few_rows)
+
+
+@pytest.mark.parametrize("threads", [1, None])
+@pytest.mark.parametrize("make", LONG)
+def test_interrupt(make: Callable[[np.random.Generator], Call], threads: int | None) -> None:
+    """Heard within a second, whatever makes the work long; the next call is as ever."""
+    m, q = make(np.random.default_rng(6))
+    sent = []
+
+    def ctrl_c() -> None:
+        sent.append(time.monotonic())
+        signal.raise_signal(signal.SIGINT)
+
+    timer = threading.Timer(0.2, ctrl_c)
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            m.solve(q, order=0, outputs=[], on_error="nan", threads=threads)
+    finally:
+        timer.cancel()
+        timer.join()
+    assert time.monotonic() - sent[0] < 1.0
+    four, few = assur.FourBar(1.0, 3.0, 2.5, 3.0), np.linspace(-9.0, 9.0, MANY)
+    assert (solve(four, few, threads=threads) == solve(four, few, threads=1)).all()
+
+
+# -- processes and threads of Python --------------------------------------------------------------
+
+
+def answer(m: assur.Mechanism, q: Float, pipe: Connection) -> None:
+    pipe.send_bytes(solve(m, q, threads=2).tobytes())
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")  # of threads that are not ours
+def test_fork_after_threads() -> None:
+    m, q = bits.named("library whitworth"), np.linspace(-9.0, 9.0, MANY)
+    expected = solve(m, q, threads=2)
+    fork = multiprocessing.get_context("fork")
+    here, there = fork.Pipe(duplex=False)
+    child = fork.Process(target=answer, args=(m, q, there))
+    child.start()
+    try:
+        assert here.poll(30.0), "the child hangs"
+        assert here.recv_bytes() == expected.tobytes()
+        child.join(30.0)
+        assert child.exitcode == 0
+    finally:
+        child.kill()
+
+
+def test_several_calls_at_once() -> None:
+    """Of one mechanism and of others, each on two threads."""
+    rng = np.random.default_rng(7)
+    names = ["library crank_rocker", "library whitworth", "model trammel"]
+    ones = [(bits.named(name), coordinates(bits.named(name), rng, MANY, name)) for name in names]
+    calls = [*ones, *ones[:1], *ones]
+    expected = [solve(m, q, threads=1) for m, q in calls]
+    with ThreadPoolExecutor(len(calls)) as pool:
+        futures = [pool.submit(solve, m, q, threads=2) for m, q in calls]
+        for future, rows in zip(futures, expected, strict=True):
+            assert (future.result() == rows).all()
