@@ -25,21 +25,21 @@ pub(crate) struct Change {
 /// Looks for the first change point between two knots and records it; the caller
 /// solves the second knot again with the new sign and asks once more.
 pub(crate) fn pass(walker: &mut Walker<'_, '_>, a: &Knot, b: &Knot) -> bool {
-    if !(a.reached && b.reached) {
-        return false;
-    }
-    let dyads: Vec<&Dyad> = walker.dyads().collect();
-    for (place, dyad) in dyads.into_iter().enumerate() {
+    for (place, (step, dyad)) in walker.dyads().enumerate() {
         let Some(sign) = dyad.sign else { continue };
+        // A dyad beyond may close only with the sign that is yet to be found.
+        if step >= a.solved.min(b.solved) {
+            continue;
+        }
         let here = |c: &Change| c.sign == sign && (c.at - a.at) * walker.way > 0.0;
         if walker.changes.iter().any(here) {
             continue;
         }
         let ((from, fall), (to, rise)) = (a.spread[place], b.spread[place]);
-        if !may_touch((from, fall), (to, rise), walker.way * (b.at - a.at).abs()) {
+        if !may_touch((from, fall), (to, rise), b.at - a.at) {
             continue;
         }
-        if let Some(at) = locate(walker, dyad, a.at, b.at) {
+        if let Some(at) = locate(walker, (step, dyad), a.at, b.at) {
             walker.changes.push(Change { at, sign });
             return true;
         }
@@ -53,7 +53,7 @@ pub(crate) fn pass(walker: &mut Walker<'_, '_>, a: &Knot, b: &Knot) -> bool {
 const FALLS: f64 = 4.0;
 
 /// Whether a spread may touch 0 between two knots, given it and its rate there (`cell`:
-/// the step, with the sign of the way).
+/// the step, negative down the parameter).
 #[inline(always)]
 pub(crate) fn may_touch((from, fall): (f64, f64), (to, rise): (f64, f64), cell: f64) -> bool {
     // |N| falls at the one end and rises at the other, and fast enough.
@@ -66,14 +66,19 @@ pub(crate) fn may_touch((from, fall): (f64, f64), (to, rise): (f64, f64), cell: 
 }
 
 /// The change point between `a` and `b`, if there is one.
-fn locate(walker: &mut Walker<'_, '_>, dyad: &Dyad, a: f64, b: f64) -> Option<f64> {
+fn locate(
+    walker: &mut Walker<'_, '_>,
+    (index, dyad): (usize, &Dyad),
+    a: f64,
+    b: f64,
+) -> Option<f64> {
     let (mut low, mut high) = (a, b);
     let step = CHANGE_STEP * (b - a);
     // Halving by the golden section keeps clear of the change point itself, which
     // likes to be in the middle.
     while (high - low).abs() > 4.0 * step.abs() {
         let middle = low + 0.381_966_011_250_105 * (high - low);
-        if !walker.visit(middle) {
+        if walker.solve(middle) <= index {
             return None;
         }
         let (value, rate) = walker.spread(dyad);
@@ -85,10 +90,10 @@ fn locate(walker: &mut Walker<'_, '_>, dyad: &Dyad, a: f64, b: f64) -> Option<f6
     }
     let mut centre = 0.5 * (low + high);
     for _ in 0..3 {
-        let fit = Sides::around(walker, dyad, centre, step)?;
+        let fit = Sides::around(walker, (index, dyad), centre, step)?;
         let zero = fit.zero();
         if zero.abs() < 1e-6 {
-            let noise = CHANGE_SPREAD * fit.before.min(CHANGE_CONDITION);
+            let noise = CHANGE_SPREAD * fit.before.min(CHANGE_CONDITION) * fit.shortness;
             let allowed = noise + (fit.slope * zero * step).powi(2);
             return (fit.least.abs() <= allowed).then_some(centre + zero * step);
         }
@@ -107,17 +112,24 @@ struct Sides {
     least: f64,
     /// Greatest condition of what the dyad hangs on, at the points.
     before: f64,
+    /// Greatest size by the length of a leg, there.
+    shortness: f64,
     step: f64,
 }
 
 impl Sides {
-    fn around(walker: &mut Walker<'_, '_>, dyad: &Dyad, centre: f64, step: f64) -> Option<Self> {
+    fn around(
+        walker: &mut Walker<'_, '_>,
+        (index, dyad): (usize, &Dyad),
+        centre: f64,
+        step: f64,
+    ) -> Option<Self> {
         let sign = dyad.sign?;
         let (mut n, mut square, mut odd) = ([0.0; 3], [0.0; 3], [0.0; 3]);
-        let mut before = 1.0_f64;
+        let (mut before, mut shortness) = (1.0_f64, 1.0_f64);
         for (place, reach) in [1.0, 2.0, 3.0].into_iter().enumerate() {
             for side in [-1.0, 1.0] {
-                if !walker.visit(centre + side * reach * step) {
+                if walker.solve(centre + side * reach * step) <= index {
                     return None;
                 }
                 let (value, _) = walker.spread(dyad);
@@ -125,12 +137,21 @@ impl Sides {
                 n[place] += 0.5 * value;
                 odd[place] += 0.5 * side * value / (reach * step);
                 square[place] += 0.5 * value * value;
-                before = before.max(walker.state.before[sign].sqrt());
+                let state = &*walker.state;
+                before = before.max(state.before[sign].sqrt());
+                shortness = shortness.max(state.shortness(&walker.cx, dyad));
             }
         }
         // Even polynomials through ±1, ±2, ±3 steps, at 0: weights 15, −6, 1 of 10.
         let at_zero = |e: [f64; 3]| (15.0 * e[0] - 6.0 * e[1] + e[2]) / 10.0;
-        Some(Self { value: at_zero(n), slope: at_zero(odd), least: at_zero(square), before, step })
+        Some(Self {
+            value: at_zero(n),
+            slope: at_zero(odd),
+            least: at_zero(square),
+            before,
+            shortness,
+            step,
+        })
     }
 
     /// Where N crosses zero, in steps from the centre.

@@ -36,6 +36,18 @@ impl<R: Real> State<R> {
 }
 
 impl State {
+    /// The size of a dyad's triangle by its shortest side that turns: what its rounding
+    /// means for the spread.
+    pub(crate) fn shortness(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
+        let a = self.turning(cx, dyad, 0, 0).norm2();
+        let b = match dyad.form {
+            Form::TwoCircles => self.turning(cx, dyad, 1, 0).norm2(),
+            _ => a,
+        };
+        let grain = self.grain[dyad.start].max(self.grain[dyad.end]);
+        (grain.max(a).max(b) / a.min(b)).sqrt()
+    }
+
     /// Whether the points are where another state has them, as far as that can be known.
     pub(crate) fn is_near(&self, other: &Self) -> bool {
         let allowed = CHANGE_MISFIT * other.condition2.sqrt();

@@ -1,7 +1,7 @@
 //! Walking from the drawing: knots close enough together to see every change point
 //! and to tell every angle.
 
-use super::change::{self, Change};
+use super::change::{self, Change, may_touch};
 use super::state::{Context, Fault, State, Status};
 use super::track::nearest;
 use crate::plan::{Dyad, Form, Step};
@@ -24,6 +24,9 @@ const MOST_KNOTS: usize = 100_000;
 /// often: change points of several dyads seldom follow so closely.
 const NUDGE: f64 = 0.0625;
 const NUDGES: u32 = 4;
+/// How near to a change point, in cells, it is looked for a link that swings; nearer, its
+/// rate is nothing but rounding.
+const PROBES: [f64; 3] = [1.0 / 128.0, 1.0 / 16384.0, 1.0 / 1048576.0];
 
 /// One point of the path.
 #[derive(Debug, Clone)]
@@ -41,11 +44,15 @@ pub(crate) struct Knot {
     sides: Vec<bool>,
     /// Where not reached: the step that does not close, and by how much.
     open: Option<(usize, f64)>,
+    /// Steps of the plan that could be solved.
+    pub solved: usize,
 }
 
 impl Knot {
+    /// Whether a dyad is flat here, or its outer joints coincide.
     fn is_flat(&self) -> bool {
-        self.spread.iter().any(|(_, rate)| rate.is_nan())
+        let loose = self.open.is_some_and(|(_, gap)| gap == 0.0);
+        loose || self.spread.iter().any(|(_, rate)| rate.is_nan())
     }
 }
 
@@ -98,10 +105,10 @@ impl<'a, 'b> Walker<'a, 'b> {
         walker
     }
 
-    /// The dyads with a sign, in order.
-    pub(crate) fn dyads(&self) -> impl Iterator<Item = &'b Dyad> + use<'b> {
-        self.cx.plan.steps.iter().filter_map(|step| match step {
-            Step::Dyad(dyad) if dyad.sign.is_some() => Some(dyad),
+    /// The dyads with a sign, in order, each with its step of the plan.
+    pub(crate) fn dyads(&self) -> impl Iterator<Item = (usize, &'b Dyad)> + use<'b> {
+        self.cx.plan.steps.iter().enumerate().filter_map(|(index, step)| match step {
+            Step::Dyad(dyad) if dyad.sign.is_some() => Some((index, dyad)),
             _ => None,
         })
     }
@@ -117,13 +124,21 @@ impl<'a, 'b> Walker<'a, 'b> {
 
     /// Solves at a parameter; whether it was reached.
     pub(crate) fn visit(&mut self, at: f64) -> bool {
+        self.solve(at) == usize::MAX
+    }
+
+    /// Solves at a parameter; how many steps could be.
+    pub(crate) fn solve(&mut self, at: f64) -> usize {
         let signs = self.signs_at(at);
         (self.point)(at, &mut self.q);
         self.state.solve(&Context { signs: &signs, ..self.cx }, &self.q);
-        // A redundant link that does not fit is no matter of the way: beyond a change
-        // point it fits only with the sign that is yet to be found.
-        matches!(self.state.status, Status::Ok | Status::NearSingular | Status::Singular)
-            || matches!(self.state.fault, Some(Fault::Misfit { .. }))
+        match (self.state.status, self.state.fault) {
+            (Status::BadInput, _) => 0,
+            (Status::Unreachable, Some(Fault::Open { step, .. })) => step,
+            // A redundant link that does not fit is no matter of the way: beyond a change
+            // point it fits only with the sign that is yet to be found.
+            _ => usize::MAX,
+        }
     }
 
     /// Rate of a jet along the path, from its first-order entries.
@@ -133,8 +148,13 @@ impl<'a, 'b> Walker<'a, 'b> {
 
     /// The knot at `at`, its angles nearest to those of `from`.
     pub(crate) fn knot(&mut self, at: f64, from: &[f64]) -> Knot {
-        let reached = self.visit(at);
-        let nothing = vec![(0.0, 0.0); self.start_signs.len()];
+        let solved = self.solve(at);
+        let reached = solved == usize::MAX;
+        // Before the step that does not close all is as if it did.
+        let spread = self
+            .dyads()
+            .map(|(step, dyad)| if step < solved { self.spread(dyad) } else { (0.0, 0.0) })
+            .collect();
         if !reached {
             let rates = vec![0.0; from.len()];
             let open = match self.state.fault {
@@ -142,7 +162,7 @@ impl<'a, 'b> Walker<'a, 'b> {
                 _ => None,
             };
             let (angles, sides) = (from.to_vec(), Vec::new());
-            return Knot { at, reached, angles, rates, spread: nothing, sides, open };
+            return Knot { at, reached, angles, rates, spread, sides, open, solved };
         }
         let angles =
             self.state.class.iter().zip(from).map(|(u, &near)| nearest(u.angle(), near)).collect();
@@ -150,13 +170,12 @@ impl<'a, 'b> Walker<'a, 'b> {
         let rates = (0..from.len())
             .map(|c| self.along(|d| self.state.theta[c * len + 1 + d]).abs())
             .collect();
-        let spread = self.dyads().map(|dyad| self.spread(dyad)).collect();
         let lines = self.cx.plan.steps.iter().filter_map(|step| match step {
             Step::Dyad(dyad) if dyad.form == Form::TwoLines => Some(dyad),
             _ => None,
         });
         let sides = lines.map(|dyad| self.state.determinant(&self.cx, dyad) > 0.0).collect();
-        Knot { at, reached, angles, rates, spread, sides, open: None }
+        Knot { at, reached, angles, rates, spread, sides, open: None, solved }
     }
 
     /// Spread of a dyad at the position just visited, and its rate along the path.
@@ -184,10 +203,11 @@ impl<'a, 'b> Walker<'a, 'b> {
             while change::pass(self, &from, &knot) {
                 knot = self.knot(end, &from.angles);
             }
+            let swings = self.swings(from.at, end);
             let middle = 0.5 * (from.at + end);
             let room = self.knots.len() < MOST_KNOTS;
             let can_halve = room && middle != from.at && middle != end;
-            if can_halve && depth < LIFT_HALVINGS && too_far(&from, &knot, depth) {
+            if can_halve && depth < LIFT_HALVINGS && (swings || too_far(&from, &knot, depth)) {
                 // The halves find what was found on the whole again.
                 self.changes.retain(|c| (c.at - from.at) * self.way <= 0.0);
                 ends.push((end, depth + 1));
@@ -196,6 +216,25 @@ impl<'a, 'b> Walker<'a, 'b> {
                 self.knots.push(knot);
             }
         }
+    }
+
+    /// Whether a link turns fast beside a change point between two parameters: where the
+    /// outer joints of a dyad nearly coincide it may swing round within much less than
+    /// the cell, and stand as before at both ends.
+    fn swings(&mut self, from: f64, end: f64) -> bool {
+        let within = |c: &&Change| (c.at - from) * self.way > 0.0 && (end - c.at) * self.way > 0.0;
+        let changes: Vec<f64> = self.changes.iter().filter(within).map(|c| c.at).collect();
+        changes.into_iter().any(|change| {
+            let probes = PROBES.iter().flat_map(|&part| [-part, part]);
+            probes.map(|part| change + part * (end - from)).any(|at| {
+                let len = self.state.len;
+                self.visit(at)
+                    && (0..self.state.class.len()).any(|c| {
+                        let rate = self.along(|d| self.state.theta[c * len + 1 + d]);
+                        (rate * (end - from)).abs() > LIFT_TURN
+                    })
+            })
+        })
     }
 
     /// Signs between the changes, in the direction of growing parameter.
@@ -223,7 +262,9 @@ fn too_far(a: &Knot, b: &Knot, depth: u32) -> bool {
     let fast =
         depth < EDGE_HALVINGS && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > LIFT_TURN);
     let through_infinity = depth < EDGE_HALVINGS && a.sides != b.sides;
-    turned || fast || through_infinity
+    // Beside a near miss of a change point a link may swing round between the knots.
+    let missed = || a.spread.iter().zip(&b.spread).any(|(&x, &y)| may_touch(x, y, b.at - a.at));
+    turned || fast || through_infinity || missed()
 }
 
 /// Whether a stretch that can be reached may lie between two knots that cannot.
