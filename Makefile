@@ -24,7 +24,7 @@ export PYO3_PYTHON := $(abspath $(PY))
 export PROPTEST_RNG_SEED ?= 1
 export MPLBACKEND ?= Agg
 
-.PHONY: help run test rust-test python-test bench clean rust-tools lint-tools
+.PHONY: help run test rust-test python-test bench campaign clean rust-tools lint-tools
 .DEFAULT_GOAL := help
 
 help:
@@ -32,7 +32,8 @@ help:
 	@echo "make test         format, lints, types, unit, integration and documentation tests"
 	@echo "make rust-test    the Rust half of it"
 	@echo "make python-test  the Python half of it"
-	@echo "make bench        benchmarks"
+	@echo "make bench        benchmarks, beside NumPy"
+	@echo "make campaign     random mechanisms by the hundred thousand (half an hour); docs/campaign.md"
 	@echo "make clean        remove everything that was built, the environment too"
 
 run: rust-tools $(EXTENSION)
@@ -56,7 +57,12 @@ python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
 
 bench: rust-tools $(EXTENSION) $(DEV_STAMP)
 	cargo bench $(LOCKED)
-	@if ls benches/python/*.py >/dev/null 2>&1; then $(PY) -m pytest benches/python; fi
+	$(PY) -m pytest benches/python
+	ASSUR_SIMD=baseline $(PY) -m pytest benches/python -k assur
+
+campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
+	$(PY) tests/python/campaign.py --count 100000 --out docs/campaign.md
+	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/test_function_of_q.py
 
 clean:
 	cargo clean

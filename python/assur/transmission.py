@@ -31,6 +31,9 @@ def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
         return _at_slide(motion, slide)
     mechanism._core.require("joint", name)
     meeting = [link for link, on in mechanism.links.items() if name in on]
+    if len(meeting) == 1:
+        message = f"joint {name!r} is on link {meeting[0]!r} alone: say between=(joint, joint)"
+        raise InputError(message, joint=name, link=meeting[0])
     if len(meeting) != 2:
         message = f"{len(meeting)} links meet at joint {name!r}: say between=(joint, joint)"
         raise InputError(message, joint=name)

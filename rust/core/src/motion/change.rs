@@ -11,7 +11,7 @@ use super::state::{Context, State};
 use super::track::Track;
 use super::walk::{Knot, Walker};
 use crate::plan::Dyad;
-use crate::tolerance::{CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP};
+use crate::tolerance::{CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, SMOOTH_CLOSURE};
 
 /// A change point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -165,7 +165,8 @@ impl Sides {
 const NODES: u32 = 16;
 
 /// Position and analogues of the smooth motion at (or beside) a change point: the
-/// polynomial through states around it. None if there is no room around it.
+/// polynomial through states around it, as far around as it closes. None if there is no
+/// room.
 pub(crate) fn bridge(
     cx: &Context<'_>,
     state: &State,
@@ -196,7 +197,9 @@ pub(crate) fn bridge(
             let weights: Vec<f64> = raw.iter().map(|w| w / total).collect();
             let mut smooth = state.clone();
             smooth.blend(&states, &weights);
-            return Some(smooth);
+            if smooth.residual(cx) <= SMOOTH_CLOSURE {
+                return Some(smooth);
+            }
         }
         reach *= 0.5;
     }

@@ -112,7 +112,7 @@ impl Mechanism {
             ),
             _ => format!("at q = {at} the position is solved, condition {condition:.1e}"),
         };
-        let residual = residual(&design.context(jets), state);
+        let residual = state.residual(&design.context(jets));
         Diagnosis { status: state.status, residual, condition, name: named, step, sentence }
     }
 
@@ -247,19 +247,4 @@ fn place_of(q: &[f64]) -> String {
         [one] => number(*one),
         many => format!("({})", many.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", ")),
     }
-}
-
-/// Greatest misfit of any edge, of the size.
-fn residual(cx: &Context<'_>, state: &State) -> f64 {
-    let len = state.len;
-    (cx.plan.edges.iter().zip(&cx.bound.rigid).zip(&cx.bound.guide))
-        .map(|((e, &rigid), &guide)| {
-            let mut span = rigid;
-            if let Along::Slide(s) | Along::Driver { slide: s, .. } = e.along {
-                span += guide.scale(state.slides[s * len]);
-            }
-            let turned = state.orient[e.orientation * len] * span;
-            (state.points[e.edge.to * len] - state.points[e.edge.from * len] - turned).norm()
-        })
-        .fold(0.0, f64::max)
 }

@@ -3,7 +3,7 @@
 
 use super::state::{Context, State};
 use crate::lanes::Real;
-use crate::plan::{Dyad, Form};
+use crate::plan::{Along, Dyad, Form};
 use crate::plane::Vector;
 use crate::tolerance::CHANGE_MISFIT;
 
@@ -46,6 +46,21 @@ impl State {
         };
         let grain = self.grain[dyad.start].max(self.grain[dyad.end]);
         (grain.max(a).max(b) / a.min(b)).sqrt()
+    }
+
+    /// Greatest misfit of any edge, of the size.
+    pub(crate) fn residual(&self, cx: &Context<'_>) -> f64 {
+        let len = self.len;
+        (cx.plan.edges.iter().zip(&cx.bound.rigid).zip(&cx.bound.guide))
+            .map(|((e, &rigid), &guide)| {
+                let mut span = rigid;
+                if let Along::Slide(s) | Along::Driver { slide: s, .. } = e.along {
+                    span += guide.scale(self.slides[s * len]);
+                }
+                let turned = self.orient[e.orientation * len] * span;
+                (self.points[e.edge.to * len] - self.points[e.edge.from * len] - turned).norm()
+            })
+            .fold(0.0, f64::max)
     }
 
     /// Whether the points are where another state has them, as far as that can be known.

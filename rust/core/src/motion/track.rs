@@ -56,10 +56,15 @@ pub(crate) struct Spot<R = f64> {
     knot: [usize; LANES],
 }
 
-/// The angle that differs from `angle` by whole turns and is nearest to `near`.
+/// Half a turn, less what keeps the choice of [`nearest`] off exact half turns.
+const ABOUT_HALF: f64 = 0.5 - 1.0 / 1024.0;
+
+/// The angle that differs from `angle` by whole turns and is nearest to `near`; about
+/// half a turn off (a link that points to where a joint went through infinity) the one
+/// ahead, whatever the rounding.
 #[inline(always)]
 pub(super) fn nearest<R: Real>(angle: R, near: R) -> R {
-    let turns = ((near - angle) * R::splat(1.0 / TAU) + R::splat(0.5)).floor();
+    let turns = ((near - angle) * R::splat(1.0 / TAU) + R::splat(ABOUT_HALF)).floor();
     angle + R::splat(TAU) * turns
 }
 
