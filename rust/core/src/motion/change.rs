@@ -7,11 +7,9 @@
 //! distance where nothing is singular, tells a change point (0, to rounding) from
 //! a near miss (positive) and from a gap between two dead points (negative).
 
-use super::state::{Context, State};
-use super::track::Track;
 use super::walk::{Knot, Walker};
 use crate::plan::Dyad;
-use crate::tolerance::{CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, SMOOTH_CLOSURE};
+use crate::tolerance::{CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP};
 
 /// A change point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,6 +63,10 @@ pub(crate) fn may_touch((from, fall): (f64, f64), (to, rise): (f64, f64), cell: 
         && to.abs() < FALLS * rise
 }
 
+/// How near the middle of the six points must be to a change point, in steps: the
+/// polynomials are then as good as their sixth power.
+const NEAR_ENOUGH: f64 = 1e-6;
+
 /// The change point between `a` and `b`, if there is one.
 fn locate(
     walker: &mut Walker<'_, '_>,
@@ -92,8 +94,9 @@ fn locate(
     for _ in 0..3 {
         let fit = Sides::around(walker, (index, dyad), centre, step)?;
         let zero = fit.zero();
-        if zero.abs() < 1e-6 {
-            let noise = CHANGE_SPREAD * fit.before.min(CHANGE_CONDITION) * fit.shortness;
+        let noise = CHANGE_SPREAD * fit.before.min(CHANGE_CONDITION) * fit.shortness;
+        // In a small cell the zero is known no better than the spread there.
+        if zero.abs() < NEAR_ENOUGH.max(noise / (fit.slope * step).powi(2)) {
             let allowed = noise + (fit.slope * zero * step).powi(2);
             return (fit.least.abs() <= allowed).then_some(centre + zero * step);
         }
@@ -158,50 +161,4 @@ impl Sides {
     fn zero(&self) -> f64 {
         -self.value / (self.slope * self.step)
     }
-}
-
-/// Nodes of the polynomial through a change point: Chebyshev's, so that none is
-/// at it.
-const NODES: u32 = 16;
-
-/// Position and analogues of the smooth motion at (or beside) a change point: the
-/// polynomial through states around it, as far around as it closes. None if there is no
-/// room.
-pub(crate) fn bridge(
-    cx: &Context<'_>,
-    state: &State,
-    track: &Track,
-    q: f64,
-    change: f64,
-) -> Option<State> {
-    let mut reach = 0.1;
-    while reach > 1e-3 {
-        let mut states = Vec::new();
-        let mut nodes = Vec::new();
-        for node in 0..NODES {
-            let angle = std::f64::consts::PI * (f64::from(node) + 0.5) / f64::from(NODES);
-            let at = change + reach * angle.cos();
-            let mut trial = state.clone();
-            trial.solve(&Context { signs: track.signs(at), ..*cx }, &[at]);
-            if trial.fault.is_some() || trial.points.iter().any(|p| p.x.is_nan()) {
-                break;
-            }
-            // Weights of Chebyshev's nodes of the first kind (Berrut & Trefethen 2004, 5.3).
-            let weight = if node % 2 == 0 { angle.sin() } else { -angle.sin() };
-            nodes.push((at, weight));
-            states.push(trial);
-        }
-        if nodes.len() == NODES as usize {
-            let raw: Vec<f64> = nodes.iter().map(|(at, w)| w / (q - at)).collect();
-            let total: f64 = raw.iter().sum();
-            let weights: Vec<f64> = raw.iter().map(|w| w / total).collect();
-            let mut smooth = state.clone();
-            smooth.blend(&states, &weights);
-            if smooth.residual(cx) <= SMOOTH_CLOSURE {
-                return Some(smooth);
-            }
-        }
-        reach *= 0.5;
-    }
-    None
 }

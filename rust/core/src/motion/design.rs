@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use super::change::bridge;
+use super::bridge::bridge;
 use super::quick::Quick;
 use super::state::{Context, State, Status};
 use super::track::Track;

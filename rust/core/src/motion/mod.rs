@@ -1,11 +1,13 @@
 //! Motions: designs × positions, with analogues.
 
 mod analogue;
+mod bridge;
 mod change;
 mod design;
 mod dyad;
 mod explain;
 mod fit;
+mod forms;
 pub mod metrics;
 mod outputs;
 mod parallel;

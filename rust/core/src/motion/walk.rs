@@ -24,8 +24,10 @@ const MOST_KNOTS: usize = 100_000;
 /// often: change points of several dyads seldom follow so closely.
 const NUDGE: f64 = 0.0625;
 const NUDGES: u32 = 4;
-/// How near to a change point, in cells, it is looked for a link that swings; nearer, its
-/// rate is nothing but rounding.
+/// How near to a change point (rad, or units of the scale) rates are more than rounding:
+/// 64 u κ² of them are, κ about 1/distance.
+const LEAST_PROBE: f64 = 1.0 / 1048576.0;
+/// How near to a change point, in cells, it is looked for a link that swings.
 const PROBES: [f64; 3] = [1.0 / 128.0, 1.0 / 16384.0, 1.0 / 1048576.0];
 
 /// One point of the path.
@@ -225,8 +227,9 @@ impl<'a, 'b> Walker<'a, 'b> {
         let within = |c: &&Change| (c.at - from) * self.way > 0.0 && (end - c.at) * self.way > 0.0;
         let changes: Vec<f64> = self.changes.iter().filter(within).map(|c| c.at).collect();
         changes.into_iter().any(|change| {
-            let probes = PROBES.iter().flat_map(|&part| [-part, part]);
-            probes.map(|part| change + part * (end - from)).any(|at| {
+            let reaches = PROBES.iter().map(|part| part * (end - from).abs());
+            let probes = reaches.filter(|&reach| reach > LEAST_PROBE).flat_map(|r| [-r, r]);
+            probes.map(|reach| change + reach).any(|at| {
                 let len = self.state.len;
                 self.visit(at)
                     && (0..self.state.class.len()).any(|c| {

@@ -1,0 +1,220 @@
+//! The closed forms: one vector equation with two unknowns, by square roots and
+//! divisions only.
+
+use crate::lanes::{Mask, Real};
+use crate::plan::bind::Leg;
+use crate::plane::Vector;
+use crate::tolerance::FLAT_CLOSURE;
+
+/// How a dyad came out.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Solved<R: Real> {
+    /// Where it does not close.
+    pub open: R::Mask,
+    /// By how much, of the size (found with one lane only).
+    pub gap: R,
+    /// Where it is flat: the two solutions coincide, to rounding.
+    pub flat: R::Mask,
+    /// Square of the sine of the angle between the columns of the closure matrix: between
+    /// the legs of two binary links.
+    pub sine2: R,
+    /// Square of the greatest lever of a leg, in lengths of the leg; at least 1. The size
+    /// of the inverse of the scaled closure matrix is lever by sine.
+    pub arm2: R,
+}
+
+impl<R: Real> Solved<R> {
+    /// With the levers of the legs.
+    #[inline(always)]
+    pub fn with(self, arm2: R) -> Self {
+        Self { arm2: arm2.max(R::ONE), ..self }
+    }
+}
+
+/// A factor that vanishes where the dyad is flat: negative by rounding counts
+/// as 0 (flat), by more as open.
+struct Factor<R: Real> {
+    value: R,
+    flat: R::Mask,
+    open: R::Mask,
+}
+
+impl<R: Real> Factor<R> {
+    #[inline(always)]
+    fn of(difference: R, size: R) -> Self {
+        let positive = R::ZERO.lt(difference);
+        let within = (R::splat(-FLAT_CLOSURE) * size).le(difference);
+        let value = R::select(positive, difference, R::ZERO);
+        Self { value, flat: positive.not().and(within), open: positive.or(within).not() }
+    }
+
+    /// What is missing where it is open (with one lane), else `or`.
+    #[inline(always)]
+    fn gap(&self, difference: R, or: R) -> R {
+        R::select(self.open, -difference, or)
+    }
+}
+
+/// `a u₁ + b u₂ = k` for unit vectors u₁, u₂: the intersection of two circles.
+/// `sign` > 0: `a u₁` points to the left of `k`.
+#[inline(always)]
+pub(super) fn two_circles<R: Real>(
+    a: &Leg<R>,
+    b: &Leg<R>,
+    k: Vector<R>,
+    sign: R,
+) -> (Vector<R>, Vector<R>, Solved<R>) {
+    let d2 = k.norm2();
+    let d = d2.sqrt();
+    let (sum, difference) = (a.norm + b.norm, a.norm - b.norm);
+    let size = a.norm.max(b.norm).max(d);
+    let outer = Factor::of(sum - d, size);
+    let inner = Factor::of(d - difference.abs(), size);
+    // Outer joints coincide, or a leg has no length: any attitude closes.
+    let loose = R::ZERO.lt(d2.min(a.norm2).min(b.norm2)).not();
+    // Heron: (2 d h)² = (a+b−d)(a+b+d)(d−a+b)(d+a−b), h the height on k.
+    let area2 = outer.value * (sum + d) * inner.value * (d + difference.abs());
+    let area = area2.sqrt();
+    let half = R::splat(0.5) / d2;
+    // Along and across k, as parts of it; (a−b)(a+b) keeps digits when a ≈ b.
+    let split = difference * sum;
+    let (x, y) = ((d2 + split) * half, sign * area * half);
+    let first = k * Vector::new(x, y);
+    let second = k * Vector::new((d2 - split) * half, -y);
+    let first = (first * a.vector.conj()).scale(a.per);
+    let second = (second * b.vector.conj()).scale(b.per);
+    let far = size.finite().not();
+    let gap = outer.gap(sum - d, inner.gap(d - difference.abs(), R::ZERO));
+    let solved = Solved {
+        open: outer.open.or(inner.open).or(loose).or(far),
+        gap: R::select(far, R::splat(f64::INFINITY), gap),
+        flat: outer.flat.or(inner.flat),
+        // The area is half of Heron's, and half of the legs' product by the sine.
+        sine2: area2 * (R::splat(0.25) * a.per * b.per),
+        arm2: R::ONE,
+    };
+    (first, second, solved)
+}
+
+/// `a u + s b = k` for a unit vector u and a slide s along the unit vector b: a
+/// circle and a line. `sign` > 0: the slide is ahead of the foot of the
+/// perpendicular from the circle's centre.
+#[inline(always)]
+pub(super) fn circle_and_line<R: Real>(
+    a: &Leg<R>,
+    b: Vector<R>,
+    k: Vector<R>,
+    sign: R,
+) -> (Vector<R>, R, Solved<R>) {
+    let (along, across) = (b.dot(k), b.cross(k));
+    let size = a.norm.max(k.size());
+    let inner = Factor::of(a.norm - across.abs(), size);
+    let chord2 = inner.value * (a.norm + across.abs());
+    let signed = sign * chord2.sqrt();
+    let leg = b * Vector::new(-signed, across);
+    let far = size.finite().not();
+    let solved = Solved {
+        open: inner.open.or(R::ZERO.lt(a.norm2).not()).or(far),
+        gap: R::select(far, R::splat(f64::INFINITY), inner.gap(a.norm - across.abs(), R::ZERO)),
+        flat: inner.flat,
+        sine2: chord2 * a.per,
+        arm2: R::ONE,
+    };
+    ((leg * a.vector.conj()).scale(a.per), along + signed, solved)
+}
+
+/// `(a + s b) u = k` for a unit vector u and a slide s along the unit vector b
+/// that turns with it. `sign` > 0: the slide is above the value at which it is
+/// nearest to the far joint. Third: 1/|k|².
+#[inline(always)]
+pub(super) fn turning_guide<R: Real>(
+    a: Vector<R>,
+    b: Vector<R>,
+    k: Vector<R>,
+    sign: R,
+) -> (Vector<R>, R, R, Solved<R>) {
+    let (along, across) = (b.dot(a), b.cross(a));
+    let d2 = k.norm2();
+    let d = d2.sqrt();
+    let size = d.max(a.size());
+    let inner = Factor::of(d - across.abs(), size);
+    let chord2 = inner.value * (d + across.abs());
+    let signed = sign * chord2.sqrt();
+    let arm = b * Vector::new(signed, across);
+    let per = R::ONE / d2;
+    let far = size.finite().not();
+    let solved = Solved {
+        // The far joint is on the guide's own pivot: every attitude closes.
+        open: inner.open.or(R::ZERO.lt(d2).not()).or(far),
+        gap: R::select(far, R::splat(f64::INFINITY), inner.gap(d - across.abs(), R::ZERO)),
+        flat: inner.flat,
+        sine2: chord2 * per,
+        arm2: R::ONE,
+    };
+    ((k * arm.conj()).scale(per), signed - along, per, solved)
+}
+
+/// `s a + t b = k` for two slides along unit vectors (Cramer).
+#[inline(always)]
+pub(super) fn two_lines<R: Real>(a: Vector<R>, b: Vector<R>, k: Vector<R>) -> (R, R, Solved<R>) {
+    let determinant = a.cross(b);
+    let (s, t) = (k.cross(b) / determinant, a.cross(k) / determinant);
+    let solved = Solved {
+        open: s.finite().and(t.finite()).not(),
+        gap: R::splat(f64::INFINITY),
+        flat: R::Mask::NONE,
+        sine2: determinant * determinant,
+        arm2: R::ONE,
+    };
+    (s, t, solved)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TOLERANCE: f64 = 1e-15;
+
+    fn leg(x: f64, y: f64) -> Leg {
+        Leg::of(Vector::new(x, y))
+    }
+
+    #[test]
+    fn right_triangle_three_four_five() {
+        let (u, v, solved) =
+            two_circles(&leg(3.0, 0.0), &leg(4.0, 0.0), Vector::new(5.0, 0.0), 1.0);
+        assert!(!solved.flat && !solved.open && (solved.sine2 - 1.0).abs() < TOLERANCE);
+        assert!((u.x - 0.6).abs() < TOLERANCE && (u.y - 0.8).abs() < TOLERANCE);
+        assert!((v.x - 0.8).abs() < TOLERANCE && (v.y + 0.6).abs() < TOLERANCE);
+    }
+
+    #[test]
+    fn circles_that_do_not_meet_tell_the_gap() {
+        let unit = leg(1.0, 0.0);
+        let (_, _, solved) = two_circles(&unit, &unit, Vector::new(2.5, 0.0), 1.0);
+        assert!(solved.open && (solved.gap - 0.5).abs() < TOLERANCE);
+    }
+
+    #[test]
+    fn circle_meets_line_on_the_named_side() {
+        let (a, b) = (Vector::new(5.0, 0.0), Vector::new(1.0, 0.0));
+        let k = Vector::new(10.0, 3.0);
+        for sign in [1.0, -1.0] {
+            let (u, s, _) = circle_and_line(&Leg::of(a), b, k, sign);
+            assert!((s - (10.0 + sign * 4.0)).abs() < TOLERANCE * 10.0);
+            let closed = u * a + b.scale(s) - k;
+            assert!(closed.norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn turning_guide_closes() {
+        let (a, b) = (Vector::new(0.3, 0.4), Vector::new(0.6, 0.8));
+        let k = Vector::new(-1.0, 2.0);
+        for sign in [1.0, -1.0] {
+            let (u, s, _, _) = turning_guide(a, b, k, sign);
+            assert!(((a + b.scale(s)) * u - k).norm() < 1e-14);
+            assert!((u.norm() - 1.0).abs() < 1e-14);
+        }
+    }
+}
