@@ -18,7 +18,7 @@ Held: TypeAlias = dict[str, tuple[Float, ...]]
 Outputs: TypeAlias = tuple[list[int], list[int], list[int], list[int]]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Tracks:
     """What a motion holds, by name: arrays by order."""
 
@@ -27,7 +27,7 @@ class Tracks:
     slides: Held
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Call:
     """Everything a motion depends on."""
 

@@ -17,19 +17,23 @@ class Status(IntEnum):
     OK = 0
     """Solved."""
     NEAR_SINGULAR = 1
-    """Solved; fewer than six digits of the analogues remain."""
+    """Solved; fewer than six digits of the analogues may remain."""
     SINGULAR = 2
-    """The position is given; it has no analogues (NaN)."""
+    """The position is given; its analogues are NaN, except at a change point."""
     UNREACHABLE = 3
     """This assembly does not exist at this coordinate (NaN)."""
     LOST = 4
-    """Beyond a fold of a group above class II; not followed (NaN)."""
+    """The way from the drawing to here is not known (NaN).
+
+    The signs of a driven angle do not return within 64 turns; or beyond a fold of a group
+    above class II.
+    """
     NOT_CONVERGED = 5
     """The iteration of a group above class II did not end (NaN)."""
     BAD_DIMENSION = 6
-    """A dimension of this design is not finite, or a length not positive (NaN)."""
+    """A dimension is not finite, not positive, or outside 1e-153 to 1e153 m (NaN)."""
     BAD_INPUT = 7
-    """The coordinate is no number (NaN)."""
+    """The coordinate is no number, or several drivers are too far from the drawing (NaN)."""
 
 
 @dataclass(frozen=True)

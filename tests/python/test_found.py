@@ -163,3 +163,86 @@ def test_transmission_in_a_slot_of_an_arm_with_two_joints() -> None:
     np.testing.assert_allclose(
         motion.transmission_angle("F"), np.arcsin(np.abs(np.cos(rod))), atol=1e-14
     )
+
+
+def test_change_point_before_a_dyad_that_does_not_close() -> None:
+    """Beyond the kite's change point its other sign is what the second dyad closes with."""
+    kite = assur.FourBar(1, 2, 2, 1)
+    at = kite.solve(1.0).joint("C").value
+    span = np.array([2.6, 1.2]) - at
+    half = np.hypot(*span) / 2
+    f = at + span / 2 + np.array([-span[1], span[0]]) / (2 * half) * np.sqrt(1 - half**2)
+    m = assur.Mechanism(
+        joints={
+            "A": (0, 0),
+            "B": (np.cos(1.0), np.sin(1.0)),
+            "C": (at[0], at[1]),
+            "D": (1, 0),
+            "E": (2.6, 1.2),
+            "F": (f[0], f[1]),
+        },
+        links={
+            "ground": "ADE",
+            "crank": "AB",
+            "coupler": "BC",
+            "rocker": "DC",
+            "f": "CF",
+            "g": "EF",
+        },
+        driver="crank",
+    )
+    q = np.array([-0.2, -0.1, 0.1, 0.2])
+    found = m.solve(q).joint("C").value
+    assert np.allclose(found, kite.with_driver("crank").solve(q).joint("C").value, atol=1e-12)
+
+
+@pytest.mark.parametrize("ground", [1.01, 1.003, 1.001, 1.0004, 1.0001])
+def test_rocker_that_swings_round_beside_a_change_point(ground: float) -> None:
+    """B passes D so near that the rocker turns about within a hundredth of a degree."""
+    m = assur.FourBar(1, ground, 1, ground, mode="crossed")
+    motion = m.solve(0.1 + np.linspace(0, 2 * np.pi, 20001), order=0)
+    rocker = motion.link("rocker").value
+    assert abs(rocker[-1] - rocker[0] + 2 * np.pi) < 1e-12
+    assert np.abs(np.diff(rocker)).max() < np.pi * 1.25
+
+
+def test_signs_that_return_through_a_gap() -> None:
+    """A change point beside the end of a gap is found however small the cells there are."""
+    m = assur.Mechanism(
+        joints={
+            "J0": (1.4455748336062872, -1.2644110393420958),
+            "J1": (2.4219556791997072, -1.8796148366885346),
+            "J2": (1.838128368257336, -1.2644110393420958),
+            "J3": (1.2752699970754844, -1.2122461669631308),
+            "J4": (4.444317514564184, 1.1469000339059041),
+            "J5": (3.1368568805835633, -0.06254900038556199),
+        },
+        links={
+            "ground": ["J0", "J4", "J2"],
+            "L1": ["J1", "J0"],
+            "L2": ["J3", "J1"],
+            "L3": ["J2", "J3"],
+            "L4": ["J5", "J4"],
+            "L5": ["J5"],
+        },
+        slides={"s0": assur.Slide("L3", on="L5", angle=2.003239141778433, origin="J5")},
+        driver="L1",
+    )
+    q = m.q0 + np.linspace(-4 * np.pi, 4 * np.pi, 101)
+    assert (m.solve(q, on_error="nan").status != assur.Status.LOST).all()
+
+
+def test_flat_dyad_is_named_at_a_change_point() -> None:
+    m = assur.FourBar(40, 120, 40, 120)
+    assert 'dyad "C" is flat: a change point' in m.solve(np.pi + 1e-9).explain()
+
+
+def test_more_than_there_is_room_for() -> None:
+    m = assur.FourBar(1, np.full(10**6, 3.0), 2.5, 3)
+    with pytest.raises(MemoryError):
+        m.solve(np.zeros(10**7))
+
+
+def test_assemblies_far_away_are_refused() -> None:
+    with pytest.raises(assur.InputError, match="whole turns"):
+        assur.FourBar(1, 3, 2.5, 3).assemblies(1e9)

@@ -160,7 +160,7 @@ pub fn number(x: f64) -> String {
 #[expect(missing_docs, reason = "the sentences say what the fields are")]
 pub enum SolveError {
     /// The work was called off.
-    #[error("the work was interrupted")]
+    #[error("the work was interrupted: not all positions were solved")]
     Interrupted,
     /// A group above class II.
     #[error("group {group} is of class {class}: only groups of class II can be solved so far")]
@@ -177,7 +177,4 @@ pub enum SolveError {
     /// An order outside 0..=3.
     #[error("order is {0}: analogues are given to order 3")]
     Order(usize),
-    /// Something was asked that this motion does not hold.
-    #[error("{0}")]
-    NotHeld(String),
 }

@@ -6,7 +6,7 @@ use crate::error::{Named, SolveError, StructureError};
 use crate::linkage::{Description, Dimensions, Linkage, nearest};
 use crate::motion::{Motion, Request};
 use crate::plan::bind::{Bound, Slots};
-use crate::plan::{Dyad, Form, Plan, Step};
+use crate::plan::{Dyad, Form, Plan};
 use crate::plane::Vector;
 use crate::structure::{Closure, Structure};
 use crate::tolerance::FLAT_SINE;
@@ -198,8 +198,7 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
         }
     }
     let mut signs = vec![1; plan.signs()];
-    for step in &plan.steps {
-        let Step::Dyad(dyad) = step else { continue };
+    for dyad in plan.dyads() {
         let Some(place) = dyad.sign else { continue };
         let name = &plan.dyad_names[place];
         let named = linkage.assembly.iter().rev().find(|(n, _)| n == name);

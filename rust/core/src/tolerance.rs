@@ -1,7 +1,8 @@
-//! Every threshold of the library, in one place, each with its reason.
+//! The thresholds that decide what is returned, each with its reason; those of one search
+//! stand beside it.
 //!
-//! All are pure numbers: they are compared with lengths divided by the size of
-//! the mechanism, or with sines of angles. None is an absolute length.
+//! All but the range of lengths are pure numbers: they are compared with lengths divided by
+//! the size of the mechanism, or with sines of angles.
 
 /// Unit roundoff of binary64 as used in the error bounds (the spacing at 1).
 pub const UNIT_ROUNDOFF: f64 = f64::EPSILON;

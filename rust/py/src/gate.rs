@@ -26,7 +26,7 @@ pub(crate) fn run<T: Send>(
         thread::scope(|scope| {
             let job = || {
                 let result = work(&cancel);
-                // Nobody listens any more: the result is taken by `join`.
+                // Only wakes the caller; the result itself is taken by `join`.
                 let _ = done.send(());
                 result
             };
@@ -41,7 +41,7 @@ pub(crate) fn run<T: Send>(
                 if signal.is_ok() {
                     #[allow(
                         clippy::redundant_closure_for_method_calls,
-                        reason = "not general enough"
+                        reason = "the method by itself is not general over the lifetime"
                     )]
                     let heard = Python::attach(|py| py.check_signals());
                     signal = heard;

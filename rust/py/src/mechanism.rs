@@ -7,22 +7,24 @@ use std::sync::atomic::Ordering;
 
 use assur::motion::{Arrays, Control, Quantity, fill};
 use assur::{
-    Coordinates, Description, DriverDescription, Outputs, Request, SlideDescription, Status,
+    Coordinates, Description, DriverDescription, Outputs, Request, SlideDescription, SolveError,
+    Status,
 };
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyUntypedArrayMethods};
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::{error, gate};
 
-/// Positions below which a call ends sooner than a person can interrupt it: some
-/// milliseconds.
+/// Positions below which a call with one driver ends sooner than a person can interrupt
+/// it: some milliseconds. (With several drivers a single position may take that.)
 const SMALL: usize = 100_000;
-/// Positions that take as long as one way from the drawing: a design has one, with
-/// several drivers each position.
+/// Positions that take as long as one way from the drawing.
 const WAY: usize = 1000;
-/// Positions that are looked at closely before signals are.
-const LOOK: usize = 256;
+/// Positions (with several drivers a part of them) that are looked at closely before
+/// signals are.
+const LOOK: usize = 8192;
 
 /// Arrays by kind ("joint", "link", "place", "slide"), index and order; statuses.
 type Solved<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>);
@@ -196,20 +198,25 @@ impl Mechanism {
             outputs: &outputs,
         };
         let [designs, positions] = request.shape(&self.inner).map_err(error::solve)?;
-        let rows = designs * positions;
         let columns = request.columns(&self.inner);
-        let mut values: Vec<_> = columns.iter().map(|c| unwritten(py, rows * c.width)).collect();
-        let mut status = unwritten(py, rows);
+        let mut status = unwritten::<u8>(py, designs, positions)?;
+        let rows = designs * positions;
+        let mut values = Vec::new();
+        for column in &columns {
+            values.push(unwritten::<f64>(py, rows, column.width)?);
+        }
         let arrays = Mutex::new(Some(Arrays {
             columns: values.iter_mut().map(places_of).collect(),
             status: places_of(&mut status),
         }));
-        let ways = if self.inner.q0().len() > 1 { rows } else { designs };
-        let small = rows.saturating_add(ways.saturating_mul(WAY)) < SMALL;
+        let quick = rows.saturating_add(designs.saturating_mul(WAY)) < SMALL;
+        let small = self.inner.q0().len() == 1 && quick;
         gate::run(py, small, |cancel| {
             let control = Control { threads, cancel: Some(cancel), ..Control::default() };
             let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
-            arrays.map_or(Ok(()), |arrays| fill(&self.inner, &request, arrays, &control))
+            arrays.map_or(Err(SolveError::Interrupted), |arrays| {
+                fill(&self.inner, &request, arrays, &control)
+            })
         })?
         .map_err(error::solve)?;
         let dict = PyDict::new(py);
@@ -238,13 +245,14 @@ impl Mechanism {
         let (size, drivers) = (self.inner.dimensions().len(), self.inner.q0().len());
         let designs = dimensions.len().checked_div(size).unwrap_or(1);
         let positions = q.len() / drivers / if per_design { designs.max(1) } else { 1 };
-        let small = designs * (positions * drivers + 1) < LOOK;
+        let small = drivers == 1 && designs * (positions + 1) < LOOK;
+        let together = if drivers == 1 { LOOK } else { LOOK / 1024 } * drivers;
         let both = gate::run(py, small, |cancel| {
             let (mut residual, mut condition) = (Vec::new(), Vec::new());
             for design in 0..designs {
                 let values = &dimensions[design * size..][..size];
                 let own = if per_design { design * positions * drivers } else { 0 };
-                for some in q[own..][..positions * drivers].chunks(LOOK * drivers) {
+                for some in q[own..][..positions * drivers].chunks(together) {
                     if cancel.load(Ordering::Relaxed) {
                         return Ok((residual, condition));
                     }
@@ -296,21 +304,29 @@ impl Mechanism {
     }
 }
 
-/// A NumPy array whose numbers are yet to be written.
-fn unwritten<T: numpy::Element>(py: Python<'_>, len: usize) -> Bound<'_, PyArray1<T>> {
-    #[allow(unsafe_code, reason = "large results are not written twice")]
-    // SAFETY: `fill` writes every number before anything reads one.
-    unsafe {
-        PyArray1::new(py, len, false)
-    }
+/// A NumPy array whose numbers are yet to be written; `MemoryError` where there is no room.
+fn unwritten<T: numpy::Element>(
+    py: Python<'_>,
+    rows: usize,
+    width: usize,
+) -> PyResult<Bound<'_, PyArray1<T>>> {
+    let len = rows.checked_mul(width).ok_or_else(|| {
+        PyMemoryError::new_err(
+            "the result has more numbers than can be counted: ask for fewer designs or positions",
+        )
+    })?;
+    let array = py.import("numpy")?.call_method1("empty", (len, T::get_dtype(py)))?;
+    Ok(array.cast_into()?)
 }
 
 /// The places of an array that nobody else has seen yet.
-fn places_of<'a, T: numpy::Element + Copy>(
+fn places_of<'a, T: numpy::Element>(
     array: &'a mut Bound<'_, PyArray1<T>>,
 ) -> &'a mut [MaybeUninit<T>] {
     #[allow(unsafe_code, reason = "NumPy knows no places that are not written")]
-    // SAFETY: a new contiguous array of this length, of which no other view exists.
+    // SAFETY: made by `unwritten`: contiguous, of this length, not yet known to Python; the
+    // exclusive borrow keeps other views away. `fill` writes every number, or the array is
+    // dropped unread (error, panic, Ctrl-C).
     unsafe {
         std::slice::from_raw_parts_mut(array.data().cast(), array.len())
     }

@@ -11,7 +11,7 @@ fn pairs(array: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<Vector>> {
     Ok(array.as_slice()?.as_chunks::<2>().0.iter().map(|&[x, y]| Vector::new(x, y)).collect())
 }
 
-fn same(a: usize, b: usize) -> PyResult<()> {
+pub(crate) fn same(a: usize, b: usize) -> PyResult<()> {
     if a == b {
         Ok(())
     } else {

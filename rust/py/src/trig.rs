@@ -2,8 +2,9 @@
 
 use assur::lanes::{LANES, Lanes, Real, trig};
 use numpy::{PyArray1, PyReadonlyArray1};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+
+use crate::metrics::same;
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 
@@ -37,9 +38,7 @@ pub(crate) fn atan2<'py>(
     x: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Array<'py>> {
     let (y, x) = (y.as_slice()?, x.as_slice()?);
-    if y.len() != x.len() {
-        return Err(PyValueError::new_err(format!("{} and {} entries", y.len(), x.len())));
-    }
+    same(y.len(), x.len())?;
     let mut angles = Vec::new();
     for (y, x) in y.chunks(LANES).zip(x.chunks(LANES)) {
         if y.len() == LANES {

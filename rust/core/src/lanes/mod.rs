@@ -2,7 +2,7 @@
 //!
 //! [`Real`] is a plain `f64` or [`Lanes`], eight of them worked on together. Every
 //! operation is the one of IEEE 754 on each lane by itself (no fused multiplication,
-//! no library function), so a lane has the bits that the scalar would have, on every
+//! no library function but exact ones), so a lane has the bits that the scalar would have, on every
 //! machine and whatever its neighbours are.
 
 pub mod trig;

@@ -74,9 +74,7 @@ impl<R: Real> State<R> {
         let rigid = self.orient[edge.orientation * self.len + k] * Vector::splat(cx.bound.rigid[e]);
         match edge.along {
             Along::Nothing => rigid,
-            Along::Slide(slide) | Along::Driver { slide, .. } => {
-                rigid + self.along(cx, e, slide, k)
-            }
+            Along::Slide(slide) | Along::Driver { slide } => rigid + self.along(cx, e, slide, k),
         }
     }
 
@@ -119,6 +117,8 @@ impl<R: Real> State<R> {
         sum.left()
     }
 
+    /// NaN for the analogues of a dyad's unknowns.
+    #[inline(always)]
     pub(crate) fn no_analogues(&mut self, dyad: &Dyad) {
         let len = self.len;
         for unknown in dyad.unknowns {
@@ -158,7 +158,7 @@ impl<R: Real> State<R> {
                     Unknown::Slide(s) => self.slides[s * len + k] = R::ZERO,
                     Unknown::Class(class) => {
                         let leg = 2 * dyad.index + place;
-                        if dyad.leg[place].is_some() {
+                        if dyad.leg[place] {
                             self.legs[leg * len + k] = self.leg_without_top(cx, leg, class, k);
                         }
                     }
@@ -177,7 +177,7 @@ impl<R: Real> State<R> {
                     Unknown::Slide(s) => self.slides[s * len + k] = value,
                     Unknown::Class(class) => {
                         self.theta[class * len + k] = value;
-                        if dyad.leg[place].is_some() {
+                        if dyad.leg[place] {
                             let leg = (2 * dyad.index + place) * len;
                             let top = self.legs[leg].left().scale(value);
                             self.legs[leg + k] += top;
@@ -239,7 +239,7 @@ impl<R: Real> State<R> {
     pub(crate) fn closure(&self, cx: &Context<'_, R>, dyad: &Dyad, k: usize) -> Vector<R> {
         let mut sum = self.points[dyad.start * self.len + k] - self.points[dyad.end * self.len + k];
         for place in 0..2 {
-            if dyad.leg[place].is_some() {
+            if dyad.leg[place] {
                 sum += self.legs[(2 * dyad.index + place) * self.len + k];
             }
         }
@@ -250,6 +250,7 @@ impl<R: Real> State<R> {
     }
 
     /// Determinant of the closure's matrix.
+    #[inline(always)]
     pub(crate) fn determinant(&self, cx: &Context<'_, R>, dyad: &Dyad) -> R {
         self.column(cx, dyad, 0).cross(self.column(cx, dyad, 1))
     }
@@ -273,7 +274,7 @@ impl<R: Real> State<R> {
         k: usize,
     ) -> Vector<R> {
         let mut sum = Vector::ZERO;
-        if dyad.leg[place].is_some() {
+        if dyad.leg[place] {
             sum = self.legs[(2 * dyad.index + place) * self.len + k];
         }
         for part in &dyad.others {

@@ -8,6 +8,13 @@ use crate::tolerance::SMOOTH_CLOSURE;
 /// at it.
 const NODES: u32 = 16;
 
+/// How far around a change point (rad, or units of the scale) the polynomial reaches at
+/// first.
+const WIDEST: f64 = 0.1;
+/// And at least: its nodes, the nearest at a tenth of the reach, stay about outside
+/// [`crate::tolerance::CHANGE_REACH`].
+const NARROWEST: f64 = 1.0e-3;
+
 /// Position and analogues of the smooth motion at (or beside) a change point: the
 /// polynomial through states around it, as far around as it closes. None if there is no
 /// room.
@@ -18,8 +25,8 @@ pub(crate) fn bridge(
     q: f64,
     change: f64,
 ) -> Option<State> {
-    let mut reach = 0.1;
-    while reach > 1e-3 {
+    let mut reach = WIDEST;
+    while reach > NARROWEST {
         let mut states = Vec::new();
         let mut nodes = Vec::new();
         for node in 0..NODES {

@@ -63,6 +63,8 @@ pub(crate) fn may_touch((from, fall): (f64, f64), (to, rise): (f64, f64), cell: 
         && to.abs() < FALLS * rise
 }
 
+/// The smaller part of the golden section.
+const GOLDEN: f64 = 0.381_966_011_250_105;
 /// How near the middle of the six points must be to a change point, in steps: the
 /// polynomials are then as good as their sixth power.
 const NEAR_ENOUGH: f64 = 1e-6;
@@ -79,7 +81,7 @@ fn locate(
     // Halving by the golden section keeps clear of the change point itself, which
     // likes to be in the middle.
     while (high - low).abs() > 4.0 * step.abs() {
-        let middle = low + 0.381_966_011_250_105 * (high - low);
+        let middle = low + GOLDEN * (high - low);
         if walker.solve(middle) <= index {
             return None;
         }

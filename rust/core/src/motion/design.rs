@@ -5,9 +5,10 @@ use std::borrow::Cow;
 
 use super::bridge::bridge;
 use super::quick::Quick;
-use super::state::{Context, State, Status};
+use super::state::{Context, Fault, State, Status};
 use super::track::Track;
 use crate::mechanism::Mechanism;
+use crate::plan::Step;
 use crate::plan::bind::Bound;
 use crate::plan::jet::Jets;
 use crate::tolerance::CHANGE_WIDTH;
@@ -118,12 +119,12 @@ impl<'a> Design<'a> {
         state
     }
 
-    /// Work space for [`Design::lay_turn`].
+    /// Work space for [`Design::lay_quick`].
     pub(crate) fn quick(&self) -> Quick {
         Quick::new(self.mechanism.plan(), &self.first)
     }
 
-    /// Whether one way serves all positions, and whether it is that of an angle.
+    /// Whether one way serves all positions and is that of an angle.
     fn is_turning(&self) -> bool {
         self.q0.len() == 1 && self.mechanism.plan().driven_slide(0).is_none()
     }
@@ -172,6 +173,11 @@ impl<'a> Design<'a> {
         track.signs(1.0).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
     }
 
+    /// Whether a place (scaled) is too far from the drawing to be followed straight.
+    pub(crate) fn is_too_far(&self, q: &[f64]) -> bool {
+        q.iter().zip(&self.q0).any(|(a, b)| (a - b).abs() > FARTHEST)
+    }
+
     /// The way to one position (scaled coordinates); none if it is no number or too
     /// far to be followed.
     pub(crate) fn way(&self, q: &[f64]) -> Option<Place<'_>> {
@@ -181,8 +187,7 @@ impl<'a> Design<'a> {
         if let [at] = *q {
             return Some(Place { track: Cow::Borrowed(&self.track), at });
         }
-        let far = q.iter().zip(&self.q0).any(|(a, b)| (a - b).abs() > FARTHEST);
-        (!far).then(|| {
+        (!self.is_too_far(q)).then(|| {
             let cx = self.context(&self.first);
             let angles = &self.mechanism.class_angle;
             let mut state = self.state(&self.first);
@@ -224,13 +229,19 @@ impl<'a> Design<'a> {
         if let [one] = *q
             && state.status != Status::BadInput
             && let Some(change) = track.change_near(*at)
-            && let Some(smooth) = bridge(&cx, state, track, one, change)
+            && let Some(smooth) = bridge(&cx, state, track, one, change.at)
             && (!solved || smooth.is_near(state))
         {
-            let at_change = !solved || (*at - change).abs() <= CHANGE_WIDTH;
+            let at_change = !solved || (*at - change.at).abs() <= CHANGE_WIDTH;
             let status = if at_change { Status::Singular } else { state.status };
             *state = smooth;
             state.status = status;
+            if at_change {
+                let flat = cx.plan.steps.iter().position(
+                    |step| matches!(step, Step::Dyad(dyad) if dyad.sign == Some(change.sign)),
+                );
+                state.fault = flat.map(|step| Fault::Flat { step });
+            }
             return true;
         }
         !matches!(state.status, Status::Singular | Status::Unreachable)

@@ -36,7 +36,7 @@ impl<R: Real> State<R> {
         let [u, v] = dyad.unknowns;
         let leg = |place: usize, vector: Vector<R>| {
             let rigid = &cx.bound.legs[dyad.index][place];
-            if dyad.leg[place].is_some() { rigid.on_lanes() } else { Leg::of(vector) }
+            if dyad.leg[place] { rigid.on_lanes() } else { Leg::of(vector) }
         };
         match dyad.form {
             Form::TwoCircles => {
@@ -55,7 +55,7 @@ impl<R: Real> State<R> {
             }
             Form::TurningGuide => {
                 let rigid = Vector::splat(cx.bound.legs[dyad.index][0].vector);
-                let a = if dyad.leg[0].is_some() { rigid } else { first };
+                let a = if dyad.leg[0] { rigid } else { first };
                 let (x, s, per, closed) = turning_guide(a, second, k, sign);
                 self.turn(cx, dyad, 0, x);
                 self.slide(v, s);
@@ -95,8 +95,7 @@ impl<R: Real> State<R> {
                 continue;
             }
             let mut rigid = Vector::splat(cx.bound.rigid[e]);
-            if let (Along::Slide(slide) | Along::Driver { slide, .. }, None) =
-                (edge.along, part.slides)
+            if let (Along::Slide(slide) | Along::Driver { slide }, None) = (edge.along, part.slides)
             {
                 rigid += guide.scale(self.slides[slide * len]);
             }
@@ -113,7 +112,7 @@ impl<R: Real> State<R> {
     fn turn(&mut self, cx: &Context<'_, R>, dyad: &Dyad, place: usize, rotation: Vector<R>) {
         let Unknown::Class(class) = dyad.unknowns[place] else { return };
         self.class[class] = rotation;
-        if dyad.leg[place].is_some() {
+        if dyad.leg[place] {
             let vector = cx.bound.legs[dyad.index][place].vector;
             self.legs[(2 * dyad.index + place) * self.len] = rotation * Vector::splat(vector);
         }

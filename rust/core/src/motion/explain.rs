@@ -86,7 +86,7 @@ impl Mechanism {
                 let why = if q.iter().any(|x| !x.is_finite()) {
                     "is no number: a finite coordinate is needed"
                 } else {
-                    "is too far from the drawing to be followed with several drivers: at most 1000 turns, or 1000 times the size"
+                    "is too far from the drawing to be followed with several drivers: at most 1000 turns, or a slide 3000 times the size"
                 };
                 return Diagnosis::bare(Status::BadInput, format!("q = {at} {why}"));
             }
@@ -133,6 +133,12 @@ impl Mechanism {
         let mut design = Design::new(self, &vec![1; count], &jets);
         design.bind(dimensions);
         let scaled = design.scaled(q);
+        if design.is_too_far(&scaled) {
+            return Err(SolveError::Shape(format!(
+                "q = {} is too far from the drawing to be followed: take off whole turns (at most 1000, or a slide 3000 times the size)",
+                place_of(q)
+            )));
+        }
         let mut state = design.state(&jets);
         let mut found: Vec<Vec<f64>> = vec![Vec::new()];
         // Sign by sign: a choice that already fails needs no completion.

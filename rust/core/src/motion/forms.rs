@@ -11,7 +11,7 @@ use crate::tolerance::FLAT_CLOSURE;
 pub(crate) struct Solved<R: Real> {
     /// Where it does not close.
     pub open: R::Mask,
-    /// By how much, of the size (found with one lane only).
+    /// By how much, of the size (asked for with one lane only).
     pub gap: R,
     /// Where it is flat: the two solutions coincide, to rounding.
     pub flat: R::Mask,
@@ -48,7 +48,7 @@ impl<R: Real> Factor<R> {
         Self { value, flat: positive.not().and(within), open: positive.or(within).not() }
     }
 
-    /// What is missing where it is open (with one lane), else `or`.
+    /// What is missing where it is open, else `or`.
     #[inline(always)]
     fn gap(&self, difference: R, or: R) -> R {
         R::select(self.open, -difference, or)
@@ -89,7 +89,7 @@ pub(super) fn two_circles<R: Real>(
         open: outer.open.or(inner.open).or(loose).or(far),
         gap: R::select(far, R::splat(f64::INFINITY), gap),
         flat: outer.flat.or(inner.flat),
-        // The area is half of Heron's, and half of the legs' product by the sine.
+        // `area` is four times the triangle's: (2 a b sin)² = area².
         sine2: area2 * (R::splat(0.25) * a.per * b.per),
         arm2: R::ONE,
     };

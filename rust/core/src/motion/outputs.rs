@@ -64,8 +64,7 @@ pub struct Column {
 }
 
 /// The arrays that a request fills, in order.
-#[must_use]
-pub fn columns(outputs: &Outputs, drivers: usize, order: usize) -> Vec<Column> {
+pub(super) fn columns(outputs: &Outputs, drivers: usize, order: usize) -> Vec<Column> {
     let joints = outputs.joints.iter().map(|&i| (Quantity::Joint(i), 2));
     let places = outputs.places.iter().map(|&i| (Quantity::Place(i), 2));
     let slides = outputs.slides.iter().map(|&i| (Quantity::Slide(i), 1));
@@ -96,11 +95,11 @@ struct Entry {
     place: usize,
     /// Entry of the jets.
     k: usize,
-    from: From,
+    from: Held,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum From {
+enum Held {
     /// A point: x, and y as far behind it in the row.
     Point { jet: usize, y: usize },
     /// A slide.
@@ -136,14 +135,14 @@ impl<'a> Writer<'a> {
         for (index, column) in columns.iter().enumerate() {
             let tensor = jets.tensor(column.order);
             for (place, &k) in tensor.iter().enumerate() {
-                let point = |p: usize| From::Point { jet: p * jets.len() + k, y: tensor.len() };
+                let point = |p: usize| Held::Point { jet: p * jets.len() + k, y: tensor.len() };
                 let from = match column.quantity {
                     Quantity::Joint(joint) => point(point_of_joint(joint)),
                     Quantity::Place(link) => point(plan.reference[link]),
-                    Quantity::Slide(slide) => From::Slide { jet: slide * jets.len() + k },
-                    Quantity::Angle(link) if k == 0 => From::Angle { link },
+                    Quantity::Slide(slide) => Held::Slide { jet: slide * jets.len() + k },
+                    Quantity::Angle(link) if k == 0 => Held::Angle { link },
                     Quantity::Angle(link) => {
-                        From::Rate { orientation: plan.link_orientation[link] }
+                        Held::Rate { orientation: plan.link_orientation[link] }
                     }
                 };
                 entries.push(Entry { column: index, width: column.width, place, k, from });
@@ -170,7 +169,7 @@ impl<'a> Writer<'a> {
             let Entry { width, place, k, .. } = *entry;
             let out = &mut rows.columns[entry.column][row * width..][..count * width];
             match entry.from {
-                From::Point { jet, y } => {
+                Held::Point { jet, y } => {
                     let mut p = state.points[jet].scale(R::splat(unit.length[k]));
                     if k == 0 {
                         let [x, y] = cx.bound.origin;
@@ -183,13 +182,13 @@ impl<'a> Writer<'a> {
                         store(out, width, place + y, p.y);
                     }
                 }
-                From::Slide { jet } => {
+                Held::Slide { jet } => {
                     store(out, width, place, state.slides[jet] * R::splat(unit.length[k]));
                 }
-                From::Angle { link } => {
+                Held::Angle { link } => {
                     store(out, width, place, self.angle(cx, link, lifted, q));
                 }
-                From::Rate { orientation } => {
+                Held::Rate { orientation } => {
                     let rate = state.theta_of(cx, orientation, k);
                     let mut scaled = rate * R::splat(unit.angle[k]);
                     if unit.angle[k].is_infinite() {

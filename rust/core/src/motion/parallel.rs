@@ -17,7 +17,7 @@ use crate::motion::Status;
 /// and the taking of it cost little.
 const CHUNK: usize = 8192;
 /// The same with several drivers, where each position has a way of its own.
-const CHUNK_OF_WAYS: usize = 32;
+const CHUNK_OF_WAYS: usize = 8;
 /// Designs in a chunk, at most: the way of one may take a millisecond.
 const CHUNK_OF_DESIGNS: usize = 64;
 

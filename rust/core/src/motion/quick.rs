@@ -34,7 +34,8 @@ pub(crate) struct Quick {
     spreads: Vec<(Lanes, Lanes)>,
     /// Angles of classes at eight knots.
     angles: Vec<Lanes>,
-    /// Signs of determinants: on which side of parallel guides are.
+    /// On which side of parallel the guides of every dyad of two known directions are, at
+    /// the knots before.
     sides: Vec<bool>,
 }
 
@@ -66,6 +67,7 @@ impl Quick {
         self.signs.clear();
         self.signs.extend(cx.signs.iter().map(|&s| Lanes::splat(s)));
         self.state.prepare(cx.plan, cx.bound, cx.jets);
+        self.sides.clear();
         track.at.clear();
         track.angles.clear();
         if self.q0 != q0 {
@@ -75,7 +77,7 @@ impl Quick {
             let (at, unit) = self.knots[group];
             let first = group * Lanes::LANES;
             self.state.unit[0] = unit;
-            if !self.solve(cx, at) {
+            if !self.solve(cx, at, group == 0) {
                 return false;
             }
             for lane in 0..Lanes::LANES {
@@ -118,7 +120,7 @@ impl Quick {
 
     /// Eight knots; false if one of them, by itself, needs walking.
     #[inline(always)]
-    fn solve(&mut self, cx: &Context<'_>, at: Lanes) -> bool {
+    fn solve(&mut self, cx: &Context<'_>, at: Lanes, is_first: bool) -> bool {
         let Context { plan, bound, jets, .. } = *cx;
         let cx = Context { plan, bound, jets, signs: &self.signs };
         self.state.solve_turned(&cx, &[at]);
@@ -131,13 +133,13 @@ impl Quick {
                 Some(sign) => self.spreads[sign] = self.state.spread(&cx, dyad, 1),
                 None if dyad.form == Form::TwoLines => {
                     let positive = Lanes::ZERO.lt(self.state.determinant(&cx, dyad));
-                    if positive.any() != positive.all() {
+                    let side = positive.any();
+                    if is_first {
+                        self.sides.push(side);
+                    }
+                    if side != positive.all() || self.sides[lines] != side {
                         return false;
                     }
-                    if lines == self.sides.len() {
-                        self.sides.push(positive.any());
-                    }
-                    self.sides[lines] = positive.any();
                     lines += 1;
                 }
                 None => {}

@@ -13,11 +13,10 @@ use crate::lanes::{LANES, Lanes, Mask, Real};
 use crate::mechanism::Mechanism;
 use crate::plan::jet::Jets;
 use crate::plane::Vector;
-use crate::tolerance::NEAR_SINGULAR_CONDITION;
 
 /// Work space of one thread.
 pub(crate) struct Worker<'a> {
-    pub design: Design<'a>,
+    design: Design<'a>,
     writer: &'a Writer<'a>,
     columns: &'a [Column],
     simd: Simd,
@@ -171,8 +170,7 @@ impl<'a> Worker<'a> {
             let (state, unit, lifted) = (&self.eight, &design.unit, &self.lifted);
             let at = (job.first + row, count);
             self.writer.write(job.rows, at, &cx, state, unit, lifted, &[q]);
-            let near = Lanes::splat(NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION)
-                .lt(self.eight.condition2);
+            let near = self.eight.near_singular();
             for lane in 0..count {
                 let status = if near.lane(lane) { Status::NearSingular } else { Status::Ok };
                 job.rows.status[job.first + row + lane] = MaybeUninit::new(status as u8);

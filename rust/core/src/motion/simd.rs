@@ -22,7 +22,9 @@ impl Simd {
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
-            let wide = is_x86_feature_detected!("avx512f")
+            let wide = is_x86_feature_detected!("avx2")
+                && is_x86_feature_detected!("fma")
+                && is_x86_feature_detected!("avx512f")
                 && is_x86_feature_detected!("avx512vl")
                 && is_x86_feature_detected!("avx512dq");
             if wide {
@@ -36,7 +38,7 @@ impl Simd {
     }
 
     /// The best that this machine has and the user allows: `ASSUR_SIMD=baseline` (or
-    /// `avx2`), read once.
+    /// `avx2`; anything else: the best there is), read once.
     #[must_use]
     pub fn allowed() -> Self {
         static ALLOWED: LazyLock<Simd> = LazyLock::new(|| {
@@ -62,7 +64,7 @@ pub(crate) fn solve(simd: Simd, worker: &mut Worker<'_>, job: &mut Job<'_, '_>) 
     match simd.min(Simd::best()) {
         #[cfg(target_arch = "x86_64")]
         #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
-        // SAFETY: not above what was detected.
+        // SAFETY: `best` has asked for these instructions and those of every level below.
         Simd::Avx2 => unsafe { avx2(worker, job) },
         #[cfg(target_arch = "x86_64")]
         #[allow(unsafe_code, reason = "the machine was asked for these instructions")]

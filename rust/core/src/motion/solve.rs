@@ -74,7 +74,7 @@ pub struct Motion {
     pub status: Vec<u8>,
 }
 
-/// Arrays to be filled, in the order of [`Request::columns`]; every number is written.
+/// Arrays to be filled, in the order of [`Request::columns`]; see [`fill`].
 #[derive(Debug)]
 pub struct Arrays<'a> {
     /// One array a column, of designs × positions × width numbers.
@@ -109,7 +109,7 @@ impl Request<'_> {
 /// Those of [`Mechanism::solve`].
 pub fn solve(mechanism: &Mechanism, request: &Request<'_>) -> Result<Motion, SolveError> {
     let [designs, positions] = request.shape(mechanism)?;
-    let rows = designs * positions;
+    let rows = product(designs, positions)?;
     let columns = request.columns(mechanism);
     let mut values: Vec<Vec<f64>> = columns.iter().map(|c| vec![0.0; rows * c.width]).collect();
     let mut status = vec![0; rows];
@@ -136,10 +136,16 @@ pub fn solve(mechanism: &Mechanism, request: &Request<'_>) -> Result<Motion, Sol
     Ok(motion)
 }
 
+fn product(designs: usize, positions: usize) -> Result<usize, SolveError> {
+    let wrong = || SolveError::Shape(format!("{designs} × {positions} positions are too many"));
+    designs.checked_mul(positions).ok_or_else(wrong)
+}
+
 /// Numbers seen as places to be written.
 fn as_unwritten<T: Copy>(values: &mut [T]) -> &mut [MaybeUninit<T>] {
     #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
-    // SAFETY: same layout; this module only writes values, never leaves a place unwritten.
+    // SAFETY: same layout; nothing in this crate stores an uninitialised value, so they stay
+    // numbers.
     unsafe {
         &mut *(std::ptr::from_mut(values) as *mut [MaybeUninit<T>])
     }
@@ -149,8 +155,8 @@ fn as_unwritten<T: Copy>(values: &mut [T]) -> &mut [MaybeUninit<T>] {
 ///
 /// # Errors
 ///
-/// Those of [`Mechanism::solve`], and [`SolveError::Interrupted`]; also then every
-/// number is written.
+/// Those of [`Mechanism::solve`], and arrays of other sizes: nothing is written then.
+/// [`SolveError::Interrupted`]: every number is written, those not come to as NaN.
 pub fn fill(
     mechanism: &Mechanism,
     request: &Request<'_>,
@@ -161,7 +167,7 @@ pub fn fill(
     let shape = Shape::of(mechanism, request)?;
     let jets = Jets::new(shape.drivers, request.order);
     let columns = request.columns(mechanism);
-    check_arrays(&columns, &arrays, shape.designs * shape.positions)?;
+    check_arrays(&columns, &arrays, product(shape.designs, shape.positions)?)?;
     let writer = Writer::new(mechanism, &jets, &columns);
     let chunks = Chunks::new(arrays, &columns, [shape.designs, shape.positions], shape.drivers);
     let worker = || Worker::new(mechanism, request.signs, &jets, &writer, &columns, control.simd);

@@ -54,13 +54,14 @@ impl State {
         (cx.plan.edges.iter().zip(&cx.bound.rigid).zip(&cx.bound.guide))
             .map(|((e, &rigid), &guide)| {
                 let mut span = rigid;
-                if let Along::Slide(s) | Along::Driver { slide: s, .. } = e.along {
+                if let Along::Slide(s) | Along::Driver { slide: s } = e.along {
                     span += guide.scale(self.slides[s * len]);
                 }
                 let turned = self.orient[e.orientation * len] * span;
                 (self.points[e.edge.to * len] - self.points[e.edge.from * len] - turned).norm()
             })
-            .fold(0.0, f64::max)
+            // What is no number stays so.
+            .fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
     }
 
     /// Whether the points are where another state has them, as far as that can be known.

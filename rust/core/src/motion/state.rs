@@ -19,17 +19,18 @@ pub enum Status {
     Ok = 0,
     /// Solved; fewer than six digits of the analogues remain.
     NearSingular = 1,
-    /// The position is given; it has no analogues.
+    /// The position is given; its analogues are NaN, except at a change point.
     Singular = 2,
     /// This assembly does not exist at this coordinate.
     Unreachable = 3,
-    /// The way from the drawing to here is not known (beyond a fold of a higher group).
+    /// The way from the drawing to here is not known: the signs of a driven angle do not
+    /// return within 64 turns (or beyond a fold of a higher group).
     Lost = 4,
     /// The iteration of a higher group did not end.
     NotConverged = 5,
     /// A dimension of this design is no dimension.
     BadDimension = 6,
-    /// The coordinate is no number.
+    /// The coordinate is no number, or with several drivers too far from the drawing.
     BadInput = 7,
 }
 
@@ -83,7 +84,9 @@ pub struct State<R: Real = f64> {
     /// Square of the product of the conditions of the dyads that each point depends on
     /// (squares need no roots).
     pub(crate) point_condition: Vec<R>,
+    /// Likewise of each class.
     pub(crate) class_condition: Vec<R>,
+    /// Likewise of each slide.
     pub(crate) slide_condition: Vec<R>,
     /// Square of the condition of what each dyad with a sign hangs on.
     pub(crate) before: Vec<R>,
@@ -202,10 +205,15 @@ impl<R: Real> State<R> {
             }
         }
         self.condition2 = greatest;
-        let near = R::splat(NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION).lt(greatest);
-        if self.status == Status::Ok && near.all() {
+        if self.status == Status::Ok && self.near_singular().all() {
             self.status = Status::NearSingular;
         }
+    }
+
+    /// Where fewer than six digits of the analogues remain.
+    #[inline(always)]
+    pub(crate) fn near_singular(&self) -> R::Mask {
+        R::splat(NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION).lt(self.condition2)
     }
 
     /// A coordinate that cannot be computed with.

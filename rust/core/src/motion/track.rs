@@ -18,10 +18,12 @@ use crate::tolerance::CHANGE_REACH;
 /// Cells in a turn of a driven angle: knots fill the lanes of four groups, and an odd
 /// number keeps them off the places half a turn from the drawing.
 pub(super) const CELLS_A_TURN: u32 = 31;
-/// Cells in the unit of length for a driven slide.
+/// Cells in a unit (of the scale, or rad) of a driven slide's way and of a straight one.
 const CELLS_A_LENGTH: f64 = 16.0;
 /// Steps of a cell in which an island that no knot has seen is measured.
 const ISLAND_STEPS: f64 = 1024.0;
+/// Cells of a straight way, at most; whoever asks for a place keeps within that.
+const MOST_CELLS: f64 = 1.0e6;
 /// Turns after which the signs have returned, at the latest; a kite needs two.
 const MOST_TURNS: u32 = 64;
 
@@ -182,7 +184,7 @@ impl Track {
             }
         };
         let longest = rates.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
-        let cells = (longest * CELLS_A_LENGTH).ceil().clamp(1.0, 1e6);
+        let cells = (longest * CELLS_A_LENGTH).ceil().clamp(1.0, MOST_CELLS);
         let mut walker = Walker::new(cx, state, &point, &rates, (0.0, 1.0), start);
         let mut cell = 0.0;
         while cell < cells {
@@ -279,16 +281,16 @@ impl Track {
     }
 
     /// The change point that a parameter is beside, if there is one.
-    pub(crate) fn change_near(&self, at: f64) -> Option<f64> {
+    pub(crate) fn change_near(&self, at: f64) -> Option<Change> {
         if self.changes.is_empty() {
             return None;
         }
         let (place, whole) = self.reduced(at);
         let period = self.period.unwrap_or(0.0);
-        let beside = |&at: &f64| (at - place).abs() <= CHANGE_REACH;
-        let images = |c: &Change| [c.at, c.at - period, c.at + period];
+        let beside = |c: &Change| (c.at - place).abs() <= CHANGE_REACH;
+        let images = |c: &Change| [0.0, -period, period].map(|by| Change { at: c.at + by, ..*c });
         let found = self.changes.iter().flat_map(images).find(beside)?;
-        Some(found + whole * period)
+        Some(Change { at: found.at + whole * period, ..found })
     }
 
     /// Whether a place lies on an island that no knot has seen.

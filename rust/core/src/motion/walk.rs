@@ -20,9 +20,9 @@ const UNLIKE_HALVINGS: u32 = 4;
 /// Knots after which cells are no longer halved: where angles are nothing but
 /// rounding (a link of 1e-17 of the size) no cell would ever be fine enough.
 const MOST_KNOTS: usize = 100_000;
-/// Part of a cell by which a knot that falls on a flat dyad is put off, and how
-/// often: change points of several dyads seldom follow so closely.
+/// Part of a cell by which a knot that falls on a flat dyad is put off.
 const NUDGE: f64 = 0.0625;
+/// How often: change points of several dyads seldom follow so closely.
 const NUDGES: u32 = 4;
 /// How near to a change point (rad, or units of the scale) rates are more than rounding:
 /// 64 u κ² of them are, κ about 1/distance.
@@ -172,10 +172,7 @@ impl<'a, 'b> Walker<'a, 'b> {
         let rates = (0..from.len())
             .map(|c| self.along(|d| self.state.theta[c * len + 1 + d]).abs())
             .collect();
-        let lines = self.cx.plan.steps.iter().filter_map(|step| match step {
-            Step::Dyad(dyad) if dyad.form == Form::TwoLines => Some(dyad),
-            _ => None,
-        });
+        let lines = self.cx.plan.dyads().filter(|dyad| dyad.form == Form::TwoLines);
         let sides = lines.map(|dyad| self.state.determinant(&self.cx, dyad) > 0.0).collect();
         Knot { at, reached, angles, rates, spread, sides, open: None, solved }
     }

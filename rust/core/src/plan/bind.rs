@@ -62,7 +62,8 @@ pub struct Bound {
     pub turn: Vec<Vector>,
     /// Turn from the carrying to the sliding link of every slide.
     pub slide_turn: Vec<Vector>,
-    /// Square of the greatest distance between points that turn with a class.
+    /// Square of the longest constant edge that turns with a class (a coupler point's: at
+    /// most 1).
     pub lever2: Vec<f64>,
     /// The legs of every dyad, where they are the same at all positions.
     pub legs: Vec<[Leg; 2]>,
@@ -265,7 +266,7 @@ impl Bound {
         self.legs.clear();
         for dyad in plan.dyads() {
             self.legs.push([0, 1].map(|place| {
-                if dyad.leg[place].is_none() {
+                if !dyad.leg[place] {
                     return Leg::default();
                 }
                 let mut sum = Vector::ZERO;

@@ -61,9 +61,8 @@ pub struct Dyad {
     pub path: Vec<Part>,
     /// What of the loop is not wholly in a leg.
     pub others: Vec<Part>,
-    /// Orientation of the leg that turns with an unknown: the sum of the constant parts,
-    /// if nothing else turns with it but its slide.
-    pub leg: [Option<usize>; 2],
+    /// Whether what turns with each unknown is a leg: constant parts only, but for its slide.
+    pub leg: [bool; 2],
     /// Place among the dyads.
     pub index: usize,
     /// Known point where the path starts; of a path that ends where it starts: point 0.
@@ -298,7 +297,7 @@ fn parts(
     plan: &Plan,
     loop_path: Vec<(usize, bool)>,
     unknowns: [Unknown; 2],
-) -> (Vec<Part>, [Option<usize>; 2]) {
+) -> (Vec<Part>, [bool; 2]) {
     let place = |unknown| unknowns.iter().position(|&u| u == unknown);
     let mut path: Vec<Part> = loop_path
         .into_iter()
@@ -312,17 +311,16 @@ fn parts(
         })
         .collect();
     let leg = [0, 1].map(|place| {
-        let rigid = path.iter().filter(|part| part.turns == Some(place)).all(|part| {
-            let edge = &plan.edges[part.edge];
-            let own = edge.along == Along::Nothing || part.slides.is_some();
-            own && !plan.orientations[edge.orientation].driven
-        });
-        path.iter()
-            .find(|part| rigid && part.turns == Some(place))
-            .map(|part| plan.edges[part.edge].orientation)
+        let mut turning = path.iter().filter(|part| part.turns == Some(place)).peekable();
+        turning.peek().is_some()
+            && turning.all(|part| {
+                let edge = &plan.edges[part.edge];
+                let own = edge.along == Along::Nothing || part.slides.is_some();
+                own && !plan.orientations[edge.orientation].driven
+            })
     });
     for part in &mut path {
-        part.in_leg = part.turns.is_some_and(|place| leg[place].is_some());
+        part.in_leg = part.turns.is_some_and(|place| leg[place]);
     }
     (path, leg)
 }

@@ -29,7 +29,7 @@ pub enum Along {
     /// The slide's value is unknown until its dyad is solved.
     Slide(usize),
     /// The slide is this driver.
-    Driver { slide: usize, driver: usize },
+    Driver { slide: usize },
 }
 
 /// An edge with the orientation that turns it.
@@ -183,9 +183,11 @@ impl Plan {
                 let along = match edge.span {
                     Span::Joint { .. } => Along::Nothing,
                     Span::Guide { slide } => {
-                        let driver =
-                            linkage.drivers.iter().position(|d| *d == Driver::Slide(slide));
-                        driver.map_or(Along::Slide(slide), |driver| Along::Driver { slide, driver })
+                        if linkage.drivers.contains(&Driver::Slide(slide)) {
+                            Along::Driver { slide }
+                        } else {
+                            Along::Slide(slide)
+                        }
                     }
                 };
                 let paired = closure.is_paired(linkage, index);
