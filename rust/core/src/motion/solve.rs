@@ -70,7 +70,7 @@ pub struct Motion {
     pub places: Vec<Track>,
     /// Slides' values, m.
     pub slides: Vec<Track>,
-    /// One [`Status`] code a position.
+    /// One [`crate::Status`] code a position.
     pub status: Vec<u8>,
 }
 
