@@ -1,0 +1,51 @@
+"""What the tests of the library of named mechanisms have in common."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import TYPE_CHECKING, TypeAlias
+
+import library
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import assur
+
+Float: TypeAlias = npt.NDArray[np.float64]
+
+TURN = np.linspace(0.0, math.tau, 721)
+EXACT = 1e-14  # of the size: some tens of roundings, where the condition is below 10
+STRAIGHT = 1e-13  # of the size: the same with a condition near the ends of the range of 20
+
+
+def diagonals(drivers: int) -> Iterator[tuple[bool, ...]]:
+    """Which drivers run backwards: every diagonal once."""
+    return itertools.product((False,), *[(False, True)] * (drivers - 1))
+
+
+def coordinates(name: str, count: int = 241) -> Float:
+    """Over the whole range: (N,), or (N, n) for n drivers: along its diagonals."""
+    low, high = (np.array(end) for end in library.RANGES[name])
+    if low.ndim == 0:
+        return np.linspace(float(low), float(high), count)
+    ways = []
+    for backwards in diagonals(len(low)):
+        start, stop = np.where(backwards, high, low), np.where(backwards, low, high)
+        ways.append(start + np.linspace(0.0, 1.0, count)[:, np.newaxis] * (stop - start))
+    return np.concatenate(ways)
+
+
+def distance(motion: assur.Motion, a: str, b: str) -> Float:
+    """Between two joints."""
+    gap: Float = np.hypot(*np.moveaxis(motion.joint(a).value - motion.joint(b).value, -1, 0))
+    return gap
+
+
+def span(mechanism: assur.Mechanism) -> float:
+    """Greatest distance of drawn joints."""
+    places = list(mechanism.joints.values())
+    return max(math.dist(a, b) for a, b in itertools.combinations(places, 2))
