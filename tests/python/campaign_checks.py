@@ -143,11 +143,12 @@ def unreal(solve: Solve, geometry: Geometry, edges: Array) -> tuple[list[str], f
         left = left[~(np.abs(ratio[left] - 1.0) <= FOLD_RATIO)]
         if not len(left):
             break
-    together = (ratio[left] > 1.0) & (ratio[left] < FOLDS_TOGETHER)
-    beyond = edges[left, 0] - way[left] * BEYOND
-    mechanism = solve(edges[:1, 0]).motion.mechanism
-    alone = np.array([not mechanism.assemblies(q) for q in beyond], dtype=np.bool_)
-    left = left[~(together & alone)]
+    if len(left):
+        together = (ratio[left] > 1.0) & (ratio[left] < FOLDS_TOGETHER)
+        beyond = edges[left, 0] - way[left] * BEYOND
+        mechanism = solve(edges[left, 0]).motion.mechanism
+        alone = np.array([not mechanism.assemblies(q) for q in beyond], dtype=np.bool_)
+        left = left[~(together & alone)]
     found = [f"no fold at q = {edges[i, 0]!r} | {edges[i, 1]!r}: {ratio[i]:.3g}" for i in left]
     good = np.abs(ratio - 1.0) <= FOLD_RATIO
     return found, float(np.max(np.abs(ratio[good] - 1.0), initial=0.0))
