@@ -129,6 +129,8 @@ def bisected(solve: Solve, edges: Array) -> Array:
 
 def unreal(solve: Solve, geometry: Geometry, edges: Array) -> tuple[list[str], float]:
     """Ends of gaps (bisected) that are no folds, and the worst ratio of those that are."""
+    if not len(edges):
+        return [], 0.0
     ratio = np.full(len(edges), np.nan)
     way = np.sign(edges[:, 0] - edges[:, 1])
     left = np.arange(len(edges))
