@@ -34,7 +34,7 @@ pub(crate) fn bridge(
             let at = change + reach * angle.cos();
             let mut trial = state.clone();
             trial.solve(&Context { signs: track.signs(at), ..*cx }, &[at]);
-            if trial.fault.is_some() || trial.points.iter().any(|p| p.x.is_nan()) {
+            if trial.fault.is_some() || trial.points.iter().any(|p| p[0].x.is_nan()) {
                 break;
             }
             // Weights of Chebyshev's nodes of the first kind (Berrut & Trefethen 2004, 5.3).

@@ -8,6 +8,7 @@
 //! a near miss (positive) and from a gap between two dead points (negative).
 
 use super::walk::{Knot, Walker};
+use crate::lanes::{Mask, Real};
 use crate::plan::Dyad;
 use crate::tolerance::{CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP};
 
@@ -53,14 +54,13 @@ const FALLS: f64 = 4.0;
 /// Whether a spread may touch 0 between two knots, given it and its rate there (`cell`:
 /// the step, negative down the parameter).
 #[inline(always)]
-pub(crate) fn may_touch((from, fall): (f64, f64), (to, rise): (f64, f64), cell: f64) -> bool {
+pub(crate) fn may_touch<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell: R) -> R::Mask {
     // |N| falls at the one end and rises at the other, and fast enough.
-    let (fall, rise) = (from.signum() * fall * cell, to.signum() * rise * cell);
-    fall < 0.0
-        && rise > 0.0
-        && from * to > 0.0
-        && from.abs() < -FALLS * fall
-        && to.abs() < FALLS * rise
+    let fall = -(R::ONE.copysign(from) * fall * cell);
+    let rise = R::ONE.copysign(to) * rise * cell;
+    let same_side = R::ZERO.lt(from * to);
+    let fast = |size: R, rate: R| size.abs().lt(R::splat(FALLS) * rate);
+    R::ZERO.lt(fall).and(R::ZERO.lt(rise)).and(same_side).and(fast(from, fall)).and(fast(to, rise))
 }
 
 /// The smaller part of the golden section.
@@ -143,7 +143,7 @@ impl Sides {
                 odd[place] += 0.5 * side * value / (reach * step);
                 square[place] += 0.5 * value * value;
                 let state = &*walker.state;
-                before = before.max(state.before[sign].sqrt());
+                before = before.max(state.before[sign][0].sqrt());
                 shortness = shortness.max(state.shortness(&walker.cx, dyad));
             }
         }

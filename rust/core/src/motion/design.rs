@@ -5,6 +5,7 @@ use std::borrow::Cow;
 
 use super::bridge::bridge;
 use super::quick::Quick;
+use super::simd::Level;
 use super::state::{Context, Fault, State, Status};
 use super::track::Track;
 use crate::mechanism::Mechanism;
@@ -131,13 +132,13 @@ impl<'a> Design<'a> {
 
     /// The quick way, where there is one.
     #[inline(always)]
-    pub(crate) fn lay_quick(&mut self, quick: &mut Quick) -> bool {
+    pub(crate) fn lay_quick<L: Level>(&mut self, quick: &mut Quick) -> bool {
         if !self.is_turning() {
             return false;
         }
         let mut track = std::mem::take(&mut self.track);
         let start = &self.mechanism.class_angle;
-        let done = quick.turn(&self.context(&self.first), self.q0[0], start, &mut track);
+        let done = quick.turn::<L>(&self.context(&self.first), self.q0[0], start, &mut track);
         self.track = track;
         done
     }

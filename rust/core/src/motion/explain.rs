@@ -78,7 +78,7 @@ impl Mechanism {
     ) -> Diagnosis {
         let at = &place_of(q);
         let step = state.fault.map(Fault::step);
-        let condition = state.condition2.sqrt();
+        let condition = state.condition2[0].sqrt();
         let named = state.fault.map(|fault| self.step_name(fault));
         let dyad = named.as_deref().unwrap_or("?");
         let sentence = match state.status {

@@ -6,40 +6,40 @@ use crate::plan::{Along, Fit, Turned};
 use crate::plane::Vector;
 use crate::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, REDUNDANT_GREATEST};
 
-impl<R: Real> State<R> {
+impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
-    pub(crate) fn fit(&mut self, cx: &Context<'_, R>, fit: &Fit, index: usize) {
+    pub(crate) fn fit(&mut self, g: usize, cx: &Context<'_>, fit: &Fit, index: usize) {
         let mut gap = R::ZERO;
         let mut condition2 = R::ONE;
         match &fit.turned {
             None => {}
             Some(Turned::Joints { link, first, second, points }) => {
                 let rigid = |edge: &Option<usize>| edge.map_or(Vector::ZERO, |e| cx.bound.rigid[e]);
-                gap = self.turn_by_joints(cx, *link, rigid(second) - rigid(first), *points);
+                gap = self.turn_by_joints(g, cx, *link, rigid(second) - rigid(first), *points);
                 for &point in points {
-                    condition2 = self.point_condition[point].max(condition2);
+                    condition2 = self.point_condition[point][g].max(condition2);
                 }
             }
-            Some(Turned::Slide { link, slide }) => self.turn_by_slide(cx, *link, *slide),
+            Some(Turned::Slide { link, slide }) => self.turn_by_slide(g, cx, *link, *slide),
         }
         for &(edge, backward) in &fit.places {
-            self.place(cx, edge, backward);
+            self.place(g, cx, edge, backward);
         }
         for &edge in &fit.checks {
-            gap = self.misfit(cx, edge).max(gap);
+            gap = self.misfit(g, cx, edge).max(gap);
         }
         for &(slide, on) in &fit.parallel {
-            gap = self.angle_misfit(cx, slide, on).max(gap);
+            gap = self.angle_misfit(g, cx, slide, on).max(gap);
         }
         for &e in &fit.touched {
             let edge = &cx.plan.edges[e].edge;
-            let ends = self.point_condition[edge.from].max(self.point_condition[edge.to]);
+            let ends = self.point_condition[edge.from][g].max(self.point_condition[edge.to][g]);
             condition2 = ends.max(condition2);
         }
         let allowed = (R::splat(CLOSURE_PER_CONDITION) * condition2.sqrt())
             .max(R::splat(REDUNDANT_CLOSURE))
             .min(R::splat(REDUNDANT_GREATEST));
-        self.open(gap.le(allowed).not(), || Fault::Misfit { step: index, gap: gap.lane(0) });
+        self.open(g, gap.le(allowed).not(), || Fault::Misfit { step: index, gap: gap.lane(0) });
     }
 
     /// Orientation from two joints that others carry; returns the misfit of
@@ -47,7 +47,8 @@ impl<R: Real> State<R> {
     #[inline(always)]
     fn turn_by_joints(
         &mut self,
-        cx: &Context<'_, R>,
+        g: usize,
+        cx: &Context<'_>,
         link: usize,
         arm: Vector,
         points: [usize; 2],
@@ -55,60 +56,61 @@ impl<R: Real> State<R> {
         let len = self.len;
         let o = cx.plan.link_orientation[link];
         let span = |state: &Self, k: usize| -> Vector<R> {
-            state.points[points[1] * len + k] - state.points[points[0] * len + k]
+            state.points[points[1] * len + k][g] - state.points[points[0] * len + k][g]
         };
         let chord = span(self, 0);
         let (length, distance) = (R::splat(arm.norm()), chord.norm());
         let arm = Vector::splat(arm.conj());
         let per = R::ONE / (length * distance);
-        self.set_orientation(cx, o, (chord * arm).scale(per));
+        self.set_orientation(g, cx, o, (chord * arm).scale(per));
         for k in 1..len {
             // chord = U · arm at every order, were it not for rounding.
             let unit = (span(self, k) * arm).scale(R::ONE / (length * length));
-            let partial = self.orientation_without_top(cx, o, k);
-            let rest = (unit - partial) * self.orient[o * len].conj();
-            self.set_rate(cx, o, k, rest.y);
+            let partial = self.orientation_without_top(g, cx, o, k);
+            let rest = (unit - partial) * self.orient[o * len][g].conj();
+            self.set_rate(g, cx, o, k, rest.y);
         }
-        let condition = self.point_condition[points[0]].max(self.point_condition[points[1]]);
-        self.class_condition[cx.plan.orientations[o].class] = condition;
+        let condition = self.point_condition[points[0]][g].max(self.point_condition[points[1]][g]);
+        self.class_condition[cx.plan.orientations[o].class][g] = condition;
         (distance - length).abs()
     }
 
     /// Orientation from a slide: the other link's, turned by a constant.
     #[inline(always)]
-    fn turn_by_slide(&mut self, cx: &Context<'_, R>, link: usize, slide: usize) {
+    fn turn_by_slide(&mut self, g: usize, cx: &Context<'_>, link: usize, slide: usize) {
         let len = self.len;
         let o = cx.plan.link_orientation[link];
         let (other, constant) = cx.plan.across_slide(cx.bound, link, slide);
         let from = cx.plan.link_orientation[other];
-        let value = self.orient[from * len] * Vector::splat(constant);
-        self.set_orientation(cx, o, value);
+        let value = self.orient[from * len][g] * Vector::splat(constant);
+        self.set_orientation(g, cx, o, value);
         for k in 1..len {
-            let rate = self.theta_of(cx, from, k);
-            self.set_rate(cx, o, k, rate);
+            let rate = self.theta_of(g, cx, from, k);
+            self.set_rate(g, cx, o, k, rate);
         }
-        self.class_condition[cx.plan.orientations[o].class] =
-            self.class_condition[cx.plan.orientations[from].class];
+        self.class_condition[cx.plan.orientations[o].class][g] =
+            self.class_condition[cx.plan.orientations[from].class][g];
     }
 
     #[inline(always)]
-    fn set_orientation(&mut self, cx: &Context<'_, R>, o: usize, value: Vector<R>) {
+    fn set_orientation(&mut self, g: usize, cx: &Context<'_>, o: usize, value: Vector<R>) {
         let class = cx.plan.orientations[o].class;
-        self.class[class] = value * self.phase[o].conj();
-        self.orient[o * self.len] = value;
+        self.class[class][g] = value * self.phase[o][g].conj();
+        self.orient[o * self.len][g] = value;
     }
 
     #[inline(always)]
-    fn set_rate(&mut self, cx: &Context<'_, R>, o: usize, k: usize, rate: R) {
+    fn set_rate(&mut self, g: usize, cx: &Context<'_>, o: usize, k: usize, rate: R) {
         let class = cx.plan.orientations[o].class;
-        self.theta[class * self.len + k] = rate;
-        let partial = self.orientation_without_top(cx, o, k);
-        self.orient[o * self.len + k] = partial + self.orient[o * self.len].left().scale(rate);
+        self.theta[class * self.len + k][g] = rate;
+        let partial = self.orientation_without_top(g, cx, o, k);
+        self.orient[o * self.len + k][g] =
+            partial + self.orient[o * self.len][g].left().scale(rate);
     }
 
     /// How far an edge misses its end; the slide along it takes its best value.
     #[inline(always)]
-    fn misfit(&mut self, cx: &Context<'_, R>, e: usize) -> R {
+    fn misfit(&mut self, g: usize, cx: &Context<'_>, e: usize) -> R {
         let len = self.len;
         let edge = cx.plan.edges[e];
         let (from, to, o) = (edge.edge.from * len, edge.edge.to * len, edge.orientation * len);
@@ -117,26 +119,26 @@ impl<R: Real> State<R> {
                 // The span seen from the guide's link: conj(U) · ΔP, by Leibniz.
                 let mut local = Vector::ZERO;
                 for t in &cx.jets.product[k] {
-                    let span = self.points[to + t.right] - self.points[from + t.right];
-                    let part = span * self.orient[o + t.left].conj();
+                    let span = self.points[to + t.right][g] - self.points[from + t.right][g];
+                    let part = span * self.orient[o + t.left][g].conj();
                     local += part.scale(R::splat(t.factor));
                 }
                 if k == 0 {
                     local = local - Vector::splat(cx.bound.rigid[e]);
                 }
-                self.slides[slide * len + k] = local.dot(Vector::splat(cx.bound.guide[e]));
+                self.slides[slide * len + k][g] = local.dot(Vector::splat(cx.bound.guide[e]));
             }
         }
-        (self.points[to] - self.points[from] - self.edge(cx, e, 0)).norm()
+        (self.points[to][g] - self.points[from][g] - self.edge(g, cx, e, 0)).norm()
     }
 
     /// How far two links miss their angle at a slide (a half turn: by 2); `on` carries it.
     #[inline(always)]
-    fn angle_misfit(&self, cx: &Context<'_, R>, slide: usize, on: usize) -> R {
+    fn angle_misfit(&self, g: usize, cx: &Context<'_>, slide: usize, on: usize) -> R {
         let (link, constant) = cx.plan.across_slide(cx.bound, on, slide);
         let turned =
-            self.orient[cx.plan.link_orientation[link] * self.len] * Vector::splat(constant);
-        let actual = self.orient[cx.plan.link_orientation[on] * self.len];
+            self.orient[cx.plan.link_orientation[link] * self.len][g] * Vector::splat(constant);
+        let actual = self.orient[cx.plan.link_orientation[on] * self.len][g];
         (turned - actual).norm()
     }
 }

@@ -3,9 +3,10 @@
 use std::mem::MaybeUninit;
 
 use super::design::Units;
-use super::state::{Context, State};
+use super::state::State;
 use crate::lanes::Real;
 use crate::mechanism::Mechanism;
+use crate::plan::bind::Bound;
 use crate::plan::jet::Jets;
 use crate::plane::Vector;
 use crate::structure::closure::point_of_joint;
@@ -86,34 +87,32 @@ pub(crate) struct Rows<'a> {
     pub status: &'a mut [MaybeUninit<u8>],
 }
 
-/// One entry of a column: where it comes from and where in the row it goes.
+/// One number (or point) of a row: where it goes.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
     column: usize,
     width: usize,
     /// Place in the row (of x, for a point).
     place: usize,
+    /// Place of y behind x.
+    y: usize,
     /// Entry of the jets.
     k: usize,
-    from: Held,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Held {
-    /// A point: x, and y as far behind it in the row.
-    Point { jet: usize, y: usize },
-    /// A slide.
-    Slide { jet: usize },
-    /// A link's angle.
-    Angle { link: usize },
-    /// A derivative of an orientation's angle.
-    Rate { orientation: usize },
+    /// Where it comes from: the point's, slide's or class's entry, or the link.
+    from: usize,
+    /// What the drivers add to an angle's derivative.
+    driven: f64,
 }
 
 /// Writes positions into their rows.
 pub(crate) struct Writer<'a> {
     mechanism: &'a Mechanism,
-    entries: Vec<Entry>,
+    points: Vec<Entry>,
+    slides: Vec<Entry>,
+    /// Angles of links.
+    angles: Vec<Entry>,
+    /// Derivatives of them.
+    rates: Vec<Entry>,
     /// Classes whose angle is asked for.
     pub classes: Vec<usize>,
 }
@@ -131,92 +130,137 @@ impl<'a> Writer<'a> {
         classes.sort_unstable();
         classes.dedup();
         classes.retain(|&class| class != 0);
-        let mut entries = Vec::new();
+        let [mut points, mut slides, mut angles, mut rates] = [const { Vec::new() }; 4];
         for (index, column) in columns.iter().enumerate() {
             let tensor = jets.tensor(column.order);
             for (place, &k) in tensor.iter().enumerate() {
-                let point = |p: usize| Held::Point { jet: p * jets.len() + k, y: tensor.len() };
-                let from = match column.quantity {
-                    Quantity::Joint(joint) => point(point_of_joint(joint)),
-                    Quantity::Place(link) => point(plan.reference[link]),
-                    Quantity::Slide(slide) => Held::Slide { jet: slide * jets.len() + k },
-                    Quantity::Angle(link) if k == 0 => Held::Angle { link },
+                let (list, from, driven) = match column.quantity {
+                    Quantity::Joint(joint) => (&mut points, point_of_joint(joint), 0),
+                    Quantity::Place(link) => (&mut points, plan.reference[link], 0),
+                    Quantity::Slide(slide) => (&mut slides, slide, 0),
+                    Quantity::Angle(link) if k == 0 => (&mut angles, link, 0),
                     Quantity::Angle(link) => {
-                        Held::Rate { orientation: plan.link_orientation[link] }
+                        let rotation = &plan.rotation[link];
+                        let turns = jets.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
+                        (&mut rates, rotation.class, turns)
                     }
                 };
-                entries.push(Entry { column: index, width: column.width, place, k, from });
+                let from = match column.quantity {
+                    Quantity::Angle(_) if k == 0 => from,
+                    _ => from * jets.len() + k,
+                };
+                let (width, y) = (column.width, tensor.len());
+                list.push(Entry { column: index, width, place, y, k, from, driven: driven.into() });
             }
         }
-        Self { mechanism, entries, classes }
+        Self { mechanism, points, slides, angles, rates, classes }
     }
 
-    /// Writes `count` positions from lane 0 on into the rows from `row` on. `lifted`:
-    /// angles of the classes.
+    /// Writes `count` positions, lane after lane of a state, into the rows from `row` on.
+    /// `lifted`: angles of the classes.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "all that a position is")]
-    pub(crate) fn write<R: Real>(
+    pub(crate) fn write<R: Real, const G: usize>(
         &self,
         rows: &mut Rows<'_>,
         (row, count): (usize, usize),
-        cx: &Context<'_, R>,
-        state: &State<R>,
-        unit: &Units,
-        lifted: &[R],
-        q: &[R],
+        (bound, unit): (&Bound, &Units),
+        state: &State<R, G>,
+        lifted: &[[R; G]],
     ) {
-        for entry in &self.entries {
-            let Entry { width, place, k, .. } = *entry;
-            let out = &mut rows.columns[entry.column][row * width..][..count * width];
-            match entry.from {
-                Held::Point { jet, y } => {
-                    let mut p = state.points[jet].scale(R::splat(unit.length[k]));
-                    if k == 0 {
-                        let [x, y] = cx.bound.origin;
-                        p += Vector::splat(Vector::new(x, y));
-                    }
-                    if width == 2 && count == R::LANES {
-                        store_pairs(out, p);
-                    } else {
-                        store(out, width, place, p.x);
-                        store(out, width, place + y, p.y);
-                    }
+        let origin = Vector::splat(Vector::new(bound.origin[0], bound.origin[1]));
+        for entry in &self.points {
+            let scale = R::splat(unit.length[entry.k]);
+            let shift = if entry.k == 0 { Some(origin) } else { None };
+            let points = &state.points[entry.from];
+            let out = rows.of(entry, row, count);
+            let place = |point: Vector<R>| {
+                let scaled = point.scale(scale);
+                if let Some(shift) = shift { scaled + shift } else { scaled }
+            };
+            if entry.width == 2 && count == G * R::LANES {
+                for g in 0..G {
+                    store_pairs(&mut out[2 * R::LANES * g..][..2 * R::LANES], place(points[g]));
                 }
-                Held::Slide { jet } => {
-                    store(out, width, place, state.slides[jet] * R::splat(unit.length[k]));
-                }
-                Held::Angle { link } => {
-                    store(out, width, place, self.angle(cx, link, lifted, q));
-                }
-                Held::Rate { orientation } => {
-                    let rate = state.theta_of(cx, orientation, k);
-                    let mut scaled = rate * R::splat(unit.angle[k]);
-                    if unit.angle[k].is_infinite() {
-                        // Beyond the range of numbers, but for what does not turn.
-                        scaled = R::select(rate.abs().le(R::ZERO), rate, scaled);
-                    }
-                    store(out, width, place, scaled);
-                }
+                continue;
             }
+            for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
+                let p = place(points[g]);
+                store_some(out, entry.width, entry.place, p.x);
+                store_some(out, entry.width, entry.place + entry.y, p.y);
+            }
+        }
+        for entry in &self.slides {
+            let scale = R::splat(unit.length[entry.k]);
+            let slides = &state.slides[entry.from];
+            entry.store(rows.of(entry, row, count), |g| slides[g] * scale);
+        }
+        for entry in &self.angles {
+            let rotation = &self.mechanism.plan().rotation[entry.from];
+            let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.from];
+            let offset = R::splat(bound.offset[entry.from] + whole);
+            let lifted = &lifted[rotation.class];
+            entry.store(rows.of(entry, row, count), |g| {
+                // Of the class, plus what turns the link against it.
+                let mut angle = lifted[g];
+                for (&turns, q) in rotation.turns.iter().zip(&state.q) {
+                    if turns != 0 {
+                        angle += R::splat(f64::from(turns)) * q[g];
+                    }
+                }
+                angle + offset
+            });
+        }
+        for entry in &self.rates {
+            let (driven, scale) = (R::splat(entry.driven), R::splat(unit.angle[entry.k]));
+            let beyond = unit.angle[entry.k].is_infinite();
+            let rates = &state.theta[entry.from];
+            entry.store(rows.of(entry, row, count), |g| {
+                let rate = rates[g] + driven;
+                let scaled = rate * scale;
+                if beyond {
+                    // Beyond the range of numbers, but for what does not turn.
+                    R::select(rate.abs().le(R::ZERO), rate, scaled)
+                } else {
+                    scaled
+                }
+            });
         }
     }
+}
 
-    /// Lifted angle of the class, plus what turns the link against it.
+impl Entry {
+    /// Writes a number for each lane of each group, as far as there are rows.
     #[inline(always)]
-    fn angle<R: Real>(&self, cx: &Context<'_, R>, link: usize, lifted: &[R], q: &[R]) -> R {
-        let rotation = &cx.plan.rotation[link];
-        let mut angle = if rotation.class == 0 { R::ZERO } else { lifted[rotation.class] };
-        for (&turns, &q) in rotation.turns.iter().zip(q) {
-            if turns != 0 {
-                angle += R::splat(f64::from(turns)) * q;
+    fn store<R: Real>(&self, out: &mut [MaybeUninit<f64>], of: impl Fn(usize) -> R) {
+        if self.width == 1 {
+            let mut groups = out.chunks_exact_mut(R::LANES);
+            let mut g = 0;
+            for group in &mut groups {
+                let x = of(g);
+                for lane in 0..R::LANES {
+                    group[lane] = MaybeUninit::new(x.lane(lane));
+                }
+                g += 1;
             }
+            let rest = groups.into_remainder();
+            if !rest.is_empty() {
+                store_some(rest, 1, 0, of(g));
+            }
+            return;
         }
-        let whole = std::f64::consts::TAU * self.mechanism.whole_turns[link];
-        angle + R::splat(cx.bound.offset[link] + whole)
+        for (g, group) in out.chunks_mut(self.width * R::LANES).enumerate() {
+            store_some(group, self.width, self.place, of(g));
+        }
     }
 }
 
 impl Rows<'_> {
+    /// An entry's rows.
+    #[inline(always)]
+    fn of(&mut self, entry: &Entry, row: usize, count: usize) -> &mut [MaybeUninit<f64>] {
+        &mut self.columns[entry.column][row * entry.width..(row + count) * entry.width]
+    }
+
     /// Nothing but a status, for `count` rows from `row` on.
     pub(crate) fn leave_out(&mut self, columns: &[Column], row: usize, count: usize, status: u8) {
         self.blank(columns, 0, row, count);
@@ -244,17 +288,10 @@ fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
     }
 }
 
-/// One entry of every row: of all lanes, or of the first few.
+/// One entry of every row: of the first few lanes.
 #[inline(always)]
-fn store<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, place: usize, x: R) {
-    if width == 1 && out.len() == R::LANES {
-        let out = &mut out[..R::LANES];
-        for lane in 0..R::LANES {
-            out[lane] = MaybeUninit::new(x.lane(lane));
-        }
-    } else {
-        for (lane, row) in out.chunks_exact_mut(width).enumerate() {
-            row[place] = MaybeUninit::new(x.lane(lane));
-        }
+fn store_some<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, place: usize, x: R) {
+    for (lane, row) in out.chunks_exact_mut(width).enumerate() {
+        row[place] = MaybeUninit::new(x.lane(lane));
     }
 }

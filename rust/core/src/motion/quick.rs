@@ -5,10 +5,11 @@
 use std::f64::consts::TAU;
 
 use super::change::may_touch;
+use super::simd::Level;
 use super::state::{Context, State};
-use super::track::{CELLS_A_TURN, Track, nearest};
+use super::track::{CELLS_A_TURN, Track, turns_between};
 use super::walk::Stretch;
-use crate::lanes::{Lanes, Mask, Real};
+use crate::lanes::{LANES, Lanes, Mask, Real};
 use crate::plan::jet::Jets;
 use crate::plan::{Form, Plan};
 use crate::plane::Vector;
@@ -16,24 +17,24 @@ use crate::tolerance::LIFT_TURN;
 
 /// Knots of a turn, its end included.
 const KNOTS: usize = CELLS_A_TURN as usize + 1;
+/// Groups of them.
+const GROUPS: usize = KNOTS / LANES;
 /// One cell.
 const CELL: f64 = TAU / CELLS_A_TURN as f64;
 
 /// Work space: for every knot what the walk asks of it.
 #[derive(Debug)]
 pub(crate) struct Quick {
-    state: State<Lanes>,
+    /// All knots.
+    state: State<Lanes, GROUPS>,
     /// Drawing's angle that the knots below are for, the same for all designs.
     q0: f64,
     /// Angles of the driver, eight a group, and their unit vectors.
     knots: Vec<(Lanes, Vector<Lanes>)>,
-    signs: Vec<Lanes>,
     /// Spread and rate of every dyad with a sign at the last knot.
     spread: Vec<(f64, f64)>,
-    /// The same of eight knots.
-    spreads: Vec<(Lanes, Lanes)>,
-    /// Angles of classes at eight knots.
-    angles: Vec<Lanes>,
+    /// Angle of every class at the last knot, and its whole turns until there.
+    last: Vec<(f64, f64)>,
     /// On which side of parallel the guides of every dyad of two known directions are, at
     /// the knots before.
     sides: Vec<bool>,
@@ -46,10 +47,8 @@ impl Quick {
             state: State::new(plan, jets),
             q0: f64::NAN,
             knots: Vec::new(),
-            signs: Vec::new(),
             spread: vec![(0.0, 0.0); plan.signs()],
-            spreads: vec![(Lanes::ZERO, Lanes::ZERO); plan.signs()],
-            angles: vec![Lanes::ZERO; plan.classes],
+            last: vec![(0.0, 0.0); plan.classes],
             sides: Vec::new(),
         }
     }
@@ -57,34 +56,39 @@ impl Quick {
     /// Lays the knots of a turn from `q0` on into `track`; false if the way needs
     /// walking.
     #[inline(always)]
-    pub(crate) fn turn(
+    pub(crate) fn turn<L: Level>(
         &mut self,
         cx: &Context<'_>,
         q0: f64,
         start: &[f64],
         track: &mut Track,
     ) -> bool {
-        self.signs.clear();
-        self.signs.extend(cx.signs.iter().map(|&s| Lanes::splat(s)));
-        self.state.prepare(cx.plan, cx.bound, cx.jets);
         self.sides.clear();
         track.at.clear();
         track.angles.clear();
         if self.q0 != q0 {
             self.spread_knots(q0);
         }
-        for group in 0..self.knots.len() {
-            let (at, unit) = self.knots[group];
-            let first = group * Lanes::LANES;
-            self.state.unit[0] = unit;
-            if !self.solve(cx, at, group == 0) {
+        self.state.prepare(cx.plan, cx.bound, cx.jets);
+        for (group, &(at, unit)) in self.knots.iter().enumerate() {
+            self.state.q[0][group] = at;
+            self.state.unit[0][group] = unit;
+        }
+        for (lanes, &sign) in self.state.signs.iter_mut().zip(cx.signs) {
+            *lanes = [Lanes::splat(sign); GROUPS];
+        }
+        L::solve(&mut self.state, cx);
+        track.angles.resize(KNOTS * start.len(), 0.0);
+        // Nothing is before the first knot but the drawing.
+        self.spread.fill((0.0, 0.0));
+        for (last, &angle) in self.last.iter_mut().zip(start) {
+            *last = (angle, 0.0);
+        }
+        for group in 0..GROUPS {
+            if !(self.look(cx, group) && self.lay(group, &mut track.angles)) {
                 return false;
             }
-            for lane in 0..Lanes::LANES {
-                if first + lane < KNOTS && !self.lay(at.lane(lane), lane, start, track) {
-                    return false;
-                }
-            }
+            track.at.extend_from_slice(&self.knots[group].0.0);
         }
         let classes = start.len();
         track.gain.clear();
@@ -118,23 +122,25 @@ impl Quick {
         }
     }
 
-    /// Eight knots; false if one of them, by itself, needs walking.
+    /// Looks at eight knots, one after another; false if something may happen between them.
     #[inline(always)]
-    fn solve(&mut self, cx: &Context<'_>, at: Lanes, is_first: bool) -> bool {
-        let Context { plan, bound, jets, .. } = *cx;
-        let cx = Context { plan, bound, jets, signs: &self.signs };
-        self.state.solve_turned(&cx, &[at]);
-        if self.state.care.any() {
-            return false;
-        }
+    fn look(&mut self, cx: &Context<'_>, group: usize) -> bool {
+        let state = &self.state;
         let mut lines = 0;
-        for dyad in plan.dyads() {
+        let mut trouble = state.care[group];
+        for dyad in cx.plan.dyads() {
             match dyad.sign {
-                Some(sign) => self.spreads[sign] = self.state.spread(&cx, dyad, 1),
+                Some(sign) => {
+                    let (value, rate) = state.spread(group, cx, dyad, 1);
+                    let (last, last_rate) = self.spread[sign];
+                    let before = (after(last, value), after(last_rate, rate));
+                    trouble = trouble.or(may_touch(before, (value, rate), Lanes::splat(CELL)));
+                    self.spread[sign] = (value.lane(LANES - 1), rate.lane(LANES - 1));
+                }
                 None if dyad.form == Form::TwoLines => {
-                    let positive = Lanes::ZERO.lt(self.state.determinant(&cx, dyad));
+                    let positive = Lanes::ZERO.lt(state.determinant(group, cx, dyad));
                     let side = positive.any();
-                    if is_first {
+                    if group == 0 {
                         self.sides.push(side);
                     }
                     if side != positive.all() || self.sides[lines] != side {
@@ -145,36 +151,41 @@ impl Quick {
                 None => {}
             }
         }
-        let mut fast = Lanes::ZERO;
-        for class in 1..self.angles.len() {
-            self.angles[class] = self.state.class[class].angle();
-            fast = (self.state.theta[2 * class + 1].abs() * Lanes::splat(CELL)).max(fast);
-        }
-        !Lanes::splat(LIFT_TURN).lt(fast).any()
+        !trouble.any()
     }
 
-    /// One knot after the last; false if something may happen between them.
+    /// Lays the angles of eight knots; false if a link turns fast there.
     #[inline(always)]
-    fn lay(&mut self, at: f64, lane: usize, start: &[f64], track: &mut Track) -> bool {
-        let classes = start.len();
-        let before = track.angles.len();
-        let is_first = before == 0;
+    fn lay(&mut self, group: usize, angles: &mut [f64]) -> bool {
+        let classes = self.last.len();
+        let first = group * LANES * classes;
+        let Some(angles) = angles.get_mut(first..first + LANES * classes) else { return false };
+        let mut most = Lanes::splat(LIFT_TURN);
+        if group == 0 {
+            // To the drawing's own angle it may be far.
+            most.0[0] = f64::INFINITY;
+        }
+        let mut fast = <Lanes as Real>::Mask::NONE;
         for class in 0..classes {
-            let last = if is_first { start[class] } else { track.angles[before - classes + class] };
-            let angle = nearest(self.angles[class].lane(lane), last);
-            if !is_first && (angle - last).abs() > LIFT_TURN {
-                return false;
+            let angle = self.state.class[class][group].angle();
+            let (last, mut whole) = self.last[class];
+            let before = after(last, angle);
+            let turns = turns_between(angle, before);
+            let step = (angle + Lanes::splat(TAU) * turns) - before;
+            let rate = self.state.theta[2 * class + 1][group] * Lanes::splat(CELL);
+            fast = fast.or(most.lt(step.abs())).or(Lanes::splat(LIFT_TURN).lt(rate.abs()));
+            for lane in 0..LANES {
+                whole += turns.lane(lane);
+                angles[lane * classes + class] = angle.lane(lane) + TAU * whole;
             }
-            track.angles.push(angle);
+            self.last[class] = (angle.lane(LANES - 1), whole);
         }
-        for (last, now) in self.spread.iter_mut().zip(&self.spreads) {
-            let now = (now.0.lane(lane), now.1.lane(lane));
-            if !is_first && may_touch(*last, now, CELL) {
-                return false;
-            }
-            *last = now;
-        }
-        track.at.push(at);
-        true
+        !fast.any()
     }
+}
+
+/// Each lane's neighbour before it; that of the first is given.
+#[inline(always)]
+fn after(last: f64, lanes: Lanes) -> Lanes {
+    Lanes::from_lanes(|i| if i == 0 { last } else { lanes.lane(i - 1) })
 }

@@ -6,13 +6,16 @@ use std::mem::MaybeUninit;
 use super::design::Design;
 use super::outputs::{Column, Rows, Writer};
 use super::quick::Quick;
-use super::simd::{self, Simd};
-use super::state::{Context, State, Status};
+use super::simd::{self, Level, Simd};
+use super::state::{State, Status};
 use super::track::{Spot, nearest};
 use crate::lanes::{LANES, Lanes, Mask, Real};
 use crate::mechanism::Mechanism;
 use crate::plan::jet::Jets;
 use crate::plane::Vector;
+
+/// Groups of positions worked on at once: as many as stay in the nearest cache.
+const GROUPS: usize = 4;
 
 /// Work space of one thread.
 pub(crate) struct Worker<'a> {
@@ -22,12 +25,16 @@ pub(crate) struct Worker<'a> {
     simd: Simd,
     quick: Quick,
     one: State,
-    eight: State<Lanes>,
-    signs: Vec<Lanes>,
-    lifted: Vec<Lanes>,
+    many: State<Lanes, GROUPS>,
+    /// Angles of its classes.
+    lifted: Vec<[Lanes; GROUPS]>,
     /// Positions of the last job, in groups, and which they were.
     turned: Vec<Turned>,
     shared: Option<usize>,
+    /// Their places on the way.
+    spots: Vec<Spot<Lanes>>,
+    /// Whether that was a quick one.
+    spots_even: bool,
 }
 
 /// Some positions of one design, and where they go.
@@ -62,11 +69,12 @@ impl<'a> Worker<'a> {
         Self {
             quick: design.quick(),
             one: State::new(plan, jets),
-            eight: State::new(plan, jets),
-            signs: vec![Lanes::ONE; plan.signs()],
-            lifted: vec![Lanes::ZERO; plan.classes],
+            many: State::new(plan, jets),
+            lifted: vec![[Lanes::ZERO; GROUPS]; plan.classes],
             turned: Vec::new(),
             shared: None,
+            spots: Vec::new(),
+            spots_even: false,
             design,
             writer,
             columns,
@@ -89,8 +97,8 @@ impl<'a> Worker<'a> {
 
     /// What [`simd`] dispatches.
     #[inline(always)]
-    pub(crate) fn run(&mut self, job: &mut Job<'_, '_>) {
-        if !self.design.lay_quick(&mut self.quick) {
+    pub(crate) fn run<L: Level>(&mut self, job: &mut Job<'_, '_>) {
+        if !self.design.lay_quick::<L>(&mut self.quick) {
             self.design.lay_way(job.q);
         }
         let drivers = self.design.mechanism.q0().len();
@@ -101,11 +109,11 @@ impl<'a> Worker<'a> {
             }
             return;
         }
-        self.eight.prepare(self.design.mechanism.plan(), &self.design.bound, self.design.jets);
-        self.set_signs(&Spot::default());
+        let (plan, jets) = (self.design.mechanism.plan(), self.design.jets);
+        self.many.prepare(plan, &self.design.bound, jets);
         self.turn(job);
-        for row in (0..count).step_by(LANES) {
-            self.group(job, row, (count - row).min(LANES));
+        for row in (0..count).step_by(GROUPS * LANES) {
+            self.block::<L>(job, row, (count - row).min(GROUPS * LANES));
         }
     }
 
@@ -113,73 +121,100 @@ impl<'a> Worker<'a> {
     #[inline(always)]
     fn turn(&mut self, job: &Job<'_, '_>) {
         let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
-        if is_angle && job.shared.is_some() && self.shared == job.shared {
-            return;
-        }
-        self.shared = job.shared;
-        self.turned.clear();
-        let scale = self.design.unit.coordinate[0];
-        for eight in job.q.chunks(LANES) {
-            let q = Lanes::from_lanes(|i| eight[i.min(eight.len() - 1)] * scale);
-            let unit = if is_angle { Vector::at_angle(q) } else { Vector::ONE };
-            self.turned.push(Turned { q, unit });
-        }
-    }
-
-    /// Signs of the lanes, at their places on the way.
-    #[inline(always)]
-    fn set_signs(&mut self, spot: &Spot<Lanes>) {
-        for (sign, lanes) in self.signs.iter_mut().enumerate() {
-            *lanes = Lanes::from_lanes(|i| self.design.track.signs_at(spot, i)[sign]);
-        }
-    }
-
-    /// Up to eight positions from `row` on.
-    #[inline(always)]
-    fn group(&mut self, job: &mut Job<'_, '_>, row: usize, count: usize) {
-        let Turned { q, unit } = self.turned[row / LANES];
         let track = &self.design.track;
-        let spot = track.spot(q);
-        let mut care = <Lanes as Real>::Mask::NONE;
-        if track.even.is_none() {
-            let strange = |i: usize| {
-                let at = q.lane(i);
-                !track.covers(at) || track.hides(&spot, i) || track.change_near(at).is_some()
-            };
-            let flags = Lanes::from_lanes(|i| if strange(i) { 1.0 } else { 0.0 });
-            care = Lanes::ZERO.lt(flags);
+        if !(is_angle && job.shared.is_some() && self.shared == job.shared) {
+            self.shared = job.shared;
+            self.turned.clear();
+            self.spots.clear();
+            let scale = self.design.unit.coordinate[0];
+            for eight in job.q.chunks(LANES) {
+                let q = Lanes::from_lanes(|i| eight[i.min(eight.len() - 1)] * scale);
+                let unit = if is_angle { Vector::at_angle(q) } else { Vector::ONE };
+                self.turned.push(Turned { q, unit });
+            }
         }
-        if !track.is_one_stretch() {
-            self.set_signs(&spot);
+        // The knots of a quick way are the same for all designs.
+        if track.even.is_none() || !self.spots_even {
+            self.spots.clear();
+        }
+        self.spots_even = track.even.is_some();
+        if self.spots.is_empty() {
+            for turned in &self.turned {
+                self.spots.push(track.spot(turned.q));
+            }
+        }
+    }
+
+    /// Lanes of a group that must be done by themselves, whatever comes out.
+    #[inline(always)]
+    fn strange(&self, q: Lanes, spot: &Spot<Lanes>) -> <Lanes as Real>::Mask {
+        let track = &self.design.track;
+        let strange = |i: usize| {
+            let at = q.lane(i);
+            !track.covers(at) || track.hides(spot, i) || track.change_near(at).is_some()
+        };
+        Lanes::ZERO.lt(Lanes::from_lanes(|i| if strange(i) { 1.0 } else { 0.0 }))
+    }
+
+    /// Up to [`GROUPS`] groups of positions from `row` on.
+    #[inline(always)]
+    fn block<L: Level>(&mut self, job: &mut Job<'_, '_>, row: usize, count: usize) {
+        let (first, groups) = (row / LANES, count.div_ceil(LANES));
+        let mut care = [<Lanes as Real>::Mask::NONE; GROUPS];
+        for group in 0..groups {
+            let Turned { q, unit } = self.turned[first + group];
+            let spot = &self.spots[first + group];
+            if self.design.track.even.is_none() {
+                care[group] = self.strange(q, spot);
+            }
+            let track = &self.design.track;
+            self.many.q[0][group] = q;
+            self.many.unit[0][group] = unit;
+            for (sign, groups) in self.many.signs.iter_mut().enumerate() {
+                groups[group] = if track.is_one_stretch() {
+                    Lanes::splat(track.signs_at(spot, 0)[sign])
+                } else {
+                    Lanes::from_lanes(|i| track.signs_at(spot, i)[sign])
+                };
+            }
         }
         let design = &self.design;
-        let cx = Context {
-            plan: design.mechanism.plan(),
-            bound: &design.bound,
-            jets: design.jets,
-            signs: &self.signs,
-        };
-        self.eight.unit[0] = unit;
-        self.eight.solve_turned(&cx, &[q]);
-        care = care.or(self.eight.care);
-        if !care.all() {
-            for &class in &self.writer.classes {
-                let near = design.track.near(&spot, class);
-                self.lifted[class] = nearest(self.eight.class[class].angle(), near);
-            }
-            let (state, unit, lifted) = (&self.eight, &design.unit, &self.lifted);
-            let at = (job.first + row, count);
-            self.writer.write(job.rows, at, &cx, state, unit, lifted, &[q]);
-            let near = self.eight.near_singular();
-            for lane in 0..count {
-                let status = if near.lane(lane) { Status::NearSingular } else { Status::Ok };
-                job.rows.status[job.first + row + lane] = MaybeUninit::new(status as u8);
+        self.many.groups = groups;
+        L::solve(&mut self.many, &design.context(design.jets));
+        let state = &self.many;
+        // Each by itself, so that one goes on while the other waits.
+        for &class in &self.writer.classes {
+            for g in 0..groups.min(GROUPS) {
+                self.lifted[class][g] = state.class[class][g].angle();
             }
         }
-        if care.any() {
-            for lane in 0..count {
-                if care.lane(lane) {
-                    self.one_row(job, row + lane);
+        for &class in &self.writer.classes {
+            for (spot, lifted) in self.spots[first..].iter().zip(&mut self.lifted[class]) {
+                *lifted = nearest(*lifted, design.track.near(spot, class));
+            }
+        }
+        let at = job.first + row;
+        let with = (&design.bound, &design.unit);
+        self.writer.write(job.rows, (at, count), with, state, &self.lifted);
+        job.rows.status[at..at + count].fill(MaybeUninit::new(Status::Ok as u8));
+        let mut again = false;
+        for group in 0..groups.min(GROUPS) {
+            care[group] = care[group].or(state.care[group]);
+            again |= care[group].any();
+            let near = state.near_singular(group);
+            if near.any() {
+                for lane in 0..LANES.min(count - group * LANES) {
+                    if near.lane(lane) {
+                        let status = Status::NearSingular as u8;
+                        job.rows.status[at + group * LANES + lane] = MaybeUninit::new(status);
+                    }
+                }
+            }
+        }
+        if again {
+            for place in 0..count {
+                if care[place / LANES].lane(place % LANES) {
+                    self.one_row(job, row + place);
                 }
             }
         }
@@ -201,11 +236,10 @@ impl<'a> Worker<'a> {
             return;
         };
         let near = self.design.near(place, self.lifted.len());
-        let lift = |class: usize| nearest(state.class[class].angle(), near[class]);
-        let lifted: Vec<f64> = (0..near.len()).map(lift).collect();
-        let cx = self.design.context(self.design.jets);
-        let unit = &self.design.unit;
-        self.writer.write(job.rows, (at, 1), &cx, state, unit, &lifted, &q);
+        let lift = |class: usize| [nearest(state.class[class][0].angle(), near[class])];
+        let lifted: Vec<[f64; 1]> = (0..near.len()).map(lift).collect();
+        let with = (&self.design.bound, &self.design.unit);
+        self.writer.write(job.rows, (at, 1), with, state, &lifted);
         if !analogues {
             job.rows.blank(self.columns, 1, at, 1);
         }

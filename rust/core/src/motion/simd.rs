@@ -4,6 +4,8 @@
 use std::sync::LazyLock;
 
 use super::rows::{Job, Worker};
+use super::state::{Context, State};
+use crate::lanes::Lanes;
 
 /// A set of vector instructions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -59,34 +61,73 @@ impl Default for Simd {
     }
 }
 
+/// The executor compiled for a set of instructions.
+///
+/// Positions are a function of their own: both the way and the rows call it, and the compiler has
+/// less to do at once.
+pub(crate) trait Level {
+    /// See [`State::solve_all`].
+    fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>);
+    /// See [`Worker::run`].
+    fn run(worker: &mut Worker<'_>, job: &mut Job<'_, '_>);
+}
+
 /// Solves a job with the instructions asked for, as far as the machine has them.
 pub(crate) fn solve(simd: Simd, worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
     match simd.min(Simd::best()) {
         #[cfg(target_arch = "x86_64")]
-        #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
-        // SAFETY: `best` has asked for these instructions and those of every level below.
-        Simd::Avx2 => unsafe { avx2(worker, job) },
+        Simd::Avx2 => Avx2::run(worker, job),
         #[cfg(target_arch = "x86_64")]
-        #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
-        // SAFETY: as above.
-        Simd::Avx512 => unsafe { avx512(worker, job) },
-        _ => baseline(worker, job),
+        Simd::Avx512 => Avx512::run(worker, job),
+        _ => Baseline::run(worker, job),
     }
 }
 
-#[inline(never)]
-fn baseline(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
-    worker.run(job);
+struct Baseline;
+
+impl Level for Baseline {
+    #[inline(never)]
+    fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
+        state.solve_all(cx);
+    }
+    #[inline(never)]
+    fn run(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
+        worker.run::<Self>(job);
+    }
+}
+
+/// A level beyond the baseline.
+#[cfg(target_arch = "x86_64")]
+macro_rules! level {
+    ($level:ident, $features:literal) => {
+        struct $level;
+
+        impl Level for $level {
+            #[inline(always)]
+            #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+            fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
+                #[target_feature(enable = $features)]
+                fn with<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
+                    state.solve_all(cx);
+                }
+                // SAFETY: `solve` comes here only if `Simd::best` has found them.
+                unsafe { with(state, cx) }
+            }
+            #[inline(always)]
+            #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+            fn run(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
+                #[target_feature(enable = $features)]
+                fn with(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
+                    worker.run::<$level>(job);
+                }
+                // SAFETY: as above.
+                unsafe { with(worker, job) }
+            }
+        }
+    };
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn avx2(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
-    worker.run(job);
-}
-
+level!(Avx2, "avx2");
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512vl,avx512dq")]
-fn avx512(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
-    worker.run(job);
-}
+level!(Avx512, "avx512f,avx512vl,avx512dq");

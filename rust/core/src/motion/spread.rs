@@ -7,21 +7,21 @@ use crate::plan::{Along, Dyad, Form};
 use crate::plane::Vector;
 use crate::tolerance::CHANGE_MISFIT;
 
-impl<R: Real> State<R> {
+impl<R: Real, const G: usize> State<R, G> {
     /// How far a dyad is from flat, with the sign of its assembly, and the rate of
     /// that by one driver (jet entry `first`): the sine of the angle between its legs (a rotation
     /// and a slide: the chord) as far as it matters near 0.
     #[inline(always)]
-    pub(crate) fn spread(&self, cx: &Context<'_, R>, dyad: &Dyad, first: usize) -> (R, R) {
-        let [a, da] = [0, first].map(|k| self.turning(cx, dyad, 0, k));
+    pub(crate) fn spread(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, first: usize) -> (R, R) {
+        let [a, da] = [0, first].map(|k| self.turning(g, cx, dyad, 0, k));
         let (value, rate, size) = match dyad.form {
             Form::TwoCircles => {
-                let [b, db] = [0, first].map(|k| self.turning(cx, dyad, 1, k));
+                let [b, db] = [0, first].map(|k| self.turning(g, cx, dyad, 1, k));
                 (b.cross(a), db.cross(a) + b.cross(da), a.norm() * b.norm())
             }
             Form::CircleAndLine | Form::TurningGuide => {
-                let [g, dg] = [0, first].map(|k| self.sliding(cx, dyad, 1, k));
-                let (value, rate) = (g.dot(a), dg.dot(a) + g.dot(da));
+                let [guide, rate_of] = [0, first].map(|k| self.sliding(g, cx, dyad, 1, k));
+                let (value, rate) = (guide.dot(a), rate_of.dot(a) + guide.dot(da));
                 if dyad.form == Form::TurningGuide {
                     (value, rate, R::ONE)
                 } else {
@@ -39,12 +39,12 @@ impl State {
     /// The size of a dyad's triangle by its shortest side that turns: what its rounding
     /// means for the spread.
     pub(crate) fn shortness(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
-        let a = self.turning(cx, dyad, 0, 0).norm2();
+        let a = self.turning(0, cx, dyad, 0, 0).norm2();
         let b = match dyad.form {
-            Form::TwoCircles => self.turning(cx, dyad, 1, 0).norm2(),
+            Form::TwoCircles => self.turning(0, cx, dyad, 1, 0).norm2(),
             _ => a,
         };
-        let grain = self.grain[dyad.start].max(self.grain[dyad.end]);
+        let grain = self.grain[dyad.start][0].max(self.grain[dyad.end][0]);
         (grain.max(a).max(b) / a.min(b)).sqrt()
     }
 
@@ -55,10 +55,15 @@ impl State {
             .map(|((e, &rigid), &guide)| {
                 let mut span = rigid;
                 if let Along::Slide(s) | Along::Driver { slide: s } = e.along {
-                    span += guide.scale(self.slides[s * len]);
+                    span += guide.scale(self.slides[s * len][0]);
                 }
-                let turned = self.orient[e.orientation * len] * span;
-                (self.points[e.edge.to * len] - self.points[e.edge.from * len] - turned).norm()
+                let orientation = &cx.plan.orientations[e.orientation];
+                let rotation = self.class[orientation.class][0];
+                let driven = orientation.driven;
+                let turned =
+                    if driven { rotation * self.phase[e.orientation][0] } else { rotation } * span;
+                (self.points[e.edge.to * len][0] - self.points[e.edge.from * len][0] - turned)
+                    .norm()
             })
             // What is no number stays so.
             .fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
@@ -66,8 +71,8 @@ impl State {
 
     /// Whether the points are where another state has them, as far as that can be known.
     pub(crate) fn is_near(&self, other: &Self) -> bool {
-        let allowed = CHANGE_MISFIT * other.condition2.sqrt();
-        let values = |state: &Self| state.points.iter().step_by(state.len).copied().collect();
+        let allowed = CHANGE_MISFIT * other.condition2[0].sqrt();
+        let values = |state: &Self| state.points.iter().step_by(state.len).map(|p| p[0]).collect();
         let (a, b): (Vec<Vector>, Vec<Vector>) = (values(self), values(other));
         a.iter().zip(&b).all(|(&a, &b)| (a - b).norm() <= allowed)
     }
@@ -75,26 +80,32 @@ impl State {
     /// Becomes the weighted sum of other states of the same plan: a polynomial
     /// through them, evaluated between them.
     pub(crate) fn blend(&mut self, states: &[Self], weights: &[f64]) {
-        fn sum(out: &mut [f64], states: &[State], weights: &[f64], of: impl Fn(&State) -> &[f64]) {
+        fn sum(
+            out: &mut [[f64; 1]],
+            states: &[State],
+            weights: &[f64],
+            of: impl Fn(&State) -> &[[f64; 1]],
+        ) {
             for (i, x) in out.iter_mut().enumerate() {
-                *x = states.iter().zip(weights).map(|(s, w)| w * of(s)[i]).sum();
+                x[0] = states.iter().zip(weights).map(|(s, w)| w * of(s)[i][0]).sum();
             }
         }
         fn sums(
-            out: &mut [Vector],
+            out: &mut [[Vector; 1]],
             states: &[State],
             weights: &[f64],
-            of: impl Fn(&State) -> &[Vector],
+            of: impl Fn(&State) -> &[[Vector; 1]],
         ) {
             for (i, x) in out.iter_mut().enumerate() {
-                *x = Vector::ZERO;
+                x[0] = Vector::ZERO;
                 for (s, &w) in states.iter().zip(weights) {
-                    *x += of(s)[i].scale(w);
+                    x[0] += of(s)[i][0].scale(w);
                 }
             }
         }
         sums(&mut self.points, states, weights, |s| &s.points);
         sums(&mut self.orient, states, weights, |s| &s.orient);
+        sums(&mut self.phase, states, weights, |s| &s.phase);
         sums(&mut self.class, states, weights, |s| &s.class);
         sum(&mut self.theta, states, weights, |s| &s.theta);
         sum(&mut self.slides, states, weights, |s| &s.slides);

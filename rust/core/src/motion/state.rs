@@ -9,7 +9,7 @@ use crate::plane::Vector;
 use crate::tolerance::{NEAR_SINGULAR_CONDITION, SINGULAR_CONDITION};
 
 /// Square of the sine of a dyad that cannot be told from a flat one.
-const FLAT2: f64 = 1.0 / (SINGULAR_CONDITION * SINGULAR_CONDITION);
+pub(super) const FLAT2: f64 = 1.0 / (SINGULAR_CONDITION * SINGULAR_CONDITION);
 
 /// How a position came out; the codes are those of the arrays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -56,44 +56,53 @@ impl Fault {
     }
 }
 
-/// Work space for one position, or for as many as `R` has lanes; made once, used
-/// for all.
+/// Work space for one position, or for `G` groups of as many as `R` has lanes; made once,
+/// used for all.
+///
+/// Groups are the innermost index: what a step looks up serves all of them, and they do not wait
+/// for each other.
 #[derive(Debug, Clone)]
-pub struct State<R: Real = f64> {
+pub struct State<R: Real = f64, const G: usize = 1> {
     /// Entries of a jet.
     pub(crate) len: usize,
-    /// Jets of points, one after another.
-    pub points: Vec<Vector<R>>,
-    /// Jets of orientations.
-    pub orient: Vec<Vector<R>>,
-    /// Jets of the legs of dyads, two a dyad.
-    pub(crate) legs: Vec<Vector<R>>,
-    /// Jets of the angles of classes; the value itself is not used.
-    pub theta: Vec<R>,
-    /// Jets of slides.
-    pub slides: Vec<R>,
-    /// Rotations of classes.
-    pub class: Vec<Vector<R>>,
-    /// Turns by the drivers alone, of every orientation.
-    pub(crate) phase: Vec<Vector<R>>,
+    /// Groups in use.
+    pub(crate) groups: usize,
+    /// Coordinates (rad; slide drivers in units of the scale).
+    pub(crate) q: Vec<[R; G]>,
     /// Unit vectors at the driven angles.
-    pub(crate) unit: Vec<Vector<R>>,
+    pub(crate) unit: Vec<[Vector<R>; G]>,
+    /// Assembly signs, +1 or −1.
+    pub(crate) signs: Vec<[R; G]>,
+    /// Jets of points, one after another.
+    pub points: Vec<[Vector<R>; G]>,
+    /// Jets of orientations.
+    pub orient: Vec<[Vector<R>; G]>,
+    /// Jets of the legs of dyads, two a dyad.
+    pub(crate) legs: Vec<[Vector<R>; G]>,
+    /// Jets of the angles of classes; the value itself is not used.
+    pub theta: Vec<[R; G]>,
+    /// Jets of slides.
+    pub slides: Vec<[R; G]>,
+    /// Rotations of classes.
+    pub class: Vec<[Vector<R>; G]>,
+    /// Turns by the drivers alone, of every orientation.
+    pub(crate) phase: Vec<[Vector<R>; G]>,
     /// Square of the greatest coordinate or arm on the way to each point: what its
     /// rounding is a part of.
-    pub(crate) grain: Vec<R>,
+    pub(crate) grain: Vec<[R; G]>,
     /// Square of the product of the conditions of the dyads that each point depends on
     /// (squares need no roots).
-    pub(crate) point_condition: Vec<R>,
+    pub(crate) point_condition: Vec<[R; G]>,
     /// Likewise of each class.
-    pub(crate) class_condition: Vec<R>,
+    pub(crate) class_condition: Vec<[R; G]>,
     /// Likewise of each slide.
-    pub(crate) slide_condition: Vec<R>,
+    pub(crate) slide_condition: Vec<[R; G]>,
     /// Square of the condition of what each dyad with a sign hangs on.
-    pub(crate) before: Vec<R>,
+    pub(crate) before: Vec<[R; G]>,
     /// Square of the greatest condition of the position.
-    pub condition2: R,
+    pub condition2: [R; G],
     /// Lanes that did not come out as plainly solved; each is done again by itself.
-    pub care: R::Mask,
+    pub care: [R::Mask; G],
     /// How one position by itself came out (with several lanes: see `care`).
     pub status: Status,
     /// The first thing that failed, likewise.
@@ -102,39 +111,42 @@ pub struct State<R: Real = f64> {
 
 /// What is the same for all positions of a design.
 #[derive(Debug, Clone, Copy)]
-pub struct Context<'a, R: Real = f64> {
+pub struct Context<'a> {
     /// The compiled mechanism.
     pub plan: &'a Plan,
     /// One design.
     pub bound: &'a Bound,
     /// Index tables of the analogues.
     pub jets: &'a Jets,
-    /// Assembly signs, +1 or −1.
-    pub signs: &'a [R],
+    /// Assembly signs, +1 or −1, of positions by themselves.
+    pub signs: &'a [f64],
 }
 
-impl<R: Real> State<R> {
+impl<R: Real, const G: usize> State<R, G> {
     /// Work space for a plan.
     #[must_use]
     pub fn new(plan: &Plan, jets: &Jets) -> Self {
         let (len, slides) = (jets.len(), plan.slide_links.len());
         Self {
             len,
-            points: vec![Vector::ZERO; plan.points * len],
-            orient: vec![Vector::ZERO; plan.orientations.len() * len],
-            legs: vec![Vector::ZERO; plan.dyads().count() * 2 * len],
-            theta: vec![R::ZERO; plan.classes * len],
-            slides: vec![R::ZERO; slides * len],
-            class: vec![Vector::ONE; plan.classes],
-            phase: vec![Vector::ONE; plan.orientations.len()],
-            unit: vec![Vector::ONE; plan.drivers.len()],
-            grain: vec![R::ZERO; plan.points],
-            point_condition: vec![R::ONE; plan.points],
-            class_condition: vec![R::ONE; plan.classes],
-            slide_condition: vec![R::ONE; slides],
-            before: vec![R::ONE; plan.signs()],
-            condition2: R::ONE,
-            care: R::Mask::NONE,
+            groups: G,
+            q: vec![[R::ZERO; G]; plan.drivers.len()],
+            unit: vec![[Vector::ONE; G]; plan.drivers.len()],
+            signs: vec![[R::ONE; G]; plan.signs()],
+            points: vec![[Vector::ZERO; G]; plan.points * len],
+            orient: vec![[Vector::ZERO; G]; plan.orientations.len() * len],
+            legs: vec![[Vector::ZERO; G]; plan.dyads().count() * 2 * len],
+            theta: vec![[R::ZERO; G]; plan.classes * len],
+            slides: vec![[R::ZERO; G]; slides * len],
+            class: vec![[Vector::ONE; G]; plan.classes],
+            phase: vec![[Vector::ONE; G]; plan.orientations.len()],
+            grain: vec![[R::ZERO; G]; plan.points],
+            point_condition: vec![[R::ONE; G]; plan.points],
+            class_condition: vec![[R::ONE; G]; plan.classes],
+            slide_condition: vec![[R::ONE; G]; slides],
+            before: vec![[R::ONE; G]; plan.signs()],
+            condition2: [R::ONE; G],
+            care: [R::Mask::NONE; G],
             status: Status::Ok,
             fault: None,
         }
@@ -148,72 +160,64 @@ impl<R: Real> State<R> {
             bound.fixed.iter().zip(self.points.chunks_exact_mut(len)).enumerate()
         {
             let fixed = Vector::splat(fixed);
-            jet.fill(Vector::ZERO);
-            jet[0] = fixed;
-            self.grain[point] = fixed.norm2();
+            jet.fill([Vector::ZERO; G]);
+            jet[0] = [fixed; G];
+            self.grain[point] = [fixed.norm2(); G];
         }
-        self.class[0] = Vector::ONE;
-        self.theta[..len].fill(R::ZERO);
+        self.class[0] = [Vector::ONE; G];
+        self.theta[..len].fill([R::ZERO; G]);
         for (orientation, jet) in plan.orientations.iter().zip(self.orient.chunks_exact_mut(len)) {
             if orientation.class == 0 {
-                jet.fill(Vector::ZERO);
-                jet[0] = Vector::ONE;
+                jet.fill([Vector::ZERO; G]);
+                jet[0] = [Vector::ONE; G];
             }
         }
         for driver in 0..plan.drivers.len() {
             let Some(slide) = plan.driven_slide(driver) else { continue };
             for k in 1..len {
                 let own = jets.driver_of[k] == Some(driver);
-                self.slides[slide * len + k] = if own { R::ONE } else { R::ZERO };
+                self.slides[slide * len + k] = [if own { R::ONE } else { R::ZERO }; G];
             }
         }
     }
 
-    /// Computes the position at `q` (rad; slide drivers in units of the scale).
+    /// Computes positions at their `q`, `unit` and `signs`.
     #[inline(always)]
-    pub fn solve(&mut self, cx: &Context<'_, R>, q: &[R]) {
-        for (driver, &value) in q.iter().enumerate() {
-            if cx.plan.driven_slide(driver).is_none() {
-                self.unit[driver] = Vector::at_angle(value);
-            }
-        }
-        self.solve_turned(cx, q);
-    }
-
-    /// The same where `unit` holds the unit vectors of the driven angles.
-    #[inline(always)]
-    pub(crate) fn solve_turned(&mut self, cx: &Context<'_, R>, q: &[R]) {
-        self.start(cx, q);
-        if self.care.all() {
-            self.status = Status::BadInput;
-            return;
-        }
+    pub(crate) fn solve_all(&mut self, cx: &Context<'_>) {
+        self.start(cx);
         for (index, step) in cx.plan.steps.iter().enumerate() {
-            match step {
-                Step::Dyad(dyad) => self.solve_dyad(cx, dyad, index),
-                &Step::Place { edge, backward } => self.place(cx, edge, backward),
-                Step::Fit(fit) => self.fit(cx, fit, index),
-            }
-            if self.status == Status::Unreachable {
+            if R::LANES == 1 && self.is_over() {
                 return;
             }
-        }
-        let mut greatest = R::ONE;
-        for list in [&self.point_condition, &self.class_condition, &self.slide_condition] {
-            for &one in list {
-                greatest = one.max(greatest);
+            match step {
+                Step::Dyad(dyad) => match dyad.binary {
+                    Some(classes) => self.solve_binary(cx, dyad, classes, index),
+                    None => {
+                        for g in 0..self.groups.min(G) {
+                            self.solve_dyad(g, cx, dyad, index);
+                        }
+                    }
+                },
+                &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
+                Step::Fit(fit) => {
+                    for g in 0..self.groups.min(G) {
+                        self.fit(g, cx, fit, index);
+                    }
+                }
             }
         }
-        self.condition2 = greatest;
-        if self.status == Status::Ok && self.near_singular().all() {
-            self.status = Status::NearSingular;
-        }
+    }
+
+    /// Whether nothing is left to be computed.
+    #[inline(always)]
+    fn is_over(&self) -> bool {
+        matches!(self.status, Status::Unreachable | Status::BadInput)
     }
 
     /// Where fewer than six digits of the analogues remain.
     #[inline(always)]
-    pub(crate) fn near_singular(&self) -> R::Mask {
-        R::splat(NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION).lt(self.condition2)
+    pub(crate) fn near_singular(&self, g: usize) -> R::Mask {
+        R::splat(NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION).lt(self.condition2[g])
     }
 
     /// A coordinate that cannot be computed with.
@@ -228,139 +232,203 @@ impl<R: Real> State<R> {
         self.status = Status::Lost;
     }
 
-    /// Lanes where a step did not close. With one lane, or none left, the rest is spared.
+    /// Lanes where a step did not close; a position by itself is done with then.
     #[inline(always)]
-    pub(crate) fn open(&mut self, open: R::Mask, fault: impl Fn() -> Fault) {
-        if open.any() {
-            self.care = self.care.or(open);
-            if self.care.all() {
-                self.fault = Some(fault());
-                self.status = Status::Unreachable;
-            }
+    pub(crate) fn open(&mut self, g: usize, open: R::Mask, fault: impl Fn() -> Fault) {
+        self.care[g] = self.care[g].or(open);
+        if R::LANES == 1 && open.any() {
+            self.fault = Some(fault());
+            self.status = Status::Unreachable;
         }
     }
 
     #[inline(always)]
-    fn start(&mut self, cx: &Context<'_, R>, q: &[R]) {
-        let len = self.len;
+    fn start(&mut self, cx: &Context<'_>) {
         self.fault = None;
         self.status = Status::Ok;
-        self.condition2 = R::ONE;
-        self.care = R::Mask::NONE;
-        for (driver, &value) in q.iter().enumerate() {
-            self.care = self.care.or(value.finite().not());
-            if let Some(slide) = cx.plan.driven_slide(driver) {
-                self.slides[slide * len] = value;
+        self.condition2 = [R::ONE; G];
+        self.care = [R::Mask::NONE; G];
+        for (driver, q) in self.q.iter().enumerate() {
+            for g in 0..G {
+                self.care[g] = self.care[g].or(q[g].finite().not());
             }
+            if let Some(slide) = cx.plan.driven_slide(driver) {
+                self.slides[slide * self.len] = *q;
+            }
+        }
+        if R::LANES == 1 && self.care[0].any() {
+            self.status = Status::BadInput;
+            return;
         }
         for (o, orientation) in cx.plan.orientations.iter().enumerate() {
             if !orientation.driven {
                 continue;
             }
-            let mut phase: Option<Vector<R>> = None;
-            for (&turns, &unit) in orientation.turns.iter().zip(&self.unit) {
-                let unit = if turns < 0 { unit.conj() } else { unit };
-                for _ in 0..turns.unsigned_abs() {
-                    phase = Some(if let Some(p) = phase { p * unit } else { unit });
+            for g in 0..self.groups.min(G) {
+                let mut phase = Vector::ONE;
+                match orientation.lone {
+                    Some((driver, false)) => phase = self.unit[driver][g],
+                    Some((driver, true)) => phase = self.unit[driver][g].conj(),
+                    None => {
+                        for (&turns, unit) in orientation.turns.iter().zip(&self.unit) {
+                            let unit = if turns < 0 { unit[g].conj() } else { unit[g] };
+                            for _ in 0..turns.unsigned_abs() {
+                                phase = phase * unit;
+                            }
+                        }
+                    }
+                }
+                self.phase[o][g] = phase;
+                if orientation.class == 0 {
+                    self.orient_driven(g, cx, o, phase);
                 }
             }
-            let phase = phase.unwrap_or(Vector::ONE);
-            self.phase[o] = phase;
-            if orientation.class == 0 {
-                self.orient_driven(cx, o);
+        }
+    }
+
+    /// Places one end of an edge from the other, in all groups.
+    #[inline(always)]
+    fn place_all(&mut self, cx: &Context<'_>, e: usize, backward: bool) {
+        // Jets of known length are arrays.
+        match (cx.plan.edges[e].along == Along::Nothing, self.len) {
+            (true, 1) => self.place_rigid(cx, e, backward, 1),
+            (true, 2) => self.place_rigid(cx, e, backward, 2),
+            (true, 3) => self.place_rigid(cx, e, backward, 3),
+            (true, 4) => self.place_rigid(cx, e, backward, 4),
+            _ => {
+                for g in 0..self.groups.min(G) {
+                    self.place(g, cx, e, backward);
+                }
             }
         }
     }
 
-    /// Condition of what an edge starts from, without the points.
+    /// An edge of constant length, jets of `len` entries.
     #[inline(always)]
-    fn edge_condition(&self, cx: &Context<'_, R>, e: usize) -> R {
-        let turned = self.class_condition[cx.plan.class_of(e)];
-        match cx.plan.edges[e].along {
-            Along::Slide(slide) => turned.max(self.slide_condition[slide]),
-            _ => turned,
-        }
-    }
-
-    #[inline(always)]
-    pub(crate) fn place(&mut self, cx: &Context<'_, R>, e: usize, backward: bool) {
+    fn place_rigid(&mut self, cx: &Context<'_>, e: usize, backward: bool, len: usize) {
         let edge = &cx.plan.edges[e];
-        let (mut from, mut to) = (edge.edge.from, edge.edge.to);
-        if backward {
-            (from, to) = (to, from);
-        }
-        let len = self.len;
-        let [from_jet, to_jet] = [from, to].map(|point| point * len..(point + 1) * len);
-        let Ok([base, out]) = self.points.get_disjoint_mut([from_jet, to_jet]) else { return };
-        match (edge.leg, edge.along) {
-            (Some(leg), _) => {
-                let leg_jet = &self.legs[leg.index * len..][..len];
-                let ahead = leg.backward == backward;
-                for ((out, &base), &v) in out.iter_mut().zip(&*base).zip(leg_jet) {
-                    *out = if ahead { base + v } else { base - v };
+        let [from, to] = edge.ends(backward);
+        let jet = |place: usize| place * len..place * len + len;
+        let Ok([base, out]) = self.points.get_disjoint_mut([from, to].map(jet)) else { return };
+        let groups = self.groups.min(G);
+        match edge.leg {
+            Some(leg) if leg.backward == backward => {
+                let v = &self.legs[jet(leg.index)];
+                for k in 0..len {
+                    for g in 0..groups {
+                        out[k][g] = base[k][g] + v[k][g];
+                    }
                 }
             }
-            (None, Along::Nothing) => {
+            Some(leg) => {
+                let v = &self.legs[jet(leg.index)];
+                for k in 0..len {
+                    for g in 0..groups {
+                        out[k][g] = base[k][g] - v[k][g];
+                    }
+                }
+            }
+            None => {
                 let rigid = Vector::splat(cx.bound.rigid[e]);
                 let rigid = if backward { -rigid } else { rigid };
-                let orient = &self.orient[edge.orientation * len..][..len];
-                for ((out, &base), &unit) in out.iter_mut().zip(&*base).zip(orient) {
-                    *out = base + unit * rigid;
-                }
-            }
-            _ => {
+                let orient = &self.orient[jet(edge.orientation)];
                 for k in 0..len {
-                    let v = self.edge(cx, e, k);
-                    let base = self.points[from * len + k];
-                    self.points[to * len + k] = if backward { base - v } else { base + v };
+                    for g in 0..groups {
+                        out[k][g] = base[k][g] + orient[k][g] * rigid;
+                    }
                 }
             }
         }
-        let (start, end) = (self.points[from * len], self.points[to * len]);
+        let arm = R::splat(cx.bound.arm2[e]);
+        let turned = &self.class_condition[edge.class];
+        let Ok([from_grain, grain]) = self.grain.get_disjoint_mut([from, to]) else { return };
+        let Ok([before, condition]) = self.point_condition.get_disjoint_mut([from, to]) else {
+            return;
+        };
+        for g in 0..groups {
+            grain[g] = from_grain[g].max(arm).max(out[0][g].norm2());
+            condition[g] = before[g].max(turned[g]);
+        }
+    }
+
+    /// The same for any edge, in one group.
+    #[inline(always)]
+    pub(crate) fn place(&mut self, g: usize, cx: &Context<'_>, e: usize, backward: bool) {
+        let edge = &cx.plan.edges[e];
+        let [from, to] = edge.ends(backward);
+        for k in 0..self.len {
+            let v = self.edge(g, cx, e, k);
+            let base = self.points[from * self.len + k][g];
+            self.points[to * self.len + k][g] = if backward { base - v } else { base + v };
+        }
+        let (start, end) = (self.points[from * self.len][g], self.points[to * self.len][g]);
         let arm = match edge.along {
             Along::Nothing => R::splat(cx.bound.arm2[e]),
             _ => (end - start).norm2(),
         };
-        self.grain[to] = self.grain[from].max(arm).max(end.norm2());
-        self.point_condition[to] = self.point_condition[from].max(self.edge_condition(cx, e));
+        self.grain[to][g] = self.grain[from][g].max(arm).max(end.norm2());
+        let mut condition = self.point_condition[from][g].max(self.class_condition[edge.class][g]);
+        if let Along::Slide(slide) = edge.along {
+            condition = condition.max(self.slide_condition[slide][g]);
+        }
+        self.point_condition[to][g] = condition;
     }
 
     #[inline(always)]
-    fn solve_dyad(&mut self, cx: &Context<'_, R>, dyad: &Dyad, index: usize) {
-        let mut before = self.point_condition[dyad.start].max(self.point_condition[dyad.end]);
+    fn solve_dyad(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, index: usize) {
+        let mut before = self.point_condition[dyad.start][g].max(self.point_condition[dyad.end][g]);
         for part in &dyad.others {
             if part.turns.is_none() {
-                before = before.max(self.class_condition[cx.plan.class_of(part.edge)]);
+                before = before.max(self.class_condition[cx.plan.class_of(part.edge)][g]);
             }
             if let (Along::Slide(slide), None) = (cx.plan.edges[part.edge].along, part.slides) {
-                before = before.max(self.slide_condition[slide]);
+                before = before.max(self.slide_condition[slide][g]);
             }
         }
         if let Some(sign) = dyad.sign {
-            self.before[sign] = before;
+            self.before[sign][g] = before;
         }
-        let solved = self.close(cx, dyad);
-        self.open(solved.open, || Fault::Open { step: index, gap: solved.gap.lane(0) });
+        let solved = self.close(g, cx, dyad);
+        self.open(g, solved.open, || Fault::Open { step: index, gap: solved.gap.lane(0) });
         if self.status == Status::Unreachable {
             return;
         }
         let condition = before * solved.arm2 / solved.sine2;
         for unknown in dyad.unknowns {
             match unknown {
-                Unknown::Class(c) => self.class_condition[c] = condition,
-                Unknown::Slide(s) => self.slide_condition[s] = condition,
+                Unknown::Class(c) => self.class_condition[c][g] = condition,
+                Unknown::Slide(s) => self.slide_condition[s][g] = condition,
             }
         }
+        self.condition2[g] = condition.max(self.condition2[g]);
         let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));
-        if flat.any() {
-            self.care = self.care.or(flat);
-            if flat.all() {
-                self.fault.get_or_insert(Fault::Flat { step: index });
-                self.status = Status::Singular;
-                self.no_analogues(dyad);
-                return;
+        self.care[g] = self.care[g].or(flat);
+        if R::LANES == 1 && flat.any() {
+            self.fault.get_or_insert(Fault::Flat { step: index });
+            self.status = Status::Singular;
+            self.no_analogues(g, dyad);
+            return;
+        }
+        self.analogues(g, cx, dyad);
+    }
+}
+
+impl State {
+    /// Computes one position at `q` (rad; slide drivers in units of the scale).
+    #[inline(never)]
+    pub fn solve(&mut self, cx: &Context<'_>, q: &[f64]) {
+        for (own, &sign) in self.signs.iter_mut().zip(cx.signs) {
+            own[0] = sign;
+        }
+        for (driver, &value) in q.iter().enumerate() {
+            self.q[driver][0] = value;
+            if cx.plan.driven_slide(driver).is_none() {
+                self.unit[driver][0] = Vector::at_angle(value);
             }
         }
-        self.analogues(cx, dyad);
+        self.solve_all(cx);
+        if self.status == Status::Ok && self.near_singular(0) {
+            self.status = Status::NearSingular;
+        }
     }
 }

@@ -58,16 +58,20 @@ pub(crate) struct Spot<R = f64> {
     knot: [usize; LANES],
 }
 
-/// Half a turn, less what keeps the choice of [`nearest`] off exact half turns.
+/// Half a turn, less what keeps the choice of [`turns_between`] off exact half turns.
 const ABOUT_HALF: f64 = 0.5 - 1.0 / 1024.0;
 
-/// The angle that differs from `angle` by whole turns and is nearest to `near`; about
-/// half a turn off (a link that points to where a joint went through infinity) the one
-/// ahead, whatever the rounding.
+/// Whole turns from `angle` to what is nearest to `near`; about half a turn off (a link that
+/// points to where a joint went through infinity) to the one ahead, whatever the rounding.
+#[inline(always)]
+pub(super) fn turns_between<R: Real>(angle: R, near: R) -> R {
+    ((near - angle) * R::splat(1.0 / TAU) + R::splat(ABOUT_HALF)).floor()
+}
+
+/// The angle that differs from `angle` by whole turns and is nearest to `near`.
 #[inline(always)]
 pub(super) fn nearest<R: Real>(angle: R, near: R) -> R {
-    let turns = ((near - angle) * R::splat(1.0 / TAU) + R::splat(ABOUT_HALF)).floor();
-    angle + R::splat(TAU) * turns
+    angle + R::splat(TAU) * turns_between(angle, near)
 }
 
 /// An angle less whole turns, to the last bit as long as the turns are below 2^48: 2π in

@@ -166,20 +166,25 @@ impl<'a, 'b> Walker<'a, 'b> {
             let (angles, sides) = (from.to_vec(), Vec::new());
             return Knot { at, reached, angles, rates, spread, sides, open, solved };
         }
-        let angles =
-            self.state.class.iter().zip(from).map(|(u, &near)| nearest(u.angle(), near)).collect();
+        let angles = self
+            .state
+            .class
+            .iter()
+            .zip(from)
+            .map(|(u, &near)| nearest(u[0].angle(), near))
+            .collect();
         let len = self.state.len;
         let rates = (0..from.len())
-            .map(|c| self.along(|d| self.state.theta[c * len + 1 + d]).abs())
+            .map(|c| self.along(|d| self.state.theta[c * len + 1 + d][0]).abs())
             .collect();
         let lines = self.cx.plan.dyads().filter(|dyad| dyad.form == Form::TwoLines);
-        let sides = lines.map(|dyad| self.state.determinant(&self.cx, dyad) > 0.0).collect();
+        let sides = lines.map(|dyad| self.state.determinant(0, &self.cx, dyad) > 0.0).collect();
         Knot { at, reached, angles, rates, spread, sides, open: None, solved }
     }
 
     /// Spread of a dyad at the position just visited, and its rate along the path.
     pub(crate) fn spread(&self, dyad: &Dyad) -> (f64, f64) {
-        let at = |driver: usize| self.state.spread(&self.cx, dyad, driver + 1);
+        let at = |driver: usize| self.state.spread(0, &self.cx, dyad, driver + 1);
         (at(0).0, self.along(|driver| at(driver).1))
     }
 
@@ -230,7 +235,7 @@ impl<'a, 'b> Walker<'a, 'b> {
                 let len = self.state.len;
                 self.visit(at)
                     && (0..self.state.class.len()).any(|c| {
-                        let rate = self.along(|d| self.state.theta[c * len + 1 + d]);
+                        let rate = self.along(|d| self.state.theta[c * len + 1 + d][0]);
                         (rate * (end - from)).abs() > LIFT_TURN
                     })
             })

@@ -55,7 +55,8 @@ pub struct Dyad {
     /// The unknowns; a rotation comes before a slide, and the rotation of the
     /// link listed first before the other.
     pub unknowns: [Unknown; 2],
-    /// The orientations that turn with each unknown (none with a slide).
+    /// The orientations that turn with each unknown (none with a slide) and that
+    /// something else than its legs asks for.
     pub turned: [Vec<usize>; 2],
     /// The loop, edge by edge.
     pub path: Vec<Part>,
@@ -63,6 +64,8 @@ pub struct Dyad {
     pub others: Vec<Part>,
     /// Whether what turns with each unknown is a leg: constant parts only, but for its slide.
     pub leg: [bool; 2],
+    /// The classes of its two legs, if there is nothing else.
+    pub binary: Option<[usize; 2]>,
     /// Place among the dyads.
     pub index: usize,
     /// Known point where the path starts; of a path that ends where it starts: point 0.
@@ -289,7 +292,13 @@ fn dyad(
     let others =
         path.iter().copied().filter(|part| !part.in_leg || part.slides.is_some()).collect();
     let index = plan.dyads().count();
-    Dyad { form, unknowns, turned, path, others, leg, index, start, end, sign }
+    let binary = match unknowns {
+        [Unknown::Class(a), Unknown::Class(b)] if path.iter().all(|part| part.in_leg) => {
+            Some([a, b])
+        }
+        _ => None,
+    };
+    Dyad { form, unknowns, turned, path, others, leg, binary, index, start, end, sign }
 }
 
 /// What the edges of a loop add to its equation, and the orientations of its legs.

@@ -15,6 +15,14 @@ pub struct Term {
     pub right: usize,
 }
 
+/// [`Jets::rotation`] of one driver to order 3, as a constant.
+pub const ONE_DRIVER: [&[Term]; 4] = [
+    &[],
+    &[],
+    &[Term { factor: 1.0, left: 1, right: 1 }],
+    &[Term { factor: 1.0, left: 2, right: 1 }, Term { factor: 2.0, left: 1, right: 2 }],
+];
+
 /// Index tables for jets of a given order in a given number of drivers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Jets {
@@ -160,6 +168,7 @@ mod tests {
         // U''' = i (U'' Θ' + 2 U' Θ'') + i U Θ'''
         let terms: Vec<_> = jets.rotation[3].iter().map(|t| (t.factor, t.left, t.right)).collect();
         assert_eq!(terms, [(1.0, 2, 1), (2.0, 1, 2)]);
+        assert!(ONE_DRIVER.iter().zip(&jets.rotation).all(|(constant, made)| constant == made));
     }
 
     #[test]

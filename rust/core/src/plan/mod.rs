@@ -39,12 +39,24 @@ pub struct PlanEdge {
     pub edge: Edge,
     /// Index of its link's orientation.
     pub orientation: usize,
+    /// Class of that.
+    pub class: usize,
     /// The slide along it.
     pub along: Along,
     /// Whether the motion depends on it (not on that of a coupler point).
     pub paired: bool,
     /// The leg that it is by itself.
     pub leg: Option<LegEdge>,
+}
+
+impl PlanEdge {
+    /// Its points: where it is run from and where to.
+    #[must_use]
+    #[inline(always)]
+    pub fn ends(&self, backward: bool) -> [usize; 2] {
+        let (from, to) = (self.edge.from, self.edge.to);
+        if backward { [to, from] } else { [from, to] }
+    }
 }
 
 /// An edge that is a leg of a dyad.
@@ -65,8 +77,8 @@ pub struct Orientation {
     pub turns: Vec<i8>,
     /// Whether a multiple is not 0.
     pub driven: bool,
-    /// Whether its analogues are asked for by something else than the legs.
-    pub used: bool,
+    /// The driver that alone turns it, once, and whether the other way round.
+    pub lone: Option<(usize, bool)>,
 }
 
 /// One thing to do at every position.
@@ -151,6 +163,11 @@ pub struct Plan {
     pub higher: Option<Higher>,
 }
 
+/// The drivers that turn something, and how often.
+fn turning(turns: &[i8]) -> Box<[(usize, i8)]> {
+    turns.iter().copied().enumerate().filter(|&(_, t)| t != 0).collect()
+}
+
 impl Plan {
     /// Compiles a linkage whose structure has been found.
     ///
@@ -167,8 +184,12 @@ impl Plan {
         let mut link_orientation = Vec::new();
         for r in &rotation {
             let driven = r.turns.iter().any(|&t| t != 0);
-            let orientation =
-                Orientation { class: r.class, turns: r.turns.clone(), driven, used: false };
+            let lone = match *turning(&r.turns) {
+                [(driver, 1)] => Some((driver, false)),
+                [(driver, -1)] => Some((driver, true)),
+                _ => None,
+            };
+            let orientation = Orientation { class: r.class, turns: r.turns.clone(), driven, lone };
             let place = orientations.iter().position(|o| *o == orientation).unwrap_or_else(|| {
                 orientations.push(orientation);
                 orientations.len() - 1
@@ -194,6 +215,7 @@ impl Plan {
                 PlanEdge {
                     edge,
                     orientation: link_orientation[edge.link],
+                    class: rotation[edge.link].class,
                     along,
                     paired,
                     leg: None,
@@ -223,7 +245,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Finds the edges that are legs, and the orientations that other edges use.
+    /// Finds the edges that are legs, and the orientations that something else asks for.
     fn mark_legs(&mut self) {
         let mut found = Vec::new();
         for dyad in self.dyads() {
@@ -241,16 +263,28 @@ impl Plan {
         for (edge, leg) in found {
             self.edges[edge].leg = Some(leg);
         }
-        for edge in &self.edges {
-            let orientation = &mut self.orientations[edge.orientation];
-            orientation.used |= edge.leg.is_none();
+        let mut used = vec![false; self.orientations.len()];
+        for edge in self.edges.iter().filter(|edge| edge.leg.is_none()) {
+            used[edge.orientation] = true;
+        }
+        for links in &self.slide_links {
+            for &link in links {
+                used[self.link_orientation[link]] = true;
+            }
+        }
+        for step in &mut self.steps {
+            if let Step::Dyad(dyad) = step {
+                for turned in &mut dyad.turned {
+                    turned.retain(|&o| used[o]);
+                }
+            }
         }
     }
 
     /// Class of an edge's rotation.
     #[must_use]
     pub fn class_of(&self, edge: usize) -> usize {
-        self.orientations[self.edges[edge].orientation].class
+        self.edges[edge].class
     }
 
     /// The slide that is driver number `driver`, if it is one.

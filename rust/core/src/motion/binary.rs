@@ -1,0 +1,138 @@
+//! Dyads of two binary links: most dyads are so, and there is nothing in them to sort.
+//!
+//! The same closed form and the same equations as of every dyad (see `dyad`, `analogue`);
+//! with one driver they are compiled for each order by itself, so that jets are arrays of
+//! known length and the tables are constants.
+
+use super::forms::two_circles;
+use super::state::{Context, FLAT2, Fault, State, Status};
+use crate::lanes::{Mask, Real};
+use crate::plan::Dyad;
+use crate::plan::jet::{ONE_DRIVER, Term};
+use crate::plane::Vector;
+
+impl<R: Real, const G: usize> State<R, G> {
+    /// Solves the dyad (step `index`) whose two legs turn with these classes.
+    #[inline(always)]
+    pub(crate) fn solve_binary(
+        &mut self,
+        cx: &Context<'_>,
+        dyad: &Dyad,
+        classes: [usize; 2],
+        index: usize,
+    ) {
+        match (cx.jets.drivers, self.len) {
+            (1, 1) => self.binary(cx, dyad, classes, index, 1, &|k| ONE_DRIVER[k]),
+            (1, 2) => self.binary(cx, dyad, classes, index, 2, &|k| ONE_DRIVER[k]),
+            (1, 3) => self.binary(cx, dyad, classes, index, 3, &|k| ONE_DRIVER[k]),
+            (1, 4) => self.binary(cx, dyad, classes, index, 4, &|k| ONE_DRIVER[k]),
+            (_, len) => self.binary(cx, dyad, classes, index, len, &|k| &cx.jets.rotation[k][..]),
+        }
+        for (turned, class) in dyad.turned.iter().zip(classes) {
+            for &o in turned {
+                for g in 0..self.groups.min(G) {
+                    self.turn_other(g, cx, o, class);
+                }
+            }
+        }
+        if R::LANES == 1 && matches!(self.fault, Some(Fault::Flat { step }) if step == index) {
+            self.no_analogues(0, dyad);
+        }
+    }
+
+    /// `len`: entries of a jet; `terms`: their table.
+    #[inline(always)]
+    fn binary<'t>(
+        &mut self,
+        cx: &Context<'_>,
+        dyad: &Dyad,
+        classes: [usize; 2],
+        index: usize,
+        len: usize,
+        terms: &impl Fn(usize) -> &'t [Term],
+    ) {
+        let jet = |place: usize| place * len..place * len + len;
+        let legs = [2 * dyad.index, 2 * dyad.index + 1].map(jet);
+        let (start, end) = (&self.points[jet(dyad.start)], &self.points[jet(dyad.end)]);
+        let grain = [&self.grain[dyad.start], &self.grain[dyad.end]];
+        let before = [&self.point_condition[dyad.start], &self.point_condition[dyad.end]];
+        let (
+            Some(sign),
+            Ok([a_jet, b_jet]),
+            Ok([u, v]),
+            Ok([first_turn, second_turn]),
+            Ok([first_condition, second_condition]),
+        ) = (
+            dyad.sign,
+            self.legs.get_disjoint_mut(legs),
+            self.theta.get_disjoint_mut(classes.map(jet)),
+            self.class.get_disjoint_mut(classes),
+            self.class_condition.get_disjoint_mut(classes),
+        )
+        else {
+            return;
+        };
+        let (signs, before_sign) = (&self.signs[sign], &mut self.before[sign]);
+        let [a, b] = &cx.bound.legs[dyad.index];
+        let (a, b) = (a.on_lanes(), b.on_lanes());
+        let levers = [R::splat(cx.bound.lever2[classes[0]]), R::splat(cx.bound.lever2[classes[1]])];
+        for g in 0..self.groups.min(G) {
+            let (first, second, solved) = two_circles(&a, &b, end[0][g] - start[0][g], signs[g]);
+            let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));
+            self.care[g] = self.care[g].or(solved.open).or(flat);
+            if R::LANES == 1 && solved.open.any() {
+                self.fault = Some(Fault::Open { step: index, gap: solved.gap.lane(0) });
+                self.status = Status::Unreachable;
+                return;
+            }
+            if R::LANES == 1 && flat.any() {
+                self.fault.get_or_insert(Fault::Flat { step: index });
+                self.status = Status::Singular;
+            }
+            before_sign[g] = before[0][g].max(before[1][g]);
+            let data = R::splat(0.25) * grain[0][g].max(grain[1][g]);
+            let lever = (levers[0].max(data) * a.per).max(levers[1].max(data) * b.per);
+            let condition = before_sign[g] * lever.max(R::ONE) / solved.sine2;
+            first_condition[g] = condition;
+            second_condition[g] = condition;
+            self.condition2[g] = condition.max(self.condition2[g]);
+            first_turn[g] = first;
+            second_turn[g] = second;
+            let (first, second) = (first * a.vector, second * b.vector);
+            a_jet[0][g] = first;
+            b_jet[0][g] = second;
+            let columns = [first.left(), second.left()];
+            let per = R::ONE / columns[0].cross(columns[1]);
+            for k in 1..len {
+                let (mut first, mut second) = (Vector::ZERO, Vector::ZERO);
+                for term in terms(k) {
+                    let factor = R::splat(term.factor);
+                    first += a_jet[term.left][g].scale(factor * u[term.right][g]);
+                    second += b_jet[term.left][g].scale(factor * v[term.right][g]);
+                }
+                let (first, second) = (first.left(), second.left());
+                let known = (start[k][g] - end[k][g]) + first + second;
+                let (first_rate, second_rate) =
+                    (columns[1].cross(known) * per, known.cross(columns[0]) * per);
+                u[k][g] = first_rate;
+                v[k][g] = second_rate;
+                a_jet[k][g] = first + columns[0].scale(first_rate);
+                b_jet[k][g] = second + columns[1].scale(second_rate);
+            }
+        }
+    }
+
+    /// An orientation that turns with a leg, where something else asks for it.
+    #[inline(always)]
+    fn turn_other(&mut self, g: usize, cx: &Context<'_>, o: usize, class: usize) {
+        let len = self.len;
+        let rotation = self.class[class][g];
+        self.orient[o * len][g] =
+            if cx.plan.orientations[o].driven { rotation * self.phase[o][g] } else { rotation };
+        for k in 1..len {
+            let rest = self.orientation_without_top(g, cx, o, k);
+            let top = self.orient[o * len][g].left().scale(self.theta[class * len + k][g]);
+            self.orient[o * len + k][g] = rest + top;
+        }
+    }
+}
