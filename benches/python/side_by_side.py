@@ -11,7 +11,7 @@ import numpy as np
 from closed_form import blocked
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from closed_form import Float, Form
 
@@ -34,7 +34,9 @@ class Case:
     dimensions: Sequence[Any]
     outputs: Sequence[str]
     order: int
+    # Arrays that are there already, for NumPy and for `assur`.
     out: Sequence[Float] = ()
+    motion: assur.Motion | None = None
 
     @classmethod
     def make(
@@ -53,11 +55,12 @@ class Case:
         columns = [x * random.uniform(1.0, 1.01, (designs, 1)) for x in values]
         rows = {name: column[:, 0] for name, column in zip(names, columns, strict=True)}
         case = cls(one.with_dimensions(rows), columns, outputs, order)
-        return replace(case, out=[np.zeros_like(values) for _, values in case._arrays()])
+        out = [np.zeros_like(values) for _, values in case._arrays()]
+        return replace(case, out=out, motion=case.assur())
 
-    def assur(self, threads: int = 1) -> assur.Motion:
+    def assur(self, threads: int = 1, out: assur.Motion | None = None) -> assur.Motion:
         return self.mechanism.solve(
-            Q, order=self.order, outputs=self.outputs, on_error="nan", threads=threads
+            Q, order=self.order, outputs=self.outputs, on_error="nan", threads=threads, out=out
         )
 
     def numpy(self, form: Form) -> Sequence[Float]:
@@ -88,3 +91,13 @@ class Case:
                 if name in self.mechanism.links:
                     difference -= math.tau * np.round(difference / math.tau)
                 assert np.abs(difference).max() < 1e-9, name
+
+
+ONE_THREAD: dict[str, Callable[[Case], object]] = {
+    f"{ASSUR}, 1 thread": lambda case: case.assur(1),
+}
+MANY: dict[str, Callable[[Case], object]] = ONE_THREAD | {
+    f"{ASSUR}, 2 threads": lambda case: case.assur(2),
+    f"{ASSUR}, 1 thread, out=": lambda case: case.assur(1, case.motion),
+    f"{ASSUR}, 2 threads, out=": lambda case: case.assur(2, case.motion),
+}

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from closed_form import textbook, vectors
-from side_by_side import ASSUR, DESIGNS, ONE, SIZE, Case
+from side_by_side import DESIGNS, MANY, ONE, ONE_THREAD, SIZE, Case
 
 import assur
 
@@ -18,16 +18,18 @@ if TYPE_CHECKING:
 NAMES = ["crank.length", "coupler.length", "rocker.length", "ground.D.x"]
 OUTPUTS = ["B", "C", "coupler", "rocker"]
 
-RUNS_OF_ONE: dict[str, Callable[[Case], object]] = {
-    f"{ASSUR}, 1 thread": lambda case: case.assur(1),
+RUNS_OF_ONE: dict[str, Callable[[Case], object]] = ONE_THREAD | {
     "textbook": lambda case: case.numpy(textbook),
     "vectors": lambda case: case.numpy(vectors),
 }
-RUNS = RUNS_OF_ONE | {
-    f"{ASSUR}, 2 threads": lambda case: case.assur(2),
-    "vectors blocked, 1 thread": lambda case: case.blocked(vectors, 1),
-    "vectors blocked, 2 threads": lambda case: case.blocked(vectors, 2),
-}
+RUNS = (
+    RUNS_OF_ONE
+    | MANY
+    | {
+        "vectors blocked, 1 thread": lambda case: case.blocked(vectors, 1),
+        "vectors blocked, 2 threads": lambda case: case.blocked(vectors, 2),
+    }
+)
 
 
 def case(designs: int | None) -> Case:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 from closed_form import jansen
 from library import jansen_leg
-from side_by_side import ASSUR, DESIGNS, ONE, SIZE, Case
+from side_by_side import DESIGNS, MANY, ONE, ONE_THREAD, SIZE, Case
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,15 +16,17 @@ if TYPE_CHECKING:
 
 OUTPUTS = ["M", "T", "W", "L", "K", "F"]
 
-RUNS_OF_ONE: dict[str, Callable[[Case], object]] = {
-    f"{ASSUR}, 1 thread": lambda case: case.assur(1),
+RUNS_OF_ONE: dict[str, Callable[[Case], object]] = ONE_THREAD | {
     "circles": lambda case: case.numpy(jansen),
 }
-RUNS = RUNS_OF_ONE | {
-    f"{ASSUR}, 2 threads": lambda case: case.assur(2),
-    "circles blocked, 1 thread": lambda case: case.blocked(jansen, 1),
-    "circles blocked, 2 threads": lambda case: case.blocked(jansen, 2),
-}
+RUNS = (
+    RUNS_OF_ONE
+    | MANY
+    | {
+        "circles blocked, 1 thread": lambda case: case.blocked(jansen, 1),
+        "circles blocked, 2 threads": lambda case: case.blocked(jansen, 2),
+    }
+)
 
 
 def case(designs: int | None) -> Case:

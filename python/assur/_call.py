@@ -25,6 +25,8 @@ class Tracks:
     joints: Held
     links: Held
     slides: Held
+    # The same as the core wrote them, with the statuses; none in a copy.
+    raw: tuple[list[Float], npt.NDArray[np.uint8]] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,16 +46,21 @@ class Call:
         return (*self.mechanism.shape, *self.positions)
 
     def arrays(
-        self, joints: dict[str, int], links: dict[str, int], slides: dict[str, int]
+        self,
+        joints: dict[str, int],
+        links: dict[str, int],
+        slides: dict[str, int],
+        kept: tuple[list[Float], npt.NDArray[np.uint8]] | None = None,
     ) -> tuple[Tracks, npt.NDArray[np.uint8]]:
-        """Solve, and keep these joints, angles of links, and slides."""
+        """Solve for these joints, angles of links, and slides; into the arrays kept."""
         wanted = [list(of.values()) for of in (joints, links, slides)]
-        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]))
+        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]), kept)
         shape = self.shape
         tracks = Tracks(
             joints=self._named("joint", joints, found, (*shape, 2)),
             links=self._named("link", links, found, shape),
             slides=self._named("slide", slides, found, shape),
+            raw=(list(found.values()), status),
         )
         status = status.reshape(shape)
         status.flags.writeable = False
@@ -75,10 +82,10 @@ class Call:
         return values, np.ascontiguousarray(self.q).reshape(-1), self.per_design
 
     def _solve(
-        self, outputs: Outputs
+        self, outputs: Outputs, kept: tuple[list[Float], npt.NDArray[np.uint8]] | None = None
     ) -> tuple[dict[tuple[str, int, int], Float], npt.NDArray[np.uint8]]:
         return self.mechanism._core.solve(
-            *self.flat(), self.signs, self.order, outputs, self.threads
+            *self.flat(), self.signs, self.order, outputs, self.threads, kept
         )
 
     def _named(

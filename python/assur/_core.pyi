@@ -59,6 +59,7 @@ class Mechanism:
         order: int,
         outputs: tuple[list[int], list[int], list[int], list[int]],
         threads: int | None,
+        kept: tuple[list[_Float], npt.NDArray[np.uint8]] | None,
     ) -> tuple[dict[tuple[str, int, int], _Float], npt.NDArray[np.uint8]]: ...
     def diagnostics(
         self,

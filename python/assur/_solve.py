@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._call import Call
+from assur._call import Call, Tracks
 from assur._checks import checked_order, checked_signs, checked_threads, real_array
 from assur.description import Status
 from assur.errors import AssurError, DimensionError, InputError, PositionError
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from assur.mechanism import Mechanism
 
 Float: TypeAlias = npt.NDArray[np.float64]
+# Names and indices of joints, links, slides.
+Names: TypeAlias = tuple[dict[str, int], dict[str, int], dict[str, int]]
 
 
 def solve(
@@ -30,6 +32,7 @@ def solve(
     assembly: Mapping[str, int] | None,
     on_error: str,
     threads: Any,
+    out: Motion | None,
 ) -> Motion:
     """See `Mechanism.solve`."""
     if on_error not in ("raise", "nan"):
@@ -47,9 +50,41 @@ def solve(
         signs=_signs(mechanism, assembly),
         threads=checked_threads(threads),
     )
-    motion = Motion(call, *call.arrays(*_outputs(mechanism, outputs)))
+    wanted = _outputs(mechanism, outputs)
+    fresh = out is None
+    motion = Motion(call, *call.arrays(*wanted)) if fresh else _overwritten(out, call, wanted)
     if on_error == "raise":
         _raise_first(motion)
+    return motion
+
+
+def _overwritten(motion: Any, call: Call, wanted: Names) -> Motion:
+    """The call's motion in the arrays of another, which becomes it."""
+    if not isinstance(motion, Motion):
+        message = f"out is {motion!r}: a motion is needed"
+        raise InputError(message)
+    held = motion._tracks
+    names = [list(of) for of in (held.joints, held.links, held.slides)]
+    drivers = len(call.mechanism._core.q0)
+    given = (motion.shape, motion.order, motion._drivers, *names)
+    needed = (call.shape, call.order, drivers, *(list(of) for of in wanted))
+    what = ("shape", "order", "number of drivers", "joints", "links", "slides")
+    for of, one, other in zip(what, given, needed, strict=True):
+        if one != other:
+            message = f"out: its {of} is {one}, this call needs {other}"
+            raise InputError(message)
+    if held.raw is None:
+        message = "out: a copy cannot be overwritten, only a motion as solve returned it"
+        raise InputError(message)
+    # Interrupted, it is neither the one motion nor the other.
+    motion._tracks = Tracks({}, {}, {})
+    try:
+        tracks, status = call.arrays(*wanted, held.raw)
+    except Exception:
+        # Refused before anything was written.
+        motion._tracks = held
+        raise
+    motion._become(call, tracks, status)
     return motion
 
 
@@ -82,9 +117,7 @@ def _signs(mechanism: Mechanism, assembly: Mapping[str, int] | None) -> list[int
     return list(signs.values())
 
 
-def _outputs(
-    mechanism: Mechanism, names: Iterable[str] | None
-) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
+def _outputs(mechanism: Mechanism, names: Iterable[str] | None) -> Names:
     joints = {name: i for i, (name, _, _) in enumerate(mechanism._parts[0])}
     links = {name: i for i, (name, _) in enumerate(mechanism._parts[1])}
     slides = {name: i for i, (name, _) in enumerate(mechanism._parts[2])}

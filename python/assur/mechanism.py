@@ -325,6 +325,7 @@ class Mechanism:
         assembly: Mapping[str, int] | None = None,
         on_error: Literal["raise", "nan"] = "raise",
         threads: int | None = None,
+        out: Motion | None = None,
     ) -> Motion:
         """Solve positions and analogues.
 
@@ -345,6 +346,9 @@ class Mechanism:
         threads : int, optional
             Threads at most; by default as many as there are cores, and one for small
             work. The numbers do not depend on it.
+        out : Motion, optional
+            A motion of the same shape, order and outputs. It is overwritten, with all
+            arrays taken from it, and returned: new memory is spared.
 
         Returns
         -------
@@ -365,7 +369,7 @@ class Mechanism:
         >>> motion.slide("bore").value.round(4)
         array([0.25  , 0.1936, 0.15  , 0.1936, 0.25  ])
         """
-        return _solve.solve(self, q, order, outputs, assembly, on_error, threads)
+        return _solve.solve(self, q, order, outputs, assembly, on_error, threads, out)
 
     def assemblies(self, q: npt.ArrayLike) -> list[Assembly]:
         """Every real assembly at one position, usable as ``solve(q, assembly=a)``.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -36,6 +37,9 @@ class Motion:
     """
 
     def __init__(self, call: Call, tracks: Tracks, status: npt.NDArray[np.uint8]) -> None:
+        self._become(call, tracks, status)
+
+    def _become(self, call: Call, tracks: Tracks, status: npt.NDArray[np.uint8]) -> None:
         self.mechanism = call.mechanism
         self.q = call.q
         self.order = call.order
@@ -45,6 +49,10 @@ class Motion:
         self._drivers = len(call.mechanism._core.q0)
         self._places: dict[str, tuple[Float, ...]] = {}
         self._diagnostics: tuple[Float, Float] | None = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        # Only the motion that was made may be overwritten.
+        return {**self.__dict__, "_tracks": replace(self._tracks, raw=None)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)

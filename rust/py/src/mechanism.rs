@@ -10,10 +10,10 @@ use assur::{
     Coordinates, Description, DriverDescription, Outputs, Request, SlideDescription, SolveError,
     Status,
 };
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyUntypedArrayMethods};
-use pyo3::exceptions::PyMemoryError;
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyMemoryError, PyRuntimeError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PySlice};
 
 use crate::{error, gate};
 
@@ -28,6 +28,8 @@ const LOOK: usize = 8192;
 
 /// Arrays by kind ("joint", "link", "place", "slide"), index and order; statuses.
 type Solved<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>);
+/// Arrays of an earlier call, in the order of its columns; statuses.
+type Kept<'py> = (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>);
 /// Residuals and conditions.
 type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 type SlideArguments = (String, String, String, f64, Option<String>);
@@ -172,7 +174,8 @@ impl Mechanism {
     }
 
     /// Solves designs at positions; see `assur.Mechanism.solve`. Outputs: indices of
-    /// joints, links, links whose places are wanted, slides.
+    /// joints, links, links whose places are wanted, slides. `kept`: arrays of an earlier
+    /// call, written again.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     fn solve<'py>(
         &self,
@@ -184,6 +187,7 @@ impl Mechanism {
         order: usize,
         outputs: [Vec<usize>; 4],
         threads: Option<NonZeroUsize>,
+        kept: Option<Kept<'py>>,
     ) -> PyResult<Solved<'py>> {
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
         let [joints, links, places, slides] = outputs;
@@ -199,15 +203,24 @@ impl Mechanism {
         };
         let [designs, positions] = request.shape(&self.inner).map_err(error::solve)?;
         let columns = request.columns(&self.inner);
-        let mut status = unwritten::<u8>(py, designs, positions)?;
-        let rows = designs * positions;
-        let mut values = Vec::new();
-        for column in &columns {
-            values.push(unwritten::<f64>(py, rows, column.width)?);
+        let (values, status) = if let Some(kept) = kept {
+            kept
+        } else {
+            let status = unwritten::<u8>(py, designs, positions)?;
+            let rows = designs * positions;
+            let new = columns.iter().map(|column| unwritten::<f64>(py, rows, column.width));
+            (new.collect::<PyResult<_>>()?, status)
+        };
+        let rows = designs.saturating_mul(positions);
+        // Two calls cannot write the same arrays at once.
+        let mut held = Vec::new();
+        for array in &values {
+            held.push(array.try_readwrite().map_err(in_use)?);
         }
+        let mut held_status = status.try_readwrite().map_err(in_use)?;
         let arrays = Mutex::new(Some(Arrays {
-            columns: values.iter_mut().map(places_of).collect(),
-            status: places_of(&mut status),
+            columns: held.iter_mut().map(places_of).collect(),
+            status: places_of(&mut held_status),
         }));
         let quick = rows.saturating_add(designs.saturating_mul(WAY)) < SMALL;
         let small = self.inner.q0().len() == 1 && quick;
@@ -219,6 +232,7 @@ impl Mechanism {
             })
         })?
         .map_err(error::solve)?;
+        drop((held, held_status));
         let dict = PyDict::new(py);
         for (column, values) in columns.iter().zip(values) {
             let (kind, index) = match column.quantity {
@@ -310,23 +324,34 @@ fn unwritten<T: numpy::Element>(
     rows: usize,
     width: usize,
 ) -> PyResult<Bound<'_, PyArray1<T>>> {
-    let len = rows.checked_mul(width).ok_or_else(|| {
+    let len = rows.checked_mul(width).and_then(|len| len.checked_add(LINE)).ok_or_else(|| {
         PyMemoryError::new_err(
             "the result has more numbers than can be counted: ask for fewer designs or positions",
         )
     })?;
     let array = py.import("numpy")?.call_method1("empty", (len, T::get_dtype(py)))?;
-    Ok(array.cast_into()?)
+    let array: Bound<'_, PyArray1<T>> = array.cast_into()?;
+    // Rows of eight numbers that begin with a line of the cache are written quicker.
+    let first = array.data().align_offset(LINE).min(LINE);
+    let some = PySlice::new(py, first.cast_signed(), (first + len - LINE).cast_signed(), 1);
+    Ok(array.get_item(some)?.cast_into()?)
 }
 
-/// The places of an array that nobody else has seen yet.
+/// Bytes of a line of the cache, and more than its numbers.
+const LINE: usize = 64;
+
+fn in_use(error: numpy::BorrowError) -> PyErr {
+    PyRuntimeError::new_err(format!("the arrays given to out= are in use: {error}"))
+}
+
+/// The places of an array that is held for writing.
 fn places_of<'a, T: numpy::Element>(
-    array: &'a mut Bound<'_, PyArray1<T>>,
+    array: &'a mut PyReadwriteArray1<'_, T>,
 ) -> &'a mut [MaybeUninit<T>] {
     #[allow(unsafe_code, reason = "NumPy knows no places that are not written")]
-    // SAFETY: made by `unwritten`: contiguous, of this length, not yet known to Python; the
-    // exclusive borrow keeps other views away. `fill` writes every number, or the array is
-    // dropped unread (error, panic, Ctrl-C).
+    // SAFETY: one-dimensional and contiguous (made by `unwritten`), of this length; the exclusive
+    // borrow keeps other calls away. `fill` writes every number, or the array is dropped unread
+    // (error, panic, Ctrl-C).
     unsafe {
         std::slice::from_raw_parts_mut(array.data().cast(), array.len())
     }

@@ -101,7 +101,7 @@ fn polynomial<R: Real, const N: usize>(z: R, coefficients: [f64; N]) -> R {
     let pair = |i: usize| R::splat(coefficients[i]) + R::splat(coefficients[i + 1]) * z;
     let mut i = N - 2;
     let mut sum = pair(i);
-    if N % 4 == 0 {
+    if N.is_multiple_of(4) {
         i -= 2;
         sum = pair(i) + sum * z2;
     }

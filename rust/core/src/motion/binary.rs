@@ -96,9 +96,8 @@ impl<R: Real, const G: usize> State<R, G> {
             first_condition[g] = condition;
             second_condition[g] = condition;
             self.condition2[g] = condition.max(self.condition2[g]);
-            first_turn[g] = first;
-            second_turn[g] = second;
-            let (first, second) = (first * a.vector, second * b.vector);
+            first_turn[g] = a.turn_to(first);
+            second_turn[g] = b.turn_to(second);
             a_jet[0][g] = first;
             b_jet[0][g] = second;
             let columns = [first.left(), second.left()];

@@ -40,8 +40,8 @@ impl<R: Real, const G: usize> State<R, G> {
             Form::TwoCircles => {
                 let (a, b) = (leg(0, first), leg(1, second));
                 let (x, y, closed) = two_circles(&a, &b, k, sign);
-                self.turn(g, cx, dyad, 0, x);
-                self.turn(g, cx, dyad, 1, y);
+                self.turn(g, cx, dyad, 0, a.turn_to(x));
+                self.turn(g, cx, dyad, 1, b.turn_to(y));
                 closed.with(lever(u, a.per).max(lever(v, b.per)))
             }
             Form::CircleAndLine => {

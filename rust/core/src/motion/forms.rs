@@ -55,8 +55,8 @@ impl<R: Real> Factor<R> {
     }
 }
 
-/// `a u₁ + b u₂ = k` for unit vectors u₁, u₂: the intersection of two circles.
-/// `sign` > 0: `a u₁` points to the left of `k`.
+/// `a u₁ + b u₂ = k` for unit vectors u₁, u₂: the intersection of two circles. Gives the legs
+/// `a u₁` and `b u₂` (see [`Leg::turn_to`]). `sign` > 0: `a u₁` points to the left of `k`.
 #[inline(always)]
 pub(super) fn two_circles<R: Real>(
     a: &Leg<R>,
@@ -81,8 +81,6 @@ pub(super) fn two_circles<R: Real>(
     let (x, y) = ((d2 + split) * half, sign * area * half);
     let first = k * Vector::new(x, y);
     let second = k * Vector::new((d2 - split) * half, -y);
-    let first = (first * a.vector.conj()).scale(a.per);
-    let second = (second * b.vector.conj()).scale(b.per);
     let far = size.finite().not();
     let gap = outer.gap(sum - d, inner.gap(d - difference.abs(), R::ZERO));
     let solved = Solved {
@@ -181,8 +179,9 @@ mod tests {
 
     #[test]
     fn right_triangle_three_four_five() {
-        let (u, v, solved) =
-            two_circles(&leg(3.0, 0.0), &leg(4.0, 0.0), Vector::new(5.0, 0.0), 1.0);
+        let (a, b) = (leg(3.0, 0.0), leg(4.0, 0.0));
+        let (first, second, solved) = two_circles(&a, &b, Vector::new(5.0, 0.0), 1.0);
+        let (u, v) = (a.turn_to(first), b.turn_to(second));
         assert!(!solved.flat && !solved.open && (solved.sine2 - 1.0).abs() < TOLERANCE);
         assert!((u.x - 0.6).abs() < TOLERANCE && (u.y - 0.8).abs() < TOLERANCE);
         assert!((v.x - 0.8).abs() < TOLERANCE && (v.y + 0.6).abs() < TOLERANCE);

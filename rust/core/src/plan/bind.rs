@@ -26,6 +26,12 @@ impl<R: Real> Leg<R> {
         let norm2 = vector.norm2();
         Self { vector, norm: norm2.sqrt(), norm2, per: R::ONE / norm2 }
     }
+
+    /// The rotation that brings it to a place.
+    #[inline(always)]
+    pub fn turn_to(&self, place: Vector<R>) -> Vector<R> {
+        (place * self.vector.conj()).scale(self.per)
+    }
 }
 
 impl Leg {
