@@ -39,10 +39,10 @@ POLE = 1e6
 # next terms go with the root of the step, rounding with its inverse.
 FOLD_STEPS = (1e-6, 1e-7, 1e-8, 1e-9, 1e-5, 1e-10, 1e-4)
 FOLD_RATIO = 0.15
-# Where two dyads fold together it falls faster; at the very same q as at a change point, but beyond
-# that there would be another assembly.
-FOLDS_TOGETHER = 4.3
+# Where two dyads fold together it falls faster, at the very same q as at a change point; but beyond
+# that there would be an assembly beside the last one: as far off as the motion goes in that step.
 BEYOND = 1e-6
+BESIDE = 1e-4
 # Of central differences of order 4: the step, and the greatest condition where they are asked for.
 DIFFERENCE_STEP = 1e-3
 DIFFERENCE_CONDITION = 50.0
@@ -146,14 +146,24 @@ def unreal(solve: Solve, geometry: Geometry, edges: Array) -> tuple[list[str], f
         if not len(left):
             break
     if len(left):
-        together = (ratio[left] > 1.0) & (ratio[left] < FOLDS_TOGETHER)
-        beyond = edges[left, 0] - way[left] * BEYOND
-        mechanism = solve(edges[left, 0]).motion.mechanism
-        alone = np.array([not mechanism.assemblies(q) for q in beyond], dtype=np.bool_)
-        left = left[~(together & alone)]
+        ends = [goes_on(solve, edges[i, 0], edges[i, 0] - way[i] * BEYOND) for i in left]
+        left = left[~((ratio[left] > 1.0) & ~np.array(ends, dtype=np.bool_))]
     found = [f"no fold at q = {edges[i, 0]!r} | {edges[i, 1]!r}: {ratio[i]:.3g}" for i in left]
     good = np.abs(ratio - 1.0) <= FOLD_RATIO
     return found, float(np.max(np.abs(ratio[good] - 1.0), initial=0.0))
+
+
+def goes_on(solve: Solve, last: float, beyond: float) -> bool:
+    """Whether some assembly beyond the last position of a motion is beside it."""
+    motion = solve(np.array([last])).motion
+    here = np.array([motion.joint(name).value[0] for name in motion.mechanism.joints])
+    size = np.abs(here).max()
+    for assembly in motion.mechanism.assemblies(beyond):
+        other = motion.mechanism.solve(beyond, order=0, assembly=assembly)
+        there = np.array([other.joint(name).value for name in other.mechanism.joints])
+        if np.abs(there - here).max() <= BESIDE * size:
+            return True
+    return False
 
 
 def differences(

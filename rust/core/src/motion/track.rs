@@ -79,7 +79,7 @@ pub(super) fn nearest<R: Real>(angle: R, near: R) -> R {
 fn less_turns(angle: f64, turns: f64) -> f64 {
     /// The first 26 bits of 2π, the next 27, and the rest.
     const PARTS: [f64; 3] = [6.283185243606567, 6.357301884918343e-8, 2.4492935982947064e-16];
-    let high = (turns * 2.0_f64.powi(-22)).floor() * 2.0_f64.powi(22);
+    let high = (turns * 2.0_f64.powi(-22)).trunc() * 2.0_f64.powi(22);
     let low = turns - high;
     let rest = angle - high * PARTS[0] - high * PARTS[1] - low * PARTS[0] - low * PARTS[1];
     rest - turns * PARTS[2]
@@ -359,5 +359,37 @@ impl Track {
         }
         let near = R::from_lanes(|lane| self.angles[spot.knot[lane] * classes + class]);
         near + spot.whole * R::splat(self.gain[class])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Turns either way leave the angle that was there, to the rounding of the sum itself.
+    #[test]
+    fn turns_taken_off_are_turns_put_on() {
+        for turns in [1.0, 2.0, 64.0, 1000.0, 4_194_303.0, 4_194_304.0, 1e9] {
+            for part in [0.001, 0.735_422_665_253_286_5, 3.0, 6.2] {
+                for turns in [turns, -turns] {
+                    let angle = part + TAU * turns;
+                    // 2π as a double, and what it lacks.
+                    let lost = (angle - TAU * turns) - part;
+                    let wanted = part + lost - turns * 2.449_293_598_294_706_4e-16;
+                    let rounding = 2.0 * f64::EPSILON * angle.abs().max(TAU);
+                    let found = less_turns(angle, turns);
+                    assert!((found - wanted).abs() <= rounding, "{turns} {part}: {found} {wanted}");
+                }
+            }
+        }
+    }
+
+    /// Backward as well: a small angle less −1 turn is the sum, rounded once or twice.
+    #[test]
+    fn small_angles_keep_their_digits() {
+        for angle in [-0.735_422_665_253_286_5, -1e-9, 0.1, 3.0] {
+            let found = less_turns(angle, -1.0);
+            assert!((found - (angle + TAU)).abs() <= 2.0 * f64::EPSILON * TAU, "{angle}: {found}");
+        }
     }
 }
