@@ -98,6 +98,12 @@ pub const SMOOTH_CLOSURE: f64 = 256.0 * UNIT_ROUNDOFF;
 /// solved for: the errors of both. Farther, something else happens near by.
 pub const CHANGE_MISFIT: f64 = 4.0 * CLOSURE_PER_CONDITION;
 
+/// Largest step (rad, or units of the scale) after which the iteration of a group above class II
+/// is done: the next would be about its square, below the unit roundoff.
+pub const NEWTON_DONE: f64 = 1.0 / 67_108_864.0;
+/// Steps of that iteration, at most: from within the reach of the way's own steps it needs two or
+/// three.
+pub const NEWTON_STEPS: usize = 12;
 /// Largest turn of a link between two neighbouring knots of the path along
 /// which angles are followed; half a turn would already be ambiguous.
 pub const LIFT_TURN: f64 = std::f64::consts::FRAC_PI_4;

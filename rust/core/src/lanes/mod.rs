@@ -5,6 +5,7 @@
 //! no library function but exact ones), so a lane has the bits that the scalar would have, on every
 //! machine and whatever its neighbours are.
 
+pub mod invert;
 pub mod trig;
 mod two_over_pi;
 

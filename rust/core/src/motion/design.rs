@@ -7,9 +7,12 @@ use super::bridge::bridge;
 use super::quick::Quick;
 use super::simd::Level;
 use super::state::{Context, Fault, State, Status};
-use super::track::Track;
+use super::track::{Spot, Track};
+use super::walk::{Seed, Start};
+use crate::lanes::Real;
 use crate::mechanism::Mechanism;
-use crate::plan::Step;
+use crate::plan::{Step, Unknown};
+use crate::plane::Vector;
 use crate::plan::bind::Bound;
 use crate::plan::jet::Jets;
 use crate::tolerance::CHANGE_WIDTH;
@@ -69,8 +72,12 @@ pub(crate) struct Design<'a> {
     pub unit: Units,
     /// Tables of the order asked for.
     pub jets: &'a Jets,
-    /// Tables of the first order, for the way.
+    /// Tables of the first order (with groups above class II: the second), for the way.
     first: Jets,
+    /// Dimensions at hand.
+    values: Vec<f64>,
+    /// Unknowns of the groups at the drawing's coordinate; none if they cannot be followed there.
+    home: Option<Vec<Seed>>,
     signs: Vec<f64>,
     /// Scaled coordinates of the drawing.
     q0: Vec<f64>,
@@ -81,12 +88,16 @@ pub(crate) struct Design<'a> {
 impl<'a> Design<'a> {
     /// A design still without numbers.
     pub(crate) fn new(mechanism: &'a Mechanism, signs: &[i8], jets: &'a Jets) -> Self {
+        // Groups are foretold with second derivatives.
+        let order = if mechanism.plan().groups().next().is_some() { 2 } else { 1 };
         Self {
             mechanism,
             bound: Bound::default(),
             unit: Units::default(),
             jets,
-            first: Jets::new(mechanism.q0().len(), 1),
+            first: Jets::new(mechanism.q0().len(), order),
+            values: Vec::new(),
+            home: Some(Vec::new()),
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
             q0: Vec::new(),
             track: Track::default(),
@@ -100,11 +111,21 @@ impl<'a> Design<'a> {
         self.unit.set(mechanism, self.bound.scale, self.jets);
         self.q0.clear();
         self.q0.extend(mechanism.q0().iter().zip(&self.unit.coordinate).map(|(q, unit)| q * unit));
+        self.values.clear();
+        self.values.extend_from_slice(values);
+        if mechanism.plan().groups().next().is_some() {
+            self.home = self.home(values);
+        }
     }
 
     /// What a position is solved with; the signs are those at the drawing.
     pub(crate) fn context<'b>(&'b self, jets: &'b Jets) -> Context<'b> {
         Context { plan: self.mechanism.plan(), bound: &self.bound, jets, signs: &self.signs }
+    }
+
+    /// Tables for the way.
+    pub(crate) fn first_jets(&self) -> &Jets {
+        &self.first
     }
 
     /// Coordinates in the design's own unit of length.
@@ -130,10 +151,31 @@ impl<'a> Design<'a> {
         self.q0.len() == 1 && self.mechanism.plan().driven_slide(0).is_none()
     }
 
+    /// The unknowns of the groups at a place of the way, as the iteration's first guess.
+    #[inline(always)]
+    pub(crate) fn guess<R: Real, const G: usize>(
+        &self,
+        g: usize,
+        state: &mut State<R, G>,
+        track: &Track,
+        spot: &Spot<R>,
+    ) {
+        let plan = self.mechanism.plan();
+        let count = plan.groups().map(|group| group.unknowns.len()).sum();
+        let unknowns = plan.groups().flat_map(|group| &group.unknowns);
+        for (place, &unknown) in unknowns.enumerate() {
+            let value = track.seed(spot, place, count);
+            match unknown {
+                Unknown::Class(class) => state.class[class][g] = Vector::at_angle(value),
+                Unknown::Slide(slide) => state.slides[slide * state.len][g] = value,
+            }
+        }
+    }
+
     /// The quick way, where there is one.
     #[inline(always)]
     pub(crate) fn lay_quick<L: Level>(&mut self, quick: &mut Quick) -> bool {
-        if !self.is_turning() {
+        if !self.is_turning() || self.mechanism.plan().groups().next().is_some() {
             return false;
         }
         let mut track = std::mem::take(&mut self.track);
@@ -151,8 +193,13 @@ impl<'a> Design<'a> {
         let mut state = self.state(&self.first);
         let cx = self.context(&self.first);
         let angles = &self.mechanism.class_angle;
+        let Some(seeds) = &self.home else {
+            self.track = Track::nowhere(angles.len());
+            return;
+        };
+        let from = &Start { angles, seeds };
         self.track = if self.is_turning() {
-            Track::turning(&cx, &mut state, start, angles)
+            Track::turning(&cx, &mut state, start, from)
         } else {
             let scaled = || q.iter().map(|q| q * self.unit.coordinate[0]).filter(|q| q.is_finite());
             let range = [scaled().fold(start, f64::min), scaled().fold(start, f64::max)];
@@ -160,7 +207,7 @@ impl<'a> Design<'a> {
             let paired = cx.plan.edges.iter().zip(&cx.bound.rigid).filter(|(e, _)| e.paired);
             let lengths = paired.map(|(_, w)| w).chain(&cx.bound.fixed).map(|w| w.norm());
             let reach = 2.0 * lengths.sum::<f64>() + 1.0;
-            Track::sliding(&cx, &mut state, start, range, reach, angles)
+            Track::sliding(&cx, &mut state, start, range, reach, from)
         };
     }
 
@@ -170,7 +217,8 @@ impl<'a> Design<'a> {
         let cx = Context { signs, ..self.context(&self.first) };
         let angles = &self.mechanism.class_angle;
         let mut state = self.state(&self.first);
-        let track = Track::straight(&cx, &mut state, q, &self.q0, angles);
+        let start = &Start { angles, seeds: &[] };
+        let track = Track::straight(&cx, &mut state, q, &self.q0, start);
         track.signs(1.0).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
     }
 
@@ -192,7 +240,12 @@ impl<'a> Design<'a> {
             let cx = self.context(&self.first);
             let angles = &self.mechanism.class_angle;
             let mut state = self.state(&self.first);
-            let track = Track::straight(&cx, &mut state, &self.q0, q, angles);
+            let track = if let Some(seeds) = &self.home {
+                let start = &Start { angles, seeds };
+                Track::straight(&cx, &mut state, &self.q0, q, start)
+            } else {
+                Track::nowhere(angles.len())
+            };
             Place { track: Cow::Owned(track), at: 1.0 }
         })
     }
@@ -223,6 +276,7 @@ impl<'a> Design<'a> {
         }
         let cx = self.context(self.jets);
         state.prepare(cx.plan, cx.bound, cx.jets);
+        self.guess(0, state, track, &track.spot(*at));
         state.solve(&Context { signs: track.signs(*at), ..cx }, q);
         // At a change point a dyad is flat, and beside it little is left of the
         // analogues: the smooth motion through the point is known better.
@@ -245,6 +299,6 @@ impl<'a> Design<'a> {
             }
             return true;
         }
-        !matches!(state.status, Status::Singular | Status::Unreachable)
+        !matches!(state.status, Status::Singular | Status::Unreachable | Status::NotConverged)
     }
 }

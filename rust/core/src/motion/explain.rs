@@ -124,6 +124,7 @@ impl Mechanism {
     ///
     /// A group of higher class, or slices of the wrong length.
     pub fn assemblies(&self, dimensions: &[f64], q: &[f64]) -> Result<Vec<Vec<i8>>, SolveError> {
+        self.require_closed_form()?;
         let count = self.plan().signs();
         self.check(dimensions, q, &vec![1; count])?;
         if self.dimensions().first_fault(dimensions).is_some() || q.len() != self.q0().len() {
@@ -178,7 +179,6 @@ impl Mechanism {
 
     /// Refuses slices that do not fit this mechanism.
     fn check(&self, dimensions: &[f64], q: &[f64], signs: &[i8]) -> Result<(), SolveError> {
-        self.require_closed_form()?;
         let fits = dimensions.len() == self.dimensions().len()
             && q.len().is_multiple_of(self.q0().len())
             && signs.len() == self.plan().signs();
@@ -202,6 +202,7 @@ impl Mechanism {
                 Some(sign) => self.plan().dyad_names[sign].clone(),
                 None => two_lines_name(self.plan(), self, dyad),
             },
+            Step::Group(group) => group.name.clone(),
             Step::Fit(fit) => fit.name.clone(),
             Step::Place { .. } => String::new(),
         }
@@ -231,6 +232,9 @@ impl Mechanism {
                 gap * scale
             ),
             Fault::Flat { .. } => format!("at q = {at} dyad {name:?} is flat"),
+            Fault::Astray { .. } => {
+                format!("at q = {at} the iteration of the group {name:?} did not end")
+            }
         };
         (name, sentence)
     }

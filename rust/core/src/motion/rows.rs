@@ -180,6 +180,10 @@ impl<'a> Worker<'a> {
         }
         let design = &self.design;
         self.many.groups = groups;
+        for group in 0..groups.min(GROUPS) {
+            let spot = &self.spots[first + group];
+            design.guess(group, &mut self.many, &design.track, spot);
+        }
         L::solve(&mut self.many, &design.context(design.jets));
         let state = &self.many;
         // Each by itself, so that one goes on while the other waits.

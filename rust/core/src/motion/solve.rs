@@ -96,7 +96,6 @@ impl Request<'_> {
     ///
     /// Those of [`Mechanism::solve`].
     pub fn shape(&self, mechanism: &Mechanism) -> Result<[usize; 2], SolveError> {
-        mechanism.require_closed_form()?;
         let shape = Shape::of(mechanism, self)?;
         Ok([shape.designs, shape.positions])
     }
@@ -163,7 +162,6 @@ pub fn fill(
     arrays: Arrays<'_>,
     control: &Control<'_>,
 ) -> Result<(), SolveError> {
-    mechanism.require_closed_form()?;
     let shape = Shape::of(mechanism, request)?;
     let jets = Jets::new(shape.drivers, request.order);
     let columns = request.columns(mechanism);

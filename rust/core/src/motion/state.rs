@@ -42,8 +42,10 @@ pub enum Fault {
     Open { step: usize, gap: f64 },
     /// Redundant link (step) that does not fit, by this part of the size.
     Misfit { step: usize, gap: f64 },
-    /// Dyad (step) that is flat.
+    /// Dyad or group (step) that is flat.
     Flat { step: usize },
+    /// Group (step) whose iteration did not end.
+    Astray { step: usize },
 }
 
 impl Fault {
@@ -51,7 +53,10 @@ impl Fault {
     #[must_use]
     pub fn step(self) -> usize {
         match self {
-            Self::Open { step, .. } | Self::Misfit { step, .. } | Self::Flat { step } => step,
+            Self::Open { step, .. }
+            | Self::Misfit { step, .. }
+            | Self::Flat { step }
+            | Self::Astray { step } => step,
         }
     }
 }
@@ -99,6 +104,10 @@ pub struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) slide_condition: Vec<[R; G]>,
     /// Square of the condition of what each dyad with a sign hangs on.
     pub(crate) before: Vec<[R; G]>,
+    /// Matrix, inverse and right-hand side of a group above class II.
+    pub(crate) matrix: Vec<R>,
+    /// Determinant of every group's matrix.
+    pub(crate) determinants: Vec<[R; G]>,
     /// Square of the greatest condition of the position.
     pub condition2: [R; G],
     /// Lanes that did not come out as plainly solved; each is done again by itself.
@@ -145,6 +154,8 @@ impl<R: Real, const G: usize> State<R, G> {
             class_condition: vec![[R::ONE; G]; plan.classes],
             slide_condition: vec![[R::ONE; G]; slides],
             before: vec![[R::ONE; G]; plan.signs()],
+            matrix: vec![R::ZERO; plan.matrix_size()],
+            determinants: vec![[R::ZERO; G]; plan.groups().count()],
             condition2: [R::ONE; G],
             care: [R::Mask::NONE; G],
             status: Status::Ok,
@@ -199,6 +210,11 @@ impl<R: Real, const G: usize> State<R, G> {
                     }
                 },
                 &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
+                Step::Group(group) => {
+                    for g in 0..self.groups.min(G) {
+                        self.solve_group(g, cx, group, index);
+                    }
+                }
                 Step::Fit(fit) => {
                     for g in 0..self.groups.min(G) {
                         self.fit(g, cx, fit, index);
@@ -210,8 +226,8 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Whether nothing is left to be computed.
     #[inline(always)]
-    fn is_over(&self) -> bool {
-        matches!(self.status, Status::Unreachable | Status::BadInput)
+    pub(super) fn is_over(&self) -> bool {
+        matches!(self.status, Status::Unreachable | Status::BadInput | Status::NotConverged)
     }
 
     /// Where fewer than six digits of the analogues remain.
@@ -284,94 +300,6 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
         }
-    }
-
-    /// Places one end of an edge from the other, in all groups.
-    #[inline(always)]
-    fn place_all(&mut self, cx: &Context<'_>, e: usize, backward: bool) {
-        // Jets of known length are arrays.
-        match (cx.plan.edges[e].along == Along::Nothing, self.len) {
-            (true, 1) => self.place_rigid(cx, e, backward, 1),
-            (true, 2) => self.place_rigid(cx, e, backward, 2),
-            (true, 3) => self.place_rigid(cx, e, backward, 3),
-            (true, 4) => self.place_rigid(cx, e, backward, 4),
-            _ => {
-                for g in 0..self.groups.min(G) {
-                    self.place(g, cx, e, backward);
-                }
-            }
-        }
-    }
-
-    /// An edge of constant length, jets of `len` entries.
-    #[inline(always)]
-    fn place_rigid(&mut self, cx: &Context<'_>, e: usize, backward: bool, len: usize) {
-        let edge = &cx.plan.edges[e];
-        let [from, to] = edge.ends(backward);
-        let jet = |place: usize| place * len..place * len + len;
-        let Ok([base, out]) = self.points.get_disjoint_mut([from, to].map(jet)) else { return };
-        let groups = self.groups.min(G);
-        match edge.leg {
-            Some(leg) if leg.backward == backward => {
-                let v = &self.legs[jet(leg.index)];
-                for k in 0..len {
-                    for g in 0..groups {
-                        out[k][g] = base[k][g] + v[k][g];
-                    }
-                }
-            }
-            Some(leg) => {
-                let v = &self.legs[jet(leg.index)];
-                for k in 0..len {
-                    for g in 0..groups {
-                        out[k][g] = base[k][g] - v[k][g];
-                    }
-                }
-            }
-            None => {
-                let rigid = Vector::splat(cx.bound.rigid[e]);
-                let rigid = if backward { -rigid } else { rigid };
-                let orient = &self.orient[jet(edge.orientation)];
-                for k in 0..len {
-                    for g in 0..groups {
-                        out[k][g] = base[k][g] + orient[k][g] * rigid;
-                    }
-                }
-            }
-        }
-        let arm = R::splat(cx.bound.arm2[e]);
-        let turned = &self.class_condition[edge.class];
-        let Ok([from_grain, grain]) = self.grain.get_disjoint_mut([from, to]) else { return };
-        let Ok([before, condition]) = self.point_condition.get_disjoint_mut([from, to]) else {
-            return;
-        };
-        for g in 0..groups {
-            grain[g] = from_grain[g].max(arm).max(out[0][g].norm2());
-            condition[g] = before[g].max(turned[g]);
-        }
-    }
-
-    /// The same for any edge, in one group.
-    #[inline(always)]
-    pub(crate) fn place(&mut self, g: usize, cx: &Context<'_>, e: usize, backward: bool) {
-        let edge = &cx.plan.edges[e];
-        let [from, to] = edge.ends(backward);
-        for k in 0..self.len {
-            let v = self.edge(g, cx, e, k);
-            let base = self.points[from * self.len + k][g];
-            self.points[to * self.len + k][g] = if backward { base - v } else { base + v };
-        }
-        let (start, end) = (self.points[from * self.len][g], self.points[to * self.len][g]);
-        let arm = match edge.along {
-            Along::Nothing => R::splat(cx.bound.arm2[e]),
-            _ => (end - start).norm2(),
-        };
-        self.grain[to][g] = self.grain[from][g].max(arm).max(end.norm2());
-        let mut condition = self.point_condition[from][g].max(self.class_condition[edge.class][g]);
-        if let Along::Slide(slide) = edge.along {
-            condition = condition.max(self.slide_condition[slide][g]);
-        }
-        self.point_condition[to][g] = condition;
     }
 
     #[inline(always)]

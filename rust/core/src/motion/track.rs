@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use super::change::Change;
 use super::state::{Context, State};
-use super::walk::{Knot, Stretch, Walker};
+use super::walk::{Knot, Seed, Start, Stretch, Walker};
 use crate::lanes::{LANES, Real};
 use crate::tolerance::CHANGE_REACH;
 
@@ -43,6 +43,9 @@ pub(crate) struct Track {
     pub(super) period: Option<f64>,
     /// Where the way is known; none: everywhere.
     pub(super) covered: Option<[f64; 2]>,
+    /// Of every cell after a knot, the polynomials of the groups' unknowns in the distance from
+    /// it.
+    pub(super) cells: Vec<[f64; 6]>,
     /// Knots a unit of the parameter, if all are reached and equally spaced.
     pub(super) even: Option<f64>,
 }
@@ -93,8 +96,19 @@ fn whole_part(cells: f64) -> usize {
 }
 
 impl Track {
+    /// A way that leads nowhere.
+    pub(crate) fn nowhere(classes: usize) -> Self {
+        let covered = Some([f64::INFINITY, f64::NEG_INFINITY]);
+        Self { gain: vec![0.0; classes], covered, ..Self::default() }
+    }
+
     /// Along one driven angle, from `q0` on, for ever.
-    pub(crate) fn turning(cx: &Context<'_>, state: &mut State, q0: f64, start: &[f64]) -> Self {
+    pub(crate) fn turning(
+        cx: &Context<'_>,
+        state: &mut State,
+        q0: f64,
+        start: &Start<'_>,
+    ) -> Self {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
         let mut walker = Walker::new(cx, state, &point, &[1.0], (q0, 1.0), start);
         let mut turns = 0;
@@ -104,17 +118,23 @@ impl Track {
                 let turned = f64::from(turns) + f64::from(cell) / f64::from(CELLS_A_TURN);
                 walker.advance(q0 + TAU * turned);
             }
+            if walker.ended {
+                break;
+            }
             turns += 1;
-            returned = walker.signs_at(f64::INFINITY) == walker.start_signs;
+            returned = walker.has_returned();
         }
         let stretches = walker.stretches();
-        let Walker { knots, changes, .. } = walker;
+        let Walker { knots, changes, ended, .. } = walker;
+        if ended {
+            return Self::between_folds(cx, state, q0, start, knots);
+        }
         let gain = match (knots.iter().find(|k| k.reached), knots.last()) {
             (Some(first), Some(last)) => {
                 let pairs = first.angles.iter().zip(&last.angles);
                 pairs.map(|(&a, &b)| TAU * ((b - a) / TAU).round()).collect()
             }
-            _ => vec![0.0; start.len()],
+            _ => vec![0.0; start.angles.len()],
         };
         let period = returned.then_some(TAU * f64::from(turns));
         let end = if returned { f64::INFINITY } else { q0 + TAU * f64::from(turns) };
@@ -130,21 +150,25 @@ impl Track {
         q0: f64,
         [low, high]: [f64; 2],
         reach: f64,
-        start: &[f64],
+        start: &Start<'_>,
     ) -> Self {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
         let mut all: Vec<Knot> = Vec::new();
-        let mut track = Self { gain: vec![0.0; start.len()], ..Self::default() };
+        let mut track = Self { gain: vec![0.0; start.angles.len()], ..Self::default() };
+        let mut covered = [f64::NEG_INFINITY, f64::INFINITY];
         for (end, way) in [(low, -1.0), (high, 1.0)] {
             let mut walker = Walker::new(cx, state, &point, &[1.0], (q0, way), start);
             let cells = (((end - q0) * way).min(reach) * CELLS_A_LENGTH).ceil();
             let mut cell = 0.0;
-            while cell < cells {
+            while cell < cells && !walker.ended {
                 cell += 1.0;
                 walker.advance(q0 + way * cell / CELLS_A_LENGTH);
             }
             let mut stretches = walker.stretches();
-            let Walker { mut knots, mut changes, .. } = walker;
+            let Walker { mut knots, mut changes, ended, .. } = walker;
+            if ended && let Some(last) = knots.last() {
+                covered[usize::from(way > 0.0)] = last.at;
+            }
             if way < 0.0 {
                 knots.reverse();
                 knots.pop();
@@ -169,7 +193,39 @@ impl Track {
             changes: track.changes,
             stretches: track.stretches,
             gain: track.gain,
+            covered: Some(covered),
             ..Self::of(&all)
+        }
+    }
+
+    /// Along a driven angle where a group folds: from the drawing, back and forth, to where the
+    /// way ends. `ahead`: the knots of the way forth.
+    fn between_folds(
+        cx: &Context<'_>,
+        state: &mut State,
+        q0: f64,
+        start: &Start<'_>,
+        mut ahead: Vec<Knot>,
+    ) -> Self {
+        let point = |at: f64, q: &mut [f64]| q[0] = at;
+        let mut walker = Walker::new(cx, state, &point, &[1.0], (q0, -1.0), start);
+        let mut cell = 0.0;
+        while !walker.ended && cell < f64::from(MOST_TURNS * CELLS_A_TURN) {
+            cell += 1.0;
+            walker.advance(q0 - TAU * cell / f64::from(CELLS_A_TURN));
+        }
+        let mut stretches = walker.stretches();
+        let Walker { mut knots, mut changes, .. } = walker;
+        let _ = (&mut stretches, &mut changes);
+        knots.reverse();
+        knots.pop();
+        knots.append(&mut ahead);
+        let ends = [knots.first(), knots.last()].map(|knot| knot.map_or(q0, |k| k.at));
+        Self {
+            stretches: vec![Stretch { from: f64::NEG_INFINITY, signs: cx.signs.to_vec() }],
+            gain: vec![0.0; start.angles.len()],
+            covered: Some(ends),
+            ..Self::of(&knots)
         }
     }
 
@@ -179,7 +235,7 @@ impl Track {
         state: &mut State,
         q0: &[f64],
         q1: &[f64],
-        start: &[f64],
+        start: &Start<'_>,
     ) -> Self {
         let rates: Vec<f64> = q0.iter().zip(q1).map(|(a, b)| b - a).collect();
         let point = |at: f64, q: &mut [f64]| {
@@ -198,8 +254,10 @@ impl Track {
             walker.knots.drain(..walker.knots.len() - 1);
         }
         let stretches = walker.stretches();
-        let Walker { knots, changes, .. } = walker;
-        Self { stretches, changes, gain: vec![0.0; start.len()], ..Self::of(&knots) }
+        let Walker { knots, changes, ended, .. } = walker;
+        let gain = vec![0.0; start.angles.len()];
+        let covered = ended.then_some([0.0, 0.0]);
+        Self { stretches, changes, gain, covered, ..Self::of(&knots) }
     }
 
     /// Keeps what is asked of knots later.
@@ -208,6 +266,7 @@ impl Track {
             at: knots.iter().map(|k| k.at).collect(),
             reached: knots.iter().map(|k| k.reached).collect(),
             angles: knots.iter().flat_map(|k| k.angles.iter().copied()).collect(),
+            cells: (0..knots.len()).flat_map(|i| cell(&knots[i], knots.get(i + 1))).collect(),
             ..Self::default()
         }
     }
@@ -239,6 +298,9 @@ impl Track {
         let (place, whole) = self.reduced(at);
         let mut knot = [0; LANES];
         let last = self.at.len().saturating_sub(1);
+        if self.at.is_empty() {
+            return Spot { place, whole, knot };
+        }
         if let Some(per) = self.even {
             let cells = (place - R::splat(self.at[0])) * R::splat(per);
             for lane in 0..R::LANES {
@@ -318,10 +380,12 @@ impl Track {
             return Self::default();
         };
         let angles = &self.angles[left * self.gain.len()..][..self.gain.len()];
+        let seeds = self.seeds(left, place);
+        let start = Start { angles, seeds: &seeds };
         let (left, right) = (self.at[left], self.at[after]);
         let cx = Context { signs: self.signs(at), ..*cx };
         let point = |at: f64, q: &mut [f64]| q[0] = at;
-        let mut walker = Walker::new(&cx, state, &point, &[1.0], (place, 1.0), angles);
+        let mut walker = Walker::new(&cx, state, &point, &[1.0], (place, 1.0), &start);
         let step = (right - left) / ISLAND_STEPS;
         let (mut inside, mut outside) = (place, left);
         while inside - step > left {
@@ -338,7 +402,7 @@ impl Track {
             }
             if walker.visit(middle) { inside = middle } else { outside = middle }
         }
-        let mut walker = Walker::new(&cx, state, &point, &[1.0], (inside, 1.0), angles);
+        let mut walker = Walker::new(&cx, state, &point, &[1.0], (inside, 1.0), &start);
         walker.advance(place);
         let Walker { mut knots, .. } = walker;
         for knot in &mut knots {
@@ -348,6 +412,29 @@ impl Track {
             }
         }
         Self { gain: self.gain.clone(), ..Self::of(&knots) }
+    }
+
+    /// The unknowns of groups at a place in the cell after a knot.
+    fn seeds(&self, knot: usize, place: f64) -> Vec<Seed> {
+        let count = self.cells.len() / self.at.len().max(1);
+        let step = place - self.at[knot];
+        let value = |c: &[f64; 6]| [c.iter().rev().fold(0.0, |sum, c| sum * step + c), 0.0, 0.0];
+        self.cells[knot * count..][..count].iter().map(value).collect()
+    }
+
+    /// An unknown of the groups (of so many) at places.
+    #[inline(always)]
+    pub(crate) fn seed<R: Real>(&self, spot: &Spot<R>, place: usize, count: usize) -> R {
+        let knot = |lane: usize| spot.knot[lane];
+        if self.at.is_empty() {
+            return R::ZERO;
+        }
+        let step = spot.place - R::from_lanes(|lane| self.at[knot(lane)]);
+        let mut sum = R::ZERO;
+        for k in (0..6).rev() {
+            sum = sum * step + R::from_lanes(|lane| self.cells[knot(lane) * count + place][k]);
+        }
+        sum
     }
 
     /// The angle of a class at the knots of places.
@@ -360,6 +447,30 @@ impl Track {
         let near = R::from_lanes(|lane| self.angles[spot.knot[lane] * classes + class]);
         near + spot.whole * R::splat(self.gain[class])
     }
+}
+
+/// Polynomials of the unknowns between two knots, in the distance from the first: of the fifth
+/// degree through values and two derivatives at both (Hermite's), of the second if nothing is
+/// beyond.
+fn cell(a: &Knot, b: Option<&Knot>) -> Vec<[f64; 6]> {
+    let width = b.map_or(0.0, |b| b.at - a.at);
+    let seeds = a.seeds.iter().enumerate();
+    seeds
+        .map(|(place, &[value, rate, second])| {
+            let Some(&[end, end_rate, end_second]) = b.and_then(|b| b.seeds.get(place)) else {
+                return [value, rate, 0.5 * second, 0.0, 0.0, 0.0];
+            };
+            let h = width;
+            let d0 = end - (value + h * (rate + 0.5 * h * second));
+            let d1 = h * (end_rate - rate - h * second);
+            let d2 = h * h * (end_second - second);
+            let c3 = (10.0 * d0 - 4.0 * d1 + 0.5 * d2) / (h * h * h);
+            let c4 = (-15.0 * d0 + 7.0 * d1 - d2) / (h * h * h * h);
+            let c5 = (6.0 * d0 - 3.0 * d1 + 0.5 * d2) / (h * h * h * h * h);
+            let c = [value, rate, 0.5 * second, c3, c4, c5];
+            if c.iter().all(|c| c.is_finite()) { c } else { [value, rate, 0.5 * second, 0.0, 0.0, 0.0] }
+        })
+        .collect()
 }
 
 #[cfg(test)]

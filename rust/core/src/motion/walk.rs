@@ -1,10 +1,13 @@
 //! Walking from the drawing: knots close enough together to see every change point
 //! and to tell every angle.
 
+use std::f64::consts::TAU;
+
 use super::change::{self, Change, may_touch};
 use super::state::{Context, Fault, State, Status};
 use super::track::nearest;
-use crate::plan::{Dyad, Form, Step};
+use crate::plan::{Dyad, Form, Step, Unknown};
+use crate::plane::Vector;
 use crate::tolerance::{LIFT_HALVINGS, LIFT_TURN};
 
 /// Halvings where a stretch that can be reached begins or ends: what is left of
@@ -30,6 +33,26 @@ const LEAST_PROBE: f64 = 1.0 / 1048576.0;
 /// How near to a change point, in cells, it is looked for a link that swings.
 const PROBES: [f64; 3] = [1.0 / 128.0, 1.0 / 16384.0, 1.0 / 1048576.0];
 
+/// Halvings toward the place where a group folds: down to the spacing of q.
+const FOLD_HALVINGS: u32 = 52;
+/// How far (rad, or of the size) an unknown of a group may be from where its Taylor polynomial
+/// at the knot before tells it: other assemblies are farther, except beside a fold, beyond which
+/// the determinant has the other sign.
+pub(crate) const STRAY: f64 = 1.0 / 32.0;
+
+/// How near (rad, or of the size) the unknowns of a group must be to where they began to have
+/// returned: other assemblies are farther.
+const RETURNED: f64 = 1.0e-6;
+
+/// Where a way begins.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Start<'a> {
+    /// Angles of the classes.
+    pub angles: &'a [f64],
+    /// Unknowns of the groups.
+    pub seeds: &'a [Seed],
+}
+
 /// One point of the path.
 #[derive(Debug, Clone)]
 pub(crate) struct Knot {
@@ -48,7 +71,14 @@ pub(crate) struct Knot {
     open: Option<(usize, f64)>,
     /// Steps of the plan that could be solved.
     pub solved: usize,
+    /// Unknowns of the groups above class II, from which those of the next are told.
+    pub seeds: Vec<Seed>,
+    /// Signs of the groups' determinants.
+    bends: Vec<bool>,
 }
+
+/// An unknown of a group and its first two derivatives along the path (angles are lifted).
+pub(crate) type Seed = [f64; 3];
 
 impl Knot {
     /// Whether a dyad is flat here, or its outer joints coincide.
@@ -80,6 +110,13 @@ pub(crate) struct Walker<'a, 'b> {
     /// Change points passed, in the order of passing.
     pub changes: Vec<Change>,
     pub start_signs: Vec<f64>,
+    /// Unknowns of the groups, in order, and the step of the last group.
+    unknowns: Vec<Unknown>,
+    last_group: Option<usize>,
+    /// Their values where the way begins.
+    first: Vec<Seed>,
+    /// Whether the way has ended: beyond is a fold of a group, or what it hangs on is open.
+    pub ended: bool,
 }
 
 impl<'a, 'b> Walker<'a, 'b> {
@@ -89,7 +126,7 @@ impl<'a, 'b> Walker<'a, 'b> {
         point: &'a dyn Fn(f64, &mut [f64]),
         rates: &'a [f64],
         (at, way): (f64, f64),
-        start: &[f64],
+        start: &Start<'_>,
     ) -> Self {
         let mut walker = Self {
             cx: *cx,
@@ -101,8 +138,13 @@ impl<'a, 'b> Walker<'a, 'b> {
             knots: Vec::new(),
             changes: Vec::new(),
             start_signs: cx.signs.to_vec(),
+            unknowns: cx.plan.groups().flat_map(|group| group.unknowns.clone()).collect(),
+            last_group: cx.plan.steps.iter().rposition(|step| matches!(step, Step::Group(_))),
+            first: start.seeds.to_vec(),
+            ended: false,
         };
-        let knot = walker.knot(at, start);
+        let knot = walker.knot(at, start.angles);
+        walker.ended = walker.last_group.is_some_and(|step| knot.solved <= step);
         walker.knots.push(knot);
         walker
     }
@@ -133,10 +175,18 @@ impl<'a, 'b> Walker<'a, 'b> {
     pub(crate) fn solve(&mut self, at: f64) -> usize {
         let signs = self.signs_at(at);
         (self.point)(at, &mut self.q);
+        for (place, &unknown) in self.unknowns.iter().enumerate() {
+            let value = self.foretold(place, at);
+            match unknown {
+                Unknown::Class(class) => self.state.class[class][0] = Vector::at_angle(value),
+                Unknown::Slide(slide) => self.state.slides[slide * self.state.len][0] = value,
+            }
+        }
         self.state.solve(&Context { signs: &signs, ..self.cx }, &self.q);
         match (self.state.status, self.state.fault) {
             (Status::BadInput, _) => 0,
-            (Status::Unreachable, Some(Fault::Open { step, .. })) => step,
+            (Status::Unreachable, Some(Fault::Open { step, .. }))
+            | (Status::NotConverged, Some(Fault::Astray { step })) => step,
             // A redundant link that does not fit is no matter of the way: beyond a change
             // point it fits only with the sign that is yet to be found.
             _ => usize::MAX,
@@ -164,7 +214,8 @@ impl<'a, 'b> Walker<'a, 'b> {
                 _ => None,
             };
             let (angles, sides) = (from.to_vec(), Vec::new());
-            return Knot { at, reached, angles, rates, spread, sides, open, solved };
+            let (seeds, bends) = self.seeds(at, solved);
+            return Knot { at, reached, angles, rates, spread, sides, open, solved, seeds, bends };
         }
         let angles = self
             .state
@@ -179,7 +230,57 @@ impl<'a, 'b> Walker<'a, 'b> {
             .collect();
         let lines = self.cx.plan.dyads().filter(|dyad| dyad.form == Form::TwoLines);
         let sides = lines.map(|dyad| self.state.determinant(0, &self.cx, dyad) > 0.0).collect();
-        Knot { at, reached, angles, rates, spread, sides, open: None, solved }
+        let (seeds, bends) = self.seeds(at, solved);
+        Knot { at, reached, angles, rates, spread, sides, open: None, solved, seeds, bends }
+    }
+
+    /// An unknown of a group at a parameter, by its Taylor polynomial at the last knot.
+    fn foretold(&self, place: usize, at: f64) -> f64 {
+        match self.knots.last() {
+            Some(knot) => foretell(&knot.seeds[place], at - knot.at),
+            None => self.first[place][0],
+        }
+    }
+
+    /// Unknowns of the groups at the position just visited, and signs of the determinants.
+    fn seeds(&self, at: f64, solved: usize) -> (Vec<Seed>, Vec<bool>) {
+        if self.last_group.is_none_or(|step| solved <= step) {
+            return (Vec::new(), Vec::new());
+        }
+        let len = self.state.len;
+        let seed = |(place, &unknown): (usize, &Unknown)| {
+            let (value, jet) = match unknown {
+                Unknown::Class(class) => {
+                    let angle = self.state.class[class][0].angle();
+                    (nearest(angle, self.foretold(place, at)), &self.state.theta[class * len..])
+                }
+                Unknown::Slide(slide) => {
+                    let jet = &self.state.slides[slide * len..];
+                    (jet[0][0], jet)
+                }
+            };
+            let drivers = self.rates.len();
+            let second = self.cx.jets.tensor(2);
+            let pairs = second.iter().enumerate().map(|(pair, &k)| {
+                self.rates[pair / drivers] * self.rates[pair % drivers] * jet[k][0]
+            });
+            [value, self.along(|driver| jet[1 + driver][0]), pairs.sum()]
+        };
+        let seeds = self.unknowns.iter().enumerate().map(seed).collect();
+        (seeds, self.state.determinants.iter().map(|d| d[0] > 0.0).collect())
+    }
+
+    /// Whether the groups at the second knot are not surely where the way from the first leads.
+    fn strays(&self, from: &Knot, knot: &Knot) -> bool {
+        let Some(step) = self.last_group else { return false };
+        if knot.solved <= step || knot.bends != from.bends {
+            return true;
+        }
+        let far = |(a, b): (&Seed, &Seed)| {
+            // No number is far.
+            !((foretell(a, knot.at - from.at) - b[0]).abs() <= STRAY)
+        };
+        from.seeds.iter().zip(&knot.seeds).any(far)
     }
 
     /// Spread of a dyad at the position just visited, and its rate along the path.
@@ -193,6 +294,9 @@ impl<'a, 'b> Walker<'a, 'b> {
     pub fn advance(&mut self, to: f64) {
         let mut ends = vec![(to, 0_u32)];
         while let Some((end, depth)) = ends.pop() {
+            if self.ended {
+                return;
+            }
             let Some(from) = self.knots.last().cloned() else { return };
             let mut end = end;
             let mut knot = self.knot(end, &from.angles);
@@ -211,11 +315,16 @@ impl<'a, 'b> Walker<'a, 'b> {
             let middle = 0.5 * (from.at + end);
             let room = self.knots.len() < MOST_KNOTS;
             let can_halve = room && middle != from.at && middle != end;
-            if can_halve && depth < LIFT_HALVINGS && (swings || too_far(&from, &knot, depth)) {
+            let strays = self.strays(&from, &knot);
+            let coarse =
+                depth < LIFT_HALVINGS && (swings || (!strays && too_far(&from, &knot, depth)));
+            if can_halve && (coarse || strays && depth < FOLD_HALVINGS) {
                 // The halves find what was found on the whole again.
                 self.changes.retain(|c| (c.at - from.at) * self.way <= 0.0);
                 ends.push((end, depth + 1));
                 ends.push((middle, depth + 1));
+            } else if strays {
+                self.ended = true;
             } else {
                 self.knots.push(knot);
             }
@@ -240,6 +349,22 @@ impl<'a, 'b> Walker<'a, 'b> {
                     })
             })
         })
+    }
+
+    /// Whether the last knot, some turns on, is the first again.
+    pub(crate) fn has_returned(&self) -> bool {
+        let [Some(first), Some(last)] = [self.knots.first(), self.knots.last()] else {
+            return false;
+        };
+        let mut pairs = self.unknowns.iter().zip(first.seeds.iter().zip(&last.seeds));
+        let same = pairs.all(|(unknown, (a, b))| {
+            let apart = match unknown {
+                Unknown::Class(_) => (b[0] - a[0]) - TAU * ((b[0] - a[0]) / TAU).round(),
+                Unknown::Slide(_) => b[0] - a[0],
+            };
+            apart.abs() <= RETURNED
+        });
+        same && self.signs_at(f64::INFINITY) == self.start_signs
     }
 
     /// Signs between the changes, in the direction of growing parameter.
@@ -280,4 +405,9 @@ fn may_hide_island(a: &Knot, b: &Knot, cell: f64, depth: u32) -> bool {
         }
         _ => depth < UNLIKE_HALVINGS,
     }
+}
+
+/// Taylor's polynomial.
+fn foretell([value, rate, second]: &Seed, step: f64) -> f64 {
+    value + step * (rate + 0.5 * step * second)
 }

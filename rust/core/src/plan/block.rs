@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::{Along, Higher, Plan, Step};
+use super::{Along, Group, Higher, Plan, Step};
 use crate::error::StructureError;
 use crate::linkage::Linkage;
 use crate::structure::closure::list;
@@ -100,9 +100,13 @@ pub fn add_steps(
                 plan.steps.push(Step::Dyad(dyad));
             }
             _ => {
-                plan.higher.get_or_insert_with(|| {
-                    higher(plan_links(linkage, &plan.edges, &edges), linkage, structure)
-                });
+                let links = plan_links(linkage, &plan.edges, &edges);
+                let higher = higher(links, linkage, structure);
+                let name = format!("{}({})", higher.class, higher.links);
+                let (group, chords) = Group::new(plan, &edges, &unknowns, &known, name);
+                edges.retain(|edge| !chords.contains(edge));
+                plan.steps.push(Step::Group(group));
+                plan.higher.get_or_insert(higher);
             }
         }
         place(plan, &mut known, edges);

@@ -10,6 +10,7 @@
 pub mod bind;
 mod block;
 mod fit;
+pub mod group;
 pub mod jet;
 
 use crate::error::StructureError;
@@ -19,6 +20,7 @@ use crate::structure::closure::{Edge, Span, rotations};
 use crate::structure::{Closure, Rotation, Structure};
 use bind::Bound;
 pub use block::{Dyad, Form, Part, Unknown};
+pub use group::Group;
 
 /// Value of a slide on an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,6 +89,8 @@ pub struct Orientation {
 pub enum Step {
     /// Solve a dyad.
     Dyad(Dyad),
+    /// Solve a group above class II.
+    Group(Group),
     /// Place one end of an edge from the other.
     Place { edge: usize, backward: bool },
     /// Place a redundant link and check that it fits.
@@ -312,6 +316,20 @@ impl Plan {
             Step::Dyad(dyad) => Some(dyad),
             _ => None,
         })
+    }
+
+    /// The groups above class II, in order.
+    pub fn groups(&self) -> impl Iterator<Item = &Group> {
+        self.steps.iter().filter_map(|step| match step {
+            Step::Group(group) => Some(group),
+            _ => None,
+        })
+    }
+
+    /// Numbers that the matrix of any group needs, with its inverse and a right-hand side.
+    #[must_use]
+    pub fn matrix_size(&self) -> usize {
+        self.groups().map(|group| (2 * group.rows + 1) * group.rows).max().unwrap_or(0)
     }
 
     /// Number of dyads with two solutions.

@@ -1,0 +1,102 @@
+//! Where the way of a design begins: the groups above class II at the drawing's coordinate.
+//!
+//! Their assembly is the one that is reached from the drawing when its dimensions go straight to
+//! the design's.
+
+use super::design::Design;
+use super::state::{Fault, Status};
+use super::walk::{STRAY, Seed};
+use crate::linkage::Driver;
+use crate::plan::bind::Bound;
+use crate::plan::{Step, Unknown};
+use crate::plane::Vector;
+
+/// Parts of the way from the drawing's dimensions, at least.
+const LEAST_PART: f64 = 1.0 / 1_099_511_627_776.0;
+
+impl Design<'_> {
+    /// Unknowns of the groups at the drawing's coordinate, for dimensions `values` that are bound;
+    /// none if the way to them folds.
+    pub(crate) fn home(&self, values: &[f64]) -> Option<Vec<Seed>> {
+        let (mechanism, plan) = (self.mechanism, self.mechanism.plan());
+        let unknowns: Vec<Unknown> = plan.groups().flat_map(|g| g.unknowns.clone()).collect();
+        let last = plan.steps.iter().rposition(|step| matches!(step, Step::Group(_)));
+        let Some(last) = last else { return Some(Vec::new()) };
+        // rad and m, until the end.
+        let mut here: Vec<f64> = unknowns
+            .iter()
+            .map(|&unknown| match unknown {
+                Unknown::Class(class) => mechanism.class_angle[class],
+                Unknown::Slide(slide) => {
+                    mechanism.linkage().drawing_coordinate(Driver::Slide(slide))
+                }
+            })
+            .collect();
+        let mut sides: Option<Vec<bool>> = None;
+        let (mut done, mut part) = (0.0, 1.0);
+        let drawing = mechanism.drawing();
+        while done < 1.0 {
+            let next = f64::min(done + part, 1.0);
+            let between: Vec<f64> = if next < 1.0 {
+                drawing.iter().zip(values).map(|(a, b)| a + next * (b - a)).collect()
+            } else {
+                values.to_vec()
+            };
+            let bound = Bound::new(plan, &mechanism.slots, &between);
+            let q: Vec<f64> = (0..plan.drivers.len())
+                .map(|d| {
+                    let unit = if plan.driven_slide(d).is_some() { bound.scale } else { 1.0 };
+                    mechanism.q0()[d] / unit
+                })
+                .collect();
+            let cx = super::state::Context { bound: &bound, ..self.context(self.first_jets()) };
+            let mut state = self.state(self.first_jets());
+            state.prepare(plan, &bound, cx.jets);
+            for (&unknown, &value) in unknowns.iter().zip(&here) {
+                match unknown {
+                    Unknown::Class(c) => state.class[c][0] = Vector::at_angle(value),
+                    Unknown::Slide(s) => state.slides[s * state.len][0] = value / bound.scale,
+                }
+            }
+            state.solve(&cx, &q);
+            let solved = match (state.status, state.fault) {
+                (Status::BadInput, _) => false,
+                (
+                    Status::Unreachable | Status::NotConverged,
+                    Some(Fault::Open { step, .. } | Fault::Astray { step }),
+                ) => step > last,
+                _ => true,
+            };
+            let there: Vec<f64> = unknowns
+                .iter()
+                .zip(&here)
+                .map(|(&unknown, &from)| match unknown {
+                    Unknown::Class(c) => super::track::nearest(state.class[c][0].angle(), from),
+                    Unknown::Slide(s) => state.slides[s * state.len][0] * bound.scale,
+                })
+                .collect();
+            let far = unknowns.iter().zip(here.iter().zip(&there)).any(|(unknown, (a, b))| {
+                let size = if matches!(unknown, Unknown::Slide(_)) { bound.scale } else { 1.0 };
+                // No number is far.
+                !((a - b).abs() <= STRAY * size)
+            });
+            let now: Vec<bool> = state.determinants.iter().map(|d| d[0] > 0.0).collect();
+            if solved && !far && sides.as_ref().is_none_or(|sides| *sides == now) {
+                (done, part) = (next, 2.0 * part);
+                here = there;
+                sides = Some(now);
+            } else {
+                part *= 0.5;
+                if part < LEAST_PART {
+                    return None;
+                }
+            }
+        }
+        let scale = self.bound.scale;
+        let seed = |(&unknown, &value): (&Unknown, &f64)| match unknown {
+            Unknown::Class(_) => [value, 0.0, 0.0],
+            Unknown::Slide(_) => [value / scale, 0.0, 0.0],
+        };
+        Some(unknowns.iter().zip(&here).map(seed).collect())
+    }
+}

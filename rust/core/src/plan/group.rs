@@ -1,0 +1,209 @@
+//! Groups above class II: their loops, with as few unknowns as can be.
+//!
+//! The independent loops of the block's graph are those that its chords close over a spanning
+//! tree. A chord that alone turns with its rotation (a binary link) leaves of its two equations
+//! the one that says how long it is; a chord along a guide leaves the one that says how far from
+//! the guide its end is; either takes an unknown with it. So the tree takes other edges first.
+
+use super::block::{Part, Unknown};
+use super::{Along, Plan};
+
+/// What the chord of a loop leaves of its vector equation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Chord {
+    /// Its length: the rotation of this class is found afterwards.
+    Length {
+        /// The class.
+        class: usize,
+    },
+    /// The distance of its end from the guide: the value of this slide is found afterwards.
+    Guide {
+        /// The slide.
+        slide: usize,
+    },
+    /// Both components.
+    Whole,
+}
+
+/// One independent loop: `P_start + Σ path = P_end + chord`, the chord run backward.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Loop {
+    /// The edge that closes it, from its `from` to its `to`.
+    pub edge: usize,
+    /// What it leaves.
+    pub chord: Chord,
+    /// Known point from which `from` is reached; of loops on no known point: point 0.
+    pub start: usize,
+    /// Known point from which `to` is reached.
+    pub end: usize,
+    /// Edges from `start` to `from`, run backward, and from `end` to `to`: their sum and
+    /// `P_end − P_start` is the chord's vector. `turns` and `slides` count the unknowns.
+    pub path: Vec<Part>,
+    /// The unknown that turns the chord itself.
+    pub turns: Option<usize>,
+    /// The unknown that is the slide along it.
+    pub slides: Option<usize>,
+    /// The orientations that turn with the rotation it takes along.
+    pub turned: Vec<usize>,
+}
+
+/// A group without a closed form.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Group {
+    /// What is iterated for.
+    pub unknowns: Vec<Unknown>,
+    /// The orientations that turn with each (none with a slide).
+    pub turned: Vec<Vec<usize>>,
+    /// Its loops.
+    pub loops: Vec<Loop>,
+    /// Rows of its equations: one of a loop or two.
+    pub rows: usize,
+    /// Names of its links, for what is said of it.
+    pub name: String,
+    /// Place among the groups.
+    pub index: usize,
+}
+
+impl Group {
+    /// Finds the loops of a block; returns their chords, which place no point.
+    pub(super) fn new(
+        plan: &Plan,
+        edges: &[usize],
+        unknowns: &[Unknown],
+        known: &[bool],
+        name: String,
+    ) -> (Self, Vec<usize>) {
+        let chord = |edge: usize| chord_of(plan, edges, unknowns, edge);
+        // Stable: among equals the order of description.
+        let mut order: Vec<usize> = edges.to_vec();
+        order.sort_by_key(|&edge| usize::from(chord(edge) != Chord::Whole));
+        let (tree, chords) = spanning_tree(plan, &order, known);
+        let gone: Vec<Unknown> = chords
+            .iter()
+            .filter_map(|&edge| match chord(edge) {
+                Chord::Length { class } => Some(Unknown::Class(class)),
+                Chord::Guide { slide } => Some(Unknown::Slide(slide)),
+                Chord::Whole => None,
+            })
+            .collect();
+        let unknowns: Vec<Unknown> =
+            unknowns.iter().copied().filter(|u| !gone.contains(u)).collect();
+        let loops: Vec<Loop> = chords
+            .iter()
+            .map(|&edge| close(plan, &tree, edge, chord(edge), &unknowns))
+            .collect();
+        let turned = unknowns.iter().map(|&unknown| turned(plan, unknown)).collect();
+        let rows = loops.iter().map(|l| if l.chord == Chord::Whole { 2 } else { 1 }).sum();
+        let index = plan.groups().count();
+        (Self { unknowns, turned, loops, rows, name, index }, chords)
+    }
+}
+
+/// Orientations that turn with an unknown.
+fn turned(plan: &Plan, unknown: Unknown) -> Vec<usize> {
+    let with = |o: &usize| unknown == Unknown::Class(plan.orientations[*o].class);
+    (0..plan.orientations.len()).filter(with).collect()
+}
+
+/// What an edge would leave as a chord.
+fn chord_of(plan: &Plan, edges: &[usize], unknowns: &[Unknown], edge: usize) -> Chord {
+    let class = plan.class_of(edge);
+    let alone = edges.iter().filter(|&&e| plan.class_of(e) == class).count() == 1;
+    match plan.edges[edge].along {
+        Along::Slide(slide) if unknowns.contains(&Unknown::Slide(slide)) => Chord::Guide { slide },
+        _ if alone && unknowns.contains(&Unknown::Class(class)) => Chord::Length { class },
+        _ => Chord::Whole,
+    }
+}
+
+/// For every point the edge by which the tree comes to it, and whether against its direction.
+type Tree = Vec<Option<(usize, bool)>>;
+
+/// A spanning tree of the first edges that make none of its loops; all known points are one.
+/// The others are chords.
+fn spanning_tree(plan: &Plan, order: &[usize], known: &[bool]) -> (Tree, Vec<usize>) {
+    let mut part: Vec<usize> = (0..plan.points).collect();
+    if let Some(root) = known.iter().position(|&k| k) {
+        for (point, part) in part.iter_mut().enumerate() {
+            if known[point] {
+                *part = root;
+            }
+        }
+    }
+    let (mut inside, mut chords) = (Vec::new(), Vec::new());
+    for &edge in order {
+        let [a, b] = plan.edges[edge].ends(false).map(|point| part[point]);
+        if a == b {
+            chords.push(edge);
+        } else {
+            part.iter_mut().filter(|p| **p == b).for_each(|p| *p = a);
+            inside.push(edge);
+        }
+    }
+    chords.sort_unstable();
+    let mut tree: Tree = vec![None; plan.points];
+    let mut seen = known.to_vec();
+    loop {
+        let mut grown = false;
+        for &edge in &inside {
+            let [from, to] = plan.edges[edge].ends(false);
+            for (here, next, backward) in [(from, to, false), (to, from, true)] {
+                if seen[here] && !seen[next] {
+                    seen[next] = true;
+                    tree[next] = Some((edge, backward));
+                    grown = true;
+                }
+            }
+        }
+        if grown {
+            continue;
+        }
+        // A part that hangs on no known point grows from any point of its own.
+        let Some(&edge) = inside.iter().find(|&&e| !seen[plan.edges[e].edge.from]) else { break };
+        seen[plan.edges[edge].edge.from] = true;
+    }
+    (tree, chords)
+}
+
+fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, unknowns: &[Unknown]) -> Loop {
+    let walk = |mut point: usize| {
+        let mut edges = Vec::new();
+        while let Some((edge, backward)) = tree[point] {
+            edges.push((edge, backward));
+            let [tail, _] = plan.edges[edge].ends(backward);
+            point = tail;
+        }
+        (point, edges)
+    };
+    let [from, to] = plan.edges[edge].ends(false);
+    let ((start, mut back), (end, mut ahead)) = (walk(from), walk(to));
+    // What both ways begin with is no part of the loop.
+    while let (Some(a), Some(b)) = (back.last(), ahead.last())
+        && a == b
+    {
+        back.pop();
+        ahead.pop();
+    }
+    let (start, end) = if start == end { (0, 0) } else { (start, end) };
+    let place = |unknown| unknowns.iter().position(|&u| u == unknown);
+    let mut path: Vec<(usize, bool)> = back.into_iter().map(|(e, b)| (e, !b)).collect();
+    path.extend(ahead.into_iter().rev());
+    let turns = |edge: usize| place(Unknown::Class(plan.class_of(edge)));
+    let slides = |edge: usize| match plan.edges[edge].along {
+        Along::Slide(slide) => place(Unknown::Slide(slide)),
+        _ => None,
+    };
+    let path = path
+        .into_iter()
+        .map(|(edge, backward)| {
+            let (turns, slides) = (turns(edge), slides(edge));
+            Part { edge, backward, turns, slides, in_leg: false }
+        })
+        .collect();
+    let (turns, slides) = (turns(edge), slides(edge));
+    let turned = match chord {
+        Chord::Length { class } => turned(plan, Unknown::Class(class)),
+        _ => Vec::new(),
+    };
+    Loop { edge, chord, start, end, path, turns, slides, turned }
+}
