@@ -12,6 +12,7 @@ mod forms;
 pub mod metrics;
 mod outputs;
 mod parallel;
+mod place;
 mod quick;
 mod rows;
 mod simd;

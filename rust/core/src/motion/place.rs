@@ -1,0 +1,96 @@
+//! Points along edges, from one end to the other.
+
+use super::state::{Context, State};
+use crate::lanes::Real;
+use crate::plan::Along;
+use crate::plane::Vector;
+
+impl<R: Real, const G: usize> State<R, G> {
+    /// Places one end of an edge from the other, in all groups.
+    #[inline(always)]
+    pub(crate) fn place_all(&mut self, cx: &Context<'_>, e: usize, backward: bool) {
+        // Jets of known length are arrays.
+        match (cx.plan.edges[e].along == Along::Nothing, self.len) {
+            (true, 1) => self.place_rigid(cx, e, backward, 1),
+            (true, 2) => self.place_rigid(cx, e, backward, 2),
+            (true, 3) => self.place_rigid(cx, e, backward, 3),
+            (true, 4) => self.place_rigid(cx, e, backward, 4),
+            _ => {
+                for g in 0..self.groups.min(G) {
+                    self.place(g, cx, e, backward);
+                }
+            }
+        }
+    }
+
+    /// An edge of constant length, jets of `len` entries.
+    #[inline(always)]
+    fn place_rigid(&mut self, cx: &Context<'_>, e: usize, backward: bool, len: usize) {
+        let edge = &cx.plan.edges[e];
+        let [from, to] = edge.ends(backward);
+        let jet = |place: usize| place * len..place * len + len;
+        let Ok([base, out]) = self.points.get_disjoint_mut([from, to].map(jet)) else { return };
+        let groups = self.groups.min(G);
+        match edge.leg {
+            Some(leg) if leg.backward == backward => {
+                let v = &self.legs[jet(leg.index)];
+                for k in 0..len {
+                    for g in 0..groups {
+                        out[k][g] = base[k][g] + v[k][g];
+                    }
+                }
+            }
+            Some(leg) => {
+                let v = &self.legs[jet(leg.index)];
+                for k in 0..len {
+                    for g in 0..groups {
+                        out[k][g] = base[k][g] - v[k][g];
+                    }
+                }
+            }
+            None => {
+                let rigid = Vector::splat(cx.bound.rigid[e]);
+                let rigid = if backward { -rigid } else { rigid };
+                let orient = &self.orient[jet(edge.orientation)];
+                for k in 0..len {
+                    for g in 0..groups {
+                        out[k][g] = base[k][g] + orient[k][g] * rigid;
+                    }
+                }
+            }
+        }
+        let arm = R::splat(cx.bound.arm2[e]);
+        let turned = &self.class_condition[edge.class];
+        let Ok([from_grain, grain]) = self.grain.get_disjoint_mut([from, to]) else { return };
+        let Ok([before, condition]) = self.point_condition.get_disjoint_mut([from, to]) else {
+            return;
+        };
+        for g in 0..groups {
+            grain[g] = from_grain[g].max(arm).max(out[0][g].norm2());
+            condition[g] = before[g].max(turned[g]);
+        }
+    }
+
+    /// The same for any edge, in one group.
+    #[inline(always)]
+    pub(crate) fn place(&mut self, g: usize, cx: &Context<'_>, e: usize, backward: bool) {
+        let edge = &cx.plan.edges[e];
+        let [from, to] = edge.ends(backward);
+        for k in 0..self.len {
+            let v = self.edge(g, cx, e, k);
+            let base = self.points[from * self.len + k][g];
+            self.points[to * self.len + k][g] = if backward { base - v } else { base + v };
+        }
+        let (start, end) = (self.points[from * self.len][g], self.points[to * self.len][g]);
+        let arm = match edge.along {
+            Along::Nothing => R::splat(cx.bound.arm2[e]),
+            _ => (end - start).norm2(),
+        };
+        self.grain[to][g] = self.grain[from][g].max(arm).max(end.norm2());
+        let mut condition = self.point_condition[from][g].max(self.class_condition[edge.class][g]);
+        if let Along::Slide(slide) = edge.along {
+            condition = condition.max(self.slide_condition[slide][g]);
+        }
+        self.point_condition[to][g] = condition;
+    }
+}
