@@ -82,7 +82,8 @@ What is checked of every mechanism:
   the law's 8 u κ of the size; the equations share no code with `assur`.
 - **Every gap is real.** Where a motion ends, the end is bisected to neighbouring numbers. There
   the Jacobian of the bodies, which shares no code either, is singular, and its square falls
-  linearly: a dead point, beyond which this assembly does not exist. `explain` names the dyad.
+  linearly: a dead point, beyond which this assembly does not exist; where two dyads fold together
+  it falls faster, and then no assembly beyond is beside the last one. `explain` names the dyad.
   (Or a point has gone to infinity, where guides become parallel.)
 - **Analogues** are the central differences of positions, at four positions each.
 - **Nothing raises or panics.**
