@@ -359,8 +359,6 @@ class Mechanism:
         ------
         PositionError, DimensionError, InputError
             With ``on_error="raise"``: the first position that cannot be had.
-        StructureError
-            If a group is above class II.
 
         Examples
         --------

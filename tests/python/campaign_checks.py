@@ -156,6 +156,8 @@ def unreal(solve: Solve, geometry: Geometry, edges: Array) -> tuple[list[str], f
 def goes_on(solve: Solve, last: float, beyond: float) -> bool:
     """Whether some assembly beyond the last position of a motion is beside it."""
     motion = solve(np.array([last])).motion
+    if motion.mechanism.structure.cls > 2:  # their assemblies are not found yet
+        return True
     here = np.array([motion.joint(name).value[0] for name in motion.mechanism.joints])
     size = np.abs(here).max()
     for assembly in motion.mechanism.assemblies(beyond):

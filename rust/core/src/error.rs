@@ -163,7 +163,9 @@ pub enum SolveError {
     #[error("the work was interrupted: not all positions were solved")]
     Interrupted,
     /// A group above class II.
-    #[error("group {group} is of class {class}: only groups of class II can be solved so far")]
+    #[error(
+        "group {group} is of class {class}: assemblies are found for groups of class II only, so far; an assembly is told by its drawing"
+    )]
     HigherClass { group: String, class: String },
     /// A dimension that is NaN, infinite, or a length that is not positive.
     #[error("dimension {name:?} is {}: {need}", number(*value))]

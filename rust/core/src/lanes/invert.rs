@@ -89,7 +89,10 @@ mod tests {
                 assert!(error <= 16.0 * f64::EPSILON * condition, "{n} {seed}: {error}");
                 let by_nalgebra = a.determinant();
                 let close = (determinant - by_nalgebra).abs();
-                assert!(close <= 1e-12 * a.norm().powi(i32::try_from(n).unwrap_or(0)), "{n} {seed}");
+                assert!(
+                    close <= 1e-12 * a.norm().powi(i32::try_from(n).unwrap_or(0)),
+                    "{n} {seed}"
+                );
             }
         }
     }

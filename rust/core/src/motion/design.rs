@@ -11,10 +11,10 @@ use super::track::{Spot, Track};
 use super::walk::{Seed, Start};
 use crate::lanes::Real;
 use crate::mechanism::Mechanism;
-use crate::plan::{Step, Unknown};
-use crate::plane::Vector;
 use crate::plan::bind::Bound;
 use crate::plan::jet::Jets;
+use crate::plan::{Step, Unknown};
+use crate::plane::Vector;
 use crate::tolerance::CHANGE_WIDTH;
 
 /// Powers of two between the design's own unit of length and the metre.

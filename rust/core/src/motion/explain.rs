@@ -91,14 +91,11 @@ impl Mechanism {
                 return Diagnosis::bare(Status::BadInput, format!("q = {at} {why}"));
             }
             Status::Lost => {
-                let sentence = format!(
-                    "at q = {at} the assembly is not known: its signs do not return within 64 turns"
-                );
-                return Diagnosis::bare(Status::Lost, sentence);
+                return Diagnosis::bare(Status::Lost, self.lost(design, at));
             }
-            Status::Unreachable => {
+            Status::Unreachable | Status::NotConverged => {
                 let (name, sentence) = self.unreachable(state, design.bound.scale, at);
-                let bare = Diagnosis::bare(Status::Unreachable, sentence);
+                let bare = Diagnosis::bare(state.status, sentence);
                 return Diagnosis { name: Some(name), step, ..bare };
             }
             Status::Singular if analogues => format!(
@@ -205,6 +202,30 @@ impl Mechanism {
             Step::Group(group) => group.name.clone(),
             Step::Fit(fit) => fit.name.clone(),
             Step::Place { .. } => String::new(),
+        }
+    }
+
+    /// Why the way from the drawing does not lead there.
+    fn lost(&self, design: &Design<'_>, at: &str) -> String {
+        let groups: Vec<&str> = self.plan().groups().map(|group| group.name.as_str()).collect();
+        if groups.is_empty() {
+            return format!(
+                "at q = {at} the assembly is not known: its signs do not return within 64 turns"
+            );
+        }
+        let groups = groups.join(" → ");
+        match design.track.covered {
+            Some([low, high]) if low <= high && design.unit.coordinate.len() == 1 => {
+                let scale = 1.0 / design.unit.coordinate[0];
+                format!(
+                    "q = {at} is beyond a dead point: from the drawing the motion of {groups} reaches from {} to {}; another driver (with_driver) leads on",
+                    number(low * scale),
+                    number(high * scale)
+                )
+            }
+            _ => format!(
+                "q = {at} is not reached: on the straight way from the drawing {groups} comes to a dead point"
+            ),
         }
     }
 

@@ -17,38 +17,31 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn solve_group(&mut self, g: usize, cx: &Context<'_>, group: &Group, index: usize) {
         let mut matrix = std::mem::take(&mut self.matrix);
-        self.iterate(g, cx, group, index, &mut matrix);
-        if !self.is_over() {
-            self.finish_group(g, cx, group, index, &mut matrix);
-        }
-        self.matrix = matrix;
-    }
-
-    #[inline(always)]
-    fn iterate(
-        &mut self,
-        g: usize,
-        cx: &Context<'_>,
-        group: &Group,
-        index: usize,
-        matrix: &mut [R],
-    ) {
         let n = group.rows;
         let mut done = R::Mask::NONE;
-        for _ in 0..NEWTON_STEPS {
-            self.linearise(g, cx, group, matrix);
-            invert(matrix, n);
+        for step in 0..=NEWTON_STEPS {
+            for (place, &unknown) in group.unknowns.iter().enumerate() {
+                if let Unknown::Class(class) = unknown {
+                    self.spread_rotation(g, cx, &group.turned[place], self.class[class][g]);
+                }
+            }
+            self.measure(g, cx, group, 0);
+            self.linearise(g, cx, group, &mut matrix);
+            self.determinants[group.index][g] = invert(&mut matrix, n);
+            if done.all() || step == NEWTON_STEPS {
+                break;
+            }
             let mut most = R::ZERO;
             for (place, &unknown) in group.unknowns.iter().enumerate() {
-                let step = -times(matrix, n, place);
+                let step = -times(&matrix, n, place);
                 // No number counts as great.
                 most = R::select(step.abs().le(most), most, step.abs());
                 match unknown {
                     Unknown::Class(class) => {
                         let old = self.class[class][g];
                         let new = turned(old, step);
-                        let kept = R::select(done, old.x, new.x);
-                        self.class[class][g] = Vector::new(kept, R::select(done, old.y, new.y));
+                        let x = R::select(done, old.x, new.x);
+                        self.class[class][g] = Vector::new(x, R::select(done, old.y, new.y));
                     }
                     Unknown::Slide(slide) => {
                         let value = &mut self.slides[slide * self.len][g];
@@ -57,165 +50,161 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
             done = done.or(most.lt(R::splat(NEWTON_DONE)));
-            if done.all() {
-                return;
-            }
         }
         self.care[g] = self.care[g].or(done.not());
-        if R::LANES == 1 {
+        if R::LANES == 1 && !done.all() {
             self.fault = Some(Fault::Astray { step: index });
             self.status = Status::NotConverged;
+        } else {
+            self.judge(g, cx, group, index, &matrix);
+            self.group_analogues(g, cx, group, &mut matrix);
         }
+        self.matrix = matrix;
     }
 
-    /// The matrix of the equations and, behind it, what they miss.
+    /// Entry `k` of the edges, guides and chords.
     #[inline(always)]
-    fn linearise(&mut self, g: usize, cx: &Context<'_>, group: &Group, matrix: &mut [R]) {
-        for (place, &unknown) in group.unknowns.iter().enumerate() {
-            if let Unknown::Class(class) = unknown {
-                let rotation = self.class[class][g];
-                self.spread_rotation(g, cx, &group.turned[place], rotation);
+    fn measure(&mut self, g: usize, cx: &Context<'_>, group: &Group, k: usize) {
+        let len = self.len;
+        for (place, edge) in group.edges.iter().enumerate() {
+            let e = edge.edge;
+            let along = cx.plan.edges[e].along;
+            let unit = self.orient[cx.plan.edges[e].orientation * len + k][g];
+            let mut span = unit * Vector::splat(cx.bound.rigid[e]);
+            if along != Along::Nothing {
+                self.guides[place * len + k] = unit * Vector::splat(cx.bound.guide[e]);
             }
-        }
-        let n = group.rows;
-        matrix[..2 * n * n].fill(R::ZERO);
-        let mut row = 0;
-        for l in &group.loops {
-            let chord = self.chord(g, cx, l, 0);
-            let missing = &mut matrix[2 * n * n..];
-            match l.chord {
-                Chord::Whole => {
-                    let miss = chord - self.edge(g, cx, l.edge, 0);
-                    missing[row] = miss.x;
-                    missing[row + 1] = miss.y;
-                }
-                Chord::Length { .. } => {
-                    let length2 = self.local(g, cx, l.edge, 0).norm2();
-                    let per = R::splat(0.5) / length2.sqrt();
-                    missing[row] = (chord.norm2() - length2) * per;
-                }
-                Chord::Guide { .. } => missing[row] = self.beside_guide(g, cx, l, 0),
-            }
-            for part in &l.path {
-                let v = self.part(g, cx, part, 0);
-                if let Some(place) = part.turns {
-                    self.add_column(g, cx, l, (matrix, n), (row, place), chord, v.left());
-                }
-                if let Some(place) = part.slides {
-                    let guide = self.guide(g, cx, part.edge, 0);
-                    let v = if part.backward { -guide } else { guide };
-                    self.add_column(g, cx, l, (matrix, n), (row, place), chord, v);
+            if let Along::Slide(slide) | Along::Driver { slide } = along {
+                for term in &cx.jets.product[k] {
+                    let s = R::splat(term.factor) * self.slides[slide * len + term.right][g];
+                    span += self.guides[place * len + term.left].scale(s);
                 }
             }
-            self.add_own(g, cx, l, (matrix, n), row, chord);
-            row += if l.chord == Chord::Whole { 2 } else { 1 };
+            self.spans[place * len + k] = span;
+        }
+        for (place, l) in group.loops.iter().enumerate() {
+            let [start, end] = [l.start, l.end].map(|point| self.points[point * len + k][g]);
+            let mut sum = end - start;
+            for piece in &l.path {
+                let v = self.spans[piece.place * len + k];
+                sum += if piece.backward { -v } else { v };
+            }
+            self.chords[place * len + k] = sum;
         }
     }
 
-    /// Adds the change `v` of the chord with the unknown at `place`.
-    #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "a place in a matrix")]
-    fn add_column(
-        &self,
-        g: usize,
-        cx: &Context<'_>,
-        l: &Loop,
-        (matrix, n): (&mut [R], usize),
-        (row, place): (usize, usize),
-        chord: Vector<R>,
-        v: Vector<R>,
-    ) {
-        let at = row * 2 * n + place;
-        match l.chord {
-            Chord::Whole => {
-                matrix[at] += v.x;
-                matrix[at + 2 * n] += v.y;
-            }
-            Chord::Length { .. } => {
-                let per = R::ONE / self.local(g, cx, l.edge, 0).norm();
-                matrix[at] += chord.dot(v) * per;
-            }
-            Chord::Guide { .. } => matrix[at] += self.guide(g, cx, l.edge, 0).cross(v),
-        }
-    }
-
-    /// Adds what the chord itself changes with an unknown.
-    #[inline(always)]
-    fn add_own(
-        &self,
-        g: usize,
-        cx: &Context<'_>,
-        l: &Loop,
-        (matrix, n): (&mut [R], usize),
-        row: usize,
-        chord: Vector<R>,
-    ) {
-        match (l.chord, l.turns) {
-            (Chord::Whole, Some(place)) => {
-                let v = self.edge(g, cx, l.edge, 0).left();
-                let at = row * 2 * n + place;
-                matrix[at] += -v.x;
-                matrix[at + 2 * n] += -v.y;
-            }
-            (Chord::Guide { .. }, Some(place)) => {
-                let turning = self.guide(g, cx, l.edge, 0).left();
-                matrix[row * 2 * n + place] += turning.cross(chord);
-            }
-            _ => {}
-        }
-        if let (Chord::Whole, Some(place)) = (l.chord, l.slides) {
-            let v = self.guide(g, cx, l.edge, 0);
-            let at = row * 2 * n + place;
-            matrix[at] += -v.x;
-            matrix[at + 2 * n] += -v.y;
-        }
-    }
-
-    /// Entry `k` of the vector along the chord, by the rest of the loop.
-    #[inline(always)]
-    fn chord(&self, g: usize, cx: &Context<'_>, l: &Loop, k: usize) -> Vector<R> {
-        let [start, end] = [l.start, l.end].map(|point| self.points[point * self.len + k][g]);
-        let mut sum = end - start;
-        for part in &l.path {
-            sum += self.part(g, cx, part, k);
-        }
-        sum
-    }
-
-    /// Entry `k` of an edge's vector in the frame of its class (rigid, or along a driven slide).
+    /// Entry `k` of the vector in a chord's own frame, whose length it has.
     #[inline(always)]
     fn local(&self, g: usize, cx: &Context<'_>, e: usize, k: usize) -> Vector<R> {
         let mut local = Vector::ZERO;
         if k == 0 {
             local = Vector::splat(cx.bound.rigid[e]);
         }
-        if let Along::Driver { slide } | Along::Slide(slide) = cx.plan.edges[e].along {
+        if let Along::Driver { slide } = cx.plan.edges[e].along {
             let value = self.slides[slide * self.len + k][g];
             local += Vector::splat(cx.bound.guide[e]).scale(value);
         }
         local
     }
 
-    /// Entry `k` of a guide's direction.
+    /// What the equations miss at order `k`, behind the matrix.
     #[inline(always)]
-    fn guide(&self, g: usize, cx: &Context<'_>, e: usize, k: usize) -> Vector<R> {
-        let unit = self.orient[cx.plan.edges[e].orientation * self.len + k][g];
-        unit * Vector::splat(cx.bound.guide[e])
+    fn miss(&self, g: usize, cx: &Context<'_>, group: &Group, k: usize, missing: &mut [R]) {
+        let len = self.len;
+        let mut row = 0;
+        for (place, l) in group.loops.iter().enumerate() {
+            let e = group.edges[l.edge].edge;
+            match l.chord {
+                Chord::Whole => {
+                    let v = self.chords[place * len + k] - self.spans[l.edge * len + k];
+                    missing[row] = v.x;
+                    missing[row + 1] = v.y;
+                    row += 1;
+                }
+                Chord::Length { .. } => {
+                    let mut sum = R::ZERO;
+                    for term in &cx.jets.product[k] {
+                        let [a, b] = [term.left, term.right].map(|k| self.chords[place * len + k]);
+                        let [c, d] = [term.left, term.right].map(|k| self.local(g, cx, e, k));
+                        sum += R::splat(term.factor) * (a.dot(b) - c.dot(d));
+                    }
+                    missing[row] = sum * (R::splat(0.5) / self.local(g, cx, e, 0).norm());
+                }
+                Chord::Guide { .. } => {
+                    let mut sum = R::ZERO;
+                    for term in &cx.jets.product[k] {
+                        let guide = self.guides[l.edge * len + term.left];
+                        let chord = self.chords[place * len + term.right];
+                        sum += R::splat(term.factor) * guide.cross(chord);
+                    }
+                    if k == 0 {
+                        sum = sum - R::splat(cx.bound.guide[e].cross(cx.bound.rigid[e]));
+                    }
+                    missing[row] = sum;
+                }
+            }
+            row += 1;
+        }
     }
 
-    /// Entry `k` of how far the chord's end is to the left of where its guide runs.
+    /// The matrix of the equations and, behind it, what they miss.
     #[inline(always)]
-    fn beside_guide(&self, g: usize, cx: &Context<'_>, l: &Loop, k: usize) -> R {
-        let mut sum = R::ZERO;
-        for term in &cx.jets.product[k] {
-            let guide = self.guide(g, cx, l.edge, term.left);
-            let chord = self.chord(g, cx, l, term.right);
-            sum += R::splat(term.factor) * guide.cross(chord);
+    fn linearise(&self, g: usize, cx: &Context<'_>, group: &Group, matrix: &mut [R]) {
+        let (len, n) = (self.len, group.rows);
+        matrix[..2 * n * n].fill(R::ZERO);
+        self.miss(g, cx, group, 0, &mut matrix[2 * n * n..]);
+        let mut row = 0;
+        for (place, l) in group.loops.iter().enumerate() {
+            let e = group.edges[l.edge].edge;
+            let chord = self.chords[place * len];
+            // A change v of the chord's vector changes the equations by its products with these;
+            // the length's is along the chord, the guide's across the guide.
+            let [across, down] = match l.chord {
+                Chord::Whole => [Vector::ONE, Vector::ONE.left()],
+                Chord::Length { .. } => {
+                    let per = R::ONE / self.local(g, cx, e, 0).norm();
+                    [chord.scale(per), Vector::ZERO]
+                }
+                Chord::Guide { .. } => [self.guides[l.edge * len].left(), Vector::ZERO],
+            };
+            let is_whole = l.chord == Chord::Whole;
+            let mut add = |unknown: usize, v: Vector<R>| {
+                let at = row * 2 * n + unknown;
+                matrix[at] += across.dot(v);
+                if is_whole {
+                    matrix[at + 2 * n] += down.dot(v);
+                }
+            };
+            for piece in &l.path {
+                let edge = &group.edges[piece.place];
+                let turn = if piece.backward { -R::ONE } else { R::ONE };
+                if let Some(unknown) = edge.turns {
+                    add(unknown, self.spans[piece.place * len].left().scale(turn));
+                }
+                if let Some(unknown) = edge.slides {
+                    add(unknown, self.guides[piece.place * len].scale(turn));
+                }
+            }
+            let own = &group.edges[l.edge];
+            match l.chord {
+                Chord::Whole => {
+                    if let Some(unknown) = own.turns {
+                        add(unknown, -self.spans[l.edge * len].left());
+                    }
+                    if let Some(unknown) = own.slides {
+                        add(unknown, -self.guides[l.edge * len]);
+                    }
+                }
+                Chord::Guide { .. } => {
+                    if let Some(unknown) = own.turns {
+                        // The guide turns, which is as if the chord turned back.
+                        add(unknown, -chord.left());
+                    }
+                }
+                Chord::Length { .. } => {}
+            }
+            row += if is_whole { 2 } else { 1 };
         }
-        if k == 0 {
-            sum = sum - R::splat(cx.bound.guide[l.edge].cross(cx.bound.rigid[l.edge]));
-        }
-        sum
     }
 
     /// The orientations of a class from its rotation.
@@ -234,20 +223,23 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Condition, analogues, and what the chords took with them.
+    /// Condition of the group and of all that hangs on it.
     #[inline(always)]
-    fn finish_group(
-        &mut self,
-        g: usize,
-        cx: &Context<'_>,
-        group: &Group,
-        index: usize,
-        matrix: &mut [R],
-    ) {
+    fn judge(&mut self, g: usize, cx: &Context<'_>, group: &Group, index: usize, matrix: &[R]) {
         let n = group.rows;
-        self.linearise(g, cx, group, matrix);
-        self.determinants[group.index][g] = invert(matrix, n);
-        let before = self.before_group(g, cx, group);
+        let mut before = R::ONE;
+        for l in &group.loops {
+            for point in [l.start, l.end] {
+                before = before.max(self.point_condition[point][g]);
+            }
+        }
+        for edge in group.edges.iter().filter(|edge| edge.turns.is_none()) {
+            let class = cx.plan.class_of(edge.edge);
+            let own = |l: &Loop| l.chord == Chord::Length { class };
+            if !group.loops.iter().any(own) {
+                before = before.max(self.class_condition[class][g]);
+            }
+        }
         let mut size2 = R::ZERO;
         for (place, &unknown) in group.unknowns.iter().enumerate() {
             // A column of a rotation is measured in units of the greatest arm that turns with it.
@@ -261,23 +253,18 @@ impl<R: Real, const G: usize> State<R, G> {
             }
         }
         let condition = before * size2.max(R::ONE);
-        self.condition2[g] = R::select(
-            condition.le(self.condition2[g]),
-            self.condition2[g],
-            condition,
-        );
-        for &unknown in &group.unknowns {
-            self.set_condition(g, unknown, condition);
-        }
-        for l in &group.loops {
-            match l.chord {
-                Chord::Length { class } => {
-                    self.set_condition(g, Unknown::Class(class), condition);
-                }
-                Chord::Guide { slide } => {
-                    self.set_condition(g, Unknown::Slide(slide), condition);
-                }
-                Chord::Whole => {}
+        // No number counts as great.
+        let kept = condition.le(self.condition2[g]);
+        self.condition2[g] = R::select(kept, self.condition2[g], condition);
+        let taken = group.loops.iter().filter_map(|l| match l.chord {
+            Chord::Length { class } => Some(Unknown::Class(class)),
+            Chord::Guide { slide } => Some(Unknown::Slide(slide)),
+            Chord::Whole => None,
+        });
+        for unknown in group.unknowns.iter().copied().chain(taken) {
+            match unknown {
+                Unknown::Class(class) => self.class_condition[class][g] = condition,
+                Unknown::Slide(slide) => self.slide_condition[slide][g] = condition,
             }
         }
         let flat = (condition * R::splat(FLAT2)).le(before).not();
@@ -286,129 +273,87 @@ impl<R: Real, const G: usize> State<R, G> {
             self.fault.get_or_insert(Fault::Flat { step: index });
             self.status = Status::Singular;
         }
-        self.group_analogues(g, cx, group, matrix);
-        for k in 0..self.len {
-            for l in &group.loops {
-                self.take_along(g, cx, l, k);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn set_condition(&mut self, g: usize, unknown: Unknown, condition: R) {
-        match unknown {
-            Unknown::Class(class) => self.class_condition[class][g] = condition,
-            Unknown::Slide(slide) => self.slide_condition[slide][g] = condition,
-        }
-    }
-
-    /// Square of the condition of what the group hangs on.
-    #[inline(always)]
-    fn before_group(&self, g: usize, cx: &Context<'_>, group: &Group) -> R {
-        let mut before = R::ONE;
-        for l in &group.loops {
-            for point in [l.start, l.end] {
-                before = before.max(self.point_condition[point][g]);
-            }
-            for part in &l.path {
-                if part.turns.is_none() {
-                    before = before.max(self.class_condition[cx.plan.class_of(part.edge)][g]);
-                }
-            }
-        }
-        before
     }
 
     /// Analogues of the unknowns: at every order the same matrix, as right-hand side what is
-    /// known of that order.
+    /// known of that order; and what the chords took with them.
     #[inline(always)]
     fn group_analogues(&mut self, g: usize, cx: &Context<'_>, group: &Group, matrix: &mut [R]) {
         let (len, n) = (self.len, group.rows);
-        for k in 1..len {
-            // What is yet unknown counts as 0.
-            for (place, &unknown) in group.unknowns.iter().enumerate() {
-                if let Unknown::Slide(slide) = unknown {
-                    self.slides[slide * len + k][g] = R::ZERO;
+        for k in 0..len {
+            if k > 0 {
+                // What is yet unknown counts as 0.
+                for (place, &unknown) in group.unknowns.iter().enumerate() {
+                    if let Unknown::Slide(slide) = unknown {
+                        self.slides[slide * len + k][g] = R::ZERO;
+                    }
+                    for &o in &group.turned[place] {
+                        self.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k);
+                    }
                 }
-                for &o in &group.turned[place] {
-                    self.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k);
+                self.measure(g, cx, group, k);
+                self.miss(g, cx, group, k, &mut matrix[2 * n * n..]);
+                for (place, &unknown) in group.unknowns.iter().enumerate() {
+                    let value = -times(matrix, n, place);
+                    match unknown {
+                        Unknown::Slide(slide) => self.slides[slide * len + k][g] = value,
+                        Unknown::Class(class) => self.theta[class * len + k][g] = value,
+                    }
+                    for &o in &group.turned[place] {
+                        let top = self.orient[o * len][g].left().scale(value);
+                        self.orient[o * len + k][g] += top;
+                    }
                 }
+                self.measure(g, cx, group, k);
             }
-            let mut row = 0;
-            for l in &group.loops {
-                match l.chord {
-                    Chord::Whole => {
-                        let miss = self.chord(g, cx, l, k) - self.edge(g, cx, l.edge, k);
-                        matrix[2 * n * n + row] = miss.x;
-                        matrix[2 * n * n + row + 1] = miss.y;
-                        row += 1;
-                    }
-                    Chord::Length { .. } => {
-                        let mut sum = R::ZERO;
-                        for term in &cx.jets.product[k] {
-                            let of = |k: usize| (self.chord(g, cx, l, k), self.local(g, cx, l.edge, k));
-                            let ((a, c), (b, d)) = (of(term.left), of(term.right));
-                            sum += R::splat(term.factor) * (a.dot(b) - c.dot(d));
-                        }
-                        let length = self.local(g, cx, l.edge, 0).norm();
-                        matrix[2 * n * n + row] = sum * (R::splat(0.5) / length);
-                    }
-                    Chord::Guide { .. } => {
-                        matrix[2 * n * n + row] = self.beside_guide(g, cx, l, k);
-                    }
-                }
-                row += 1;
-            }
-            for (place, &unknown) in group.unknowns.iter().enumerate() {
-                let value = -times(matrix, n, place);
-                match unknown {
-                    Unknown::Slide(slide) => self.slides[slide * len + k][g] = value,
-                    Unknown::Class(class) => self.theta[class * len + k][g] = value,
-                }
-                for &o in &group.turned[place] {
-                    let top = self.orient[o * len][g].left().scale(value);
-                    self.orient[o * len + k][g] += top;
-                }
+            for (place, l) in group.loops.iter().enumerate() {
+                self.take_along(g, cx, group, (place, l), k);
             }
         }
     }
 
     /// Entry `k` of what a chord took with it.
     #[inline(always)]
-    fn take_along(&mut self, g: usize, cx: &Context<'_>, l: &Loop, k: usize) {
+    fn take_along(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        group: &Group,
+        (place, l): (usize, &Loop),
+        k: usize,
+    ) {
         let len = self.len;
+        let e = group.edges[l.edge].edge;
         match l.chord {
             Chord::Whole => {}
             Chord::Guide { slide } => {
                 let mut sum = R::ZERO;
                 for term in &cx.jets.product[k] {
-                    let guide = self.guide(g, cx, l.edge, term.left);
-                    sum += R::splat(term.factor) * guide.dot(self.chord(g, cx, l, term.right));
+                    let guide = self.guides[l.edge * len + term.left];
+                    let chord = self.chords[place * len + term.right];
+                    sum += R::splat(term.factor) * guide.dot(chord);
                 }
                 if k == 0 {
-                    sum = sum - R::splat(cx.bound.guide[l.edge].dot(cx.bound.rigid[l.edge]));
+                    sum = sum - R::splat(cx.bound.guide[e].dot(cx.bound.rigid[e]));
                 }
                 self.slides[slide * len + k][g] = sum;
             }
             Chord::Length { class } => {
                 // chord = U · local at every order.
-                let o = cx.plan.edges[l.edge].orientation;
-                let mut rest = self.chord(g, cx, l, k);
+                let o = cx.plan.edges[e].orientation;
+                let mut rest = self.chords[place * len + k];
                 for term in &cx.jets.product[k] {
                     if term.left != k {
-                        let local = self.local(g, cx, l.edge, term.right);
-                        let known = self.orient[o * len + term.left][g] * local;
+                        let known =
+                            self.orient[o * len + term.left][g] * self.local(g, cx, e, term.right);
                         rest = rest - known.scale(R::splat(term.factor));
                     }
                 }
-                let local = self.local(g, cx, l.edge, 0);
+                let local = self.local(g, cx, e, 0);
                 let unit = (rest * local.conj()).scale(R::ONE / local.norm2());
                 if k == 0 {
-                    let rotation = if cx.plan.orientations[o].driven {
-                        unit * self.phase[o][g].conj()
-                    } else {
-                        unit
-                    };
+                    let driven = cx.plan.orientations[o].driven;
+                    let rotation = if driven { unit * self.phase[o][g].conj() } else { unit };
                     self.class[class][g] = rotation;
                     self.spread_rotation(g, cx, &l.turned, rotation);
                     return;

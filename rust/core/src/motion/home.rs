@@ -78,7 +78,8 @@ impl Design<'_> {
             let far = unknowns.iter().zip(here.iter().zip(&there)).any(|(unknown, (a, b))| {
                 let size = if matches!(unknown, Unknown::Slide(_)) { bound.scale } else { 1.0 };
                 // No number is far.
-                !((a - b).abs() <= STRAY * size)
+                let apart = (a - b).abs();
+                apart.is_nan() || apart > STRAY * size
             });
             let now: Vec<bool> = state.determinants.iter().map(|d| d[0] > 0.0).collect();
             if solved && !far && sides.as_ref().is_none_or(|sides| *sides == now) {

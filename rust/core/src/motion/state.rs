@@ -106,6 +106,11 @@ pub struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) before: Vec<[R; G]>,
     /// Matrix, inverse and right-hand side of a group above class II.
     pub(crate) matrix: Vec<R>,
+    /// Jets of the edges of a group, of the directions of guides along them, and of the chords of
+    /// its loops.
+    pub(crate) spans: Vec<Vector<R>>,
+    pub(crate) guides: Vec<Vector<R>>,
+    pub(crate) chords: Vec<Vector<R>>,
     /// Determinant of every group's matrix.
     pub(crate) determinants: Vec<[R; G]>,
     /// Square of the greatest condition of the position.
@@ -136,6 +141,8 @@ impl<R: Real, const G: usize> State<R, G> {
     #[must_use]
     pub fn new(plan: &Plan, jets: &Jets) -> Self {
         let (len, slides) = (jets.len(), plan.slide_links.len());
+        let edges = plan.groups().map(|group| group.edges.len()).max().unwrap_or(0);
+        let loops = plan.groups().map(|group| group.loops.len()).max().unwrap_or(0);
         Self {
             len,
             groups: G,
@@ -155,6 +162,9 @@ impl<R: Real, const G: usize> State<R, G> {
             slide_condition: vec![[R::ONE; G]; slides],
             before: vec![[R::ONE; G]; plan.signs()],
             matrix: vec![R::ZERO; plan.matrix_size()],
+            spans: vec![Vector::ZERO; edges * len],
+            guides: vec![Vector::ZERO; edges * len],
+            chords: vec![Vector::ZERO; loops * len],
             determinants: vec![[R::ZERO; G]; plan.groups().count()],
             condition2: [R::ONE; G],
             care: [R::Mask::NONE; G],

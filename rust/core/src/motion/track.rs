@@ -103,12 +103,7 @@ impl Track {
     }
 
     /// Along one driven angle, from `q0` on, for ever.
-    pub(crate) fn turning(
-        cx: &Context<'_>,
-        state: &mut State,
-        q0: f64,
-        start: &Start<'_>,
-    ) -> Self {
+    pub(crate) fn turning(cx: &Context<'_>, state: &mut State, q0: f64, start: &Start<'_>) -> Self {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
         let mut walker = Walker::new(cx, state, &point, &[1.0], (q0, 1.0), start);
         let mut turns = 0;
@@ -468,7 +463,11 @@ fn cell(a: &Knot, b: Option<&Knot>) -> Vec<[f64; 6]> {
             let c4 = (-15.0 * d0 + 7.0 * d1 - d2) / (h * h * h * h);
             let c5 = (6.0 * d0 - 3.0 * d1 + 0.5 * d2) / (h * h * h * h * h);
             let c = [value, rate, 0.5 * second, c3, c4, c5];
-            if c.iter().all(|c| c.is_finite()) { c } else { [value, rate, 0.5 * second, 0.0, 0.0, 0.0] }
+            if c.iter().all(|c| c.is_finite()) {
+                c
+            } else {
+                [value, rate, 0.5 * second, 0.0, 0.0, 0.0]
+            }
         })
         .collect()
 }

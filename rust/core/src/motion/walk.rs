@@ -276,9 +276,12 @@ impl<'a, 'b> Walker<'a, 'b> {
         if knot.solved <= step || knot.bends != from.bends {
             return true;
         }
+        let cell = knot.at - from.at;
         let far = |(a, b): (&Seed, &Seed)| {
-            // No number is far.
-            !((foretell(a, knot.at - from.at) - b[0]).abs() <= STRAY)
+            // Each from the other, so that the polynomial between them holds. No number is far.
+            let ahead = (foretell(a, cell) - b[0]).abs();
+            let back = (foretell(b, -cell) - a[0]).abs();
+            ahead.is_nan() || back.is_nan() || ahead.max(back) > STRAY
         };
         from.seeds.iter().zip(&knot.seeds).any(far)
     }

@@ -5,7 +5,7 @@
 //! the one that says how long it is; a chord along a guide leaves the one that says how far from
 //! the guide its end is; either takes an unknown with it. So the tree takes other edges first.
 
-use super::block::{Part, Unknown};
+use super::block::Unknown;
 use super::{Along, Plan};
 
 /// What the chord of a loop leaves of its vector equation.
@@ -25,10 +25,30 @@ pub enum Chord {
     Whole,
 }
 
-/// One independent loop: `P_start + Σ path = P_end + chord`, the chord run backward.
+/// An edge on the path of a loop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Piece {
+    /// Place among the group's edges.
+    pub place: usize,
+    /// Run from `to` to `from`.
+    pub backward: bool,
+}
+
+/// An edge of a group.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct GroupEdge {
+    /// The edge.
+    pub edge: usize,
+    /// The unknown that turns it.
+    pub turns: Option<usize>,
+    /// The unknown that is the slide along it.
+    pub slides: Option<usize>,
+}
+
+/// One independent loop: its chord's vector is `P_end − P_start + Σ path`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Loop {
-    /// The edge that closes it, from its `from` to its `to`.
+    /// The edge that closes it, from its `from` to its `to`: place among the group's edges.
     pub edge: usize,
     /// What it leaves.
     pub chord: Chord,
@@ -36,13 +56,8 @@ pub struct Loop {
     pub start: usize,
     /// Known point from which `to` is reached.
     pub end: usize,
-    /// Edges from `start` to `from`, run backward, and from `end` to `to`: their sum and
-    /// `P_end − P_start` is the chord's vector. `turns` and `slides` count the unknowns.
-    pub path: Vec<Part>,
-    /// The unknown that turns the chord itself.
-    pub turns: Option<usize>,
-    /// The unknown that is the slide along it.
-    pub slides: Option<usize>,
+    /// Edges from `start` to `from`, run backward, and from `end` to `to`.
+    pub path: Vec<Piece>,
     /// The orientations that turn with the rotation it takes along.
     pub turned: Vec<usize>,
 }
@@ -54,6 +69,8 @@ pub struct Group {
     pub unknowns: Vec<Unknown>,
     /// The orientations that turn with each (none with a slide).
     pub turned: Vec<Vec<usize>>,
+    /// Its edges.
+    pub edges: Vec<GroupEdge>,
     /// Its loops.
     pub loops: Vec<Loop>,
     /// Rows of its equations: one of a loop or two.
@@ -88,14 +105,24 @@ impl Group {
             .collect();
         let unknowns: Vec<Unknown> =
             unknowns.iter().copied().filter(|u| !gone.contains(u)).collect();
-        let loops: Vec<Loop> = chords
+        let loops: Vec<Loop> =
+            chords.iter().map(|&e| close(plan, &tree, e, chord(e), edges)).collect();
+        let place = |unknown| unknowns.iter().position(|&u| u == unknown);
+        let edges: Vec<GroupEdge> = edges
             .iter()
-            .map(|&edge| close(plan, &tree, edge, chord(edge), &unknowns))
+            .map(|&edge| GroupEdge {
+                edge,
+                turns: place(Unknown::Class(plan.class_of(edge))),
+                slides: match plan.edges[edge].along {
+                    Along::Slide(slide) => place(Unknown::Slide(slide)),
+                    _ => None,
+                },
+            })
             .collect();
         let turned = unknowns.iter().map(|&unknown| turned(plan, unknown)).collect();
         let rows = loops.iter().map(|l| if l.chord == Chord::Whole { 2 } else { 1 }).sum();
         let index = plan.groups().count();
-        (Self { unknowns, turned, loops, rows, name, index }, chords)
+        (Self { unknowns, turned, edges, loops, rows, name, index }, chords)
     }
 }
 
@@ -165,15 +192,15 @@ fn spanning_tree(plan: &Plan, order: &[usize], known: &[bool]) -> (Tree, Vec<usi
     (tree, chords)
 }
 
-fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, unknowns: &[Unknown]) -> Loop {
+fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usize]) -> Loop {
     let walk = |mut point: usize| {
-        let mut edges = Vec::new();
+        let mut run = Vec::new();
         while let Some((edge, backward)) = tree[point] {
-            edges.push((edge, backward));
+            run.push((edge, backward));
             let [tail, _] = plan.edges[edge].ends(backward);
             point = tail;
         }
-        (point, edges)
+        (point, run)
     };
     let [from, to] = plan.edges[edge].ends(false);
     let ((start, mut back), (end, mut ahead)) = (walk(from), walk(to));
@@ -185,25 +212,13 @@ fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, unknowns: &[Unknow
         ahead.pop();
     }
     let (start, end) = if start == end { (0, 0) } else { (start, end) };
-    let place = |unknown| unknowns.iter().position(|&u| u == unknown);
-    let mut path: Vec<(usize, bool)> = back.into_iter().map(|(e, b)| (e, !b)).collect();
-    path.extend(ahead.into_iter().rev());
-    let turns = |edge: usize| place(Unknown::Class(plan.class_of(edge)));
-    let slides = |edge: usize| match plan.edges[edge].along {
-        Along::Slide(slide) => place(Unknown::Slide(slide)),
-        _ => None,
-    };
-    let path = path
-        .into_iter()
-        .map(|(edge, backward)| {
-            let (turns, slides) = (turns(edge), slides(edge));
-            Part { edge, backward, turns, slides, in_leg: false }
-        })
-        .collect();
-    let (turns, slides) = (turns(edge), slides(edge));
+    let place = |edge: usize| edges.iter().position(|&e| e == edge).unwrap_or(0);
+    let piece = |(edge, backward)| Piece { place: place(edge), backward };
+    let back = back.into_iter().map(|(edge, backward)| (edge, !backward));
+    let path = back.chain(ahead.into_iter().rev()).map(piece).collect();
     let turned = match chord {
         Chord::Length { class } => turned(plan, Unknown::Class(class)),
         _ => Vec::new(),
     };
-    Loop { edge, chord, start, end, path, turns, slides, turned }
+    Loop { edge: place(edge), chord, start, end, path, turned }
 }
