@@ -124,3 +124,28 @@ def test_the_triad_that_is_elsewhere_after_a_turn() -> None:
     assert "dead point" in motion.explain(int(lost[0]))
     with pytest.raises(assur.PositionError, match=r"III\(.*\) reaches from"):
         m.solve(q)
+
+
+def test_change_points_after_a_group_that_folds() -> None:
+    """A parallelogram on the rocker of a triad passes its change point on the way to a fold."""
+    joints = {"O": (0, 0), "A": (0.6, 0.4), "B": (1, 2), "C": (2.5, 1.5), "D": (2, 3), "E": (4, 0)}
+    joints |= {"F": (0, 4)}
+    links = {"ground": "OEF", "crank": "OA", "b1": "AB", "plate": "BCD", "b2": "CE", "b3": "DF"}
+    triad = build(joints=joints, links=links)
+    q = float(triad.q0) + np.linspace(-6.0, 6.0, 2401)
+    motion = triad.solve(q, on_error="nan")
+    given = motion.status <= Status.NEAR_SINGULAR
+    assert (motion.status[~given] == Status.LOST).all()
+    # A second rocker of that length, and a rod as long as the ground between the pivots; along a
+    # direction that the rocker passes.
+    rocker = motion.link("b2").value[given]
+    angle = 0.7 * rocker.min() + 0.3 * rocker.max()
+    shift = 0.8 * np.array([np.cos(angle), np.sin(angle)])
+    places = {**joints, "G": tuple(np.array([4, 0]) + shift)}
+    places["H"] = tuple(np.array(joints["C"]) + shift)
+    double = build(joints=places, links={**links, "ground": "OEFG", "rod": "CH", "second": "HG"})
+    other = double.solve(q, on_error="nan")
+    np.testing.assert_array_equal(other.status <= Status.SINGULAR, given)
+    assert (other.status == Status.NEAR_SINGULAR).any()
+    apart = other.joint("H").value[given] - motion.joint("C").value[given]
+    np.testing.assert_allclose(apart, np.broadcast_to(shift, apart.shape), atol=1e-10)

@@ -122,7 +122,12 @@ impl Track {
         let stretches = walker.stretches();
         let Walker { knots, changes, ended, .. } = walker;
         if ended {
-            return Self::between_folds(cx, state, q0, start, knots);
+            // A group folds; the other way as well then.
+            let most = f64::from(MOST_TURNS * CELLS_A_TURN);
+            let cells = ([most; 2], TAU / f64::from(CELLS_A_TURN));
+            let track = Self::both_ways(cx, state, q0, cells, start);
+            let ends = [track.at.first(), track.at.last()].map(|end| end.copied().unwrap_or(q0));
+            return Self { covered: Some(ends), ..track };
         }
         let gain = match (knots.iter().find(|k| k.reached), knots.last()) {
             (Some(first), Some(last)) => {
@@ -147,17 +152,28 @@ impl Track {
         reach: f64,
         start: &Start<'_>,
     ) -> Self {
+        let cells = [q0 - low, high - q0].map(|way| (way.min(reach) * CELLS_A_LENGTH).ceil());
+        Self::both_ways(cx, state, q0, (cells, 1.0 / CELLS_A_LENGTH), start)
+    }
+
+    /// From `q0` down and up, so many cells of a width; not beyond where the way ends.
+    fn both_ways(
+        cx: &Context<'_>,
+        state: &mut State,
+        q0: f64,
+        (cells, width): ([f64; 2], f64),
+        start: &Start<'_>,
+    ) -> Self {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
         let mut all: Vec<Knot> = Vec::new();
         let mut track = Self { gain: vec![0.0; start.angles.len()], ..Self::default() };
         let mut covered = [f64::NEG_INFINITY, f64::INFINITY];
-        for (end, way) in [(low, -1.0), (high, 1.0)] {
+        for (cells, way) in cells.into_iter().zip([-1.0, 1.0]) {
             let mut walker = Walker::new(cx, state, &point, &[1.0], (q0, way), start);
-            let cells = (((end - q0) * way).min(reach) * CELLS_A_LENGTH).ceil();
             let mut cell = 0.0;
             while cell < cells && !walker.ended {
                 cell += 1.0;
-                walker.advance(q0 + way * cell / CELLS_A_LENGTH);
+                walker.advance(q0 + way * cell * width);
             }
             let mut stretches = walker.stretches();
             let Walker { mut knots, mut changes, ended, .. } = walker;
@@ -190,37 +206,6 @@ impl Track {
             gain: track.gain,
             covered: Some(covered),
             ..Self::of(&all)
-        }
-    }
-
-    /// Along a driven angle where a group folds: from the drawing, back and forth, to where the
-    /// way ends. `ahead`: the knots of the way forth.
-    fn between_folds(
-        cx: &Context<'_>,
-        state: &mut State,
-        q0: f64,
-        start: &Start<'_>,
-        mut ahead: Vec<Knot>,
-    ) -> Self {
-        let point = |at: f64, q: &mut [f64]| q[0] = at;
-        let mut walker = Walker::new(cx, state, &point, &[1.0], (q0, -1.0), start);
-        let mut cell = 0.0;
-        while !walker.ended && cell < f64::from(MOST_TURNS * CELLS_A_TURN) {
-            cell += 1.0;
-            walker.advance(q0 - TAU * cell / f64::from(CELLS_A_TURN));
-        }
-        let mut stretches = walker.stretches();
-        let Walker { mut knots, mut changes, .. } = walker;
-        let _ = (&mut stretches, &mut changes);
-        knots.reverse();
-        knots.pop();
-        knots.append(&mut ahead);
-        let ends = [knots.first(), knots.last()].map(|knot| knot.map_or(q0, |k| k.at));
-        Self {
-            stretches: vec![Stretch { from: f64::NEG_INFINITY, signs: cx.signs.to_vec() }],
-            gain: vec![0.0; start.angles.len()],
-            covered: Some(ends),
-            ..Self::of(&knots)
         }
     }
 
