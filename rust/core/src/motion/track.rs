@@ -406,7 +406,8 @@ impl Track {
     #[inline(always)]
     pub(crate) fn seed<R: Real>(&self, spot: &Spot<R>, place: usize, count: usize) -> R {
         let knot = |lane: usize| spot.knot[lane];
-        if self.at.is_empty() {
+        if self.cells.len() < self.at.len() * count || self.at.is_empty() {
+            // The way does not even begin: nothing on it is covered.
             return R::ZERO;
         }
         let step = spot.place - R::from_lanes(|lane| self.at[knot(lane)]);
