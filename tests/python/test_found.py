@@ -86,7 +86,7 @@ def test_a_locked_angle_makes_a_group_of_class_three() -> None:
     )
     assert m.structure.cls == 3
     # Solved at the drawing, and beside it.
-    motion = m.solve(float(m.q0) + np.array([-0.01, 0.0, 0.01]), order=1)
+    motion = m.solve(float(m.q0) + np.array([-0.001, 0.0, 0.001]), order=1)
     for name, place in places.items():
         np.testing.assert_allclose(motion.joint(name).value[1], place, atol=1e-14)
     assert motion.residual.max() < 1e-14
