@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -110,3 +111,33 @@ def test_with_several_drivers_they_are_followed_straight() -> None:
     around = m.solve(steps, order=0).joint("D").value
     first = np.stack([around[0] - around[1], around[2] - around[3]], axis=-1) / (2 * h)
     np.testing.assert_allclose(motion.joint("D").d1[0], first, rtol=1e-6, atol=1e-7)
+
+
+def test_slides_drive_them_as_well() -> None:
+    """No jump, no false position, and no bit that depends on how far is asked for."""
+    seen = 0
+    for seed in range(60):
+        description = higher_models.higher_case(seed).description
+        if not description.slides:
+            continue
+        driver = ("slide", next(iter(description.slides)))
+        try:
+            m = assur.Mechanism(**arguments(replace(description, drivers=[driver])))
+        except assur.StructureError:  # that slide cannot drive
+            continue
+        if m.structure.cls < 3:
+            continue
+        seen += 1
+        q = float(m.q0) + np.linspace(-1.0, 1.0, 401)
+        solve = solver(m)
+        track = solve(q)
+        assert not track.wrong.any(), seed
+        assert not track.differs(solve(q[::8]), 8).any(), seed
+        part = solve(q[150:251]).value.view(np.uint64)
+        np.testing.assert_array_equal(part, track.value[150:251].view(np.uint64))
+        geometry = Geometry(replace(description, drivers=[driver]))
+        misfit, _ = geometry.misfit(track)
+        assert (misfit[track.reached] <= checks.TERMS).all(), seed
+        found, _, _ = checks.broken(solve, track, geometry.drawn, checks.jumps)
+        assert not found, (seed, found[:1])
+    assert seen > 20
