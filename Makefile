@@ -32,8 +32,8 @@ help:
 	@echo "make test         format, lints, types, unit, integration and documentation tests"
 	@echo "make rust-test    the Rust half of it"
 	@echo "make python-test  the Python half of it"
-	@echo "make bench        benchmarks, beside NumPy"
-	@echo "make campaign     random mechanisms by the hundred thousand (half an hour); docs/campaign.md"
+	@echo "make bench        benchmarks, beside NumPy and numba"
+	@echo "make campaign     random mechanisms by the hundred thousand (half an hour); docs/campaign*.md"
 	@echo "make clean        remove everything that was built, the environment too"
 
 run: rust-tools $(EXTENSION)
@@ -56,12 +56,14 @@ python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m pytest -q
 
 bench: rust-tools $(EXTENSION) $(DEV_STAMP)
+	@$(PY) -m pip install --quiet --group bench
 	cargo bench $(LOCKED)
 	$(PY) -m pytest benches/python
 	ASSUR_SIMD=baseline $(PY) -m pytest benches/python -k assur
 
 campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) tests/python/campaign.py --count 100000 --out docs/campaign.md
+	$(PY) tests/python/campaign.py --higher --count 10000 --out docs/campaign-higher.md
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/test_function_of_q.py
 
 clean:

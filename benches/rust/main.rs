@@ -56,9 +56,12 @@ fn designs(mechanism: &Mechanism, count: u32) -> Vec<f64> {
 
 fn batch(c: &mut Criterion, designs_of_each: u32) {
     let q = turn();
+    let class_iv = &["2", "3", "4", "5", "6", "7", "8"][..];
     for (name, mechanism, outputs, order) in [
         ("four_bar", mechanisms::four_bar(), &["B", "C", "coupler", "rocker"][..], 2),
         ("jansen", mechanisms::jansen(), &["1", "3", "4", "5", "6", "7"][..], 0),
+        ("class_iv", mechanisms::class_iv(), class_iv, 0),
+        ("class_iv_analogues", mechanisms::class_iv(), class_iv, 2),
     ] {
         let mut kept = Outputs::default();
         for output in outputs {
@@ -74,6 +77,7 @@ fn batch(c: &mut Criterion, designs_of_each: u32) {
             signs: mechanism.signs(),
             order,
             outputs: &kept,
+            by: None,
         };
         let rows = designs_of_each as usize * q.len();
         let mut buffers = Buffers::new(&request.columns(&mechanism), rows);
@@ -120,6 +124,7 @@ fn one_design(c: &mut Criterion) {
                         signs: mechanism.signs(),
                         order,
                         outputs: &outputs,
+                        by: None,
                     };
                     mechanism.solve(&request).expect("solved")
                 });

@@ -1,6 +1,6 @@
 //! Mechanisms of the benches.
 
-use assur::{Description, FourBar, FourBarMode, Mechanism, SliderCrank};
+use assur::{ClassIv, Description, FourBar, FourBarMode, Mechanism, SliderCrank};
 
 pub fn four_bar() -> Mechanism {
     Mechanism::new(&FourBar::description(FourBarMode::Open)).expect("a mechanism")
@@ -31,6 +31,23 @@ pub fn jansen() -> Mechanism {
         .link("rod", ["4", "6"])
         .link("foot", ["5", "6", "7"]);
     Mechanism::new(&leg.driver("crank")).expect("a mechanism")
+}
+
+/// P4's mechanism of class IV.
+pub fn class_iv() -> Mechanism {
+    let joints = [
+        [0.0, 0.0],
+        [0.35, 0.0],
+        [1.24, 0.99],
+        [0.75, 1.91],
+        [3.02, -0.73],
+        [2.45, 1.02],
+        [3.2, 2.24],
+        [1.85, 2.35],
+        [1.62, -1.11],
+        [4.28, 1.52],
+    ];
+    Mechanism::new(&ClassIv::description(joints)).expect("a mechanism")
 }
 
 pub fn all() -> [(&'static str, Mechanism); 3] {

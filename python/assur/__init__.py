@@ -1,7 +1,9 @@
 """Kinematics and dynamics of planar linkages, solved one Assur group after another."""
 
+from assur import slider_crank
 from assur._core import version
 from assur.analogues import Analogues
+from assur.class_iv import ClassIV
 from assur.description import Assembly, Drive, Slide, Status
 from assur.errors import (
     AssurError,
@@ -14,6 +16,7 @@ from assur.errors import (
 from assur.mechanism import Mechanism
 from assur.motion import Motion
 from assur.named import FourBar, SliderCrank
+from assur.sensitivity import Sensitivity
 from assur.structure import Group, Structure
 
 __all__ = [
@@ -21,6 +24,7 @@ __all__ = [
     "Assembly",
     "AssurError",
     "AssurWarning",
+    "ClassIV",
     "DimensionError",
     "Drive",
     "FourBar",
@@ -29,12 +33,14 @@ __all__ = [
     "Mechanism",
     "Motion",
     "PositionError",
+    "Sensitivity",
     "Slide",
     "SliderCrank",
     "Status",
     "Structure",
     "StructureError",
     "__version__",
+    "slider_crank",
 ]
 
 __version__ = version()

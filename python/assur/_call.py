@@ -51,10 +51,14 @@ class Call:
         links: dict[str, int],
         slides: dict[str, int],
         kept: tuple[list[Float], npt.NDArray[np.uint8]] | None = None,
+        by: int | None = None,
     ) -> tuple[Tracks, npt.NDArray[np.uint8]]:
-        """Solve for these joints, angles of links, and slides; into the arrays kept."""
+        """Solve for these joints, angles of links, and slides; into the arrays kept.
+
+        All of it differentiated by the dimension of this index, if one is given.
+        """
         wanted = [list(of.values()) for of in (joints, links, slides)]
-        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]), kept)
+        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]), kept, by)
         shape = self.shape
         tracks = Tracks(
             joints=self._named("joint", joints, found, (*shape, 2)),
@@ -82,10 +86,13 @@ class Call:
         return values, np.ascontiguousarray(self.q).reshape(-1), self.per_design
 
     def _solve(
-        self, outputs: Outputs, kept: tuple[list[Float], npt.NDArray[np.uint8]] | None = None
+        self,
+        outputs: Outputs,
+        kept: tuple[list[Float], npt.NDArray[np.uint8]] | None = None,
+        by: int | None = None,
     ) -> tuple[dict[tuple[str, int, int], Float], npt.NDArray[np.uint8]]:
         return self.mechanism._core.solve(
-            *self.flat(), self.signs, self.order, outputs, self.threads, kept
+            *self.flat(), self.signs, self.order, outputs, self.threads, kept, by
         )
 
     def _named(

@@ -12,10 +12,20 @@ __all__ = [
     "curvature",
     "instant_centre",
     "sin_cos",
+    "slider_crank_deviation",
+    "slider_crank_fourier",
+    "slider_crank_fraction",
+    "slider_crank_greatest_acceleration",
+    "slider_crank_greatest_speed",
+    "slider_crank_rod_angle",
+    "slider_crank_rod_point",
+    "slider_crank_series",
+    "slider_crank_stroke",
     "version",
 ]
 
 _Float: TypeAlias = npt.NDArray[np.float64]
+_Three: TypeAlias = tuple[_Float, _Float, _Float]
 
 @final
 class Mechanism:
@@ -60,6 +70,7 @@ class Mechanism:
         outputs: tuple[list[int], list[int], list[int], list[int]],
         threads: int | None,
         kept: tuple[list[_Float], npt.NDArray[np.uint8]] | None,
+        by: int | None,
     ) -> tuple[dict[tuple[str, int, int], _Float], npt.NDArray[np.uint8]]: ...
     def diagnostics(
         self,
@@ -84,4 +95,17 @@ def instant_centre(
     a: tuple[_Float, _Float, _Float],
     b: tuple[_Float, _Float, _Float],
 ) -> _Float: ...
+def slider_crank_stroke(phi: _Float, lambda_: _Float) -> _Three: ...
+def slider_crank_fraction(phi: _Float, lambda_: _Float, n: int) -> _Three: ...
+def slider_crank_rod_angle(phi: _Float, lambda_: _Float) -> _Three: ...
+def slider_crank_series(phi: _Float, k: _Float, harmonics: int, terms: int | None) -> _Three: ...
+def slider_crank_fourier(k: _Float, harmonics: int, terms: int | None) -> _Float: ...
+def slider_crank_rod_point(
+    phi: _Float, lambda_: _Float, along: _Float, across: _Float
+) -> _Three: ...
+def slider_crank_greatest_speed(k: _Float, exact: bool) -> tuple[_Float, _Float]: ...
+def slider_crank_greatest_acceleration(k: _Float) -> tuple[_Float, _Float]: ...
+def slider_crank_deviation(
+    lambda_: _Float, n: int, order: int
+) -> tuple[_Float, _Float, _Float, _Float]: ...
 def version() -> str: ...

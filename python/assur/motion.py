@@ -12,6 +12,7 @@ from assur import _core, transmission
 from assur._checks import checked_index
 from assur.analogues import Analogues
 from assur.errors import InputError
+from assur.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
     from assur._call import Call, Tracks
@@ -90,6 +91,16 @@ class Motion:
         """Value of a slide, m, and its analogues."""
         return Analogues(name, self._find("slide", self._tracks.slides, name), self._drivers, False)
 
+    def _names(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
+        """Indices of the joints, links and slides that are held."""
+        held = (self._tracks.joints, self._tracks.links, self._tracks.slides)
+        require = self.mechanism._core.require
+        joints, links, slides = (
+            {name: require(kind, name) for name in of}
+            for kind, of in zip(("joint", "link", "slide"), held, strict=True)
+        )
+        return joints, links, slides
+
     def _place(self, link: str) -> Analogues:
         # Seldom asked for, so solved for then.
         if link not in self._places:
@@ -165,6 +176,40 @@ class Motion:
         array(0.600266)
         """
         return transmission.angle(self, name, between)
+
+    def sensitivity(self, dimension: str) -> Sensitivity:
+        """Derivatives of what this motion holds, and of its analogues, by a dimension.
+
+        Exact: the closure equations differentiated once more, at every position.
+
+        Parameters
+        ----------
+        dimension : str
+            A name of ``mechanism.dimensions``, such as ``"coupler.length"``.
+
+        Returns
+        -------
+        Sensitivity
+            Its ``joint(name).value`` is ∂P/∂dimension, ``.d1`` that of the first analogue, and so
+            on; per m, or per rad for an angle. NaN where there is no position, and at dead and
+            change points, where the motion does not change smoothly.
+
+        Raises
+        ------
+        InputError
+            An unknown name, or a linkage with redundant links: they fit only as long as several
+            dimensions change together.
+
+        Examples
+        --------
+        A longer crank pushes the piston ahead at its dead point by as much:
+
+        >>> import assur
+        >>> motion = assur.SliderCrank(1.0, 3.0).solve(0.0)
+        >>> float(motion.sensitivity("crank.length").slide("bore").value)
+        1.0
+        """
+        return Sensitivity(self, dimension)
 
     @property
     def residual(self) -> Float:

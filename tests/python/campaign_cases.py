@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+import higher_models
 import models
 from description import GROUND, SlideSpec
 
@@ -115,4 +116,4 @@ def grid_of(m: assur.Mechanism, rng: np.random.Generator) -> tuple[NDArray[np.fl
     return np.asarray(float(m.q0) + first + step / FINER * steps, np.float64), turn
 
 
-MAKE = {"random": random_case, "changing": changing_case}
+MAKE = {"random": random_case, "changing": changing_case, "higher": higher_models.higher_case}

@@ -11,21 +11,33 @@ import campaign_checks as checks
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-STATUSES = ("OK", "NEAR_SINGULAR", "SINGULAR", "UNREACHABLE")
+STATUSES = ("OK", "NEAR_SINGULAR", "SINGULAR", "UNREACHABLE", "LOST")
 SHOWN = 50  # failures on the page
 
 
-def page(counts: Mapping[str, int], worst: Mapping[str, float], failures: Sequence[str]) -> str:
+def page(
+    counts: Mapping[str, int],
+    worst: Mapping[str, float],
+    failures: Sequence[str],
+    higher: bool = False,
+) -> str:
     """Markdown."""
 
     def n(name: str) -> str:
         return f"{counts.get(name, 0):,}".replace(",", " ")
 
+    changing = [("of these built to have change points", n("changing"))]
+    of_higher = [
+        ("of these of class III", n("class 3")),
+        ("of class IV", n("class 4")),
+        ("with sliding pairs", n("sliding")),
+        ("signs of the closures' determinant, the same between ends", n("determinants")),
+    ]
     rows = [
         ("mechanisms", n("mechanisms")),
-        ("of these built to have change points", n("changing")),
+        *(of_higher if higher else changing),
         ("positions solved", n("positions")),
-        *((f"status {name} on the fine grids", n(name)) for name in STATUSES),
+        *((f"status {name} on the fine grids", n(name)) for name in STATUSES if counts.get(name)),
         ("positions compared to the bit between grids", n("shared")),
         ("positions whose every length, offset and guide was checked", n("closures")),
         (f"greatest misfit, in 8 u κ of the size (allowed: {checks.TERMS:g})", w(worst, "misfit")),
@@ -40,7 +52,8 @@ def page(counts: Mapping[str, int], worst: Mapping[str, float], failures: Sequen
         ("**failures**", f"**{len(failures)}**"),
     ]
     table = "\n".join(f"| {what} | {figure} |" for what, figure in rows)
-    return TEXT.format(table=table, failed=failed(failures))
+    head = HIGHER if higher else CLASS_II
+    return (head + TEXT).format(table=table, failed=failed(failures))
 
 
 def w(worst: Mapping[str, float], name: str) -> str:
@@ -62,14 +75,27 @@ def failed(failures: Sequence[str]) -> str:
     )
 
 
-TEXT = f"""# Campaign
+CLASS_II = f"""# Campaign
 
 `make campaign` draws random class II mechanisms (any driver, one to four dyads of any kind; one
 in ten with a dyad that has change points), moves each over {cases.TURNS} turns of its crank, or a
 range of its slide, and asks what no example can: that nothing goes wrong anywhere. This page is
-written by it.
+written by it; [another](campaign-higher.md) is on classes III and IV.
 
-What is checked of every mechanism:
+"""
+
+HIGHER = f"""# Campaign: classes III and IV
+
+`make campaign` draws random mechanisms with a group of class III or IV behind a crank (triads, both
+kinds of quadrilaterals, among them P4's; a quarter of the inner pairs slide) and moves each over
+{cases.TURNS} turns, or as far as it goes between dead points. This page is written by it;
+[another](campaign.md) is on class II. Besides what is said below, the sign of the Jacobian's
+determinant must be the same at all positions of a mechanism: where two assemblies meet, the other
+one has the other sign.
+
+"""
+
+TEXT = f"""What is checked of every mechanism:
 
 - **The same bits.** At a user's steps (3° to 6°, or 0.03 to 0.06 m), over one turn and over all,
   and at steps {cases.FINER} times finer: values, analogues and statuses of shared positions agree

@@ -17,7 +17,7 @@ from description import GROUND
 from oracle_system import MP, System, as_tuple, inverted
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
@@ -91,12 +91,21 @@ def _number(v: Any) -> Any:
     return v.item() if isinstance(v, (np.ndarray, np.generic)) else v  # mpf takes no NumPy scalar
 
 
-def solve(description: Description, q: Any, guess: Mapping[str, Any], order: int = 3) -> Solution:
+def solve(
+    description: Description,
+    q: Any,
+    guess: Mapping[str, Any],
+    order: int = 3,
+    change: Callable[[System], None] | None = None,
+) -> Solution:
     """The position near `guess` (link -> x, y, rotation) at q (one number a driver), with jets.
 
     q may be float or mpf.  Whole turns between guess and q are ignored (see `angle_gap`).
+    `change` may give the system other dimensions than the drawing's.
     """
     system = System(description)
+    if change is not None:
+        change(system)
     count = len(system.unit)
     here = [MP.mpf(_number(v)) / u for v, u in zip(as_tuple(q), system.unit, strict=True)]
     for turn in system.turns:

@@ -170,6 +170,11 @@ pub enum SolveError {
     /// A dimension that is NaN, infinite, or a length that is not positive.
     #[error("dimension {name:?} is {}: {need}", number(*value))]
     BadDimension { name: String, value: f64, need: &'static str },
+    /// Sensitivities of a linkage whose dimensions are not free.
+    #[error(
+        "the redundant {name:?} fits only as long as several dimensions change together: there are no sensitivities by one of them; leave it out"
+    )]
+    Redundant { name: String },
     /// A name that nothing has.
     #[error("there is no {kind} {name:?}{hint}")]
     Unknown { kind: Named, name: String, hint: String },

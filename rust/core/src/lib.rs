@@ -31,6 +31,7 @@
 //!     signs: engine.signs(),
 //!     order: 1,
 //!     outputs: &Outputs::all(&engine),
+//!     by: None,
 //! })?;
 //! let bore = &motion.slides[0];
 //! let rod2 = 0.17_f64.powi(2) + 0.04_f64.powi(2);
@@ -46,13 +47,14 @@ mod mechanism;
 pub mod motion;
 pub mod plan;
 pub mod plane;
+pub mod slider_crank;
 pub mod structure;
 pub mod tolerance;
 
 pub use error::{Named, SolveError, StructureError};
 pub use linkage::{
-    Description, Dimension, Dimensions, Driver, DriverDescription, FourBar, FourBarMode, Linkage,
-    SlideDescription, SliderCrank,
+    ClassIv, Description, Dimension, Dimensions, Driver, DriverDescription, FourBar, FourBarMode,
+    Linkage, SlideDescription, SliderCrank,
 };
 pub use mechanism::Mechanism;
 pub use motion::{Coordinates, Diagnosis, Motion, Outputs, Request, Status, Track};

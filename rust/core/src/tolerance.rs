@@ -98,12 +98,21 @@ pub const SMOOTH_CLOSURE: f64 = 256.0 * UNIT_ROUNDOFF;
 /// solved for: the errors of both. Farther, something else happens near by.
 pub const CHANGE_MISFIT: f64 = 4.0 * CLOSURE_PER_CONDITION;
 
-/// Largest step (rad, or units of the scale) after which the iteration of a group above class II
-/// is done: the next would be about its square, below the unit roundoff.
+/// Product of the two steps (rad, or units of the scale) of a round of the iteration of a group
+/// above class II, after which it is done: about that is left of the error.
+pub const NEWTON_LEFT: f64 = UNIT_ROUNDOFF;
+/// Square of the first step of a round by the condition, at most, for its matrix to be nearly
+/// that of the solution; beyond a condition of 2^25, where no step is that short, nothing is known
+/// any more.
+pub const NEWTON_BENT2: f64 = 1.0 / 16.0;
+/// Step after which it is done in any case: the next would be about its square.
 pub const NEWTON_DONE: f64 = 1.0 / 67_108_864.0;
-/// Steps of that iteration, at most: from within the reach of the way's own steps it needs two or
-/// three.
-pub const NEWTON_STEPS: usize = 12;
+/// Rounds of that iteration, at most: from within the reach of the way's own steps it needs one
+/// or two.
+pub const NEWTON_ROUNDS: usize = 8;
+/// Longest step of that iteration: a turn of a link by more says only that it starts far away.
+pub const NEWTON_LONGEST: f64 = 0.5;
+
 /// Largest turn of a link between two neighbouring knots of the path along
 /// which angles are followed; half a turn would already be ambiguous.
 pub const LIFT_TURN: f64 = std::f64::consts::FRAC_PI_4;

@@ -109,11 +109,19 @@ pub(crate) fn solve(error: SolveError) -> PyErr {
             let fields = Fields { dimension: Some(name), value: Some(*value), ..Fields::default() };
             raise("DimensionError", message, &fields)
         }
+        SolveError::Redundant { name } => {
+            raise("InputError", message, &Fields { link: Some(name), ..Fields::default() })
+        }
         SolveError::Unknown { kind, name, .. } => {
             raise("InputError", message, &Fields::named(*kind, name))
         }
         _ => raise("InputError", message, &Fields::default()),
     }
+}
+
+/// An `InputError`, with the number that is wrong.
+pub(crate) fn input(message: String, value: Option<f64>) -> PyErr {
+    raise("InputError", message, &Fields { value, ..Fields::default() })
 }
 
 /// The first name in quotes of a list made for a sentence.

@@ -5,6 +5,7 @@ mod error;
 mod gate;
 mod mechanism;
 mod metrics;
+mod slider_crank;
 mod trig;
 
 use pyo3::prelude::*;
@@ -17,6 +18,12 @@ mod _core {
     #[pymodule_export]
     use super::metrics::{acute, curvature, instant_centre};
     use super::pyfunction;
+    #[pymodule_export]
+    use super::slider_crank::{
+        slider_crank_deviation, slider_crank_fourier, slider_crank_fraction,
+        slider_crank_greatest_acceleration, slider_crank_greatest_speed, slider_crank_rod_angle,
+        slider_crank_rod_point, slider_crank_series, slider_crank_stroke,
+    };
     #[pymodule_export]
     use super::trig::{asin, atan2, sin_cos};
 

@@ -175,7 +175,7 @@ impl Mechanism {
 
     /// Solves designs at positions; see `assur.Mechanism.solve`. Outputs: indices of
     /// joints, links, links whose places are wanted, slides. `kept`: arrays of an earlier
-    /// call, written again.
+    /// call, written again. `by`: the dimension by which all is differentiated.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     fn solve<'py>(
         &self,
@@ -188,6 +188,7 @@ impl Mechanism {
         outputs: [Vec<usize>; 4],
         threads: Option<NonZeroUsize>,
         kept: Option<Kept<'py>>,
+        by: Option<usize>,
     ) -> PyResult<Solved<'py>> {
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
         let [joints, links, places, slides] = outputs;
@@ -200,6 +201,7 @@ impl Mechanism {
             signs: &signs,
             order,
             outputs: &outputs,
+            by,
         };
         let [designs, positions] = request.shape(&self.inner).map_err(error::solve)?;
         let columns = request.columns(&self.inner);

@@ -2,46 +2,96 @@
 
 use super::{Mask, Real};
 
-/// Inverts the first `n` columns of `n` rows of `2 n` numbers into the other `n`
-/// (Gauss & Jordan). A lane's pivots depend on its own numbers alone; a singular matrix leaves
-/// infinities or no numbers. Gives the determinant.
+/// Inverts the first `n` columns of `n` rows of `2 n` numbers into the other `n`, in `G` groups
+/// at once. What happens to a lane depends on its own numbers alone; a singular matrix leaves
+/// infinities or no numbers. Gives the determinants.
 #[inline(always)]
-pub fn invert<R: Real>(matrix: &mut [R], n: usize) -> R {
+pub fn invert<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -> [R; G] {
+    if n == 3 { by_minors(matrix) } else { by_pivots(matrix, n) }
+}
+
+/// Three rows: minors over the determinant. They lose no more than pivots do, as long as the
+/// rows are of one size (each minor is good to u of the product of two rows, and the inverse of
+/// the matrix is not less than 1/(second singular value) of that).
+#[inline(always)]
+fn by_minors<R: Real, const G: usize>(matrix: &mut [[R; G]]) -> [R; G] {
+    let Some((matrix, _)) = matrix.split_first_chunk_mut::<18>() else { return [R::ZERO; G] };
+    let mut determinant = [R::ZERO; G];
+    for g in 0..G {
+        let [a, b, c] = [matrix[0][g], matrix[1][g], matrix[2][g]];
+        let [d, e, f] = [matrix[6][g], matrix[7][g], matrix[8][g]];
+        let [p, q, r] = [matrix[12][g], matrix[13][g], matrix[14][g]];
+        let (first, second, third) = (e * r - f * q, f * p - d * r, d * q - e * p);
+        let own = a * first + b * second + c * third;
+        let per = R::ONE / own;
+        matrix[3][g] = first * per;
+        matrix[9][g] = second * per;
+        matrix[15][g] = third * per;
+        matrix[4][g] = (c * q - b * r) * per;
+        matrix[10][g] = (a * r - c * p) * per;
+        matrix[16][g] = (b * p - a * q) * per;
+        matrix[5][g] = (b * f - c * e) * per;
+        matrix[11][g] = (c * d - a * f) * per;
+        matrix[17][g] = (a * e - b * d) * per;
+        determinant[g] = own;
+    }
+    determinant
+}
+
+/// Gauss & Jordan, with pivots of each lane's own.
+#[inline(always)]
+fn by_pivots<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -> [R; G] {
     let width = 2 * n;
     for row in 0..n {
         for column in 0..n {
-            matrix[row * width + n + column] = if row == column { R::ONE } else { R::ZERO };
+            let one = if row == column { R::ONE } else { R::ZERO };
+            matrix[row * width + n + column] = [one; G];
         }
     }
-    let mut determinant = R::ONE;
+    let mut determinant = [R::ONE; G];
     for pivot in 0..n {
         for row in pivot + 1..n {
-            let (here, there) = (matrix[pivot * width + pivot], matrix[row * width + pivot]);
-            let swap = here.abs().lt(there.abs());
-            if !swap.any() {
+            let (upper, lower) = matrix.split_at_mut(row * width);
+            let (here, there) = (&mut upper[pivot * width..][..width], &mut lower[..width]);
+            let mut swap = [R::Mask::NONE; G];
+            let mut any = false;
+            for g in 0..G {
+                swap[g] = here[pivot][g].abs().lt(there[pivot][g].abs());
+                any |= swap[g].any();
+            }
+            if !any {
                 continue;
             }
-            for column in pivot..width {
-                let (a, b) = (matrix[pivot * width + column], matrix[row * width + column]);
-                matrix[pivot * width + column] = R::select(swap, b, a);
-                matrix[row * width + column] = R::select(swap, a, b);
+            for (here, there) in here[pivot..].iter_mut().zip(&mut there[pivot..]) {
+                for g in 0..G {
+                    let (a, b) = (here[g], there[g]);
+                    here[g] = R::select(swap[g], b, a);
+                    there[g] = R::select(swap[g], a, b);
+                }
             }
-            determinant = R::select(swap, -determinant, determinant);
+            for g in 0..G {
+                determinant[g] = R::select(swap[g], -determinant[g], determinant[g]);
+            }
         }
-        let head = matrix[pivot * width + pivot];
-        determinant = determinant * head;
-        let per = R::ONE / head;
+        let mut per = [R::ONE; G];
+        for g in 0..G {
+            let head = matrix[pivot * width + pivot][g];
+            determinant[g] = determinant[g] * head;
+            per[g] = R::ONE / head;
+        }
         for column in pivot + 1..width {
-            matrix[pivot * width + column] = matrix[pivot * width + column] * per;
-        }
-        for row in 0..n {
-            if row == pivot {
-                continue;
+            for g in 0..G {
+                matrix[pivot * width + column][g] = matrix[pivot * width + column][g] * per[g];
             }
+        }
+        for row in (0..n).filter(|&row| row != pivot) {
             let factor = matrix[row * width + pivot];
             for column in pivot + 1..width {
-                let less = factor * matrix[pivot * width + column];
-                matrix[row * width + column] = matrix[row * width + column] - less;
+                let head = matrix[pivot * width + column];
+                let entry = &mut matrix[row * width + column];
+                for g in 0..G {
+                    entry[g] = entry[g] - factor[g] * head[g];
+                }
             }
         }
     }
@@ -65,12 +115,12 @@ mod tests {
         })
     }
 
-    fn work(a: &DMatrix<f64>) -> Vec<f64> {
+    fn work(a: &DMatrix<f64>) -> Vec<[f64; 1]> {
         let n = a.nrows();
-        let mut work = vec![0.0; 2 * n * n];
+        let mut work = vec![[0.0]; 2 * n * n];
         for row in 0..n {
             for column in 0..n {
-                work[row * 2 * n + column] = a[(row, column)];
+                work[row * 2 * n + column] = [a[(row, column)]];
             }
         }
         work
@@ -82,8 +132,8 @@ mod tests {
             for seed in 1..40 {
                 let a = matrix(n, seed);
                 let mut rows = work(&a);
-                let determinant = invert(&mut rows, n);
-                let inverse = DMatrix::from_fn(n, n, |r, c| rows[r * 2 * n + n + c]);
+                let [determinant] = invert(&mut rows, n);
+                let inverse = DMatrix::from_fn(n, n, |r, c| rows[r * 2 * n + n + c][0]);
                 let condition = a.norm() * inverse.norm();
                 let error = (&a * &inverse - DMatrix::identity(n, n)).norm();
                 assert!(error <= 16.0 * f64::EPSILON * condition, "{n} {seed}: {error}");
@@ -100,16 +150,19 @@ mod tests {
     #[test]
     fn lanes_have_the_bits_of_the_scalar() {
         for n in [1, 2, 3, 5, 6] {
-            let ones: Vec<Vec<f64>> = (0..LANES as u64).map(|s| work(&matrix(n, s + 7))).collect();
-            let mut eight: Vec<Lanes> =
-                (0..2 * n * n).map(|i| Lanes::from_lanes(|lane| ones[lane][i])).collect();
-            let determinant = invert(&mut eight, n);
+            let ones: Vec<Vec<[f64; 1]>> =
+                (0..LANES as u64).map(|s| work(&matrix(n, s + 7))).collect();
+            let all = |i: usize| Lanes::from_lanes(|lane| ones[lane][i][0]);
+            // Twice, in two groups.
+            let mut eight: Vec<[Lanes; 2]> = (0..2 * n * n).map(|i| [all(i); 2]).collect();
+            let [_, determinant] = invert(&mut eight, n);
             for (lane, mut one) in ones.into_iter().enumerate() {
-                assert_eq!(invert(&mut one, n).to_bits(), determinant.lane(lane).to_bits());
+                let [own] = invert(&mut one, n);
+                assert_eq!(own.to_bits(), determinant.lane(lane).to_bits());
                 for row in 0..n {
                     for column in n..2 * n {
                         let i = row * 2 * n + column;
-                        assert_eq!(one[i].to_bits(), eight[i].lane(lane).to_bits());
+                        assert_eq!(one[i][0].to_bits(), eight[i][1].lane(lane).to_bits());
                     }
                 }
             }
@@ -118,8 +171,10 @@ mod tests {
 
     #[test]
     fn a_zero_on_the_diagonal_is_no_matter() {
-        let mut rows = [0.0, 1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0];
-        assert!((invert(&mut rows, 2) + 2.0).abs() < 1e-15);
+        let mut rows = [0.0, 1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0].map(|x| [x]);
+        let [determinant] = invert(&mut rows, 2);
+        assert!((determinant + 2.0).abs() < 1e-15);
+        let rows = rows.map(|[x]| x);
         assert_eq!([rows[2], rows[3], rows[6], rows[7]], [0.0, 0.5, 1.0, 0.0]);
     }
 }

@@ -4,6 +4,7 @@
 //! name resolved and every simple mistake refused. The drawing's coordinates
 //! give the dimensions and the assembly.
 
+mod class_iv;
 mod dimension;
 mod four_bar;
 mod frame;
@@ -11,6 +12,7 @@ mod names;
 mod slider_crank;
 mod validate;
 
+pub use class_iv::ClassIv;
 pub use dimension::{Dimension, Dimensions};
 pub use four_bar::{FourBar, FourBarMode};
 pub use frame::{Axis, polar};

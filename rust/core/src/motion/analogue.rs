@@ -36,7 +36,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// What the drivers add to analogue `k` of an orientation's angle.
     #[inline(always)]
-    fn driven(cx: &Context<'_>, o: usize, k: usize) -> R {
+    pub(super) fn driven(cx: &Context<'_>, o: usize, k: usize) -> R {
         let turns = &cx.plan.orientations[o].turns;
         R::splat(if let Some(driver) = cx.jets.driver_of[k] {
             f64::from(turns[driver])

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use super::bridge::bridge;
-use super::quick::Quick;
+use super::quick::{Quick, Template};
 use super::simd::Level;
 use super::state::{Context, Fault, State, Status};
 use super::track::{Spot, Track};
@@ -12,6 +12,7 @@ use super::walk::{Seed, Start};
 use crate::lanes::Real;
 use crate::mechanism::Mechanism;
 use crate::plan::bind::Bound;
+use crate::plan::bind_rate::BoundRate;
 use crate::plan::jet::Jets;
 use crate::plan::{Step, Unknown};
 use crate::plane::Vector;
@@ -113,9 +114,12 @@ impl<'a> Design<'a> {
         self.q0.extend(mechanism.q0().iter().zip(&self.unit.coordinate).map(|(q, unit)| q * unit));
         self.values.clear();
         self.values.extend_from_slice(values);
-        if mechanism.plan().groups().next().is_some() {
-            self.home = self.home(values);
-        }
+    }
+
+    /// How the fixed vectors change with a dimension.
+    pub(crate) fn rate(&self, index: usize) -> BoundRate {
+        let mechanism = self.mechanism;
+        BoundRate::new(mechanism.plan(), &mechanism.slots, &self.bound, &self.values, index)
     }
 
     /// What a position is solved with; the signs are those at the drawing.
@@ -164,18 +168,54 @@ impl<'a> Design<'a> {
         let count = plan.groups().map(|group| group.unknowns.len()).sum();
         let unknowns = plan.groups().flat_map(|group| &group.unknowns);
         for (place, &unknown) in unknowns.enumerate() {
-            let value = track.seed(spot, place, count);
             match unknown {
-                Unknown::Class(class) => state.class[class][g] = Vector::at_angle(value),
-                Unknown::Slide(slide) => state.slides[slide * state.len][g] = value,
+                Unknown::Class(class) => state.class[class][g] = track.rotation(spot, place, count),
+                Unknown::Slide(slide) => {
+                    state.slides[slide * state.len][g] = track.slide(spot, place, count);
+                }
             }
+        }
+    }
+
+    /// Solves a position again that came out on the other side of a fold, or did not come out.
+    #[cold]
+    fn solve_again(&self, state: &mut State, q: &[f64], (track, at): (&Track, f64)) {
+        let first = self.context(&self.first);
+        if let [_] = *q {
+            let Some(seeds) = track.approach(&first, &mut self.state(&self.first), at) else {
+                // Nothing can be told from the fold where the way ends.
+                state.lose();
+                return;
+            };
+            let unknowns = self.mechanism.plan().groups().flat_map(|group| &group.unknowns);
+            for (&unknown, value) in unknowns.zip(seeds) {
+                match unknown {
+                    Unknown::Class(class) => state.class[class][0] = Vector::at_angle(value),
+                    Unknown::Slide(slide) => state.slides[slide * state.len][0] = value,
+                }
+            }
+            state.solve(&Context { signs: track.signs(at), ..self.context(self.jets) }, q);
+        }
+        let is_astray = state.status == Status::NotConverged;
+        let other =
+            matches!(state.status, Status::Ok | Status::NearSingular) && !track.bends_as(state, 0);
+        if (is_astray || other) && q.len() == 1 {
+            state.lose();
+        } else if other {
+            let steps = &self.mechanism.plan().steps;
+            let last = steps.iter().rposition(|step| matches!(step, Step::Group(_)));
+            state.fault = last.map(|step| Fault::Astray { step });
+            state.status = Status::NotConverged;
         }
     }
 
     /// The quick way, where there is one.
     #[inline(always)]
     pub(crate) fn lay_quick<L: Level>(&mut self, quick: &mut Quick) -> bool {
-        if !self.is_turning() || self.mechanism.plan().groups().next().is_some() {
+        if !self.is_turning() {
+            return false;
+        }
+        if self.has_groups() && !quick.has_template(|| self.template()) {
             return false;
         }
         let mut track = std::mem::take(&mut self.track);
@@ -185,10 +225,29 @@ impl<'a> Design<'a> {
         done
     }
 
+    /// The drawing's own way, from which those of other designs are told.
+    #[cold]
+    #[inline(never)]
+    fn template(&self) -> Option<Template> {
+        let jets = Jets::new(1, 0);
+        let mut drawing = Design::new(self.mechanism, &[], &jets);
+        drawing.signs.clone_from(&self.signs);
+        drawing.bind(self.mechanism.drawing());
+        drawing.lay_way(&[]);
+        Template::of(self.mechanism.plan(), &drawing.track, drawing.q0[0], drawing.bound.scale)
+    }
+
+    fn has_groups(&self) -> bool {
+        self.mechanism.plan().groups().next().is_some()
+    }
+
     /// Walks the way along the coordinates `q` (all positions, rad or m).
     #[cold]
     #[inline(never)]
     pub(crate) fn lay_way(&mut self, q: &[f64]) {
+        if self.has_groups() {
+            self.home = self.home(&self.values);
+        }
         let [start] = self.q0[..] else { return };
         let mut state = self.state(&self.first);
         let cx = self.context(&self.first);
@@ -278,6 +337,11 @@ impl<'a> Design<'a> {
         state.prepare(cx.plan, cx.bound, cx.jets);
         self.guess(0, state, track, &track.spot(*at));
         state.solve(&Context { signs: track.signs(*at), ..cx }, q);
+        let is_astray = state.status == Status::NotConverged;
+        let solved = matches!(state.status, Status::Ok | Status::NearSingular);
+        if is_astray || solved && !track.bends_as(state, 0) {
+            self.solve_again(state, q, (track, *at));
+        }
         // At a change point a dyad is flat, and beside it little is left of the
         // analogues: the smooth motion through the point is known better.
         let solved = matches!(state.status, Status::Ok | Status::NearSingular);

@@ -215,7 +215,9 @@ impl Mechanism {
         }
         let groups = groups.join(" → ");
         match design.track.covered {
-            Some([low, high]) if low <= high && design.unit.coordinate.len() == 1 => {
+            Some([low, high])
+                if low <= high && low.is_finite() && design.unit.coordinate.len() == 1 =>
+            {
                 let scale = 1.0 / design.unit.coordinate[0];
                 format!(
                     "q = {at} is beyond a dead point: from the drawing the motion of {groups} reaches from {} to {}; another driver (with_driver) leads on",

@@ -1,8 +1,11 @@
-//! Groups above class II: Newton's iteration on their loops, and their analogues.
+//! Groups above class II: Newton's iteration on their loops.
 //!
 //! The unknown rotations are unit vectors, turned by every step; the equations are polynomials
 //! in them and in the slides, so the matrix is exact. It starts where the caller has put the
-//! rotations and slides, on the way from the drawing.
+//! rotations and slides, on the way from the drawing. Every matrix serves two steps, which
+//! together converge to the third order (Traub, Iterative Methods for the Solution of Equations,
+//! 1964, section 8.5). Work goes on in all groups of positions at once; each lane stops where its
+//! own steps end.
 
 use super::state::{Context, FLAT2, Fault, State, Status};
 use crate::lanes::invert::invert;
@@ -10,223 +13,131 @@ use crate::lanes::{Mask, Real};
 use crate::plan::group::{Chord, Group, Loop};
 use crate::plan::{Along, Unknown};
 use crate::plane::Vector;
-use crate::tolerance::{NEWTON_DONE, NEWTON_STEPS};
+use crate::tolerance::{NEWTON_BENT2, NEWTON_DONE, NEWTON_LEFT, NEWTON_LONGEST, NEWTON_ROUNDS};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Solves the group (step `index`) from where its unknowns are.
+    /// Solves the group (step `index`) from where its unknowns are; not where `care` knows that
+    /// it must be done again.
     #[inline(always)]
-    pub(crate) fn solve_group(&mut self, g: usize, cx: &Context<'_>, group: &Group, index: usize) {
+    pub(crate) fn solve_group(&mut self, cx: &Context<'_>, group: &Group, index: usize) {
         let mut matrix = std::mem::take(&mut self.matrix);
-        let n = group.rows;
-        let mut done = R::Mask::NONE;
-        for step in 0..=NEWTON_STEPS {
-            for (place, &unknown) in group.unknowns.iter().enumerate() {
-                if let Unknown::Class(class) = unknown {
-                    self.spread_rotation(g, cx, &group.turned[place], self.class[class][g]);
-                }
-            }
-            self.measure(g, cx, group, 0);
-            self.linearise(g, cx, group, &mut matrix);
-            self.determinants[group.index][g] = invert(&mut matrix, n);
-            if done.all() || step == NEWTON_STEPS {
+        let mut work =
+            Work { done: self.care, size2: [R::ONE; G], first: [R::ZERO; G], rest: [R::ZERO; G] };
+        for unused in work.done.iter_mut().skip(self.groups) {
+            *unused = R::Mask::NONE.not();
+        }
+        let known = work.done;
+        self.prepare_group(cx, group);
+        for round in 0..NEWTON_ROUNDS {
+            if work.done.iter().all(|done| done.all()) {
                 break;
             }
-            let mut most = R::ZERO;
-            for (place, &unknown) in group.unknowns.iter().enumerate() {
-                let step = -times(&matrix, n, place);
-                // No number counts as great.
-                most = R::select(step.abs().le(most), most, step.abs());
-                match unknown {
-                    Unknown::Class(class) => {
-                        let old = self.class[class][g];
-                        let new = turned(old, step);
-                        let x = R::select(done, old.x, new.x);
-                        self.class[class][g] = Vector::new(x, R::select(done, old.y, new.y));
-                    }
-                    Unknown::Slide(slide) => {
-                        let value = &mut self.slides[slide * self.len][g];
-                        *value = R::select(done, *value, *value + step);
-                    }
-                }
+            self.place_group(cx, group);
+            self.linearise(cx, group, &mut matrix);
+            let determinants = invert(&mut matrix, group.rows);
+            for g in 0..G {
+                let own = &mut self.bends[group.index][g];
+                *own = R::select(work.done[g], *own, determinants[g]);
             }
-            done = done.or(most.lt(R::splat(NEWTON_DONE)));
+            work.weigh(cx, group, &matrix);
+            let first = self.step(group, &matrix, &work.done);
+            let waits = work.bent(first);
+            self.place_group(cx, group);
+            self.miss(cx, group, 0, &mut matrix[2 * group.rows * group.rows..]);
+            let second = self.step(group, &matrix, &waits);
+            work.count(first, second, &waits, round == 0);
         }
-        self.care[g] = self.care[g].or(done.not());
-        if R::LANES == 1 && !done.all() {
+        self.place_group(cx, group);
+        for g in 0..G {
+            self.care[g] = self.care[g].or(work.done[g].not());
+            self.first_step[g] = self.first_step[g].max(work.first[g]);
+            self.later_steps[g] = self.later_steps[g].max(work.rest[g]);
+        }
+        if R::LANES == 1 && !work.done.iter().all(|done| done.all()) {
             self.fault = Some(Fault::Astray { step: index });
             self.status = Status::NotConverged;
         } else {
-            self.judge(g, cx, group, index, &matrix);
-            self.group_analogues(g, cx, group, &mut matrix);
+            for g in 0..G {
+                self.judge(g, cx, group, index, work.size2[g]);
+            }
+            self.take_all(cx, group, 0);
+            if self.len > 1 && !known.iter().all(|done| done.all()) {
+                self.linearise(cx, group, &mut matrix);
+                self.determinants[group.index] = invert(&mut matrix, group.rows);
+                self.group_analogues(cx, group, &mut matrix);
+            }
         }
         self.matrix = matrix;
     }
 
-    /// Entry `k` of the edges, guides and chords.
+    /// What does not change during the iteration.
     #[inline(always)]
-    fn measure(&mut self, g: usize, cx: &Context<'_>, group: &Group, k: usize) {
-        let len = self.len;
-        for (place, edge) in group.edges.iter().enumerate() {
-            let e = edge.edge;
-            let along = cx.plan.edges[e].along;
-            let unit = self.orient[cx.plan.edges[e].orientation * len + k][g];
-            let mut span = unit * Vector::splat(cx.bound.rigid[e]);
-            if along != Along::Nothing {
-                self.guides[place * len + k] = unit * Vector::splat(cx.bound.guide[e]);
-            }
-            if let Along::Slide(slide) | Along::Driver { slide } = along {
-                for term in &cx.jets.product[k] {
-                    let s = R::splat(term.factor) * self.slides[slide * len + term.right][g];
-                    span += self.guides[place * len + term.left].scale(s);
-                }
-            }
-            self.spans[place * len + k] = span;
-        }
+    fn prepare_group(&mut self, cx: &Context<'_>, group: &Group) {
         for (place, l) in group.loops.iter().enumerate() {
-            let [start, end] = [l.start, l.end].map(|point| self.points[point * len + k][g]);
-            let mut sum = end - start;
-            for piece in &l.path {
-                let v = self.spans[piece.place * len + k];
-                sum += if piece.backward { -v } else { v };
+            if l.chord == Chord::Whole {
+                continue;
             }
-            self.chords[place * len + k] = sum;
-        }
-    }
-
-    /// Entry `k` of the vector in a chord's own frame, whose length it has.
-    #[inline(always)]
-    fn local(&self, g: usize, cx: &Context<'_>, e: usize, k: usize) -> Vector<R> {
-        let mut local = Vector::ZERO;
-        if k == 0 {
-            local = Vector::splat(cx.bound.rigid[e]);
-        }
-        if let Along::Driver { slide } = cx.plan.edges[e].along {
-            let value = self.slides[slide * self.len + k][g];
-            local += Vector::splat(cx.bound.guide[e]).scale(value);
-        }
-        local
-    }
-
-    /// What the equations miss at order `k`, behind the matrix.
-    #[inline(always)]
-    fn miss(&self, g: usize, cx: &Context<'_>, group: &Group, k: usize, missing: &mut [R]) {
-        let len = self.len;
-        let mut row = 0;
-        for (place, l) in group.loops.iter().enumerate() {
             let e = group.edges[l.edge].edge;
-            match l.chord {
-                Chord::Whole => {
-                    let v = self.chords[place * len + k] - self.spans[l.edge * len + k];
-                    missing[row] = v.x;
-                    missing[row + 1] = v.y;
-                    row += 1;
+            if let Along::Driver { .. } = cx.plan.edges[e].along {
+                for g in 0..G {
+                    self.per[place][g] = R::ONE / self.local(g, cx, e, 0).norm();
                 }
-                Chord::Length { .. } => {
-                    let mut sum = R::ZERO;
-                    for term in &cx.jets.product[k] {
-                        let [a, b] = [term.left, term.right].map(|k| self.chords[place * len + k]);
-                        let [c, d] = [term.left, term.right].map(|k| self.local(g, cx, e, k));
-                        sum += R::splat(term.factor) * (a.dot(b) - c.dot(d));
-                    }
-                    missing[row] = sum * (R::splat(0.5) / self.local(g, cx, e, 0).norm());
-                }
-                Chord::Guide { .. } => {
-                    let mut sum = R::ZERO;
-                    for term in &cx.jets.product[k] {
-                        let guide = self.guides[l.edge * len + term.left];
-                        let chord = self.chords[place * len + term.right];
-                        sum += R::splat(term.factor) * guide.cross(chord);
-                    }
-                    if k == 0 {
-                        sum = sum - R::splat(cx.bound.guide[e].cross(cx.bound.rigid[e]));
-                    }
-                    missing[row] = sum;
-                }
+            } else {
+                self.per[place] = [R::splat(1.0 / cx.bound.rigid[e].norm()); G];
             }
-            row += 1;
         }
     }
 
-    /// The matrix of the equations and, behind it, what they miss.
+    /// Edges and chords at the unknowns.
     #[inline(always)]
-    fn linearise(&self, g: usize, cx: &Context<'_>, group: &Group, matrix: &mut [R]) {
+    fn place_group(&mut self, cx: &Context<'_>, group: &Group) {
+        for (place, &unknown) in group.unknowns.iter().enumerate() {
+            if let Unknown::Class(class) = unknown {
+                self.spread_rotation(cx, &group.turned[place], class);
+            }
+        }
+        self.measure(cx, group, 0);
+    }
+
+    /// Takes a step by the inverse at hand, on the lanes that are not done; how great a change
+    /// was asked for.
+    #[inline(always)]
+    fn step(&mut self, group: &Group, matrix: &[[R; G]], done: &[R::Mask; G]) -> [R; G] {
         let (len, n) = (self.len, group.rows);
-        matrix[..2 * n * n].fill(R::ZERO);
-        self.miss(g, cx, group, 0, &mut matrix[2 * n * n..]);
-        let mut row = 0;
-        for (place, l) in group.loops.iter().enumerate() {
-            let e = group.edges[l.edge].edge;
-            let chord = self.chords[place * len];
-            // A change v of the chord's vector changes the equations by its products with these;
-            // the length's is along the chord, the guide's across the guide.
-            let [across, down] = match l.chord {
-                Chord::Whole => [Vector::ONE, Vector::ONE.left()],
-                Chord::Length { .. } => {
-                    let per = R::ONE / self.local(g, cx, e, 0).norm();
-                    [chord.scale(per), Vector::ZERO]
+        let most = R::splat(NEWTON_LONGEST);
+        let mut greatest = [R::ZERO; G];
+        let missing = &matrix[2 * n * n..][..n];
+        for (place, &unknown) in group.unknowns.iter().enumerate() {
+            let row = &matrix[place * 2 * n + n..][..n];
+            for g in 0..G {
+                let mut step = R::ZERO;
+                for (inverse, missing) in row.iter().zip(missing) {
+                    step = step - inverse[g] * missing[g];
                 }
-                Chord::Guide { .. } => [self.guides[l.edge * len].left(), Vector::ZERO],
-            };
-            let is_whole = l.chord == Chord::Whole;
-            let mut add = |unknown: usize, v: Vector<R>| {
-                let at = row * 2 * n + unknown;
-                matrix[at] += across.dot(v);
-                if is_whole {
-                    matrix[at + 2 * n] += down.dot(v);
-                }
-            };
-            for piece in &l.path {
-                let edge = &group.edges[piece.place];
-                let turn = if piece.backward { -R::ONE } else { R::ONE };
-                if let Some(unknown) = edge.turns {
-                    add(unknown, self.spans[piece.place * len].left().scale(turn));
-                }
-                if let Some(unknown) = edge.slides {
-                    add(unknown, self.guides[piece.place * len].scale(turn));
+                let size = step.abs();
+                // No number counts as great.
+                greatest[g] = R::select(size.le(greatest[g]), greatest[g], size);
+                let step = R::select(done[g], R::ZERO, step.max(-most).min(most));
+                match unknown {
+                    Unknown::Class(class) => {
+                        let old = self.class[class][g];
+                        let new = turned(old, step);
+                        let x = R::select(done[g], old.x, new.x);
+                        self.class[class][g] = Vector::new(x, R::select(done[g], old.y, new.y));
+                    }
+                    Unknown::Slide(slide) => {
+                        let value = &mut self.slides[slide * len][g];
+                        *value += step;
+                    }
                 }
             }
-            let own = &group.edges[l.edge];
-            match l.chord {
-                Chord::Whole => {
-                    if let Some(unknown) = own.turns {
-                        add(unknown, -self.spans[l.edge * len].left());
-                    }
-                    if let Some(unknown) = own.slides {
-                        add(unknown, -self.guides[l.edge * len]);
-                    }
-                }
-                Chord::Guide { .. } => {
-                    if let Some(unknown) = own.turns {
-                        // The guide turns, which is as if the chord turned back.
-                        add(unknown, -chord.left());
-                    }
-                }
-                Chord::Length { .. } => {}
-            }
-            row += if is_whole { 2 } else { 1 };
         }
+        greatest
     }
 
-    /// The orientations of a class from its rotation.
+    /// Condition of the group, whose inverse has this size, and of all that hangs on it.
     #[inline(always)]
-    fn spread_rotation(
-        &mut self,
-        g: usize,
-        cx: &Context<'_>,
-        orientations: &[usize],
-        rotation: Vector<R>,
-    ) {
-        for &o in orientations {
-            let driven = cx.plan.orientations[o].driven;
-            self.orient[o * self.len][g] =
-                if driven { rotation * self.phase[o][g] } else { rotation };
-        }
-    }
-
-    /// Condition of the group and of all that hangs on it.
-    #[inline(always)]
-    fn judge(&mut self, g: usize, cx: &Context<'_>, group: &Group, index: usize, matrix: &[R]) {
-        let n = group.rows;
+    fn judge(&mut self, g: usize, cx: &Context<'_>, group: &Group, index: usize, size2: R) {
         let mut before = R::ONE;
         for l in &group.loops {
             for point in [l.start, l.end] {
@@ -240,28 +151,11 @@ impl<R: Real, const G: usize> State<R, G> {
                 before = before.max(self.class_condition[class][g]);
             }
         }
-        let mut size2 = R::ZERO;
-        for (place, &unknown) in group.unknowns.iter().enumerate() {
-            // A column of a rotation is measured in units of the greatest arm that turns with it.
-            let lever2 = match unknown {
-                Unknown::Class(class) => R::splat(cx.bound.lever2[class]),
-                Unknown::Slide(_) => R::ONE,
-            };
-            for column in 0..n {
-                let entry = matrix[place * 2 * n + n + column];
-                size2 += lever2 * (entry * entry);
-            }
-        }
         let condition = before * size2.max(R::ONE);
         // No number counts as great.
         let kept = condition.le(self.condition2[g]);
         self.condition2[g] = R::select(kept, self.condition2[g], condition);
-        let taken = group.loops.iter().filter_map(|l| match l.chord {
-            Chord::Length { class } => Some(Unknown::Class(class)),
-            Chord::Guide { slide } => Some(Unknown::Slide(slide)),
-            Chord::Whole => None,
-        });
-        for unknown in group.unknowns.iter().copied().chain(taken) {
+        for unknown in group.found() {
             match unknown {
                 Unknown::Class(class) => self.class_condition[class][g] = condition,
                 Unknown::Slide(slide) => self.slide_condition[slide][g] = condition,
@@ -274,120 +168,84 @@ impl<R: Real, const G: usize> State<R, G> {
             self.status = Status::Singular;
         }
     }
+}
 
-    /// Analogues of the unknowns: at every order the same matrix, as right-hand side what is
-    /// known of that order; and what the chords took with them.
-    #[inline(always)]
-    fn group_analogues(&mut self, g: usize, cx: &Context<'_>, group: &Group, matrix: &mut [R]) {
-        let (len, n) = (self.len, group.rows);
-        for k in 0..len {
-            if k > 0 {
-                // What is yet unknown counts as 0.
-                for (place, &unknown) in group.unknowns.iter().enumerate() {
-                    if let Unknown::Slide(slide) = unknown {
-                        self.slides[slide * len + k][g] = R::ZERO;
-                    }
-                    for &o in &group.turned[place] {
-                        self.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k);
-                    }
-                }
-                self.measure(g, cx, group, k);
-                self.miss(g, cx, group, k, &mut matrix[2 * n * n..]);
-                for (place, &unknown) in group.unknowns.iter().enumerate() {
-                    let value = -times(matrix, n, place);
-                    match unknown {
-                        Unknown::Slide(slide) => self.slides[slide * len + k][g] = value,
-                        Unknown::Class(class) => self.theta[class * len + k][g] = value,
-                    }
-                    for &o in &group.turned[place] {
-                        let top = self.orient[o * len][g].left().scale(value);
-                        self.orient[o * len + k][g] += top;
-                    }
-                }
-                self.measure(g, cx, group, k);
-            }
-            for (place, l) in group.loops.iter().enumerate() {
-                self.take_along(g, cx, group, (place, l), k);
-            }
-        }
-    }
+/// How far the iteration is.
+struct Work<R: Real, const G: usize> {
+    /// Lanes that need no more steps.
+    done: [R::Mask; G],
+    /// Square of the size of the last inverse.
+    size2: [R; G],
+    /// Greatest change of an unknown by the first step (rad, or of the size).
+    first: [R; G],
+    /// By the others, together.
+    rest: [R; G],
+}
 
-    /// Entry `k` of what a chord took with it.
+impl<R: Real, const G: usize> Work<R, G> {
+    /// Takes the size of the inverse.
     #[inline(always)]
-    fn take_along(
-        &mut self,
-        g: usize,
-        cx: &Context<'_>,
-        group: &Group,
-        (place, l): (usize, &Loop),
-        k: usize,
-    ) {
-        let len = self.len;
-        let e = group.edges[l.edge].edge;
-        match l.chord {
-            Chord::Whole => {}
-            Chord::Guide { slide } => {
+    fn weigh(&mut self, cx: &Context<'_>, group: &Group, matrix: &[[R; G]]) {
+        let n = group.rows;
+        let mut size2 = [R::ZERO; G];
+        for (place, &unknown) in group.unknowns.iter().enumerate() {
+            // A column of a rotation is measured in units of the greatest arm that turns with it.
+            let lever2 = match unknown {
+                Unknown::Class(class) => R::splat(cx.bound.lever2[class]),
+                Unknown::Slide(_) => R::ONE,
+            };
+            let row = &matrix[place * 2 * n + n..][..n];
+            for g in 0..G {
                 let mut sum = R::ZERO;
-                for term in &cx.jets.product[k] {
-                    let guide = self.guides[l.edge * len + term.left];
-                    let chord = self.chords[place * len + term.right];
-                    sum += R::splat(term.factor) * guide.dot(chord);
+                for entry in row {
+                    sum += entry[g] * entry[g];
                 }
-                if k == 0 {
-                    sum = sum - R::splat(cx.bound.guide[e].dot(cx.bound.rigid[e]));
-                }
-                self.slides[slide * len + k][g] = sum;
+                size2[g] += lever2 * sum;
             }
-            Chord::Length { class } => {
-                // chord = U · local at every order.
-                let o = cx.plan.edges[e].orientation;
-                let mut rest = self.chords[place * len + k];
-                for term in &cx.jets.product[k] {
-                    if term.left != k {
-                        let known =
-                            self.orient[o * len + term.left][g] * self.local(g, cx, e, term.right);
-                        rest = rest - known.scale(R::splat(term.factor));
-                    }
-                }
-                let local = self.local(g, cx, e, 0);
-                let unit = (rest * local.conj()).scale(R::ONE / local.norm2());
-                if k == 0 {
-                    let driven = cx.plan.orientations[o].driven;
-                    let rotation = if driven { unit * self.phase[o][g].conj() } else { unit };
-                    self.class[class][g] = rotation;
-                    self.spread_rotation(g, cx, &l.turned, rotation);
-                    return;
-                }
-                let partial = self.orientation_without_top(g, cx, o, k);
-                let rate = ((unit - partial) * self.orient[o * len][g].conj()).y;
-                self.theta[class * len + k][g] = rate;
-                for &o in &l.turned {
-                    let partial = self.orientation_without_top(g, cx, o, k);
-                    let top = self.orient[o * len][g].left().scale(rate);
-                    self.orient[o * len + k][g] = partial + top;
-                }
+        }
+        for g in 0..G {
+            self.size2[g] = R::select(self.done[g], self.size2[g], size2[g]);
+        }
+    }
+
+    /// Lanes that take no second step by the same matrix: what is done, and where the first step
+    /// was so long that the matrix is not that of the solution (beside a fold such a step leads to
+    /// the other assembly).
+    #[inline(always)]
+    fn bent(&self, first: [R; G]) -> [R::Mask; G] {
+        let mut waits = self.done;
+        for g in 0..G {
+            let turned2 = first[g] * first[g] * self.size2[g];
+            waits[g] = waits[g].or(turned2.lt(R::splat(NEWTON_BENT2)).not());
+        }
+        waits
+    }
+
+    /// Counts the two steps of a round.
+    #[inline(always)]
+    fn count(&mut self, first: [R; G], second: [R; G], waits: &[R::Mask; G], is_first: bool) {
+        for g in 0..G {
+            let done = self.done[g];
+            let second = R::select(waits[g], R::ZERO, second[g]);
+            let sum = if is_first { second } else { self.rest[g] + first[g] + second };
+            self.rest[g] = R::select(done, self.rest[g], sum);
+            if is_first {
+                self.first[g] = R::select(done, self.first[g], first[g]);
             }
+            // What is left is about the product; of one step alone about its square.
+            let left = first[g] * second;
+            let settled = waits[g].not().and(left.lt(R::splat(NEWTON_LEFT)));
+            self.done[g] = done.or(settled).or(first[g].lt(R::splat(NEWTON_DONE)));
         }
     }
 }
 
-/// A row of the inverse times what is missing.
-#[inline(always)]
-fn times<R: Real>(matrix: &[R], n: usize, row: usize) -> R {
-    let mut sum = R::ZERO;
-    for column in 0..n {
-        sum += matrix[row * 2 * n + n + column] * matrix[2 * n * n + column];
-    }
-    sum
-}
-
-/// A unit vector turned by a small angle, and a unit vector again: by Cayley's rational rotation
-/// (exact to the third order), then one step of Newton's for 1/√.
+/// A unit vector turned by a small angle, and a unit vector again: by Taylor's polynomials of the
+/// third degree, then one step of Newton's for 1/√.
 #[inline(always)]
 fn turned<R: Real>(unit: Vector<R>, angle: R) -> Vector<R> {
-    let half = angle * R::splat(0.5);
-    let per = R::ONE / (R::ONE + half * half);
-    let turn = Vector::new((R::ONE - half * half) * per, angle * per);
+    let half2 = angle * angle * R::splat(0.5);
+    let turn = Vector::new(R::ONE - half2, angle * (R::ONE - half2 * R::splat(1.0 / 3.0)));
     let new = unit * turn;
     new.scale(R::splat(1.5) - R::splat(0.5) * new.norm2())
 }

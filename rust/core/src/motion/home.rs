@@ -14,6 +14,12 @@ use crate::plane::Vector;
 /// Parts of the way from the drawing's dimensions, at least.
 const LEAST_PART: f64 = 1.0 / 1_099_511_627_776.0;
 
+/// How far (rad, or of the size) the first step of the iteration may go, which follows what
+/// changes to the first order: other assemblies are farther.
+pub(super) const FIRST_STEP: f64 = 0.25;
+/// And all others together.
+pub(super) const LATER_STEPS: f64 = STRAY;
+
 impl Design<'_> {
     /// Unknowns of the groups at the drawing's coordinate, for dimensions `values` that are bound;
     /// none if the way to them folds.
@@ -36,7 +42,7 @@ impl Design<'_> {
         let (mut done, mut part) = (0.0, 1.0);
         let drawing = mechanism.drawing();
         while done < 1.0 {
-            let next = f64::min(done + part, 1.0);
+            let next = if sides.is_some() { f64::min(done + part, 1.0) } else { 0.0 };
             let between: Vec<f64> = if next < 1.0 {
                 drawing.iter().zip(values).map(|(a, b)| a + next * (b - a)).collect()
             } else {
@@ -75,15 +81,11 @@ impl Design<'_> {
                     Unknown::Slide(s) => state.slides[s * state.len][0] * bound.scale,
                 })
                 .collect();
-            let far = unknowns.iter().zip(here.iter().zip(&there)).any(|(unknown, (a, b))| {
-                let size = if matches!(unknown, Unknown::Slide(_)) { bound.scale } else { 1.0 };
-                // No number is far.
-                let apart = (a - b).abs();
-                apart.is_nan() || apart > STRAY * size
-            });
+            let near = state.first_step[0] <= FIRST_STEP && state.later_steps[0] <= LATER_STEPS;
             let now: Vec<bool> = state.determinants.iter().map(|d| d[0] > 0.0).collect();
-            if solved && !far && sides.as_ref().is_none_or(|sides| *sides == now) {
-                (done, part) = (next, 2.0 * part);
+            if solved && near && sides.as_ref().is_none_or(|sides| *sides == now) {
+                // The drawing itself comes first: it tells the sides.
+                (done, part) = if sides.is_some() { (next, 2.0 * part) } else { (0.0, 1.0) };
                 here = there;
                 sides = Some(now);
             } else {

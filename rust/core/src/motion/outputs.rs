@@ -7,6 +7,7 @@ use super::state::State;
 use crate::lanes::Real;
 use crate::mechanism::Mechanism;
 use crate::plan::bind::Bound;
+use crate::plan::bind_rate::offsets;
 use crate::plan::jet::Jets;
 use crate::plane::Vector;
 use crate::structure::closure::point_of_joint;
@@ -115,6 +116,8 @@ pub(crate) struct Writer<'a> {
     rates: Vec<Entry>,
     /// Classes whose angle is asked for.
     pub classes: Vec<usize>,
+    /// Whether values of points begin at the frame's origin.
+    shifted: bool,
 }
 
 impl<'a> Writer<'a> {
@@ -153,7 +156,31 @@ impl<'a> Writer<'a> {
                 list.push(Entry { column: index, width, place, y, k, from, driven: driven.into() });
             }
         }
-        Self { mechanism, points, slides, angles, rates, classes }
+        Self { mechanism, points, slides, angles, rates, classes, shifted: true }
+    }
+
+    /// The same for derivatives by a dimension: angles are numbers as their analogues are, and
+    /// nothing is added to what the state holds.
+    pub(crate) fn of_rates(
+        mechanism: &'a Mechanism,
+        jets: &Jets,
+        columns: &[Column],
+        index: usize,
+    ) -> Self {
+        let mut writer = Self::new(mechanism, jets, columns);
+        let plan = mechanism.plan();
+        let mut by = vec![0.0; mechanism.dimensions().len()];
+        by[index] = 1.0;
+        let offsets = offsets(plan, &mechanism.slots, &by);
+        for entry in &mut writer.rates {
+            entry.driven = 0.0;
+        }
+        for entry in writer.angles.drain(..) {
+            let class = plan.rotation[entry.from].class;
+            let driven = offsets[entry.from];
+            writer.rates.push(Entry { from: class * jets.len(), driven, ..entry });
+        }
+        Self { shifted: false, classes: Vec::new(), ..writer }
     }
 
     /// Writes `count` positions, lane after lane of a state, into the rows from `row` on.
@@ -170,7 +197,7 @@ impl<'a> Writer<'a> {
         let origin = Vector::splat(Vector::new(bound.origin[0], bound.origin[1]));
         for entry in &self.points {
             let scale = R::splat(unit.length[entry.k]);
-            let shift = if entry.k == 0 { Some(origin) } else { None };
+            let shift = if entry.k == 0 && self.shifted { Some(origin) } else { None };
             let points = &state.points[entry.from];
             let out = rows.of(entry, row, count);
             let place = |point: Vector<R>| {

@@ -2,13 +2,15 @@
 //! point, no change point, no link that turns fast. Whatever is else is left to the
 //! walk; both lay the same knots.
 
+use std::cell::OnceCell;
 use std::f64::consts::TAU;
 
 use super::change::may_touch;
 use super::simd::Level;
 use super::state::{Context, State};
+pub(crate) use super::template::Template;
 use super::track::{CELLS_A_TURN, Track, turns_between};
-use super::walk::Stretch;
+use super::walk::{Seed, Stretch};
 use crate::lanes::{LANES, Lanes, Mask, Real};
 use crate::plan::jet::Jets;
 use crate::plan::{Form, Plan};
@@ -16,17 +18,17 @@ use crate::plane::Vector;
 use crate::tolerance::LIFT_TURN;
 
 /// Knots of a turn, its end included.
-const KNOTS: usize = CELLS_A_TURN as usize + 1;
+pub(super) const KNOTS: usize = CELLS_A_TURN as usize + 1;
 /// Groups of them.
-const GROUPS: usize = KNOTS / LANES;
+pub(super) const GROUPS: usize = KNOTS / LANES;
 /// One cell.
-const CELL: f64 = TAU / CELLS_A_TURN as f64;
+pub(super) const CELL: f64 = TAU / CELLS_A_TURN as f64;
 
 /// Work space: for every knot what the walk asks of it.
 #[derive(Debug)]
 pub(crate) struct Quick {
     /// All knots.
-    state: State<Lanes, GROUPS>,
+    pub(super) state: State<Lanes, GROUPS>,
     /// Drawing's angle that the knots below are for, the same for all designs.
     q0: f64,
     /// Angles of the driver, eight a group, and their unit vectors.
@@ -34,10 +36,14 @@ pub(crate) struct Quick {
     /// Spread and rate of every dyad with a sign at the last knot.
     spread: Vec<(f64, f64)>,
     /// Angle of every class at the last knot, and its whole turns until there.
-    last: Vec<(f64, f64)>,
+    pub(super) last: Vec<(f64, f64)>,
     /// On which side of parallel the guides of every dyad of two known directions are, at
     /// the knots before.
     sides: Vec<bool>,
+    /// Unknowns of groups at the knots of the drawing's way; asked for once.
+    pub(super) template: OnceCell<Option<Template>>,
+    /// Unknowns of groups at the knots, one after another.
+    pub(super) seeds: Vec<Seed>,
 }
 
 impl Quick {
@@ -50,7 +56,14 @@ impl Quick {
             spread: vec![(0.0, 0.0); plan.signs()],
             last: vec![(0.0, 0.0); plan.classes],
             sides: Vec::new(),
+            template: OnceCell::new(),
+            seeds: Vec::new(),
         }
+    }
+
+    /// Whether the drawing has a way from which others are told.
+    pub(crate) fn has_template(&self, make: impl FnOnce() -> Option<Template>) -> bool {
+        self.template.get_or_init(make).is_some()
     }
 
     /// Lays the knots of a turn from `q0` on into `track`; false if the way needs
@@ -77,6 +90,7 @@ impl Quick {
         for (lanes, &sign) in self.state.signs.iter_mut().zip(cx.signs) {
             *lanes = [Lanes::splat(sign); GROUPS];
         }
+        self.guess(cx);
         L::solve(&mut self.state, cx);
         track.angles.resize(KNOTS * start.len(), 0.0);
         // Nothing is before the first knot but the drawing.
@@ -89,6 +103,9 @@ impl Quick {
                 return false;
             }
             track.at.extend_from_slice(&self.knots[group].0.0);
+        }
+        if !self.lay_cells(cx, track) {
+            return false;
         }
         let classes = start.len();
         track.gain.clear();
@@ -114,10 +131,7 @@ impl Quick {
         self.q0 = q0;
         self.knots.clear();
         for first in (0..KNOTS).step_by(Lanes::LANES) {
-            let at = Lanes::from_lanes(|lane| {
-                let turned = ((first + lane) as f64) / f64::from(CELLS_A_TURN);
-                q0 + TAU * turned
-            });
+            let at = knots_at(q0, first);
             self.knots.push((at, Vector::at_angle(at)));
         }
     }
@@ -172,7 +186,7 @@ impl Quick {
             let before = after(last, angle);
             let turns = turns_between(angle, before);
             let step = (angle + Lanes::splat(TAU) * turns) - before;
-            let rate = self.state.theta[2 * class + 1][group] * Lanes::splat(CELL);
+            let rate = self.state.theta[self.state.len * class + 1][group] * Lanes::splat(CELL);
             fast = fast.or(most.lt(step.abs())).or(Lanes::splat(LIFT_TURN).lt(rate.abs()));
             for lane in 0..LANES {
                 whole += turns.lane(lane);
@@ -182,6 +196,15 @@ impl Quick {
         }
         !fast.any()
     }
+}
+
+/// Eight knots of the way from `q0`, from one on.
+#[inline(always)]
+pub(super) fn knots_at(q0: f64, first: usize) -> Lanes {
+    Lanes::from_lanes(|lane| {
+        let turned = ((first + lane) as f64) / f64::from(CELLS_A_TURN);
+        q0 + TAU * turned
+    })
 }
 
 /// Each lane's neighbour before it; that of the first is given.

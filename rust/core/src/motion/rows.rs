@@ -6,7 +6,9 @@ use std::mem::MaybeUninit;
 use super::design::Design;
 use super::outputs::{Column, Rows, Writer};
 use super::quick::Quick;
+use super::sensitivity::Sensitivity;
 use super::simd::{self, Level, Simd};
+use super::solve::Request;
 use super::state::{State, Status};
 use super::track::{Spot, nearest};
 use crate::lanes::{LANES, Lanes, Mask, Real};
@@ -25,6 +27,8 @@ pub(crate) struct Worker<'a> {
     simd: Simd,
     quick: Quick,
     one: State,
+    /// The dimension by which all is differentiated, and work space for that.
+    by: Option<(usize, Sensitivity)>,
     many: State<Lanes, GROUPS>,
     /// Angles of its classes.
     lifted: Vec<[Lanes; GROUPS]>,
@@ -58,17 +62,18 @@ struct Turned {
 impl<'a> Worker<'a> {
     pub(crate) fn new(
         mechanism: &'a Mechanism,
-        signs: &[i8],
+        request: &Request<'_>,
         jets: &'a Jets,
         writer: &'a Writer<'a>,
         columns: &'a [Column],
         simd: Simd,
     ) -> Self {
-        let design = Design::new(mechanism, signs, jets);
+        let design = Design::new(mechanism, request.signs, jets);
         let plan = mechanism.plan();
         Self {
             quick: design.quick(),
             one: State::new(plan, jets),
+            by: request.by.map(|index| (index, Sensitivity::new(plan, jets))),
             many: State::new(plan, jets),
             lifted: vec![[Lanes::ZERO; GROUPS]; plan.classes],
             turned: Vec::new(),
@@ -103,6 +108,11 @@ impl<'a> Worker<'a> {
         }
         let drivers = self.design.mechanism.q0().len();
         let count = job.q.len() / drivers;
+        if let Some((index, mut by)) = self.by.take() {
+            self.rates_of_rows(job, index, &mut by);
+            self.by = Some((index, by));
+            return;
+        }
         if drivers > 1 {
             for row in 0..count {
                 self.one_row(job, row);
@@ -168,7 +178,8 @@ impl<'a> Worker<'a> {
                 care[group] = self.strange(q, spot);
             }
             let track = &self.design.track;
-            self.many.q[0][group] = q;
+            // What is done by itself is no matter here.
+            self.many.q[0][group] = Lanes::select(care[group], Lanes::splat(f64::NAN), q);
             self.many.unit[0][group] = unit;
             for (sign, groups) in self.many.signs.iter_mut().enumerate() {
                 groups[group] = if track.is_one_stretch() {
@@ -204,6 +215,7 @@ impl<'a> Worker<'a> {
         let mut again = false;
         for group in 0..groups.min(GROUPS) {
             care[group] = care[group].or(state.care[group]);
+            care[group] = care[group].or(design.track.bends_as(state, group).not());
             again |= care[group].any();
             let near = state.near_singular(group);
             if near.any() {
@@ -248,5 +260,35 @@ impl<'a> Worker<'a> {
             job.rows.blank(self.columns, 1, at, 1);
         }
         job.rows.status[at] = MaybeUninit::new(state.status as u8);
+    }
+
+    /// Derivatives by a dimension, one position after another.
+    #[cold]
+    #[inline(never)]
+    fn rates_of_rows(&mut self, job: &mut Job<'_, '_>, index: usize, by: &mut Sensitivity) {
+        let design = &self.design;
+        let drivers = design.mechanism.q0().len();
+        let cx = design.context(design.jets);
+        let rate = design.rate(index);
+        let nothing = vec![[0.0]; self.lifted.len()];
+        for (row, q) in job.q.chunks_exact(drivers).enumerate() {
+            let q = design.scaled(q);
+            let place = design.way(&q);
+            let state = &mut self.one;
+            design.solve(state, &q, place.as_ref());
+            let at = job.first + row;
+            let status = state.status;
+            job.rows.leave_out(self.columns, at, 1, status as u8);
+            let solved = matches!(status, Status::Ok | Status::NearSingular);
+            if solved && by.solve(state, &cx, &rate) {
+                // Where a change of the dimension moves the frame's origin, all goes with it.
+                for point in by.rates.points.chunks_exact_mut(design.jets.len()) {
+                    point[0][0] += rate.origin.scale(1.0 / design.bound.scale);
+                }
+                let with = (&design.bound, &design.unit);
+                self.writer.write(job.rows, (at, 1), with, &by.rates, &nothing);
+                job.rows.status[at] = MaybeUninit::new(status as u8);
+            }
+        }
     }
 }

@@ -76,58 +76,68 @@ pub(crate) trait Level {
 pub(crate) fn solve(simd: Simd, worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
     match simd.min(Simd::best()) {
         #[cfg(target_arch = "x86_64")]
-        Simd::Avx2 => Avx2::run(worker, job),
+        Simd::Avx2 => avx2::Avx2::run(worker, job),
         #[cfg(target_arch = "x86_64")]
-        Simd::Avx512 => Avx512::run(worker, job),
-        _ => Baseline::run(worker, job),
+        Simd::Avx512 => avx512::Avx512::run(worker, job),
+        _ => baseline::Baseline::run(worker, job),
     }
 }
 
-struct Baseline;
+/// The baseline, for which nothing is asked.
+mod baseline {
+    use super::{Context, Job, Lanes, Level, State, Worker};
 
-impl Level for Baseline {
-    #[inline(never)]
-    fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
-        state.solve_all(cx);
-    }
-    #[inline(never)]
-    fn run(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
-        worker.run::<Self>(job);
+    pub(super) struct Baseline;
+
+    impl Level for Baseline {
+        #[inline(never)]
+        fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
+            state.solve_all(cx);
+        }
+        #[inline(never)]
+        fn run(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
+            worker.run::<Self>(job);
+        }
     }
 }
 
-/// A level beyond the baseline.
+/// A level beyond the baseline; in a module of its own, so that the compiler works on the levels
+/// side by side.
 #[cfg(target_arch = "x86_64")]
 macro_rules! level {
-    ($level:ident, $features:literal) => {
-        struct $level;
+    ($module:ident, $level:ident, $features:literal) => {
+        mod $module {
+            use super::{Context, Job, Lanes, Level, State, Worker};
 
-        impl Level for $level {
-            #[inline(always)]
-            #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
-            fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
-                #[target_feature(enable = $features)]
-                fn with<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
-                    state.solve_all(cx);
+            pub(super) struct $level;
+
+            impl Level for $level {
+                #[inline(always)]
+                #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+                fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
+                    #[target_feature(enable = $features)]
+                    fn with<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
+                        state.solve_all(cx);
+                    }
+                    // SAFETY: `solve` comes here only if `Simd::best` has found them.
+                    unsafe { with(state, cx) }
                 }
-                // SAFETY: `solve` comes here only if `Simd::best` has found them.
-                unsafe { with(state, cx) }
-            }
-            #[inline(always)]
-            #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
-            fn run(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
-                #[target_feature(enable = $features)]
-                fn with(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
-                    worker.run::<$level>(job);
+                #[inline(always)]
+                #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+                fn run(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
+                    #[target_feature(enable = $features)]
+                    fn with(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
+                        worker.run::<$level>(job);
+                    }
+                    // SAFETY: as above.
+                    unsafe { with(worker, job) }
                 }
-                // SAFETY: as above.
-                unsafe { with(worker, job) }
             }
         }
     };
 }
 
 #[cfg(target_arch = "x86_64")]
-level!(Avx2, "avx2");
+level!(avx2, Avx2, "avx2");
 #[cfg(target_arch = "x86_64")]
-level!(Avx512, "avx512f,avx512vl,avx512dq");
+level!(avx512, Avx512, "avx512f,avx512vl,avx512dq");

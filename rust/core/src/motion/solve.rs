@@ -7,6 +7,7 @@ use super::parallel::{Chunks, Control};
 use super::rows::{Job, Worker};
 use crate::error::SolveError;
 use crate::mechanism::Mechanism;
+use crate::plan::Step;
 use crate::plan::jet::Jets;
 
 /// Where the coordinates are taken from; `drivers` numbers a position.
@@ -41,6 +42,9 @@ pub struct Request<'a> {
     pub order: usize,
     /// What to keep.
     pub outputs: &'a Outputs,
+    /// The dimension by which all of it is differentiated, in the order of
+    /// [`Mechanism::dimensions`]; none: the motion itself.
+    pub by: Option<usize>,
 }
 
 /// Value and analogues of one quantity over all designs and positions.
@@ -166,9 +170,12 @@ pub fn fill(
     let jets = Jets::new(shape.drivers, request.order);
     let columns = request.columns(mechanism);
     check_arrays(&columns, &arrays, product(shape.designs, shape.positions)?)?;
-    let writer = Writer::new(mechanism, &jets, &columns);
+    let writer = match request.by {
+        None => Writer::new(mechanism, &jets, &columns),
+        Some(index) => Writer::of_rates(mechanism, &jets, &columns, index),
+    };
     let chunks = Chunks::new(arrays, &columns, [shape.designs, shape.positions], shape.drivers);
-    let worker = || Worker::new(mechanism, request.signs, &jets, &writer, &columns, control.simd);
+    let worker = || Worker::new(mechanism, request, &jets, &writer, &columns, control.simd);
     let per_design = shape.positions * shape.drivers;
     control.run(chunks, worker, |worker, chunk, mut rows| {
         for design in chunk.designs.clone() {
@@ -205,6 +212,18 @@ impl Shape {
             return Err(SolveError::Order(request.order));
         }
         let (dimensions, drivers) = (mechanism.dimensions().len(), mechanism.q0().len());
+        if let Some(index) = request.by {
+            if index >= dimensions {
+                return Err(SolveError::Shape(format!("there is no dimension number {index}")));
+            }
+            let redundant = mechanism.plan().steps.iter().find_map(|step| match step {
+                Step::Fit(fit) => Some(fit.name.clone()),
+                _ => None,
+            });
+            if let Some(name) = redundant {
+                return Err(SolveError::Redundant { name });
+            }
+        }
         let linkage = mechanism.linkage();
         let within = |wanted: &[usize], have: usize| wanted.iter().all(|&i| i < have);
         let held = request.outputs;

@@ -82,7 +82,7 @@ pub struct State<R: Real = f64, const G: usize = 1> {
     pub points: Vec<[Vector<R>; G]>,
     /// Jets of orientations.
     pub orient: Vec<[Vector<R>; G]>,
-    /// Jets of the legs of dyads, two a dyad.
+    /// Jets of the legs of dyads, two a dyad, then of the edges of groups.
     pub(crate) legs: Vec<[Vector<R>; G]>,
     /// Jets of the angles of classes; the value itself is not used.
     pub theta: Vec<[R; G]>,
@@ -105,14 +105,21 @@ pub struct State<R: Real = f64, const G: usize = 1> {
     /// Square of the condition of what each dyad with a sign hangs on.
     pub(crate) before: Vec<[R; G]>,
     /// Matrix, inverse and right-hand side of a group above class II.
-    pub(crate) matrix: Vec<R>,
-    /// Jets of the edges of a group, of the directions of guides along them, and of the chords of
-    /// its loops.
-    pub(crate) spans: Vec<Vector<R>>,
-    pub(crate) guides: Vec<Vector<R>>,
-    pub(crate) chords: Vec<Vector<R>>,
-    /// Determinant of every group's matrix.
+    pub(crate) matrix: Vec<[R; G]>,
+    /// Jets of the directions of guides along the edges of a group, and of the chords of its
+    /// loops.
+    pub(crate) guides: Vec<[Vector<R>; G]>,
+    pub(crate) chords: Vec<[Vector<R>; G]>,
+    /// 1/length of every chord that has one.
+    pub(crate) per: Vec<[R; G]>,
+    /// Determinant of every group's matrix (with analogues only).
     pub(crate) determinants: Vec<[R; G]>,
+    /// The same of its last round's.
+    pub(crate) bends: Vec<[R; G]>,
+    /// How far (rad, or of the size) the first step of a group's iteration went, at most, and the
+    /// others together.
+    pub(crate) first_step: [R; G],
+    pub(crate) later_steps: [R; G],
     /// Square of the greatest condition of the position.
     pub condition2: [R; G],
     /// Lanes that did not come out as plainly solved; each is done again by itself.
@@ -151,7 +158,7 @@ impl<R: Real, const G: usize> State<R, G> {
             signs: vec![[R::ONE; G]; plan.signs()],
             points: vec![[Vector::ZERO; G]; plan.points * len],
             orient: vec![[Vector::ZERO; G]; plan.orientations.len() * len],
-            legs: vec![[Vector::ZERO; G]; plan.dyads().count() * 2 * len],
+            legs: vec![[Vector::ZERO; G]; plan.legs() * len],
             theta: vec![[R::ZERO; G]; plan.classes * len],
             slides: vec![[R::ZERO; G]; slides * len],
             class: vec![[Vector::ONE; G]; plan.classes],
@@ -161,11 +168,14 @@ impl<R: Real, const G: usize> State<R, G> {
             class_condition: vec![[R::ONE; G]; plan.classes],
             slide_condition: vec![[R::ONE; G]; slides],
             before: vec![[R::ONE; G]; plan.signs()],
-            matrix: vec![R::ZERO; plan.matrix_size()],
-            spans: vec![Vector::ZERO; edges * len],
-            guides: vec![Vector::ZERO; edges * len],
-            chords: vec![Vector::ZERO; loops * len],
+            matrix: vec![[R::ZERO; G]; plan.matrix_size()],
+            guides: vec![[Vector::ZERO; G]; edges * len],
+            chords: vec![[Vector::ZERO; G]; loops * len],
+            per: vec![[R::ONE; G]; loops],
             determinants: vec![[R::ZERO; G]; plan.groups().count()],
+            bends: vec![[R::ZERO; G]; plan.groups().count()],
+            first_step: [R::ZERO; G],
+            later_steps: [R::ZERO; G],
             condition2: [R::ONE; G],
             care: [R::Mask::NONE; G],
             status: Status::Ok,
@@ -220,11 +230,7 @@ impl<R: Real, const G: usize> State<R, G> {
                     }
                 },
                 &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
-                Step::Group(group) => {
-                    for g in 0..self.groups.min(G) {
-                        self.solve_group(g, cx, group, index);
-                    }
-                }
+                Step::Group(group) => self.solve_group(cx, group, index),
                 Step::Fit(fit) => {
                     for g in 0..self.groups.min(G) {
                         self.fit(g, cx, fit, index);
@@ -274,6 +280,8 @@ impl<R: Real, const G: usize> State<R, G> {
         self.status = Status::Ok;
         self.condition2 = [R::ONE; G];
         self.care = [R::Mask::NONE; G];
+        self.first_step = [R::ZERO; G];
+        self.later_steps = [R::ZERO; G];
         for (driver, q) in self.q.iter().enumerate() {
             for g in 0..G {
                 self.care[g] = self.care[g].or(q[g].finite().not());

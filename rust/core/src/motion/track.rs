@@ -9,10 +9,13 @@
 
 use std::f64::consts::TAU;
 
+use super::cell::{Cell, small_turn};
 use super::change::Change;
 use super::state::{Context, State};
 use super::walk::{Knot, Seed, Start, Stretch, Walker};
-use crate::lanes::{LANES, Real};
+use crate::lanes::{LANES, Mask, Real};
+use crate::plan::Plan;
+use crate::plane::Vector;
 use crate::tolerance::CHANGE_REACH;
 
 /// Cells in a turn of a driven angle: knots fill the lanes of four groups, and an odd
@@ -43,9 +46,10 @@ pub(crate) struct Track {
     pub(super) period: Option<f64>,
     /// Where the way is known; none: everywhere.
     pub(super) covered: Option<[f64; 2]>,
-    /// Of every cell after a knot, the polynomials of the groups' unknowns in the distance from
-    /// it.
-    pub(super) cells: Vec<[f64; 6]>,
+    /// Of every cell after a knot, the groups' unknowns.
+    pub(super) cells: Vec<Cell>,
+    /// Signs of the groups' determinants where the way begins.
+    pub(super) bends: Vec<bool>,
     /// Knots a unit of the parameter, if all are reached and equally spaced.
     pub(super) even: Option<f64>,
 }
@@ -59,6 +63,9 @@ pub(crate) struct Spot<R = f64> {
     whole: R,
     /// The knot that tells the angles.
     knot: [usize; LANES],
+    /// The first and the last of these, if there are no others; and 1 where it is the last.
+    pair: Option<[usize; 2]>,
+    is_last: R,
 }
 
 /// Half a turn, less what keeps the choice of [`turns_between`] off exact half turns.
@@ -139,7 +146,14 @@ impl Track {
         let period = returned.then_some(TAU * f64::from(turns));
         let end = if returned { f64::INFINITY } else { q0 + TAU * f64::from(turns) };
         let covered = [if returned { f64::NEG_INFINITY } else { q0 }, end];
-        Self { stretches, changes, gain, period, covered: Some(covered), ..Self::of(&knots) }
+        Self {
+            stretches,
+            changes,
+            gain,
+            period,
+            covered: Some(covered),
+            ..Self::of(&knots, cx.plan)
+        }
     }
 
     /// Along one driven slide, from `q0` both ways to `low` and `high`
@@ -205,7 +219,7 @@ impl Track {
             stretches: track.stretches,
             gain: track.gain,
             covered: Some(covered),
-            ..Self::of(&all)
+            ..Self::of(&all, cx.plan)
         }
     }
 
@@ -237,16 +251,27 @@ impl Track {
         let Walker { knots, changes, ended, .. } = walker;
         let gain = vec![0.0; start.angles.len()];
         let covered = ended.then_some([0.0, 0.0]);
-        Self { stretches, changes, gain, covered, ..Self::of(&knots) }
+        Self { stretches, changes, gain, covered, ..Self::of(&knots, cx.plan) }
     }
 
     /// Keeps what is asked of knots later.
-    fn of(knots: &[Knot]) -> Self {
+    fn of(knots: &[Knot], plan: &Plan) -> Self {
+        let mut cells = Vec::new();
+        for (i, a) in knots.iter().enumerate() {
+            let b = knots.get(i + 1);
+            let width = b.map_or(0.0, |b| b.at - a.at);
+            let unknowns = plan.groups().flat_map(|group| &group.unknowns);
+            for (place, (&unknown, seed)) in unknowns.zip(&a.seeds).enumerate() {
+                let end = b.and_then(|b| b.seeds.get(place));
+                cells.push(Cell::of(unknown, seed, end, width));
+            }
+        }
         Self {
             at: knots.iter().map(|k| k.at).collect(),
             reached: knots.iter().map(|k| k.reached).collect(),
             angles: knots.iter().flat_map(|k| k.angles.iter().copied()).collect(),
-            cells: (0..knots.len()).flat_map(|i| cell(&knots[i], knots.get(i + 1))).collect(),
+            bends: knots.first().map(|knot| knot.bends.clone()).unwrap_or_default(),
+            cells,
             ..Self::default()
         }
     }
@@ -279,7 +304,7 @@ impl Track {
         let mut knot = [0; LANES];
         let last = self.at.len().saturating_sub(1);
         if self.at.is_empty() {
-            return Spot { place, whole, knot };
+            return Spot { place, whole, knot, ..Spot::default() };
         }
         if let Some(per) = self.even {
             let cells = (place - R::splat(self.at[0])) * R::splat(per);
@@ -293,7 +318,10 @@ impl Track {
                 knot[lane] = self.knot_before(place.lane(lane)).min(last);
             }
         }
-        Spot { place, whole, knot }
+        let pair = [knot[0], knot[R::LANES - 1]];
+        let is_pair = knot[..R::LANES].iter().all(|knot| pair.contains(knot));
+        let is_last = R::from_lanes(|lane| if knot[lane] == pair[1] { 1.0 } else { 0.0 });
+        Spot { place, whole, knot, pair: is_pair.then_some(pair), is_last }
     }
 
     /// The nearest knot before a place that can be reached, or the next one if only
@@ -391,31 +419,115 @@ impl Track {
                 *angle += whole * gain;
             }
         }
-        Self { gain: self.gain.clone(), ..Self::of(&knots) }
+        Self { gain: self.gain.clone(), ..Self::of(&knots, cx.plan) }
+    }
+
+    /// Whether the groups of a state are on this way's side of their folds.
+    #[inline(always)]
+    pub(crate) fn bends_as<R: Real, const G: usize>(
+        &self,
+        state: &State<R, G>,
+        g: usize,
+    ) -> R::Mask {
+        let mut other = R::Mask::NONE;
+        for (groups, &bend) in state.bends.iter().zip(&self.bends) {
+            let positive = R::ZERO.lt(groups[g]);
+            other = other.or(if bend { positive.not() } else { positive });
+        }
+        other.not()
+    }
+
+    /// The unknowns of groups at a parameter, walked to from the knot before: where the
+    /// polynomial between two knots is too rough.
+    #[cold]
+    pub(crate) fn approach(
+        &self,
+        cx: &Context<'_>,
+        state: &mut State,
+        at: f64,
+    ) -> Option<Vec<f64>> {
+        let (place, _) = self.reduced(at);
+        let left = self.at.partition_point(|&k| k <= place).checked_sub(1)?;
+        let angles = &self.angles[left * self.gain.len()..][..self.gain.len()];
+        let seeds = self.seeds(left, self.at[left]);
+        let start = Start { angles, seeds: &seeds };
+        let cx = Context { signs: self.signs(at), ..*cx };
+        let point = |at: f64, q: &mut [f64]| q[0] = at;
+        let mut walker = Walker::new(&cx, state, &point, &[1.0], (self.at[left], 1.0), &start);
+        walker.advance(place);
+        let there = |knot: &&Knot| knot.at >= place && !knot.seeds.is_empty();
+        let last = walker.knots.last().filter(there)?;
+        Some(last.seeds.iter().map(|seed| seed[0]).collect())
     }
 
     /// The unknowns of groups at a place in the cell after a knot.
     fn seeds(&self, knot: usize, place: f64) -> Vec<Seed> {
         let count = self.cells.len() / self.at.len().max(1);
         let step = place - self.at[knot];
-        let value = |c: &[f64; 6]| [c.iter().rev().fold(0.0, |sum, c| sum * step + c), 0.0, 0.0];
-        self.cells[knot * count..][..count].iter().map(value).collect()
+        self.cells[knot * count..][..count].iter().map(|cell| [cell.at(step), 0.0, 0.0]).collect()
     }
 
-    /// An unknown of the groups (of so many) at places.
+    /// An unknown slide of the groups (of so many unknowns) at places.
     #[inline(always)]
-    pub(crate) fn seed<R: Real>(&self, spot: &Spot<R>, place: usize, count: usize) -> R {
-        let knot = |lane: usize| spot.knot[lane];
+    pub(crate) fn slide<R: Real>(&self, spot: &Spot<R>, place: usize, count: usize) -> R {
         if self.cells.len() < self.at.len() * count || self.at.is_empty() {
             // The way does not even begin: nothing on it is covered.
             return R::ZERO;
         }
-        let step = spot.place - R::from_lanes(|lane| self.at[knot(lane)]);
-        let mut sum = R::ZERO;
-        for k in (0..6).rev() {
-            sum = sum * step + R::from_lanes(|lane| self.cells[knot(lane) * count + place][k]);
+        let (change, _) = self.change(spot, place, count);
+        self.of_cells(spot, place, count, |cell| cell.coefficients[0]) + change
+    }
+
+    /// An unknown rotation likewise.
+    #[inline(always)]
+    pub(crate) fn rotation<R: Real>(
+        &self,
+        spot: &Spot<R>,
+        place: usize,
+        count: usize,
+    ) -> Vector<R> {
+        if self.cells.len() < self.at.len() * count || self.at.is_empty() {
+            return Vector::ONE;
         }
-        sum
+        let (change, unit) = self.change(spot, place, count);
+        unit * small_turn(change)
+    }
+
+    /// How far an unknown is from that at the knot before, and the unit vector there.
+    #[inline(always)]
+    fn change<R: Real>(&self, spot: &Spot<R>, place: usize, count: usize) -> (R, Vector<R>) {
+        let at = if let Some([first, last]) = spot.pair {
+            let later = R::ZERO.lt(spot.is_last);
+            R::select(later, R::splat(self.at[last]), R::splat(self.at[first]))
+        } else {
+            R::from_lanes(|lane| self.at[spot.knot[lane]])
+        };
+        let step = spot.place - at;
+        let mut sum = R::ZERO;
+        for k in (1..6).rev() {
+            sum = sum * step + self.of_cells(spot, place, count, |cell| cell.coefficients[k]);
+        }
+        let x = self.of_cells(spot, place, count, |cell| cell.unit.x);
+        let y = self.of_cells(spot, place, count, |cell| cell.unit.y);
+        (sum * step, Vector::new(x, y))
+    }
+
+    /// A number of each lane's cell; neighbouring positions are mostly in one cell or two.
+    #[inline(always)]
+    fn of_cells<R: Real>(
+        &self,
+        spot: &Spot<R>,
+        place: usize,
+        count: usize,
+        of: impl Fn(&Cell) -> f64,
+    ) -> R {
+        let cell = |knot: usize| of(&self.cells[knot * count + place]);
+        match spot.pair {
+            Some([first, last]) => {
+                R::select(R::ZERO.lt(spot.is_last), R::splat(cell(last)), R::splat(cell(first)))
+            }
+            None => R::from_lanes(|lane| cell(spot.knot[lane])),
+        }
     }
 
     /// The angle of a class at the knots of places.
@@ -428,34 +540,6 @@ impl Track {
         let near = R::from_lanes(|lane| self.angles[spot.knot[lane] * classes + class]);
         near + spot.whole * R::splat(self.gain[class])
     }
-}
-
-/// Polynomials of the unknowns between two knots, in the distance from the first: of the fifth
-/// degree through values and two derivatives at both (Hermite's), of the second if nothing is
-/// beyond.
-fn cell(a: &Knot, b: Option<&Knot>) -> Vec<[f64; 6]> {
-    let width = b.map_or(0.0, |b| b.at - a.at);
-    let seeds = a.seeds.iter().enumerate();
-    seeds
-        .map(|(place, &[value, rate, second])| {
-            let Some(&[end, end_rate, end_second]) = b.and_then(|b| b.seeds.get(place)) else {
-                return [value, rate, 0.5 * second, 0.0, 0.0, 0.0];
-            };
-            let h = width;
-            let d0 = end - (value + h * (rate + 0.5 * h * second));
-            let d1 = h * (end_rate - rate - h * second);
-            let d2 = h * h * (end_second - second);
-            let c3 = (10.0 * d0 - 4.0 * d1 + 0.5 * d2) / (h * h * h);
-            let c4 = (-15.0 * d0 + 7.0 * d1 - d2) / (h * h * h * h);
-            let c5 = (6.0 * d0 - 3.0 * d1 + 0.5 * d2) / (h * h * h * h * h);
-            let c = [value, rate, 0.5 * second, c3, c4, c5];
-            if c.iter().all(|c| c.is_finite()) {
-                c
-            } else {
-                [value, rate, 0.5 * second, 0.0, 0.0, 0.0]
-            }
-        })
-        .collect()
 }
 
 #[cfg(test)]

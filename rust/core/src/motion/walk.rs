@@ -74,7 +74,7 @@ pub(crate) struct Knot {
     /// Unknowns of the groups above class II, from which those of the next are told.
     pub seeds: Vec<Seed>,
     /// Signs of the groups' determinants.
-    bends: Vec<bool>,
+    pub bends: Vec<bool>,
 }
 
 /// An unknown of a group and its first two derivatives along the path (angles are lifted).
@@ -277,13 +277,7 @@ impl<'a, 'b> Walker<'a, 'b> {
             return true;
         }
         let cell = knot.at - from.at;
-        let far = |(a, b): (&Seed, &Seed)| {
-            // Each from the other, so that the polynomial between them holds. No number is far.
-            let ahead = (foretell(a, cell) - b[0]).abs();
-            let back = (foretell(b, -cell) - a[0]).abs();
-            ahead.is_nan() || back.is_nan() || ahead.max(back) > STRAY
-        };
-        from.seeds.iter().zip(&knot.seeds).any(far)
+        from.seeds.iter().zip(&knot.seeds).any(|(a, b)| strays(a, b, cell))
     }
 
     /// Spread of a dyad at the position just visited, and its rate along the path.
@@ -360,13 +354,7 @@ impl<'a, 'b> Walker<'a, 'b> {
             return false;
         };
         let mut pairs = self.unknowns.iter().zip(first.seeds.iter().zip(&last.seeds));
-        let same = pairs.all(|(unknown, (a, b))| {
-            let apart = match unknown {
-                Unknown::Class(_) => (b[0] - a[0]) - TAU * ((b[0] - a[0]) / TAU).round(),
-                Unknown::Slide(_) => b[0] - a[0],
-            };
-            apart.abs() <= RETURNED
-        });
+        let same = pairs.all(|(&unknown, (a, b))| returns(unknown, a, b));
         same && self.signs_at(f64::INFINITY) == self.start_signs
     }
 
@@ -413,4 +401,21 @@ fn may_hide_island(a: &Knot, b: &Knot, cell: f64, depth: u32) -> bool {
 /// Taylor's polynomial.
 fn foretell([value, rate, second]: &Seed, step: f64) -> f64 {
     value + step * (rate + 0.5 * step * second)
+}
+
+/// Whether an unknown, a cell further, is not surely where the way leads.
+pub(super) fn strays(a: &Seed, b: &Seed, cell: f64) -> bool {
+    // Each from the other, so that the polynomial between them holds. No number is far.
+    let ahead = (foretell(a, cell) - b[0]).abs();
+    let back = (foretell(b, -cell) - a[0]).abs();
+    ahead.is_nan() || back.is_nan() || ahead.max(back) > STRAY
+}
+
+/// Whether an unknown is, some turns on, what it was.
+pub(super) fn returns(unknown: Unknown, a: &Seed, b: &Seed) -> bool {
+    let apart = match unknown {
+        Unknown::Class(_) => (b[0] - a[0]) - TAU * ((b[0] - a[0]) / TAU).round(),
+        Unknown::Slide(_) => b[0] - a[0],
+    };
+    apart.abs() <= RETURNED
 }

@@ -79,21 +79,21 @@ pub struct Bound {
 /// once for a mechanism.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slots {
-    edges: Vec<Source>,
-    slides: Vec<SlideSlots>,
+    pub(super) edges: Vec<Source>,
+    pub(super) slides: Vec<SlideSlots>,
     /// Ground joints with their coordinates.
-    ground: Vec<(usize, [Slot; 2])>,
+    pub(super) ground: Vec<(usize, [Slot; 2])>,
     /// Coordinates of the origin.
-    origin: [Slot; 2],
+    pub(super) origin: [Slot; 2],
     /// Lengths that make the scale, and the coordinate of the origin to take off.
     lengths: Vec<(usize, Option<usize>)>,
 }
 
 /// Place of a value; a linkage that has no such dimension has 0.
-type Slot = Option<usize>;
+pub(super) type Slot = Option<usize>;
 
 #[derive(Debug, Clone, PartialEq)]
-enum Source {
+pub(super) enum Source {
     /// From the first joint of a link to another: its place in the link's frame.
     Joint([Slot; 2]),
     /// Along a guide.
@@ -101,30 +101,30 @@ enum Source {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct SlideSlots {
+pub(super) struct SlideSlots {
     angle: Slot,
     link_angle: Slot,
-    offset: Slot,
-    origin: [Slot; 2],
+    pub(super) offset: Slot,
+    pub(super) origin: [Slot; 2],
     /// Whether its origin is a place in the drawing.
-    drawn: bool,
+    pub(super) drawn: bool,
 }
 
-fn read(values: &[f64], slot: Slot) -> f64 {
+pub(super) fn read(values: &[f64], slot: Slot) -> f64 {
     slot.map_or(0.0, |i| values[i])
 }
 
-fn read_two(values: &[f64], slots: [Slot; 2]) -> Vector {
+pub(super) fn read_two(values: &[f64], slots: [Slot; 2]) -> Vector {
     Vector::new(read(values, slots[0]), read(values, slots[1]))
 }
 
 impl SlideSlots {
-    fn angle(&self, values: &[f64]) -> f64 {
+    pub(super) fn angle(&self, values: &[f64]) -> f64 {
         read(values, self.angle)
     }
 
     /// Turn from the carrying to the sliding link.
-    fn step(&self, values: &[f64]) -> f64 {
+    pub(super) fn step(&self, values: &[f64]) -> f64 {
         read(values, self.angle) - read(values, self.link_angle)
     }
 }
@@ -287,7 +287,7 @@ impl Bound {
 }
 
 /// Unit vector at an angle, exact for no turn.
-fn unit(angle: f64) -> Vector {
+pub(super) fn unit(angle: f64) -> Vector {
     if angle == 0.0 { Vector::ONE } else { Vector::at_angle(angle) }
 }
 

@@ -43,6 +43,8 @@ pub struct GroupEdge {
     pub turns: Option<usize>,
     /// The unknown that is the slide along it.
     pub slides: Option<usize>,
+    /// Nothing but its length is asked for.
+    pub is_bar: bool,
 }
 
 /// One independent loop: its chord's vector is `P_end − P_start + Σ path`.
@@ -60,6 +62,20 @@ pub struct Loop {
     pub path: Vec<Piece>,
     /// The orientations that turn with the rotation it takes along.
     pub turned: Vec<usize>,
+    /// Of every unknown, what changes the chord's vector.
+    pub columns: Vec<Vec<Influence>>,
+}
+
+/// What an unknown does to a loop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Influence {
+    /// The edge that it turns, or slides along: place among the group's edges. None: the chord,
+    /// against the guide that turns.
+    pub place: Option<usize>,
+    /// Turns it (otherwise: slides).
+    pub turns: bool,
+    /// Against its direction.
+    pub backward: bool,
 }
 
 /// A group without a closed form.
@@ -79,6 +95,8 @@ pub struct Group {
     pub name: String,
     /// Place among the groups.
     pub index: usize,
+    /// Place among the legs of its first edge; the others follow.
+    pub first_leg: usize,
 }
 
 impl Group {
@@ -105,7 +123,7 @@ impl Group {
             .collect();
         let unknowns: Vec<Unknown> =
             unknowns.iter().copied().filter(|u| !gone.contains(u)).collect();
-        let loops: Vec<Loop> =
+        let mut loops: Vec<Loop> =
             chords.iter().map(|&e| close(plan, &tree, e, chord(e), edges)).collect();
         let place = |unknown| unknowns.iter().position(|&u| u == unknown);
         let edges: Vec<GroupEdge> = edges
@@ -117,13 +135,69 @@ impl Group {
                     Along::Slide(slide) => place(Unknown::Slide(slide)),
                     _ => None,
                 },
+                is_bar: matches!(chord(edge), Chord::Length { .. })
+                    && chords.contains(&edge)
+                    && plan.edges[edge].along == Along::Nothing,
             })
             .collect();
+        for l in &mut loops {
+            l.columns = (0..unknowns.len()).map(|unknown| column(&edges, l, unknown)).collect();
+        }
         let turned = unknowns.iter().map(|&unknown| turned(plan, unknown)).collect();
         let rows = loops.iter().map(|l| if l.chord == Chord::Whole { 2 } else { 1 }).sum();
         let index = plan.groups().count();
-        (Self { unknowns, turned, edges, loops, rows, name, index }, chords)
+        (Self { unknowns, turned, edges, loops, rows, name, index, first_leg: 0 }, chords)
     }
+
+    /// Whether an edge closes a loop (and places no point).
+    #[must_use]
+    pub fn is_chord(&self, place: usize) -> bool {
+        self.loops.iter().any(|l| l.edge == place)
+    }
+
+    /// Whether an edge is a rigid one that turns with an unknown: its jets follow from its own.
+    #[must_use]
+    #[inline(always)]
+    pub fn is_arm(&self, plan: &Plan, place: usize) -> bool {
+        let edge = &self.edges[place];
+        edge.turns.is_some() && plan.edges[edge.edge].along == Along::Nothing
+    }
+
+    /// All that is found: the unknowns, and what the chords take along.
+    #[inline(always)]
+    pub fn found(&self) -> impl Iterator<Item = Unknown> + '_ {
+        let taken = self.loops.iter().filter_map(|l| match l.chord {
+            Chord::Length { class } => Some(Unknown::Class(class)),
+            Chord::Guide { slide } => Some(Unknown::Slide(slide)),
+            Chord::Whole => None,
+        });
+        self.unknowns.iter().copied().chain(taken)
+    }
+}
+
+/// What an unknown does to a loop.
+fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<Influence> {
+    let mut column = Vec::new();
+    let mut add = |place: usize, backward: bool| {
+        let edge = &edges[place];
+        for (own, turns) in [(edge.turns, true), (edge.slides, false)] {
+            if own == Some(unknown) {
+                column.push(Influence { place: Some(place), turns, backward });
+            }
+        }
+    };
+    for piece in &l.path {
+        add(piece.place, piece.backward);
+    }
+    match l.chord {
+        Chord::Whole => add(l.edge, true),
+        Chord::Guide { .. } if edges[l.edge].turns == Some(unknown) => {
+            // The guide turns, which is as if the chord turned back.
+            column.push(Influence { place: None, turns: true, backward: true });
+        }
+        _ => {}
+    }
+    column
 }
 
 /// Orientations that turn with an unknown.
@@ -220,5 +294,5 @@ fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usize]) -
         Chord::Length { class } => turned(plan, Unknown::Class(class)),
         _ => Vec::new(),
     };
-    Loop { edge: place(edge), chord, start, end, path, turned }
+    Loop { edge: place(edge), chord, start, end, path, turned, columns: Vec::new() }
 }

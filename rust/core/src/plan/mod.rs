@@ -8,6 +8,7 @@
 //! orientation of two links differ by q, a driven slide is a known length.
 
 pub mod bind;
+pub mod bind_rate;
 mod block;
 mod fit;
 pub mod group;
@@ -264,12 +265,38 @@ impl Plan {
                 }
             }
         }
+        let mut used = vec![false; self.orientations.len()];
+        let mut bars = Vec::new();
+        let mut first = 2 * self.dyads().count();
+        for step in &mut self.steps {
+            let Step::Group(group) = step else { continue };
+            group.first_leg = first;
+            first += group.edges.len();
+        }
+        for group in self.groups() {
+            for (place, edge) in group.edges.iter().enumerate() {
+                if !group.is_chord(place) {
+                    let index = group.first_leg + place;
+                    found.push((edge.edge, LegEdge { index, backward: false }));
+                }
+                if edge.is_bar {
+                    bars.push(edge.edge);
+                } else if !group.is_arm(self, place) {
+                    used[self.edges[edge.edge].orientation] = true;
+                }
+            }
+        }
         for (edge, leg) in found {
             self.edges[edge].leg = Some(leg);
         }
-        let mut used = vec![false; self.orientations.len()];
-        for edge in self.edges.iter().filter(|edge| edge.leg.is_none()) {
-            used[edge.orientation] = true;
+        for (index, edge) in self.edges.iter().enumerate() {
+            let is_arm = |group: &Group| {
+                (0..group.edges.len())
+                    .any(|place| group.edges[place].edge == index && group.is_arm(self, place))
+            };
+            if edge.leg.is_none() && !bars.contains(&index) && !self.groups().any(is_arm) {
+                used[edge.orientation] = true;
+            }
         }
         for links in &self.slide_links {
             for &link in links {
@@ -277,10 +304,21 @@ impl Plan {
             }
         }
         for step in &mut self.steps {
-            if let Step::Dyad(dyad) = step {
-                for turned in &mut dyad.turned {
-                    turned.retain(|&o| used[o]);
+            match step {
+                Step::Dyad(dyad) => {
+                    for turned in &mut dyad.turned {
+                        turned.retain(|&o| used[o]);
+                    }
                 }
+                Step::Group(group) => {
+                    for turned in &mut group.turned {
+                        turned.retain(|&o| used[o]);
+                    }
+                    for l in &mut group.loops {
+                        l.turned.retain(|&o| used[o]);
+                    }
+                }
+                _ => {}
             }
         }
     }
@@ -330,6 +368,13 @@ impl Plan {
     #[must_use]
     pub fn matrix_size(&self) -> usize {
         self.groups().map(|group| (2 * group.rows + 1) * group.rows).max().unwrap_or(0)
+    }
+
+    /// Number of legs: two a dyad, and the edges of groups.
+    #[must_use]
+    pub fn legs(&self) -> usize {
+        let edges: usize = self.groups().map(|group| group.edges.len()).sum();
+        2 * self.dyads().count() + edges
     }
 
     /// Number of dyads with two solutions.

@@ -1,0 +1,239 @@
+"""The mechanism of class IV of V. M. Dvorzhak's paper."""
+
+from __future__ import annotations
+
+import cmath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._checks import real_array
+from assur.description import Status
+from assur.errors import DimensionError, InputError
+from assur.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    import numpy.typing as npt
+
+    from assur.motion import Motion
+
+__all__ = ["ClassIV"]
+
+JOINTS = tuple(str(i) for i in range(1, 11))
+LINKS = {
+    "ground": ["1", "9", "10"],
+    "crank": ["1", "2"],
+    "l234": ["2", "3", "4"],
+    "l365": ["3", "6", "5"],
+    "l48": ["4", "8"],
+    "l876": ["8", "7", "6"],
+    "l95": ["9", "5"],
+    "l107": ["10", "7"],
+}
+# The paper's words: lengths l, angles U (from the first leg to the last, at the middle joint),
+# fixed pivots, and the angles f that its iteration starts from (the crank's is its own).
+LENGTHS = ("1-2", "2-3", "2-4", "3-5", "3-6", "4-8", "6-8", "7-8", "5-9", "7-10")
+ANGLES = ("4-2-3", "6-3-5", "7-8-6")
+PIVOTS = ("1", "9", "10")
+STARTS = ("1-2", "2-4", "3-6", "4-8", "7-8")
+
+
+class ClassIV(Mechanism):
+    """The paper's mechanism of class IV: by its joints, or by its lengths and angles.
+
+    Crank 1-2; ternary links 2-3-4, 3-6-5 and 8-7-6; bar 4-8; rockers 9-5 and 10-7; fixed pivots
+    1, 9 and 10. Links 2-3-4, 4-8, 8-7-6 and 3-6-5 form the closed quadrilateral. Links are called
+    crank, l234, l365, l48, l876, l95 and l107; driven by the crank.
+
+    Parameters
+    ----------
+    joints : mapping of str to (x, y), optional
+        A drawing, m: joints ``"1"`` to ``"10"``.
+    lengths : mapping, optional
+        Instead of `joints`, in the paper's words: lengths, m, ``"1-2"``, ``"2-3"``, ``"2-4"``,
+        ``"3-5"``, ``"3-6"``, ``"4-8"``, ``"6-8"``, ``"7-8"``, ``"5-9"`` and ``"7-10"``.
+    angles : mapping, optional
+        The angles U of the ternary links, rad: ``"4-2-3"``, ``"6-3-5"`` and ``"7-8-6"``, counted
+        counter-clockwise from the leg named first.
+    pivots : mapping, optional
+        Places of ``"1"``, ``"9"`` and ``"10"``, m.
+    start : mapping, optional
+        Angles that the iteration starts from, rad: of 2→4, 3→6, 4→8 and 8→7 (``"2-4"``, ``"3-6"``,
+        ``"4-8"``, ``"7-8"``) where the crank is at ``"1-2"``. They tell the assembly.
+
+    Raises
+    ------
+    InputError
+        Names that are missing or unknown, or starting angles from which no assembly is reached.
+    DimensionError
+        Lengths that are not positive.
+
+    Notes
+    -----
+    The paper's four equations state two distances along two routes each, not that the routes
+    meet: they have roots where the quadrilateral is open, and are singular where the rockers are
+    parallel. Here the quadrilateral itself is closed; `paper_equations` checks a solution by them.
+
+    Examples
+    --------
+    >>> import assur
+    >>> m = assur.ClassIV(joints={"1": (0, 0), "2": (0.35, 0), "3": (1.24, 0.99),
+    ...     "4": (0.75, 1.91), "5": (3.02, -0.73), "6": (2.45, 1.02), "7": (3.2, 2.24),
+    ...     "8": (1.85, 2.35), "9": (1.62, -1.11), "10": (4.28, 1.52)})
+    >>> m.structure.formula
+    'I(crank) → IV(l234, l365, l48, l876, l95, l107)'
+    >>> m.solve(1.0).joint("6").value.round(6)
+    array([2.407411, 1.185773])
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        joints: Mapping[str, Sequence[float]] | None = None,
+        *,
+        lengths: Mapping[str, float] | None = None,
+        angles: Mapping[str, float] | None = None,
+        pivots: Mapping[str, Sequence[float]] | None = None,
+        start: Mapping[str, float] | None = None,
+    ) -> None:
+        paper = (lengths, angles, pivots, start)
+        if joints is not None and all(part is None for part in paper):
+            _named(joints, JOINTS, "joints")
+            _adopt(self, Mechanism({name: joints[name] for name in JOINTS}, LINKS, "crank"))
+            return
+        if joints is not None or any(part is None for part in paper):
+            message = "ClassIV needs joints=, or lengths=, angles=, pivots= and start= together"
+            raise InputError(message)
+        _adopt(self, _from_paper(lengths, angles, pivots, start))
+
+    def paper_equations(self, motion: Motion) -> npt.NDArray[np.float64]:
+        """Return what the paper's four equations miss at every position of a motion, m².
+
+        |5−9|² by 3 and by 6, |7−10|² by 8 and by 6, each less the length squared.
+
+        Parameters
+        ----------
+        motion : Motion
+            A motion of this mechanism.
+
+        Returns
+        -------
+        numpy.ndarray
+            Shape S + (N, 4).
+
+        References
+        ----------
+        V. M. Dvorzhak, Computer study of plane mechanisms of the fourth class (in Ukrainian).
+        """
+        at = {name: _complex(motion.joint(name).value) for name in JOINTS}
+        turn = {
+            link: np.exp(1j * motion.link(link).value) for link in ("l234", "l365", "l48", "l876")
+        }
+        d = {name: np.asarray(value)[..., np.newaxis] for name, value in self.dimensions.items()}
+        to3 = turn["l234"] * d["l234.length"]
+        to4 = turn["l234"] * (d["l234.4.x"] + 1j * d["l234.4.y"])
+        to6 = turn["l365"] * d["l365.length"]
+        to5 = turn["l365"] * (d["l365.5.x"] + 1j * d["l365.5.y"])
+        to8 = turn["l48"] * d["l48.length"]
+        to7 = turn["l876"] * d["l876.length"]
+        from8to6 = turn["l876"] * (d["l876.6.x"] + 1j * d["l876.6.y"])
+        two, nine, ten = at["2"], at["9"], at["10"]
+        routes = (
+            (two + to3 + to5 - nine, "l95.length"),
+            (two + to4 + to8 + from8to6 - to6 + to5 - nine, "l95.length"),
+            (two + to4 + to8 + to7 - ten, "l107.length"),
+            (two + to3 + to6 - from8to6 + to7 - ten, "l107.length"),
+        )
+        misses = [np.abs(route) ** 2 - d[length] ** 2 for route, length in routes]
+        return np.stack(np.broadcast_arrays(*misses), axis=-1).reshape((*motion.shape, 4))
+
+
+def _complex(points: npt.NDArray[np.float64]) -> npt.NDArray[np.complex128]:
+    return np.asarray(points[..., 0] + 1j * points[..., 1])
+
+
+def _adopt(mechanism: Mechanism, made: Mechanism) -> None:
+    mechanism._begin(made._parts, made._values, made._core)
+
+
+def _named(given: Any, names: Iterable[str], what: str) -> None:
+    """Refuse names that are missing or unknown."""
+    try:
+        missing, unknown = [n for n in names if n not in given], set(given) - set(names)
+    except TypeError as error:
+        message = f"{what} is {given!r}: a mapping is needed"
+        raise InputError(message) from error
+    if missing or unknown:
+        lack = f"{', '.join(map(repr, missing))} missing" if missing else ""
+        more = f"{', '.join(sorted(map(repr, unknown)))} unknown" if unknown else ""
+        message = f"{what}: {'; '.join(filter(None, (lack, more)))}; its names are {list(names)}"
+        raise InputError(message)
+
+
+def _numbers(given: Any, names: Sequence[str], what: str) -> dict[str, float]:
+    _named(given, names, what)
+    numbers = {}
+    for name in names:
+        array = real_array(given[name], f"{what}[{name!r}]")
+        if array.ndim or not np.isfinite(array):
+            message = f"{what}[{name!r}] is {given[name]!r}: a finite number is needed"
+            raise InputError(message)
+        numbers[name] = float(array)
+    return numbers
+
+
+def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism:
+    """Drawn at the starting angles, then brought to the lengths, then drawn as found."""
+    length, angle = _numbers(lengths, LENGTHS, "lengths"), _numbers(angles, ANGLES, "angles")
+    first = _numbers(start, STARTS, "start")
+    _named(pivots, PIVOTS, "pivots")
+    for name, value in length.items():
+        if value <= 0.0:
+            message = f"lengths[{name!r}] is {value!r}: a length must be positive"
+            raise DimensionError(message, dimension=name, value=value)
+    at: dict[str, complex] = {}
+    for name in PIVOTS:
+        place = real_array(pivots[name], f"pivots[{name!r}]")
+        if place.shape != (2,) or not np.isfinite(place).all():
+            message = f"pivots[{name!r}] is {pivots[name]!r}: two finite numbers are needed"
+            raise InputError(message)
+        at[name] = complex(*place)
+
+    def leg(name: str, turn: float) -> complex:
+        return cmath.rect(length[name], turn)
+
+    at["2"] = at["1"] + leg("1-2", first["1-2"])
+    at["3"] = at["2"] + leg("2-3", first["2-4"] + angle["4-2-3"])
+    at["4"] = at["2"] + leg("2-4", first["2-4"])
+    at["6"] = at["3"] + leg("3-6", first["3-6"])
+    at["5"] = at["3"] + leg("3-5", first["3-6"] + angle["6-3-5"])
+    at["8"] = at["4"] + leg("4-8", first["4-8"])
+    at["7"] = at["8"] + leg("7-8", first["7-8"])
+    # In the frames of the links, at the first joint with x toward the second.
+    corner = {
+        "l234.4": cmath.rect(length["2-4"], -angle["4-2-3"]),
+        "l365.5": cmath.rect(length["3-5"], angle["6-3-5"]),
+        "l876.6": cmath.rect(length["6-8"], angle["7-8-6"]),
+    }
+    dimensions = {"crank.length": length["1-2"], "l234.length": length["2-3"]}
+    dimensions |= {"l365.length": length["3-6"], "l48.length": length["4-8"]}
+    dimensions |= {"l876.length": length["7-8"], "l95.length": length["5-9"]}
+    dimensions |= {"l107.length": length["7-10"]}
+    dimensions |= {f"{name}.x": place.real for name, place in corner.items()}
+    dimensions |= {f"{name}.y": place.imag for name, place in corner.items()}
+    drawn = Mechanism({n: (at[n].real, at[n].imag) for n in JOINTS}, LINKS, "crank")
+    sized = drawn.with_dimensions(dimensions)
+    found = sized.solve(sized.q0, order=0, on_error="nan")
+    if found.status > Status.NEAR_SINGULAR:
+        apart = abs(at["8"] + leg("6-8", first["7-8"] + angle["7-8-6"]) - at["6"])
+        message = (
+            f"from these starting angles no assembly is reached where the crank is at "
+            f"{first['1-2']!r} (the quadrilateral is open by {apart:.3g} m there): start nearer "
+            f"to one, or from another crank angle"
+        )
+        raise InputError(message, q=first["1-2"])
+    joints = {name: tuple(found.joint(name).value.tolist()) for name in JOINTS}
+    return Mechanism(joints, LINKS, "crank").with_dimensions(dimensions)

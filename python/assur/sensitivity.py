@@ -1,0 +1,57 @@
+"""Sensitivities: what a motion becomes when a dimension changes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from assur.analogues import Analogues
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from assur._call import Held
+    from assur.motion import Motion
+
+__all__ = ["Sensitivity"]
+
+
+class Sensitivity:
+    """Derivatives of a motion by one dimension; made by ``Motion.sensitivity``.
+
+    Attributes
+    ----------
+    dimension : str
+        Name of the dimension.
+    status : numpy.ndarray of uint8
+        One `Status` a position, as that of the motion.
+    """
+
+    def __init__(self, motion: Motion, dimension: str) -> None:
+        index = motion.mechanism._core.dimension(dimension)
+        outputs = motion._names()
+        self.dimension = dimension
+        self._drivers = len(motion.mechanism._core.q0)
+        self._tracks, self.status = motion._call.arrays(*outputs, by=index)
+
+    def joint(self, name: str) -> Analogues:
+        """Derivatives of a joint's place and its analogues, m/m or m/rad, S + (N, 2)."""
+        return Analogues(name, self._of("joint", self._tracks.joints, name), self._drivers, True)
+
+    def link(self, name: str) -> Analogues:
+        """Derivatives of a link's angle and its analogues, rad/m or rad/rad."""
+        return Analogues(name, self._of("link", self._tracks.links, name), self._drivers, False)
+
+    def slide(self, name: str) -> Analogues:
+        """Derivatives of a slide's value and its analogues, m/m or m/rad."""
+        return Analogues(name, self._of("slide", self._tracks.slides, name), self._drivers, False)
+
+    def _of(self, kind: str, held: Held, name: str) -> tuple[npt.NDArray[np.float64], ...]:
+        if name not in held:
+            message = f"{kind} {name!r} was not among the outputs of this motion"
+            raise InputError(message, **{kind: name})  # type: ignore[arg-type]
+        return held[name]
+
+    def __repr__(self) -> str:
+        return f"<sensitivity by {self.dimension!r}, shape {self.status.shape}>"

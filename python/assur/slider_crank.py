@@ -1,0 +1,460 @@
+"""The central slider-crank of the papers: exact motion, cosine series, continued fraction.
+
+The crank's angle φ counts from the outer dead point; the stroke s is measured from there, the
+slider's coordinate x = crank + rod − s from the crank's pivot. k = rod / crank, λ = 1/k.
+
+References
+----------
+O. M. Chernysh, M. G. Berezovyi, V. V. Yaremenko, M. M. Kruhlii, *Analytical studies of the
+kinematic parameters of planar lever mechanisms* (2021). R. V. Ambarcumyanc, M. I. Subbotina,
+*Concerning the research of kinematics of central crank gear and slider mechanism* (2017).
+"""
+
+from __future__ import annotations
+
+import operator
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur import _core
+from assur._checks import real_array
+from assur.analogues import Analogues
+from assur.errors import DimensionError, InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = [
+    "Deviation",
+    "Extreme",
+    "contour",
+    "coordinate",
+    "deviation",
+    "fourier",
+    "greatest_acceleration",
+    "greatest_speed",
+    "rod_angle",
+    "rod_point",
+    "stroke",
+]
+
+Float: TypeAlias = npt.NDArray[np.float64]
+# Beyond that no approximation differs from the exact value in any digit (k = 1.001 needs some 400).
+MOST_TERMS = 100_000
+
+
+class Extreme(NamedTuple):
+    """A greatest value and where it is: crank angle, rad, and value."""
+
+    at: Any
+    value: Any
+
+
+class Deviation(NamedTuple):
+    """Largest deviations of an approximation, each with the crank angle, rad, where it is.
+
+    `relative` is a fraction of the exact value (none for the acceleration analogue, which passes
+    zero), `absolute` is per crank length.
+    """
+
+    relative: Any
+    relative_at: Any
+    absolute: Any
+    absolute_at: Any
+
+
+def fourier(k: npt.ArrayLike, harmonics: int = 6, terms: int | None = None) -> Float:
+    """Return the coefficients of the stroke's cosine series, per crank length.
+
+    s / crank = A0 + A1 cos φ + A2 cos 2φ + A4 cos 4φ + …; A1 = −1, other odd ones are 0.
+
+    Parameters
+    ----------
+    k : array_like
+        Rod per crank, above 1.
+    harmonics : int
+        The last harmonic, even.
+    terms : int, optional
+        Terms kept of each coefficient's own series in 1/k: powers up to sin^(2 terms) φ, so `terms`
+        beside the 1 in A0 and one less for each further coefficient. None: as many as add
+        anything.
+
+    Returns
+    -------
+    numpy.ndarray
+        A0, A1, A2, A4 … A_harmonics; shape k.shape + (2 + harmonics/2,).
+
+    Raises
+    ------
+    InputError
+        A k that is not above 1, or so near it that a series does not end.
+
+    References
+    ----------
+    Chernysh et al. (2021), equations 11 and 12.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.slider_crank.fourier(3.0, harmonics=4).round(6)
+    array([ 1.085155, -1.      , -0.085777,  0.000631])
+    """
+    ratios = real_array(k, "k")
+    _ratio(ratios, "k")
+    last, kept = _harmonics(harmonics), _terms(terms)
+    found = _core.slider_crank_fourier(np.ascontiguousarray(ratios).reshape(-1), last, kept)
+    return found.reshape((*ratios.shape, 2 + last // 2))
+
+
+def stroke(
+    phi: npt.ArrayLike,
+    crank: npt.ArrayLike,
+    rod: npt.ArrayLike,
+    method: Literal["exact", "series", "fraction"] = "exact",
+    n: int = 2,
+    harmonics: int = 2,
+    terms: int | None = 1,
+) -> Analogues:
+    """Return the stroke from the outer dead point, m, with two analogues.
+
+    Parameters
+    ----------
+    phi, crank, rod : array_like
+        Crank angle, rad, and lengths, m; broadcast.
+    method : {"exact", "series", "fraction"}
+        The exact motion; the cosine series (its first three terms by default: equations 14 to 16
+        of Chernysh et al.); or the continued fraction of Ambarcumyanc and Subbotina.
+    n : int
+        Number of the fraction's approximation, from 1 on.
+    harmonics, terms : int
+        Of the series, see `fourier`.
+
+    Returns
+    -------
+    Analogues
+        ``value``, ``d1`` and ``d2``, each the exact derivative of the one before; also
+        ``velocity(omega)`` and ``acceleration(omega, alpha)``.
+
+    Raises
+    ------
+    DimensionError
+        A length that is not positive, or a rod not longer than its crank.
+    InputError
+        What is no number, or an unknown method.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> s = assur.slider_crank.stroke(np.pi / 2, 1.0, 3.0)
+    >>> s.value.round(6), s.d1, s.d2.round(6)
+    (np.float64(1.171573), array(1.), np.float64(-0.353553))
+    """
+    if method not in ("exact", "series", "fraction"):
+        message = f'method is {method!r}: "exact", "series" or "fraction"'
+        raise InputError(message)
+    angles, cranks, rods = _lengths(phi, crank, rod)
+    flat, ratios, inverse = _flat(angles, cranks / rods, rods / cranks)
+    if method == "exact":
+        found = _core.slider_crank_stroke(flat, ratios)
+    elif method == "fraction":
+        found = _core.slider_crank_fraction(flat, ratios, _whole(n, "n", 1))
+    else:
+        last, kept = _harmonics(harmonics), _terms(terms)
+        found = _core.slider_crank_series(flat, inverse, last, kept)
+    return _scaled("stroke", cranks, found)
+
+
+def coordinate(phi: npt.ArrayLike, crank: npt.ArrayLike, rod: npt.ArrayLike) -> Analogues:
+    """Return the slider's coordinate from the crank's pivot, m, with two analogues.
+
+    The papers' other convention: x = crank + rod − stroke, so analogues have the other sign.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.slider_crank.coordinate(0.0, 1.0, 3.0).value
+    array(4.)
+    """
+    angles, cranks, rods = _lengths(phi, crank, rod)
+    found = stroke(angles, cranks, rods)
+    arrays = tuple(map(np.asarray, (cranks + rods - found.value, -found.d1, -found.d2)))
+    return Analogues("coordinate", arrays, 1, point=False)
+
+
+def rod_angle(phi: npt.ArrayLike, crank: npt.ArrayLike, rod: npt.ArrayLike) -> Analogues:
+    """Return the rod's angle from the slider's axis, rad, with two analogues.
+
+    φ₂ = −δ, sin δ = (crank / rod) sin φ: negative while the crank's pin is above the axis.
+
+    References
+    ----------
+    Chernysh et al. (2021), equations 2, 3, 33, 39.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> assur.slider_crank.rod_angle(np.pi / 2, 1.0, 2.0).value.round(6)
+    np.float64(-0.523599)
+    """
+    angles, cranks, rods = _lengths(phi, crank, rod)
+    found = _core.slider_crank_rod_angle(*_flat(angles, cranks / rods))
+    return _scaled("rod_angle", np.ones_like(cranks), found)
+
+
+def rod_point(
+    phi: npt.ArrayLike,
+    crank: npt.ArrayLike,
+    rod: npt.ArrayLike,
+    along: npt.ArrayLike,
+    across: npt.ArrayLike = 0.0,
+) -> Analogues:
+    """Return the place of a point of the rod, m, with two analogues.
+
+    Parameters
+    ----------
+    phi, crank, rod : array_like
+        Crank angle, rad, and lengths, m.
+    along, across : array_like
+        The point's place, m: along the rod from the crank's pin, and to the left of it.
+
+    Returns
+    -------
+    Analogues
+        Points with a last axis (x, y), x along the slider's axis, from the crank's pivot. Speeds
+        are ``np.linalg.norm(point.velocity(omega), axis=-1)``, and accelerations likewise.
+
+    References
+    ----------
+    Chernysh et al. (2021), equations 30 and 31, with x and y as in its own figure.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> middle = assur.slider_crank.rod_point(0.0, 1.0, 3.0, along=1.5)
+    >>> middle.value, middle.velocity(omega=10.0)
+    (array([2.5, 0. ]), array([0., 5.]))
+    """
+    angles, cranks, rods = _lengths(phi, crank, rod)
+    a, b = real_array(along, "along"), real_array(across, "across")
+    for name, array in (("along", a), ("across", b)):
+        _finite(array, name)
+    angles, cranks, rods, a, b = _together(angles, cranks, rods, a, b)
+    found = _core.slider_crank_rod_point(*_flat(angles, cranks / rods, a / cranks, b / cranks))
+    shape = (*cranks.shape, 2)
+    arrays = [part.reshape(shape) * cranks[..., np.newaxis] for part in found]
+    return Analogues("rod_point", tuple(arrays), 1, point=True)
+
+
+def greatest_speed(
+    k: npt.ArrayLike, method: Literal["exact", "series", "perpendicular"] = "exact"
+) -> Extreme:
+    """Return where the slider is fastest in the first half turn, and how fast.
+
+    Parameters
+    ----------
+    k : array_like
+        Rod per crank, above 1.
+    method : {"exact", "series", "perpendicular"}
+        Exactly; by the series' first three terms (cos φ = (−k + √(k² + 8))/4, with the speed that
+        they give); or where the crank is perpendicular to the rod (φ = arctan k).
+
+    Returns
+    -------
+    Extreme
+        Crank angle, rad, and speed over crank length times the crank's speed.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> fastest = assur.slider_crank.greatest_speed(3.0)
+    >>> np.rad2deg(fastest.at).round(6), fastest.value.round(9)
+    (np.float64(73.175297), np.float64(1.054639547))
+    """
+    ratios = real_array(k, "k")
+    _ratio(ratios, "k")
+    if method not in ("exact", "series", "perpendicular"):
+        message = f'method is {method!r}: "exact", "series" or "perpendicular"'
+        raise InputError(message)
+    if method == "perpendicular":
+        at = np.arctan(ratios)
+        return Extreme(at, stroke(at, 1.0, ratios).d1)
+    flat = np.ascontiguousarray(ratios).reshape(-1)
+    found = _core.slider_crank_greatest_speed(flat, method == "exact")
+    return Extreme(*(part.reshape(ratios.shape) for part in found))
+
+
+def greatest_acceleration(k: npt.ArrayLike) -> Extreme:
+    """Return where the stroke's acceleration is most negative, at constant crank speed.
+
+    At the inner dead point (φ = π) for k ≥ (3 + √21)/2 = 3.791; a shorter rod has two such places,
+    of which the one before it is given.
+
+    Returns
+    -------
+    Extreme
+        Crank angle, rad, and acceleration over crank length times the crank's speed squared.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> least = assur.slider_crank.greatest_acceleration(3.0)
+    >>> np.rad2deg(least.at).round(6), least.value.round(9)
+    (np.float64(137.612519), np.float64(-0.697525367))
+    """
+    ratios = real_array(k, "k")
+    _ratio(ratios, "k")
+    flat = np.ascontiguousarray(ratios).reshape(-1)
+    found = _core.slider_crank_greatest_acceleration(flat)
+    return Extreme(*(part.reshape(ratios.shape) for part in found))
+
+
+def deviation(
+    lam: npt.ArrayLike, n: int, quantity: Literal["stroke", "d1", "d2"] = "stroke"
+) -> Deviation:
+    """Return the largest deviations of the fraction's approximation from the exact motion.
+
+    Parameters
+    ----------
+    lam : array_like
+        λ = crank / rod, below 1.
+    n : int
+        Number of the approximation, from 1 on.
+    quantity : {"stroke", "d1", "d2"}
+        Stroke, velocity analogue or acceleration analogue.
+
+    Returns
+    -------
+    Deviation
+        Sizes and places between the dead points, found by optimisation.
+
+    References
+    ----------
+    Ambarcumyanc and Subbotina (2017), figures 2 and 3.
+
+    Examples
+    --------
+    >>> import assur
+    >>> largest = assur.slider_crank.deviation(1 / 3, 1)
+    >>> (100 * largest.relative).round(6)                         # per cent
+    np.float64(0.472502)
+    """
+    ratios = real_array(lam, "lam")
+    _finite(ratios, "lam")
+    bad = ~((ratios > 0.0) & (ratios < 1.0))
+    if bad.any():
+        value = float(ratios[bad].flat[0])
+        message = f"lam is {value!r}: crank over rod must be above 0 and below 1"
+        raise InputError(message, value=value)
+    orders = {"stroke": 0, "d1": 1, "d2": 2}
+    if quantity not in orders:
+        message = f'quantity is {quantity!r}: "stroke", "d1" or "d2"'
+        raise InputError(message)
+    number = _whole(n, "n", 1)
+    flat = np.ascontiguousarray(ratios).reshape(-1)
+    found = _core.slider_crank_deviation(flat, number, orders[quantity])
+    return Deviation(*(part.reshape(ratios.shape) for part in found))
+
+
+def contour(phi: float, crank: float, rod: float) -> Float:
+    """Return the closed vector contour at one position: O, A, B and O again, m, shape (4, 2).
+
+    References
+    ----------
+    Chernysh et al. (2021), figure 2 and equations 17 and 18: l₁ + l₂ = l₃.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.slider_crank.contour(0.0, 1.0, 3.0)
+    array([[0., 0.],
+           [1., 0.],
+           [4., 0.],
+           [0., 0.]])
+    """
+    if real_array(phi, "phi").ndim:
+        message = "contour draws one position: phi must be a number"
+        raise InputError(message)
+    pin = rod_point(phi, crank, rod, along=0.0).value
+    return np.array([[0.0, 0.0], pin, [float(coordinate(phi, crank, rod).value), 0.0], [0.0, 0.0]])
+
+
+def _finite(array: Float, name: str) -> None:
+    bad = ~np.isfinite(array)
+    if bad.any():
+        value = float(array[bad].flat[0])
+        message = f"{name} is {value!r}: finite numbers are needed"
+        raise InputError(message, value=value)
+
+
+def _ratio(k: Float, name: str) -> None:
+    _finite(k, name)
+    if (k <= 1.0).any():
+        value = float(k[k <= 1.0].flat[0])
+        message = f"{name} is {value!r}: the rod must be longer than the crank, {name} > 1"
+        raise InputError(message, value=value)
+
+
+def _lengths(phi: Any, crank: Any, rod: Any) -> tuple[Float, Float, Float]:
+    """Angles and lengths, broadcast, with a rod longer than its crank."""
+    angles = real_array(phi, "phi")
+    cranks, rods = real_array(crank, "crank"), real_array(rod, "rod")
+    for name, array in (("phi", angles), ("crank", cranks), ("rod", rods)):
+        _finite(array, name)
+    for name, array in (("crank", cranks), ("rod", rods)):
+        if (array <= 0.0).any():
+            value = float(array[array <= 0.0].flat[0])
+            message = f"{name} is {value!r}: a length must be positive"
+            raise DimensionError(message, dimension=name, value=value)
+    angles, cranks, rods = _together(angles, cranks, rods)
+    short = rods <= cranks
+    if short.any():
+        length, other = float(rods[short].flat[0]), float(cranks[short].flat[0])
+        message = (
+            f"rod is {length!r}, not longer than its crank {other!r} (k = {length / other:.6g}): "
+            f"the crank cannot turn"
+        )
+        raise DimensionError(message, dimension="rod", value=length)
+    return angles, cranks, rods
+
+
+def _together(*arrays: Float) -> tuple[Any, ...]:
+    try:
+        return tuple(np.broadcast_arrays(*arrays))
+    except ValueError as error:
+        shapes = ", ".join(str(array.shape) for array in arrays)
+        message = f"shapes {shapes} do not broadcast"
+        raise InputError(message) from error
+
+
+def _flat(*arrays: Float) -> tuple[Any, ...]:
+    return tuple(np.ascontiguousarray(array).reshape(-1) for array in arrays)
+
+
+def _scaled(name: str, lengths: Float, found: Sequence[Float]) -> Analogues:
+    arrays = tuple(np.asarray(part.reshape(lengths.shape) * lengths) for part in found)
+    return Analogues(name, arrays, 1, point=False)
+
+
+def _whole(value: Any, name: str, least: int) -> int:
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = least - 1
+    if isinstance(value, bool) or not least <= number <= MOST_TERMS:
+        message = f"{name} is {value!r}: a whole number from {least} to {MOST_TERMS} is needed"
+        raise InputError(message)
+    return number
+
+
+def _harmonics(harmonics: Any) -> int:
+    number = _whole(harmonics, "harmonics", 0)
+    if number % 2:
+        message = f"harmonics is {harmonics!r}: an even number is needed (odd ones are 0 but A1)"
+        raise InputError(message)
+    return number
+
+
+def _terms(terms: Any) -> int | None:
+    return None if terms is None else _whole(terms, "terms", 0)

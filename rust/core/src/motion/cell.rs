@@ -1,0 +1,94 @@
+//! What is told of an unknown of a group between two knots of the way.
+
+use super::walk::Seed;
+use crate::lanes::Real;
+use crate::plan::Unknown;
+use crate::plane::Vector;
+
+/// A polynomial in the distance from a knot, of the fifth degree.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cell {
+    /// From the constant on.
+    pub coefficients: [f64; 6],
+    /// Unit vector at the knot's angle.
+    pub unit: Vector,
+}
+
+impl Cell {
+    /// Through values and two derivatives at both ends of a cell of width `h` (Hermite's); of the
+    /// second degree if nothing is beyond.
+    #[inline(always)]
+    pub(super) fn new(a: &Seed, b: Option<&Seed>, h: f64, unit: Vector) -> Self {
+        let &[value, rate, second] = a;
+        let coefficients = [value, rate, 0.5 * second, 0.0, 0.0, 0.0];
+        let Some(&[end, end_rate, end_second]) = b else { return Self { coefficients, unit } };
+        let d0 = end - (value + h * (rate + 0.5 * h * second));
+        let d1 = h * (end_rate - rate - h * second);
+        let d2 = h * h * (end_second - second);
+        let per = 1.0 / h;
+        let per3 = per * per * per;
+        let c3 = (10.0 * d0 - 4.0 * d1 + 0.5 * d2) * per3;
+        let c4 = (-15.0 * d0 + 7.0 * d1 - d2) * (per3 * per);
+        let c5 = (6.0 * d0 - 3.0 * d1 + 0.5 * d2) * (per3 * per * per);
+        let with = [value, rate, 0.5 * second, c3, c4, c5];
+        let coefficients = if with.iter().all(|c| c.is_finite()) { with } else { coefficients };
+        Self { coefficients, unit }
+    }
+
+    /// Of an unknown between two knots of a walk.
+    pub(super) fn of(unknown: Unknown, a: &Seed, b: Option<&Seed>, h: f64) -> Self {
+        let unit = match unknown {
+            Unknown::Class(_) => Vector::at_angle(a[0]),
+            Unknown::Slide(_) => Vector::ONE,
+        };
+        Self::new(a, b, h, unit)
+    }
+
+    /// The unknown at a distance from the knot.
+    pub(super) fn at(&self, step: f64) -> f64 {
+        self.coefficients.iter().rev().fold(0.0, |sum, c| sum * step + c)
+    }
+}
+
+/// A unit vector at an angle of less than a quarter turn, good to 1e-9 at π/4: Taylor's
+/// polynomials (the iteration makes it a unit vector to the last bit).
+#[inline(always)]
+pub(super) fn small_turn<R: Real>(angle: R) -> Vector<R> {
+    let x2 = angle * angle;
+    let (mut cosine, mut sine) = (R::splat(COSINE[0]), R::splat(SINE[0]));
+    for (c, s) in COSINE[1..].iter().zip(&SINE[1..]) {
+        cosine = cosine * x2 + R::splat(*c);
+        sine = sine * x2 + R::splat(*s);
+    }
+    Vector::new(cosine, sine * angle)
+}
+
+/// ∓1/10!, … −1/2!, 1.
+const COSINE: [f64; 6] = [-1.0 / 3_628_800.0, 1.0 / 40_320.0, -1.0 / 720.0, 1.0 / 24.0, -0.5, 1.0];
+/// ∓1/11!, … −1/3!, 1.
+const SINE: [f64; 6] =
+    [-1.0 / 39_916_800.0, 1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_meets_both_ends() {
+        // sin and its derivatives at 0.3 and 0.5.
+        let seed = |x: f64| [x.sin(), x.cos(), -x.sin()];
+        let cell = Cell::new(&seed(0.3), Some(&seed(0.5)), 0.2, Vector::ONE);
+        for part in [0.0, 0.05, 0.1, 0.2] {
+            assert!((cell.at(part) - (0.3_f64 + part).sin()).abs() < 2e-9, "{part}");
+        }
+        assert!((cell.at(0.2) - 0.5_f64.sin()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn small_turns_are_cosine_and_sine() {
+        for angle in [0.0_f64, 1e-3, -0.4, 0.785] {
+            let turn = small_turn(angle);
+            assert!((turn.x - angle.cos()).abs() < 2e-10 && (turn.y - angle.sin()).abs() < 2e-10);
+        }
+    }
+}

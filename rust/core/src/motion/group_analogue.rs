@@ -1,0 +1,194 @@
+//! Analogues of groups above class II, and what their chords took with them.
+
+use super::state::{Context, State};
+use crate::lanes::Real;
+use crate::plan::group::{Chord, Group, Loop};
+use crate::plan::{Along, Unknown};
+use crate::plane::Vector;
+
+impl<R: Real, const G: usize> State<R, G> {
+    /// Analogues of the unknowns: at every order the same matrix (inverted), as right-hand side
+    /// what is known of that order; and what the chords took with them.
+    #[inline(always)]
+    pub(super) fn group_analogues(
+        &mut self,
+        cx: &Context<'_>,
+        group: &Group,
+        matrix: &mut [[R; G]],
+    ) {
+        let (len, n) = (self.len, group.rows);
+        for k in 1..len {
+            // What is yet unknown counts as 0.
+            for (place, &unknown) in group.unknowns.iter().enumerate() {
+                if let Unknown::Slide(slide) = unknown {
+                    self.slides[slide * len + k] = [R::ZERO; G];
+                }
+                for &o in &group.turned[place] {
+                    for g in 0..G {
+                        self.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k);
+                    }
+                }
+            }
+            self.measure(cx, group, k);
+            self.miss(cx, group, k, &mut matrix[2 * n * n..]);
+            for (place, &unknown) in group.unknowns.iter().enumerate() {
+                let mut value = [R::ZERO; G];
+                for column in 0..n {
+                    let inverse = &matrix[place * 2 * n + n + column];
+                    let missing = &matrix[2 * n * n + column];
+                    for g in 0..G {
+                        value[g] = value[g] - inverse[g] * missing[g];
+                    }
+                }
+                match unknown {
+                    Unknown::Slide(slide) => self.slides[slide * len + k] = value,
+                    Unknown::Class(class) => self.theta[class * len + k] = value,
+                }
+                for &o in &group.turned[place] {
+                    for g in 0..G {
+                        let top = self.orient[o * len][g].left().scale(value[g]);
+                        self.orient[o * len + k][g] += top;
+                    }
+                }
+            }
+            self.complete(cx, group, k);
+            self.take_all(cx, group, k);
+        }
+    }
+
+    /// Entry `k` of edges and chords, once that of the unknowns is known.
+    #[inline(always)]
+    fn complete(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
+        let len = self.len;
+        for (place, edge) in group.edges.iter().enumerate() {
+            let (at, leg) = (place * len, (group.first_leg + place) * len);
+            if let Some(unknown) = edge.turns
+                && let Unknown::Class(class) = group.unknowns[unknown]
+            {
+                let value = &self.theta[class * len + k];
+                let guided = cx.plan.edges[edge.edge].along != Along::Nothing;
+                for g in 0..G {
+                    let top = self.legs[leg][g].left();
+                    self.legs[leg + k][g] += top.scale(value[g]);
+                    if guided {
+                        let guide = self.guides[at][g].left();
+                        self.guides[at + k][g] += guide.scale(value[g]);
+                    }
+                }
+            }
+            if let Some(unknown) = edge.slides
+                && let Unknown::Slide(slide) = group.unknowns[unknown]
+            {
+                let value = &self.slides[slide * len + k];
+                for g in 0..G {
+                    let guide = self.guides[at][g];
+                    self.legs[leg + k][g] += guide.scale(value[g]);
+                }
+            }
+        }
+        self.close_loops(group, k);
+    }
+
+    /// Entry `k` of what the chords took with them.
+    #[inline(always)]
+    pub(super) fn take_all(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
+        for (place, l) in group.loops.iter().enumerate() {
+            match l.chord {
+                Chord::Whole => {}
+                Chord::Guide { slide } => {
+                    for g in 0..G {
+                        self.take_slide(g, cx, group, (place, l), slide, k);
+                    }
+                }
+                Chord::Length { class } => {
+                    for g in 0..G {
+                        self.take_rotation(g, cx, group, (place, l), class, k);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn take_slide(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        group: &Group,
+        (place, l): (usize, &Loop),
+        slide: usize,
+        k: usize,
+    ) {
+        let len = self.len;
+        let e = group.edges[l.edge].edge;
+        let mut sum = R::ZERO;
+        for term in &cx.jets.product[k] {
+            let guide = self.guides[l.edge * len + term.left][g];
+            let chord = self.chords[place * len + term.right][g];
+            sum += R::splat(term.factor) * guide.dot(chord);
+        }
+        if k == 0 {
+            sum = sum - R::splat(cx.bound.guide[e].dot(cx.bound.rigid[e]));
+        }
+        self.slides[slide * len + k][g] = sum;
+    }
+
+    /// The rotation of a chord, which is U · local at every order.
+    #[inline(always)]
+    fn take_rotation(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        group: &Group,
+        (place, l): (usize, &Loop),
+        class: usize,
+        k: usize,
+    ) {
+        let len = self.len;
+        let e = group.edges[l.edge].edge;
+        let own = cx.plan.edges[e].orientation;
+        let per = self.per[place][g];
+        let per2 = per * per;
+        if k == 0 {
+            let local = self.local(g, cx, e, 0);
+            let unit = (self.chords[place * len][g] * local.conj()).scale(per2);
+            let driven = cx.plan.orientations[own].driven;
+            let rotation = if driven { unit * self.phase[own][g].conj() } else { unit };
+            self.class[class][g] = rotation;
+            for &o in &l.turned {
+                let driven = cx.plan.orientations[o].driven;
+                self.orient[o * len][g] =
+                    if driven { rotation * self.phase[o][g] } else { rotation };
+            }
+            return;
+        }
+        let rate = if let Along::Driver { .. } = cx.plan.edges[e].along {
+            // What is left of U, but for the lengths' own entries.
+            let mut rest = self.chords[place * len + k][g];
+            for term in cx.jets.product[k].iter().filter(|term| term.left != k) {
+                let known =
+                    self.orient[own * len + term.left][g] * self.local(g, cx, e, term.right);
+                rest = rest - known.scale(R::splat(term.factor));
+            }
+            let unit = (rest * self.local(g, cx, e, 0).conj()).scale(per2);
+            let partial = self.orientation_without_top(g, cx, own, k);
+            ((unit - partial) * self.orient[own * len][g].conj()).y
+        } else {
+            // The chord turns as a whole: its entries follow from those before.
+            let mut partial = Vector::ZERO;
+            for term in &cx.jets.rotation[k] {
+                let rate = R::splat(term.factor) * self.theta_of(g, cx, own, term.right);
+                partial += self.chords[place * len + term.left][g].scale(rate);
+            }
+            let top = self.chords[place * len + k][g] - partial.left();
+            let rate = self.chords[place * len][g].cross(top) * per2;
+            let driven = cx.plan.orientations[own].driven;
+            if driven { rate - Self::driven(cx, own, k) } else { rate }
+        };
+        self.theta[class * len + k][g] = rate;
+        for &o in &l.turned {
+            let top = self.orient[o * len][g].left().scale(rate);
+            self.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k) + top;
+        }
+    }
+}

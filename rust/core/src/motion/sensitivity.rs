@@ -1,0 +1,222 @@
+//! Sensitivities: derivatives of positions and analogues by a dimension.
+//!
+//! The closure equations of every step are differentiated once more, by the dimension; what is
+//! unknown stands in the matrix that it had before, whatever the order, so one factorisation
+//! serves all (the same argument as for analogues; Uicker, Pennock & Shigley 2017, chapter 3, by
+//! complex algebra). One function for dyads and groups of any class.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::state::{Context, State};
+use crate::plan::bind_rate::BoundRate;
+use crate::plan::group::Group;
+use crate::plan::jet::Jets;
+use crate::plan::{Along, Dyad, Plan, Step, Unknown};
+use crate::plane::Vector;
+
+/// A closed path: `P_plus − P_minus + Σ ±edges = 0`.
+#[derive(Debug)]
+struct Path {
+    plus: usize,
+    minus: usize,
+    /// Edges, each with its sign.
+    edges: Vec<(usize, f64)>,
+}
+
+/// The closures of a step, twice as many equations, and as many unknowns.
+#[derive(Debug)]
+struct Closures {
+    unknowns: Vec<Unknown>,
+    paths: Vec<Path>,
+}
+
+fn signed(backward: bool) -> f64 {
+    if backward { -1.0 } else { 1.0 }
+}
+
+impl Closures {
+    fn of_dyad(dyad: &Dyad) -> Self {
+        let edges = dyad.path.iter().map(|part| (part.edge, signed(part.backward))).collect();
+        let path = Path { plus: dyad.start, minus: dyad.end, edges };
+        Self { unknowns: dyad.unknowns.to_vec(), paths: vec![path] }
+    }
+
+    fn of_group(group: &Group) -> Self {
+        let edge = |place: usize| group.edges[place].edge;
+        let paths = group.loops.iter().map(|l| {
+            let path = l.path.iter().map(|piece| (edge(piece.place), signed(piece.backward)));
+            let edges = path.chain([(edge(l.edge), -1.0)]).collect();
+            Path { plus: l.end, minus: l.start, edges }
+        });
+        Self { unknowns: group.found().collect(), paths: paths.collect() }
+    }
+}
+
+/// Work space: the steps' closures, and the derivatives by a dimension in the shape of a state.
+pub(crate) struct Sensitivity {
+    steps: Vec<Option<Closures>>,
+    /// Jets of all orientations.
+    units: Vec<Vector>,
+    /// Derivatives of points, angles and slides.
+    pub rates: State,
+}
+
+impl Sensitivity {
+    pub(crate) fn new(plan: &Plan, jets: &Jets) -> Self {
+        let closures = |step: &Step| match step {
+            Step::Dyad(dyad) => Some(Closures::of_dyad(dyad)),
+            Step::Group(group) => Some(Closures::of_group(group)),
+            Step::Place { .. } | Step::Fit(_) => None,
+        };
+        Self {
+            steps: plan.steps.iter().map(closures).collect(),
+            units: vec![Vector::ZERO; plan.orientations.len() * jets.len()],
+            rates: State::new(plan, jets),
+        }
+    }
+
+    /// Derivatives at a solved position; false where they do not exist.
+    pub(crate) fn solve(&mut self, state: &State, cx: &Context<'_>, by: &BoundRate) -> bool {
+        let len = state.len;
+        self.orient(state, cx);
+        for (place, &fixed) in by.fixed.iter().enumerate() {
+            self.rates.points[place * len..][..len].fill([Vector::ZERO]);
+            self.rates.points[place * len] = [fixed];
+        }
+        self.rates.theta.fill([0.0]);
+        self.rates.slides.fill([0.0]);
+        let at = At { state, cx, by, len };
+        for (index, step) in cx.plan.steps.iter().enumerate() {
+            match step {
+                &Step::Place { edge, backward } => {
+                    let [from, to] = cx.plan.edges[edge].ends(backward);
+                    for k in 0..len {
+                        let v = self.edge(&at, edge, k).scale(signed(backward));
+                        let start = self.rates.points[from * len + k][0];
+                        self.rates.points[to * len + k][0] = start + v;
+                    }
+                }
+                Step::Fit(_) => return false,
+                Step::Dyad(_) | Step::Group(_) => {
+                    let Some(closures) = self.steps[index].take() else { return false };
+                    let solved = self.close(&at, &closures);
+                    self.steps[index] = Some(closures);
+                    if !solved {
+                        return false;
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// All orientations, from the classes' angles.
+    fn orient(&mut self, state: &State, cx: &Context<'_>) {
+        let len = state.len;
+        for (o, orientation) in cx.plan.orientations.iter().enumerate() {
+            let class = state.class[orientation.class][0];
+            let phase = if orientation.driven { state.phase[o][0] } else { Vector::ONE };
+            self.units[o * len] = class * phase;
+            for k in 1..len {
+                let mut sum = self.units[o * len].scale(state.theta_of(0, cx, o, k));
+                for term in &cx.jets.rotation[k] {
+                    let rate = term.factor * state.theta_of(0, cx, o, term.right);
+                    sum += self.units[o * len + term.left].scale(rate);
+                }
+                self.units[o * len + k] = sum.left();
+            }
+        }
+    }
+
+    /// Entry `k` of an orientation's derivative: of `∂U = i U ∂Θ`, by Leibniz.
+    fn unit_rate(&self, at: &At<'_>, o: usize, k: usize) -> Vector {
+        let class = at.cx.plan.orientations[o].class;
+        let mut sum = Vector::ZERO;
+        for term in &at.cx.jets.product[k] {
+            let rate = term.factor * self.rates.theta[class * at.len + term.right][0];
+            sum += self.units[o * at.len + term.left].scale(rate);
+        }
+        sum.left()
+    }
+
+    /// Entry `k` of an edge's derivative.
+    fn edge(&self, at: &At<'_>, e: usize, k: usize) -> Vector {
+        let (edge, bound, len) = (&at.cx.plan.edges[e], at.cx.bound, at.len);
+        let o = edge.orientation;
+        let mut sum =
+            self.unit_rate(at, o, k) * bound.rigid[e] + self.units[o * len + k] * at.by.rigid[e];
+        if let Along::Slide(slide) | Along::Driver { slide } = edge.along {
+            for term in &at.cx.jets.product[k] {
+                let unit = self.units[o * len + term.left];
+                let value = at.state.slides[slide * len + term.right][0];
+                let rate = self.rates.slides[slide * len + term.right][0];
+                let turned = self.unit_rate(at, o, term.left) * bound.guide[e];
+                let bent = unit * at.by.guide[e];
+                let along = unit * bound.guide[e];
+                sum += ((turned + bent).scale(value) + along.scale(rate)).scale(term.factor);
+            }
+        }
+        sum
+    }
+
+    /// The unknowns' derivatives, order after order.
+    fn close(&mut self, at: &At<'_>, closures: &Closures) -> bool {
+        let (len, n) = (at.len, closures.unknowns.len());
+        let lu = self.matrix(at, closures).lu();
+        for k in 0..len {
+            let mut missing = DVector::zeros(n);
+            for (place, path) in closures.paths.iter().enumerate() {
+                let point = |p: usize| self.rates.points[p * len + k][0];
+                let mut sum = point(path.plus) - point(path.minus);
+                for &(e, sign) in &path.edges {
+                    sum += self.edge(at, e, k).scale(sign);
+                }
+                missing[2 * place] = -sum.x;
+                missing[2 * place + 1] = -sum.y;
+            }
+            let Some(values) = lu.solve(&missing) else { return false };
+            for (&unknown, &value) in closures.unknowns.iter().zip(values.iter()) {
+                match unknown {
+                    Unknown::Class(class) => self.rates.theta[class * len + k][0] = value,
+                    Unknown::Slide(slide) => self.rates.slides[slide * len + k][0] = value,
+                }
+            }
+        }
+        true
+    }
+
+    /// Derivatives of the closures by the unknowns.
+    fn matrix(&self, at: &At<'_>, closures: &Closures) -> DMatrix<f64> {
+        let n = closures.unknowns.len();
+        let mut matrix = DMatrix::zeros(n, n);
+        for (place, path) in closures.paths.iter().enumerate() {
+            for &(e, sign) in &path.edges {
+                let edge = &at.cx.plan.edges[e];
+                let unit = self.units[edge.orientation * at.len].scale(sign);
+                let guide = unit * at.cx.bound.guide[e];
+                let mut vector = unit * at.cx.bound.rigid[e];
+                if let Along::Slide(slide) | Along::Driver { slide } = edge.along {
+                    vector += guide.scale(at.state.slides[slide * at.len][0]);
+                }
+                for (column, &unknown) in closures.unknowns.iter().enumerate() {
+                    let v = match (unknown, edge.along) {
+                        (Unknown::Class(class), _) if class == edge.class => vector.left(),
+                        (Unknown::Slide(slide), Along::Slide(own)) if slide == own => guide,
+                        _ => continue,
+                    };
+                    matrix[(2 * place, column)] += v.x;
+                    matrix[(2 * place + 1, column)] += v.y;
+                }
+            }
+        }
+        matrix
+    }
+}
+
+/// Where it is.
+struct At<'a> {
+    state: &'a State,
+    cx: &'a Context<'a>,
+    by: &'a BoundRate,
+    len: usize,
+}

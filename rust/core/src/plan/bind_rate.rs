@@ -1,0 +1,70 @@
+//! How the fixed vectors of a design change with one of its dimensions.
+
+use super::Plan;
+use super::bind::{Bound, Slots, Source, read, read_two, unit};
+use crate::plane::Vector;
+
+/// Derivatives of what [`Bound`] holds by one dimension (m or rad), its scale kept.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct BoundRate {
+    /// Of the frame's origin, m.
+    pub origin: Vector,
+    /// Of the constant part of every edge.
+    pub rigid: Vec<Vector>,
+    /// Of the guide direction of every edge with a slide.
+    pub guide: Vec<Vector>,
+    /// Of the points fixed to the ground.
+    pub fixed: Vec<Vector>,
+    /// Of the constant angle of every link against its class.
+    pub offset: Vec<f64>,
+}
+
+impl BoundRate {
+    /// For a design (`values`, `bound`) and the dimension of this index.
+    #[must_use]
+    pub fn new(plan: &Plan, slots: &Slots, bound: &Bound, values: &[f64], index: usize) -> Self {
+        // Dimensions enter linearly, but for angles.
+        let mut by = vec![0.0; values.len()];
+        by[index] = 1.0;
+        let origin = read_two(&by, slots.origin);
+        let per = 1.0 / bound.scale;
+        let offset = offsets(plan, slots, &by);
+        let mut rate = Self { origin, offset, ..Self::default() };
+        for ((e, source), rigid) in plan.edges.iter().zip(&slots.edges).zip(&bound.rigid) {
+            let (w, d) = match *source {
+                Source::Joint(place) => (read_two(&by, place), Vector::ZERO),
+                Source::Guide(slide) => {
+                    let slide = &slots.slides[slide];
+                    let direction = unit(slide.angle(values));
+                    let turned = direction.left().scale(slide.angle(&by));
+                    let mut start = read_two(&by, slide.origin);
+                    if slide.drawn {
+                        start = start - origin;
+                    }
+                    let across = direction.left().scale(read(&by, slide.offset));
+                    let along = turned.left().scale(read(values, slide.offset));
+                    (start + across + along, turned)
+                }
+            };
+            let link = e.edge.link;
+            let (turn, offset) = (bound.turn[link], rate.offset[link]);
+            let guide = bound.guide[rate.guide.len()];
+            rate.rigid.push((turn * w).scale(per) + rigid.left().scale(offset));
+            rate.guide.push(turn * d + guide.left().scale(offset));
+        }
+        rate.fixed.resize(plan.points, Vector::ZERO);
+        for &(joint, place) in &slots.ground {
+            rate.fixed[joint + 1] = (read_two(&by, place) - origin).scale(per);
+        }
+        rate
+    }
+}
+
+/// Derivatives of the links' constant angles by the dimension that is 1 in `by`.
+pub fn offsets(plan: &Plan, slots: &Slots, by: &[f64]) -> Vec<f64> {
+    let step = |slide: usize| slots.slides[slide].step(by);
+    let offset = |r: &crate::structure::Rotation| {
+        r.slides.iter().map(|&(slide, sign)| f64::from(sign) * step(slide)).sum()
+    };
+    plan.rotation.iter().map(offset).collect()
+}

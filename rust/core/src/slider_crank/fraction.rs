@@ -1,0 +1,37 @@
+//! The stroke without a root: approximations of a continued fraction.
+
+use super::jet::Jet;
+
+/// Stroke per crank length by the fraction's approximation number `n`, at least 1, with its own
+/// exact derivatives: 1 − cos φ + λ sin²φ / (2 u), u = 1 − λ² sin²φ / (4 u) from u = 1 (2017,
+/// equations 5, 7, 8 and on).
+#[must_use]
+pub fn stroke_by_fraction(phi: f64, lambda: f64, n: u32) -> Jet {
+    let (sine, _) = Jet::sin_cos(phi);
+    let square = sine * sine;
+    let quarter = square.scale(0.25 * lambda * lambda);
+    let mut u = Jet::constant(1.0);
+    for _ in 1..n {
+        let next = Jet::constant(1.0) - quarter / u;
+        if next == u {
+            break;
+        }
+        u = next;
+    }
+    Jet::versine(phi) + square.scale(0.5 * lambda) / u
+}
+
+/// What the approximation lacks to the exact stroke, with derivatives, without cancellation: with
+/// c = cos²(δ/2), t = tan²(δ/2) the fraction's u is c (1 − tⁿ⁺¹)/(1 − tⁿ), so it lacks
+/// λ sin²φ tⁿ (1 − t) / (2 c (1 − tⁿ⁺¹)).
+pub(super) fn lack(phi: f64, lambda: f64, n: u32) -> Jet {
+    let (sine, _) = Jet::sin_cos(phi);
+    let one = Jet::constant(1.0);
+    let root = super::exact::rod_cosine(sine, lambda);
+    let two_c = one + root;
+    // tan²(δ/2) = sin²δ / (1 + cos δ)².
+    let half = sine.scale(lambda) / two_c;
+    let t = half * half;
+    let power = t.power(n);
+    (sine * sine).scale(lambda) * power * (one - t) / (two_c * (one - power * t))
+}

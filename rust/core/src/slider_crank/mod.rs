@@ -1,0 +1,21 @@
+//! The central slider-crank of the papers: exact motion, cosine series, continued fraction.
+//!
+//! Lengths are relative to the crank; λ = crank/rod, k = 1/λ > 1; φ is the crank's angle from the
+//! outer dead point, δ the rod's angle (sin δ = λ sin φ), the stroke is measured from the outer dead
+//! point. O. M. Chernysh and others, Analytical studies of the kinematic parameters of planar
+//! lever mechanisms (2021), equations 1 to 42; R. V. Ambarcumyanc and M. I. Subbotina, Concerning the
+//! research of kinematics of central crank gear and slider mechanism (2017), equations 1 to 11.
+
+mod deviation;
+mod exact;
+mod fraction;
+mod greatest;
+mod jet;
+mod series;
+
+pub use deviation::{Deviation, Quantity, deviation};
+pub use exact::{rod_angle, rod_point, stroke};
+pub use fraction::stroke_by_fraction;
+pub use greatest::{Greatest, greatest_acceleration, greatest_speed, greatest_speed_by_series};
+pub use jet::Jet;
+pub use series::{Series, SlowSeries};
