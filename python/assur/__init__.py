@@ -1,6 +1,6 @@
 """Kinematics and dynamics of planar linkages, solved one Assur group after another."""
 
-from assur import slider_crank
+from assur import crank_rocker, slider_crank
 from assur._core import version
 from assur.analogues import Analogues
 from assur.class_iv import ClassIV
@@ -40,6 +40,7 @@ __all__ = [
     "Structure",
     "StructureError",
     "__version__",
+    "crank_rocker",
     "slider_crank",
 ]
 

@@ -148,7 +148,8 @@ class Check:
             return
         edges = checks.bisected(self.solve, edges)
         inside = self.solve(edges[:, 0])
-        far = np.abs(inside.value[:, : inside.lengths]).max(axis=1) > checks.POLE * size
+        pole = (checks.POLE_OF_GROUPS if self.higher else checks.POLE) * size
+        far = np.abs(inside.value[:, : inside.lengths]).max(axis=1) > pole
         edges = edges[~far]
         self.report.counts["infinite"] += int(far.sum())
         self.report.counts["gaps"] += len(edges)

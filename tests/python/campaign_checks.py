@@ -34,6 +34,9 @@ BEND = 0.05
 HALVINGS = 40
 # Coordinates, in sizes of the drawing, beyond which a point is on its way through infinity.
 POLE = 1e6
+# The same of groups above class II: their condition grows with the square of that, so that nothing
+# can be told from a fold there, and the way is given up.
+POLE_OF_GROUPS = 1e3
 # At a fold the squared determinant falls linearly to 0: at four steps it is four times that at
 # one; at a change point 16 times; where nothing is singular once. Steps in q, the best first: the
 # next terms go with the root of the step, rounding with its inverse.

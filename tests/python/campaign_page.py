@@ -91,7 +91,8 @@ kinds of quadrilaterals, among them P4's; a quarter of the inner pairs slide) an
 {cases.TURNS} turns, or as far as it goes between dead points. This page is written by it;
 [another](campaign.md) is on class II. Besides what is said below, the sign of the Jacobian's
 determinant must be the same at all positions of a mechanism: where two assemblies meet, the other
-one has the other sign.
+one has the other sign. Ends with a point beyond {checks.POLE_OF_GROUPS:g} sizes of the drawing
+are counted apart: the condition has grown with the square of that, and the way is given up.
 
 """
 

@@ -40,6 +40,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod crank_rocker;
 pub mod error;
 pub mod lanes;
 pub mod linkage;

@@ -1,6 +1,7 @@
 //! Python binding of `assur`: converts, releases the GIL, maps errors; nothing else.
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
+mod crank_rocker;
 mod error;
 mod gate;
 mod mechanism;
@@ -13,6 +14,11 @@ use pyo3::prelude::*;
 /// The extension module behind the Python package.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use super::crank_rocker::{
+        crank_rocker_extremes, crank_rocker_grashof, crank_rocker_ground_range,
+        crank_rocker_least_gamma, crank_rocker_solve, crank_rocker_turns,
+    };
     #[pymodule_export]
     use super::mechanism::Mechanism;
     #[pymodule_export]

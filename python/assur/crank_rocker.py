@@ -1,0 +1,407 @@
+"""The crank-rocker with friction, in the convention of its paper.
+
+Crank l₁ turns at A, coupler l₂, rocker l₃ at D, ground l₄ = AD, which may change with time. The
+crank's angle φ₁ counts from where its pin B is farthest from D; with A at the origin, D is at
+(−l₄, 0). Angles are counter-clockwise, rad.
+
+References
+----------
+V. K. Manzhosov, T. E. Petrova, *Modelling of the motion of the crank-rocker mechanism with
+non-ideal constraints* (in Russian).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple, TypeAlias, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from assur import _core
+from assur._checks import real_array
+from assur.changing_structure import Event, Run, run
+from assur.errors import DimensionError, InputError
+
+__all__ = [
+    "Event",
+    "Run",
+    "Solution",
+    "Table",
+    "blocked",
+    "crank_turns",
+    "grashof",
+    "ground_range",
+    "least_transmission_angle",
+    "run",
+    "solve",
+    "table1",
+    "transmission_extremes",
+]
+
+Float: TypeAlias = npt.NDArray[np.float64]
+Grashof: TypeAlias = Literal[
+    "crank-rocker",
+    "rocker-crank",
+    "double-crank",
+    "double-rocker",
+    "triple-rocker",
+    "change-point",
+]
+
+LENGTHS = ("l1", "l2", "l3", "l4")
+# Of the greatest length: sums that differ by less are those of a change point but for rounding.
+CHANGE_TOLERANCE = 1e-12
+# The paper's own π, and lengths of its Table 1.
+PRINTED_PI = 3.14
+TABLE = (1.0, 4.5, 1.5)
+TABLE_GROUNDS = (4.8, 4.85, 4.9, 4.95, 4.995)
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Positions and rates of section 1; made by `solve`.
+
+    Attributes
+    ----------
+    S : numpy.ndarray
+        Distance BD, m.
+    phi3_first, phi3_second : numpy.ndarray
+        φ₃′ of DB and φ₃″ from there to the rocker, rad.
+    beta, phi2, phi3, gamma23, gamma : numpy.ndarray
+        Angle DBC, angles of coupler and rocker, angle DCB and the transmission angle (the acute
+        one of γ₂₃ and π − γ₂₃), rad.
+    dS, dphi3_first, dphi3_second, dbeta, dphi2, dphi3, dgamma23, dgamma : numpy.ndarray
+        Their rates by the time.
+    v_B, v_C, v_C_relative : numpy.ndarray
+        Speeds of the crank's pin, of C, and of C relative to D (the paper's v_C), m/s.
+    pushes : numpy.ndarray of bool
+        The coupler pushes the rocker (figure 4a) while its angle grows; otherwise it pulls (4b).
+    """
+
+    S: Float  # the paper's letters
+    phi3_first: Float
+    phi3_second: Float
+    beta: Float
+    phi2: Float
+    phi3: Float
+    gamma23: Float
+    gamma: Float
+    dS: Float  # noqa: N815
+    dphi3_first: Float
+    dphi3_second: Float
+    dbeta: Float
+    dphi2: Float
+    dphi3: Float
+    dgamma23: Float
+    dgamma: Float
+    v_C_relative: Float  # noqa: N815
+    v_C: Float  # noqa: N815
+    v_B: Float  # noqa: N815
+    pushes: npt.NDArray[np.bool_]
+
+
+class Table(NamedTuple):
+    """Table 1: crank angles, degrees; grounds; transmission angles, rad (angles × grounds)."""
+
+    phi1_deg: Float
+    l4: Float
+    printed: Float
+    true: Float
+
+
+def solve(
+    phi1: npt.ArrayLike,
+    l1: npt.ArrayLike,
+    l2: npt.ArrayLike,
+    l3: npt.ArrayLike,
+    l4: npt.ArrayLike,
+    speed: npt.ArrayLike = 1.0,
+    ground_speed: npt.ArrayLike = 0.0,
+    assembly: Literal["printed", "other"] = "printed",
+) -> Solution:
+    """Return positions and rates in the paper's convention; all arguments broadcast.
+
+    Parameters
+    ----------
+    phi1 : array_like
+        Crank angle from where its pin is farthest from D, rad.
+    l1, l2, l3, l4 : array_like
+        Crank, coupler, rocker and ground, m.
+    speed, ground_speed : array_like
+        dφ₁/dt, rad/s, and dl₄/dt, m/s.
+    assembly : {"printed", "other"}
+        The printed assembly (φ₃″ and β positive), or its mirror image in BD.
+
+    Returns
+    -------
+    Solution
+        NaN where the coupler does not reach.
+
+    Examples
+    --------
+    >>> import assur
+    >>> found = assur.crank_rocker.solve(2.1, 1, 4.5, 1.5, 4.9, speed=3.0, ground_speed=0.7)
+    >>> found.dS.round(8), found.v_C.round(8)
+    (np.float64(-2.14608491), np.float64(2.38405545))
+    """
+    if assembly not in ("printed", "other"):
+        message = f'assembly is {assembly!r}: "printed" or "other"'
+        raise InputError(message)
+    named = [("phi1", phi1), *zip(LENGTHS, (l1, l2, l3, l4), strict=True)]
+    named += [("speed", speed), ("ground_speed", ground_speed)]
+    arrays = [_finite(value, name) for name, value in named]
+    for name, array in zip(LENGTHS, arrays[1:5], strict=True):
+        _positive(array, name)
+    try:
+        arrays = list(np.broadcast_arrays(*arrays))
+    except ValueError as error:
+        shapes = ", ".join(str(array.shape) for array in arrays)
+        message = f"shapes {shapes} do not broadcast"
+        raise InputError(message) from error
+    flat = [np.ascontiguousarray(array).reshape(-1) for array in arrays]
+    rows = _core.crank_rocker_solve(flat[0], flat[1:5], flat[5:], assembly == "printed")
+    parts = rows.reshape((18, *arrays[0].shape))
+    v_b = np.where(np.isnan(parts[0]), np.nan, np.abs(arrays[1] * arrays[5]))
+    pushes = np.asarray(parts[13] > 0.0)
+    names = list(Solution.__dataclass_fields__)[:19]
+    held: dict[str, Any] = dict(zip(names, map(np.asarray, (*parts, v_b)), strict=True))
+    return Solution(**held, pushes=pushes)
+
+
+def grashof(
+    l1: float, l2: float, l3: float, l4: float, tolerance: float = CHANGE_TOLERANCE
+) -> Grashof:
+    """Return the type of a four-bar with crank l1, coupler l2, rocker l3 and ground l4.
+
+    Parameters
+    ----------
+    l1, l2, l3, l4 : float
+        Lengths, m.
+    tolerance : float
+        Part of the longest length by which the two sums may differ at a change point.
+
+    Returns
+    -------
+    str
+        "crank-rocker", "rocker-crank" (l3 turns), "double-crank", "double-rocker" (the coupler
+        turns), "triple-rocker" (none turns) or "change-point".
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.crank_rocker.grashof(1, 4.5, 1.5, 4.8)
+    'crank-rocker'
+    """
+    return cast("Grashof", _core.crank_rocker_grashof(_four(l1, l2, l3, l4), float(tolerance)))
+
+
+def crank_turns(
+    l1: float, l2: float, l3: float, l4: float
+) -> tuple[bool, tuple[float, float, float]]:
+    """Return whether the crank turns fully, and by how much each inequality holds.
+
+    The margins are l2 + l3 − l1 − l4, l3 + l4 − l1 − l2 and l2 + l4 − l1 − l3: for a ground longer
+    than the crank it turns if and only if all are positive. The paper prints the first two.
+
+    Examples
+    --------
+    >>> import assur
+    >>> turns, margins = assur.crank_rocker.crank_turns(1, 1.5, 4, 3.2)
+    >>> turns, [round(m, 6) for m in margins]
+    (False, [1.3, 4.7, -0.3])
+    """
+    (a, b, c), turns = _core.crank_rocker_turns(_four(l1, l2, l3, l4))
+    return turns, (a, b, c)
+
+
+def ground_range(
+    coupler: float,
+    rocker: float,
+    margin: float | tuple[float, float] = 0.05,
+    gamma_min: float = 0.0,
+) -> tuple[float, float]:
+    """Return the least and the greatest ground for which the crank turns.
+
+    Parameters
+    ----------
+    coupler, rocker : float
+        Lengths relative to the crank.
+    margin : float or (float, float)
+        Distance kept from the least and from the greatest ground (equation 6).
+    gamma_min : float
+        Least transmission angle, rad, see `least_transmission_angle`; 0 without friction.
+
+    Returns
+    -------
+    (float, float)
+        Relative to the crank.
+
+    Raises
+    ------
+    InputError
+        If the margins leave nothing.
+
+    Examples
+    --------
+    >>> import assur
+    >>> [round(x, 6) for x in assur.crank_rocker.ground_range(4.0, 2.0)]
+    [3.05, 4.95]
+    >>> [round(x, 8) for x in assur.crank_rocker.ground_range(4.5, 1.5, 0.0, gamma_min=0.2)]
+    [4.04451986, 4.97753284]
+    """
+    for name, value in (("coupler", coupler), ("rocker", rocker)):
+        _positive(_finite(value, name), name)
+    margins = real_array(margin, "margin")
+    if margins.shape not in ((), (2,)) or not np.isfinite(margins).all() or (margins < 0.0).any():
+        message = f"margin is {margin!r}: one or two numbers, not negative, are needed"
+        raise InputError(message)
+    _angle(gamma_min, "gamma_min")
+    both = np.broadcast_to(margins, (2,)).tolist()
+    least, greatest = _core.crank_rocker_ground_range(coupler, rocker, both, gamma_min)
+    if least > greatest:
+        message = (
+            f"no ground is left: with coupler {coupler!r}, rocker {rocker!r}, margin {margin!r} "
+            f"and gamma_min {gamma_min!r} it would be from {least:.6g} to {greatest:.6g}"
+        )
+        raise InputError(message)
+    return least, greatest
+
+
+def least_transmission_angle(
+    f_c: float, r_c: float, f_d: float, r_d: float, rocker: float
+) -> float:
+    """Return the least transmission angle at which friction lets the rocker move, rad.
+
+    sin γ = (f_C r_C + f_D r_D) / l₃ (equation 8): coefficients of friction and radii of the joints
+    C and D.
+
+    Raises
+    ------
+    InputError
+        If nothing is passed on at any angle.
+
+    Examples
+    --------
+    >>> import assur
+    >>> round(assur.crank_rocker.least_transmission_angle(0.1, 0.5, 0.1, 1.5, 1.5), 7)
+    0.1337316
+    """
+    friction = [f_c, r_c, f_d, r_d]
+    for name, value in zip(("f_c", "r_c", "f_d", "r_d"), friction, strict=True):
+        if (_finite(value, name) < 0.0).any():
+            message = f"{name} is {value!r}: it must not be negative"
+            raise InputError(message, value=float(value))
+    _positive(_finite(rocker, "rocker"), "rocker")
+    found = _core.crank_rocker_least_gamma(friction, rocker)
+    if found is None:
+        reduced = (f_c * r_c + f_d * r_d) / rocker
+        message = f"f_p = {reduced:.6g} is not below 1: the rocker does not move at any angle"
+        raise InputError(message, value=reduced)
+    return found
+
+
+def transmission_extremes(l1: float, l2: float, l3: float, l4: float) -> tuple[float, float]:
+    """Return the least and the greatest transmission angle over a turn of the crank, rad.
+
+    In closed form: γ₂₃ is extreme where crank and ground are in line (φ₁ = 0 and π).
+
+    Raises
+    ------
+    InputError
+        If the crank does not turn fully.
+
+    Examples
+    --------
+    >>> import assur
+    >>> [round(x, 6) for x in assur.crank_rocker.transmission_extremes(1, 4.5, 1.5, 4.8)]
+    [0.600266, 1.570796]
+    """
+    turns, margins = crank_turns(l1, l2, l3, l4)
+    found = _core.crank_rocker_extremes(_four(l1, l2, l3, l4)) if turns else None
+    if found is None:
+        message = f"the crank does not turn: margins {margins}"
+        raise InputError(message)
+    return found[0], found[1]
+
+
+def blocked(
+    l1: float, l2: float, l3: float, l4: float, gamma_min: float
+) -> list[tuple[float, float]]:
+    """Return the crank angles at which motion is not passed on, as intervals of φ₁, rad.
+
+    Where γ < γ_min: around φ₁ = 0 (γ₂₃ near π, an interval that begins below 0) and around φ₁ = π
+    (γ₂₃ near 0). An empty list: nowhere.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> np.degrees(assur.crank_rocker.blocked(1, 4.5, 1.5, 4.995, 0.2)).round(6)
+    array([[-11.744097,  11.744097]])
+    """
+    _angle(gamma_min, "gamma_min")
+    crank, coupler, rocker, ground = _four(l1, l2, l3, l4)
+    squares, product = coupler**2 + rocker**2, 2.0 * coupler * rocker * np.cos(gamma_min)
+    found = []
+    # S² = l1² + l4² + 2 l1 l4 cos φ1 at γ23 = π − γ_min and at γ_min.
+    for middle, s2, sign in ((0.0, squares + product, 1.0), (np.pi, squares - product, -1.0)):
+        cosine = (s2 - crank**2 - ground**2) / (2.0 * crank * ground)
+        if sign * cosine < 1.0:
+            half = float(np.arccos(np.clip(sign * cosine, -1.0, 1.0)))
+            found.append((middle - half, middle + half))
+    return found
+
+
+def table1() -> Table:
+    """Return Table 1, as printed (with π = 3.14) and as it is.
+
+    Transmission angles of l1 = 1, l2 = 4.5, l3 = 1.5 at every 30°.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.crank_rocker.table1().printed[0, :2].round(6)
+    array([0.598674, 0.517372])
+    """
+    degrees = np.arange(0.0, 361.0, 30.0)
+    grounds = np.array(TABLE_GROUNDS)
+    rough = solve(degrees[:, np.newaxis] * PRINTED_PI / 180.0, *TABLE, grounds).gamma23
+    printed = np.where(rough < PRINTED_PI / 2, rough, PRINTED_PI - rough)
+    true = solve(np.radians(degrees)[:, np.newaxis], *TABLE, grounds).gamma
+    return Table(degrees, grounds, printed, true)
+
+
+def _finite(value: Any, name: str) -> Float:
+    array = real_array(value, name)
+    bad = ~np.isfinite(array)
+    if bad.any():
+        wrong = float(array[bad].flat[0])
+        message = f"{name} is {wrong!r}: finite numbers are needed"
+        raise InputError(message, value=wrong)
+    return array
+
+
+def _positive(array: Float, name: str) -> None:
+    if (array <= 0.0).any():
+        wrong = float(array[array <= 0.0].flat[0])
+        message = f"{name} is {wrong!r}: a length must be positive"
+        raise DimensionError(message, dimension=name, value=wrong)
+
+
+def _angle(value: Any, name: str) -> None:
+    array = _finite(value, name)
+    if array.ndim or not 0.0 <= float(array) < np.pi / 2:
+        message = f"{name} is {value!r}: an angle from 0 to below π/2 rad is needed"
+        raise InputError(message)
+
+
+def _four(*lengths: Any) -> list[float]:
+    numbers = []
+    for name, value in zip(LENGTHS, lengths, strict=True):
+        array = _finite(value, name)
+        if array.ndim:
+            message = f"{name} is an array: one number is needed"
+            raise InputError(message)
+        _positive(array, name)
+        numbers.append(float(array))
+    return numbers
