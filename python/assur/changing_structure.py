@@ -9,7 +9,6 @@ during the slide; the rocker goes on when D is back at its place.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from assur import _core
 from assur._checks import real_array
 from assur.errors import DimensionError, InputError, PositionError
 
@@ -26,11 +26,8 @@ __all__ = ["Event", "Run", "run"]
 Float: TypeAlias = npt.NDArray[np.float64]
 Ground: TypeAlias = float | Callable[[float], float]
 
-# Between two looks at the crank, rad: a jam that begins and ends within that shows by its summit.
-LOOK = math.pi / 360
-# Step of the differences for a moving ground's speed, of a look: errors of its third power.
-GROUND_STEP = 1e-3
-GOLDEN = (math.sqrt(5) - 1) / 2
+# More would fill the memory: 720 positions each.
+MOST_TURNS = 10_000
 
 
 @dataclass(frozen=True)
@@ -144,226 +141,85 @@ def run(
     >>> [(event.kind, round(math.degrees(event.phi1), 6)) for event in result.events]
     [('jam', 348.255903), ('return', 371.744097)]
     """
-    return _Follower(l1, l2, l3, ground, gamma_min, speed, phi0, turns).run()
+    numbers = {"l1": l1, "l2": l2, "l3": l3, "gamma_min": gamma_min, "speed": speed}
+    values = {n: _number(v, n) for n, v in {**numbers, "phi0": phi0, "turns": turns}.items()}
+    for name in ("l1", "l2", "l3"):
+        if values[name] <= 0.0:
+            message = f"{name} is {values[name]!r}: a length must be positive"
+            raise DimensionError(message, dimension=name, value=values[name])
+    if not 0.0 < values["gamma_min"] < math.pi / 2:
+        message = f"gamma_min is {gamma_min!r}: an angle above 0 and below π/2 rad is needed"
+        raise InputError(message)
+    if values["speed"] == 0.0 or not 0.0 < values["turns"] <= MOST_TURNS:
+        message = (
+            f"speed is {speed!r} and turns {turns!r}: the crank must turn, "
+            f"at most {MOST_TURNS} turns"
+        )
+        raise InputError(message)
 
-
-class _Follower:
-    def __init__(
-        self,
-        l1: Any,
-        l2: Any,
-        l3: Any,
-        ground: Ground,
-        gamma_min: Any,
-        speed: Any,
-        phi0: Any,
-        turns: Any,
-    ) -> None:
-        numbers = {"l1": l1, "l2": l2, "l3": l3, "gamma_min": gamma_min, "speed": speed}
-        numbers |= {"phi0": phi0, "turns": turns}
-        values = {name: _number(value, name) for name, value in numbers.items()}
-        for name in ("l1", "l2", "l3"):
-            if values[name] <= 0.0:
-                message = f"{name} is {values[name]!r}: a length must be positive"
-                raise DimensionError(message, dimension=name, value=values[name])
-        if not 0.0 < values["gamma_min"] < math.pi / 2:
-            message = f"gamma_min is {gamma_min!r}: an angle above 0 and below π/2 rad is needed"
-            raise InputError(message)
-        if values["speed"] == 0.0 or values["turns"] <= 0.0:
-            message = f"speed is {speed!r} and turns {turns!r}: the crank must turn"
-            raise InputError(message)
-        self.l1, self.l2, self.l3 = values["l1"], values["l2"], values["l3"]
-        self.speed, self.phi0 = values["speed"], values["phi0"]
-        self.end = math.tau * values["turns"] / abs(self.speed)
-        self.given = ground
-        cosine = 2.0 * self.l2 * self.l3 * math.cos(values["gamma_min"])
-        squares = self.l2**2 + self.l3**2
-        # BD where C jams, by the side.
-        self.limit = {"outer": math.sqrt(squares + cosine), "inner": math.sqrt(squares - cosine)}
-        self.events: list[Event] = []
-
-    # -- geometry -----------------------------------------------------------------------------
-
-    def ground(self, t: float) -> float:
-        value = self.given(t) if callable(self.given) else self.given
-        number = _number(value, f"ground at t = {t!r}" if callable(self.given) else "ground")
+    def place(t: float) -> float:
+        what = f"ground at t = {t!r}" if callable(ground) else "ground"
+        number = _number(ground(t) if callable(ground) else ground, what)
         if number <= 0.0:
-            message = f"ground is {number!r} at t = {t!r}: a length must be positive"
+            message = f"{what} is {number!r}: a length must be positive"
             raise DimensionError(message, dimension="l4", value=number)
         return number
 
-    def ground_speed(self, t: float) -> float:
-        if not callable(self.given):
-            return 0.0
-        h = GROUND_STEP * LOOK / abs(self.speed)
-        low = max(t - h, 0.0)
-        return (self.ground(t + h) - self.ground(low)) / (t + h - low)
+    fixed = None if callable(ground) else place(0.0)
+    case = list(values.values())
+    given = place if fixed is None else lambda _: fixed
+    flat, events, refused = _core.crank_rocker_run(case, given)
+    if refused is not None:
+        raise _refusal(*refused, values)
+    rows = flat.reshape(-1, 8)
+    t, l4, gamma = (np.ascontiguousarray(column) for column in rows.T[:3])
+    d = np.stack([-l4, np.zeros_like(l4)], axis=-1)
+    return Run(
+        t,
+        values["phi0"] + values["speed"] * t,
+        l4,
+        gamma,
+        rows[:, 3] > 0.0,
+        rows[:, 4:6].copy(),
+        rows[:, 6:8].copy(),
+        d,
+        tuple(_event(*event, values) for event in events),
+    )
 
-    def phi(self, t: float) -> float:
-        return self.phi0 + self.speed * t
 
-    def distance(self, t: float) -> float:
-        """BD with the rocker's support in its place."""
-        return abs(self.ground(t) + self.l1 * _unit(self.phi(t)))
-
-    def over(self, t: float) -> tuple[float, str]:
-        """How far BD is beyond the nearer limit, and which one."""
-        s = self.distance(t)
-        outer, inner = s - self.limit["outer"], self.limit["inner"] - s
-        return (outer, "outer") if outer > inner else (inner, "inner")
-
-    def slide(self, t: float, side: str) -> float:
-        """Place of D while it slides; at a dead point, and where the rod is too short, its last."""
-        sine, cosine = math.sin(self.phi(t)), math.cos(self.phi(t))
-        under = self.limit[side] ** 2 - (self.l1 * sine) ** 2
-        return -self.l1 * cosine + math.sqrt(max(under, 0.0))
-
-    def away(self, t: float, side: str) -> float:
-        """How far D is from its place, positive while it slides; negative where it cannot."""
-        if abs(self.l1 * math.sin(self.phi(t))) > self.limit[side]:
-            return -math.inf
-        gap = self.ground(t) - self.slide(t, side)
-        return gap if side == "outer" else -gap
-
-    # -- the run ------------------------------------------------------------------------------
-
-    def run(self) -> Run:
-        first, side = self.over(0.0)
-        if not first < 0.0:
-            self.refuse(side)
-        looks = max(2, math.ceil(self.end * abs(self.speed) / LOOK))
-        times = [self.end * i / looks for i in range(looks + 1)]
-        rows: list[tuple[float, str]] = [(0.0, "")]
-        mode = ""
-        for before, after in itertools.pairwise(times):
-            at = before
-            # More than one thing may happen between two looks.
-            while (moment := self.next_event(at, after, mode)) is not None:
-                at = moment
-                rows.append((at, mode))
-                mode, ended = self.pass_event(at, mode)
-                rows.append((at, mode))
-                if ended:
-                    return self.finish(rows[:-1])
-            rows.append((after, mode))
-        if mode and self.end - self.events[-1].t > math.tau / abs(self.speed):
-            self.note("no return", self.end, mode, (math.nan, math.nan), (math.nan, math.nan))
-        return self.finish(rows)
-
-    def refuse(self, side: str) -> None:
-        s, low, high = self.distance(0.0), abs(self.l2 - self.l3), self.l2 + self.l3
-        if not low <= s <= high:
-            message = (
-                f"the coupler does not reach at the start: BD is {s:.9g}, not in {low} … {high}"
-            )
-        else:
-            gamma23 = math.acos((self.l2**2 + self.l3**2 - s * s) / (2 * self.l2 * self.l3))
-            gamma = min(gamma23, math.pi - gamma23)
-            message = (
-                f"the start at phi0 = {self.phi0!r} is blocked ({side}): its transmission angle "
-                f"{gamma:.6g} is not above gamma_min; begin outside the blocked zone"
-            )
-        raise PositionError(message, q=self.phi0)
-
-    def next_event(self, low: float, high: float, mode: str) -> float | None:
-        """The first time in an interval at which the mode ends."""
-
-        def ends(t: float) -> float:
-            return -self.away(t, mode) if mode else self.over(t)[0]
-
-        # Armed after entry: there the function is 0 itself.
-        start = low + 1e-9 * (high - low) if self.events and self.events[-1].t == low else low
-        if start >= high:
-            return None
-        if start > low and ends(start) > 0.0:
-            # It was entered for no more than that.
-            return start
-        top = high
-        if not ends(high) > 0.0:
-            step = 1e-6 * (high - start)
-            if not (ends(start + step) > ends(start) and ends(high) < ends(high - step)):
-                return None
-            top = _summit(ends, start, high)
-        return _root(ends, start, top) if ends(top) > 0.0 else None
-
-    def pass_event(self, t: float, mode: str) -> tuple[str, bool]:
-        """Goes through an event: the mode after it, and whether the run ends."""
-        if not mode:
-            side = self.over(t)[1]
-            self.note("jam", t, side, *self.speeds(t, side))
-            return side, False
-        dead = abs(self.l1 * math.sin(self.phi(t))) >= self.limit[mode] * (1.0 - 1e-12)
-        if dead:
-            self.note("dead point", t, mode, (math.nan, math.nan), (math.nan, math.nan))
-            return mode, True
-        grounds, rods = self.speeds(t, mode)
-        self.note("return", t, mode, grounds[::-1], rods[::-1])
-        return "", False
-
-    def speeds(self, t: float, side: str) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Of ground and rocker or rod: as a crank-rocker, as a slider-crank."""
-        from assur.crank_rocker import solve
-
-        phi, l4, moving = self.phi(t), self.ground(t), self.ground_speed(t)
-        sine, cosine = math.sin(phi), math.cos(phi)
-        rod = math.sqrt(self.limit[side] ** 2 - (self.l1 * sine) ** 2)
-        sliding = self.l1 * sine * self.speed * (1.0 - self.l1 * cosine / rod)
-        lengths = (self.l1, self.l2, self.l3, l4)
-        as_rocker = solve(phi, *lengths, speed=self.speed, ground_speed=moving).dphi3
-        as_rod = solve(phi, *lengths, speed=self.speed, ground_speed=sliding).dphi3_first
-        return (moving, sliding), (float(as_rocker), float(as_rod))
-
-    def note(
-        self,
-        kind: Any,
-        t: float,
-        side: Any,
-        grounds: tuple[float, float],
-        rods: tuple[float, float],
-    ) -> None:
-        phi, limit = self.phi(t), self.limit[side]
-        l4 = self.ground(t) if kind == "jam" else self.slide(t, side)
-        low, high = limit - self.l1, limit + self.l1
-        texts = {
-            "jam": f"C jams at γ = γ_min ({side}): D slides, BD stays {limit:.9g} m",
-            "return": "D is back in its place: the rocker swings",
-            "dead point": f"the rod of {limit:.9g} m just reaches the line of centres: dead point",
-            "no return": (
-                f"D does not come back: the ground is {self.ground(t):.9g} m, the slide goes from "
-                f"{low:.9g} to {high:.9g} m"
-            ),
-        }
-        text = f"t = {t:.9g} s, φ₁ = {math.degrees(phi):.9g}°: {texts[kind]}"
-        self.events.append(Event(kind, t, phi, l4, side, grounds, rods, text))
-
-    def finish(self, rows: list[tuple[float, str]]) -> Run:
-        t = np.array([time for time, _ in rows])
-        sliding = np.array([bool(mode) for _, mode in rows])
-        phi = self.phi0 + self.speed * t
-        l4 = np.array(
-            [self.slide(time, mode) if mode else self.ground(time) for time, mode in rows]
+def _refusal(why: str, value: float, case: dict[str, float]) -> PositionError:
+    if why == "reach":
+        low, high = abs(case["l2"] - case["l3"]), case["l2"] + case["l3"]
+        message = (
+            f"the coupler does not reach at the start: BD is {value:.9g}, not in {low} … {high}"
         )
-        b = self.l1 * np.exp(1j * phi)
-        d = -l4 + 0j
-        s = np.abs(b - d)
-        for side, limit in self.limit.items():
-            s = np.where([mode == side for _, mode in rows], limit, s)
-        product = 2.0 * s * self.l3
-        turn = np.arccos(np.clip((s**2 + self.l3**2 - self.l2**2) / product, -1.0, 1.0))
-        c = d + self.l3 * (b - d) / s * np.exp(1j * turn)
-        cosine = (self.l2**2 + self.l3**2 - s**2) / (2.0 * self.l2 * self.l3)
-        gamma23 = np.arccos(np.clip(cosine, -1.0, 1.0))
-        gamma = np.minimum(gamma23, math.pi - gamma23)
-        events = tuple(self.events)
-        return Run(t, phi, l4, gamma, sliding, _places(b), _places(c), _places(d), events)
+    else:
+        message = (
+            f"the start at phi0 = {case['phi0']!r} is blocked ({why}): its transmission angle "
+            f"{value:.6g} is not above gamma_min; begin outside the blocked zone"
+        )
+    return PositionError(message, q=case["phi0"])
 
 
-def _places(z: npt.NDArray[np.complex128]) -> Float:
-    return np.stack([z.real, z.imag], axis=-1)
-
-
-def _unit(angle: float) -> complex:
-    return complex(math.cos(angle), math.sin(angle))
+def _event(kind: Any, is_outer: bool, numbers: list[float], case: dict[str, float]) -> Event:
+    t, phi1, l4, ground, *speeds = numbers
+    side: Literal["outer", "inner"] = "outer" if is_outer else "inner"
+    sign = 1.0 if is_outer else -1.0
+    squares = case["l2"] ** 2 + case["l3"] ** 2
+    product = 2.0 * case["l2"] * case["l3"] * math.cos(case["gamma_min"])
+    rod = math.sqrt(squares + sign * product)
+    texts = {
+        "jam": f"C jams at γ = γ_min ({side}): D slides, BD stays {rod:.9g} m",
+        "return": "D is back in its place: the rocker swings",
+        "dead point": f"the rod of {rod:.9g} m just reaches the line of centres: dead point",
+        "no return": (
+            f"D does not come back: the ground is {ground:.9g} m, the slide goes from "
+            f"{rod - case['l1']:.9g} to {rod + case['l1']:.9g} m"
+        ),
+    }
+    text = f"t = {t:.9g} s, φ₁ = {math.degrees(phi1):.9g}°: {texts[kind]}"
+    of_ground, of_rod = (speeds[0], speeds[1]), (speeds[2], speeds[3])
+    return Event(kind, t, phi1, l4, side, of_ground, of_rod, text)
 
 
 def _number(value: Any, name: str) -> float:
@@ -372,32 +228,3 @@ def _number(value: Any, name: str) -> float:
         message = f"{name} is {value!r}: a finite number is needed"
         raise InputError(message)
     return float(array)
-
-
-def _summit(of: Callable[[float], float], low: float, high: float) -> float:
-    """Where a function is greatest between two times, if it rises and falls there."""
-    a, b = low, high
-    c, d = b - GOLDEN * (b - a), a + GOLDEN * (b - a)
-    at_c, at_d = of(c), of(d)
-    for _ in range(40):
-        if at_c > 0.0 or at_d > 0.0:
-            break
-        if at_c > at_d:
-            b, d, at_d = d, c, at_c
-            c = b - GOLDEN * (b - a)
-            at_c = of(c)
-        else:
-            a, c, at_c = c, d, at_d
-            d = a + GOLDEN * (b - a)
-            at_d = of(d)
-    return c if at_c > at_d else d
-
-
-def _root(of: Callable[[float], float], low: float, high: float) -> float:
-    """Where a function becomes positive, to the last bit: below it is not, above it is."""
-    while low < (middle := 0.5 * (low + high)) < high:
-        if of(middle) > 0.0:
-            high = middle
-        else:
-            low = middle
-    return high

@@ -13,7 +13,7 @@ non-ideal constraints* (in Russian).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, TypeAlias, cast
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -40,15 +40,6 @@ __all__ = [
 ]
 
 Float: TypeAlias = npt.NDArray[np.float64]
-Grashof: TypeAlias = Literal[
-    "crank-rocker",
-    "rocker-crank",
-    "double-crank",
-    "double-rocker",
-    "triple-rocker",
-    "change-point",
-]
-
 LENGTHS = ("l1", "l2", "l3", "l4")
 # Of the greatest length: sums that differ by less are those of a change point but for rounding.
 CHANGE_TOLERANCE = 1e-12
@@ -153,16 +144,10 @@ def solve(
     arrays = [_finite(value, name) for name, value in named]
     for name, array in zip(LENGTHS, arrays[1:5], strict=True):
         _positive(array, name)
-    try:
-        arrays = list(np.broadcast_arrays(*arrays))
-    except ValueError as error:
-        shapes = ", ".join(str(array.shape) for array in arrays)
-        message = f"shapes {shapes} do not broadcast"
-        raise InputError(message) from error
-    flat = [np.ascontiguousarray(array).reshape(-1) for array in arrays]
+    flat, shape = _together(*arrays)
     rows = _core.crank_rocker_solve(flat[0], flat[1:5], flat[5:], assembly == "printed")
-    parts = rows.reshape((18, *arrays[0].shape))
-    v_b = np.where(np.isnan(parts[0]), np.nan, np.abs(arrays[1] * arrays[5]))
+    parts = rows.reshape((18, *shape))
+    v_b = np.where(np.isnan(parts[0]), np.nan, np.abs(flat[1] * flat[5]).reshape(shape))
     pushes = np.asarray(parts[13] > 0.0)
     names = list(Solution.__dataclass_fields__)[:19]
     held: dict[str, Any] = dict(zip(names, map(np.asarray, (*parts, v_b)), strict=True))
@@ -170,20 +155,24 @@ def solve(
 
 
 def grashof(
-    l1: float, l2: float, l3: float, l4: float, tolerance: float = CHANGE_TOLERANCE
-) -> Grashof:
-    """Return the type of a four-bar with crank l1, coupler l2, rocker l3 and ground l4.
+    l1: npt.ArrayLike,
+    l2: npt.ArrayLike,
+    l3: npt.ArrayLike,
+    l4: npt.ArrayLike,
+    tolerance: float = CHANGE_TOLERANCE,
+) -> Any:
+    """Return the type of four-bars with crank l1, coupler l2, rocker l3 and ground l4.
 
     Parameters
     ----------
-    l1, l2, l3, l4 : float
-        Lengths, m.
+    l1, l2, l3, l4 : array_like
+        Lengths, m; broadcast.
     tolerance : float
         Part of the longest length by which the two sums may differ at a change point.
 
     Returns
     -------
-    str
+    str or numpy.ndarray of str
         "crank-rocker", "rocker-crank" (l3 turns), "double-crank", "double-rocker" (the coupler
         turns), "triple-rocker" (none turns) or "change-point".
 
@@ -192,55 +181,61 @@ def grashof(
     >>> import assur
     >>> assur.crank_rocker.grashof(1, 4.5, 1.5, 4.8)
     'crank-rocker'
+    >>> assur.crank_rocker.grashof([1, 2], 4.5, [1.5, 1], 4.8)
+    array(['crank-rocker', 'rocker-crank'], dtype='<U12')
     """
-    return cast("Grashof", _core.crank_rocker_grashof(_four(l1, l2, l3, l4), float(tolerance)))
+    flat, shape = _designs(l1, l2, l3, l4)
+    names = _core.crank_rocker_grashof(flat, float(tolerance))
+    return np.array(names).reshape(shape) if shape else names[0]
 
 
 def crank_turns(
-    l1: float, l2: float, l3: float, l4: float
-) -> tuple[bool, tuple[float, float, float]]:
+    l1: npt.ArrayLike, l2: npt.ArrayLike, l3: npt.ArrayLike, l4: npt.ArrayLike
+) -> tuple[Any, Float]:
     """Return whether the crank turns fully, and by how much each inequality holds.
 
-    The margins are l2 + l3 − l1 − l4, l3 + l4 − l1 − l2 and l2 + l4 − l1 − l3: for a ground longer
-    than the crank it turns if and only if all are positive. The paper prints the first two.
+    The margins (a last axis of 3) are l2 + l3 − l1 − l4, l3 + l4 − l1 − l2 and l2 + l4 − l1 − l3:
+    for a ground longer than the crank it turns if and only if all are positive. The paper prints
+    the first two.
 
     Examples
     --------
     >>> import assur
     >>> turns, margins = assur.crank_rocker.crank_turns(1, 1.5, 4, 3.2)
-    >>> turns, [round(m, 6) for m in margins]
-    (False, [1.3, 4.7, -0.3])
+    >>> turns, margins.round(6)
+    (False, array([ 1.3,  4.7, -0.3]))
     """
-    (a, b, c), turns = _core.crank_rocker_turns(_four(l1, l2, l3, l4))
-    return turns, (a, b, c)
+    flat, shape = _designs(l1, l2, l3, l4)
+    margins, turns = _core.crank_rocker_turns(flat)
+    return turns.reshape(shape) if shape else bool(turns[0]), margins.reshape((*shape, 3))
 
 
 def ground_range(
-    coupler: float,
-    rocker: float,
+    coupler: npt.ArrayLike,
+    rocker: npt.ArrayLike,
     margin: float | tuple[float, float] = 0.05,
-    gamma_min: float = 0.0,
-) -> tuple[float, float]:
+    gamma_min: npt.ArrayLike = 0.0,
+) -> tuple[Any, Any]:
     """Return the least and the greatest ground for which the crank turns.
 
     Parameters
     ----------
-    coupler, rocker : float
+    coupler, rocker : array_like
         Lengths relative to the crank.
     margin : float or (float, float)
         Distance kept from the least and from the greatest ground (equation 6).
-    gamma_min : float
+    gamma_min : array_like
         Least transmission angle, rad, see `least_transmission_angle`; 0 without friction.
 
     Returns
     -------
-    (float, float)
-        Relative to the crank.
+    (float, float) or arrays
+        Relative to the crank; in arrays NaN where the margins leave nothing.
 
     Raises
     ------
     InputError
-        If the margins leave nothing.
+        If the margins leave nothing (of a single pair).
 
     Examples
     --------
@@ -250,36 +245,47 @@ def ground_range(
     >>> [round(x, 8) for x in assur.crank_rocker.ground_range(4.5, 1.5, 0.0, gamma_min=0.2)]
     [4.04451986, 4.97753284]
     """
-    for name, value in (("coupler", coupler), ("rocker", rocker)):
-        _positive(_finite(value, name), name)
     margins = real_array(margin, "margin")
     if margins.shape not in ((), (2,)) or not np.isfinite(margins).all() or (margins < 0.0).any():
         message = f"margin is {margin!r}: one or two numbers, not negative, are needed"
         raise InputError(message)
-    _angle(gamma_min, "gamma_min")
+    named = {"coupler": coupler, "rocker": rocker, "gamma_min": gamma_min}
+    arrays = {name: _finite(value, name) for name, value in named.items()}
+    for name in ("coupler", "rocker"):
+        _positive(arrays[name], name)
+    _angle(arrays["gamma_min"], "gamma_min")
+    flat, shape = _together(*arrays.values())
     both = np.broadcast_to(margins, (2,)).tolist()
-    least, greatest = _core.crank_rocker_ground_range(coupler, rocker, both, gamma_min)
+    ends = _core.crank_rocker_ground_range(flat[0], flat[1], both, flat[2]).reshape((*shape, 2))
+    least, greatest = ends[..., 0], ends[..., 1]
+    if shape:
+        nothing = least > greatest
+        return np.where(nothing, np.nan, least), np.where(nothing, np.nan, greatest)
     if least > greatest:
         message = (
             f"no ground is left: with coupler {coupler!r}, rocker {rocker!r}, margin {margin!r} "
             f"and gamma_min {gamma_min!r} it would be from {least:.6g} to {greatest:.6g}"
         )
         raise InputError(message)
-    return least, greatest
+    return float(least), float(greatest)
 
 
 def least_transmission_angle(
-    f_c: float, r_c: float, f_d: float, r_d: float, rocker: float
-) -> float:
+    f_c: npt.ArrayLike,
+    r_c: npt.ArrayLike,
+    f_d: npt.ArrayLike,
+    r_d: npt.ArrayLike,
+    rocker: npt.ArrayLike,
+) -> Any:
     """Return the least transmission angle at which friction lets the rocker move, rad.
 
     sin γ = (f_C r_C + f_D r_D) / l₃ (equation 8): coefficients of friction and radii of the joints
-    C and D.
+    C and D. In arrays NaN where nothing is passed on at any angle.
 
     Raises
     ------
     InputError
-        If nothing is passed on at any angle.
+        If nothing is passed on at any angle (of a single mechanism).
 
     Examples
     --------
@@ -287,29 +293,38 @@ def least_transmission_angle(
     >>> round(assur.crank_rocker.least_transmission_angle(0.1, 0.5, 0.1, 1.5, 1.5), 7)
     0.1337316
     """
-    friction = [f_c, r_c, f_d, r_d]
-    for name, value in zip(("f_c", "r_c", "f_d", "r_d"), friction, strict=True):
-        if (_finite(value, name) < 0.0).any():
-            message = f"{name} is {value!r}: it must not be negative"
-            raise InputError(message, value=float(value))
-    _positive(_finite(rocker, "rocker"), "rocker")
-    found = _core.crank_rocker_least_gamma(friction, rocker)
-    if found is None:
-        reduced = (f_c * r_c + f_d * r_d) / rocker
+    named = {"f_c": f_c, "r_c": r_c, "f_d": f_d, "r_d": r_d, "rocker": rocker}
+    arrays = {name: _finite(value, name) for name, value in named.items()}
+    for name, array in arrays.items():
+        if (array < 0.0).any():
+            wrong = float(array[array < 0.0].flat[0])
+            message = f"{name} is {wrong!r}: it must not be negative"
+            raise InputError(message, value=wrong)
+    _positive(arrays["rocker"], "rocker")
+    flat, shape = _together(*arrays.values())
+    found = _core.crank_rocker_least_gamma(flat[:4], flat[4])
+    if shape:
+        return found.reshape(shape)
+    if np.isnan(found[0]):
+        a, b, c, d, length = (float(column[0]) for column in flat)
+        reduced = (a * b + c * d) / length
         message = f"f_p = {reduced:.6g} is not below 1: the rocker does not move at any angle"
         raise InputError(message, value=reduced)
-    return found
+    return float(found[0])
 
 
-def transmission_extremes(l1: float, l2: float, l3: float, l4: float) -> tuple[float, float]:
+def transmission_extremes(
+    l1: npt.ArrayLike, l2: npt.ArrayLike, l3: npt.ArrayLike, l4: npt.ArrayLike
+) -> tuple[Any, Any]:
     """Return the least and the greatest transmission angle over a turn of the crank, rad.
 
-    In closed form: γ₂₃ is extreme where crank and ground are in line (φ₁ = 0 and π).
+    In closed form: γ₂₃ is extreme where crank and ground are in line (φ₁ = 0 and π). In arrays NaN
+    where the crank does not turn fully.
 
     Raises
     ------
     InputError
-        If the crank does not turn fully.
+        If the crank does not turn fully (of a single mechanism).
 
     Examples
     --------
@@ -317,12 +332,14 @@ def transmission_extremes(l1: float, l2: float, l3: float, l4: float) -> tuple[f
     >>> [round(x, 6) for x in assur.crank_rocker.transmission_extremes(1, 4.5, 1.5, 4.8)]
     [0.600266, 1.570796]
     """
-    turns, margins = crank_turns(l1, l2, l3, l4)
-    found = _core.crank_rocker_extremes(_four(l1, l2, l3, l4)) if turns else None
-    if found is None:
-        message = f"the crank does not turn: margins {margins}"
+    flat, shape = _designs(l1, l2, l3, l4)
+    ends = _core.crank_rocker_extremes(flat).reshape((*shape, 2))
+    if not shape and np.isnan(ends).any():
+        _, margins = crank_turns(l1, l2, l3, l4)
+        message = f"the crank does not turn: margins {margins.tolist()}"
         raise InputError(message)
-    return found[0], found[1]
+    least, greatest = ends[..., 0], ends[..., 1]
+    return (least, greatest) if shape else (float(least), float(greatest))
 
 
 def blocked(
@@ -340,7 +357,11 @@ def blocked(
     array([[-11.744097,  11.744097]])
     """
     _angle(gamma_min, "gamma_min")
-    crank, coupler, rocker, ground = _four(l1, l2, l3, l4)
+    flat, shape = _designs(l1, l2, l3, l4)
+    if shape:
+        message = f"blocked has intervals of one mechanism, not of {shape}"
+        raise InputError(message)
+    crank, coupler, rocker, ground = (float(column[0]) for column in flat)
     squares, product = coupler**2 + rocker**2, 2.0 * coupler * rocker * np.cos(gamma_min)
     found = []
     # S² = l1² + l4² + 2 l1 l4 cos φ1 at γ23 = π − γ_min and at γ_min.
@@ -390,18 +411,26 @@ def _positive(array: Float, name: str) -> None:
 
 def _angle(value: Any, name: str) -> None:
     array = _finite(value, name)
-    if array.ndim or not 0.0 <= float(array) < np.pi / 2:
-        message = f"{name} is {value!r}: an angle from 0 to below π/2 rad is needed"
-        raise InputError(message)
+    bad = ~((array >= 0.0) & (array < np.pi / 2))
+    if bad.any():
+        wrong = float(array[bad].flat[0])
+        message = f"{name} is {wrong!r}: an angle from 0 to below π/2 rad is needed"
+        raise InputError(message, value=wrong)
 
 
-def _four(*lengths: Any) -> list[float]:
-    numbers = []
-    for name, value in zip(LENGTHS, lengths, strict=True):
-        array = _finite(value, name)
-        if array.ndim:
-            message = f"{name} is an array: one number is needed"
-            raise InputError(message)
+def _together(*arrays: Float) -> tuple[list[Float], tuple[int, ...]]:
+    """Arrays broadcast and laid flat, and their shape."""
+    try:
+        wide = np.broadcast_arrays(*arrays)
+    except ValueError as error:
+        shapes = ", ".join(str(array.shape) for array in arrays)
+        message = f"shapes {shapes} do not broadcast"
+        raise InputError(message) from error
+    return [np.ascontiguousarray(array).reshape(-1) for array in wide], wide[0].shape
+
+
+def _designs(*lengths: Any) -> tuple[list[Float], tuple[int, ...]]:
+    arrays = [_finite(value, name) for name, value in zip(LENGTHS, lengths, strict=True)]
+    for name, array in zip(LENGTHS, arrays, strict=True):
         _positive(array, name)
-        numbers.append(float(array))
-    return numbers
+    return _together(*arrays)

@@ -270,7 +270,7 @@ def test_extremes_and_blocked_angles() -> None:
         (lambda: cr.solve(0.1, 1, 2, 3, 4, assembly="left"), assur.InputError, "assembly"),  # type: ignore[arg-type]
         (lambda: cr.solve([1, 2], [1, 2, 3], 2, 3, 4), assur.InputError, "broadcast"),
         (lambda: cr.grashof(1, 2, 0, 4), assur.DimensionError, "l3 is 0.0"),
-        (lambda: cr.grashof(1, 2, [3], 4), assur.InputError, "one number"),  # type: ignore[arg-type]
+        (lambda: cr.blocked(1, 2, [3], 4, 0.1), assur.InputError, "one mechanism"),  # type: ignore[arg-type]
         (lambda: cr.ground_range(4.0, 2.0, -0.1), assur.InputError, "margin"),
         (lambda: cr.ground_range(4.0, 2.0, 0.0, 1.7), assur.InputError, "gamma_min"),
         (lambda: cr.least_transmission_angle(-0.1, 1, 0, 0, 1), assur.InputError, "f_c is -0.1"),
@@ -280,6 +280,31 @@ def test_extremes_and_blocked_angles() -> None:
 def test_bad_input_is_refused(call: Any, kind: type[Exception], words: str) -> None:
     with pytest.raises(kind, match=words):
         call()
+
+
+def test_designs_at_once() -> None:
+    """What is asked of many designs is what is asked of each."""
+    rng = np.random.default_rng(3)
+    lengths = rng.uniform(0.5, 5.0, (4, 60))
+    kinds, (turns, margins) = cr.grashof(*lengths), cr.crank_turns(*lengths)
+    least, greatest = cr.transmission_extremes(*lengths)
+    assert turns.any()
+    assert not turns.all()
+    for i, one in enumerate(lengths.T.tolist()):
+        assert kinds[i] == cr.grashof(*one)
+        assert turns[i] == cr.crank_turns(*one)[0]
+        np.testing.assert_array_equal(margins[i], cr.crank_turns(*one)[1])
+        if turns[i]:
+            assert (least[i], greatest[i]) == cr.transmission_extremes(*one)
+        else:
+            assert np.isnan(least[i])
+    low, high = cr.ground_range(4.0, [1.02, 2.0, 3.0], gamma_min=[[0.0], [0.2]])
+    assert low.shape == high.shape == (2, 3)
+    assert np.isnan(low[0, 0])
+    assert (low[0, 1], high[0, 1]) == cr.ground_range(4.0, 2.0)
+    angles = cr.least_transmission_angle([0.1, 3.0], 1.0, 0.0, 0.0, 1.5)
+    assert angles[0] == cr.least_transmission_angle(0.1, 1.0, 0.0, 0.0, 1.5)
+    assert np.isnan(angles[1])
 
 
 def test_what_does_not_reach_is_nan() -> None:

@@ -47,44 +47,144 @@ pub(crate) fn crank_rocker_solve<'py>(
     Ok(PyArray1::from_vec(py, rows))
 }
 
-/// The type by Grashof, as the field names it.
+/// Rows of lengths, one design after another.
+fn designs(lengths: &[Flat<'_>; 4]) -> PyResult<Vec<core::Lengths>> {
+    let mut columns = Vec::new();
+    for column in lengths {
+        columns.push(column.as_slice()?);
+        same(columns[0].len(), column.as_slice()?.len())?;
+    }
+    Ok((0..columns[0].len()).map(|i| [0, 1, 2, 3].map(|column| columns[column][i])).collect())
+}
+
+/// Types by Grashof, as the field names them.
 #[pyfunction]
-pub(crate) fn crank_rocker_grashof(lengths: [f64; 4], tolerance: f64) -> &'static str {
-    match core::grashof(lengths, tolerance) {
+pub(crate) fn crank_rocker_grashof(
+    lengths: [Flat<'_>; 4],
+    tolerance: f64,
+) -> PyResult<Vec<&'static str>> {
+    let name = |one: &core::Lengths| match core::grashof(*one, tolerance) {
         core::Grashof::CrankRocker => "crank-rocker",
         core::Grashof::RockerCrank => "rocker-crank",
         core::Grashof::DoubleCrank => "double-crank",
         core::Grashof::DoubleRocker => "double-rocker",
         core::Grashof::TripleRocker => "triple-rocker",
         core::Grashof::ChangePoint => "change-point",
-    }
+    };
+    Ok(designs(&lengths)?.iter().map(name).collect())
 }
 
-/// The three margins, and whether the crank turns.
+/// The three margins of each design, and whether its crank turns.
 #[pyfunction]
-pub(crate) fn crank_rocker_turns(lengths: [f64; 4]) -> ([f64; 3], bool) {
-    (core::margins(lengths), core::crank_turns(lengths))
+pub(crate) fn crank_rocker_turns<'py>(
+    py: Python<'py>,
+    lengths: [Flat<'py>; 4],
+) -> PyResult<(Array<'py>, Bound<'py, PyArray1<bool>>)> {
+    let designs = designs(&lengths)?;
+    let margins = designs.iter().flat_map(|one| core::margins(*one)).collect();
+    let turns = designs.iter().map(|one| core::crank_turns(*one)).collect();
+    Ok((PyArray1::from_vec(py, margins), PyArray1::from_vec(py, turns)))
 }
 
-/// Least and greatest relative ground.
+/// Least and greatest relative ground of each pair of coupler and rocker.
 #[pyfunction]
-pub(crate) fn crank_rocker_ground_range(
-    coupler: f64,
-    rocker: f64,
+pub(crate) fn crank_rocker_ground_range<'py>(
+    py: Python<'py>,
+    coupler: Flat<'py>,
+    rocker: Flat<'py>,
     margins: [f64; 2],
-    gamma_min: f64,
-) -> [f64; 2] {
-    core::ground_range(coupler, rocker, margins, gamma_min)
+    gamma_min: Flat<'py>,
+) -> PyResult<Array<'py>> {
+    let (coupler, rocker) = (coupler.as_slice()?, rocker.as_slice()?);
+    let gamma_min = gamma_min.as_slice()?;
+    same(coupler.len(), rocker.len())?;
+    same(coupler.len(), gamma_min.len())?;
+    let mut ends = Vec::with_capacity(2 * coupler.len());
+    for (i, &coupler) in coupler.iter().enumerate() {
+        ends.extend(core::ground_range(coupler, rocker[i], margins, gamma_min[i]));
+    }
+    Ok(PyArray1::from_vec(py, ends))
 }
 
-/// Least and greatest transmission angle over a turn.
+/// Least and greatest transmission angle over a turn; NaN where the crank does not turn.
 #[pyfunction]
-pub(crate) fn crank_rocker_extremes(lengths: [f64; 4]) -> Option<[f64; 2]> {
-    core::transmission_extremes(lengths)
+pub(crate) fn crank_rocker_extremes<'py>(
+    py: Python<'py>,
+    lengths: [Flat<'py>; 4],
+) -> PyResult<Array<'py>> {
+    let ends = |one: &core::Lengths| {
+        let turns = core::crank_turns(*one);
+        let found = if turns { core::transmission_extremes(*one) } else { None };
+        found.unwrap_or([f64::NAN; 2])
+    };
+    Ok(PyArray1::from_vec(py, designs(&lengths)?.iter().flat_map(ends).collect()))
 }
 
-/// Least transmission angle that friction allows.
+/// Least transmission angles that friction allows; NaN where nothing is passed on. `friction`:
+/// coefficient and radius at C, at D.
 #[pyfunction]
-pub(crate) fn crank_rocker_least_gamma(friction: [f64; 4], rocker: f64) -> Option<f64> {
-    core::least_gamma(friction, rocker)
+pub(crate) fn crank_rocker_least_gamma<'py>(
+    py: Python<'py>,
+    friction: [Flat<'py>; 4],
+    rocker: Flat<'py>,
+) -> PyResult<Array<'py>> {
+    let (rows, rocker) = (designs(&friction)?, rocker.as_slice()?);
+    same(rows.len(), rocker.len())?;
+    let least = rows.iter().zip(rocker).map(|(row, &rocker)| core::least_gamma(*row, rocker));
+    Ok(PyArray1::from_vec(py, least.map(|angle| angle.unwrap_or(f64::NAN)).collect()))
+}
+
+/// Kind, whether outer, and t, φ₁, l₄, ground, speeds of D and of the rod before and after.
+type Event = (&'static str, bool, [f64; 8]);
+/// Rows of t, l₄, γ, sliding, B, C (8 numbers each), and events; or why there is none.
+type Run<'py> = (Array<'py>, Vec<Event>, Option<(&'static str, f64)>);
+
+/// Follows a crank-rocker that jams. `ground`: a function of the time. `case`: l₁, l₂, l₃, the least
+/// transmission angle, speed, φ₀, turns.
+#[pyfunction]
+pub(crate) fn crank_rocker_run<'py>(
+    py: Python<'py>,
+    case: [f64; 7],
+    ground: Bound<'py, PyAny>,
+) -> PyResult<Run<'py>> {
+    let [l1, l2, l3, gamma_min, speed, phi0, turns] = case;
+    let case = core::Case { lengths: [l1, l2, l3], gamma_min, speed, phi0, turns };
+    let mut calls = 0_u32;
+    let found = core::run(&case, |t| {
+        // Signals are heard in between.
+        calls = calls.wrapping_add(1);
+        if calls.is_multiple_of(4096) {
+            py.check_signals()?;
+        }
+        ground.call1((t,))?.extract::<f64>()
+    });
+    let nothing =
+        |why, value| Ok((PyArray1::from_vec(py, Vec::new()), Vec::new(), Some((why, value))));
+    match found {
+        Err(core::Refused::Ground(error)) => Err(error),
+        Err(core::Refused::OutOfReach(s)) => nothing("reach", s),
+        Err(core::Refused::Blocked(core::Side::Outer, gamma)) => nothing("outer", gamma),
+        Err(core::Refused::Blocked(core::Side::Inner, gamma)) => nothing("inner", gamma),
+        Ok((rows, events)) => {
+            let flat = rows.iter().flat_map(|row| {
+                let [[bx, by], [cx, cy]] = row.places;
+                let sliding = if row.sliding { 1.0 } else { 0.0 };
+                [row.t, row.l4, row.gamma, sliding, bx, by, cx, cy]
+            });
+            let event = |event: &core::Event| {
+                let kind = match event.kind {
+                    core::Kind::Jam => "jam",
+                    core::Kind::Return => "return",
+                    core::Kind::DeadPoint => "dead point",
+                    core::Kind::NoReturn => "no return",
+                };
+                let [g0, g1] = event.ground_speed;
+                let [r0, r1] = event.rod_speed;
+                let numbers = [event.t, event.phi1, event.l4, event.ground, g0, g1, r0, r1];
+                (kind, event.side == core::Side::Outer, numbers)
+            };
+            let events = events.iter().map(event).collect();
+            Ok((PyArray1::from_vec(py, flat.collect()), events, None))
+        }
+    }
 }

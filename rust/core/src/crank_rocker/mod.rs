@@ -5,9 +5,11 @@
 //! the crank-rocker mechanism with non-ideal constraints (in Russian), sections 1 and 2.
 
 mod motion;
+mod run;
 mod zone;
 
 pub use motion::{Assembly, Lengths, Position, Rates, position};
+pub use run::{Case, Event, Kind, Refused, Row, Side, run};
 pub use zone::{
     Grashof, crank_turns, grashof, ground_range, least_gamma, margins, transmission_extremes,
 };
