@@ -3,6 +3,26 @@
 //! Crank l₁ at A, coupler l₂, rocker l₃ at D, ground l₄ = AD, which may move; φ₁ counts from where
 //! the crank's pin is farthest from D. V. K. Manzhosov and T. E. Petrova, Modelling of the motion of
 //! the crank-rocker mechanism with non-ideal constraints (in Russian), sections 1 and 2.
+//!
+//! # Examples
+//!
+//! The paper's figure 8: a jam before the crank points away from the rocker, a return after it.
+//!
+//! ```
+//! use assur::crank_rocker::{Case, Kind, run};
+//!
+//! let case = Case {
+//!     lengths: [1.0, 4.5, 1.5],
+//!     gamma_min: 0.2,
+//!     speed: 1.0,
+//!     phi0: 1.5,
+//!     turns: 1.0,
+//! };
+//! let (rows, events) = run(&case, |_| Ok::<f64, ()>(4.995)).expect("a free start");
+//! assert_eq!([events[0].kind, events[1].kind], [Kind::Jam, Kind::Return]);
+//! assert!((events[0].phi1.to_degrees() - 348.2559026309).abs() < 1e-9);
+//! assert!(rows.iter().any(|row| row.sliding));
+//! ```
 
 mod motion;
 mod run;

@@ -27,6 +27,7 @@ mod spread;
 mod state;
 mod template;
 mod track;
+mod unknowns;
 mod walk;
 
 pub use explain::Diagnosis;
