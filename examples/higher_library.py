@@ -46,10 +46,10 @@ def triad() -> assur.Mechanism:
 
 
 def stephenson_reversed() -> assur.Mechanism:
-    """Stephenson's six-bar driven by the rocker of its four-bar loop: of class III then.
+    """Stephenson's six-bar driven by the rocker that its coupler plate hangs on by the rod.
 
-    Driven at the other ternary link the same chain is of class II; here rod, coupler plate and
-    both other rockers hang together.
+    Class III then: rod, coupler, crank and rocker hang together. Driven by crank or rocker of its
+    four-bar loop the same chain is of class II.
     """
     return assur.Mechanism(
         joints={

@@ -59,7 +59,7 @@ class Event:
     text: str
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Run:
     """A motion in time; made by `run`. A is the origin, D on the negative x-axis.
 
@@ -84,6 +84,10 @@ class Run:
     C: Float
     D: Float
     events: tuple[Event, ...]
+
+    def __repr__(self) -> str:
+        kinds = ", ".join(event.kind for event in self.events) or "no events"
+        return f"<assur.crank_rocker.Run of {len(self.t)} positions: {kinds}>"
 
 
 def run(

@@ -49,7 +49,7 @@ TABLE = (1.0, 4.5, 1.5)
 TABLE_GROUNDS = (4.8, 4.85, 4.9, 4.95, 4.995)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Solution:
     """Positions and rates of section 1; made by `solve`.
 
@@ -90,6 +90,9 @@ class Solution:
     v_C: Float  # noqa: N815
     v_B: Float  # noqa: N815
     pushes: npt.NDArray[np.bool_]
+
+    def __repr__(self) -> str:
+        return f"<assur.crank_rocker.Solution, shape {self.S.shape}>"
 
 
 class Table(NamedTuple):

@@ -57,6 +57,7 @@ def test_figure_8() -> None:
     assert math.isclose(back.ground_speed[0], 0.170183366214, abs_tol=6e-13)
     assert back.ground_speed[1] == 0.0
     assert "D slides" in jam.text
+    assert "jam, return" in repr(run)
 
 
 @pytest.mark.parametrize(

@@ -312,3 +312,4 @@ def test_what_does_not_reach_is_nan() -> None:
     assert np.isnan(found.S[0])
     assert np.isfinite(found.gamma[1])
     assert np.isnan(found.v_B[0])
+    assert len(repr(found)) < 80

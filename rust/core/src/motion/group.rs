@@ -3,8 +3,8 @@
 //! The unknown rotations are unit vectors, turned by every step; the equations are polynomials
 //! in them and in the slides, so the matrix is exact. It starts where the caller has put the
 //! rotations and slides, on the way from the drawing. Every matrix serves two steps, which
-//! together converge to the third order (Traub, Iterative Methods for the Solution of Equations,
-//! 1964, section 8.5). Work goes on in all groups of positions at once; each lane stops where its
+//! together converge to the third order (Potra & Pták, Nondiscrete Induction and Iterative
+//! Processes, 1984). Work goes on in all groups of positions at once; each lane stops where its
 //! own steps end.
 
 use super::state::{Context, FLAT2, Fault, State, Status};
