@@ -78,13 +78,14 @@ def fourier(k: npt.ArrayLike, harmonics: int = 6, terms: int | None = None) -> F
         The last harmonic, even.
     terms : int, optional
         Terms kept of each coefficient's own series in 1/k: powers up to sin^(2 terms) φ, so `terms`
-        beside the 1 in A0 and one less for each further coefficient. None: as many as add
-        anything.
+        beside the 1 in A0 and one less for each further coefficient. None: as many as the last
+        bit takes.
 
     Returns
     -------
     numpy.ndarray
-        A0, A1, A2, A4 … A_harmonics; shape k.shape + (2 + harmonics/2,).
+        A0, A1, A2, A4 … A_harmonics; shape k.shape + (2 + harmonics/2,). Each is right to the last
+        bit, with `terms` or all: within 0.51 units in the last place (below 1e-300, within two).
 
     Raises
     ------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from fractions import Fraction
 from typing import Any
 
 import mpmath  # type: ignore[import-untyped]
@@ -19,6 +20,8 @@ RATIOS = (1.5, 2.0, 3.0, 3.7, 5.0, 8.0, 20.0)
 ANGLES = np.array([-7.0, -1e-4, 1e-9, 0.3, 1.2, math.pi / 2, 2.6, 3.1, 4.4, 6.2, 40.0])
 # Some tens of roundings.
 EXACT = 2e-15
+# Half a unit in the last place, a little more: relative to a number just above a power of two.
+LAST_BIT = 1.14e-16
 
 
 def exact(phi: Any, k: Any) -> Any:
@@ -89,10 +92,10 @@ def test_coefficients_printed() -> None:
     assert math.isclose(sc.fourier(k, 0, terms=4)[0], more, rel_tol=4e-16)
 
 
-@pytest.mark.parametrize("k", [1.05, *RATIOS])
+@pytest.mark.parametrize("k", [1.05, 1.1, 1.2, 1.7, 2.5, *RATIOS])
 def test_coefficients_at_fifty_digits(k: float) -> None:
     """By the integral that defines them (trapezoids of a periodic function converge at once)."""
-    count = 4000 if k < 1.2 else 600
+    count = 4000 if k < 1.1 else 600
     points = [2 * MP.pi * i / count for i in range(count)]
     values = [exact(p, MP.mpf(k)) for p in points]
     found = sc.fourier(k, 12)
@@ -101,9 +104,23 @@ def test_coefficients_at_fifty_digits(k: float) -> None:
         cosines = (MP.cos(harmonic * p) for p in points)
         total = MP.fsum(v * c for v, c in zip(values, cosines, strict=True)) / count
         wanted = total if harmonic == 0 else 2 * total
-        # The longer the series, the more roundings are in its terms.
-        allowed = 4e-16 if k >= 2 else 4e-15
-        assert abs(found[place] - wanted) <= allowed * abs(wanted) + MP.mpf("1e-40"), harmonic
+        assert abs(found[place] - wanted) <= LAST_BIT * abs(wanted) + MP.mpf("1e-40"), harmonic
+
+
+@pytest.mark.parametrize("k", [1.05, 1.2, *RATIOS, 100.0])
+@pytest.mark.parametrize("terms", [0, 1, 2, 3, 4, 5, 6, 20])
+def test_coefficients_of_few_terms_in_fractions(k: float, terms: int) -> None:
+    """By the powers of the sine that are kept, in whole numbers."""
+    found = sc.fourier(k, 12, terms=terms)
+    for n in range(7):
+        inner = sum(
+            Fraction(math.comb(2 * m, m) * math.comb(2 * m, m - n), (2 * m - 1) * 16**m)
+            / Fraction(k) ** (2 * m - 1)
+            for m in range(max(n, 1), terms + 1)
+        )
+        wanted = 1 + inner if n == 0 else (-1) ** n * 2 * inner
+        got = Fraction(float(found[0 if n == 0 else n + 1]))
+        assert abs(got - wanted) <= Fraction(LAST_BIT) * abs(wanted), n
 
 
 @pytest.mark.parametrize("k", RATIOS)

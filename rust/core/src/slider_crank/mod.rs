@@ -25,6 +25,7 @@ mod fraction;
 mod greatest;
 mod jet;
 mod series;
+mod twofold;
 
 pub use deviation::{Deviation, Quantity, deviation};
 pub use exact::{rod_angle, rod_point, stroke};
