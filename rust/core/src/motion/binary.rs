@@ -123,7 +123,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// An orientation that turns with a leg, where something else asks for it.
     #[inline(always)]
-    fn turn_other(&mut self, g: usize, cx: &Context<'_>, o: usize, class: usize) {
+    pub(super) fn turn_other(&mut self, g: usize, cx: &Context<'_>, o: usize, class: usize) {
         let len = self.len;
         let rotation = self.class[class][g];
         self.orient[o * len][g] =

@@ -20,19 +20,22 @@ impl<R: Real, const G: usize> State<R, G> {
     /// it must be done again.
     #[inline(always)]
     pub(crate) fn solve_group(&mut self, cx: &Context<'_>, group: &Group, index: usize) {
+        if let (Some(bars), 1) = (&group.bars, cx.jets.drivers) {
+            self.solve_bars(cx, group, bars, index);
+            return;
+        }
         let mut matrix = std::mem::take(&mut self.matrix);
-        let mut work =
-            Work { done: self.care, size2: [R::ONE; G], first: [R::ZERO; G], rest: [R::ZERO; G] };
+        let mut work = Work::<R, G>::new(self.care);
         for unused in work.done.iter_mut().skip(self.groups) {
             *unused = R::Mask::NONE.not();
         }
         let known = work.done;
         self.prepare_group(cx, group);
+        self.place_group(cx, group);
         for round in 0..NEWTON_ROUNDS {
             if work.done.iter().all(|done| done.all()) {
                 break;
             }
-            self.place_group(cx, group);
             self.linearise(cx, group, &mut matrix);
             let determinants = invert(&mut matrix, group.rows);
             for g in 0..G {
@@ -41,13 +44,16 @@ impl<R: Real, const G: usize> State<R, G> {
             }
             work.weigh(cx, group, &matrix);
             let first = self.step(group, &matrix, &work.done);
-            let waits = work.bent(first);
+            let waits = work.waits(first);
             self.place_group(cx, group);
-            self.miss(cx, group, 0, &mut matrix[2 * group.rows * group.rows..]);
-            let second = self.step(group, &matrix, &waits);
+            let mut second = [R::ZERO; G];
+            if !waits.iter().all(|waits| waits.all()) {
+                self.miss(cx, group, 0, &mut matrix[2 * group.rows * group.rows..]);
+                second = self.step(group, &matrix, &waits);
+                self.place_group(cx, group);
+            }
             work.count(first, second, &waits, round == 0);
         }
-        self.place_group(cx, group);
         for g in 0..G {
             self.care[g] = self.care[g].or(work.done[g].not());
             self.first_step[g] = self.first_step[g].max(work.first[g]);
@@ -137,19 +143,22 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Condition of the group, whose inverse has this size, and of all that hangs on it.
     #[inline(always)]
-    fn judge(&mut self, g: usize, cx: &Context<'_>, group: &Group, index: usize, size2: R) {
+    pub(super) fn judge(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        group: &Group,
+        index: usize,
+        size2: R,
+    ) {
         let mut before = R::ONE;
         for l in &group.loops {
             for point in [l.start, l.end] {
                 before = before.max(self.point_condition[point][g]);
             }
         }
-        for edge in group.edges.iter().filter(|edge| edge.turns.is_none()) {
-            let class = cx.plan.class_of(edge.edge);
-            let own = |l: &Loop| l.chord == Chord::Length { class };
-            if !group.loops.iter().any(own) {
-                before = before.max(self.class_condition[class][g]);
-            }
+        if group.bars.is_none() {
+            before = before.max(self.carried(g, cx, group));
         }
         let condition = before * size2.max(R::ONE);
         // No number counts as great.
@@ -168,22 +177,41 @@ impl<R: Real, const G: usize> State<R, G> {
             self.status = Status::Singular;
         }
     }
+
+    /// Square of the condition of the rotations that come from before the group.
+    #[inline(always)]
+    fn carried(&self, g: usize, cx: &Context<'_>, group: &Group) -> R {
+        let mut before = R::ONE;
+        for edge in group.edges.iter().filter(|edge| edge.turns.is_none()) {
+            let class = cx.plan.class_of(edge.edge);
+            let own = |l: &Loop| l.chord == Chord::Length { class };
+            if !group.loops.iter().any(own) {
+                before = before.max(self.class_condition[class][g]);
+            }
+        }
+        before
+    }
 }
 
 /// How far the iteration is.
-struct Work<R: Real, const G: usize> {
+pub(super) struct Work<R: Real, const G: usize> {
     /// Lanes that need no more steps.
-    done: [R::Mask; G],
+    pub done: [R::Mask; G],
     /// Square of the size of the last inverse.
-    size2: [R; G],
+    pub size2: [R; G],
     /// Greatest change of an unknown by the first step (rad, or of the size).
-    first: [R; G],
+    pub first: [R; G],
     /// By the others, together.
-    rest: [R; G],
+    pub rest: [R; G],
 }
 
 impl<R: Real, const G: usize> Work<R, G> {
-    /// Takes the size of the inverse.
+    #[inline(always)]
+    pub(super) fn new(done: [R::Mask; G]) -> Self {
+        Self { done, size2: [R::ONE; G], first: [R::ZERO; G], rest: [R::ZERO; G] }
+    }
+
+    /// Measures the inverse.
     #[inline(always)]
     fn weigh(&mut self, cx: &Context<'_>, group: &Group, matrix: &[[R; G]]) {
         let n = group.rows;
@@ -203,27 +231,48 @@ impl<R: Real, const G: usize> Work<R, G> {
                 size2[g] += lever2 * sum;
             }
         }
+        self.take_size(size2);
+    }
+
+    /// Takes the size of the inverse.
+    #[inline(always)]
+    pub(super) fn take_size(&mut self, size2: [R; G]) {
         for g in 0..G {
             self.size2[g] = R::select(self.done[g], self.size2[g], size2[g]);
         }
     }
 
-    /// Lanes that take no second step by the same matrix: what is done, and where the first step
-    /// was so long that the matrix is not that of the solution (beside a fold such a step leads to
-    /// the other assembly).
+    /// Lanes that take no second step by the same matrix: what is done or will be by the first
+    /// step, and where that was so long that the matrix is not that of the solution (beside a fold
+    /// such a step leads to the other assembly).
     #[inline(always)]
-    fn bent(&self, first: [R; G]) -> [R::Mask; G] {
+    pub(super) fn waits(&self, first: [R; G]) -> [R::Mask; G] {
         let mut waits = self.done;
         for g in 0..G {
             let turned2 = first[g] * first[g] * self.size2[g];
-            waits[g] = waits[g].or(turned2.lt(R::splat(NEWTON_BENT2)).not());
+            let bent = turned2.lt(R::splat(NEWTON_BENT2)).not();
+            waits[g] = waits[g].or(bent).or(self.enough(g, first[g]));
         }
         waits
     }
 
+    /// Whether nothing is left after one step: of its error the square remains, by the condition
+    /// (Kantorovich's theorem).
+    #[inline(always)]
+    fn enough(&self, g: usize, first: R) -> R::Mask {
+        let left = first * first;
+        (left * left * self.size2[g].max(R::ONE)).lt(R::splat(NEWTON_LEFT * NEWTON_LEFT))
+    }
+
     /// Counts the two steps of a round.
     #[inline(always)]
-    fn count(&mut self, first: [R; G], second: [R; G], waits: &[R::Mask; G], is_first: bool) {
+    pub(super) fn count(
+        &mut self,
+        first: [R; G],
+        second: [R; G],
+        waits: &[R::Mask; G],
+        is_first: bool,
+    ) {
         for g in 0..G {
             let done = self.done[g];
             let second = R::select(waits[g], R::ZERO, second[g]);
@@ -232,10 +281,11 @@ impl<R: Real, const G: usize> Work<R, G> {
             if is_first {
                 self.first[g] = R::select(done, self.first[g], first[g]);
             }
-            // What is left is about the product; of one step alone about its square.
+            // What is left is about the product.
             let left = first[g] * second;
             let settled = waits[g].not().and(left.lt(R::splat(NEWTON_LEFT)));
-            self.done[g] = done.or(settled).or(first[g].lt(R::splat(NEWTON_DONE)));
+            let is_short = first[g].lt(R::splat(NEWTON_DONE)).or(self.enough(g, first[g]));
+            self.done[g] = done.or(settled).or(is_short);
         }
     }
 }
@@ -243,7 +293,7 @@ impl<R: Real, const G: usize> Work<R, G> {
 /// A unit vector turned by a small angle, and a unit vector again: by Taylor's polynomials of the
 /// third degree, then one step of Newton's for 1/√.
 #[inline(always)]
-fn turned<R: Real>(unit: Vector<R>, angle: R) -> Vector<R> {
+pub(super) fn turned<R: Real>(unit: Vector<R>, angle: R) -> Vector<R> {
     let half2 = angle * angle * R::splat(0.5);
     let turn = Vector::new(R::ONE - half2, angle * (R::ONE - half2 * R::splat(1.0 / 3.0)));
     let new = unit * turn;

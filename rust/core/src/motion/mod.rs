@@ -1,6 +1,7 @@
 //! Motions: designs × positions, with analogues.
 
 mod analogue;
+mod bars;
 mod binary;
 mod bridge;
 mod cell;

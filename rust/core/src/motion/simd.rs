@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 use super::rows::{Job, Worker};
 use super::state::{Context, State};
 use crate::lanes::Lanes;
+use crate::plan::group::Group;
 
 /// A set of vector instructions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -63,11 +64,18 @@ impl Default for Simd {
 
 /// The executor compiled for a set of instructions.
 ///
-/// Positions are a function of their own: both the way and the rows call it, and the compiler has
-/// less to do at once.
+/// Positions are a function of their own, as both the way and the rows call it, and so are groups
+/// above class II: the compiler has less to do at once.
 pub(crate) trait Level {
     /// See [`State::solve_all`].
     fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>);
+    /// See [`State::solve_group`].
+    fn group<const G: usize>(
+        state: &mut State<Lanes, G>,
+        cx: &Context<'_>,
+        group: &Group,
+        index: usize,
+    );
     /// See [`Worker::run`].
     fn run(worker: &mut Worker<'_>, job: &mut Job<'_, '_>);
 }
@@ -85,14 +93,23 @@ pub(crate) fn solve(simd: Simd, worker: &mut Worker<'_>, job: &mut Job<'_, '_>) 
 
 /// The baseline, for which nothing is asked.
 mod baseline {
-    use super::{Context, Job, Lanes, Level, State, Worker};
+    use super::{Context, Group, Job, Lanes, Level, State, Worker};
 
     pub(super) struct Baseline;
 
     impl Level for Baseline {
         #[inline(never)]
         fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
-            state.solve_all(cx);
+            state.solve_all(cx, &Self::group);
+        }
+        #[inline(never)]
+        fn group<const G: usize>(
+            state: &mut State<Lanes, G>,
+            cx: &Context<'_>,
+            group: &Group,
+            index: usize,
+        ) {
+            state.solve_group(cx, group, index);
         }
         #[inline(never)]
         fn run(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
@@ -107,7 +124,7 @@ mod baseline {
 macro_rules! level {
     ($module:ident, $level:ident, $features:literal) => {
         mod $module {
-            use super::{Context, Job, Lanes, Level, State, Worker};
+            use super::{Context, Group, Job, Lanes, Level, State, Worker};
 
             pub(super) struct $level;
 
@@ -117,10 +134,31 @@ macro_rules! level {
                 fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
                     #[target_feature(enable = $features)]
                     fn with<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
-                        state.solve_all(cx);
+                        state.solve_all(cx, &$level::group);
                     }
                     // SAFETY: `solve` comes here only if `Simd::best` has found them.
                     unsafe { with(state, cx) }
+                }
+                #[inline(always)]
+                #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+                fn group<const G: usize>(
+                    state: &mut State<Lanes, G>,
+                    cx: &Context<'_>,
+                    group: &Group,
+                    index: usize,
+                ) {
+                    #[inline(never)]
+                    #[target_feature(enable = $features)]
+                    fn with<const G: usize>(
+                        state: &mut State<Lanes, G>,
+                        cx: &Context<'_>,
+                        group: &Group,
+                        index: usize,
+                    ) {
+                        state.solve_group(cx, group, index);
+                    }
+                    // SAFETY: as above.
+                    unsafe { with(state, cx, group, index) }
                 }
                 #[inline(always)]
                 #[allow(unsafe_code, reason = "the machine was asked for these instructions")]

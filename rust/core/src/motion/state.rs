@@ -1,8 +1,10 @@
 //! One position of one design, or eight: every point, orientation and slide with its
 //! analogues.
 
+use super::bars::Loops;
 use crate::lanes::{Mask, Real};
 use crate::plan::bind::Bound;
+use crate::plan::group::Group;
 use crate::plan::jet::Jets;
 use crate::plan::{Along, Dyad, Plan, Step, Unknown};
 use crate::plane::Vector;
@@ -112,6 +114,8 @@ pub struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) chords: Vec<[Vector<R>; G]>,
     /// 1/length of every chord that has one.
     pub(crate) per: Vec<[R; G]>,
+    /// Work space for groups of binary links.
+    pub(super) loops: Loops<R>,
     /// Determinant of every group's matrix (with analogues only).
     pub(crate) determinants: Vec<[R; G]>,
     /// The same of its last round's.
@@ -172,6 +176,7 @@ impl<R: Real, const G: usize> State<R, G> {
             guides: vec![[Vector::ZERO; G]; edges * len],
             chords: vec![[Vector::ZERO; G]; loops * len],
             per: vec![[R::ONE; G]; loops],
+            loops: Loops::default(),
             determinants: vec![[R::ZERO; G]; plan.groups().count()],
             bends: vec![[R::ZERO; G]; plan.groups().count()],
             first_step: [R::ZERO; G],
@@ -212,9 +217,14 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Computes positions at their `q`, `unit` and `signs`.
+    /// Computes positions at their `q`, `unit` and `signs`; `group` is
+    /// [`solve_group`](Self::solve_group), compiled by itself.
     #[inline(always)]
-    pub(crate) fn solve_all(&mut self, cx: &Context<'_>) {
+    pub(crate) fn solve_all(
+        &mut self,
+        cx: &Context<'_>,
+        group: &impl Fn(&mut Self, &Context<'_>, &Group, usize),
+    ) {
         self.start(cx);
         for (index, step) in cx.plan.steps.iter().enumerate() {
             if R::LANES == 1 && self.is_over() {
@@ -230,7 +240,7 @@ impl<R: Real, const G: usize> State<R, G> {
                     }
                 },
                 &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
-                Step::Group(group) => self.solve_group(cx, group, index),
+                Step::Group(higher) => group(self, cx, higher, index),
                 Step::Fit(fit) => {
                     for g in 0..self.groups.min(G) {
                         self.fit(g, cx, fit, index);
@@ -360,6 +370,11 @@ impl<R: Real, const G: usize> State<R, G> {
 }
 
 impl State {
+    #[inline(never)]
+    fn solve_one_group(&mut self, cx: &Context<'_>, group: &Group, index: usize) {
+        self.solve_group(cx, group, index);
+    }
+
     /// Computes one position at `q` (rad; slide drivers in units of the scale).
     #[inline(never)]
     pub fn solve(&mut self, cx: &Context<'_>, q: &[f64]) {
@@ -372,7 +387,7 @@ impl State {
                 self.unit[driver][0] = Vector::at_angle(value);
             }
         }
-        self.solve_all(cx);
+        self.solve_all(cx, &Self::solve_one_group);
         if self.status == Status::Ok && self.near_singular(0) {
             self.status = Status::NearSingular;
         }

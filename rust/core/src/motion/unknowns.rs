@@ -1,10 +1,10 @@
 //! The unknowns of groups along a way: where the iteration for a position begins.
 
-use super::cell::{Cell, small_turn};
+use super::cell::small_turn;
 use super::state::{Context, State};
 use super::track::{Spot, Track};
 use super::walk::{Knot, Seed, Start, Walker};
-use crate::lanes::{Mask, Real};
+use crate::lanes::{LANES, Mask, Real};
 use crate::plane::Vector;
 
 impl Track {
@@ -53,15 +53,12 @@ impl Track {
         self.cells[knot * count..][..count].iter().map(|cell| [cell.at(step), 0.0, 0.0]).collect()
     }
 
-    /// An unknown slide of the groups (of so many unknowns) at places.
+    /// An unknown slide of the groups (of so many unknowns) at places; 0 where the way does not
+    /// even begin (nothing on it is covered).
     #[inline(always)]
     pub(crate) fn slide<R: Real>(&self, spot: &Spot<R>, place: usize, count: usize) -> R {
-        if self.cells.len() < self.at.len() * count || self.at.is_empty() {
-            // The way does not even begin: nothing on it is covered.
-            return R::ZERO;
-        }
-        let (change, _) = self.change(spot, place, count);
-        self.of_cells(spot, place, count, |cell| cell.coefficients[0]) + change
+        let Some(cell) = self.cell(spot, place, count) else { return R::ZERO };
+        cell.coefficients[0] + cell.change(spot.place)
     }
 
     /// An unknown rotation likewise.
@@ -72,47 +69,62 @@ impl Track {
         place: usize,
         count: usize,
     ) -> Vector<R> {
-        if self.cells.len() < self.at.len() * count || self.at.is_empty() {
-            return Vector::ONE;
-        }
-        let (change, unit) = self.change(spot, place, count);
-        unit * small_turn(change)
+        let Some(cell) = self.cell(spot, place, count) else { return Vector::ONE };
+        cell.unit * small_turn(cell.change(spot.place))
     }
 
-    /// How far an unknown is from that at the knot before, and the unit vector there.
+    /// The cell of each lane; neighbouring positions are mostly in one cell or two.
     #[inline(always)]
-    fn change<R: Real>(&self, spot: &Spot<R>, place: usize, count: usize) -> (R, Vector<R>) {
-        let at = if let Some([first, last]) = spot.pair {
+    fn cell<R: Real>(&self, spot: &Spot<R>, place: usize, count: usize) -> Option<CellAt<R>> {
+        if self.cells.len() < self.at.len() * count {
+            return None;
+        }
+        let cell = |knot: usize| self.cells.get(knot * count + place);
+        if let Some([first, last]) = spot.pair {
+            let (a, b) = (cell(first)?, cell(last)?);
             let later = R::ZERO.lt(spot.is_last);
-            R::select(later, R::splat(self.at[last]), R::splat(self.at[first]))
-        } else {
-            R::from_lanes(|lane| self.at[spot.knot[lane]])
-        };
-        let step = spot.place - at;
-        let mut sum = R::ZERO;
-        for k in (1..6).rev() {
-            sum = sum * step + self.of_cells(spot, place, count, |cell| cell.coefficients[k]);
-        }
-        let x = self.of_cells(spot, place, count, |cell| cell.unit.x);
-        let y = self.of_cells(spot, place, count, |cell| cell.unit.y);
-        (sum * step, Vector::new(x, y))
-    }
-
-    /// A number of each lane's cell; neighbouring positions are mostly in one cell or two.
-    #[inline(always)]
-    fn of_cells<R: Real>(
-        &self,
-        spot: &Spot<R>,
-        place: usize,
-        count: usize,
-        of: impl Fn(&Cell) -> f64,
-    ) -> R {
-        let cell = |knot: usize| of(&self.cells[knot * count + place]);
-        match spot.pair {
-            Some([first, last]) => {
-                R::select(R::ZERO.lt(spot.is_last), R::splat(cell(last)), R::splat(cell(first)))
+            let of = |a: f64, b: f64| R::select(later, R::splat(b), R::splat(a));
+            let mut coefficients = [R::ZERO; 6];
+            for (own, (&a, &b)) in
+                coefficients.iter_mut().zip(a.coefficients.iter().zip(&b.coefficients))
+            {
+                *own = of(a, b);
             }
-            None => R::from_lanes(|lane| cell(spot.knot[lane])),
+            let unit = Vector::new(of(a.unit.x, b.unit.x), of(a.unit.y, b.unit.y));
+            return Some(CellAt { at: of(self.at[first], self.at[last]), coefficients, unit });
         }
+        let mut cells = [cell(spot.knot[0])?; LANES];
+        for lane in 1..R::LANES {
+            cells[lane] = cell(spot.knot[lane])?;
+        }
+        let mut coefficients = [R::ZERO; 6];
+        for (k, own) in coefficients.iter_mut().enumerate() {
+            *own = R::from_lanes(|lane| cells[lane].coefficients[k]);
+        }
+        let x = R::from_lanes(|lane| cells[lane].unit.x);
+        let y = R::from_lanes(|lane| cells[lane].unit.y);
+        let at = R::from_lanes(|lane| self.at[spot.knot[lane]]);
+        Some(CellAt { at, coefficients, unit: Vector::new(x, y) })
+    }
+}
+
+/// A cell for each lane.
+struct CellAt<R> {
+    /// The knot before it.
+    at: R,
+    coefficients: [R; 6],
+    unit: Vector<R>,
+}
+
+impl<R: Real> CellAt<R> {
+    /// How far an unknown is from that at the knot.
+    #[inline(always)]
+    fn change(&self, place: R) -> R {
+        let step = place - self.at;
+        let mut sum = R::ZERO;
+        for coefficient in self.coefficients[1..].iter().rev() {
+            sum = sum * step + *coefficient;
+        }
+        sum * step
     }
 }

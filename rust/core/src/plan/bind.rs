@@ -1,6 +1,7 @@
 //! A plan with the numbers of one design.
 
 use super::Plan;
+use super::bars::Spans;
 use crate::lanes::Real;
 use crate::linkage::{Dimension, Dimensions, Linkage};
 use crate::plane::Vector;
@@ -25,6 +26,12 @@ impl<R: Real> Leg<R> {
     pub fn of(vector: Vector<R>) -> Self {
         let norm2 = vector.norm2();
         Self { vector, norm: norm2.sqrt(), norm2, per: R::ONE / norm2 }
+    }
+
+    /// 1/length.
+    #[inline(always)]
+    pub fn per_norm(&self) -> R {
+        self.norm * self.per
     }
 
     /// The rotation that brings it to a place.
@@ -73,6 +80,8 @@ pub struct Bound {
     pub lever2: Vec<f64>,
     /// The legs of every dyad, where they are the same at all positions.
     pub legs: Vec<[Leg; 2]>,
+    /// The vectors of groups of binary links.
+    pub spans: Spans,
 }
 
 /// Where the dimensions of every edge and slide stand in the list of values; found
@@ -266,6 +275,7 @@ impl Bound {
             self.lever2[class] = self.lever2[class].max(arm2);
         }
         self.measure_legs(plan);
+        self.spans.measure(plan, &self.rigid);
     }
 
     fn measure_legs(&mut self, plan: &Plan) {

@@ -5,6 +5,7 @@
 //! the one that says how long it is; a chord along a guide leaves the one that says how far from
 //! the guide its end is; either takes an unknown with it. So the tree takes other edges first.
 
+use super::bars::Bars;
 use super::block::Unknown;
 use super::{Along, Plan};
 
@@ -97,6 +98,8 @@ pub struct Group {
     pub index: usize,
     /// Place among the legs of its first edge; the others follow.
     pub first_leg: usize,
+    /// What it consists of, if it is of rigid links and turning pairs alone, and small.
+    pub bars: Option<Bars>,
 }
 
 impl Group {
@@ -146,7 +149,7 @@ impl Group {
         let turned = unknowns.iter().map(|&unknown| turned(plan, unknown)).collect();
         let rows = loops.iter().map(|l| if l.chord == Chord::Whole { 2 } else { 1 }).sum();
         let index = plan.groups().count();
-        (Self { unknowns, turned, edges, loops, rows, name, index, first_leg: 0 }, chords)
+        (Self { unknowns, turned, edges, loops, rows, name, index, first_leg: 0, bars: None }, chords)
     }
 
     /// Whether an edge closes a loop (and places no point).

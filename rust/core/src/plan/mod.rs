@@ -7,6 +7,7 @@
 //! points. A driver appears nowhere as a step: a driven angle makes the
 //! orientation of two links differ by q, a driven slide is a known length.
 
+pub mod bars;
 pub mod bind;
 pub mod bind_rate;
 mod block;
@@ -19,6 +20,7 @@ use crate::linkage::{Driver, Linkage};
 use crate::plane::Vector;
 use crate::structure::closure::{Edge, Span, rotations};
 use crate::structure::{Closure, Rotation, Structure};
+use bars::Bars;
 use bind::Bound;
 pub use block::{Dyad, Form, Part, Unknown};
 pub use group::Group;
@@ -272,6 +274,16 @@ impl Plan {
             let Step::Group(group) = step else { continue };
             group.first_leg = first;
             first += group.edges.len();
+        }
+        let mut of_bars: Vec<Option<Bars>> = Vec::new();
+        for group in self.groups() {
+            let bars = Bars::new(self, group, of_bars.iter().flatten());
+            of_bars.push(bars);
+        }
+        let mut of_bars = of_bars.into_iter();
+        for step in &mut self.steps {
+            let Step::Group(group) = step else { continue };
+            group.bars = of_bars.next().flatten();
         }
         for group in self.groups() {
             for (place, edge) in group.edges.iter().enumerate() {

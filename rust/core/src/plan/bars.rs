@@ -1,0 +1,136 @@
+//! Groups above class II of rigid links and turning pairs, whose loops all leave the length of a
+//! binary link: most are so, and there is nothing in their loops to sort.
+//!
+//! What turns with one unknown in one loop is one vector (a span), the same at all positions; so
+//! the vector of a loop's chord is a known one and a sum of spans, each turned by its unknown.
+
+use super::bind::Leg;
+use super::group::{Chord, Group};
+use super::{Along, Plan, Unknown};
+use crate::plane::Vector;
+
+/// Unknowns (and loops), at most: more are left to the general machinery.
+pub const MOST: usize = 3;
+
+/// A rigid edge that turns with an unknown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Arm {
+    /// The edge.
+    pub edge: usize,
+    /// Place among the legs.
+    pub leg: usize,
+    /// The unknown.
+    pub unknown: usize,
+}
+
+/// What such a group consists of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Bars {
+    /// Place of its first span in [`Spans::spans`].
+    first_span: usize,
+    /// Place of its first binary link in [`Spans::bars`].
+    first_bar: usize,
+    /// The class of every unknown.
+    pub classes: Vec<usize>,
+    /// The class of every loop's binary link.
+    pub taken: Vec<usize>,
+    /// The edges that place its points.
+    pub arms: Vec<Arm>,
+}
+
+impl Bars {
+    /// Of a group that is so, behind others.
+    pub(super) fn new<'b>(
+        plan: &Plan,
+        group: &Group,
+        before: impl Iterator<Item = &'b Self>,
+    ) -> Option<Self> {
+        let classes: Vec<usize> = group.unknowns.iter().filter_map(class_of).collect();
+        let taken: Vec<usize> = group.loops.iter().filter_map(|l| taken(&l.chord)).collect();
+        let square = classes.len() == group.unknowns.len() && taken.len() == group.loops.len();
+        let mut arms = Vec::new();
+        for (place, edge) in group.edges.iter().enumerate() {
+            let own = &plan.edges[edge.edge];
+            if own.along != Along::Nothing || plan.orientations[own.orientation].driven {
+                return None;
+            }
+            match edge.turns {
+                Some(unknown) => {
+                    arms.push(Arm { edge: edge.edge, leg: group.first_leg + place, unknown });
+                }
+                None if edge.is_bar => {}
+                None => return None,
+            }
+        }
+        let fits = square && (2..=MOST).contains(&taken.len()) && classes.len() == taken.len();
+        let (mut first_span, mut first_bar) = (0, 0);
+        for other in before {
+            first_span += other.classes.len() * other.classes.len();
+            first_bar += other.taken.len();
+        }
+        fits.then_some(Self { first_span, first_bar, classes, taken, arms })
+    }
+
+    /// Those of one design.
+    #[inline(always)]
+    #[must_use]
+    pub fn links<'b>(&self, bound: &'b Spans) -> Links<'b> {
+        let count = self.taken.len();
+        let spans = &bound.spans[self.first_span..][..count * count];
+        Links { count, spans, bars: &bound.bars[self.first_bar..][..count] }
+    }
+}
+
+/// Spans and binary links of a group, of one design.
+#[derive(Debug, Clone, Copy)]
+pub struct Links<'b> {
+    /// Loops, and unknowns.
+    pub count: usize,
+    /// Loop after loop, of every unknown.
+    pub spans: &'b [Vector],
+    /// Of every loop.
+    pub bars: &'b [Leg],
+}
+
+fn class_of(unknown: &Unknown) -> Option<usize> {
+    match *unknown {
+        Unknown::Class(class) => Some(class),
+        Unknown::Slide(_) => None,
+    }
+}
+
+fn taken(chord: &Chord) -> Option<usize> {
+    match *chord {
+        Chord::Length { class } => Some(class),
+        _ => None,
+    }
+}
+
+/// The vectors of such groups, of one design.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Spans {
+    spans: Vec<Vector>,
+    bars: Vec<Leg>,
+}
+
+impl Spans {
+    /// Measures them on the rigid edges.
+    pub(super) fn measure(&mut self, plan: &Plan, rigid: &[Vector]) {
+        self.spans.clear();
+        self.bars.clear();
+        for group in plan.groups().filter(|group| group.bars.is_some()) {
+            for l in &group.loops {
+                for column in &l.columns {
+                    let mut sum = Vector::ZERO;
+                    for influence in column {
+                        let Some(place) = influence.place else { continue };
+                        let v = rigid[group.edges[place].edge];
+                        sum += if influence.backward { -v } else { v };
+                    }
+                    self.spans.push(sum);
+                }
+                self.bars.push(Leg::of(rigid[group.edges[l.edge].edge]));
+            }
+        }
+    }
+}
