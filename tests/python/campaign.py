@@ -31,6 +31,8 @@ from description import arguments
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from numpy.typing import NDArray
+
     import models
     from campaign_geometry import Array
 
@@ -129,6 +131,23 @@ class Check:
         self.fail("false", *(f"status {fine.status[i]} at q = {fine.q[i]!r}" for i in false))
         return condition
 
+    def is_pole(self, edges: Array) -> NDArray[np.bool_]:
+        """Whether a point goes to infinity right behind the ends."""
+        size = self.geometry.drawn
+        way = np.sign(edges[:, 1] - edges[:, 0])
+        inside, before = (
+            self.solve(edges[:, 0]),
+            self.solve(edges[:, 0] - way * checks.POLE_STEP),
+        )
+        near, far = (np.abs(sample.value[:, : sample.lengths]) for sample in (inside, before))
+        if not self.higher:
+            return near.max(axis=1) > checks.POLE * size
+        place = np.arange(len(near)), near.argmax(axis=1)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            distance = checks.POLE_STEP * far[place] / (near[place] - far[place])
+        is_near = (distance > 0.0) & (distance < checks.POLE_NEAR)
+        return (near[place] > checks.POLE_OF_GROUPS * size) & is_near
+
     def motion(self, fine: Sample) -> None:
         """Nothing jumps; where it ends is a dead point."""
         size = self.geometry.drawn
@@ -147,9 +166,7 @@ class Check:
         if not len(edges):
             return
         edges = checks.bisected(self.solve, edges)
-        inside = self.solve(edges[:, 0])
-        pole = (checks.POLE_OF_GROUPS if self.higher else checks.POLE) * size
-        far = np.abs(inside.value[:, : inside.lengths]).max(axis=1) > pole
+        far = self.is_pole(edges)
         edges = edges[~far]
         self.report.counts["infinite"] += int(far.sum())
         self.report.counts["gaps"] += len(edges)
@@ -159,7 +176,7 @@ class Check:
         beyond = self.m.solve(edges[:, 1], order=0, on_error="nan", threads=1)
         told = [beyond.explain(i) for i in range(len(edges))]
         # The dead point of a group may itself be a number: it is flat there.
-        words = ("dead point", "is flat") if self.higher else ("does not close",)
+        words = ("dead point", "is flat", "too far") if self.higher else ("does not close",)
         self.fail("explain", *(text for text in told if not any(word in text for word in words)))
 
 

@@ -34,9 +34,12 @@ BEND = 0.05
 HALVINGS = 40
 # Coordinates, in sizes of the drawing, beyond which a point is on its way through infinity.
 POLE = 1e6
-# The same of groups above class II: their condition grows with the square of that, so that nothing
-# can be told from a fold there, and the way is given up.
-POLE_OF_GROUPS = 1e3
+# The same of groups above class II, whose ways end before: their condition grows with the square of
+# it. That it is a pole must show in how it grows, v = A / (distance to the pole): two places so far
+# apart tell the distance (rad, or of the size), which must be small.
+POLE_OF_GROUPS = 100.0
+POLE_STEP = 1e-6
+POLE_NEAR = 1e-2
 # At a fold the squared determinant falls linearly to 0: at four steps it is four times that at
 # one; at a change point 16 times; where nothing is singular once. Steps in q, the best first: the
 # next terms go with the root of the step, rounding with its inverse.

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from higher_library import loom
 
 import assur
 import campaign_cases as cases
@@ -141,3 +143,31 @@ def test_slides_drive_them_as_well() -> None:
         found, _, _ = checks.broken(solve, track, geometry.drawn, checks.jumps)
         assert not found, (seed, found[:1])
     assert seen > 20
+
+
+def test_a_way_to_infinity_ends_and_says_so() -> None:
+    """Guides become parallel: a block runs off as A / (distance to that), with no dead point."""
+    m = assur.Mechanism(**arguments(higher_models.higher_case(1313).description))
+    motion = m.solve(-1.46, on_error="nan")
+    assert motion.status == Status.LOST
+    told = str(motion.explain())
+    end = float(re.findall(r"to (-[0-9.]+), where a joint is 530 sizes away", told)[0])
+    assert "too far to be followed" in told
+    assert "dead point" not in told
+    before = m.solve(np.linspace(-1.99, end, 2000), on_error="nan")
+    assert (before.status[:-1] <= Status.NEAR_SINGULAR).all()
+    assert before.status[-1] <= Status.SINGULAR
+    near, far = (abs(m.solve(q).slide("sI").value) for q in (end, end - 1e-6))
+    assert 1e-4 < 1e-6 * far / (near - far) < 1e-3
+
+
+def test_dimensions_beyond_a_fold_say_where_it_is() -> None:
+    mechanism = loom()
+    drawn = float(mechanism.dimensions["l48.length"])
+    with pytest.raises(assur.PositionError, match="these dimensions are not reached") as error:
+        mechanism.with_dimensions({"l48.length": 9.0}).solve(0.1)
+    part = float(re.findall(r"after ([0-9.]+) % of it", str(error.value))[0]) / 100.0
+    for share, status in ((part - 2e-6, Status.OK), (part + 2e-6, Status.LOST)):
+        there = mechanism.with_dimensions({"l48.length": drawn + share * (9.0 - drawn)})
+        at = there.solve(float(mechanism.q0), order=0, on_error="nan").status
+        assert (at == Status.LOST) == (status == Status.LOST), share

@@ -77,8 +77,9 @@ pub(crate) struct Design<'a> {
     first: Jets,
     /// Dimensions at hand.
     values: Vec<f64>,
-    /// Unknowns of the groups at the drawing's coordinate; none if they cannot be followed there.
-    home: Option<Vec<Seed>>,
+    /// Unknowns of the groups at the drawing's coordinate; or after which part of the way of the
+    /// dimensions from the drawing that folds.
+    pub(crate) home: Result<Vec<Seed>, f64>,
     signs: Vec<f64>,
     /// Scaled coordinates of the drawing.
     q0: Vec<f64>,
@@ -98,7 +99,7 @@ impl<'a> Design<'a> {
             jets,
             first: Jets::new(mechanism.q0().len(), order),
             values: Vec::new(),
-            home: Some(Vec::new()),
+            home: Ok(Vec::new()),
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
             q0: Vec::new(),
             track: Track::default(),
@@ -252,7 +253,7 @@ impl<'a> Design<'a> {
         let mut state = self.state(&self.first);
         let cx = self.context(&self.first);
         let angles = &self.mechanism.class_angle;
-        let Some(seeds) = &self.home else {
+        let Ok(seeds) = &self.home else {
             self.track = Track::nowhere(angles.len());
             return;
         };
@@ -299,7 +300,7 @@ impl<'a> Design<'a> {
             let cx = self.context(&self.first);
             let angles = &self.mechanism.class_angle;
             let mut state = self.state(&self.first);
-            let track = if let Some(seeds) = &self.home {
+            let track = if let Ok(seeds) = &self.home {
                 let start = &Start { angles, seeds };
                 Track::straight(&cx, &mut state, &self.q0, q, start)
             } else {
@@ -307,6 +308,18 @@ impl<'a> Design<'a> {
             };
             Place { track: Cow::Owned(track), at: 1.0 }
         })
+    }
+
+    /// How far (in sizes) the farthest joint is at a place of the way (0 if it cannot be solved).
+    pub(crate) fn farthest(&self, at: f64) -> f64 {
+        let mut state = self.state(self.jets);
+        let place = Place { track: Cow::Borrowed(&self.track), at };
+        self.solve(&mut state, &[at], Some(&place));
+        if state.is_over() {
+            return 0.0;
+        }
+        let values = state.points.chunks_exact(state.len);
+        values.fold(0.0, |most, jet| most.max(jet[0][0].norm()))
     }
 
     /// Angles of classes near those at a place, by which whole turns are told.

@@ -7,6 +7,11 @@ use crate::mechanism::Mechanism;
 use crate::plan::jet::Jets;
 use crate::plan::{Along, Plan, Step};
 
+/// How far (in sizes) a joint is where a way has ended not for a dead point but for that: the
+/// condition of a group grows with the square of it, so the way to a pole is not followed to its
+/// end.
+const FAR: f64 = 100.0;
+
 /// One position looked at closely.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
@@ -91,7 +96,7 @@ impl Mechanism {
                 return Diagnosis::bare(Status::BadInput, format!("q = {at} {why}"));
             }
             Status::Lost => {
-                return Diagnosis::bare(Status::Lost, self.lost(design, at));
+                return Diagnosis::bare(Status::Lost, self.lost(design, q, at));
             }
             Status::Unreachable | Status::NotConverged => {
                 let (name, sentence) = self.unreachable(state, design.bound.scale, at);
@@ -206,7 +211,7 @@ impl Mechanism {
     }
 
     /// Why the way from the drawing does not lead there.
-    fn lost(&self, design: &Design<'_>, at: &str) -> String {
+    fn lost(&self, design: &Design<'_>, q: &[f64], at: &str) -> String {
         let groups: Vec<&str> = self.plan().groups().map(|group| group.name.as_str()).collect();
         if groups.is_empty() {
             return format!(
@@ -214,15 +219,28 @@ impl Mechanism {
             );
         }
         let groups = groups.join(" → ");
+        if let Err(part) = design.home {
+            return format!(
+                "these dimensions are not reached: on their straight way from the drawing's {groups} comes to a dead point after {:.4} % of it; give them in steps by another way, or draw the mechanism with them",
+                100.0 * part
+            );
+        }
         match design.track.covered {
             Some([low, high])
                 if low <= high && low.is_finite() && design.unit.coordinate.len() == 1 =>
             {
-                let scale = 1.0 / design.unit.coordinate[0];
+                let unit = design.unit.coordinate[0];
+                let reach = [low, high].map(|end| number(end / unit));
+                let reach = format!("from {} to {}", reach[0], reach[1]);
+                let end = if q[0] * unit < low { low } else { high };
+                let away = design.farthest(end);
+                if away > FAR {
+                    return format!(
+                        "q = {at} is not reached: from the drawing the motion of {groups} is followed {reach}, where a joint is {away:.0} sizes away: too far to be followed on"
+                    );
+                }
                 format!(
-                    "q = {at} is beyond a dead point: from the drawing the motion of {groups} reaches from {} to {}; another driver (with_driver) leads on",
-                    number(low * scale),
-                    number(high * scale)
+                    "q = {at} is beyond a dead point: from the drawing the motion of {groups} reaches {reach}; another driver (with_driver) leads on"
                 )
             }
             _ => format!(

@@ -21,13 +21,16 @@ pub(super) const FIRST_STEP: f64 = 0.25;
 pub(super) const LATER_STEPS: f64 = STRAY;
 
 impl Design<'_> {
-    /// Unknowns of the groups at the drawing's coordinate, for dimensions `values` that are bound;
-    /// none if the way to them folds.
-    pub(crate) fn home(&self, values: &[f64]) -> Option<Vec<Seed>> {
+    /// Unknowns of the groups at the drawing's coordinate, for dimensions `values` that are bound.
+    ///
+    /// # Errors
+    ///
+    /// The way to them folds: after that part of it.
+    pub(crate) fn home(&self, values: &[f64]) -> Result<Vec<Seed>, f64> {
         let (mechanism, plan) = (self.mechanism, self.mechanism.plan());
         let unknowns: Vec<Unknown> = plan.groups().flat_map(|g| g.unknowns.clone()).collect();
         let last = plan.steps.iter().rposition(|step| matches!(step, Step::Group(_)));
-        let Some(last) = last else { return Some(Vec::new()) };
+        let Some(last) = last else { return Ok(Vec::new()) };
         // rad and m, until the end.
         let mut here: Vec<f64> = unknowns
             .iter()
@@ -91,7 +94,7 @@ impl Design<'_> {
             } else {
                 part *= 0.5;
                 if part < LEAST_PART {
-                    return None;
+                    return Err(done);
                 }
             }
         }
@@ -100,6 +103,6 @@ impl Design<'_> {
             Unknown::Class(_) => [value, 0.0, 0.0],
             Unknown::Slide(_) => [value / scale, 0.0, 0.0],
         };
-        Some(unknowns.iter().zip(&here).map(seed).collect())
+        Ok(unknowns.iter().zip(&here).map(seed).collect())
     }
 }

@@ -144,7 +144,7 @@ impl<'a, 'b> Walker<'a, 'b> {
             ended: false,
         };
         let knot = walker.knot(at, start.angles);
-        walker.ended = walker.last_group.is_some_and(|step| knot.solved <= step);
+        walker.ended = walker.last_group.is_some() && knot.seeds.is_empty();
         walker.knots.push(knot);
         walker
     }
@@ -242,9 +242,12 @@ impl<'a, 'b> Walker<'a, 'b> {
         }
     }
 
-    /// Unknowns of the groups at the position just visited, and signs of the determinants.
+    /// Unknowns of the groups at the position just visited, and signs of the determinants; nothing
+    /// where a group cannot be told from a folded one.
     fn seeds(&self, at: f64, solved: usize) -> (Vec<Seed>, Vec<bool>) {
-        if self.last_group.is_none_or(|step| solved <= step) {
+        let is_group = |step: usize| matches!(self.cx.plan.steps[step], Step::Group(_));
+        let folded = matches!(self.state.fault, Some(Fault::Flat { step }) if is_group(step));
+        if folded || self.last_group.is_none_or(|step| solved <= step) {
             return (Vec::new(), Vec::new());
         }
         let len = self.state.len;
@@ -274,6 +277,7 @@ impl<'a, 'b> Walker<'a, 'b> {
     fn strays(&self, from: &Knot, knot: &Knot) -> bool {
         let Some(step) = self.last_group else { return false };
         if knot.solved <= step || knot.bends != from.bends {
+            // Not there, another side of the fold, or too near to it.
             return true;
         }
         let cell = knot.at - from.at;
