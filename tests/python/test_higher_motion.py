@@ -157,7 +157,7 @@ def test_a_way_to_infinity_ends_and_says_so() -> None:
     before = m.solve(np.linspace(-1.99, end, 2000), on_error="nan")
     assert (before.status[:-1] <= Status.NEAR_SINGULAR).all()
     assert before.status[-1] <= Status.SINGULAR
-    near, far = (abs(m.solve(q).slide("sI").value) for q in (end, end - 1e-6))
+    near, far = abs(m.solve([end, end - 1e-6], order=0).slide("sI").value)
     assert 1e-4 < 1e-6 * far / (near - far) < 1e-3
 
 
