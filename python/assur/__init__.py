@@ -1,6 +1,6 @@
 """Kinematics and dynamics of planar linkages, solved one Assur group after another."""
 
-from assur import crank_rocker, slider_crank
+from assur import crank_rocker, flywheel, slider_crank
 from assur._core import version
 from assur.analogues import Analogues
 from assur.class_iv import ClassIV
@@ -41,6 +41,7 @@ __all__ = [
     "StructureError",
     "__version__",
     "crank_rocker",
+    "flywheel",
     "slider_crank",
 ]
 

@@ -6,6 +6,7 @@ import numpy.typing as npt
 from typing_extensions import Self
 
 __all__ = [
+    "Flywheels",
     "Mechanism",
     "acute",
     "asin",
@@ -103,6 +104,23 @@ def instant_centre(
     a: tuple[_Float, _Float, _Float],
     b: tuple[_Float, _Float, _Float],
 ) -> _Float: ...
+@final
+class Flywheels:
+    def __new__(
+        cls,
+        phi: _Float,
+        moment: _Float,
+        inertia: _Float,
+        spline: str,
+        task: str,
+        first: _Float,
+        second: _Float,
+        threads: int | None = None,
+    ) -> Self: ...
+    def numbers(self) -> list[_Float]: ...
+    def problem(self, index: int) -> str | None: ...
+    def curve(self, what: str, places: _Float) -> _Float: ...
+
 def slider_crank_stroke(phi: _Float, lambda_: _Float) -> _Three: ...
 def slider_crank_fraction(phi: _Float, lambda_: _Float, n: int) -> _Three: ...
 def slider_crank_rod_angle(phi: _Float, lambda_: _Float) -> _Three: ...

@@ -9,6 +9,7 @@ import numpy as np
 from assur.errors import InputError
 
 if TYPE_CHECKING:
+    from assur.flywheel import Flywheel
     from assur.mechanism import Mechanism
     from assur.motion import Motion
 
@@ -127,3 +128,34 @@ def _guide(
     a, b = 0.05 * size * along, 0.03 * size * across
     block = np.array([middle - a - b, middle + a - b, middle + a + b, middle - a + b])
     ax.fill(*block.T, facecolor="0.9", edgecolor="0.3", zorder=1)
+
+
+def flywheel_picture(
+    flywheel: Flywheel, what: str, span: tuple[float, float], points: int, ax: Any
+) -> Any:
+    """See `Flywheel.plot`."""
+    ax = _axes(ax)
+    q = np.linspace(*span, points)
+    if what == "energy-mass":
+        inertia, energy = flywheel.energy_mass(points)
+        ax.plot(inertia, energy, color=_COLOURS[0])
+        # Both tangents meet where the energy and inertia of the flywheel are taken off.
+        start = -flywheel.inertia * flywheel.speed0**2 / 2.0
+        reach = np.array([-flywheel.inertia, inertia.max()])
+        extremes = (("greatest", flywheel.greatest.value), ("least", flywheel.least.value))
+        for colour, (name, speed) in zip(_COLOURS[1:], extremes, strict=False):
+            line = start + speed**2 / 2.0 * (reach + flywheel.inertia)
+            ax.plot(reach, line, color=colour, linewidth=1.0, label=f"{name} speed, slope ω²/2")
+        ax.set(xlabel="reduced inertia I, kg·m²", ylabel="energy, J")
+        ax.legend()
+        return ax
+    speed = flywheel.speed(q)
+    x, label = (q, "φ, rad") if what == "speed" else (flywheel.time(q), "t, s")
+    ax.plot(x, speed, color=_COLOURS[0])
+    for place in (flywheel.greatest, flywheel.least):
+        at = place.at if what == "speed" else flywheel.time(place.at)
+        ax.plot(at, place.value, "o", color=_COLOURS[1], markersize=5)
+        ax.annotate(f"{place.value:.4g}", (at, place.value), xytext=(4, 4), textcoords="offset points")
+    ax.axhline(flywheel.mean_speed, color="0.6", linewidth=0.8)
+    ax.set(xlabel=label, ylabel="ω, rad/s")
+    return ax

@@ -41,6 +41,7 @@
 //! ```
 
 pub mod crank_rocker;
+pub mod dynamics;
 pub mod error;
 pub mod lanes;
 pub mod linkage;

@@ -3,6 +3,7 @@
 
 mod crank_rocker;
 mod error;
+mod flywheel;
 mod gate;
 mod mechanism;
 mod metrics;
@@ -19,6 +20,8 @@ mod _core {
         crank_rocker_extremes, crank_rocker_grashof, crank_rocker_ground_range,
         crank_rocker_least_gamma, crank_rocker_run, crank_rocker_solve, crank_rocker_turns,
     };
+    #[pymodule_export]
+    use super::flywheel::Flywheels;
     #[pymodule_export]
     use super::mechanism::Mechanism;
     #[pymodule_export]

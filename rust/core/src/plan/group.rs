@@ -149,7 +149,10 @@ impl Group {
         let turned = unknowns.iter().map(|&unknown| turned(plan, unknown)).collect();
         let rows = loops.iter().map(|l| if l.chord == Chord::Whole { 2 } else { 1 }).sum();
         let index = plan.groups().count();
-        (Self { unknowns, turned, edges, loops, rows, name, index, first_leg: 0, bars: None }, chords)
+        (
+            Self { unknowns, turned, edges, loops, rows, name, index, first_leg: 0, bars: None },
+            chords,
+        )
     }
 
     /// Whether an edge closes a loop (and places no point).

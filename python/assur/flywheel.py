@@ -1,0 +1,468 @@
+"""Flywheels: from moment and inertia over one turn to the speed, and the flywheel that evens it.
+
+The machine is referred to its driver: a reduced moment M (N·m) of all loads and a reduced inertia I
+(kg·m²) over one period. A constant motor gives the mean of what the loads take; the speed follows
+from the energy integral, ω² = (2 ∫(M + M_motor) dφ + (I(0) + I_f) ω0²) / (I + I_f).
+
+References
+----------
+I. M. Matsiuk, E. M. Shliakhov, *Dynamic synthesis of a lever mechanism by the coefficient of speed
+fluctuation in Mathcad*, equations 1 to 6. F. Wittenbauer, *Graphische Dynamik* (1923).
+"""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur import _core
+from assur._checks import checked_index, checked_threads, real_array
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from matplotlib.axes import Axes
+
+__all__ = ["Flywheel", "Place", "Table", "evaluate", "from_table", "read_table"]
+
+Float: TypeAlias = npt.NDArray[np.float64]
+Mean: TypeAlias = Literal["extremes", "period"]
+Spline: TypeAlias = Literal["not-a-knot", "natural", "clamped", "periodic", "linear"]
+
+MEANS = ("extremes", "period")
+SPLINES = ("not-a-knot", "natural", "clamped", "periodic", "linear")
+# Places of a curve in a picture.
+DRAWN = 721
+
+
+class Place(NamedTuple):
+    """An extreme speed: where, rad, and its value, rad/s."""
+
+    at: Any
+    value: Any
+
+
+class Table(NamedTuple):
+    """Coordinates, rad, reduced moment, N·m, and reduced inertia, kg·m², of one period."""
+
+    phi: Float
+    moment: Float
+    inertia: Float
+
+
+class Flywheel:
+    """A machine with its flywheel in steady motion; of a batch every number has the batch's shape.
+
+    Made by `from_table` and `evaluate`.
+
+    Attributes
+    ----------
+    inertia : float or array
+        The flywheel's moment of inertia I_f, kg·m².
+    speed0 : float or array
+        Speed where the table begins, rad/s.
+    delta : float or array
+        Coefficient of speed fluctuation: (greatest − least) / `mean_speed`.
+    mean_speed : float or array
+        Mean speed by the definition chosen, rad/s.
+    greatest, least : Place
+        The extreme speeds and where they are.
+    motor_moment : float or array
+        Moment of the constant motor, N·m.
+    period : float or array
+        Time of one period of the table, s.
+    shape : tuple of int
+        Of the batch; () for one table.
+    """
+
+    def __init__(self, arguments: tuple[Any, ...], shape: tuple[int, ...], mean: Mean) -> None:
+        self._arguments = arguments
+        self._core = _core.Flywheels(*arguments)
+        self.shape = shape
+        self.mean = mean
+        phi = arguments[0]
+        self._span = float(phi[0]), float(phi[-1])
+        numbers = [_shaped(one, shape) for one in self._core.numbers()]
+        self.inertia, self.speed0, self.motor_moment = numbers[:3]
+        self.greatest, self.least = Place(*numbers[3:5]), Place(*numbers[5:7])
+        self.period = numbers[7]
+        width = self._span[1] - self._span[0]
+        half = (self.greatest.value + self.least.value) / 2.0
+        self.mean_speed = half if mean == "extremes" else width / self.period
+        self.delta = (self.greatest.value - self.least.value) / self.mean_speed
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self._arguments, self.shape, self.mean)
+
+    def __repr__(self) -> str:
+        if self.shape:
+            return f"<assur.flywheel.Flywheel of {self.shape} tables>"
+        return (
+            f"<assur.flywheel.Flywheel {self.inertia:.6g} kg·m², δ = {self.delta:.4g}, "
+            f"mean {self.mean_speed:.6g} rad/s, speed0 {self.speed0:.6g} rad/s>"
+        )
+
+    def speed(self, q: npt.ArrayLike) -> Any:
+        """Return the speed at coordinates of the driver, any number of turns on.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, rad: a number or (N,), the same for every table.
+
+        Returns
+        -------
+        float or ndarray
+            rad/s, of the batch's shape and behind it that of q.
+
+        Examples
+        --------
+        >>> from assur import flywheel
+        >>> import numpy as np
+        >>> phi = np.linspace(0.0, 2 * np.pi, 25)
+        >>> f = flywheel.evaluate(phi, 10 * np.sin(phi), np.full(25, 2.0), speed0=10.0)
+        >>> round(f.speed(np.pi), 3)
+        10.954
+        """
+        return self._curve("speed", q, "q")
+
+    def time(self, q: npt.ArrayLike) -> Any:
+        """Return when coordinates are reached, s; 0 where the table begins."""
+        return self._curve("time", q, "q")
+
+    def angle(self, t: npt.ArrayLike) -> Any:
+        """Return the coordinate at times t (s), rad: the inverse of `time`."""
+        return self._curve("angle", t, "t")
+
+    def speed_at(self, t: npt.ArrayLike) -> Any:
+        """Return the speed at times t (s), rad/s."""
+        if self.shape:
+            message = "speed_at is for one table: take one of the batch by evaluating it by itself"
+            raise InputError(message)
+        return self.speed(self.angle(t))
+
+    def moment(self, q: npt.ArrayLike) -> Any:
+        """Return the reduced moment of the loads at coordinates, N·m (the motor is not in it)."""
+        return self._curve("moment", q, "q")
+
+    def reduced_inertia(self, q: npt.ArrayLike) -> Any:
+        """Return the reduced inertia at coordinates, kg·m² (the flywheel is not in it)."""
+        return self._curve("inertia", q, "q")
+
+    def work(self, q: npt.ArrayLike) -> Any:
+        """Return the work of loads and motor since the table's beginning, J."""
+        return self._curve("work", q, "q")
+
+    def explain(self, index: Any = ()) -> str:
+        """Return why a table of a batch has no flywheel, or what it has.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Place in the batch; nothing for one table.
+        """
+        place = checked_index(index, self.shape, "explain")
+        flat = int(np.ravel_multi_index(place, self.shape)) if self.shape else 0
+        told = self._core.problem(flat)
+        if told is not None:
+            return str(told)
+        inertia = np.asarray(self.inertia)[place]
+        return f"a flywheel of {inertia:.9g} kg·m², δ = {np.asarray(self.delta)[place]:.6g}"
+
+    def energy_mass(self, points: int = DRAWN) -> tuple[Float, Float]:
+        """Return Wittenbauer's diagram of one turn.
+
+        Parameters
+        ----------
+        points : int
+            How many, equally spaced along the turn.
+
+        Returns
+        -------
+        inertia, energy : ndarray
+            Reduced inertia without the flywheel, kg·m², and the kinetic energy less that of the
+            flywheel at the beginning, J; the tangents with slopes ω²/2 at the extreme speeds meet
+            at the flywheel's place.
+        """
+        q = np.linspace(*self._span, points)
+        inertia = self.reduced_inertia(q)
+        start = np.asarray(self.reduced_inertia(self._span[0]) * np.square(self.speed0) / 2.0)
+        return inertia, self.work(q) + start[..., np.newaxis]
+
+    def plot(
+        self, what: Literal["speed", "time", "energy-mass"] = "speed", ax: Axes | None = None
+    ) -> Axes:
+        """Draw the speed over the turn or over the time, or the energy-mass diagram.
+
+        Parameters
+        ----------
+        what : {"speed", "time", "energy-mass"}
+            ω(φ), ω(t), or Wittenbauer's diagram with the tangents at the extreme speeds.
+        ax : matplotlib.axes.Axes, optional
+            Where; a new figure by default.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            What was drawn on.
+        """
+        from assur.plot import flywheel_picture  # noqa: PLC0415 matplotlib is an extra
+
+        if self.shape:
+            message = "plot is for one table, this is a batch"
+            raise InputError(message)
+        if what not in ("speed", "time", "energy-mass"):
+            message = f"what is {what!r}: 'speed', 'time' or 'energy-mass'"
+            raise InputError(message)
+        return flywheel_picture(self, what, self._span, DRAWN, ax)
+
+    def _curve(self, what: str, places: npt.ArrayLike, name: str) -> Any:
+        x = real_array(places, name)
+        if not np.isfinite(x).all():
+            value = float(x[~np.isfinite(x)][0])
+            message = f"{name} has {value}: finite numbers are needed"
+            raise InputError(message, value=value)
+        shape = self.shape + x.shape
+        flat = np.ascontiguousarray(np.broadcast_to(x, shape)).ravel()
+        return _shaped(self._core.curve(what, flat), shape)
+
+
+def from_table(
+    phi: npt.ArrayLike,
+    moment: npt.ArrayLike,
+    inertia: npt.ArrayLike,
+    fluctuation: npt.ArrayLike,
+    mean_speed: npt.ArrayLike,
+    mean: Mean = "extremes",
+    spline: Spline = "not-a-knot",
+    on_error: Literal["raise", "nan"] = "raise",
+    threads: int | None = None,
+) -> Flywheel:
+    """Return the flywheel with which the speed varies by a given part of its mean.
+
+    Parameters
+    ----------
+    phi : array_like
+        Coordinates of the driver over one period, rad, growing, the end included: (K,).
+    moment, inertia : array_like
+        Reduced moment of the loads (N·m) and reduced inertia (kg·m²) there, the last row equal to
+        the first: (K,), or S + (K,) for a batch of tables.
+    fluctuation : array_like
+        Coefficient of speed fluctuation δ wanted, of shape S or a number.
+    mean_speed : array_like
+        Mean speed wanted, rad/s, likewise.
+    mean : {"extremes", "period"}
+        What that mean is, by which δ is divided: half the sum of the greatest and the least speed,
+        or the period by its time.
+    spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
+        What is laid through the rows (Mathcad's ``cspline`` is not-a-knot).
+    on_error : {"raise", "nan"}
+        Whether a table without a flywheel is an error or NaN (see `Flywheel.explain`).
+    threads : int, optional
+        Threads for a batch; as many as there are cores by default.
+
+    Returns
+    -------
+    Flywheel
+        The flywheel, the speed and everything of it.
+
+    Raises
+    ------
+    InputError
+        A table that is short, not growing, not periodic or without inertia; a fluctuation or speed
+        that cannot be; a fluctuation that is already met without a flywheel.
+
+    Examples
+    --------
+    The press of the paper, its speed kept within 1/8:
+
+    >>> from assur import flywheel
+    >>> import numpy as np
+    >>> moment = [-0.23, -274.4, -950.5, 19.9, 1.26, -300.0, -23.9, -15.9, -0.23]
+    >>> inertia = [4.93, 5.07, 5.1, 5.1, 4.93, 5.05, 5.1, 5.14, 4.93]
+    >>> phi = np.linspace(0.0, 2 * np.pi, 9)
+    >>> f = flywheel.from_table(phi, moment, inertia, fluctuation=1 / 8, mean_speed=15.0)
+    >>> f
+    <assur.flywheel.Flywheel 19.9182 kg·m², δ = 0.125, mean 15 rad/s, speed0 15.5166 rad/s>
+    >>> print(f"{f.motor_moment:.3f} N·m, {f.greatest.value:.4f} rad/s at {f.greatest.at:.5f} rad")
+    184.035 N·m, 15.9375 rad/s at 0.70933 rad
+    """
+    task = f"sized {_one_of(mean, MEANS, 'mean')}"
+    wanted = (fluctuation, "fluctuation"), (mean_speed, "mean_speed")
+    return _flywheel(phi, moment, inertia, spline, task, wanted, mean, on_error, threads)
+
+
+def evaluate(
+    phi: npt.ArrayLike,
+    moment: npt.ArrayLike,
+    inertia: npt.ArrayLike,
+    flywheel: npt.ArrayLike = 0.0,
+    speed0: npt.ArrayLike | None = None,
+    mean_speed: npt.ArrayLike | None = None,
+    mean: Mean = "extremes",
+    spline: Spline = "not-a-knot",
+    on_error: Literal["raise", "nan"] = "raise",
+    threads: int | None = None,
+) -> Flywheel:
+    """Return the motion with a given flywheel, at a given speed or mean speed.
+
+    Parameters
+    ----------
+    phi, moment, inertia, spline, on_error, threads
+        As of `from_table`.
+    flywheel : array_like
+        The flywheel's moment of inertia, kg·m²; none by default.
+    speed0 : array_like, optional
+        Speed where the table begins, rad/s; or:
+    mean_speed : array_like, optional
+        Mean speed, rad/s.
+    mean : {"extremes", "period"}
+        What the mean is, also of the result's `delta`.
+
+    Returns
+    -------
+    Flywheel
+        The speed and everything of it.
+
+    Raises
+    ------
+    InputError
+        As `from_table`; neither or both speeds given; a speed with which the machine stops on the
+        way.
+
+    Examples
+    --------
+    >>> from assur import flywheel
+    >>> import numpy as np
+    >>> phi = np.linspace(0.0, 2 * np.pi, 49)
+    >>> f = flywheel.evaluate(phi, 100 * np.sin(phi), np.full(49, 2.0), 8.0, mean_speed=10.0)
+    >>> round(f.delta, 4)
+    0.2
+    """
+    if (speed0 is None) == (mean_speed is None):
+        message = "one of speed0 and mean_speed is needed, not both"
+        raise InputError(message)
+    _one_of(mean, MEANS, "mean")
+    task = "given" if mean_speed is None else f"driven {mean}"
+    second = (speed0, "speed0") if mean_speed is None else (mean_speed, "mean_speed")
+    wanted = (flywheel, "flywheel"), second
+    return _flywheel(phi, moment, inertia, spline, task, wanted, mean, on_error, threads)
+
+
+def read_table(path: str | PathLike[str], degrees: bool = False) -> Table:
+    """Read a table from a file of comma-separated values.
+
+    Parameters
+    ----------
+    path : path-like
+        The file: three columns phi, moment, inertia in the order of a header that names them, or
+        in this order without one. Other columns are left out; lines that begin with # as well.
+    degrees : bool
+        Whether phi is in degrees.
+
+    Returns
+    -------
+    Table
+        phi (rad), moment (N·m), inertia (kg·m²).
+
+    Raises
+    ------
+    InputError
+        A file that cannot be read, or a row that is not three numbers, with its line.
+    """
+    try:
+        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        message = f"{path}: the table cannot be read ({error})"
+        raise InputError(message) from error
+    kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line[:1] != "#"]
+    cells = list(csv.reader(line for _, line in kept))
+    columns = [0, 1, 2]
+    if cells and not _is_number(cells[0][0]):
+        names = [cell.strip().lower() for cell in cells[0]]
+        missing = [name for name in Table._fields if name not in names]
+        if missing:
+            message = f"{path}: the header has no column {missing[0]!r}, it has {', '.join(names)}"
+            raise InputError(message)
+        columns = [names.index(name) for name in Table._fields]
+        kept, cells = kept[1:], cells[1:]
+    rows = []
+    for (line, text), row in zip(kept, cells, strict=True):
+        try:
+            rows.append([float(row[column]) for column in columns])
+        except (ValueError, IndexError) as error:
+            message = f"{path}, line {line}: {text!r} is not three numbers phi, moment, inertia"
+            raise InputError(message) from error
+    phi, moment, inertia = np.array(rows).reshape(-1, 3).T
+    return Table(np.deg2rad(phi) if degrees else phi, moment, inertia)
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _one_of(value: Any, known: tuple[str, ...], what: str) -> str:
+    if isinstance(value, str) and value in known:
+        return value
+    message = f"{what} is {value!r}: one of {', '.join(map(repr, known))} is needed"
+    raise InputError(message)
+
+
+def _flywheel(
+    phi: npt.ArrayLike,
+    moment: npt.ArrayLike,
+    inertia: npt.ArrayLike,
+    spline: Spline,
+    task: str,
+    wanted: tuple[tuple[Any, str], tuple[Any, str]],
+    mean: Mean,
+    on_error: str,
+    threads: int | None,
+) -> Flywheel:
+    _one_of(spline, SPLINES, "spline")
+    _one_of(on_error, ("raise", "nan"), "on_error")
+    x, m, i = real_array(phi, "phi"), real_array(moment, "moment"), real_array(inertia, "inertia")
+    if x.ndim != 1:
+        message = f"phi has the shape {x.shape}: one list of coordinates is needed"
+        raise InputError(message)
+    for column, name in ((m, "moment"), (i, "inertia")):
+        if column.ndim == 0 or column.shape[-1] != x.size:
+            message = f"{name} has the shape {column.shape}: its last axis must have the {x.size} of phi"
+            raise InputError(message)
+    numbers = [real_array(value, name) for value, name in wanted]
+    try:
+        shape = np.broadcast_shapes(m.shape[:-1], i.shape[:-1], *(n.shape for n in numbers))
+    except ValueError as error:
+        shapes = ", ".join(str(a.shape) for a in (m, i, *numbers))
+        message = f"the shapes {shapes} of moment, inertia and what is asked for do not fit"
+        raise InputError(message) from error
+    full = (*shape, x.size)
+    flat = [np.ascontiguousarray(np.broadcast_to(a, full)).ravel() for a in (m, i)]
+    first, second = (np.ascontiguousarray(np.broadcast_to(n, shape)).ravel() for n in numbers)
+    arguments = (np.ascontiguousarray(x), *flat, spline, task, first, second)
+    result = Flywheel((*arguments, checked_threads(threads)), shape, mean)
+    failed = np.flatnonzero(np.isnan(np.asarray(result.inertia)).ravel())
+    if on_error == "raise" and failed.size:
+        first_failed = int(failed[0])
+        told = str(result._core.problem(first_failed))
+        if shape:
+            place = tuple(int(k) for k in np.unravel_index(first_failed, shape))
+            more = f" (and {failed.size - 1} more)" if failed.size > 1 else ""
+            told = f"table {place}{more}: {told}"
+        raise InputError(told)
+    return result
+
+
+def _shaped(flat: Float, shape: tuple[int, ...]) -> Any:
+    flat = flat.reshape(shape)
+    flat.flags.writeable = False
+    return flat if shape else float(flat)

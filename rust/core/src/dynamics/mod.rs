@@ -1,0 +1,31 @@
+//! Forces and motion of mechanisms referred to the driver.
+//!
+//! # Examples
+//!
+//! The moment's fluctuation of a press, and the flywheel that keeps the speed within 1/8 of 15 rad/s
+//! (V. S. Matsyuk & E. M. Shlyakhov):
+//!
+//! ```
+//! use assur::dynamics::{Ends, Flywheel, Mean, Turn};
+//!
+//! let phi: Vec<f64> = (0..9).map(|i| std::f64::consts::FRAC_PI_4 * f64::from(i)).collect();
+//! let moment = [-0.23, -274.4, -950.5, 19.9, 1.26, -300.0, -23.9, -15.9, -0.23];
+//! let inertia = [4.93, 5.07, 5.1, 5.1, 4.93, 5.05, 5.1, 5.14, 4.93];
+//! let turn = Turn::new(&phi, &moment, &inertia, Ends::NotAKnot)?;
+//! let flywheel = Flywheel::sized(turn, 0.125, 15.0, Mean::Extremes)?;
+//! assert!((flywheel.inertia - 19.918150).abs() < 1e-6);
+//! # Ok::<(), assur::dynamics::TableError>(())
+//! ```
+
+mod error;
+mod flywheel;
+mod polynomial;
+mod quadrature;
+mod root;
+mod spline;
+mod turn;
+
+pub use error::TableError;
+pub use flywheel::{Flywheel, Mean};
+pub use spline::{Ends, Pieces, spline};
+pub use turn::{Extreme, Turn};

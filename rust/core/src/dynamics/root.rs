@@ -1,0 +1,70 @@
+//! The zero of a growing function of a positive number.
+
+/// Growth of the steps in search of two places with values of different signs.
+const GROWTH: f64 = 2.0;
+/// Steps of that search, at most: over a range of 2^±200.
+const SEARCHES: u32 = 24;
+/// Steps between these, at most: halving alone ends after so many.
+const STEPS: u32 = 120;
+
+/// Where a growing function of a positive number is 0, from a first guess; none if it is so
+/// nowhere that could be found, or is no number there.
+pub fn zero(f: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
+    let at_guess = f(guess);
+    if at_guess == 0.0 {
+        return Some(guess);
+    }
+    let up = at_guess < 0.0;
+    let (mut near, mut at_near) = (guess, at_guess);
+    let (mut far, mut at_far) = (guess, at_guess);
+    let mut factor = 1.0 + 1.0 / 16.0;
+    for _ in 0..SEARCHES {
+        (near, at_near) = (far, at_far);
+        far = if up { far * factor } else { far / factor };
+        at_far = f(far);
+        if at_far.is_nan() || (at_far > 0.0) == up {
+            break;
+        }
+        factor = 1.0 + (factor - 1.0) * GROWTH;
+    }
+    if !(at_far * at_near.signum() <= 0.0) {
+        return None;
+    }
+    let (mut a, mut at_a, mut b, mut at_b) = (near, at_near, far, at_far);
+    // Regula falsi with the weights of Illinois (Dowell & Jarratt 1971).
+    for _ in 0..STEPS {
+        if at_b == 0.0 || at_a == at_b {
+            return Some(b);
+        }
+        let mut next = b - at_b * (b - a) / (at_b - at_a);
+        if !(next > a.min(b) && next < a.max(b)) {
+            next = 0.5 * (a + b);
+        }
+        let value = f(next);
+        if next == a || next == b {
+            return Some(next);
+        }
+        if (value > 0.0) == (at_b > 0.0) {
+            at_a *= 0.5;
+        } else {
+            (a, at_a) = (b, at_b);
+        }
+        (b, at_b) = (next, value);
+    }
+    Some(b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::zero;
+
+    #[test]
+    fn zeros_are_found() {
+        let root = zero(|x| x * x - 2.0, 1.0).expect("the root of 2");
+        assert!((root - 2.0_f64.sqrt()).abs() < 4e-16);
+        let small = zero(|x| x.ln() + 50.0, 1.0).expect("e^-50");
+        assert!((small.ln() + 50.0).abs() < 1e-13);
+        assert!(zero(|x| x + 1.0, 1.0).is_none());
+        assert!(zero(|_| f64::NAN, 1.0).is_none());
+    }
+}

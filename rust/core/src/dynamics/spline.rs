@@ -1,0 +1,204 @@
+//! Cubic splines through a table, by several conditions at the ends.
+
+use super::error::TableError;
+
+/// Conditions at the ends of a spline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Ends {
+    /// The first two pieces are one cubic, and so are the last two (Mathcad's `cspline`).
+    #[default]
+    NotAKnot,
+    /// No second derivative.
+    Natural,
+    /// No first derivative.
+    Clamped,
+    /// The derivatives of the other end.
+    Periodic,
+    /// Straight pieces: no spline at all.
+    Linear,
+}
+
+/// Pieces of a spline: of each, coefficients in powers of the distance from its first knot.
+pub type Pieces = Vec<[f64; 4]>;
+
+/// The spline through values at growing knots: C. de Boor, A Practical Guide to Splines (1978),
+/// chapter IV, by its slopes at the knots.
+///
+/// # Errors
+///
+/// Fewer than two knots (periodic: three), or a system without solution.
+pub fn spline(knots: &[f64], values: &[f64], ends: Ends) -> Result<Pieces, TableError> {
+    let n = knots.len();
+    let least = if ends == Ends::Periodic { 3 } else { 2 };
+    if n < least || values.len() != n {
+        return Err(TableError::TooShort { count: n.min(values.len()), least });
+    }
+    let width: Vec<f64> = knots.windows(2).map(|k| k[1] - k[0]).collect();
+    let rise: Vec<f64> = values.windows(2).zip(&width).map(|(v, h)| (v[1] - v[0]) / h).collect();
+    if ends == Ends::Linear {
+        return Ok(values.iter().zip(&rise).map(|(&v, &r)| [v, r, 0.0, 0.0]).collect());
+    }
+    let slopes = slopes(&width, &rise, ends);
+    let piece = |i: usize| {
+        let (h, r) = (width[i], rise[i]);
+        let (a, b) = (slopes[i], slopes[i + 1]);
+        [values[i], a, (3.0 * r - 2.0 * a - b) / h, (a + b - 2.0 * r) / (h * h)]
+    };
+    Ok((0..n - 1).map(piece).collect())
+}
+
+/// Slopes at the knots: second derivatives agree at those between.
+fn slopes(width: &[f64], rise: &[f64], ends: Ends) -> Vec<f64> {
+    let n = width.len() + 1;
+    let last = n - 2;
+    let inner = |i: usize| {
+        let (h, g) = (width[i - 1], width[i]);
+        ([g, 2.0 * (h + g), h], 3.0 * (g * rise[i - 1] + h * rise[i]))
+    };
+    let ([head, foot], [first, final_]) = match ends {
+        Ends::NotAKnot if n == 2 => return vec![rise[0]; 2],
+        Ends::NotAKnot if n == 3 => {
+            // One parabola.
+            let bend = (rise[1] - rise[0]) / (width[0] + width[1]);
+            let at = |i: usize, sign: f64| rise[i] + sign * bend * width[i];
+            return vec![at(0, -1.0), at(0, 1.0), at(1, 1.0)];
+        }
+        Ends::NotAKnot => {
+            let end = |h: f64, g: f64, r: f64, s: f64| {
+                let whole = h + g;
+                ([g, whole], ((h + 2.0 * whole) * g * r + h * h * s) / whole)
+            };
+            let (a, x) = end(width[0], width[1], rise[0], rise[1]);
+            let (b, y) = end(width[last], width[last - 1], rise[last], rise[last - 1]);
+            ([a, b], [x, y])
+        }
+        Ends::Natural => ([[2.0, 1.0]; 2], [3.0 * rise[0], 3.0 * rise[last]]),
+        Ends::Clamped => ([[1.0, 0.0]; 2], [0.0; 2]),
+        Ends::Periodic => return periodic(width, rise),
+        Ends::Linear => return rise.to_vec(),
+    };
+    let mut rows: Vec<([f64; 3], f64)> = vec![([0.0, head[0], head[1]], first)];
+    rows.extend((1..n - 1).map(inner));
+    rows.push(([foot[1], foot[0], 0.0], final_));
+    tridiagonal(&mut rows)
+}
+
+/// Slopes of a periodic spline: the tridiagonal system with corners, by Sherman & Morrison.
+fn periodic(width: &[f64], rise: &[f64]) -> Vec<f64> {
+    let n = width.len();
+    let row = |i: usize| {
+        let before = (i + n - 1) % n;
+        let (h, g) = (width[before], width[i]);
+        ([g, 2.0 * (h + g), h], 3.0 * (g * rise[before] + h * rise[i]))
+    };
+    let mut rows: Vec<([f64; 3], f64)> = (0..n).map(row).collect();
+    let mut slopes = if n == 2 {
+        // Both neighbours are the same one.
+        let ([a, b, c], x) = rows[0];
+        let ([d, e, f], y) = rows[1];
+        let (p, q) = (a + c, d + f);
+        let determinant = b * e - p * q;
+        vec![(x * e - p * y) / determinant, (b * y - q * x) / determinant]
+    } else {
+        let (corner, other) = (rows[0].0[0], rows[n - 1].0[2]);
+        let pivot = -rows[0].0[1];
+        rows[0].0[1] -= pivot;
+        rows[n - 1].0[1] -= corner * other / pivot;
+        let mut extra = rows.clone();
+        for row in &mut extra {
+            row.1 = 0.0;
+        }
+        extra[0].1 = pivot;
+        extra[n - 1].1 = other;
+        let (y, z) = (tridiagonal(&mut rows), tridiagonal(&mut extra));
+        let part = |x: &[f64]| x[0] + corner / pivot * x[n - 1];
+        let factor = part(&y) / (1.0 + part(&z));
+        y.iter().zip(&z).map(|(y, z)| y - factor * z).collect()
+    };
+    slopes.push(slopes[0]);
+    slopes
+}
+
+/// Solves rows (before, own, behind) = right-hand side; they are diagonally dominant, but for ends
+/// that are not the knot's, where it does no harm (de Boor).
+fn tridiagonal(rows: &mut [([f64; 3], f64)]) -> Vec<f64> {
+    for i in 1..rows.len() {
+        let ([_, pivot, behind], right) = rows[i - 1];
+        let factor = rows[i].0[0] / pivot;
+        rows[i].0[1] -= factor * behind;
+        rows[i].1 -= factor * right;
+    }
+    let mut solution = vec![0.0; rows.len()];
+    let mut next = 0.0;
+    for (([_, own, behind], right), out) in rows.iter().zip(&mut solution).rev() {
+        next = (right - behind * next) / own;
+        *out = next;
+    }
+    solution
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::polynomial::value;
+    use super::*;
+
+    const KNOTS: [f64; 7] = [0.0, 0.3, 1.0, 1.4, 2.5, 3.0, 4.0];
+    const ALL: [Ends; 4] = [Ends::NotAKnot, Ends::Natural, Ends::Clamped, Ends::Periodic];
+
+    fn derivatives(piece: &[f64; 4], x: f64) -> [f64; 3] {
+        let [_, b, c, d] = *piece;
+        [value(piece, x), value(&[b, 2.0 * c, 3.0 * d], x), value(&[2.0 * c, 6.0 * d], x)]
+    }
+
+    #[test]
+    fn pieces_meet_with_two_derivatives() {
+        let values = [1.0, -2.0, 0.5, 3.0, 1.0, 0.0, 1.0];
+        for ends in ALL {
+            let pieces = spline(&KNOTS, &values, ends).expect("a spline");
+            for i in 0..5 {
+                let here = derivatives(&pieces[i], KNOTS[i + 1] - KNOTS[i]);
+                let next = derivatives(&pieces[i + 1], 0.0);
+                for (a, b) in here.iter().zip(next) {
+                    assert!((a - b).abs() < 1e-12, "{ends:?} {i}: {a} {b}");
+                }
+            }
+            let first = derivatives(&pieces[0], 0.0);
+            let last = derivatives(&pieces[5], 1.0);
+            assert!((last[0] - 1.0).abs() < 1e-13);
+            let zero = match ends {
+                Ends::NotAKnot => [pieces[0][3] - pieces[1][3], pieces[4][3] - pieces[5][3]],
+                Ends::Natural => [first[2], last[2]],
+                Ends::Clamped => [first[1], last[1]],
+                _ => [first[1] - last[1], first[2] - last[2]],
+            };
+            assert!(zero.iter().all(|z| z.abs() < 1e-12), "{ends:?}: {zero:?}");
+        }
+    }
+
+    #[test]
+    fn cubics_are_themselves() {
+        let cubic = |x: f64| 1.0 - x + 0.5 * x * x + 0.25 * x * x * x;
+        let values = KNOTS.map(cubic);
+        for n in [4, 5, 7] {
+            let pieces = spline(&KNOTS[..n], &values[..n], Ends::NotAKnot).expect("a spline");
+            for (piece, &knot) in pieces.iter().zip(&KNOTS) {
+                assert!((value(piece, 0.1) - cubic(knot + 0.1)).abs() < 1e-13);
+            }
+        }
+        let two = spline(&[0.0, 2.0], &[1.0, 5.0], Ends::NotAKnot).expect("a line");
+        assert_eq!(two, [[1.0, 2.0, 0.0, 0.0]]);
+        let three = spline(&[0.0, 1.0, 3.0], &[0.0, 1.0, 9.0], Ends::NotAKnot).expect("a parabola");
+        assert!((value(&three[1], 1.0) - 4.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn short_tables() {
+        let three = spline(&[0.0, 1.0, 3.0], &[1.0, 2.0, 1.0], Ends::Periodic).expect("a spline");
+        let (first, last) = (derivatives(&three[0], 0.0), derivatives(&three[1], 2.0));
+        for k in 0..3 {
+            assert!((first[k] - last[k]).abs() < 1e-14);
+        }
+        assert!(spline(&[0.0], &[1.0], Ends::Natural).is_err());
+        assert!(spline(&[0.0, 1.0], &[1.0, 1.0], Ends::Periodic).is_err());
+    }
+}

@@ -1,0 +1,194 @@
+//! Inertia and energy over one turn of the driver, as pieces of polynomials.
+
+use super::error::TableError;
+use super::polynomial::{value, zeros};
+use super::spline::{Ends, Pieces, spline};
+
+/// Part of the greatest value by which the ends of a table may differ: tables are rounded.
+const PERIODIC: f64 = 1.0e-9;
+
+/// An extreme value and its place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Extreme {
+    /// Coordinate of the driver, rad.
+    pub at: f64,
+    /// The value.
+    pub value: f64,
+}
+
+/// Reduced inertia and work over one turn, a constant motor among the moments.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Turn {
+    knots: Vec<f64>,
+    moment: Pieces,
+    inertia: Pieces,
+    /// Work from the beginning on, the motor's among it, in powers from each knot.
+    work: Vec<[f64; 5]>,
+    /// Moment of the motor, N·m: with it the work of a turn is none.
+    pub motor: f64,
+}
+
+impl Turn {
+    /// From a table over one period: coordinates, reduced moment without the motor (N·m), reduced
+    /// inertia (kg·m²).
+    ///
+    /// # Errors
+    ///
+    /// A table that is short, not periodic, not growing, or of no positive inertia.
+    pub fn new(
+        knots: &[f64],
+        moment: &[f64],
+        inertia: &[f64],
+        ends: Ends,
+    ) -> Result<Self, TableError> {
+        check(knots, [("moment", moment), ("inertia", inertia)])?;
+        let (moment, inertia) = (spline(knots, moment, ends)?, spline(knots, inertia, ends)?);
+        let mut turn =
+            Self { knots: knots.to_vec(), moment, inertia, work: Vec::new(), motor: 0.0 };
+        turn.lay_work();
+        // The moment's mean, taken off.
+        turn.motor = -turn.work_of_turn() / turn.period();
+        turn.lay_work();
+        let least = turn.least_inertia();
+        if !(least.value > 0.0) {
+            return Err(TableError::NotPositive { value: least.value, at: least.at });
+        }
+        Ok(turn)
+    }
+
+    fn lay_work(&mut self) {
+        self.work.clear();
+        let mut sum = 0.0;
+        for (piece, ends) in self.moment.iter().zip(self.knots.windows(2)) {
+            let [a, b, c, d] = *piece;
+            let work = [sum, a + self.motor, b / 2.0, c / 3.0, d / 4.0];
+            sum = value(&work, ends[1] - ends[0]);
+            self.work.push(work);
+        }
+    }
+
+    fn work_of_turn(&self) -> f64 {
+        let last = self.knots.len() - 1;
+        value(&self.work[last - 1], self.knots[last] - self.knots[last - 1])
+    }
+
+    /// Where the table begins, rad.
+    #[must_use]
+    pub fn start(&self) -> f64 {
+        self.knots[0]
+    }
+
+    /// What it covers, rad: one period.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        self.knots[self.knots.len() - 1] - self.knots[0]
+    }
+
+    /// The knots, rad.
+    #[must_use]
+    pub fn knots(&self) -> &[f64] {
+        &self.knots
+    }
+
+    /// The piece that a coordinate is in, how far from its knot, and whole periods before it.
+    pub(super) fn place(&self, phi: f64) -> (usize, f64, f64) {
+        let whole = ((phi - self.start()) / self.period()).floor();
+        let within = phi - whole * self.period();
+        let after = self.knots.partition_point(|&knot| knot <= within);
+        let piece = after.clamp(1, self.knots.len() - 1) - 1;
+        (piece, within - self.knots[piece], whole)
+    }
+
+    /// Reduced inertia, kg·m².
+    #[must_use]
+    pub fn inertia(&self, phi: f64) -> f64 {
+        let (piece, x, _) = self.place(phi);
+        value(&self.inertia[piece], x)
+    }
+
+    /// Reduced moment without the motor, N·m.
+    #[must_use]
+    pub fn moment(&self, phi: f64) -> f64 {
+        let (piece, x, _) = self.place(phi);
+        value(&self.moment[piece], x)
+    }
+
+    /// Work of all moments from the beginning of the turn on, J.
+    #[must_use]
+    pub fn work(&self, phi: f64) -> f64 {
+        let (piece, x, _) = self.place(phi);
+        value(&self.work[piece], x)
+    }
+
+    /// Inertia and work in a piece, at a distance from its knot.
+    pub(super) fn within(&self, piece: usize, x: f64) -> [f64; 2] {
+        [value(&self.inertia[piece], x), value(&self.work[piece], x)]
+    }
+
+    fn least_inertia(&self) -> Extreme {
+        self.extremes(1.0, 0.0)[0]
+    }
+
+    /// Least and greatest value of `speed2 · I − work · W` over the turn: its derivative is a cubic
+    /// in every piece.
+    pub(super) fn extremes(&self, speed2: f64, work: f64) -> [Extreme; 2] {
+        let of = |piece: usize, x: f64| {
+            let [inertia, done] = self.within(piece, x);
+            speed2 * inertia - work * done
+        };
+        let first = Extreme { at: self.start(), value: of(0, 0.0) };
+        let [mut least, mut greatest] = [first; 2];
+        for (piece, ends) in self.knots.windows(2).enumerate() {
+            let mut look = |x: f64| {
+                let own = Extreme { at: ends[0] + x, value: of(piece, x) };
+                if own.value < least.value {
+                    least = own;
+                }
+                if own.value > greatest.value {
+                    greatest = own;
+                }
+            };
+            let width = ends[1] - ends[0];
+            look(0.0);
+            look(width);
+            let ([_, i1, i2, i3], [_, w1, w2, w3, w4]) = (self.inertia[piece], self.work[piece]);
+            let slope = [
+                speed2 * i1 - work * w1,
+                2.0 * (speed2 * i2 - work * w2),
+                3.0 * (speed2 * i3 - work * w3),
+                -4.0 * work * w4,
+            ];
+            zeros(&slope, width, look);
+        }
+        [least, greatest]
+    }
+}
+
+fn check(knots: &[f64], columns: [(&'static str, &[f64]); 2]) -> Result<(), TableError> {
+    let all = [("phi", knots), columns[0], columns[1]];
+    let count = all.iter().map(|(_, column)| column.len()).min().unwrap_or(0);
+    if count < 2 {
+        return Err(TableError::TooShort { count, least: 2 });
+    }
+    for (quantity, column) in all {
+        if let Some(row) = column.iter().position(|x| !x.is_finite()) {
+            return Err(TableError::NotFinite { row, quantity, value: column[row] });
+        }
+    }
+    if let Some(row) = (1..count).find(|&row| knots[row] <= knots[row - 1]) {
+        let (value, before) = (knots[row], knots[row - 1]);
+        return Err(TableError::NotIncreasing { row, value, before });
+    }
+    for (quantity, column) in columns {
+        let (first, last) = (column[0], column[count - 1]);
+        let greatest = column.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if (first - last).abs() > PERIODIC * greatest {
+            return Err(TableError::NotPeriodic { quantity, first, last });
+        }
+    }
+    let inertia = columns[1].1;
+    if let Some(row) = inertia.iter().position(|&x| x <= 0.0) {
+        return Err(TableError::NotPositive { value: inertia[row], at: knots[row] });
+    }
+    Ok(())
+}

@@ -1,0 +1,177 @@
+//! Flywheels of many tables; Python checks, broadcasts and reshapes.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+
+use assur::dynamics::{Ends, Flywheel, Mean, TableError, Turn};
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::error;
+use crate::gate;
+
+type Flat<'py> = PyReadonlyArray1<'py, f64>;
+type Array<'py> = Bound<'py, PyArray1<f64>>;
+type One = Result<Flywheel, TableError>;
+
+/// Tables a thread takes at once, and below which one thread does all.
+const TOGETHER: usize = 64;
+
+/// What is asked of every table.
+#[derive(Clone, Copy)]
+enum Task {
+    /// A fluctuation at a mean speed.
+    Sized(Mean),
+    /// A flywheel at a mean speed.
+    Driven(Mean),
+    /// A flywheel with a speed at the beginning.
+    Given,
+}
+
+impl Task {
+    fn of(name: &str) -> PyResult<Self> {
+        Ok(match name {
+            "sized extremes" => Self::Sized(Mean::Extremes),
+            "sized period" => Self::Sized(Mean::Period),
+            "driven extremes" => Self::Driven(Mean::Extremes),
+            "driven period" => Self::Driven(Mean::Period),
+            "given" => Self::Given,
+            _ => return Err(error::input(format!("no such task: {name:?}"), None)),
+        })
+    }
+
+    fn solve(self, turn: Turn, [first, second]: [f64; 2]) -> One {
+        match self {
+            Self::Sized(mean) => Flywheel::sized(turn, first, second, mean),
+            Self::Driven(mean) => Flywheel::driven(turn, first, second, mean),
+            Self::Given => Flywheel::given(turn, first, second),
+        }
+    }
+}
+
+fn ends(name: &str) -> PyResult<Ends> {
+    Ok(match name {
+        "not-a-knot" => Ends::NotAKnot,
+        "natural" => Ends::Natural,
+        "clamped" => Ends::Clamped,
+        "periodic" => Ends::Periodic,
+        "linear" => Ends::Linear,
+        _ => return Err(error::input(format!("no such spline: {name:?}"), None)),
+    })
+}
+
+/// The flywheels of some tables with the same angles.
+#[pyclass(frozen, module = "assur._core")]
+pub(crate) struct Flywheels(Vec<One>);
+
+#[pymethods]
+impl Flywheels {
+    /// `moment` and `inertia`: table after table; `first` and `second`: two numbers a table, what
+    /// they are is told by `task`.
+    #[new]
+    #[pyo3(signature = (phi, moment, inertia, spline, task, first, second, threads=None))]
+    #[allow(clippy::too_many_arguments, reason = "flat arrays")]
+    fn new(
+        py: Python<'_>,
+        phi: Flat<'_>,
+        moment: Flat<'_>,
+        inertia: Flat<'_>,
+        spline: &str,
+        task: &str,
+        first: Flat<'_>,
+        second: Flat<'_>,
+        threads: Option<usize>,
+    ) -> PyResult<Self> {
+        let (ends, task) = (ends(spline)?, Task::of(task)?);
+        let [phi, moment, inertia, first, second] =
+            [&phi, &moment, &inertia, &first, &second].map(|a| a.as_slice().map(<[f64]>::to_vec));
+        let (phi, moment, inertia, first, second) = (phi?, moment?, inertia?, first?, second?);
+        let (count, rows) = (first.len(), phi.len());
+        if second.len() != count || [&moment, &inertia].iter().any(|a| a.len() != count * rows) {
+            return Err(error::input("the arrays do not fit".into(), None));
+        }
+        let one = |i: usize| {
+            let of = |all: &[f64]| all[i * rows..(i + 1) * rows].to_vec();
+            Turn::new(&phi, &of(&moment), &of(&inertia), ends)
+                .and_then(|turn| task.solve(turn, [first[i], second[i]]))
+        };
+        gate::run(py, count <= TOGETHER, |cancel| spread(count, threads, cancel, &one)).map(Self)
+    }
+
+    /// Of every table: flywheel, speed at the beginning, motor, place and value of the greatest
+    /// speed and of the least, time of a turn. NaN where there is none.
+    fn numbers<'py>(&self, py: Python<'py>) -> Vec<Array<'py>> {
+        let of: [fn(&Flywheel) -> f64; 8] = [
+            |f| f.inertia,
+            |f| f.speed0,
+            |f| f.turn.motor,
+            |f| f.greatest.at,
+            |f| f.greatest.value,
+            |f| f.least.at,
+            |f| f.least.value,
+            Flywheel::period,
+        ];
+        let all = |of: fn(&Flywheel) -> f64| {
+            self.0.iter().map(|one| one.as_ref().map_or(f64::NAN, of)).collect()
+        };
+        of.into_iter().map(|of| PyArray1::from_vec(py, all(of))).collect()
+    }
+
+    /// Why a table has none.
+    fn problem(&self, index: usize) -> Option<String> {
+        self.0.get(index)?.as_ref().err().map(ToString::to_string)
+    }
+
+    /// A quantity of every table at as many places, table after table.
+    fn curve<'py>(&self, py: Python<'py>, what: &str, places: Flat<'py>) -> PyResult<Array<'py>> {
+        let of: fn(&Flywheel, f64) -> f64 = match what {
+            "speed" => Flywheel::speed,
+            "time" => Flywheel::time,
+            "angle" => Flywheel::angle,
+            "moment" => |f, phi| f.turn.moment(phi),
+            "inertia" => |f, phi| f.turn.inertia(phi),
+            "work" => |f, phi| f.turn.work(phi),
+            _ => return Err(error::input(format!("no such curve: {what:?}"), None)),
+        };
+        let places = places.as_slice()?.to_vec();
+        let each = places.len().checked_div(self.0.len()).unwrap_or(0);
+        let values = py.detach(|| {
+            let rows = self.0.iter().zip(places.chunks(each.max(1)));
+            rows.flat_map(|(one, row)| {
+                row.iter().map(move |&x| {
+                    one.as_ref().ok().filter(|_| x.is_finite()).map_or(f64::NAN, |f| of(f, x))
+                })
+            })
+            .collect()
+        });
+        Ok(PyArray1::from_vec(py, values))
+    }
+}
+
+/// Does `one` for every index on some threads; what is cancelled is left out at the end.
+fn spread(
+    count: usize,
+    threads: Option<usize>,
+    cancel: &AtomicBool,
+    one: &(impl Fn(usize) -> One + Sync),
+) -> Vec<One> {
+    let available = || thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = threads.unwrap_or_else(available).min(count.div_ceil(TOGETHER)).max(1);
+    let share = count.div_ceil(threads);
+    let part = |first: usize| -> Vec<One> {
+        let own = first..(first + share).min(count);
+        own.take_while(|_| !cancel.load(Ordering::Relaxed)).map(one).collect()
+    };
+    if threads == 1 {
+        return part(0);
+    }
+    thread::scope(|scope| {
+        let parts: Vec<_> =
+            (0..count).step_by(share).map(|first| scope.spawn(move || part(first))).collect();
+        let joined = parts.into_iter().flat_map(|part| match part.join() {
+            Ok(done) => done,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        joined.collect()
+    })
+}
