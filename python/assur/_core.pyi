@@ -104,6 +104,7 @@ def instant_centre(
     a: tuple[_Float, _Float, _Float],
     b: tuple[_Float, _Float, _Float],
 ) -> _Float: ...
+
 @final
 class Flywheels:
     def __new__(

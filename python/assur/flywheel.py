@@ -6,7 +6,7 @@ from the energy integral, ω² = (2 ∫(M + M_motor) dφ + (I(0) + I_f) ω0²) /
 
 References
 ----------
-I. M. Matsiuk, E. M. Shliakhov, *Dynamic synthesis of a lever mechanism by the coefficient of speed
+I. M. Matsyuk, E. M. Shlyakhov, *Dynamic synthesis of a lever mechanism by the coefficient of speed
 fluctuation in Mathcad*, equations 1 to 6. F. Wittenbauer, *Graphische Dynamik* (1923).
 """
 
@@ -25,8 +25,6 @@ from assur.errors import InputError
 
 if TYPE_CHECKING:
     from os import PathLike
-
-    from matplotlib.axes import Axes
 
 __all__ = ["Flywheel", "Place", "Table", "evaluate", "from_table", "read_table"]
 
@@ -194,9 +192,7 @@ class Flywheel:
         start = np.asarray(self.reduced_inertia(self._span[0]) * np.square(self.speed0) / 2.0)
         return inertia, self.work(q) + start[..., np.newaxis]
 
-    def plot(
-        self, what: Literal["speed", "time", "energy-mass"] = "speed", ax: Axes | None = None
-    ) -> Axes:
+    def plot(self, what: Literal["speed", "time", "energy-mass"] = "speed", ax: Any = None) -> Any:
         """Draw the speed over the turn or over the time, or the energy-mass diagram.
 
         Parameters
@@ -211,7 +207,7 @@ class Flywheel:
         matplotlib.axes.Axes
             What was drawn on.
         """
-        from assur.plot import flywheel_picture  # noqa: PLC0415 matplotlib is an extra
+        from assur.plot import flywheel_picture
 
         if self.shape:
             message = "plot is for one table, this is a batch"
@@ -383,7 +379,7 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> Table:
     kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line[:1] != "#"]
     cells = list(csv.reader(line for _, line in kept))
     columns = [0, 1, 2]
-    if cells and not _is_number(cells[0][0]):
+    if cells and _number(cells[0], 0) is None:
         names = [cell.strip().lower() for cell in cells[0]]
         missing = [name for name in Table._fields if name not in names]
         if missing:
@@ -391,23 +387,21 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> Table:
             raise InputError(message)
         columns = [names.index(name) for name in Table._fields]
         kept, cells = kept[1:], cells[1:]
-    rows = []
-    for (line, text), row in zip(kept, cells, strict=True):
-        try:
-            rows.append([float(row[column]) for column in columns])
-        except (ValueError, IndexError) as error:
-            message = f"{path}, line {line}: {text!r} is not three numbers phi, moment, inertia"
-            raise InputError(message) from error
-    phi, moment, inertia = np.array(rows).reshape(-1, 3).T
+    rows = [[_number(row, column) for column in columns] for row in cells]
+    bad = next((i for i, row in enumerate(rows) if None in row), None)
+    if bad is not None:
+        line, text = kept[bad]
+        message = f"{path}, line {line}: {text!r} is not three numbers phi, moment, inertia"
+        raise InputError(message)
+    phi, moment, inertia = np.array(rows, np.float64).reshape(-1, 3).T
     return Table(np.deg2rad(phi) if degrees else phi, moment, inertia)
 
 
-def _is_number(text: str) -> bool:
+def _number(row: list[str], column: int) -> float | None:
     try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+        return float(row[column])
+    except (ValueError, IndexError):
+        return None
 
 
 def _one_of(value: Any, known: tuple[str, ...], what: str) -> str:
@@ -434,9 +428,14 @@ def _flywheel(
     if x.ndim != 1:
         message = f"phi has the shape {x.shape}: one list of coordinates is needed"
         raise InputError(message)
+    if x.size < 2:
+        message = f"the table has {x.size} rows: at least 2 are needed"
+        raise InputError(message)
     for column, name in ((m, "moment"), (i, "inertia")):
         if column.ndim == 0 or column.shape[-1] != x.size:
-            message = f"{name} has the shape {column.shape}: its last axis must have the {x.size} of phi"
+            message = (
+                f"{name} has the shape {column.shape}: its last axis must have the {x.size} of phi"
+            )
             raise InputError(message)
     numbers = [real_array(value, name) for value, name in wanted]
     try:

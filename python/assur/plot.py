@@ -155,7 +155,9 @@ def flywheel_picture(
     for place in (flywheel.greatest, flywheel.least):
         at = place.at if what == "speed" else flywheel.time(place.at)
         ax.plot(at, place.value, "o", color=_COLOURS[1], markersize=5)
-        ax.annotate(f"{place.value:.4g}", (at, place.value), xytext=(4, 4), textcoords="offset points")
+        ax.annotate(
+            f"{place.value:.4g}", (at, place.value), xytext=(4, 4), textcoords="offset points"
+        )
     ax.axhline(flywheel.mean_speed, color="0.6", linewidth=0.8)
     ax.set(xlabel=label, ylabel="ω, rad/s")
     return ax

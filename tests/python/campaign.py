@@ -141,12 +141,12 @@ class Check:
         )
         near, far = (np.abs(sample.value[:, : sample.lengths]) for sample in (inside, before))
         if not self.higher:
-            return near.max(axis=1) > checks.POLE * size
+            return np.asarray(near.max(axis=1) > checks.POLE * size)
         place = np.arange(len(near)), near.argmax(axis=1)
         with np.errstate(invalid="ignore", divide="ignore"):
             distance = checks.POLE_STEP * far[place] / (near[place] - far[place])
         is_near = (distance > 0.0) & (distance < checks.POLE_NEAR)
-        return (near[place] > checks.POLE_OF_GROUPS * size) & is_near
+        return np.asarray((near[place] > checks.POLE_OF_GROUPS * size) & is_near)
 
     def motion(self, fine: Sample) -> None:
         """Nothing jumps; where it ends is a dead point."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import crank_rocker_paper
+import flywheel_paper
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -14,7 +15,11 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
-FIGURES = {**slider_crank_papers.FIGURES, **crank_rocker_paper.FIGURES}
+FIGURES = {
+    **slider_crank_papers.FIGURES,
+    **crank_rocker_paper.FIGURES,
+    **flywheel_paper.FIGURES,
+}
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -31,6 +36,8 @@ def test_figures(name: str) -> None:
 def test_the_scripts_draw_them_all(tmp_path: Path) -> None:
     slider_crank_papers.main(tmp_path)
     crank_rocker_paper.main(tmp_path)
+    flywheel_paper.main(tmp_path)
     drawn = {path.stem for path in tmp_path.glob("*.png")}
     wanted = {f"slider_crank_{name}" for name in slider_crank_papers.FIGURES}
-    assert drawn == wanted | {f"crank_rocker_{name}" for name in crank_rocker_paper.FIGURES}
+    wanted |= {f"crank_rocker_{name}" for name in crank_rocker_paper.FIGURES}
+    assert drawn == wanted | {f"flywheel_{name}" for name in flywheel_paper.FIGURES}

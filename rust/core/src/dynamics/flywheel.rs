@@ -1,10 +1,10 @@
 //! Flywheels: from the energy of a turn to the speed, and from the fluctuation of that to the
 //! flywheel.
 //!
-//! With C = (I(0) + I_f) ω0² the energy integral (V. S. Matsyuk & E. M. Shlyakhov, equation 3) is
-//! ω² = (2 W + C) / (I + I_f). So ω ≤ ω_max everywhere means C ≤ ω_max² I_f + min(ω_max² I − 2 W),
-//! ω ≥ ω_min means C ≥ ω_min² I_f + max(ω_min² I − 2 W), and both are reached: two equations,
-//! linear in I_f and C (the tangents of F. Wittenbauer's diagram, Graphische Dynamik, 1923).
+//! With K the flywheel's inertia and C = (I(0) + K) ω0² the energy integral (I. M. Matsyuk & E. M.
+//! Shlyakhov, equation 3) is ω² = (2 W + C) / (I + K). So ω ≤ p everywhere means
+//! C ≤ p² K + min(p² I − 2 W), ω ≥ r means C ≥ r² K + max(r² I − 2 W), and both are reached: two
+//! equations, linear in K and C (the tangents of F. Wittenbauer's diagram, Graphische Dynamik, 1923).
 
 use super::error::TableError;
 use super::quadrature::integral;
@@ -111,7 +111,7 @@ impl Flywheel {
         check_speed("speed0", speed0)?;
         let constant = (turn.inertia(turn.start()) + inertia) * speed0 * speed0;
         let [_, least] = turn.extremes(0.0, 2.0);
-        if !(constant > least.value) {
+        if constant <= least.value {
             let missing = 0.5 * (least.value - constant);
             return Err(TableError::Stalls { speed0, at: least.at, missing });
         }
@@ -223,11 +223,12 @@ fn speeds(turn: &Turn, inertia: f64, constant: f64) -> [Extreme; 2] {
             // Of the difference the other one: its sign is turned.
             let at = turn.extremes(speed2, 2.0)[1 - which].at;
             let own = (2.0 * turn.work(at) + constant) / (turn.inertia(at) + inertia);
+            // The last step tells nothing but the place.
+            best = Extreme { at, value: own.sqrt() };
             let better = if which == 1 { own > speed2 } else { own < speed2 };
             if step > 0 && !better {
                 break;
             }
-            best = Extreme { at, value: own.sqrt() };
             speed2 = own;
         }
         best

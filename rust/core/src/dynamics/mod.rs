@@ -3,7 +3,7 @@
 //! # Examples
 //!
 //! The moment's fluctuation of a press, and the flywheel that keeps the speed within 1/8 of 15 rad/s
-//! (V. S. Matsyuk & E. M. Shlyakhov):
+//! (I. M. Matsyuk & E. M. Shlyakhov):
 //!
 //! ```
 //! use assur::dynamics::{Ends, Flywheel, Mean, Turn};

@@ -42,7 +42,8 @@ fn zero_between(cubic: &[f64; 4], low: f64, high: f64) -> Option<f64> {
     if at_low == 0.0 {
         return Some(low);
     }
-    if !(at_low * at_high.signum() < 0.0) {
+    let differ = at_low * at_high.signum() < 0.0;
+    if !differ {
         return (at_high == 0.0 && high > low).then_some(high);
     }
     let [_, c1, c2, c3] = *cubic;

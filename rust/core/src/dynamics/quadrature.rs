@@ -49,7 +49,8 @@ fn refined(f: &impl Fn(f64) -> f64, [a, b]: [f64; 2], whole: f64, agree: f64, de
     let (left, right) = (rule(f, a, middle), rule(f, middle, b));
     let sum = left + right;
     // No number is let be as well: it would not become one.
-    if depth == 0 || !((sum - whole).abs() > agree) {
+    let differ = (sum - whole).abs() > agree;
+    if depth == 0 || !differ {
         return sum;
     }
     refined(f, [a, middle], left, agree, depth - 1)

@@ -27,7 +27,8 @@ pub fn zero(f: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
         }
         factor = 1.0 + (factor - 1.0) * GROWTH;
     }
-    if !(at_far * at_near.signum() <= 0.0) {
+    let differ = at_far * at_near.signum() <= 0.0;
+    if !differ {
         return None;
     }
     let (mut a, mut at_a, mut b, mut at_b) = (near, at_near, far, at_far);

@@ -50,7 +50,8 @@ impl Turn {
         turn.motor = -turn.work_of_turn() / turn.period();
         turn.lay_work();
         let least = turn.least_inertia();
-        if !(least.value > 0.0) {
+        let is_positive = least.value > 0.0;
+        if !is_positive {
             return Err(TableError::NotPositive { value: least.value, at: least.at });
         }
         Ok(turn)
@@ -149,8 +150,8 @@ impl Turn {
                 }
             };
             let width = ends[1] - ends[0];
+            // The end of the last piece is the beginning of the first.
             look(0.0);
-            look(width);
             let ([_, i1, i2, i3], [_, w1, w2, w3, w4]) = (self.inertia[piece], self.work[piece]);
             let slope = [
                 speed2 * i1 - work * w1,
