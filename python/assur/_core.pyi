@@ -1,5 +1,5 @@
 from collections.abc import Callable
-from typing import TypeAlias, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -7,6 +7,7 @@ from typing_extensions import Self
 
 __all__ = [
     "Flywheels",
+    "Machine",
     "Mechanism",
     "acute",
     "asin",
@@ -121,6 +122,20 @@ class Flywheels:
     def numbers(self) -> list[_Float]: ...
     def problem(self, index: int) -> str | None: ...
     def curve(self, what: str, places: _Float) -> _Float: ...
+
+@final
+class Machine:
+    def __new__(
+        cls,
+        mechanism: Mechanism,
+        bodies: list[tuple[str, Any, float, float]],
+        loads: list[tuple[str, list[Any], list[str], list[float], list[Any]]],
+        gravity: list[float],
+        rotor: float,
+    ) -> Self: ...
+    def reduce(
+        self, dimensions: _Float, q: _Float, speed: _Float, given: _Float
+    ) -> tuple[_Float, _Float, _Float, _Float, npt.NDArray[np.uint8]]: ...
 
 def slider_crank_stroke(phi: _Float, lambda_: _Float) -> _Three: ...
 def slider_crank_fraction(phi: _Float, lambda_: _Float, n: int) -> _Three: ...

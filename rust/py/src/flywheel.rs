@@ -49,7 +49,7 @@ impl Task {
     }
 }
 
-fn ends(name: &str) -> PyResult<Ends> {
+pub(crate) fn ends(name: &str) -> PyResult<Ends> {
     Ok(match name {
         "not-a-knot" => Ends::NotAKnot,
         "natural" => Ends::Natural,

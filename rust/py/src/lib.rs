@@ -5,6 +5,7 @@ mod crank_rocker;
 mod error;
 mod flywheel;
 mod gate;
+mod machine;
 mod mechanism;
 mod metrics;
 mod slider_crank;
@@ -22,6 +23,8 @@ mod _core {
     };
     #[pymodule_export]
     use super::flywheel::Flywheels;
+    #[pymodule_export]
+    use super::machine::Machine;
     #[pymodule_export]
     use super::mechanism::Mechanism;
     #[pymodule_export]

@@ -39,7 +39,7 @@ type GroupParts =
 /// A compiled mechanism.
 #[pyclass(frozen, module = "assur._core")]
 pub(crate) struct Mechanism {
-    inner: assur::Mechanism,
+    pub(crate) inner: assur::Mechanism,
 }
 
 #[pymethods]

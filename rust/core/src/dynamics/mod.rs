@@ -19,13 +19,21 @@
 
 mod error;
 mod flywheel;
+mod load;
+mod machine;
 mod polynomial;
+mod pose;
 mod quadrature;
 mod root;
 mod spline;
+mod table;
 mod turn;
 
 pub use error::TableError;
 pub use flywheel::{Flywheel, Mean};
+pub use load::Load;
+pub use machine::{Body, Machine, Reduced};
+pub use pose::Point;
 pub use spline::{Ends, Pieces, spline};
+pub use table::{Table, Value};
 pub use turn::{Extreme, Turn};

@@ -166,12 +166,26 @@ impl Turn {
 }
 
 fn check(knots: &[f64], columns: [(&'static str, &[f64]); 2]) -> Result<(), TableError> {
-    let all = [("phi", knots), columns[0], columns[1]];
-    let count = all.iter().map(|(_, column)| column.len()).min().unwrap_or(0);
+    check_columns(knots, &columns, true)?;
+    let inertia = columns[1].1;
+    if let Some(row) = inertia.iter().position(|&x| x <= 0.0) {
+        return Err(TableError::NotPositive { value: inertia[row], at: knots[row] });
+    }
+    Ok(())
+}
+
+/// Refuses columns over coordinates that do not grow, or whose ends differ where they must agree.
+pub(super) fn check_columns(
+    knots: &[f64],
+    columns: &[(&'static str, &[f64])],
+    periodic: bool,
+) -> Result<(), TableError> {
+    let all = || std::iter::once(("phi", knots)).chain(columns.iter().copied());
+    let count = all().map(|(_, column)| column.len()).min().unwrap_or(0);
     if count < 2 {
         return Err(TableError::TooShort { count, least: 2 });
     }
-    for (quantity, column) in all {
+    for (quantity, column) in all() {
         if let Some(row) = column.iter().position(|x| !x.is_finite()) {
             return Err(TableError::NotFinite { row, quantity, value: column[row] });
         }
@@ -180,16 +194,12 @@ fn check(knots: &[f64], columns: [(&'static str, &[f64]); 2]) -> Result<(), Tabl
         let (value, before) = (knots[row], knots[row - 1]);
         return Err(TableError::NotIncreasing { row, value, before });
     }
-    for (quantity, column) in columns {
+    for &(quantity, column) in columns.iter().filter(|_| periodic) {
         let (first, last) = (column[0], column[count - 1]);
         let greatest = column.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         if (first - last).abs() > PERIODIC * greatest {
             return Err(TableError::NotPeriodic { quantity, first, last });
         }
-    }
-    let inertia = columns[1].1;
-    if let Some(row) = inertia.iter().position(|&x| x <= 0.0) {
-        return Err(TableError::NotPositive { value: inertia[row], at: knots[row] });
     }
     Ok(())
 }

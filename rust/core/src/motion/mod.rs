@@ -10,6 +10,7 @@ mod design;
 mod dyad;
 mod explain;
 mod fit;
+pub(crate) mod follow;
 mod forms;
 mod group;
 mod group_analogue;

@@ -1,0 +1,290 @@
+"""What a machine carries and what acts on it: bodies, weight, forces, springs, dampers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur._checks import real_array
+from assur.errors import InputError
+
+__all__ = [
+    "Body",
+    "Damper",
+    "Force",
+    "Gravity",
+    "Spring",
+    "Table",
+    "Torque",
+    "TorsionDamper",
+    "TorsionSpring",
+]
+
+Place: TypeAlias = str | tuple[str, tuple[float, float]]
+# What the core is told of a value, and of a load.
+Told: TypeAlias = float | tuple[int] | tuple[list[float], list[float], str, bool]
+Parts: TypeAlias = tuple[str, list[Any], list[str], list[float], list[Told]]
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Values over the (first) driver's coordinate.
+
+    Parameters
+    ----------
+    q : array_like
+        Coordinates, growing, rad or m.
+    value : array_like
+        Values there.
+    spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
+        What is laid through the rows.
+    periodic : bool
+        Whether this is one period, its end the same as its beginning (the default); otherwise
+        there is no value beyond the rows.
+
+    Examples
+    --------
+    >>> import assur
+    >>> work = assur.Table([0.0, 3.0, 3.4, 6.283185307179586], [0.0, 0.0, 900.0, 0.0], "linear")
+    """
+
+    q: npt.ArrayLike
+    value: npt.ArrayLike
+    spline: str = "not-a-knot"
+    periodic: bool = True
+
+    def _told(self) -> Told:
+        q, value = real_array(self.q, "Table q"), real_array(self.value, "Table value")
+        if q.ndim != 1 or q.shape != value.shape:
+            message = f"Table: q has the shape {q.shape}, value {value.shape}: two lists are needed"
+            raise InputError(message)
+        return q.tolist(), value.tolist(), str(self.spline), bool(self.periodic)
+
+
+# A number, a table over q, or a function of (t, q, speed) that is called with floats.
+Value: TypeAlias = float | Table | Callable[[float, float, float], float]
+
+
+@dataclass(frozen=True)
+class Body:
+    """Mass of a link.
+
+    Parameters
+    ----------
+    mass : float
+        kg, not negative.
+    inertia : float
+        Moment of inertia about the centre of mass, kg·m², not negative.
+    at : str or (x, y), optional
+        Centre of mass: a joint, or a place in the link's frame (origin at its first joint, x
+        toward its second), m. The link's first joint by default.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.Body(mass=2.0, inertia=0.05, at=(0.2, 0.0))
+    Body(mass=2.0, inertia=0.05, at=(0.2, 0.0))
+    """
+
+    mass: float = 0.0
+    inertia: float = 0.0
+    at: str | tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("mass", "inertia"):
+            value = _number(getattr(self, name), f"Body {name}")
+            if value < 0.0:
+                message = f"Body: {name} is {value:g}, it must not be negative"
+                raise InputError(message, value=value)
+
+
+@dataclass(frozen=True)
+class Gravity:
+    """Free fall, (x, y), m/s²; bodies have weight by it."""
+
+    acceleration: tuple[float, float] = (0.0, -9.81)
+
+
+@dataclass(frozen=True)
+class Force:
+    """A force at a point.
+
+    Parameters
+    ----------
+    at : str or (link, (x, y))
+        A joint, or a place in a link's frame, m.
+    force : (fx, fy)
+        N; each a number, a `Table` over q, or a function of (t, q, speed).
+    axes : str, optional
+        The link along whose frame fx and fy are; the drawing's axes by default.
+    """
+
+    at: Place
+    force: tuple[Value, Value]
+    axes: str | None = None
+
+    def _parts(self, tell: Any) -> Parts:
+        force: Any = self.force
+        if not isinstance(force, tuple | list) or len(force) != 2:
+            message = f"Force: {self.force!r} is not two components (fx, fy)"
+            raise InputError(message)
+        links = [] if self.axes is None else [self.axes]
+        return "force", [_place(self.at)], links, [], [tell(value) for value in self.force]
+
+
+@dataclass(frozen=True)
+class Torque:
+    """A torque on a link, N·m, counter-clockwise; its reaction is on another (the frame).
+
+    Parameters
+    ----------
+    link : str
+        The link.
+    torque : float, Table or callable
+        N·m: a number, a `Table` over q, or a function of (t, q, speed).
+    on : str
+        The link that has the reaction.
+    """
+
+    link: str
+    torque: Value
+    on: str = "ground"
+
+    def _parts(self, tell: Any) -> Parts:
+        return "torque", [], [self.link, self.on], [], [tell(self.torque)]
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A spring between two points.
+
+    Parameters
+    ----------
+    first, second : str or (link, (x, y))
+        Its ends.
+    stiffness : float
+        N/m.
+    length : float
+        Free length, m.
+    preload : float
+        Tension at that length, N.
+    """
+
+    first: Place
+    second: Place
+    stiffness: float
+    length: float
+    preload: float = 0.0
+
+    def _parts(self, _: Any) -> Parts:
+        numbers = _numbers(self, "stiffness", "length", "preload")
+        return "spring", [_place(self.first), _place(self.second)], [], numbers, []
+
+
+@dataclass(frozen=True)
+class TorsionSpring:
+    """A spring between two links.
+
+    Parameters
+    ----------
+    link : str
+        The link that it turns back.
+    stiffness : float
+        N·m/rad.
+    angle : float
+        Difference of the two links' angles without load, rad.
+    on : str
+        The other link.
+    preload : float
+        Torque back at that angle, N·m.
+    """
+
+    link: str
+    stiffness: float
+    angle: float = 0.0
+    on: str = "ground"
+    preload: float = 0.0
+
+    def _parts(self, _: Any) -> Parts:
+        numbers = _numbers(self, "stiffness", "angle", "preload")
+        return "torsion spring", [], [self.link, self.on], numbers, []
+
+
+@dataclass(frozen=True)
+class Damper:
+    """A damper between two points, N·s/m."""
+
+    first: Place
+    second: Place
+    damping: float
+
+    def _parts(self, _: Any) -> Parts:
+        numbers = _numbers(self, "damping")
+        return "damper", [_place(self.first), _place(self.second)], [], numbers, []
+
+
+@dataclass(frozen=True)
+class TorsionDamper:
+    """A damper between two links, N·m·s/rad."""
+
+    link: str
+    damping: float
+    on: str = "ground"
+
+    def _parts(self, _: Any) -> Parts:
+        return "torsion damper", [], [self.link, self.on], _numbers(self, "damping"), []
+
+
+Load: TypeAlias = Gravity | Force | Torque | Spring | TorsionSpring | Damper | TorsionDamper
+
+
+@dataclass
+class Outside:
+    """The functions among the values, in order."""
+
+    functions: list[Callable[[float, float, float], float]] = field(default_factory=list)
+
+    def tell(self, value: Value) -> Told:
+        """What the core is told of a value."""
+        if isinstance(value, Table):
+            return value._told()
+        if callable(value):
+            self.functions.append(value)
+            return (len(self.functions) - 1,)
+        return _number(value, "the value of a load")
+
+    def numbers(self, q: list[float], speed: list[float]) -> npt.NDArray[np.float64]:
+        """The functions' values at positions, at the time 0."""
+        rows = zip(q, speed, strict=True)
+        table = [[float(f(0.0, a, b)) for f in self.functions] for a, b in rows]
+        return np.array(table, np.float64).ravel()
+
+
+def _number(value: Any, what: str) -> float:
+    number = real_array(value, what)
+    if number.ndim or not math.isfinite(number):
+        message = f"{what} is {value!r}: a finite number is needed"
+        raise InputError(message)
+    return float(number)
+
+
+def _numbers(load: Any, *names: str) -> list[float]:
+    return [_number(getattr(load, name), f"{type(load).__name__} {name}") for name in names]
+
+
+def _place(at: Any) -> Any:
+    if isinstance(at, str):
+        return at
+    try:
+        link, (x, y) = at
+        if isinstance(link, str):
+            return link, [_number(x, "a place's x"), _number(y, "a place's y")]
+    except (TypeError, ValueError):
+        pass
+    message = f"{at!r} is no place: a joint's name, or (link, (x, y)) in the link's frame"
+    raise InputError(message)

@@ -1,0 +1,98 @@
+//! What forces and masses ask of a position: places of points, angles of links, and their
+//! derivatives by the drivers, in metres and radians.
+
+use crate::motion::follow::Position;
+use crate::plan::jet::Jets;
+use crate::plane::Vector;
+use crate::structure::closure::point_of_joint;
+
+/// Something that moves with a mechanism.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Point {
+    /// A joint.
+    Joint(usize),
+    /// A place in a link's frame (origin at its first joint, x toward its second), m.
+    Link {
+        /// The link.
+        link: usize,
+        /// The place.
+        at: [f64; 2],
+    },
+}
+
+/// A solved position.
+pub(crate) struct Pose<'p> {
+    position: Position<'p>,
+    jets: &'p Jets,
+}
+
+impl<'p> Pose<'p> {
+    pub(crate) fn new(position: Position<'p>, jets: &'p Jets) -> Self {
+        Self { position, jets }
+    }
+
+    /// Entry of the jets: the derivative by one driver.
+    pub(crate) fn first(driver: usize) -> usize {
+        1 + driver
+    }
+
+    /// The derivative by two.
+    pub(crate) fn second(&self, a: usize, b: usize) -> usize {
+        let (a, b) = (a.min(b), a.max(b));
+        let is_it = |k: &usize| {
+            let (driver, lower) = self.jets.lowered[*k];
+            driver == a && self.jets.driver_of[lower] == Some(b)
+        };
+        (1 + self.jets.drivers..self.jets.len()).find(is_it).unwrap_or(0)
+    }
+
+    /// Entry `k` of a point's place, m.
+    pub(crate) fn point(&self, point: Point, k: usize) -> Vector {
+        let Position { state, plan, bound, units, .. } = &self.position;
+        let own = |point: usize| {
+            let scaled = state.points[point * self.jets.len() + k][0].scale(units.length[k]);
+            let origin = Vector::new(bound.origin[0], bound.origin[1]);
+            if k == 0 { scaled + origin } else { scaled }
+        };
+        match point {
+            Point::Joint(joint) => own(point_of_joint(joint)),
+            Point::Link { link, at } => {
+                own(plan.reference[link]) + self.frame(link, k) * Vector::new(at[0], at[1])
+            }
+        }
+    }
+
+    /// Entry `k` of the unit vector along a link's x, to the second order.
+    fn frame(&self, link: usize, k: usize) -> Vector {
+        let Position { state, plan, bound, .. } = &self.position;
+        let o = plan.link_orientation[link];
+        let orientation = &plan.orientations[o];
+        let phase = if orientation.driven { state.phase[o][0] } else { Vector::ONE };
+        let unit = state.class[orientation.class][0] * phase * bound.turn[link];
+        if k == 0 {
+            return unit;
+        }
+        let top = unit.left().scale(self.angle(link, k));
+        if self.jets.driver_of[k].is_some() {
+            return top;
+        }
+        // ∂∂U = i U ∂∂Θ − U ∂Θ ∂Θ.
+        let (driver, lower) = self.jets.lowered[k];
+        let rates = self.angle(link, Self::first(driver)) * self.angle(link, lower);
+        top - unit.scale(rates)
+    }
+
+    /// Entry `k` (not 0) of a link's angle.
+    pub(crate) fn angle(&self, link: usize, k: usize) -> f64 {
+        let Position { state, plan, units, .. } = &self.position;
+        let rotation = &plan.rotation[link];
+        let turns = self.jets.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
+        let own = state.theta[rotation.class * self.jets.len() + k][0];
+        (own + f64::from(turns)) * units.angle[k]
+    }
+
+    /// A link's angle itself, rad, continuous along the way from the drawing.
+    pub(crate) fn turned(&self, link: usize) -> f64 {
+        self.position.angle(link)
+    }
+}
