@@ -47,6 +47,7 @@ pub mod lanes;
 pub mod linkage;
 mod mechanism;
 pub mod motion;
+pub mod ode;
 pub mod plan;
 pub mod plane;
 pub mod slider_crank;

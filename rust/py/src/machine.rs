@@ -12,8 +12,7 @@ use crate::{error, gate};
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 /// Mass matrices, their derivatives, moments, potential energies, statuses.
-type Arrays<'py> =
-    (Array<'py>, Array<'py>, Array<'py>, Array<'py>, Bound<'py, PyArray1<u8>>);
+type Arrays<'py> = (Array<'py>, Array<'py>, Array<'py>, Array<'py>, Bound<'py, PyArray1<u8>>);
 
 /// Positions below which a call is not to be interrupted.
 const SMALL: usize = 20_000;

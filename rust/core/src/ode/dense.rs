@@ -1,0 +1,130 @@
+//! The state between the ends of a step.
+//!
+//! y(θ) = y₀ + θ(F₀ + (1−θ)(F₁ + θ(F₂ + (1−θ)(F₃ + …)))), θ = (t − t₀)/h, with F₀ = y₁ − y₀,
+//! F₁ = h f₀ − F₀, F₂ = F₀ − h f₁ − F₁ (the cubic of Hermite) and the others sums of the stages
+//! (Hairer, Nørsett & Wanner I, II.6; the form is that of DOPRI5 and DOP853).
+
+use super::stages::{Block, Stages};
+use super::tableau::HERMITE_ROWS;
+
+/// The continuous extension of one step.
+#[derive(Debug)]
+pub(super) struct Interpolant {
+    n: usize,
+    /// y₀ and then the F, n numbers each.
+    rows: Vec<f64>,
+    sum: Vec<Block>,
+}
+
+impl Interpolant {
+    pub(super) fn new(stages: &Stages, n: usize) -> Self {
+        let rows = 1 + stages.tableau.extension_rows();
+        Self { n, rows: vec![0.0; rows * n], sum: stages.rates(0).to_vec() }
+    }
+
+    /// Takes over a step, of which all stages are there.
+    pub(super) fn set(&mut self, stages: &Stages, y: &[Block], new: &[Block], h: f64) {
+        let n = self.n;
+        let (first, last) = (stages.rates(0), stages.rates(stages.tableau.stages));
+        let flat = |b: &'_ [Block], i: usize| b.as_flattened()[i];
+        for i in 0..n {
+            let (y0, y1) = (flat(y, i), flat(new, i));
+            let change = y1 - y0;
+            let second = h * flat(first, i) - change;
+            self.rows[i] = y0;
+            self.rows[n + i] = change;
+            self.rows[2 * n + i] = second;
+            self.rows[3 * n + i] = change - h * flat(last, i) - second;
+        }
+        for (r, row) in stages.tableau.extension.iter().enumerate() {
+            stages.weigh(row, &mut self.sum);
+            let at = (1 + HERMITE_ROWS + r) * n;
+            for (out, sum) in self.rows[at..at + n].iter_mut().zip(self.sum.as_flattened()) {
+                *out = h * sum;
+            }
+        }
+    }
+
+    /// The state at a part of the step.
+    pub(super) fn at(&self, theta: f64, y: &mut [f64]) {
+        evaluate(&self.rows, self.n, theta, y);
+    }
+
+    /// Bends it so that it meets a state at θ that is better known: the difference is of the size
+    /// of its error, and is spread over the step evenly.
+    pub(super) fn meet(&mut self, theta: f64, y: &[f64]) {
+        for i in 0..self.n {
+            let off = y[i] - component(&self.rows, self.n, theta, i);
+            self.rows[self.n + i] += off / theta;
+        }
+    }
+}
+
+/// One component of y(θ).
+#[inline]
+fn component(rows: &[f64], n: usize, theta: f64, i: usize) -> f64 {
+    let count = rows.len() / n;
+    let mut inner = 0.0;
+    for row in (1..count).rev() {
+        let factor = if row % 2 == 1 { theta } else { 1.0 - theta };
+        inner = (rows[row * n + i] + inner) * factor;
+    }
+    rows[i] + inner
+}
+
+fn evaluate(rows: &[f64], n: usize, theta: f64, y: &mut [f64]) {
+    for (i, y) in y.iter_mut().enumerate().take(n) {
+        *y = component(rows, n, theta, i);
+    }
+}
+
+/// The steps of a run: the state at any t of it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Path {
+    n: usize,
+    /// Numbers of a step.
+    stride: usize,
+    starts: Vec<f64>,
+    /// Full widths; a step that was cut by an event ends before.
+    widths: Vec<f64>,
+    ends: Vec<f64>,
+    rows: Vec<f64>,
+}
+
+impl Path {
+    pub(super) fn push(&mut self, interpolant: &Interpolant, start: f64, width: f64, end: f64) {
+        self.n = interpolant.n;
+        self.stride = interpolant.rows.len();
+        self.starts.push(start);
+        self.widths.push(width);
+        self.ends.push(end);
+        self.rows.extend_from_slice(&interpolant.rows);
+    }
+
+    /// Where the steps end.
+    pub fn ends(&self) -> &[f64] {
+        &self.ends
+    }
+
+    /// Writes the state at t; says whether t is on the path (else all is NaN). Where an event has
+    /// changed the state, it is the one before.
+    pub fn at(&self, t: f64, y: &mut [f64]) -> bool {
+        y.fill(f64::NAN);
+        let (Some(&from), Some(&width)) = (self.starts.first(), self.widths.first()) else {
+            return false;
+        };
+        let way = width.signum();
+        let step = self.ends.partition_point(|end| (end - t) * way < 0.0);
+        let rows = self.rows.chunks_exact(self.stride).nth(step);
+        let (Some(&start), Some(&width), Some(rows)) =
+            (self.starts.get(step), self.widths.get(step), rows)
+        else {
+            return false;
+        };
+        let on = (t - from) * way >= 0.0 && y.len() == self.n;
+        if on {
+            evaluate(rows, self.n, (t - start) / width, y);
+        }
+        on
+    }
+}

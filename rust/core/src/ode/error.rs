@@ -1,0 +1,104 @@
+//! Why a run could not be made or could not go on.
+
+use std::fmt;
+
+/// An error of a run; `E` is that of the system.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Error<E> {
+    /// A state or a list of tolerances of the wrong length.
+    Dimension {
+        /// Number of equations.
+        expected: usize,
+        /// Length given.
+        given: usize,
+    },
+    /// An interval that is not finite.
+    Span {
+        /// Its start.
+        from: f64,
+        /// Its end.
+        to: f64,
+    },
+    /// A component of the first state that is not finite.
+    Start {
+        /// Which one.
+        component: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// Tolerances that cannot be met, or that make no sense.
+    Tolerance {
+        /// Of which component.
+        component: usize,
+        /// The relative one.
+        relative: f64,
+        /// The absolute one.
+        absolute: f64,
+    },
+    /// A width of steps that is not positive.
+    Width {
+        /// Its value.
+        value: f64,
+    },
+    /// Breaks that do not ascend.
+    Breaks {
+        /// The first one out of order.
+        index: usize,
+    },
+    /// Places of output that are out of order or outside of the interval.
+    Places {
+        /// The first one.
+        index: usize,
+    },
+    /// Rates, or a state, that are NaN or infinite however small the step.
+    NotFinite {
+        /// Where.
+        t: f64,
+        /// Of which component.
+        component: usize,
+    },
+    /// What the system said.
+    System(E),
+}
+
+impl<E: fmt::Display> fmt::Display for Error<E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Dimension { expected, given } => {
+                write!(f, "{given} numbers were given for {expected} equations")
+            }
+            Self::Span { from, to } => {
+                write!(f, "the interval from {from:e} to {to:e} is not finite")
+            }
+            Self::Start { component, value } => {
+                write!(f, "component {component} of the first state is {value}")
+            }
+            Self::Tolerance { component, relative, absolute } => write!(
+                f,
+                "tolerances {relative:e} (relative) and {absolute:e} (absolute) of component \
+                 {component}: the relative one must be from {:.1e} to below 1, or zero with an \
+                 absolute one above zero",
+                super::LEAST_RELATIVE
+            ),
+            Self::Width { value } => write!(f, "width {value:e} of a step is not positive"),
+            Self::Breaks { index } => write!(f, "breaks do not ascend at entry {index}"),
+            Self::Places { index } => {
+                write!(f, "place of output {index} is out of order or outside of the interval")
+            }
+            Self::NotFinite { t, component } => {
+                write!(f, "component {component} or its rate is NaN or infinite at t = {t:e}")
+            }
+            Self::System(error) => error.fmt(f),
+        }
+    }
+}
+
+impl<E: std::error::Error + 'static> std::error::Error for Error<E> {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::System(error) => error.source(),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Ordinary differential equations y' = f(t, y) that are not stiff, by explicit Runge-Kutta pairs.
+//!
+//! A [`System`] is the right-hand side with its events and hooks; an [`Integrator`] makes runs of
+//! it: with control of the error of each step, continuous output ([`Keep`]), steps that end at
+//! breaks of the right-hand side in t ([`Options::breaks`]), and restarts at its breaks in the
+//! state, which are events ([`Crossing::Boundary`], [`Action::Restart`]). A run ends by itself at
+//! the edge of what is there ([`Fault::NotThere`], [`End::Edge`]), and always by its limits.
+//!
+//! Sources: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993,
+//! II.4 (control, first step), II.5 and II.10 (pairs), II.6 (continuous output).
+//!
+//! # Examples
+//!
+//! A pendulum let go at 1 rad, to its first rest on the other side:
+//!
+//! ```
+//! use assur::ode::{Action, Crossing, End, Fault, Integrator, Method, Options, System};
+//!
+//! struct Pendulum;
+//!
+//! impl System for Pendulum {
+//!     type Error = std::convert::Infallible;
+//!
+//!     fn rates(&mut self, _: f64, y: &[f64], rates: &mut [f64]) -> Result<(), Fault<Self::Error>> {
+//!         rates[0] = y[1];
+//!         rates[1] = -y[0].sin();
+//!         Ok(())
+//!     }
+//!
+//!     fn events(&mut self, _: f64, y: &[f64], values: &mut [f64]) -> Result<(), Self::Error> {
+//!         values[0] = y[1];
+//!         Ok(())
+//!     }
+//!
+//!     fn on_event(&mut self, _: usize, _: f64, _: &mut [f64]) -> Result<Action, Self::Error> {
+//!         Ok(Action::Stop)
+//!     }
+//! }
+//!
+//! let mut integrator = Integrator::new(Method::DormandPrince853, 2);
+//! let options = Options { events: &[Crossing::Rising], ..Options::default() };
+//! let run = integrator.run(&mut Pendulum, 0.0, &[1.0, 0.0], 100.0, &options)?;
+//! assert_eq!(run.end, End::Event { index: 0, t: run.t });
+//! assert!((run.y[0] + 1.0).abs() < 1e-9);
+//! // Half of 2π / agm(1, cos 0.5).
+//! assert!((run.t - 3.349987832).abs() < 1e-8);
+//! # Ok::<(), assur::ode::Error<std::convert::Infallible>>(())
+//! ```
+
+mod control;
+mod dense;
+mod dop853;
+mod error;
+mod event;
+mod integrate;
+mod locate;
+mod options;
+mod record;
+mod root;
+mod run;
+mod solution;
+mod stages;
+mod system;
+mod tableau;
+#[cfg(test)]
+mod tests;
+
+pub use dense::Path;
+pub use error::Error;
+pub use integrate::Integrator;
+pub use options::{Keep, LEAST_RELATIVE, Method, Options};
+pub use solution::{End, Event, Solution, Statistics};
+pub use system::{Action, Crossing, Fault, Rates, System};

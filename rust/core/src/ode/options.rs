@@ -1,0 +1,131 @@
+//! What is asked of a run.
+
+use super::Error;
+use super::dop853::DORMAND_PRINCE_853;
+use super::system::Crossing;
+use super::tableau::{DORMAND_PRINCE_54, Tableau};
+
+/// The pair of formulas.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Dormand & Prince's of order 5(4): 6 evaluations a step, for tolerances above 1e-6 or so.
+    DormandPrince54,
+    /// Order 8(5, 3) of Dormand, Prince and Hairer: 12 evaluations a step, 15 with its continuous
+    /// output. For tight tolerances.
+    #[default]
+    DormandPrince853,
+}
+
+impl Method {
+    pub(super) fn tableau(self) -> &'static Tableau {
+        match self {
+            Self::DormandPrince54 => &DORMAND_PRINCE_54,
+            Self::DormandPrince853 => &DORMAND_PRINCE_853,
+        }
+    }
+}
+
+/// What is kept of a run beside its last state and its events.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Keep<'a> {
+    /// Nothing.
+    #[default]
+    End,
+    /// The states at these t, in the direction of the run. Memory does not grow with the steps.
+    At(&'a [f64]),
+    /// All steps with their continuous output: the state at any t.
+    Path,
+}
+
+/// How a run is made.
+#[derive(Debug, Clone, Copy)]
+pub struct Options<'a> {
+    /// Relative tolerances r of the error of a step, |eᵢ| ≲ aᵢ + rᵢ|yᵢ| in the mean square: one for
+    /// each component, or one for all. Zero for an angle that counts turns: its size says nothing.
+    pub relative: &'a [f64],
+    /// Absolute tolerances a: one for each component, or one for all. Infinity leaves a component
+    /// out of the control.
+    pub absolute: &'a [f64],
+    /// Width of the first step; found by itself if not given.
+    pub first_step: Option<f64>,
+    /// The widest step that may be taken (one hundredth more where a stretch ends).
+    pub max_step: f64,
+    /// How many steps may be tried.
+    pub max_steps: u64,
+    /// Where the right-hand side is not smooth in t, ascending. Steps end there.
+    pub breaks: &'a [f64],
+    /// When each event function makes an event.
+    pub events: &'a [Crossing],
+    /// What is kept.
+    pub keep: Keep<'a>,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self {
+            relative: &[1e-10],
+            absolute: &[1e-12],
+            first_step: None,
+            max_step: f64::INFINITY,
+            max_steps: 1_000_000,
+            breaks: &[],
+            events: &[],
+            keep: Keep::End,
+        }
+    }
+}
+
+/// The least relative tolerance: an estimate of the error cannot be told from rounding below, as
+/// it is a sum of a dozen terms of the size of a step.
+pub const LEAST_RELATIVE: f64 = 10.0 * f64::EPSILON;
+
+impl Options<'_> {
+    /// Refuses what makes no sense, naming it.
+    pub(super) fn check<E>(&self, t: f64, t_end: f64, y: &[f64], n: usize) -> Result<(), Error<E>> {
+        if y.len() != n || n == 0 {
+            return Err(Error::Dimension { expected: n, given: y.len() });
+        }
+        if !(t_end - t).is_finite() {
+            return Err(Error::Span { from: t, to: t_end });
+        }
+        if let Some((component, &value)) = y.iter().enumerate().find(|(_, y)| !y.is_finite()) {
+            return Err(Error::Start { component, value });
+        }
+        for tolerances in [self.relative, self.absolute] {
+            if tolerances.len() != 1 && tolerances.len() != n {
+                return Err(Error::Dimension { expected: n, given: tolerances.len() });
+            }
+        }
+        for component in 0..n {
+            // Of one for all, the first.
+            let of = |list: &[f64]| list.get(component).or(list.first()).copied().unwrap_or(0.0);
+            let (relative, absolute) = (of(self.relative), of(self.absolute));
+            let held = (LEAST_RELATIVE..1.0).contains(&relative);
+            if !(absolute >= 0.0 && (held || relative == 0.0 && absolute > 0.0)) {
+                return Err(Error::Tolerance { component, relative, absolute });
+            }
+        }
+        for value in [Some(self.max_step), self.first_step].into_iter().flatten() {
+            if value.is_nan() || value <= 0.0 {
+                return Err(Error::Width { value });
+            }
+        }
+        if let Some(index) = disorder(self.breaks, 1.0) {
+            return Err(Error::Breaks { index });
+        }
+        let Keep::At(places) = self.keep else { return Ok(()) };
+        let way = if t_end < t { -1.0 } else { 1.0 };
+        let inside = |&at: &f64| (at - t) * way >= 0.0 && (t_end - at) * way >= 0.0;
+        let outside = places.iter().position(|at| !inside(at));
+        match outside.or_else(|| disorder(places, way)) {
+            Some(index) => Err(Error::Places { index }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The first number that is NaN or not beyond the one before it.
+fn disorder(list: &[f64], way: f64) -> Option<usize> {
+    let nan = list.iter().position(|t| t.is_nan());
+    nan.or_else(|| list.windows(2).position(|w| (w[1] - w[0]) * way < 0.0).map(|i| i + 1))
+}
