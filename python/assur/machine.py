@@ -134,7 +134,7 @@ class Machine:
         >>> machine = assur.Machine(wheel, {"rocker": assur.Body(inertia=2.0)})
         >>> value, d1 = machine.reduced_inertia([0.0, 1.0])
         >>> value.round(6)
-        array([0.5     , 0.036369])
+        array([0.5     , 0.015382])
         """
         inertia, rates, _, _ = self._reduce(q, 0.0, on_error)
         if self._drivers == 1:
