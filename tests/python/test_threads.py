@@ -39,6 +39,22 @@ def test_threads_accepted(threads: int) -> None:
     assert (solve(m, q, threads=threads) == solve(m, q)).all()
 
 
+@pytest.mark.parametrize("threads", [1, 2])
+def test_results_beyond_the_caches_have_the_same_bits(threads: int) -> None:
+    """From 32 MiB on they are stored past the caches, in rows that do not fill whole lanes."""
+    q = np.linspace(0.0, 6.0, 361)
+    lengths = np.linspace(2.9, 3.1, 1200)
+    many = assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"coupler.length": lengths})
+    motion = many.solve(q, threads=threads)
+    few = assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"coupler.length": lengths[::100]})
+    part = few.solve(q, threads=threads)
+    assert motion.joint("C").value.size * 3 * 4 > 4 << 20
+    for name in motion.mechanism.joints:
+        for order in ("value", "d1", "d2"):
+            whole, some = (getattr(m.joint(name), order) for m in (motion, part))
+            assert np.array_equal(whole[::100], some), (name, order)
+
+
 # -- coordinates and dimensions -------------------------------------------------------------------
 
 

@@ -69,6 +69,10 @@ impl<R: Real, const G: usize> State<R, G> {
         for (lever2, &class) in lever2.iter_mut().zip(&bars.classes) {
             *lever2 = R::splat(cx.bound.lever2[class]);
         }
+        let mut asked = [false; MOST];
+        for ((asked, &class), l) in asked.iter_mut().zip(&bars.taken).zip(&group.loops) {
+            *asked = self.asked[class] || !l.turned.is_empty();
+        }
         for g in 0..self.groups.min(G) {
             let loops = &mut self.loops;
             for (known, l) in loops.known.iter_mut().zip(&group.loops) {
@@ -102,7 +106,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
             if len > 1 {
                 self.determinants[group.index][g] = loops.invert(&links);
-                loops.find_rates(&links, len);
+                loops.find_rates(&links, len, asked);
             }
             for (place, &class) in bars.classes.iter().enumerate().take(MOST) {
                 self.class[class][g] = loops.units[place];
@@ -111,6 +115,9 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
             for (place, &class) in bars.taken.iter().enumerate().take(MOST) {
+                if !asked[place] {
+                    continue;
+                }
                 self.class[class][g] = links.bars[place].on_lanes().turn_to(loops.chords[place][0]);
                 for k in 1..len {
                     self.theta[class * len + k][g] = loops.taken[place][k];
@@ -234,10 +241,10 @@ impl<R: Real> Loops<R> {
         sum
     }
 
-    /// Analogues of the unknowns and of the binary links: at every order the same matrix, as
-    /// right-hand side what is known of that order.
+    /// Analogues of the unknowns and of the binary links asked for: at every order the same matrix,
+    /// as right-hand side what is known of that order.
     #[inline(always)]
-    fn find_rates(&mut self, links: &Links<'_>, len: usize) {
+    fn find_rates(&mut self, links: &Links<'_>, len: usize, asked: [bool; MOST]) {
         let n = links.count.min(MOST);
         for k in 1..len.min(ENTRIES) {
             for l in 0..n {
@@ -277,6 +284,9 @@ impl<R: Real> Loops<R> {
                     }
                 }
                 self.chords[l][k] = chord;
+                if !asked[l] {
+                    continue;
+                }
                 // The chord turns as a whole.
                 let mut top = chord;
                 if k > 1 {

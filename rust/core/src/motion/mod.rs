@@ -27,6 +27,7 @@ mod simd;
 mod solve;
 mod spread;
 mod state;
+mod stream;
 mod template;
 mod track;
 mod unknowns;

@@ -4,6 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::design::Units;
 use super::state::State;
+use super::stream;
 use crate::lanes::Real;
 use crate::mechanism::Mechanism;
 use crate::plan::bind::Bound;
@@ -116,8 +117,12 @@ pub(crate) struct Writer<'a> {
     rates: Vec<Entry>,
     /// Classes whose angle is asked for.
     pub classes: Vec<usize>,
+    /// Whether a class's rotation is asked for, or derivatives of its angle.
+    pub asked: Vec<bool>,
     /// Whether values of points begin at the frame's origin.
     shifted: bool,
+    /// Whether points are stored past the caches.
+    pub streams: bool,
 }
 
 impl<'a> Writer<'a> {
@@ -133,6 +138,10 @@ impl<'a> Writer<'a> {
         classes.sort_unstable();
         classes.dedup();
         classes.retain(|&class| class != 0);
+        let mut asked = vec![false; plan.classes];
+        for &class in &classes {
+            asked[class] = true;
+        }
         let [mut points, mut slides, mut angles, mut rates] = [const { Vec::new() }; 4];
         for (index, column) in columns.iter().enumerate() {
             let tensor = jets.tensor(column.order);
@@ -156,7 +165,17 @@ impl<'a> Writer<'a> {
                 list.push(Entry { column: index, width, place, y, k, from, driven: driven.into() });
             }
         }
-        Self { mechanism, points, slides, angles, rates, classes, shifted: true }
+        Self {
+            mechanism,
+            points,
+            slides,
+            angles,
+            rates,
+            classes,
+            asked,
+            shifted: true,
+            streams: false,
+        }
     }
 
     /// The same for derivatives by a dimension: angles are numbers as their analogues are, and
@@ -205,8 +224,14 @@ impl<'a> Writer<'a> {
                 if let Some(shift) = shift { scaled + shift } else { scaled }
             };
             if entry.width == 2 && count == G * R::LANES {
+                let streams = self.streams && stream::is_aligned(out);
                 for g in 0..G {
-                    store_pairs(&mut out[2 * R::LANES * g..][..2 * R::LANES], place(points[g]));
+                    let out = &mut out[2 * R::LANES * g..][..2 * R::LANES];
+                    if streams {
+                        stream::store_pairs(out, place(points[g]));
+                    } else {
+                        store_pairs(out, place(points[g]));
+                    }
                 }
                 continue;
             }

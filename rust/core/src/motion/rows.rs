@@ -70,11 +70,13 @@ impl<'a> Worker<'a> {
     ) -> Self {
         let design = Design::new(mechanism, request.signs, jets);
         let plan = mechanism.plan();
+        let mut many = State::new(plan, jets);
+        many.asked.clone_from(&writer.asked);
         Self {
             quick: design.quick(),
             one: State::new(plan, jets),
             by: request.by.map(|index| (index, Sensitivity::new(plan, jets))),
-            many: State::new(plan, jets),
+            many,
             lifted: vec![[Lanes::ZERO; GROUPS]; plan.classes],
             turned: Vec::new(),
             shared: None,

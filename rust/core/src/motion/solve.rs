@@ -5,6 +5,7 @@ use std::mem::MaybeUninit;
 use super::outputs::{Column, Outputs, Quantity, Writer, columns};
 use super::parallel::{Chunks, Control};
 use super::rows::{Job, Worker};
+use super::stream;
 use crate::error::SolveError;
 use crate::mechanism::Mechanism;
 use crate::plan::Step;
@@ -170,10 +171,12 @@ pub fn fill(
     let jets = Jets::new(shape.drivers, request.order);
     let columns = request.columns(mechanism);
     check_arrays(&columns, &arrays, product(shape.designs, shape.positions)?)?;
-    let writer = match request.by {
+    let numbers = arrays.columns.iter().map(|column| column.len()).sum::<usize>();
+    let mut writer = match request.by {
         None => Writer::new(mechanism, &jets, &columns),
         Some(index) => Writer::of_rates(mechanism, &jets, &columns, index),
     };
+    writer.streams = numbers >= stream::LEAST;
     let chunks = Chunks::new(arrays, &columns, [shape.designs, shape.positions], shape.drivers);
     let worker = || Worker::new(mechanism, request, &jets, &writer, &columns, control.simd);
     let per_design = shape.positions * shape.drivers;
@@ -189,6 +192,7 @@ pub fn fill(
             let first = (design - chunk.designs.start) * chunk.positions.len();
             worker.solve(values, Job { q, rows: &mut rows, first, shared });
         }
+        stream::fence();
     })
 }
 

@@ -114,6 +114,8 @@ pub struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) chords: Vec<[Vector<R>; G]>,
     /// 1/length of every chord that has one.
     pub(crate) per: Vec<[R; G]>,
+    /// Classes of binary links whose rotation is asked for (where nothing else needs it).
+    pub(crate) asked: Vec<bool>,
     /// Work space for groups of binary links.
     pub(super) loops: Loops<R>,
     /// Determinant of every group's matrix (with analogues only).
@@ -176,6 +178,7 @@ impl<R: Real, const G: usize> State<R, G> {
             guides: vec![[Vector::ZERO; G]; edges * len],
             chords: vec![[Vector::ZERO; G]; loops * len],
             per: vec![[R::ONE; G]; loops],
+            asked: vec![true; plan.classes],
             loops: Loops::default(),
             determinants: vec![[R::ZERO; G]; plan.groups().count()],
             bends: vec![[R::ZERO; G]; plan.groups().count()],
