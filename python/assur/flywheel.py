@@ -13,6 +13,7 @@ fluctuation in Mathcad*, equations 1 to 6. F. Wittenbauer, *Graphische Dynamik* 
 from __future__ import annotations
 
 import csv
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
@@ -21,7 +22,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._checks import checked_index, checked_threads, real_array
-from assur.errors import InputError
+from assur.errors import AssurWarning, InputError
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -34,6 +35,8 @@ Spline: TypeAlias = Literal["not-a-knot", "natural", "clamped", "periodic", "lin
 
 MEANS = ("extremes", "period")
 SPLINES = ("not-a-knot", "natural", "clamped", "periodic", "linear")
+# Part of it by which a period may differ from turns: tables are typed with four digits.
+WHOLE = 1e-3
 # Places of a curve in a picture.
 DRAWN = 721
 
@@ -273,6 +276,11 @@ def from_table(
         A table that is short, not growing, not periodic or without inertia; a fluctuation or speed
         that cannot be; a fluctuation that is already met without a flywheel.
 
+    Warns
+    -----
+    AssurWarning
+        A period that is no number of turns and no part of one, as of degrees.
+
     Examples
     --------
     The press of the paper, its speed kept within 1/8:
@@ -431,6 +439,7 @@ def _flywheel(
     if x.size < 2:
         message = f"the table has {x.size} rows: at least 2 are needed"
         raise InputError(message)
+    _doubt(float(x[-1] - x[0]))
     for column, name in ((m, "moment"), (i, "inertia")):
         if column.ndim == 0 or column.shape[-1] != x.size:
             message = (
@@ -459,6 +468,18 @@ def _flywheel(
             told = f"table {place}{more}: {told}"
         raise InputError(told)
     return result
+
+
+def _doubt(span: float) -> None:
+    """Warn of a period that is neither turns nor a part of one: most likely degrees."""
+    turns = span / (2.0 * np.pi)
+    ratio = max(turns, 1.0 / turns) if turns > 0.0 else 1.0
+    if abs(ratio - round(ratio)) > WHOLE * ratio:
+        message = (
+            f"phi covers {span:g} rad, {turns:.6g} turns: a period is mostly a number of turns or "
+            "a part of one. Is phi in degrees?"
+        )
+        warnings.warn(message, AssurWarning, stacklevel=4)
 
 
 def _shaped(flat: Float, shape: tuple[int, ...]) -> Any:

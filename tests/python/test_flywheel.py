@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -192,6 +193,15 @@ def test_tables_of_one_period_that_is_no_turn() -> None:
     assert f.period == pytest.approx(2 * TURN / 100.0, rel=2e-2)
     assert f.time(1.0) == 0.0
     assert f.speed(1.0 + 2 * TURN) == pytest.approx(f.speed0, rel=1e-14)
+
+
+def test_degrees_are_doubted() -> None:
+    with pytest.warns(assur.AssurWarning, match=r"phi covers 360 rad, 57\.2958 turns.*degrees"):
+        flywheel.from_table(np.rad2deg(PHI), MOMENT, INERTIA, 1 / 8, 15.0)
+    for turns in (0.25, 0.5, 1.0, 2.0, 6.283 / TURN):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            flywheel.from_table(PHI * turns, MOMENT, INERTIA, 0.02, 15.0)
 
 
 def test_batches_have_the_bits_of_single_tables() -> None:
