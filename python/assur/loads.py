@@ -261,8 +261,18 @@ class Outside:
     def numbers(self, q: list[float], speed: list[float]) -> npt.NDArray[np.float64]:
         """The functions' values at positions, at the time 0."""
         rows = zip(q, speed, strict=True)
-        table = [[float(f(0.0, a, b)) for f in self.functions] for a, b in rows]
+        table = [[_called(f, a, b) for f in self.functions] for a, b in rows]
         return np.array(table, np.float64).ravel()
+
+
+def _called(function: Callable[[float, float, float], float], q: float, speed: float) -> float:
+    value: Any = function(0.0, q, speed)
+    try:
+        return float(value)
+    except (TypeError, ValueError) as error:
+        name = getattr(function, "__name__", repr(function))
+        message = f"the load {name}(t, q, speed) gave {value!r} at q = {q:g}: a number is needed"
+        raise InputError(message) from error
 
 
 def _number(value: Any, what: str) -> float:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import pickle
+import signal
+import threading
+import time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -264,6 +267,10 @@ def test_shapes_and_places_without_a_position() -> None:
 ANY: Any = 3  # what types would not let pass
 
 
+def pushed(t: float, q: float, speed: float) -> Any:
+    return "hard" if t <= q + speed else 0.0
+
+
 @pytest.mark.parametrize(
     ("make", "told"),
     [
@@ -290,8 +297,25 @@ ANY: Any = 3  # what types would not let pass
             ).reduced_moment([0.5, 2.0]),
             "q = 2: a load has no value there",
         ),
+        (
+            lambda m: Machine(m, {}, [Torque("rocker", pushed)]).reduced_moment([0.5]),
+            r"the load pushed\(t, q, speed\) gave 'hard' at q = 0.5: a number is needed",
+        ),
     ],
 )
 def test_what_cannot_be_is_refused(make: Callable[[assur.Mechanism], Any], told: str) -> None:
     with pytest.raises(assur.InputError, match=told):
         make(four_bar())
+
+
+def test_an_interrupt_is_heard() -> None:
+    machine = Machine(four_bar(), {"coupler": Body(1.0)}, [Gravity()])
+    q = np.linspace(0.0, 6.0, 4_000_000)
+    timer = threading.Timer(0.3, signal.raise_signal, (signal.SIGINT,))
+    timer.start()
+    begun = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        machine.reduced_inertia(q)
+    timer.join()
+    # The whole takes some 6 s.
+    assert time.perf_counter() - begun < 3.0

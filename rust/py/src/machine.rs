@@ -111,8 +111,8 @@ impl Machine {
         if !fits {
             return Err(error::solve(SolveError::Shape("the arrays do not fit".into())));
         }
-        let all = gate::run(py, q.len() <= SMALL, |_| {
-            self.inner.reduce(mechanism, &dimensions, &q, &speed, &given)
+        let all = gate::run(py, q.len() <= SMALL, |cancel| {
+            self.inner.reduce(mechanism, &dimensions, &q, &speed, &given, cancel)
         })?;
         let width = [drivers * drivers, drivers * drivers * drivers, drivers, 1];
         let array = |which: usize, of: fn(&Reduced) -> &[f64]| {

@@ -1,5 +1,7 @@
 //! Bodies and loads of a mechanism, referred to its drivers.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::load::Load;
 use super::pose::{Point, Pose};
 use crate::mechanism::Mechanism;
@@ -50,7 +52,7 @@ pub struct Reduced {
 
 impl Machine {
     /// Refers to the drivers at positions (`q`, `speed`: drivers fastest; `given`: the numbers from
-    /// outside of every position, as many each).
+    /// outside of every position, as many each). Ends early once `cancel` is true.
     #[must_use]
     pub fn reduce(
         &self,
@@ -59,6 +61,7 @@ impl Machine {
         q: &[f64],
         speed: &[f64],
         given: &[f64],
+        cancel: &AtomicBool,
     ) -> Vec<Result<Reduced, Status>> {
         let drivers = mechanism.q0().len();
         let jets = Jets::new(drivers, 2);
@@ -70,7 +73,7 @@ impl Machine {
             let given = &given[row * each..(row + 1) * each];
             Ok(self.at(&Pose::new(position, &jets), q, speed, given))
         };
-        rows.map(one).collect()
+        rows.take_while(|_| !cancel.load(Ordering::Relaxed)).map(one).collect()
     }
 
     /// Refers to the drivers at a position.
