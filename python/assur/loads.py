@@ -258,9 +258,13 @@ class Outside:
             return (len(self.functions) - 1,)
         return _number(value, "the value of a load")
 
-    def numbers(self, q: list[float], speed: list[float]) -> npt.NDArray[np.float64]:
+    def numbers(
+        self, q: npt.NDArray[np.float64], speed: npt.NDArray[np.float64]
+    ) -> npt.NDArray[np.float64]:
         """The functions' values at positions, at the time 0."""
-        rows = zip(q, speed, strict=True)
+        if not self.functions:
+            return np.empty(0)
+        rows = zip(q.tolist(), speed.tolist(), strict=True)
         table = [[_called(f, a, b) for f in self.functions] for a, b in rows]
         return np.array(table, np.float64).ravel()
 

@@ -265,7 +265,7 @@ class Machine:
             raise InputError(message) from error
         shape = x.shape if n == 1 else x.shape[:-1]
         flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
-        given = self._outside.numbers(flat[::n].tolist(), speeds[::n].tolist())
+        given = self._outside.numbers(flat[::n], speeds[::n])
         *arrays, status = self._core.reduce(
             np.ascontiguousarray(self.mechanism._values), flat, speeds, given
         )
