@@ -1,6 +1,6 @@
 """Kinematics and dynamics of planar linkages, solved one Assur group after another."""
 
-from assur import crank_rocker, flywheel, slider_crank
+from assur import crank_rocker, events, flywheel, slider_crank
 from assur._core import version
 from assur.analogues import Analogues
 from assur.class_iv import ClassIV
@@ -27,8 +27,11 @@ from assur.loads import (
 from assur.machine import Machine
 from assur.mechanism import Mechanism
 from assur.motion import Motion
+from assur.motors import ConstantTorque, InductionMotor, LinearMotor
 from assur.named import FourBar, SliderCrank
+from assur.run import Run
 from assur.sensitivity import Sensitivity
+from assur.steady import SteadyState
 from assur.structure import Group, Structure
 
 __all__ = [
@@ -38,6 +41,7 @@ __all__ = [
     "AssurWarning",
     "Body",
     "ClassIV",
+    "ConstantTorque",
     "Damper",
     "DimensionError",
     "Drive",
@@ -45,16 +49,20 @@ __all__ = [
     "FourBar",
     "Gravity",
     "Group",
+    "InductionMotor",
     "InputError",
+    "LinearMotor",
     "Machine",
     "Mechanism",
     "Motion",
     "PositionError",
+    "Run",
     "Sensitivity",
     "Slide",
     "SliderCrank",
     "Spring",
     "Status",
+    "SteadyState",
     "Structure",
     "StructureError",
     "Table",
@@ -63,6 +71,7 @@ __all__ = [
     "TorsionSpring",
     "__version__",
     "crank_rocker",
+    "events",
     "flywheel",
     "slider_crank",
 ]

@@ -118,24 +118,67 @@ class Flywheels:
         first: _Float,
         second: _Float,
         threads: int | None = None,
+        corners: list[int] | None = None,
     ) -> Self: ...
     def numbers(self) -> list[_Float]: ...
     def problem(self, index: int) -> str | None: ...
     def curve(self, what: str, places: _Float) -> _Float: ...
 
 @final
+class Run:
+    def arrays(self) -> list[_Float]: ...
+    def at(self, places: list[float]) -> list[_Float]: ...
+    @property
+    def events(self) -> list[tuple[int, float, list[float], list[float]]]: ...
+    @property
+    def ending(self) -> tuple[str, int, list[float]]: ...
+    @property
+    def statistics(self) -> dict[str, Any]: ...
+
 class Machine:
     def __new__(
         cls,
-        mechanism: Mechanism,
+        mechanism: Mechanism | None,
         bodies: list[tuple[str, Any, float, float]],
         loads: list[tuple[str, list[Any], list[str], list[float], list[Any]]],
         gravity: list[float],
-        rotor: float,
+        tables: list[tuple[list[float], list[float], str, bool]],
+        motors: list[tuple[int, float, float, str, list[float], list[Any], Any]],
     ) -> Self: ...
     def reduce(
-        self, dimensions: _Float, q: _Float, speed: _Float, given: _Float
+        self,
+        dimensions: _Float,
+        q: _Float,
+        speed: _Float,
+        given: _Float,
+        threads: int | None,
     ) -> tuple[_Float, _Float, _Float, _Float, npt.NDArray[np.uint8]]: ...
+    def run(
+        self,
+        dimensions: list[float],
+        along_q: bool,
+        start: tuple[float, list[float], list[float]],
+        end: float,
+        low_order: bool,
+        tolerances: tuple[float, list[float] | None],
+        limits: tuple[float, int, float | None],
+        breaks: list[float],
+        watches: list[tuple[str, int, float, list[Any], bool, int, bool]],
+        functions: tuple[list[Any], list[Any]],
+    ) -> Run: ...
+    def steady(
+        self,
+        dimensions: list[float],
+        places: list[float],
+        speed: float | None,
+        low_order: bool,
+        relative: float,
+        limits: tuple[int, float | None],
+        breaks: list[float],
+        flywheel: float,
+        wanted: tuple[float, str] | None,
+        functions: list[Any],
+    ) -> tuple[Run, list[float]]: ...
 
 def slider_crank_stroke(phi: _Float, lambda_: _Float) -> _Three: ...
 def slider_crank_fraction(phi: _Float, lambda_: _Float, n: int) -> _Three: ...

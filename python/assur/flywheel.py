@@ -429,6 +429,7 @@ def _flywheel(
     mean: Mean,
     on_error: str,
     threads: int | None,
+    corners: list[int] | None = None,
 ) -> Flywheel:
     _one_of(spline, SPLINES, "spline")
     _one_of(on_error, ("raise", "nan"), "on_error")
@@ -457,7 +458,7 @@ def _flywheel(
     flat = [np.ascontiguousarray(np.broadcast_to(a, full)).ravel() for a in (m, i)]
     first, second = (np.ascontiguousarray(np.broadcast_to(n, shape)).ravel() for n in numbers)
     arguments = (np.ascontiguousarray(x), *flat, spline, task, first, second)
-    result = Flywheel((*arguments, checked_threads(threads)), shape, mean)
+    result = Flywheel((*arguments, checked_threads(threads), corners), shape, mean)
     failed = np.flatnonzero(np.isnan(np.asarray(result.inertia)).ravel())
     if on_error == "raise" and failed.size:
         first_failed = int(failed[0])

@@ -26,26 +26,31 @@ __all__ = [
 ]
 
 Place: TypeAlias = str | tuple[str, tuple[float, float]]
-# What the core is told of a value, and of a load.
-Told: TypeAlias = float | tuple[int] | tuple[list[float], list[float], str, bool]
+# What the core is told of a value (a number, or which table or function), of a table, of a load.
+Told: TypeAlias = float | tuple[str, int]
+Rows: TypeAlias = tuple[list[float], list[float], str, bool]
 Parts: TypeAlias = tuple[str, list[Any], list[str], list[float], list[Told]]
 
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """Values over the (first) driver's coordinate.
+    """Values over the (first) driver's coordinate; as a motor, torque over the motor's own speed.
 
     Parameters
     ----------
     q : array_like
-        Coordinates, growing, rad or m.
+        Coordinates, growing, rad or m; of a motor its speeds, rad/s.
     value : array_like
         Values there.
     spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
         What is laid through the rows.
     periodic : bool
         Whether this is one period, its end the same as its beginning (the default); otherwise
-        there is no value beyond the rows.
+        there is no value beyond the rows. A motor's table never is.
+    ratio : float
+        As a motor: its speed by that of the driver.
+    rotor_inertia : float
+        As a motor: moment of inertia of its rotor, kg·m².
 
     Examples
     --------
@@ -57,17 +62,22 @@ class Table:
     value: npt.ArrayLike
     spline: str = "not-a-knot"
     periodic: bool = True
+    ratio: float = 1.0
+    rotor_inertia: float = 0.0
 
-    def _told(self) -> Told:
+    def _rows(self, periodic: bool | None = None) -> Rows:
         q, value = real_array(self.q, "Table q"), real_array(self.value, "Table value")
         if q.ndim != 1 or q.shape != value.shape:
             message = f"Table: q has the shape {q.shape}, value {value.shape}: two lists are needed"
             raise InputError(message)
-        return q.tolist(), value.tolist(), str(self.spline), bool(self.periodic)
+        whole = self.periodic if periodic is None else periodic
+        return q.tolist(), value.tolist(), str(self.spline), bool(whole)
 
 
-# A number, a table over q, or a function of (t, q, speed) that is called with floats.
-Value: TypeAlias = float | Table | Callable[[float, float, float], float]
+# Called with floats; of a machine with several drivers q and speed are tuples of them.
+Function: TypeAlias = Callable[[float, Any, Any], float]
+# A number, a table over q, or a function of (t, q, speed).
+Value: TypeAlias = float | Table | Function
 
 
 @dataclass(frozen=True)
@@ -245,37 +255,44 @@ Load: TypeAlias = Gravity | Force | Torque | Spring | TorsionSpring | Damper | T
 
 @dataclass
 class Outside:
-    """The functions among the values, in order."""
+    """The tables and functions among the values, in order."""
 
-    functions: list[Callable[[float, float, float], float]] = field(default_factory=list)
+    tables: list[Rows] = field(default_factory=list)
+    functions: list[Function] = field(default_factory=list)
 
     def tell(self, value: Value) -> Told:
         """What the core is told of a value."""
         if isinstance(value, Table):
-            return value._told()
+            if value.ratio != 1.0 or value.rotor_inertia != 0.0:
+                message = "Table: ratio and rotor_inertia are for a table that is a motor"
+                raise InputError(message)
+            self.tables.append(value._rows())
+            return "table", len(self.tables) - 1
         if callable(value):
             self.functions.append(value)
-            return (len(self.functions) - 1,)
+            return "function", len(self.functions) - 1
         return _number(value, "the value of a load")
 
     def numbers(
         self, q: npt.NDArray[np.float64], speed: npt.NDArray[np.float64]
     ) -> npt.NDArray[np.float64]:
-        """The functions' values at positions, at the time 0."""
+        """The functions' values at positions (rows of coordinates), at the time 0."""
         if not self.functions:
             return np.empty(0)
+        one = q.shape[1] == 1
         rows = zip(q.tolist(), speed.tolist(), strict=True)
-        table = [[_called(f, a, b) for f in self.functions] for a, b in rows]
+        pairs = ((a[0], b[0]) if one else (tuple(a), tuple(b)) for a, b in rows)
+        table = [[_called(f, a, b) for f in self.functions] for a, b in pairs]
         return np.array(table, np.float64).ravel()
 
 
-def _called(function: Callable[[float, float, float], float], q: float, speed: float) -> float:
+def _called(function: Function, q: Any, speed: Any) -> float:
     value: Any = function(0.0, q, speed)
     try:
         return float(value)
     except (TypeError, ValueError) as error:
         name = getattr(function, "__name__", repr(function))
-        message = f"the load {name}(t, q, speed) gave {value!r} at q = {q:g}: a number is needed"
+        message = f"the load {name}(t, q, speed) gave {value!r} at q = {q}: a number is needed"
         raise InputError(message) from error
 
 

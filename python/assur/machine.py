@@ -1,34 +1,34 @@
-"""Machines: a mechanism with bodies and loads, referred to its drivers."""
+"""Machines: a mechanism with bodies, loads and a motor, referred to its drivers."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+import math
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from assur import _core
-from assur import flywheel as flywheels
-from assur._checks import real_array
+from assur import _core, _drive, motors
+from assur._checks import checked_threads, real_array
 from assur.errors import InputError, PositionError
-from assur.loads import Body, Gravity, Outside
+from assur.loads import Body, Gravity, Outside, Table
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from assur.flywheel import Flywheel, Mean
+    from assur.events import Event
+    from assur.flywheel import Flywheel, Mean, Spline
     from assur.loads import Load
     from assur.mechanism import Mechanism
+    from assur.motors import Motor
+    from assur.run import Run
+    from assur.steady import SteadyState
 
 __all__ = ["Machine", "Reduced"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
 OnError: TypeAlias = Literal["raise", "nan"]
-
-# Rows of the first table of `Machine.flywheel`, and of the last; each has twice those before.
-FIRST_ROWS, LAST_ROWS = 96, 12288
-# Change of the flywheel between two tables after which it is known.
-SETTLED = 1e-9
+Method: TypeAlias = Literal["DOP853", "RK45"]
 
 
 class Reduced(NamedTuple):
@@ -48,21 +48,25 @@ class Reduced(NamedTuple):
 
 
 class Machine:
-    """A mechanism with what it carries and what acts on it.
+    """A mechanism with what it carries, what acts on it and what drives it.
 
     Parameters
     ----------
     mechanism : Mechanism
-        One design (not a batch).
+        One design, or (for everything but motions in time) a batch of them.
     bodies : mapping of str to Body
         The masses of links, by name.
     loads : sequence of Gravity, Force, Torque, Spring, TorsionSpring, Damper, TorsionDamper
         What acts on it; several of a kind are added.
+    motor : ConstantTorque, LinearMotor, InductionMotor or Table, optional
+        What turns (or moves) the driver; with several drivers a sequence, None for each without
+        one. Its rotor counts among the inertia, its torque not among the loads.
 
     Raises
     ------
     InputError
-        Something that is no body or load, a negative mass, a name that the mechanism does not have.
+        Something that is no body, load or motor, a negative mass, a name that the mechanism does
+        not have.
 
     Examples
     --------
@@ -82,35 +86,118 @@ class Machine:
     np.float64(100.0)
     """
 
+    mechanism: Mechanism | None
+
     def __init__(
-        self, mechanism: Mechanism, bodies: Mapping[str, Body], loads: Sequence[Load] = ()
+        self,
+        mechanism: Mechanism,
+        bodies: Mapping[str, Body],
+        loads: Sequence[Load] = (),
+        motor: Motor | Sequence[Motor | None] | None = None,
     ) -> None:
-        if mechanism.shape:
-            message = f"a machine has one design, not a batch {mechanism.shape}: design(i)"
-            raise InputError(message)
         self.mechanism = mechanism
         self.bodies = dict(bodies)
         self.loads = tuple(loads)
-        self._outside = Outside()
+        self.motor = motor
+        self._drivers = int(np.size(mechanism.q0))
+        self._made = Machine, (mechanism, self.bodies, self.loads, motor)
+        outside = Outside()
         gravity = np.zeros(2)
         parts = []
         for load in self.loads:
             if isinstance(load, Gravity):
                 gravity = gravity + _gravity(load)
             elif hasattr(load, "_parts"):
-                parts.append(load._parts(self._outside.tell))
+                parts.append(load._parts(outside.tell))
             else:
                 message = f"{load!r} is no load: Gravity, Force, Torque, Spring, Damper …"
                 raise InputError(message)
-        told = [self._body(link, body) for link, body in self.bodies.items()]
-        self._core = _core.Machine(mechanism._core, told, parts, gravity.tolist(), 0.0)
+        told = [_body(mechanism, link, body) for link, body in self.bodies.items()]
+        turning = _motors(motor, self._drivers, outside)
+        self._outside = outside
+        self._core = _core.Machine(
+            mechanism._core, told, parts, gravity.tolist(), outside.tables, turning
+        )
+
+    @classmethod
+    def from_table(
+        cls,
+        phi: npt.ArrayLike,
+        moment: npt.ArrayLike,
+        inertia: npt.ArrayLike,
+        motor: Motor | None = None,
+        spline: Spline = "not-a-knot",
+        periodic: bool = True,
+    ) -> Machine:
+        """Return a machine that is known only by its reduced moment and inertia.
+
+        Parameters
+        ----------
+        phi : array_like
+            Coordinates of the driver, rad, growing, the end of the period included: (K,).
+        moment, inertia : array_like
+            Reduced moment of the loads (N·m) and reduced inertia (kg·m²) there: (K,).
+        motor : ConstantTorque, LinearMotor, InductionMotor or Table, optional
+            What turns the driver.
+        spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
+            What is laid through the rows.
+        periodic : bool
+            Whether this is one period; otherwise motions end with the table.
+
+        Returns
+        -------
+        Machine
+            Without a mechanism, but with the same motions.
+
+        Examples
+        --------
+        >>> import assur
+        >>> import numpy as np
+        >>> phi = np.linspace(0.0, 2 * np.pi, 25)
+        >>> machine = assur.Machine.from_table(phi, -10 * np.sin(phi), np.full(25, 2.0))
+        >>> machine.run(t_end=3.0, q0=0.1).energy.error < 1e-9
+        True
+        """
+        self = cls.__new__(cls)
+        self.mechanism, self.bodies, self.loads, self.motor = None, {}, (), motor
+        self._drivers = 1
+        self._made = Machine.from_table, (phi, moment, inertia, motor, spline, periodic)
+        outside = Outside()
+        for name, column in (("inertia", inertia), ("moment", moment)):
+            x, y = real_array(phi, "phi"), real_array(column, name)
+            if x.ndim != 1 or x.shape != y.shape:
+                message = f"phi has the shape {x.shape}, {name} {y.shape}: two lists are needed"
+                raise InputError(message)
+            outside.tell(Table(x, y, spline, periodic))
+        least = float(np.min(real_array(inertia, "inertia")))
+        if not least > 0.0:
+            message = f"the inertia is {least:g} kg·m² in the table, it must be positive everywhere"
+            raise InputError(message, value=least)
+        turning = _motors(motor, 1, outside)
+        self._outside = outside
+        self._core = _core.Machine(None, [], [], [0.0, 0.0], outside.tables, turning)
+        return self
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Machine, (self.mechanism, self.bodies, self.loads)
+        return self._made
 
     def __repr__(self) -> str:
+        if self.mechanism is None:
+            return "<assur.Machine of a table>"
         formula = self.mechanism.structure.formula
         return f"<assur.Machine {formula}, {len(self.bodies)} bodies, {len(self.loads)} loads>"
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the batch of designs, () for one."""
+        return () if self.mechanism is None else self.mechanism.shape
+
+    def design(self, index: Any) -> Machine:
+        """Return one design of a batch as a machine by itself."""
+        if self.mechanism is None:
+            message = "this machine is a table: there is no batch"
+            raise InputError(message)
+        return Machine(self.mechanism.design(index), self.bodies, self.loads, self.motor)
 
     def reduced_inertia(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Reduced:
         """Return the reduced inertia Σ m (dS/dq)² + I (dθ/dq)² and its exact derivative.
@@ -118,14 +205,15 @@ class Machine:
         Parameters
         ----------
         q : array_like
-            Coordinates, rad or m: a number or (N,); of n drivers (..., n).
+            Coordinates, rad or m: a number, (N,) or, of a batch of shape S, S + (N,); of n drivers
+            (..., n).
         on_error : {"raise", "nan"}
             Whether a place without a position or analogues is an error, or NaN.
 
         Returns
         -------
         Reduced
-            `value` and `d1`.
+            `value` and `d1`, of the shape S + (N,). Rotors of motors are among it.
 
         Examples
         --------
@@ -168,31 +256,62 @@ class Machine:
         """Return the potential energy of weights and springs, J."""
         return self._reduce(q, 0.0, on_error)[3][()]
 
-    def flywheel(self, fluctuation: float, mean_speed: float, mean: Mean = "extremes") -> Flywheel:
-        """Return the flywheel that keeps the speed of a turn within a part of its mean.
+    @overload
+    def flywheel(
+        self,
+        fluctuation: npt.ArrayLike,
+        mean_speed: npt.ArrayLike,
+        mean: Mean = ...,
+        on_error: OnError = ...,
+    ) -> Flywheel: ...
 
-        A constant motor gives the mean of what the loads take. Loads that ask for the speed have
-        the mean speed.
+    @overload
+    def flywheel(
+        self,
+        fluctuation: float,
+        mean_speed: None = None,
+        mean: Mean = ...,
+        on_error: OnError = ...,
+    ) -> SteadyState: ...
+
+    def flywheel(
+        self,
+        fluctuation: npt.ArrayLike,
+        mean_speed: npt.ArrayLike | None = None,
+        mean: Mean = "extremes",
+        on_error: OnError = "raise",
+    ) -> Flywheel | SteadyState:
+        """Return the flywheel that keeps the speed of a turn within a part of its mean.
 
         Parameters
         ----------
         fluctuation : float
-            Coefficient of speed fluctuation wanted.
-        mean_speed : float
-            Mean speed wanted, rad/s.
+            Coefficient of speed fluctuation wanted; for a batch of shape S also S numbers.
+        mean_speed : float, optional
+            Mean speed wanted, rad/s: a constant motor gives the mean of what the loads take. Loads
+            that ask for the speed have the mean speed. Left out, the machine's own motor tells the
+            speed, and loads have the true one.
         mean : {"extremes", "period"}
-            What that mean is (`assur.flywheel.from_table`).
+            What the mean is (`assur.flywheel.from_table`).
+        on_error : {"raise", "nan"}
+            Whether a design of a batch without a flywheel is an error or NaN.
 
         Returns
         -------
-        Flywheel
-            Of tables so dense that the flywheel does not change by 1e-9 of its inertia.
+        Flywheel or SteadyState
+            With a mean speed, from tables so dense that the flywheel does not change by 1e-9 of the
+            inertia; with the machine's motor the periodic motion, `inertia` is the flywheel's.
 
         Raises
         ------
         InputError
             A driver that is no angle or does not turn fully, a motion that is another after a
-            turn, and what `assur.flywheel.from_table` refuses.
+            turn, and what `assur.flywheel.from_table` and `steady_state` refuse.
+
+        Warns
+        -----
+        AssurWarning
+            A `ConstantTorque` that is not what the loads take; functions that are not smooth.
 
         Examples
         --------
@@ -207,73 +326,229 @@ class Machine:
         >>> machine.flywheel(fluctuation=0.05, mean_speed=20.0).delta.__round__(6)
         0.05
         """
-        driver = self.mechanism.driver
-        if self._drivers > 1 or (isinstance(driver, str) and driver in self.mechanism.slides):
-            message = f"driver {driver!r}: a flywheel turns with a driven angle"
-            raise InputError(message)
-        last: Flywheel | None = None
-        rows = FIRST_ROWS
-        while True:
-            phi = np.linspace(0.0, 2.0 * np.pi, rows + 1)
-            inertia, _, moment, _ = self._reduce(phi, mean_speed, "raise")
-            own = flywheels.from_table(
-                phi, moment[:, 0], inertia[:, 0, 0], fluctuation, mean_speed, mean=mean
-            )
-            size = own.inertia + float(inertia.max())
-            if last is not None and abs(own.inertia - last.inertia) <= SETTLED * size:
-                return own
-            if rows == LAST_ROWS:
-                # Tables with corners never settle so far: this is what the densest one gives.
-                return own
-            last, rows = own, 2 * rows
+        return _drive.flywheel(self, fluctuation, mean_speed, mean, on_error)
 
-    @property
-    def _drivers(self) -> int:
-        return int(np.size(self.mechanism.q0))
+    def run(
+        self,
+        t_end: float | None = None,
+        q0: npt.ArrayLike | None = None,
+        speed0: npt.ArrayLike = 0.0,
+        *,
+        q_end: float | None = None,
+        t0: float = 0.0,
+        rtol: float = 1e-10,
+        atol: float | tuple[float, float] | None = None,
+        method: Method = "DOP853",
+        events: Sequence[Event] = (),
+        breaks: npt.ArrayLike = (),
+        max_step: float = math.inf,
+        max_steps: int = 1_000_000,
+        max_seconds: float | None = None,
+    ) -> Run:
+        """Return the motion under loads and motor: J q̈ + ½ J′ q̇² = M.
 
-    def _body(self, link: str, body: Any) -> tuple[str, Any, float, float]:
-        if not isinstance(body, Body):
-            message = f"bodies[{link!r}] is {body!r}: an assur.Body is needed"
-            raise InputError(message)
-        joints = self.mechanism.links.get(link, ())
-        at: Any = body.at
-        if at is None and joints:
-            at = joints[0]
-        elif not isinstance(at, str):
-            x, y = (0.0, 0.0) if at is None else real_array(at, f"at of the body {link!r}")
-            at = link, [float(x), float(y)]
-        elif link in self.mechanism.links and at not in joints:
-            message = f"bodies[{link!r}]: joint {at!r} is not one of its joints {', '.join(joints)}"
-            raise InputError(message, joint=at, link=link)
-        return link, at, float(body.mass), float(body.inertia)
+        Parameters
+        ----------
+        t_end : float
+            Time at the end, s. Or:
+        q_end : float
+            Coordinate at the end: the motion is integrated over q and not over t (one driver, not
+            at rest). For periodic motions; over q all knots of tables are known beforehand.
+        q0, speed0 : array_like
+            Coordinate and speed of the driver at the beginning; of n drivers (n,). The coordinate
+            is that of the drawing (of a table its first row) by default.
+        t0 : float
+            Time at the beginning, s.
+        rtol : float
+            Relative tolerance of the speed in a step; as much of a radian (of a driven slide of the
+            mechanism's size) is that of the coordinate.
+        atol : float or (float, float), optional
+            Absolute tolerances of coordinate and speed. By default that of the speed is a
+            thousandth of rtol of the speed that is typical at the beginning.
+        method : {"DOP853", "RK45"}
+            Dormand and Prince's pair of order 8(5, 3), or that of order 5(4).
+        events : sequence of events
+            What is looked for on the way (`assur.events`).
+        breaks : array_like
+            Times (over q: coordinates) at which functions among the loads are not smooth.
+        max_step : float
+            The widest step, s (over q: rad or m).
+        max_steps : int
+            How many steps may be tried.
+        max_seconds : float, optional
+            How long it may be computed.
+
+        Returns
+        -------
+        Run
+            The motion; it ends early at an event that stops it, at a dead point (an event too), or
+            at a limit.
+
+        Raises
+        ------
+        InputError
+            What makes no sense, a place without inertia, a function that gives no number; what
+            functions raise.
+
+        Warns
+        -----
+        AssurWarning
+            The run ended early without an event: its tolerance cannot be met, a table ends, a limit
+            of steps or seconds is met.
+
+        Notes
+        -----
+        Steps end at the knots of all tables. Functions among the loads are called with floats once
+        in every evaluation; where they are not smooth `breaks` should say so.
+
+        References
+        ----------
+        E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I* (1993).
+
+        Examples
+        --------
+        A press starts with a direct-current motor:
+
+        >>> import assur
+        >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
+        >>> machine = assur.Machine(
+        ...     press,
+        ...     bodies={"piston": assur.Body(mass=20.0), "crank": assur.Body(inertia=0.5)},
+        ...     motor=assur.LinearMotor(stall=50.0, no_load=15.0),
+        ... )
+        >>> run = machine.run(t_end=1.0, q0=0.0)
+        >>> run.at(1.0).speed.round(4)
+        np.float64(14.9993)
+        """
+        return _drive.run(
+            self,
+            t_end,
+            q0,
+            speed0,
+            q_end,
+            t0,
+            rtol=rtol,
+            atol=atol,
+            method=method,
+            events=events,
+            breaks=breaks,
+            max_step=max_step,
+            max_steps=max_steps,
+            max_seconds=max_seconds,
+        )
+
+    def steady_state(
+        self,
+        speed: float | None = None,
+        *,
+        turns: int = 1,
+        q0: float | None = None,
+        mean: Mean = "extremes",
+        flywheel: float = 0.0,
+        rtol: float = 1e-12,
+        method: Method = "DOP853",
+        breaks: npt.ArrayLike = (),
+        max_steps: int = 100_000,
+        max_seconds: float | None = 60.0,
+        _wanted: float | None = None,
+    ) -> SteadyState:
+        """Return the periodic motion under the motor, found by shooting.
+
+        Parameters
+        ----------
+        speed : float, optional
+            With a motor whose torque falls with the speed, a first guess (by default the motor's
+            speed without load). Where neither motor nor loads tell a speed, or without a motor, the
+            mean speed (period by its time): a constant moment is found that keeps it.
+        turns : int
+            Turns of the driver in a period.
+        q0 : float, optional
+            Where the period begins, rad; that of the drawing by default.
+        mean : {"extremes", "period"}
+            What the mean speed of the result is, by which its δ is divided.
+        flywheel : float
+            Moment of inertia added to the driver's, kg·m².
+        rtol, method, breaks, max_steps, max_seconds
+            As of `run`.
+
+        Returns
+        -------
+        SteadyState
+            One period, its δ, mean speed, power and work, and how stable it is.
+
+        Raises
+        ------
+        InputError
+            A motor that cannot carry the load or is not in balance with it, a dead point, tables
+            that do not fit the period, a motion that is another one from period to period.
+
+        Notes
+        -----
+        The square of the speed is followed over a period, with its derivative by that at the
+        beginning, and mended by Newton's steps. Of several periodic motions that with the highest
+        speed below the first guess is found: it is the stable one.
+
+        Examples
+        --------
+        >>> import assur
+        >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
+        >>> machine = assur.Machine(
+        ...     press,
+        ...     bodies={"piston": assur.Body(mass=20.0), "crank": assur.Body(inertia=0.5)},
+        ...     loads=[assur.Torque("crank", -20.0)],
+        ...     motor=assur.LinearMotor(stall=50.0, no_load=15.0),
+        ... )
+        >>> steady = machine.steady_state(mean="period")
+        >>> print(f"{steady.mean_speed:.4f} rad/s, δ = {steady.delta:.4f}, {steady.power:.3f} W")
+        8.9486 rad/s, δ = 0.1653, 178.972 W
+        """
+        return _drive.steady_state(
+            self,
+            speed,
+            turns,
+            q0,
+            _wanted,
+            mean=mean,
+            flywheel=flywheel,
+            rtol=rtol,
+            method=method,
+            breaks=breaks,
+            max_steps=max_steps,
+            max_seconds=max_seconds,
+        )
 
     def _reduce(
-        self, q: npt.ArrayLike, speed: npt.ArrayLike, on_error: str
+        self, q: npt.ArrayLike, speed: npt.ArrayLike, on_error: str, threads: int | None = None
     ) -> tuple[Float, Float, Float, Float]:
         if on_error not in ("raise", "nan"):
             message = f"on_error is {on_error!r}: 'raise' or 'nan'"
             raise InputError(message)
-        n = self._drivers
+        n, designs = self._drivers, self.shape
         x, v = real_array(q, "q"), real_array(speed, "speed")
         if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
             message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
             raise InputError(message)
+        places = x.shape if n == 1 else x.shape[:-1]
+        shape = _with_designs(places, designs)
+        full = shape if n == 1 else (*shape, n)
         try:
-            v = np.broadcast_to(v, x.shape)
+            x, v = np.broadcast_to(x, full), np.broadcast_to(v, full)
         except ValueError as error:
             message = f"speed has the shape {v.shape}, q {x.shape}: they do not fit"
             raise InputError(message) from error
-        shape = x.shape if n == 1 else x.shape[:-1]
         flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
-        given = self._outside.numbers(flat[::n], speeds[::n])
+        given = self._outside.numbers(flat.reshape(-1, n), speeds.reshape(-1, n))
+        values = np.empty(0) if self.mechanism is None else self.mechanism._values
+        dimensions = np.ascontiguousarray(values).ravel()
         *arrays, status = self._core.reduce(
-            np.ascontiguousarray(self.mechanism._values), flat, speeds, given
+            dimensions, flat, speeds, given, checked_threads(threads)
         )
-        failed = np.flatnonzero(status)
+        # All but NEAR_SINGULAR, whose analogues are there.
+        failed = np.flatnonzero(status > 1)
         if on_error == "raise" and failed.size:
             self._refuse(x, shape, int(failed[0]))
         inertia, rates, moment, potential = arrays
-        beyond = np.flatnonzero(np.isnan(moment).reshape(-1, n).any(axis=1) & (status == 0))
+        beyond = np.flatnonzero(np.isnan(moment).reshape(-1, n).any(axis=1) & (status < 2))
         if on_error == "raise" and beyond.size:
             at = flat.reshape(-1, n)[beyond[0]]
             message = (
@@ -288,10 +563,60 @@ class Machine:
         )
 
     def _refuse(self, q: Float, shape: tuple[int, ...], flat: int) -> None:
-        place = np.unravel_index(flat, shape) if shape else ()
-        one = self.mechanism.solve(q[place], order=1, on_error="nan")
-        message = f"{one.explain()}; nothing can be referred to the driver there"
-        raise PositionError(message, q=q[place])
+        place = tuple(int(k) for k in np.unravel_index(flat, shape)) if shape else ()
+        if self.mechanism is None:
+            message = f"q = {q[place]:g} is beyond the table"
+            raise InputError(message, q=q[place])
+        design = place[: len(self.shape)]
+        one = self.mechanism.design(design) if design else self.mechanism
+        told = one.solve(q[place], order=1, on_error="nan").explain()
+        where = f"design {design}: " if design else ""
+        message = f"{where}{told}; nothing can be referred to the driver there"
+        raise PositionError(message, q=q[place], design=design or None)
+
+
+def _with_designs(places: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
+    """Shape of the result: q is a number, (N,) or S + (N,)."""
+    if not designs:
+        return places
+    if len(places) <= 1:
+        return (*designs, *places)
+    try:
+        np.broadcast_to(np.empty(places[:-1]), designs)
+    except ValueError as error:
+        message = (
+            f"q has the shape {places}: with designs {designs} it is a number, (N,) or S + (N,)"
+        )
+        raise InputError(message) from error
+    return (*designs, places[-1])
+
+
+def _motors(motor: Any, drivers: int, outside: Outside) -> list[motors.MotorParts]:
+    if motor is None:
+        return []
+    many = [motor] if drivers == 1 and not isinstance(motor, list | tuple) else motor
+    if not isinstance(many, list | tuple) or len(many) != drivers:
+        message = f"motor is {motor!r}: {drivers} drivers need a sequence of as many (None: none)"
+        raise InputError(message)
+    pairs = enumerate(many)
+    return [motors.parts(one, driver, outside) for driver, one in pairs if one is not None]
+
+
+def _body(mechanism: Mechanism, link: str, body: Any) -> tuple[str, Any, float, float]:
+    if not isinstance(body, Body):
+        message = f"bodies[{link!r}] is {body!r}: an assur.Body is needed"
+        raise InputError(message)
+    joints = mechanism.links.get(link, ())
+    at: Any = body.at
+    if at is None and joints:
+        at = joints[0]
+    elif not isinstance(at, str):
+        x, y = (0.0, 0.0) if at is None else real_array(at, f"at of the body {link!r}")
+        at = link, [float(x), float(y)]
+    elif link in mechanism.links and at not in joints:
+        message = f"bodies[{link!r}]: joint {at!r} is not one of its joints {', '.join(joints)}"
+        raise InputError(message, joint=at, link=link)
+    return link, at, float(body.mass), float(body.inertia)
 
 
 def _gravity(load: Gravity) -> Float:

@@ -12,9 +12,14 @@ if TYPE_CHECKING:
     from assur.flywheel import Flywheel
     from assur.mechanism import Mechanism
     from assur.motion import Motion
+    from assur.run import Run
+    from assur.steady import SteadyState
 
 # Okabe and Ito's colours (2008): told apart in print and by colour-blind eyes.
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+
+# Places of a curve in time.
+RUN_DRAWN = 1001
 
 
 def _axes(ax: Any) -> Any:
@@ -160,4 +165,37 @@ def flywheel_picture(
         )
     ax.axhline(flywheel.mean_speed, color="0.6", linewidth=0.8)
     ax.set(xlabel=label, ylabel="ω, rad/s")
+    return ax
+
+
+def run_picture(run: Run, what: str, ax: Any) -> Any:
+    """See `Run.plot`."""
+    ax = _axes(ax)
+    if what == "energy":
+        for name in ("kinetic", "potential", "work"):
+            ax.plot(run.t, getattr(run.energy, name), label=name)
+        ax.legend()
+    else:
+        t = np.linspace(run.t[0], run.t[-1], RUN_DRAWN)
+        own = run.t if run._along_q else t
+        values = getattr(run if run._along_q else run.at(t), what)
+        ax.plot(own, values, color=_COLOURS[0] if np.ndim(values) == 1 else None)
+    for one in run.events:
+        ax.axvline(one.t, color="0.7", linewidth=0.8, zorder=0)
+    labels = {"q": "q, rad or m", "speed": "speed, 1/s", "energy": "energy, J"}
+    ax.set(xlabel="t, s", ylabel=labels.get(what, "acceleration, 1/s²"))
+    return ax
+
+
+def steady_picture(steady: SteadyState, ax: Any) -> Any:
+    """See `SteadyState.plot`."""
+    ax = _axes(ax)
+    q = np.linspace(steady.q[0], steady.q[-1], RUN_DRAWN)
+    ax.plot(q, steady.at(q).speed, color=_COLOURS[0])
+    for place in (steady.greatest, steady.least):
+        value = float(np.copysign(place.value, steady.speed[0]))
+        ax.plot(place.at, value, "o", color=_COLOURS[1], markersize=5)
+        ax.annotate(f"{value:.4g}", (place.at, value), xytext=(4, 4), textcoords="offset points")
+    ax.axhline(np.copysign(steady.mean_speed, steady.speed[0]), color="0.6", linewidth=0.8)
+    ax.set(xlabel="q, rad", ylabel="ω, rad/s")
     return ax

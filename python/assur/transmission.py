@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -17,18 +17,35 @@ if TYPE_CHECKING:
 Float: TypeAlias = npt.NDArray[np.float64]
 
 
+class Line(NamedTuple):
+    """A line from joint to joint; or (no end) a slide's guide."""
+
+    start: str
+    end: str | None = None
+
+
 def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
     """See `Motion.transmission_angle`."""
-    mechanism = motion.mechanism
+    pair, complement = lines(motion.mechanism, name, between)
+    first, second = (_direction(motion, line) for line in pair)
+    acute = _acute(motion, first, second)
+    return 0.5 * np.pi - acute if complement else acute
+
+
+def lines(
+    mechanism: Mechanism, name: str, between: tuple[str, ...] | None
+) -> tuple[list[Line], bool]:
+    """Which two lines meet there, and whether the complement of their angle is meant."""
     if between is not None:
         if len(between) != 2 or len({name, *between}) != 3:
             message = f"between={between!r}: two joints are needed, neither of them {name!r}"
             raise InputError(message, joint=name)
-        first, second = between
-        return _acute(motion, _line(motion, name, first), _line(motion, name, second))
+        for joint in (name, *between):
+            mechanism._core.require("joint", joint)
+        return [Line(name, other) for other in between], False
     slide = name if name in mechanism.slides else _slide_at(mechanism, name)
     if slide is not None:
-        return _at_slide(motion, slide)
+        return _at_slide(mechanism, slide), True
     mechanism._core.require("joint", name)
     meeting = [link for link, on in mechanism.links.items() if name in on]
     if len(meeting) == 1:
@@ -37,8 +54,12 @@ def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
     if len(meeting) != 2:
         message = f"{len(meeting)} links meet at joint {name!r}: say between=(joint, joint)"
         raise InputError(message, joint=name)
-    first, second = (_other_joint(mechanism, link, name) for link in meeting)
-    return _acute(motion, _line(motion, name, first), _line(motion, name, second))
+    return [Line(name, _other_joint(mechanism, link, name)) for link in meeting], False
+
+
+def guide_angle(mechanism: Mechanism, slide: str) -> Any:
+    """Return a guide's angle in the frame of the link it is on, rad."""
+    return mechanism.dimensions.get(f"{slide}.angle", 0.0)
 
 
 def _acute(motion: Motion, a: Float, b: Float) -> Float:
@@ -47,9 +68,17 @@ def _acute(motion: Motion, a: Float, b: Float) -> Float:
     return _core.acute(flat[0], flat[1]).reshape(motion.shape)
 
 
-def _line(motion: Motion, start: str, end: str) -> Float:
-    line: Float = motion.joint(end).value - motion.joint(start).value
-    return line
+def _direction(motion: Motion, line: Line) -> Float:
+    """Direction of a line, S + (N, 2)."""
+    mechanism = motion.mechanism
+    if line.end is not None:
+        along: Float = motion.joint(line.end).value - motion.joint(line.start).value
+        return along
+    own = np.asarray(guide_angle(mechanism, line.start))
+    if motion.shape[len(mechanism.shape) :]:
+        own = own[..., np.newaxis]
+    direction = motion.link(mechanism.slides[line.start].on).value + own
+    return np.stack([np.cos(direction), np.sin(direction)], axis=-1)
 
 
 def _pairs(mechanism: Mechanism, joint: str) -> int:
@@ -77,32 +106,27 @@ def _slide_at(mechanism: Mechanism, joint: str) -> str | None:
     return None
 
 
-def _at_slide(motion: Motion, name: str) -> Float:
-    """Complement of the pressure angle.
+def _at_slide(mechanism: Mechanism, name: str) -> list[Line]:
+    """Return the lines of the pressure angle, of which the transmission angle is the complement.
 
     On a fixed guide the pressure angle is between the link that pushes and the
     guide. A turning guide is pushed along its normal, and its own point moves
     across the line from its pivot: the pressure angle is between that line and
     the guide.
     """
-    mechanism = motion.mechanism
     slide = mechanism.slides[name]
     joints = tuple(mechanism.links[slide.link])
     if not joints:
         message = f"slide {name!r}: link {slide.link!r} has no joint to push it"
         raise InputError(message, slide=name)
     at = joints[0]
-    if slide.on == "ground":
-        pushing = [k for k, on in mechanism.links.items() if at in on and k != slide.link]
-        if len(pushing) != 1:
-            message = f"slide {name!r}: {len(pushing)} links push joint {at!r}: say between="
-            raise InputError(message, slide=name, joint=at)
-        line = _line(motion, at, _other_joint(mechanism, pushing[0], at))
-    else:
-        line = _line(motion, at, _pivot(mechanism, slide.on))
-    pressure = _acute(motion, line, _guide(motion, name))
-    complement: Float = 0.5 * np.pi - pressure
-    return complement
+    if slide.on != "ground":
+        return [Line(at, _pivot(mechanism, slide.on)), Line(name)]
+    pushing = [k for k, on in mechanism.links.items() if at in on and k != slide.link]
+    if len(pushing) != 1:
+        message = f"slide {name!r}: {len(pushing)} links push joint {at!r}: say between="
+        raise InputError(message, slide=name, joint=at)
+    return [Line(at, _other_joint(mechanism, pushing[0], at)), Line(name)]
 
 
 def _pivot(mechanism: Mechanism, link: str) -> str:
@@ -114,13 +138,3 @@ def _pivot(mechanism: Mechanism, link: str) -> str:
         message = f"link {link!r} turns about {len(pivots)} joints: no pressure angle is defined"
         raise InputError(message, link=link)
     return pivots[0]
-
-
-def _guide(motion: Motion, name: str) -> Float:
-    """Direction of a guide, S + (N, 2)."""
-    mechanism = motion.mechanism
-    own = np.asarray(mechanism.dimensions.get(f"{name}.angle", 0.0))
-    if motion.shape[len(mechanism.shape) :]:
-        own = own[..., np.newaxis]
-    direction = motion.link(mechanism.slides[name].on).value + own
-    return np.stack([np.cos(direction), np.sin(direction)], axis=-1)

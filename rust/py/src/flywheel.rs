@@ -1,14 +1,11 @@
 //! Flywheels of many tables; Python checks, broadcasts and reshapes.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
-
 use assur::dynamics::{Ends, Flywheel, Mean, TableError, Turn};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::error;
-use crate::gate;
+use crate::spread::spread;
+use crate::{error, gate};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -69,7 +66,7 @@ impl Flywheels {
     /// `moment` and `inertia`: table after table; `first` and `second`: two numbers a table, what
     /// they are is told by `task`.
     #[new]
-    #[pyo3(signature = (phi, moment, inertia, spline, task, first, second, threads=None))]
+    #[pyo3(signature = (phi, moment, inertia, spline, task, first, second, threads=None, corners=None))]
     #[allow(clippy::too_many_arguments, reason = "flat arrays")]
     fn new(
         py: Python<'_>,
@@ -81,6 +78,7 @@ impl Flywheels {
         first: Flat<'_>,
         second: Flat<'_>,
         threads: Option<usize>,
+        corners: Option<Vec<usize>>,
     ) -> PyResult<Self> {
         let (ends, task) = (ends(spline)?, Task::of(task)?);
         let [phi, moment, inertia, first, second] =
@@ -90,12 +88,14 @@ impl Flywheels {
         if second.len() != count || [&moment, &inertia].iter().any(|a| a.len() != count * rows) {
             return Err(error::input("the arrays do not fit".into(), None));
         }
+        let corners = corners.unwrap_or_default();
         let one = |i: usize| {
             let of = |all: &[f64]| all[i * rows..(i + 1) * rows].to_vec();
-            Turn::new(&phi, &of(&moment), &of(&inertia), ends)
+            Turn::with_corners(&phi, &of(&moment), &of(&inertia), ends, &corners)
                 .and_then(|turn| task.solve(turn, [first[i], second[i]]))
         };
-        gate::run(py, count <= TOGETHER, |cancel| spread(count, threads, cancel, &one)).map(Self)
+        gate::run(py, count <= TOGETHER, |cancel| spread(count, TOGETHER, threads, cancel, &one))
+            .map(Self)
     }
 
     /// Of every table: flywheel, speed at the beginning, motor, place and value of the greatest
@@ -146,32 +146,4 @@ impl Flywheels {
         });
         Ok(PyArray1::from_vec(py, values))
     }
-}
-
-/// Does `one` for every index on some threads; what is cancelled is left out at the end.
-fn spread(
-    count: usize,
-    threads: Option<usize>,
-    cancel: &AtomicBool,
-    one: &(impl Fn(usize) -> One + Sync),
-) -> Vec<One> {
-    let available = || thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let threads = threads.unwrap_or_else(available).min(count.div_ceil(TOGETHER)).max(1);
-    let share = count.div_ceil(threads);
-    let part = |first: usize| -> Vec<One> {
-        let own = first..(first + share).min(count);
-        own.take_while(|_| !cancel.load(Ordering::Relaxed)).map(one).collect()
-    };
-    if threads == 1 {
-        return part(0);
-    }
-    thread::scope(|scope| {
-        let parts: Vec<_> =
-            (0..count).step_by(share).map(|first| scope.spawn(move || part(first))).collect();
-        let joined = parts.into_iter().flat_map(|part| match part.join() {
-            Ok(done) => done,
-            Err(panic) => std::panic::resume_unwind(panic),
-        });
-        joined.collect()
-    })
 }

@@ -8,7 +8,10 @@ mod gate;
 mod machine;
 mod mechanism;
 mod metrics;
+mod parts;
+mod run;
 mod slider_crank;
+mod spread;
 mod trig;
 
 use pyo3::prelude::*;
@@ -30,6 +33,8 @@ mod _core {
     #[pymodule_export]
     use super::metrics::{acute, curvature, instant_centre};
     use super::pyfunction;
+    #[pymodule_export]
+    use super::run::Run;
     #[pymodule_export]
     use super::slider_crank::{
         slider_crank_deviation, slider_crank_fourier, slider_crank_fraction,

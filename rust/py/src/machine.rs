@@ -1,12 +1,17 @@
-//! Machines: names in, reduced inertias and moments out.
+//! Machines: names in, reduced inertias, moments and motions out.
 
-use assur::dynamics::{Body, Load, Point, Reduced, Table, Value};
-use assur::{SolveError, Status};
+use std::time::{Duration, Instant};
+
+use assur::SolveError;
+use assur::dynamics::{Along, Mean, Rows, Search, Sheet, Task, Wanted};
+use assur::ode::Method;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::flywheel::ends;
 use crate::mechanism::Mechanism;
+use crate::parts::{self, BodyParts, LoadParts, MotorParts, TableParts, WatchParts};
+use crate::run::{Calls, Run, broken, unsteady};
+use crate::spread::spread;
 use crate::{error, gate};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
@@ -17,81 +22,44 @@ type Arrays<'py> = (Array<'py>, Array<'py>, Array<'py>, Array<'py>, Bound<'py, P
 /// Positions below which a call is not to be interrupted.
 const SMALL: usize = 20_000;
 
-/// A joint, or a link and a place in its frame.
-#[derive(FromPyObject)]
-pub(crate) enum Place {
-    Joint(String),
-    Link((String, [f64; 2])),
+/// Where a machine's inertia and loads come from.
+enum Inner {
+    Mechanism(Py<Mechanism>, assur::dynamics::Machine),
+    Sheet(Sheet),
 }
 
-/// A number, a table (rows, values, spline, whether periodic), or which of the numbers given.
-#[derive(FromPyObject)]
-pub(crate) enum Given {
-    Number(f64),
-    Table((Vec<f64>, Vec<f64>, String, bool)),
-    Outside((usize,)),
-}
-
-impl Given {
-    fn value(self) -> PyResult<Value> {
-        Ok(match self {
-            Self::Number(number) => Value::Number(number),
-            Self::Outside((which,)) => Value::Given(which),
-            Self::Table((knots, values, spline, periodic)) => {
-                let table = Table::new(&knots, &values, ends(&spline)?, periodic);
-                Value::Table(table.map_err(|e| error::input(e.to_string(), None))?)
-            }
-        })
-    }
-}
-
-/// A load: kind, places, links, numbers, values.
-type LoadParts = (String, Vec<Place>, Vec<String>, Vec<f64>, Vec<Given>);
-
-/// A mechanism with bodies and loads.
+/// A mechanism with bodies and loads, or tables of inertia and moment; and motors.
 #[pyclass(frozen, module = "assur._core")]
-pub(crate) struct Machine {
-    mechanism: Py<Mechanism>,
-    inner: assur::dynamics::Machine,
-}
+pub(crate) struct Machine(Inner);
 
 #[pymethods]
 impl Machine {
-    /// `bodies`: link, centre of mass, mass, inertia.
+    /// Without a mechanism the first two tables are inertia and moment.
     #[new]
     fn new(
         py: Python<'_>,
-        mechanism: Py<Mechanism>,
-        bodies: Vec<(String, Place, f64, f64)>,
+        mechanism: Option<Py<Mechanism>>,
+        bodies: Vec<BodyParts>,
         loads: Vec<LoadParts>,
         gravity: [f64; 2],
-        rotor: f64,
+        tables: Vec<TableParts>,
+        motors: Vec<MotorParts>,
     ) -> PyResult<Self> {
+        let tables = tables.into_iter().map(parts::table).collect::<PyResult<_>>()?;
+        let motors = motors.into_iter().map(parts::motor).collect::<PyResult<_>>()?;
+        let Some(mechanism) = mechanism else {
+            return Ok(Self(Inner::Sheet(Sheet { tables, motors })));
+        };
         let own = &mechanism.bind(py).get().inner;
-        let link = |name: &str| own.link(name).map_err(error::solve);
-        let point = |place: Place| -> PyResult<Point> {
-            Ok(match place {
-                Place::Joint(name) => Point::Joint(own.joint(&name).map_err(error::solve)?),
-                Place::Link((name, at)) => Point::Link { link: link(&name)?, at },
-            })
-        };
-        let body = |(name, place, mass, inertia): (String, Place, f64, f64)| {
-            Ok(Body { link: link(&name)?, at: point(place)?, mass, inertia })
-        };
-        let bodies = bodies.into_iter().map(body).collect::<PyResult<_>>()?;
-        let load = |(kind, places, links, numbers, values): LoadParts| {
-            let places = places.into_iter().map(&point).collect::<PyResult<Vec<_>>>()?;
-            let links = links.iter().map(|name| link(name)).collect::<PyResult<Vec<_>>>()?;
-            let values = values.into_iter().map(Given::value).collect::<PyResult<Vec<_>>>()?;
-            load(&kind, &places, &links, &numbers, values)
-                .ok_or_else(|| error::input(format!("no such load: {kind:?}"), None))
-        };
-        let loads = loads.into_iter().map(load).collect::<PyResult<_>>()?;
-        let inner = assur::dynamics::Machine { bodies, loads, gravity, rotor };
-        Ok(Self { mechanism, inner })
+        let bodies =
+            bodies.into_iter().map(|one| parts::body(own, one)).collect::<PyResult<_>>()?;
+        let loads = loads.into_iter().map(|one| parts::load(own, one)).collect::<PyResult<_>>()?;
+        let inner = assur::dynamics::Machine { bodies, loads, gravity, tables, motors };
+        Ok(Self(Inner::Mechanism(mechanism, inner)))
     }
 
-    /// Refers to the drivers at positions; `given`: the values from outside of every position.
+    /// Refers designs to the drivers, each at as many positions; `given`: the values from outside
+    /// of every position.
     fn reduce<'py>(
         &self,
         py: Python<'py>,
@@ -99,68 +67,178 @@ impl Machine {
         q: Flat<'py>,
         speed: Flat<'py>,
         given: Flat<'py>,
+        threads: Option<usize>,
     ) -> PyResult<Arrays<'py>> {
-        let mechanism = &self.mechanism.get().inner;
+        let (mechanism, machine) = match &self.0 {
+            Inner::Mechanism(mechanism, machine) => (mechanism, machine),
+            Inner::Sheet(sheet) => return Ok(arrays(py, &[sheet.reduce(q.as_slice()?)])),
+        };
+        let mechanism = &mechanism.get().inner;
         let drivers = mechanism.q0().len();
         let [dimensions, q, speed, given] =
             [&dimensions, &q, &speed, &given].map(|a| a.as_slice().map(<[f64]>::to_vec));
         let (dimensions, q, speed, given) = (dimensions?, q?, speed?, given?);
-        let fits = dimensions.len() == mechanism.dimensions().len()
+        let each = mechanism.dimensions().len();
+        let designs = dimensions.len() / each;
+        let whole = |all: &[f64]| designs > 0 && all.len().is_multiple_of(designs);
+        let fits = dimensions.len().is_multiple_of(each)
             && q.len() == speed.len()
-            && q.len().is_multiple_of(drivers);
+            && [&q, &given].iter().all(|all| whole(all))
+            && (q.len() / designs.max(1)).is_multiple_of(drivers);
         if !fits {
             return Err(error::solve(SolveError::Shape("the arrays do not fit".into())));
         }
+        let part = |all: &[f64], design: usize| {
+            let own = all.len() / designs;
+            all[design * own..(design + 1) * own].to_vec()
+        };
         let all = gate::run(py, q.len() <= SMALL, |cancel| {
-            self.inner.reduce(mechanism, &dimensions, &q, &speed, &given, cancel)
+            let one = |design: usize| {
+                let [dimensions, q, speed, given] =
+                    [&dimensions, &q, &speed, &given].map(|all| part(all, design));
+                machine.reduce(mechanism, &dimensions, &q, &speed, &given, cancel)
+            };
+            spread(designs, 1, threads, cancel, &one)
         })?;
-        let width = [drivers * drivers, drivers * drivers * drivers, drivers, 1];
-        let array = |which: usize, of: fn(&Reduced) -> &[f64]| {
-            let rows = all.iter().flat_map(|one| match one {
-                Ok(reduced) => of(reduced).to_vec(),
-                Err(_) => vec![f64::NAN; width[which]],
-            });
-            PyArray1::from_vec(py, rows.collect())
+        Ok(arrays(py, &all))
+    }
+
+    /// A motion along the time or (`along_q`) the coordinate; `functions`: those of loads and
+    /// motors, then of events.
+    #[allow(clippy::too_many_arguments, reason = "what is asked of a run")]
+    fn run(
+        &self,
+        py: Python<'_>,
+        dimensions: Vec<f64>,
+        along_q: bool,
+        start: (f64, Vec<f64>, Vec<f64>),
+        end: f64,
+        low_order: bool,
+        tolerances: (f64, Option<[f64; 2]>),
+        limits: (f64, u64, Option<f64>),
+        breaks: Vec<f64>,
+        watches: Vec<WatchParts>,
+        functions: (Vec<Py<PyAny>>, Vec<Py<PyAny>>),
+    ) -> PyResult<Run> {
+        let own = match &self.0 {
+            Inner::Mechanism(mechanism, _) => Some(&mechanism.get().inner),
+            Inner::Sheet(_) => None,
         };
-        let status = |one: &Result<Reduced, Status>| match one {
-            Ok(_) => Status::Ok as u8,
-            Err(status) => *status as u8,
+        let watches =
+            watches.into_iter().map(|one| parts::watch(own, one)).collect::<PyResult<Vec<_>>>()?;
+        let (t, q, speed) = start;
+        let (max_step, max_steps, seconds) = limits;
+        let task = Task {
+            along: if along_q { Along::Coordinate } else { Along::Time },
+            t,
+            q: &q,
+            speed: &speed,
+            end,
+            method: method(low_order),
+            relative: tolerances.0,
+            absolute: tolerances.1,
+            max_step,
+            max_steps,
+            deadline: deadline(seconds),
+            breaks: &breaks,
+            watches: &watches,
+            flywheel: 0.0,
         };
-        let statuses = PyArray1::from_vec(py, all.iter().map(status).collect());
-        Ok((
-            array(0, |r| &r.inertia),
-            array(1, |r| &r.rates),
-            array(2, |r| &r.moment),
-            array(3, |r| std::slice::from_ref(&r.potential)),
-            statuses,
-        ))
+        let made = called(py, functions, |calls| match &self.0 {
+            Inner::Mechanism(mechanism, machine) => {
+                machine.run(&mechanism.get().inner, &dimensions, &task, calls)
+            }
+            Inner::Sheet(sheet) => sheet.run(&task, calls),
+        })?;
+        made.map(Run::new).map_err(broken)
+    }
+
+    /// The periodic motion from `q` over `span`, with a flywheel or one for a fluctuation (`wanted`:
+    /// that and its mean): a period along the coordinate; multiplier, moment, work of the motors,
+    /// flywheel.
+    #[allow(clippy::too_many_arguments, reason = "what is asked of it")]
+    fn steady(
+        &self,
+        py: Python<'_>,
+        dimensions: Vec<f64>,
+        places: [f64; 2],
+        speed: Option<f64>,
+        low_order: bool,
+        relative: f64,
+        limits: (u64, Option<f64>),
+        breaks: Vec<f64>,
+        flywheel: f64,
+        wanted: Option<(f64, String)>,
+        functions: Vec<Py<PyAny>>,
+    ) -> PyResult<(Run, Vec<f64>)> {
+        let [q, span] = places;
+        let search = Search {
+            q,
+            span,
+            speed,
+            method: method(low_order),
+            relative,
+            max_steps: limits.0,
+            deadline: deadline(limits.1),
+            breaks: &breaks,
+            flywheel,
+        };
+        let wanted = wanted.map(|(fluctuation, mean)| {
+            let mean = if mean == "period" { Mean::Period } else { Mean::Extremes };
+            Wanted { fluctuation, mean }
+        });
+        let made = called(py, (functions, Vec::new()), |calls| match &self.0 {
+            Inner::Mechanism(mechanism, machine) => {
+                machine.steady(&mechanism.get().inner, &dimensions, &search, wanted, calls)
+            }
+            Inner::Sheet(sheet) => sheet.steady(&search, wanted, calls),
+        })?;
+        let steady = made.map_err(unsteady)?;
+        let [least, greatest] = steady.extremes();
+        let numbers = vec![
+            steady.multiplier,
+            steady.moment,
+            steady.drive,
+            steady.flywheel,
+            least.at,
+            least.value,
+            greatest.at,
+            greatest.value,
+        ];
+        Ok((Run::new(steady.run), numbers))
     }
 }
 
-fn load(
-    kind: &str,
-    places: &[Point],
-    links: &[usize],
-    numbers: &[f64],
-    values: Vec<Value>,
-) -> Option<Load> {
-    Some(match (kind, places, links, numbers) {
-        ("force", &[at], links, []) => {
-            Load::Force { at, force: values.try_into().ok()?, axes: links.first().copied() }
-        }
-        ("torque", [], &[link, on], []) => {
-            Load::Torque { link, on, torque: values.into_iter().next()? }
-        }
-        ("spring", &[a, b], [], &[stiffness, length, preload]) => {
-            Load::Spring { ends: [a, b], stiffness, length, preload }
-        }
-        ("torsion spring", [], &[link, on], &[stiffness, angle, preload]) => {
-            Load::TorsionSpring { link, on, stiffness, angle, preload }
-        }
-        ("damper", &[a, b], [], &[damping]) => Load::Damper { ends: [a, b], damping },
-        ("torsion damper", [], &[link, on], &[damping]) => {
-            Load::TorsionDamper { link, on, damping }
-        }
-        _ => return None,
-    })
+/// Does something with functions, which need Python's lock all the time; then signals are heard.
+fn called<T: Send>(
+    py: Python<'_>,
+    functions: (Vec<Py<PyAny>>, Vec<Py<PyAny>>),
+    work: impl FnOnce(&mut Calls) -> T + Send,
+) -> PyResult<T> {
+    let mut calls = Calls::new(functions.0, functions.1);
+    let done = if calls.are_many() { work(&mut calls) } else { py.detach(|| work(&mut calls)) };
+    calls.signal.map_or(Ok(done), Err)
+}
+
+fn method(low_order: bool) -> Method {
+    if low_order { Method::DormandPrince54 } else { Method::DormandPrince853 }
+}
+
+fn deadline(seconds: Option<f64>) -> Option<Instant> {
+    let wait = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())?;
+    Instant::now().checked_add(wait)
+}
+
+fn arrays<'py>(py: Python<'py>, all: &[Rows]) -> Arrays<'py> {
+    let array = |of: fn(&Rows) -> &[f64]| {
+        PyArray1::from_vec(py, all.iter().flat_map(|rows| of(rows).iter().copied()).collect())
+    };
+    let statuses = all.iter().flat_map(|rows| rows.status.iter().map(|&one| one as u8));
+    (
+        array(|r| &r.inertia),
+        array(|r| &r.rates),
+        array(|r| &r.moment),
+        array(|r| &r.potential),
+        PyArray1::from_vec(py, statuses.collect()),
+    )
 }

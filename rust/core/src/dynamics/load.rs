@@ -3,7 +3,8 @@
 //! Pennock & Shigley 2017, chapter 12).
 
 use super::pose::{Point, Pose};
-use super::table::Value;
+use super::reduced::Reduced;
+use super::value::{Numbers, Value};
 use crate::plane::Vector;
 
 /// What acts on a mechanism besides its weight.
@@ -77,80 +78,79 @@ fn along(pose: &Pose<'_>, ends: [Point; 2]) -> (Vector, f64) {
 }
 
 impl Load {
-    /// Adds what it does to every driver; `q`: the first driver's coordinate, `speed`: of all.
-    pub(super) fn add(
-        &self,
-        pose: &Pose<'_>,
-        q: f64,
-        speed: &[f64],
-        given: &[f64],
-        sums: &mut [f64],
-    ) {
-        let first = Pose::first;
+    /// Adds the force of a spring, which its energy tells, and that energy.
+    pub(super) fn store(&self, pose: &Pose<'_>, out: &mut Reduced) {
         match self {
-            Self::Force { at, force: [x, y], axes } => {
-                let mut force = Vector::new(x.at(q, given), y.at(q, given));
-                if let Some(link) = *axes {
-                    let frame = |at| pose.point(Point::Link { link, at }, 0);
-                    force = force * (frame([1.0, 0.0]) - frame([0.0; 2]));
-                }
-                for (driver, sum) in sums.iter_mut().enumerate() {
-                    *sum += force.dot(pose.point(*at, first(driver)));
-                }
-            }
-            Self::Torque { link, on, torque } => {
-                let torque = torque.at(q, given);
-                for (driver, sum) in sums.iter_mut().enumerate() {
-                    *sum += torque * turning(pose, *link, *on, driver);
-                }
-            }
             Self::Spring { ends, stiffness, length, preload } => {
                 let (unit, now) = along(pose, *ends);
-                let tension = stiffness * (now - length) + preload;
-                for (driver, sum) in sums.iter_mut().enumerate() {
+                let longer = now - length;
+                out.potential += (0.5 * stiffness * longer + preload) * longer;
+                let tension = stiffness * longer + preload;
+                for (driver, sum) in out.stored.iter_mut().enumerate() {
                     *sum += -tension * growing(pose, *ends, unit, driver);
                 }
             }
             Self::TorsionSpring { link, on, stiffness, angle, preload } => {
-                let apart = pose.turned(*link) - pose.turned(*on);
-                let back = stiffness * (apart - angle) + preload;
-                for (driver, sum) in sums.iter_mut().enumerate() {
+                let apart = pose.turned(*link) - pose.turned(*on) - angle;
+                out.potential += (0.5 * stiffness * apart + preload) * apart;
+                let back = stiffness * apart + preload;
+                for (driver, sum) in out.stored.iter_mut().enumerate() {
                     *sum += -back * turning(pose, *link, *on, driver);
                 }
+            }
+            _ => {}
+        }
+    }
+
+    /// Adds what anything but a spring does to every driver at speeds.
+    pub(super) fn apply(
+        &self,
+        pose: &Pose<'_>,
+        speed: &[f64],
+        numbers: Numbers<'_>,
+        out: &mut Reduced,
+    ) {
+        let first = Pose::first;
+        match self {
+            Self::Force { at, force: [x, y], axes } => {
+                let frame = axes.map_or(Vector::ONE, |link| {
+                    let frame = |at| pose.point(Point::Link { link, at }, 0);
+                    frame([1.0, 0.0]) - frame([0.0; 2])
+                });
+                let force = Vector::new(x.at(numbers), y.at(numbers)) * frame;
+                for (driver, sum) in out.applied.iter_mut().enumerate() {
+                    *sum += force.dot(pose.point(*at, first(driver)));
+                }
+                let rate = Vector::new(x.by_speed(numbers), y.by_speed(numbers)) * frame;
+                out.by_speed += rate.dot(pose.point(*at, first(0)));
+            }
+            Self::Torque { link, on, torque } => {
+                let now = torque.at(numbers);
+                for (driver, sum) in out.applied.iter_mut().enumerate() {
+                    *sum += now * turning(pose, *link, *on, driver);
+                }
+                out.by_speed += torque.by_speed(numbers) * turning(pose, *link, *on, 0);
             }
             Self::Damper { ends, damping } => {
                 let (unit, _) = along(pose, *ends);
                 let rate = |driver: usize| growing(pose, *ends, unit, driver);
-                let closing: f64 = speed.iter().enumerate().map(|(d, s)| s * rate(d)).sum();
-                for (driver, sum) in sums.iter_mut().enumerate() {
-                    *sum += -damping * closing * rate(driver);
-                }
+                damp(*damping, rate, speed, out);
             }
             Self::TorsionDamper { link, on, damping } => {
-                let rate = |driver: usize| turning(pose, *link, *on, driver);
-                let turning: f64 = speed.iter().enumerate().map(|(d, s)| s * rate(d)).sum();
-                for (driver, sum) in sums.iter_mut().enumerate() {
-                    *sum += -damping * turning * rate(driver);
-                }
+                damp(*damping, |driver| turning(pose, *link, *on, driver), speed, out);
             }
+            Self::Spring { .. } | Self::TorsionSpring { .. } => {}
         }
     }
+}
 
-    /// Energy stored in it, J.
-    pub(super) fn energy(&self, pose: &Pose<'_>) -> f64 {
-        match self {
-            Self::Spring { ends, stiffness, length, preload } => {
-                let (_, now) = along(pose, *ends);
-                let longer = now - length;
-                (0.5 * stiffness * longer + preload) * longer
-            }
-            Self::TorsionSpring { link, on, stiffness, angle, preload } => {
-                let apart = pose.turned(*link) - pose.turned(*on) - angle;
-                (0.5 * stiffness * apart + preload) * apart
-            }
-            _ => 0.0,
-        }
+/// Adds a damper of something that grows at a rate with every driver.
+fn damp(damping: f64, rate: impl Fn(usize) -> f64, speed: &[f64], out: &mut Reduced) {
+    let growing: f64 = speed.iter().enumerate().map(|(driver, s)| s * rate(driver)).sum();
+    for (driver, sum) in out.applied.iter_mut().enumerate() {
+        *sum += -damping * growing * rate(driver);
     }
+    out.by_speed += -damping * rate(0) * rate(0);
 }
 
 /// How a link turns against another with a driver.

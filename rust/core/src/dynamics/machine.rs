@@ -1,12 +1,16 @@
-//! Bodies and loads of a mechanism, referred to its drivers.
+//! Bodies, loads and motors of a mechanism, referred to its drivers.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::load::Load;
+use super::motor::Motor;
 use super::pose::{Point, Pose};
+use super::reduced::Reduced;
+use super::table::Table;
+use super::value::Numbers;
 use crate::mechanism::Mechanism;
 use crate::motion::Status;
-use crate::motion::follow::Follower;
+use crate::motion::follow::{Asked, Follower};
 use crate::plan::jet::Jets;
 use crate::plane::Vector;
 
@@ -32,27 +36,31 @@ pub struct Machine {
     pub loads: Vec<Load>,
     /// Acceleration of free fall, m/s².
     pub gravity: [f64; 2],
-    /// Inertia that turns (or moves) with the first driver: a motor's rotor by the square of its
-    /// ratio, kg·m² (kg).
-    pub rotor: f64,
+    /// Tables over the first driver's coordinate that loads and motors refer to.
+    pub tables: Vec<Table>,
+    /// Its motors; their rotors' inertia is part of the machine's, their torque none of its loads.
+    pub motors: Vec<Motor>,
 }
 
-/// A machine referred to its drivers at one position.
+/// A machine referred to its drivers at many positions, one after another; NaN where there is
+/// nothing.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Reduced {
-    /// The mass matrix, row after row: of one driver the reduced inertia.
+pub struct Rows {
+    /// Mass matrices.
     pub inertia: Vec<f64>,
-    /// Its derivatives: by every driver one matrix.
+    /// Their derivatives.
     pub rates: Vec<f64>,
     /// Reduced forces and moments of all loads.
     pub moment: Vec<f64>,
-    /// Potential energy of weights and springs, J.
-    pub potential: f64,
+    /// Potential energies of weights and springs, J.
+    pub potential: Vec<f64>,
+    /// How the positions came out.
+    pub status: Vec<Status>,
 }
 
 impl Machine {
-    /// Refers to the drivers at positions (`q`, `speed`: drivers fastest; `given`: the numbers from
-    /// outside of every position, as many each). Ends early once `cancel` is true.
+    /// Refers a design to the drivers at positions (`q`, `speed`: drivers fastest; `given`: the
+    /// numbers from outside of every position, as many each). Ends early once `cancel` is true.
     #[must_use]
     pub fn reduce(
         &self,
@@ -62,73 +70,88 @@ impl Machine {
         speed: &[f64],
         given: &[f64],
         cancel: &AtomicBool,
-    ) -> Vec<Result<Reduced, Status>> {
+    ) -> Rows {
         let drivers = mechanism.q0().len();
         let jets = Jets::new(drivers, 2);
-        let mut follower = Follower::new(mechanism, dimensions, mechanism.signs(), &jets, q);
+        let asked = Asked::These(q);
+        let mut follower = Follower::new(mechanism, dimensions, &jets, asked, self.has_torsion());
         let each = given.len().checked_div(q.len() / drivers).unwrap_or(0);
-        let rows = q.chunks_exact(drivers).zip(speed.chunks_exact(drivers)).enumerate();
-        let one = |(row, (q, speed))| {
-            let position = follower.solve(q)?;
-            let given = &given[row * each..(row + 1) * each];
-            Ok(self.at(&Pose::new(position, &jets), q, speed, given))
-        };
-        rows.take_while(|_| !cancel.load(Ordering::Relaxed)).map(one).collect()
+        let mut rows = Rows::default();
+        let mut reduced = Reduced::new(drivers);
+        let (mut tables, mut numbers) = (Vec::new(), Vec::new());
+        for (row, (q, speed)) in
+            q.chunks_exact(drivers).zip(speed.chunks_exact(drivers)).enumerate()
+        {
+            if cancel.load(Ordering::Relaxed) {
+                break;
+            }
+            if let Err(status) = follower.solve(q) {
+                rows.push(None, drivers, status);
+                continue;
+            }
+            let pose = Pose::new(follower.position(), &jets);
+            tables.clear();
+            tables.extend(self.tables.iter().map(|table| [table.at(q[0]), 0.0]));
+            numbers.clear();
+            numbers.extend(given[row * each..(row + 1) * each].iter().map(|&number| [number, 0.0]));
+            self.place(&pose, &mut reduced);
+            self.load(&pose, speed, Numbers { tables: &tables, given: &numbers }, &mut reduced);
+            rows.push(Some(&reduced), drivers, follower.status());
+        }
+        rows
     }
 
-    /// Refers to the drivers at a position.
-    pub(super) fn at(&self, pose: &Pose<'_>, q: &[f64], speed: &[f64], given: &[f64]) -> Reduced {
-        let n = q.len();
-        let mut reduced = Reduced {
-            inertia: vec![0.0; n * n],
-            rates: vec![0.0; n * n * n],
-            moment: vec![0.0; n],
-            potential: 0.0,
-        };
-        reduced.inertia[0] = self.rotor;
-        for body in &self.bodies {
-            reduced.add(pose, body);
+    /// Whether a load asks for angles themselves.
+    pub(super) fn has_torsion(&self) -> bool {
+        self.loads.iter().any(|load| matches!(load, Load::TorsionSpring { .. }))
+    }
+
+    /// Inertia, weights and springs at a position.
+    pub(super) fn place(&self, pose: &Pose<'_>, out: &mut Reduced) {
+        out.clear();
+        let n = out.stored.len();
+        for motor in &self.motors {
+            out.inertia[motor.driver * n + motor.driver] += motor.inertia();
         }
         let gravity = Vector::new(self.gravity[0], self.gravity[1]);
         for body in &self.bodies {
-            let weight = gravity.scale(body.mass);
-            for (driver, sum) in reduced.moment.iter_mut().enumerate() {
-                *sum += weight.dot(pose.point(body.at, Pose::first(driver)));
-            }
-            reduced.potential += -weight.dot(pose.point(body.at, 0));
+            out.add(pose, body, gravity);
         }
         for load in &self.loads {
-            load.add(pose, q[0], speed, given, &mut reduced.moment);
-            reduced.potential += load.energy(pose);
+            load.store(pose, out);
         }
-        reduced
+    }
+
+    /// All other loads there, at speeds.
+    pub(super) fn load(
+        &self,
+        pose: &Pose<'_>,
+        speed: &[f64],
+        numbers: Numbers<'_>,
+        out: &mut Reduced,
+    ) {
+        out.applied.fill(0.0);
+        out.by_speed = 0.0;
+        for load in &self.loads {
+            load.apply(pose, speed, numbers, out);
+        }
     }
 }
 
-impl Reduced {
-    /// Adds a body: Σ m ∂S·∂S + I ∂Θ ∂Θ (I. M. Matsyuk & E. M. Shlyakhov, equation 2), and its
-    /// derivatives from second analogues.
-    fn add(&mut self, pose: &Pose<'_>, body: &Body) {
-        let n = self.moment.len();
-        let first = |a: usize| {
-            let k = Pose::first(a);
-            (pose.point(body.at, k), pose.angle(body.link, k))
+impl Rows {
+    fn push(&mut self, one: Option<&Reduced>, drivers: usize, status: Status) {
+        self.status.push(status);
+        let Some(one) = one else {
+            let nothing = |count| std::iter::repeat_n(f64::NAN, count);
+            self.inertia.extend(nothing(drivers * drivers));
+            self.rates.extend(nothing(drivers * drivers * drivers));
+            self.moment.extend(nothing(drivers));
+            self.potential.push(f64::NAN);
+            return;
         };
-        let second = |a: usize, c: usize| {
-            let k = pose.second(a, c);
-            (pose.point(body.at, k), pose.angle(body.link, k))
-        };
-        let product = |(p, u): (Vector, f64), (r, v): (Vector, f64)| {
-            body.mass * p.dot(r) + body.inertia * u * v
-        };
-        for a in 0..n {
-            for b in 0..n {
-                self.inertia[a * n + b] += product(first(a), first(b));
-                for c in 0..n {
-                    let rate = product(second(a, c), first(b)) + product(first(a), second(b, c));
-                    self.rates[(c * n + a) * n + b] += rate;
-                }
-            }
-        }
+        self.inertia.extend_from_slice(&one.inertia);
+        self.rates.extend_from_slice(&one.rates);
+        self.moment.extend((0..drivers).map(|driver| one.moment(driver)));
+        self.potential.push(one.potential);
     }
 }

@@ -19,21 +19,34 @@
 
 mod error;
 mod flywheel;
+mod line;
 mod load;
 mod machine;
+mod motor;
 mod polynomial;
 mod pose;
 mod quadrature;
+mod reduced;
 mod root;
+mod run;
 mod spline;
 mod table;
 mod turn;
+mod value;
 
 pub use error::TableError;
 pub use flywheel::{Flywheel, Mean};
+pub use line::{Angle, Line};
 pub use load::Load;
-pub use machine::{Body, Machine, Reduced};
+pub use machine::{Body, Machine, Rows};
+pub use motor::{Characteristic, Motor};
 pub use pose::Point;
+pub use reduced::Reduced;
+pub use run::{
+    Along, Broken, Ending, Happened, Moment, Nothing, Occasion, Outside, Run, RunError, Search,
+    Sheet, Steady, Task, Unsteady, Wanted, Watch,
+};
 pub use spline::{Ends, Pieces, spline};
-pub use table::{Table, Value};
+pub use table::Table;
 pub use turn::{Extreme, Turn};
+pub use value::Value;

@@ -10,6 +10,11 @@ const STEPS: u32 = 120;
 /// Where a growing function of a positive number is 0, from a first guess; none if it is so
 /// nowhere that could be found, or is no number there.
 pub fn zero(f: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
+    zero_to(f, guess, 0.0)
+}
+
+/// The same, to a part of it.
+pub fn zero_to(mut f: impl FnMut(f64) -> f64, guess: f64, part: f64) -> Option<f64> {
     let at_guess = f(guess);
     if at_guess == 0.0 {
         return Some(guess);
@@ -42,7 +47,7 @@ pub fn zero(f: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
             next = 0.5 * (a + b);
         }
         let value = f(next);
-        if next == a || next == b {
+        if next == a || next == b || (next - b).abs() <= part * next.abs() {
             return Some(next);
         }
         if (value > 0.0) == (at_b > 0.0) {

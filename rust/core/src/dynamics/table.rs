@@ -1,15 +1,22 @@
-//! Values over the driver's coordinate.
+//! Values over a coordinate or a speed.
 
 use super::error::TableError;
 use super::polynomial::value;
 use super::spline::{Ends, Pieces, spline};
 
-/// A table over the first driver's coordinate, with a curve through its rows.
+/// A table with a curve through its rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     knots: Vec<f64>,
     pieces: Pieces,
     periodic: bool,
+}
+
+/// A piece of a table, whole periods on.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Cell {
+    piece: usize,
+    whole: f64,
 }
 
 impl Table {
@@ -28,42 +35,106 @@ impl Table {
         Ok(Self { knots: knots.to_vec(), pieces: spline(knots, values, ends)?, periodic })
     }
 
-    /// The value at a coordinate; no number beyond a table that is not periodic.
+    /// The value at a place; no number beyond a table that is not periodic.
     #[must_use]
-    pub fn at(&self, q: f64) -> f64 {
-        let (first, last) = (self.knots[0], self.knots[self.knots.len() - 1]);
-        let within = if self.periodic {
-            let period = last - first;
-            q - period * ((q - first) / period).floor()
-        } else if q >= first && q <= last {
-            q
-        } else {
-            return f64::NAN;
-        };
+    pub fn at(&self, x: f64) -> f64 {
+        self.cell(x).map_or(f64::NAN, |cell| self.read(cell, x)[0])
+    }
+
+    /// Its period, if it has one.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        self.periodic.then(|| self.width())
+    }
+
+    /// The first and the last of its rows.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        [self.knots[0], self.knots[self.knots.len() - 1]]
+    }
+
+    fn width(&self) -> f64 {
+        let [first, last] = self.range();
+        last - first
+    }
+
+    /// The piece that a place is in; at a knot the one behind it.
+    pub(super) fn cell(&self, x: f64) -> Option<Cell> {
+        let [first, last] = self.range();
+        if !x.is_finite() || (!self.periodic && !(first..=last).contains(&x)) {
+            return None;
+        }
+        let whole = if self.periodic { ((x - first) / self.width()).floor() } else { 0.0 };
+        let within = x - self.width() * whole;
         let after = self.knots.partition_point(|&knot| knot <= within);
-        let piece = after.clamp(1, self.knots.len() - 1) - 1;
-        value(&self.pieces[piece], within - self.knots[piece])
+        Some(Cell { piece: after.clamp(1, self.pieces.len()) - 1, whole })
+    }
+
+    /// The knots around a piece.
+    pub(super) fn ends(&self, cell: Cell) -> [f64; 2] {
+        [0, 1].map(|end| self.knots[cell.piece + end] + cell.whole * self.width())
+    }
+
+    /// The piece behind (`up`) or before another.
+    pub(super) fn next(&self, cell: Cell, up: bool) -> Option<Cell> {
+        let last = self.pieces.len() - 1;
+        match (up, cell.piece) {
+            (true, piece) if piece < last => Some(Cell { piece: piece + 1, ..cell }),
+            (false, piece) if piece > 0 => Some(Cell { piece: piece - 1, ..cell }),
+            (true, _) => self.periodic.then_some(Cell { piece: 0, whole: cell.whole + 1.0 }),
+            (false, _) => self.periodic.then_some(Cell { piece: last, whole: cell.whole - 1.0 }),
+        }
+    }
+
+    /// Value and slope of a piece, also a little beyond it.
+    pub(super) fn read(&self, cell: Cell, x: f64) -> [f64; 2] {
+        let [_, b, c, d] = self.pieces[cell.piece];
+        let x = x - (self.knots[cell.piece] + cell.whole * self.width());
+        [value(&self.pieces[cell.piece], x), value(&[b, 2.0 * c, 3.0 * d], x)]
+    }
+
+    /// Where it is not smooth within an interval, ascending.
+    pub(super) fn knots_within(&self, [low, high]: [f64; 2]) -> Vec<f64> {
+        let mut found = Vec::new();
+        let [first, last] = self.range();
+        let mut cell = self.cell(if self.periodic { low } else { low.clamp(first, last) });
+        while let Some(own) = cell {
+            let [start, end] = self.ends(own);
+            if start > high {
+                break;
+            }
+            found.push(start);
+            cell = self.next(own, true);
+            if cell.is_none() {
+                found.push(end);
+            }
+        }
+        found.retain(|knot| *knot > low && *knot < high);
+        found
     }
 }
 
-/// A number that a load or motor has.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Value {
-    /// Always the same.
-    Number(f64),
-    /// Over the first driver's coordinate.
-    Table(Table),
-    /// Given from outside at every position: which of the numbers.
-    Given(usize),
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Value {
-    /// The number at a coordinate, with those given from outside.
-    pub(super) fn at(&self, q: f64, given: &[f64]) -> f64 {
-        match self {
-            Self::Number(number) => *number,
-            Self::Table(table) => table.at(q),
-            Self::Given(which) => given.get(*which).copied().unwrap_or(f64::NAN),
-        }
+    #[test]
+    fn pieces_follow_each_other() {
+        let knots = [0.0, 1.0, 3.0];
+        let table = Table::new(&knots, &[1.0, 2.0, 1.0], Ends::Linear, true).expect("a table");
+        assert_eq!(table.at(0.5), 1.5);
+        assert_eq!(table.at(-1.0), 1.5);
+        let cell = table.cell(7.5).expect("periodic");
+        assert_eq!(table.ends(cell), [7.0, 9.0]);
+        assert_eq!(table.read(cell, 8.0), [1.5, -0.5]);
+        let next = table.next(cell, true).expect("periodic");
+        assert_eq!(table.ends(next), [9.0, 10.0]);
+        assert_eq!(table.next(next, false), Some(cell));
+        assert_eq!(table.knots_within([0.5, 6.5]), [1.0, 3.0, 4.0, 6.0]);
+        let once = Table::new(&knots, &[1.0, 2.0, 5.0], Ends::Linear, false).expect("a table");
+        assert!(once.at(3.1).is_nan());
+        assert_eq!(once.at(3.0), 5.0);
+        assert_eq!(once.next(once.cell(2.0).expect("inside"), true), None);
+        assert_eq!(once.knots_within([-9.0, 9.0]), knots);
     }
 }

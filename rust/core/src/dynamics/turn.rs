@@ -41,8 +41,36 @@ impl Turn {
         inertia: &[f64],
         ends: Ends,
     ) -> Result<Self, TableError> {
+        Self::with_corners(knots, moment, inertia, ends, &[])
+    }
+
+    /// The same with corners at some rows (growing; the first and the last row among them are
+    /// nothing new): a curve of its own is laid from each to the next.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Turn::new`].
+    pub fn with_corners(
+        knots: &[f64],
+        moment: &[f64],
+        inertia: &[f64],
+        ends: Ends,
+        corners: &[usize],
+    ) -> Result<Self, TableError> {
         check(knots, [("moment", moment), ("inertia", inertia)])?;
-        let (moment, inertia) = (spline(knots, moment, ends)?, spline(knots, inertia, ends)?);
+        let cuts: Vec<usize> = [0]
+            .into_iter()
+            .chain(corners.iter().copied().filter(|&row| row > 0 && row + 1 < knots.len()))
+            .chain([knots.len() - 1])
+            .collect();
+        let lay = |values: &[f64]| -> Result<Pieces, TableError> {
+            let mut all = Pieces::with_capacity(knots.len());
+            for cut in cuts.windows(2) {
+                all.append(&mut spline(&knots[cut[0]..=cut[1]], &values[cut[0]..=cut[1]], ends)?);
+            }
+            Ok(all)
+        };
+        let (moment, inertia) = (lay(moment)?, lay(inertia)?);
         let mut turn =
             Self { knots: knots.to_vec(), moment, inertia, work: Vec::new(), motor: 0.0 };
         turn.lay_work();

@@ -1,19 +1,46 @@
 //! One design, one position after another: what a motion in time asks for.
 
-use super::design::{Design, Units};
-use super::state::{State, Status};
-use super::track::nearest;
+use super::design::{Design, Place, Units};
+use super::state::{Context, State, Status};
+use super::track::{Track, nearest};
+use super::walk::{Seed, Start};
 use crate::mechanism::Mechanism;
-use crate::plan::Plan;
 use crate::plan::bind::Bound;
 use crate::plan::jet::Jets;
+use crate::plan::{Plan, Unknown};
+use std::borrow::Cow;
+
+/// Which positions will be asked for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Asked<'a> {
+    /// These; each is reached straight from the drawing.
+    These(&'a [f64]),
+    /// Any, each near the one before: with several drivers it is reached from there.
+    Any,
+}
+
+/// A slide is followed as far as it goes: farther than this many sizes it is refused anyway.
+const FAR: f64 = 1.0e9;
 
 /// A mechanism of one design with its way laid, and work space for a position.
 pub(crate) struct Follower<'m> {
     design: Design<'m>,
     state: State,
-    near: Vec<f64>,
     q: Vec<f64>,
+    /// Angles of classes near those of the position, if they are asked for.
+    near: Vec<f64>,
+    lifted: bool,
+    /// Where the last position was, if the next one is reached from there.
+    last: Option<Anchor>,
+    roams: bool,
+}
+
+/// A position from which another is reached straight.
+struct Anchor {
+    q: Vec<f64>,
+    signs: Vec<f64>,
+    angles: Vec<f64>,
+    seeds: Vec<Seed>,
 }
 
 /// A position just solved.
@@ -29,20 +56,47 @@ pub(crate) struct Position<'p> {
 }
 
 impl<'m> Follower<'m> {
-    /// Binds dimensions and lays the way along some coordinates (all that will be asked for, of
-    /// a slide).
+    /// Binds dimensions and lays the way; `lifted`: whether angles themselves will be asked for.
     pub(crate) fn new(
         mechanism: &'m Mechanism,
         dimensions: &[f64],
-        signs: &[i8],
         jets: &'m Jets,
-        q: &[f64],
+        asked: Asked<'_>,
+        lifted: bool,
     ) -> Self {
-        let mut design = Design::new(mechanism, signs, jets);
+        let mut design = Design::new(mechanism, mechanism.signs(), jets);
         design.bind(dimensions);
-        design.lay_way(q);
+        let far = FAR * design.bound.scale;
+        match asked {
+            Asked::These(q) => design.lay_way(q),
+            Asked::Any => design.lay_way(&[-far, far]),
+        }
         let state = design.state(jets);
-        Self { design, state, near: Vec::new(), q: Vec::new() }
+        let roams = matches!(asked, Asked::Any) && mechanism.q0().len() > 1;
+        Self {
+            design,
+            state,
+            q: Vec::new(),
+            near: Vec::new(),
+            lifted: lifted || roams,
+            last: None,
+            roams,
+        }
+    }
+
+    /// What a driver's coordinate is measured in: the size of a slide, of an angle 1.
+    pub(crate) fn unit(&self, driver: usize) -> f64 {
+        1.0 / self.design.unit.coordinate[driver]
+    }
+
+    /// How the last position came out.
+    pub(crate) fn status(&self) -> Status {
+        self.state.status
+    }
+
+    /// Its condition.
+    pub(crate) fn condition(&self) -> f64 {
+        self.state.condition2[0].sqrt()
     }
 
     /// Solves at a coordinate (rad or m, of every driver).
@@ -50,14 +104,28 @@ impl<'m> Follower<'m> {
     /// # Errors
     ///
     /// The status of a place that has no position, or no analogues.
-    pub(crate) fn solve(&mut self, q: &[f64]) -> Result<Position<'_>, Status> {
+    pub(crate) fn solve(&mut self, q: &[f64]) -> Result<(), Status> {
         self.q.clear();
-        self.q.extend(self.design.scaled(q));
-        let place = self.design.way(&self.q);
+        self.q.extend(q.iter().zip(&self.design.unit.coordinate).map(|(q, unit)| q * unit));
+        let place = match self.last.as_ref().filter(|_| self.q.iter().all(|q| q.is_finite())) {
+            Some(last) => Some(last.way(&self.design, &self.q)),
+            None => self.design.way(&self.q),
+        };
         let solved = self.design.solve(&mut self.state, &self.q, place.as_ref());
         let Some(place) = place.filter(|_| solved) else { return Err(self.state.status) };
-        self.near = self.design.near(&place, self.state.class.len());
-        Ok(Position {
+        if self.lifted {
+            self.near = self.design.near(&place, self.state.class.len());
+        }
+        if self.roams {
+            let anchor = Anchor::of(&place, &self.design, &self.state, &self.q, &self.near);
+            self.last = Some(anchor);
+        }
+        Ok(())
+    }
+
+    /// The position that was solved last.
+    pub(crate) fn position(&self) -> Position<'_> {
+        Position {
             state: &self.state,
             plan: self.design.mechanism.plan(),
             bound: &self.design.bound,
@@ -65,7 +133,33 @@ impl<'m> Follower<'m> {
             q: &self.q,
             near: &self.near,
             whole: &self.design.mechanism.whole_turns,
-        })
+        }
+    }
+}
+
+impl Anchor {
+    fn of(place: &Place<'_>, design: &Design<'_>, state: &State, q: &[f64], near: &[f64]) -> Self {
+        let angle = |class: usize| nearest(state.class[class][0].angle(), near[class]);
+        let seed = |&unknown: &Unknown| match unknown {
+            Unknown::Class(class) => [angle(class), 0.0, 0.0],
+            Unknown::Slide(slide) => [state.slides[slide * state.len][0], 0.0, 0.0],
+        };
+        let groups = design.mechanism.plan().groups();
+        Self {
+            q: q.to_vec(),
+            signs: place.track.signs(place.at).to_vec(),
+            angles: (0..state.class.len()).map(angle).collect(),
+            seeds: groups.flat_map(|group| &group.unknowns).map(seed).collect(),
+        }
+    }
+
+    /// The straight way from here.
+    fn way(&self, design: &Design<'_>, q: &[f64]) -> Place<'static> {
+        let jets = design.first_jets();
+        let cx = Context { signs: &self.signs, ..design.context(jets) };
+        let start = &Start { angles: &self.angles, seeds: &self.seeds };
+        let track = Track::straight(&cx, &mut design.state(jets), &self.q, q, start);
+        Place { track: Cow::Owned(track), at: 1.0 }
     }
 }
 
@@ -74,7 +168,8 @@ impl Position<'_> {
     pub(crate) fn angle(&self, link: usize) -> f64 {
         let rotation = &self.plan.rotation[link];
         let class = self.state.class[rotation.class][0].angle();
-        let mut angle = nearest(class, self.near[rotation.class]);
+        let near = self.near.get(rotation.class).copied().unwrap_or(class);
+        let mut angle = nearest(class, near);
         for (&turns, q) in rotation.turns.iter().zip(self.q) {
             angle += f64::from(turns) * q;
         }

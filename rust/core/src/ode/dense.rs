@@ -72,6 +72,19 @@ fn component(rows: &[f64], n: usize, theta: f64, i: usize) -> f64 {
     rows[i] + inner
 }
 
+/// Its derivative by θ.
+fn component_slope(rows: &[f64], n: usize, theta: f64, i: usize) -> f64 {
+    let count = rows.len() / n;
+    let (mut inner, mut slope) = (0.0, 0.0);
+    for row in (1..count).rev() {
+        let (factor, sign) = if row % 2 == 1 { (theta, 1.0) } else { (1.0 - theta, -1.0) };
+        let sum = rows[row * n + i] + inner;
+        slope = slope * factor + sum * sign;
+        inner = sum * factor;
+    }
+    slope
+}
+
 fn evaluate(rows: &[f64], n: usize, theta: f64, y: &mut [f64]) {
     for (i, y) in y.iter_mut().enumerate().take(n) {
         *y = component(rows, n, theta, i);
@@ -110,21 +123,33 @@ impl Path {
     /// changed the state, it is the one before.
     pub fn at(&self, t: f64, y: &mut [f64]) -> bool {
         y.fill(f64::NAN);
-        let (Some(&from), Some(&width)) = (self.starts.first(), self.widths.first()) else {
+        let Some((theta, _, rows)) = self.place(t).filter(|_| y.len() == self.n) else {
             return false;
         };
+        evaluate(rows, self.n, theta, y);
+        true
+    }
+
+    /// Writes the rates at t likewise: at the end of a step those of the right-hand side, between
+    /// an order less accurate than the state.
+    pub fn slope(&self, t: f64, rates: &mut [f64]) -> bool {
+        rates.fill(f64::NAN);
+        let Some((theta, width, rows)) = self.place(t).filter(|_| rates.len() == self.n) else {
+            return false;
+        };
+        for (i, rate) in rates.iter_mut().enumerate() {
+            *rate = component_slope(rows, self.n, theta, i) / width;
+        }
+        true
+    }
+
+    /// The step that t is in: which part of it, its width, its rows.
+    fn place(&self, t: f64) -> Option<(f64, f64, &[f64])> {
+        let (&from, &width) = (self.starts.first()?, self.widths.first()?);
         let way = width.signum();
         let step = self.ends.partition_point(|end| (end - t) * way < 0.0);
-        let rows = self.rows.chunks_exact(self.stride).nth(step);
-        let (Some(&start), Some(&width), Some(rows)) =
-            (self.starts.get(step), self.widths.get(step), rows)
-        else {
-            return false;
-        };
-        let on = (t - from) * way >= 0.0 && y.len() == self.n;
-        if on {
-            evaluate(rows, self.n, (t - start) / width, y);
-        }
-        on
+        let (&start, &width) = (self.starts.get(step)?, self.widths.get(step)?);
+        let rows = self.rows.chunks_exact(self.stride).nth(step)?;
+        ((t - from) * way >= 0.0).then(|| ((t - start) / width, width, rows))
     }
 }

@@ -21,6 +21,14 @@ const NARROWEST: f64 = 4.0;
 /// The narrowest first step, in spacings of t: it can still be halved a few times.
 const NARROWEST_FIRST: f64 = 256.0;
 
+/// So many refusals are an edge, even if steps of some width go on between them: a component that
+/// moves slowly stands on its last number before it, the others go on for ever. Halving alone needs
+/// some hundred.
+const MOST_REFUSALS: u32 = 256;
+/// After so many steps without one they are forgotten: each may be ten times as wide as the one
+/// before, near an edge some are refused soon.
+const FREE: u32 = 8;
+
 /// What a step met that was not there.
 #[derive(Debug, Clone, Copy)]
 enum Obstacle {
@@ -51,6 +59,9 @@ pub(super) struct Run<'a, S> {
     tried: u64,
     /// What was met since the last good step.
     obstacle: Option<Obstacle>,
+    /// Refusals on the way to an edge, and steps since the last.
+    refusals: u32,
+    free: u32,
     record: Record<'a>,
     statistics: Statistics,
 }
@@ -77,6 +88,8 @@ impl<'a, S: System> Run<'a, S> {
             h: None,
             tried: 0,
             obstacle: None,
+            refusals: 0,
+            free: 0,
             statistics: Statistics::default(),
         }
     }
@@ -175,6 +188,9 @@ impl<'a, S: System> Run<'a, S> {
         let own = self.h.unwrap_or(remaining);
         let last = own.abs() * STRETCH >= remaining.abs();
         let (h, t_new) = if last { (remaining, to) } else { (own, self.t + own) };
+        if self.refusals > MOST_REFUSALS {
+            return Ok(Next::End(End::Edge { t: self.t }));
+        }
         if !last && h.abs() < NARROWEST * spacing(self.t) {
             return match self.obstacle {
                 None => Ok(Next::End(End::Stalled { t: self.t })),
@@ -197,6 +213,8 @@ impl<'a, S: System> Run<'a, S> {
             Err(Refusal::System(error)) => return Err(Error::System(error)),
             Err(Refusal::NotThere) => {
                 self.obstacle = Some(Obstacle::Edge);
+                self.refusals += 1;
+                self.free = 0;
                 self.control.refused()
             }
             Err(Refusal::NotFinite { t, component }) => {
@@ -238,6 +256,10 @@ impl<'a, S: System> Run<'a, S> {
     /// Takes a good step, as far as no event cuts it.
     fn accept(&mut self, h: f64, t_new: f64, last: bool) -> Result<Next, Error<S::Error>> {
         self.obstacle = None;
+        self.free = self.free.saturating_add(1);
+        if self.free >= FREE {
+            self.refusals = 0;
+        }
         let stiff = self.work.stages.is_stiff(&self.work.new, h);
         let cut = self.look_for_events(h, t_new).map_err(Error::System)?;
         let reached = cut.as_ref().map_or(t_new, |cut| cut.t);

@@ -60,6 +60,24 @@ fn an_edge_ends_the_run_where_it_is() {
     }
 }
 
+/// A component that moves slowly stands on its last number before the edge; t and the others would
+/// go on for ever in steps in which it does not change.
+#[test]
+fn what_stands_before_an_edge_has_reached_it() {
+    let wall = 2.461_918_768_390_287_2;
+    let slowing = |_: f64, y: &[f64], r: &mut [f64]| -> Fallible {
+        (r[0], r[1]) = (y[1], -3.0);
+        if y[0] > wall { Err(Fault::NotThere) } else { Ok(()) }
+    };
+    for method in BOTH {
+        let start = [wall - 1e-5, 0.02];
+        let options = Options { max_steps: 10_000, ..Options::default() };
+        let end = run(method, &mut Rates(slowing), (0.0, 1.0), &start, &options).unwrap();
+        assert!(matches!(end.end, End::Edge { .. }), "{}", end.end);
+        assert!((end.y[1] - (start[1] * start[1] - 6e-5_f64).sqrt()).abs() < 1e-8, "{:?}", end.y);
+    }
+}
+
 /// Too wide a step leaves the range, narrower ones do not.
 #[test]
 fn what_only_a_stage_misses_is_no_edge() {

@@ -1,0 +1,253 @@
+"""Motions of machines in time, as they come out of `Machine.run`."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur._checks import real_array
+from assur.description import Status
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from assur import _core
+    from assur.mechanism import Mechanism
+
+__all__ = ["Energy", "Happened", "Run", "State", "Statistics"]
+
+Float: TypeAlias = npt.NDArray[np.float64]
+
+
+class State(NamedTuple):
+    """The motion at times (or one): time, coordinate, speed and acceleration of the driver."""
+
+    t: Any
+    q: Any
+    speed: Any
+    acceleration: Any
+
+
+class Happened(NamedTuple):
+    """An event of a run.
+
+    Attributes
+    ----------
+    event : object
+        The event as it was given; "dead point" or "rest" where the mechanism itself ended the run.
+    t, q, speed
+        When, and the driver's coordinate and speed there.
+    """
+
+    event: Any
+    t: float
+    q: Any
+    speed: Any
+
+
+class Energy(NamedTuple):
+    """Energies between steps, J.
+
+    Attributes
+    ----------
+    kinetic, potential : ndarray
+        Of the bodies, rotors among them; of weights and springs.
+    work : ndarray
+        Done since the beginning by all other loads, motors and dampers.
+    balance : ndarray
+        kinetic + potential − work less its value at the beginning: 0 but for the errors of the
+        integration.
+    """
+
+    kinetic: Float
+    potential: Float
+    work: Float
+    balance: Float
+
+    @property
+    def error(self) -> float:
+        """The greatest imbalance as a part of the greatest kinetic energy (or change of others)."""
+        changes = [self.kinetic, self.potential - self.potential[:1], self.work]
+        size = max(float(np.nanmax(np.abs(change))) for change in changes)
+        worst = float(np.nanmax(np.abs(self.balance)))
+        return worst / size if size > 0.0 else worst
+
+
+class Statistics(NamedTuple):
+    """What a run cost.
+
+    Attributes
+    ----------
+    steps, rejected : int
+        Steps taken, and tried in vain.
+    evaluations : int
+        Evaluations of the equation of motion.
+    restarts : int
+        At knots of tables, breaks and corners.
+    smallest_step, largest_step : float or None
+        s (along q: rad or m).
+    """
+
+    steps: int
+    rejected: int
+    evaluations: int
+    restarts: int
+    smallest_step: float | None
+    largest_step: float | None
+
+
+class Run:
+    """A motion of a machine.
+
+    Made by `Machine.run`. Arrays have one row for every step, with several drivers (N, n).
+
+    Attributes
+    ----------
+    t : ndarray
+        Times between the steps, s.
+    q, speed, acceleration : ndarray
+        Of the driver there.
+    energy : Energy
+        Kinetic and potential energy, work and their balance.
+    events : list of Happened
+        What happened on the way, in order.
+    end : str
+        How it ended: "reached", "event", "rest", "dead point", "lost", "table ends", "stalled",
+        "step limit" or "time limit".
+    message : str
+        The same as a sentence.
+    statistics : Statistics
+        What it cost.
+
+    Examples
+    --------
+    >>> import assur
+    >>> wheel = assur.FourBar(1.0, 3.0, 3.0, 3.0)
+    >>> machine = assur.Machine(wheel, {"rocker": assur.Body(inertia=2.0)})
+    >>> run = machine.run(t_end=10.0, q0=0.0, speed0=2.0)
+    >>> run.at(10.0).q.round(6)
+    np.float64(13.541303)
+    >>> run.energy.error < 1e-9
+    True
+    """
+
+    def __init__(
+        self,
+        core: _core.Run,
+        mechanism: Mechanism | None,
+        drivers: int,
+        events: list[Any],
+        along_q: bool,
+    ) -> None:
+        self._core, self._along_q, self._drivers = core, along_q, drivers
+        arrays = core.arrays()
+        self.t, work, kinetic, potential = arrays[0], *arrays[4:]
+        self.q, self.speed, self.acceleration = (self._shaped(one) for one in arrays[1:4])
+        total = kinetic + potential - work
+        self.energy = Energy(kinetic, potential, work, total - total[0])
+        self.statistics = Statistics(**core.statistics)
+        self.events = [
+            Happened(events[which], t, self._one(q), self._one(speed))
+            for which, t, q, speed in core.events
+        ]
+        self.end, self.message = self._ending(mechanism, events)
+        if self.end in ("dead point", "rest"):
+            last = self.end, float(self.t[-1]), self.q[-1], self.speed[-1]
+            self.events.append(Happened(*last))
+
+    def __repr__(self) -> str:
+        return (
+            f"<assur.Run t = {self.t[0]:g} … {self.t[-1]:g} s, {self.statistics.steps} steps, "
+            f"{len(self.events)} events, {self.end}>"
+        )
+
+    def at(self, t: npt.ArrayLike | None = None, *, q: npt.ArrayLike | None = None) -> State:
+        """Return the motion at any time of it.
+
+        Parameters
+        ----------
+        t : array_like
+            Times, s: a number or (N,).
+        q : array_like
+            Instead of times the coordinates, if the run went along these (`q_end`).
+
+        Returns
+        -------
+        State
+            t, q, speed and acceleration, of the shape of t (with n drivers (..., n)); NaN before
+            and behind the run. Acceleration is that of the continuous output: between steps it is
+            less accurate than the speed.
+        """
+        own, other, name = (q, t, "q") if self._along_q else (t, q, "t")
+        if own is None or other is not None:
+            message = f"this run goes along {name}: ask for at({name}=...)"
+            raise InputError(message)
+        x = real_array(own, name)
+        arrays = self._core.at(x.ravel().tolist())
+        tail = () if self._drivers == 1 else (self._drivers,)
+        return State(
+            arrays[0].reshape(x.shape)[()],
+            *(one.reshape((*x.shape, *tail))[()] for one in arrays[1:4]),
+        )
+
+    @cached_property
+    def duration(self) -> float:
+        """How long the motion lasted, s."""
+        return float(self.t[-1] - self.t[0])
+
+    def plot(self, what: str = "speed", ax: Any = None) -> Any:
+        """Draw a quantity over the time.
+
+        Parameters
+        ----------
+        what : {"speed", "q", "acceleration", "energy"}
+            Which one.
+        ax : matplotlib axes, optional
+            Where; new ones by default.
+
+        Returns
+        -------
+        matplotlib axes
+        """
+        from assur.plot import run_picture
+
+        if what not in ("speed", "q", "acceleration", "energy"):
+            message = f"what is {what!r}: 'speed', 'q', 'acceleration' or 'energy'"
+            raise InputError(message)
+        return run_picture(self, what, ax)
+
+    def _shaped(self, array: Float) -> Float:
+        return array if self._drivers == 1 else array.reshape(-1, self._drivers)
+
+    def _one(self, numbers: list[float]) -> Any:
+        return numbers[0] if self._drivers == 1 else np.array(numbers)
+
+    def _ending(self, mechanism: Mechanism | None, events: list[Any]) -> tuple[str, str]:
+        kind, which, q = self._core.ending
+        place = f"t = {self.t[-1]:.9g} s, q = {self.q[-1]}"
+        if kind == "edge":
+            return self._edge(mechanism, Status(which), q, place)
+        sentences = {
+            "reached": "it went to its end",
+            "event": f"{events[which] if events else None} at {place}",
+            "rest": f"the machine came to rest at {place}",
+            "table ends": f"a table over q ends at {place}",
+            "motor table ends": f"the motor's table ends at {place}",
+            "stalled": f"the tolerance cannot be met with any step beyond {place}",
+            "step limit": f"max_steps was met at {place}"
+            + (": the equation is stiff there" if which else ""),
+            "time limit": f"max_seconds was met at {place}",
+        }
+        return kind, sentences[kind]
+
+    def _edge(
+        self, mechanism: Mechanism | None, status: Status, q: list[float], place: str
+    ) -> tuple[str, str]:
+        if status not in (Status.LOST, Status.NOT_CONVERGED):
+            return "dead point", f"a dead point at {place}: this assembly has no motion beyond it"
+        why = ""
+        if mechanism is not None:
+            why = ": " + mechanism.solve(self._one(q), order=1, on_error="nan").explain()
+        return "lost", f"the way beyond {place} is not known{why}"

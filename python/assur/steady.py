@@ -1,0 +1,120 @@
+"""Periodic motions of machines, as they come out of `Machine.steady_state`."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from assur._checks import real_array
+from assur.flywheel import Place
+from assur.run import Run
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur import _core
+    from assur.mechanism import Mechanism
+    from assur.run import State
+
+__all__ = ["SteadyState"]
+
+
+class SteadyState:
+    """A machine in periodic motion.
+
+    Made by `Machine.steady_state` and, with a motor, by `Machine.flywheel`.
+
+    Attributes
+    ----------
+    run : Run
+        One period, along the coordinate.
+    q, speed : ndarray
+        Coordinate and speed between its steps, rad and rad/s.
+    period : float
+        Time of a period, s.
+    greatest, least : Place
+        The extreme speeds (without their sign) and where they are.
+    mean_speed : float
+        By the definition chosen, rad/s.
+    delta : float
+        Coefficient of speed fluctuation: (greatest − least) / `mean_speed`.
+    multiplier : float
+        What a small change of the energy at the beginning of a period has become at its end (the
+        one entry of the monodromy matrix that is not 1): below 1 the motion is stable, the more
+        quickly it is reached the smaller it is; 1 where nothing depends on the speed.
+    energy : float
+        Work of the motor in a period, J.
+    power : float
+        Its mean power, W.
+    motor_moment : float
+        Its mean moment on the driver, N·m.
+    found_moment : float
+        Constant moment that was found for the speed asked for; 0 where the motor told the speed.
+    inertia : float
+        Moment of inertia of the flywheel that was added, kg·m².
+    """
+
+    def __init__(
+        self,
+        core: _core.Run,
+        numbers: list[float],
+        mechanism: Mechanism | None,
+        mean: Literal["extremes", "period"],
+    ) -> None:
+        self.run = Run(core, mechanism, 1, [None], along_q=True)
+        multiplier, found, work, inertia, least_at, least, greatest_at, greatest = numbers
+        self.q, self.speed = self.run.q, self.run.speed
+        self.period = float(self.run.t[-1] - self.run.t[0])
+        self.greatest, self.least = Place(greatest_at, greatest), Place(least_at, least)
+        span = abs(float(self.q[-1] - self.q[0]))
+        self.mean = mean
+        self.mean_speed = span / self.period if mean == "period" else 0.5 * (least + greatest)
+        self.delta = (greatest - least) / self.mean_speed
+        self.multiplier, self.found_moment, self.inertia = multiplier, found, inertia
+        self.energy, self.power = work, work / self.period
+        self.motor_moment = work / math.copysign(span, float(self.q[-1] - self.q[0]))
+
+    def __repr__(self) -> str:
+        flywheel = f", flywheel {self.inertia:.6g} kg·m²" if self.inertia else ""
+        return (
+            f"<assur.SteadyState mean {self.mean_speed:.6g} rad/s, δ = {self.delta:.4g}, "
+            f"{self.power:.6g} W{flywheel}>"
+        )
+
+    def at(self, q: npt.ArrayLike) -> State:
+        """Return time, speed and acceleration at coordinates, any number of periods on.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, rad.
+
+        Returns
+        -------
+        State
+            t (0 where the period begins), q, speed and acceleration, of the shape of q.
+        """
+        x = real_array(q, "q")
+        span = float(self.q[-1] - self.q[0])
+        whole = np.floor((x - self.q[0]) / span)
+        within = np.clip(x - whole * span, min(self.q[0], self.q[-1]), max(self.q[0], self.q[-1]))
+        state = self.run.at(q=within)
+        return state._replace(t=state.t + whole * self.period, q=x[()])
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the speed over the coordinate.
+
+        Parameters
+        ----------
+        ax : matplotlib axes, optional
+            Where; new ones by default.
+
+        Returns
+        -------
+        matplotlib axes
+        """
+        from assur.plot import steady_picture
+
+        return steady_picture(self, ax)

@@ -1,0 +1,39 @@
+//! Acute angles between two lines of a mechanism, as transmission angles are.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::pose::{Point, Pose};
+use crate::plane::Vector;
+
+/// A line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Line {
+    /// Through two points.
+    Through(Point, Point),
+    /// In a direction that turns with a link, at this angle in its frame.
+    Along(usize, f64),
+}
+
+/// The acute angle between two lines, or what it lacks of a right angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Angle {
+    /// The lines.
+    pub lines: [Line; 2],
+    /// Whether the complement is meant (as at slides, whose pressure angle it is).
+    pub complement: bool,
+}
+
+impl Angle {
+    pub(super) fn at(&self, pose: &Pose<'_>) -> f64 {
+        let [a, b] = self.lines.map(|line| match line {
+            Line::Through(from, to) => pose.point(to, 0) - pose.point(from, 0),
+            Line::Along(link, angle) => {
+                let at = Vector::at_angle(angle);
+                let place = |at| pose.point(Point::Link { link, at }, 0);
+                place([at.x, at.y]) - place([0.0; 2])
+            }
+        });
+        let acute = a.cross(b).abs().atan2(a.dot(b).abs());
+        if self.complement { FRAC_PI_2 - acute } else { acute }
+    }
+}

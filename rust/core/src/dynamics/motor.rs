@@ -1,0 +1,134 @@
+//! Motors: torque over speed.
+
+use super::table::{Cell, Table};
+use super::value::{Numbers, Value};
+
+/// A motor that turns (or moves) a driver through a gear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motor {
+    /// The driver.
+    pub driver: usize,
+    /// Speed of the motor by that of the driver.
+    pub ratio: f64,
+    /// Moment of inertia of its rotor, kg·m².
+    pub rotor_inertia: f64,
+    /// Its torque.
+    pub characteristic: Characteristic,
+}
+
+/// Torque of a motor, N·m, over its own speed, rad/s.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Characteristic {
+    /// Whatever the speed.
+    Value(Value),
+    /// A straight line: a direct-current motor at constant voltage.
+    Linear {
+        /// Torque at rest.
+        stall: f64,
+        /// Speed without torque.
+        no_load: f64,
+    },
+    /// An induction motor: M. Kloss, Drehmoment und Schlüpfung des Drehstrommotors (1908).
+    Induction {
+        /// The greatest torque.
+        breakdown: f64,
+        /// Slip at that.
+        slip: f64,
+        /// Speed of the field.
+        synchronous: f64,
+    },
+    /// A table over the speed.
+    Table(Table),
+}
+
+impl Motor {
+    /// Moment on the driver and its derivative by the driver's speed; a table is read in `cell`.
+    pub(super) fn moment(&self, speed: f64, cell: Cell, numbers: Numbers<'_>) -> [f64; 2] {
+        let own = self.ratio * speed;
+        let [torque, slope] = match &self.characteristic {
+            Characteristic::Value(value) => {
+                // Its function has the driver's speed.
+                let by_driver = value.by_speed(numbers);
+                return [self.ratio * value.at(numbers), self.ratio * by_driver];
+            }
+            &Characteristic::Linear { stall, no_load } => {
+                [stall * (1.0 - own / no_load), -stall / no_load]
+            }
+            &Characteristic::Induction { breakdown, slip: most, synchronous } => {
+                let slip = 1.0 - own / synchronous;
+                let size = slip * slip + most * most;
+                let by_slip = 2.0 * breakdown * most * (most * most - slip * slip) / (size * size);
+                [2.0 * breakdown * most * slip / size, -by_slip / synchronous]
+            }
+            Characteristic::Table(table) => table.read(cell, own),
+        };
+        [self.ratio * torque, self.ratio * self.ratio * slope]
+    }
+
+    /// The rotor's inertia referred to the driver.
+    #[must_use]
+    pub fn inertia(&self) -> f64 {
+        self.ratio * self.ratio * self.rotor_inertia
+    }
+
+    /// Its table over its own speed.
+    pub(super) fn table(&self) -> Option<&Table> {
+        match &self.characteristic {
+            Characteristic::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// The driver's speed at which it gives no torque, if its characteristic has one.
+    #[must_use]
+    pub fn idle_speed(&self) -> Option<f64> {
+        let own = match &self.characteristic {
+            Characteristic::Value(_) => return None,
+            Characteristic::Linear { no_load, .. } => *no_load,
+            Characteristic::Induction { synchronous, .. } => *synchronous,
+            Characteristic::Table(table) => table.range()[1],
+        };
+        Some(own / self.ratio)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::spline::Ends;
+    use super::*;
+
+    fn motor(characteristic: Characteristic) -> Motor {
+        Motor { driver: 0, ratio: 4.0, rotor_inertia: 0.5, characteristic }
+    }
+
+    fn check(motor: &Motor, points: &[(f64, f64)]) {
+        let cell = |speed: f64| {
+            motor.table().and_then(|table| table.cell(motor.ratio * speed)).unwrap_or_default()
+        };
+        let moment = |speed: f64| motor.moment(speed, cell(speed), Numbers::default());
+        for &(speed, torque) in points {
+            let [own, slope] = moment(speed);
+            assert!((own - 4.0 * torque).abs() < 1e-12, "{own} at {speed}");
+            let h = 1e-6;
+            let difference = (moment(speed + h)[0] - moment(speed - h)[0]) / (2.0 * h);
+            assert!((slope - difference).abs() < 1e-7 * (1.0 + slope.abs()), "{slope}");
+        }
+    }
+
+    #[test]
+    fn characteristics() {
+        check(&motor(Characteristic::Value(Value::Number(3.0))), &[(0.0, 3.0), (7.0, 3.0)]);
+        let linear = motor(Characteristic::Linear { stall: 10.0, no_load: 100.0 });
+        check(&linear, &[(0.0, 10.0), (12.5, 5.0), (50.0, -10.0)]);
+        assert_eq!(linear.idle_speed(), Some(25.0));
+        assert_eq!(linear.inertia(), 8.0);
+        let induction =
+            motor(Characteristic::Induction { breakdown: 40.0, slip: 0.2, synchronous: 100.0 });
+        // Breakdown at a slip of 0.2, nothing at none, 2 · 40 / (5 + 1/5) at rest.
+        check(&induction, &[(20.0, 40.0), (25.0, 0.0), (0.0, 80.0 / 5.2), (30.0, -40.0)]);
+        let table =
+            Table::new(&[-10.0, 0.0, 90.0, 110.0], &[9.0, 8.0, 6.0, 0.0], Ends::Linear, false);
+        let table = motor(Characteristic::Table(table.expect("a table")));
+        check(&table, &[(1.0, 8.0 - 8.0 / 90.0), (25.0, 3.0)]);
+    }
+}

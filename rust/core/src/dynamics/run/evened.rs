@@ -1,0 +1,183 @@
+//! Periodic motions of machines and of tables, and the flywheel that evens them.
+
+use super::equation::Equation;
+use super::outside::Outside;
+use super::source::{Moving, Sheet, Source};
+use super::steady::{Search, Shooting, Steady, Unsteady};
+use crate::dynamics::flywheel::Mean;
+use crate::dynamics::machine::Machine;
+use crate::dynamics::root;
+use crate::dynamics::turn::Extreme;
+use crate::mechanism::Mechanism;
+use crate::plan::jet::Jets;
+
+/// Part of the flywheel to which it is found: the motions themselves are known no better.
+const FOUND: f64 = 1.0e-12;
+/// The greatest fluctuation there can be, where the least speed is none.
+const GREATEST: f64 = 2.0;
+
+/// What a periodic motion is asked to have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wanted {
+    /// Its fluctuation.
+    pub fluctuation: f64,
+    /// By which mean that is divided.
+    pub mean: Mean,
+}
+
+impl Machine {
+    /// The periodic motion of a design, with the flywheel that gives a wanted fluctuation or (none
+    /// wanted) that of the search.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none.
+    pub fn steady<O: Outside>(
+        &self,
+        mechanism: &Mechanism,
+        dimensions: &[f64],
+        search: &Search<'_>,
+        wanted: Option<Wanted>,
+        mut outside: O,
+    ) -> Result<Steady, Unsteady<O::Error>> {
+        let jets = Jets::new(1, 2);
+        if mechanism.q0().len() != 1 || mechanism.plan().driven_slide(0).is_some() {
+            return Err(Unsteady::Other("a periodic motion is of one driver that turns".into()));
+        }
+        even(search, wanted, |search, guess| {
+            let source = Moving::new(self, mechanism, dimensions, &jets);
+            let equation = Equation::new(source, &mut outside, &self.tables, &self.motors, 1);
+            find(equation, search, guess)
+        })
+    }
+}
+
+impl Sheet {
+    /// The same of a table.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none.
+    pub fn steady<O: Outside>(
+        &self,
+        search: &Search<'_>,
+        wanted: Option<Wanted>,
+        mut outside: O,
+    ) -> Result<Steady, Unsteady<O::Error>> {
+        even(search, wanted, |search, guess| {
+            let equation = Equation::new(self, &mut outside, &self.tables, &self.motors, 1);
+            find(equation, search, guess)
+        })
+    }
+}
+
+fn find<S: Source, O: Outside>(
+    equation: Equation<'_, S, O>,
+    search: Search<'_>,
+    guess: Option<&Steady>,
+) -> Result<Steady, Unsteady<O::Error>> {
+    let mut shooting = Shooting::new(equation, search);
+    let (begin, period) = shooting.find(guess.map(Steady::begin))?;
+    shooting.run(begin, &period)
+}
+
+fn even<E>(
+    search: &Search<'_>,
+    wanted: Option<Wanted>,
+    mut find: impl FnMut(Search<'_>, Option<&Steady>) -> Result<Steady, Unsteady<E>>,
+) -> Result<Steady, Unsteady<E>> {
+    let Some(Wanted { fluctuation, mean }) = wanted else { return find(*search, None) };
+    // Without a flywheel it may stop; then it fluctuates as much as can be.
+    let without = match find(*search, None) {
+        Ok(steady) => Some(steady),
+        Err(Unsteady::Stops { .. } | Unsteady::CannotCarry { .. }) => None,
+        Err(error) => return Err(error),
+    };
+    let own = without.as_ref().map_or(GREATEST, |steady| steady.fluctuation(mean));
+    if own <= fluctuation {
+        return Err(Unsteady::AlreadyMet { without: own, wanted: fluctuation });
+    }
+    // The fluctuation is about inverse to the inertia.
+    let size = find_inertia(without.as_ref());
+    let guess = size * (own / fluctuation - 1.0).max(0.1);
+    let (mut last, mut failed) = (without, None);
+    let lack = |flywheel: f64| {
+        let search = Search { flywheel: search.flywheel + flywheel, ..*search };
+        match find(search, last.as_ref()) {
+            Ok(steady) => {
+                let own = steady.fluctuation(mean);
+                last = Some(steady);
+                fluctuation - own
+            }
+            Err(Unsteady::Stops { .. } | Unsteady::CannotCarry { .. }) => fluctuation - GREATEST,
+            Err(error) => {
+                failed = Some(error);
+                f64::NAN
+            }
+        }
+    };
+    let found = root::zero_to(lack, guess, FOUND);
+    match (found, failed, last) {
+        (_, Some(error), _) => Err(error),
+        (Some(flywheel), None, last) => {
+            let search = Search { flywheel: search.flywheel + flywheel, ..*search };
+            find(search, last.as_ref())
+        }
+        (None, None, _) => Err(Unsteady::NoFlywheel { wanted: fluctuation }),
+    }
+}
+
+/// The inertia where a motion begins, kg·m².
+fn find_inertia(steady: Option<&Steady>) -> f64 {
+    let of = |steady: &Steady| {
+        let speed = steady.run.moments.first()?.speed[0];
+        Some(2.0 * steady.run.energies.first()?[0] / (speed * speed))
+    };
+    steady.and_then(of).filter(|size| size.is_finite()).unwrap_or(1.0)
+}
+
+impl Steady {
+    /// The least and the greatest speed, without its sign, and where they are.
+    #[must_use]
+    pub fn extremes(&self) -> [Extreme; 2] {
+        let within = self.run.moments.iter().map(|one| (one.q[0], one.speed[0]));
+        let between = self.run.events.iter().map(|one| (one.q[0], one.speed[0]));
+        let mut extremes = [f64::INFINITY, 0.0].map(|value| Extreme { at: f64::NAN, value });
+        for (at, speed) in between.chain(within) {
+            let own = Extreme { at, value: speed.abs() };
+            if own.value < extremes[0].value {
+                extremes[0] = own;
+            }
+            if own.value > extremes[1].value {
+                extremes[1] = own;
+            }
+        }
+        extremes
+    }
+
+    /// Time of a period, s.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        let ends = [self.run.moments.first(), self.run.moments.last()];
+        ends.map(|one| one.map_or(f64::NAN, |one| one.t)).into_iter().fold(0.0, |a, b| b - a)
+    }
+
+    /// The mean speed without its sign, rad/s.
+    #[must_use]
+    pub fn mean(&self, by: Mean) -> f64 {
+        let [least, greatest] = self.extremes();
+        let ends = [self.run.moments.first(), self.run.moments.last()];
+        match (by, ends) {
+            (Mean::Extremes, _) => 0.5 * (least.value + greatest.value),
+            (Mean::Period, [Some(a), Some(b)]) => (b.q[0] - a.q[0]).abs() / self.period(),
+            _ => f64::NAN,
+        }
+    }
+
+    /// How much the speed varies, as a part of its mean.
+    #[must_use]
+    pub fn fluctuation(&self, by: Mean) -> f64 {
+        let [least, greatest] = self.extremes();
+        (greatest.value - least.value) / self.mean(by)
+    }
+}

@@ -1,0 +1,23 @@
+//! Motion of machines under their loads and motors.
+
+mod cycle;
+mod equation;
+mod evened;
+mod make;
+mod outcome;
+mod outside;
+mod reader;
+mod source;
+mod steady;
+mod tail;
+mod task;
+mod way;
+
+pub use equation::Broken;
+pub use evened::Wanted;
+pub use make::RunError;
+pub use outcome::{Ending, Happened, Moment, Run};
+pub use outside::{Nothing, Outside};
+pub use source::Sheet;
+pub use steady::{Search, Steady, Unsteady};
+pub use task::{Along, Occasion, Task, Watch};

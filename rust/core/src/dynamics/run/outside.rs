@@ -1,0 +1,84 @@
+//! What comes into a run from outside: functions, and the wish that it ends.
+
+use std::convert::Infallible;
+
+/// Functions of the time, the coordinates and the speeds, called on the thread of the run.
+pub trait Outside {
+    /// What can go wrong in them.
+    type Error: std::fmt::Display;
+
+    /// How many numbers loads and motors have from here.
+    fn count(&self) -> usize;
+
+    /// These numbers; asked for once in every evaluation of the equation of motion.
+    ///
+    /// # Errors
+    ///
+    /// Any error ends the run.
+    fn numbers(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        speed: &[f64],
+        numbers: &mut [f64],
+    ) -> Result<(), Self::Error>;
+
+    /// An event function.
+    ///
+    /// # Errors
+    ///
+    /// Any error ends the run.
+    fn event(&mut self, which: usize, t: f64, q: &[f64], speed: &[f64])
+    -> Result<f64, Self::Error>;
+
+    /// Whether the run is to end; asked every few steps.
+    fn cancelled(&mut self) -> bool {
+        false
+    }
+}
+
+impl<O: Outside> Outside for &mut O {
+    type Error = O::Error;
+
+    fn count(&self) -> usize {
+        (**self).count()
+    }
+
+    fn numbers(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        speed: &[f64],
+        numbers: &mut [f64],
+    ) -> Result<(), O::Error> {
+        (**self).numbers(t, q, speed, numbers)
+    }
+
+    fn event(&mut self, which: usize, t: f64, q: &[f64], speed: &[f64]) -> Result<f64, O::Error> {
+        (**self).event(which, t, q, speed)
+    }
+
+    fn cancelled(&mut self) -> bool {
+        (**self).cancelled()
+    }
+}
+
+/// Nothing comes from outside.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Nothing;
+
+impl Outside for Nothing {
+    type Error = Infallible;
+
+    fn count(&self) -> usize {
+        0
+    }
+
+    fn numbers(&mut self, _: f64, _: &[f64], _: &[f64], _: &mut [f64]) -> Result<(), Infallible> {
+        Ok(())
+    }
+
+    fn event(&mut self, _: usize, _: f64, _: &[f64], _: &[f64]) -> Result<f64, Infallible> {
+        Ok(f64::NAN)
+    }
+}

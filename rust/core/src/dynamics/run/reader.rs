@@ -1,0 +1,69 @@
+//! Tables over the coordinate, read piece by piece: between two knots the equation of motion is
+//! smooth, and steps end at them.
+
+use crate::dynamics::table::{Cell, Table};
+
+/// Knots nearer than this part of their size (or of 1) are one: coordinates that count turns are
+/// not better known.
+pub(super) const TOGETHER: f64 = 1.0e-12;
+
+/// The pieces that tables are in, and the interval that has no knot inside.
+#[derive(Debug, Clone)]
+pub(super) struct Reader {
+    cells: Vec<Cell>,
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Reader {
+    pub(super) fn new() -> Self {
+        Self { cells: Vec::new(), low: f64::NEG_INFINITY, high: f64::INFINITY }
+    }
+
+    /// Looks a coordinate up in all tables.
+    ///
+    /// # Errors
+    ///
+    /// The table that has nothing there.
+    pub(super) fn place(&mut self, tables: &[Table], x: f64) -> Result<(), usize> {
+        self.cells.clear();
+        for (which, table) in tables.iter().enumerate() {
+            self.cells.push(table.cell(x).ok_or(which)?);
+        }
+        self.bound(tables);
+        Ok(())
+    }
+
+    /// Goes on to the next piece of every table that has a knot at this end of the interval, and
+    /// says where that is.
+    ///
+    /// # Errors
+    ///
+    /// The table that has nothing beyond.
+    pub(super) fn pass(&mut self, tables: &[Table], up: bool) -> Result<f64, usize> {
+        let border = if up { self.high } else { self.low };
+        let near = TOGETHER * border.abs().max(1.0);
+        for (which, (table, cell)) in tables.iter().zip(&mut self.cells).enumerate() {
+            let end = table.ends(*cell)[usize::from(up)];
+            if (end - border).abs() <= near {
+                *cell = table.next(*cell, up).ok_or(which)?;
+            }
+        }
+        self.bound(tables);
+        Ok(border)
+    }
+
+    fn bound(&mut self, tables: &[Table]) {
+        (self.low, self.high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for (table, &cell) in tables.iter().zip(&self.cells) {
+            let [low, high] = table.ends(cell);
+            (self.low, self.high) = (self.low.max(low), self.high.min(high));
+        }
+    }
+
+    /// Value and slope of every table.
+    pub(super) fn read(&self, tables: &[Table], x: f64, readings: &mut Vec<[f64; 2]>) {
+        readings.clear();
+        readings.extend(tables.iter().zip(&self.cells).map(|(table, &cell)| table.read(cell, x)));
+    }
+}

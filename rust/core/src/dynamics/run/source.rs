@@ -1,0 +1,207 @@
+//! Where inertia and loads of a machine come from: a mechanism, or tables.
+
+use crate::dynamics::line::Angle;
+use crate::dynamics::machine::{Machine, Rows};
+use crate::dynamics::motor::Motor;
+use crate::dynamics::pose::Pose;
+use crate::dynamics::reduced::Reduced;
+use crate::dynamics::table::Table;
+use crate::dynamics::value::Numbers;
+use crate::mechanism::Mechanism;
+use crate::motion::Status;
+use crate::motion::follow::{Asked, Follower};
+use crate::plan::jet::Jets;
+
+/// A machine, place after place.
+pub(super) trait Source {
+    /// Finds inertia, weights and springs at coordinates.
+    ///
+    /// # Errors
+    ///
+    /// Why there is nothing.
+    fn place(&mut self, q: &[f64], numbers: Numbers<'_>, out: &mut Reduced) -> Result<(), Status>;
+
+    /// Finds the other loads at the place found last, at speeds.
+    fn load(&mut self, speed: &[f64], numbers: Numbers<'_>, out: &mut Reduced);
+
+    /// An angle at coordinates; NaN where there is none.
+    fn angle(&mut self, q: &[f64], angle: &Angle) -> f64;
+
+    /// Whether there may be dead points.
+    fn has_dead_points(&self) -> bool;
+
+    /// Where the dead point ahead of the one driver's coordinate is, if it is near.
+    fn fold(&mut self, q: f64, way: f64) -> Option<f64>;
+
+    /// How far coordinates are from a singular position (the inverse of the condition); NaN where
+    /// there is nothing.
+    fn flatness(&mut self, q: &[f64]) -> f64;
+}
+
+/// A machine with its mechanism.
+pub(super) struct Moving<'m> {
+    machine: &'m Machine,
+    jets: &'m Jets,
+    follower: Follower<'m>,
+}
+
+/// Beyond this condition too few digits of the analogues are left to be integrated: some eight of
+/// them (64 u κ²). A dead point at a distance x has about 1/√x, so this is some 1e-7 before it.
+const GREATEST_CONDITION: f64 = 3.0e3;
+/// Where there is a dead point it is within this part of 1/κ².
+const FOLD_WITHIN: f64 = 1.0e3;
+/// Halvings on the way to it.
+const HALVINGS: u32 = 80;
+
+impl<'m> Moving<'m> {
+    /// How far from here a dead point may be, in the coordinate's unit.
+    fn reach(&self, driver: usize) -> f64 {
+        let condition = self.follower.condition();
+        FOLD_WITHIN / (condition * condition) * self.follower.unit(driver)
+    }
+
+    /// Whether a dead point is near a place with so great a condition.
+    fn is_beside_fold(&mut self, q: &[f64]) -> bool {
+        let reaches: Vec<f64> = (0..q.len()).map(|driver| self.reach(driver)).collect();
+        let mut beside = q.to_vec();
+        for (driver, reach) in reaches.into_iter().enumerate() {
+            for way in [-reach, reach] {
+                beside[driver] = q[driver] + way;
+                if self.follower.solve(&beside).is_err() {
+                    return true;
+                }
+                beside[driver] = q[driver];
+            }
+        }
+        false
+    }
+
+    pub(super) fn new(
+        machine: &'m Machine,
+        mechanism: &'m Mechanism,
+        dimensions: &[f64],
+        jets: &'m Jets,
+    ) -> Self {
+        let lifted = machine.has_torsion();
+        let follower = Follower::new(mechanism, dimensions, jets, Asked::Any, lifted);
+        Self { machine, jets, follower }
+    }
+
+    /// What a driver's coordinate is measured in.
+    pub(super) fn unit(&self, driver: usize) -> f64 {
+        self.follower.unit(driver)
+    }
+}
+
+impl Source for Moving<'_> {
+    fn place(&mut self, q: &[f64], _: Numbers<'_>, out: &mut Reduced) -> Result<(), Status> {
+        self.follower.solve(q)?;
+        if self.follower.condition() > GREATEST_CONDITION {
+            if self.is_beside_fold(q) {
+                return Err(Status::Singular);
+            }
+            self.follower.solve(q)?;
+        }
+        self.machine.place(&Pose::new(self.follower.position(), self.jets), out);
+        Ok(())
+    }
+
+    fn load(&mut self, speed: &[f64], numbers: Numbers<'_>, out: &mut Reduced) {
+        let pose = Pose::new(self.follower.position(), self.jets);
+        self.machine.load(&pose, speed, numbers, out);
+    }
+
+    fn angle(&mut self, q: &[f64], angle: &Angle) -> f64 {
+        match self.follower.solve(q) {
+            Ok(()) => angle.at(&Pose::new(self.follower.position(), self.jets)),
+            Err(_) => f64::NAN,
+        }
+    }
+
+    fn has_dead_points(&self) -> bool {
+        true
+    }
+
+    fn fold(&mut self, q: f64, way: f64) -> Option<f64> {
+        self.follower.solve(&[q]).ok()?;
+        let (mut there, mut beyond) = (q, q + way.signum() * self.reach(0));
+        if self.follower.solve(&[beyond]).is_ok() {
+            return None;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (there + beyond);
+            if middle == there || middle == beyond {
+                break;
+            }
+            let is_there = self.follower.solve(&[middle]).is_ok();
+            *(if is_there { &mut there } else { &mut beyond }) = middle;
+        }
+        Some(there)
+    }
+
+    fn flatness(&mut self, q: &[f64]) -> f64 {
+        match self.follower.solve(q) {
+            Ok(()) => 1.0 / self.follower.condition(),
+            Err(_) => f64::NAN,
+        }
+    }
+}
+
+/// A machine given by tables of its reduced inertia and moment over the driver's coordinate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// Inertia and moment first, then those of motors.
+    pub tables: Vec<Table>,
+    /// Its motors.
+    pub motors: Vec<Motor>,
+}
+
+impl Sheet {
+    /// Refers to the driver at coordinates; nothing is beyond tables that are not periodic.
+    #[must_use]
+    pub fn reduce(&self, q: &[f64]) -> Rows {
+        let mut rows = Rows::default();
+        for &q in q {
+            let [inertia, moment] = [0, 1].map(|which| {
+                let table = &self.tables[which];
+                table.cell(q).map_or([f64::NAN; 2], |cell| table.read(cell, q))
+            });
+            rows.inertia.push(inertia[0] + self.motors.iter().map(Motor::inertia).sum::<f64>());
+            rows.rates.push(inertia[1]);
+            rows.moment.push(moment[0]);
+            let is_there = inertia[0].is_finite() && moment[0].is_finite();
+            rows.potential.push(if is_there { 0.0 } else { f64::NAN });
+            rows.status.push(if is_there { Status::Ok } else { Status::Unreachable });
+        }
+        rows
+    }
+}
+
+impl Source for &Sheet {
+    fn place(&mut self, _: &[f64], numbers: Numbers<'_>, out: &mut Reduced) -> Result<(), Status> {
+        let [inertia, rate] = numbers.tables[0];
+        out.inertia[0] = inertia + self.motors.iter().map(Motor::inertia).sum::<f64>();
+        out.rates[0] = rate;
+        Ok(())
+    }
+
+    fn load(&mut self, _: &[f64], numbers: Numbers<'_>, out: &mut Reduced) {
+        out.applied[0] = numbers.tables[1][0];
+    }
+
+    fn angle(&mut self, _: &[f64], _: &Angle) -> f64 {
+        f64::NAN
+    }
+
+    fn has_dead_points(&self) -> bool {
+        false
+    }
+
+    fn fold(&mut self, _: f64, _: f64) -> Option<f64> {
+        None
+    }
+
+    fn flatness(&mut self, _: &[f64]) -> f64 {
+        1.0
+    }
+}

@@ -1,0 +1,360 @@
+//! The periodic motion of a machine, by shooting: the speed at the beginning of a period with which
+//! it is the same at the end.
+
+use std::time::Instant;
+
+use thiserror::Error;
+
+use super::cycle::{Begin, Passage, Period, period};
+use super::equation::{Broken, Equation};
+use super::make::{breaks_of, finish_run};
+use super::outcome::Run;
+use super::outside::Outside;
+use super::source::Source;
+use super::task::{Along, Occasion, Task, Watch};
+use crate::ode::{Crossing, Integrator, Method};
+
+/// Steps toward the periodic motion, at most; it takes some five.
+const STEPS: u32 = 60;
+/// A step by less than this part is the last: what is left is its square.
+const SETTLED: f64 = 1.0e-9;
+/// By how much speed² may fall in one step: what is looked for is the first motion below the idle
+/// speed, which is the stable one.
+const FALL: f64 = 0.7;
+/// Where the end of a period depends less on its beginning than by this part, no speed is told.
+const NEUTRAL: f64 = 1.0e-7;
+/// Part of the work of a period that may be left over then: motors are given with so many digits.
+const BALANCED: f64 = 1.0e-3;
+/// How far two periods may differ if functions from outside do not depend on the time.
+const SAME: f64 = 1.0e-7;
+
+/// What is asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct Search<'a> {
+    /// Where the period begins.
+    pub q: f64,
+    /// Its length, negative if the driver turns backward.
+    pub span: f64,
+    /// The mean speed (span by time), where motors and loads tell none; else a first guess.
+    pub speed: Option<f64>,
+    /// The pair of formulas.
+    pub method: Method,
+    /// Relative tolerance.
+    pub relative: f64,
+    /// How many steps a period may have.
+    pub max_steps: u64,
+    /// When it must be over.
+    pub deadline: Option<Instant>,
+    /// Where functions from outside are not smooth, ascending.
+    pub breaks: &'a [f64],
+    /// Inertia added to the driver's.
+    pub flywheel: f64,
+}
+
+/// A periodic motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Steady {
+    /// One period, along the coordinate; its events are the extremes of the speed.
+    pub run: Run,
+    /// What a small change of the energy at the beginning has become at the end: stable below 1.
+    pub multiplier: f64,
+    /// The constant moment on the driver that was found for the speed; 0 if the motors told it.
+    pub moment: f64,
+    /// Work of the motors in a period, J.
+    pub drive: f64,
+    /// Inertia added to the driver's, kg·m².
+    pub flywheel: f64,
+}
+
+/// Why there is no periodic motion.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the sentences say what the fields are")]
+pub enum Unsteady<E> {
+    #[error("{0}")]
+    Broken(Broken<E>),
+    #[error(
+        "neither motor nor loads tell a speed to begin with: say speed= (the mean speed, or with dampers a first guess)"
+    )]
+    NeedsSpeed,
+    #[error(
+        "the motor cannot carry the load: begun at {from} rad/s and slower, the machine comes to rest at q = {q} rad"
+    )]
+    Stops { q: f64, from: f64 },
+    #[error(
+        "no periodic motion was found below {from} rad/s: the motor's moment never makes up for the loads"
+    )]
+    CannotCarry { from: f64 },
+    #[error("the machine runs away: the speed still grows over a period begun at {speed} rad/s")]
+    RunsAway { speed: f64 },
+    #[error(
+        "nothing depends on the speed, and over a period the motor's mean moment is {motor} N·m where {needed} N·m would be in balance: the machine speeds up or stops (without a motor the moment is found)"
+    )]
+    Unbalanced { motor: f64, needed: f64 },
+    #[error("there is a dead point at q = {q}: the driver does not turn fully")]
+    DeadPoint { q: f64 },
+    #[error("the motor's table ends at {speed} rad/s of the driver, met at q = {q}")]
+    MotorTableEnds { q: f64, speed: f64 },
+    #[error(
+        "the motion is another one from period to period: the machine is not the same a period on, or a function among its loads depends on the time"
+    )]
+    NotPeriodic,
+    #[error(
+        "the fluctuation is {without} without a flywheel, not more than the {wanted} asked for: none is needed"
+    )]
+    AlreadyMet { without: f64, wanted: f64 },
+    #[error("no flywheel gives a fluctuation of {wanted}")]
+    NoFlywheel { wanted: f64 },
+    #[error("the time was over at q = {q}")]
+    Cancelled { q: f64 },
+    #[error("{0}")]
+    Other(String),
+}
+
+impl Steady {
+    /// What a search near it begins with.
+    pub(super) fn begin(&self) -> Begin {
+        let speed = self.run.moments.first().map_or(f64::NAN, |one| one.speed[0]);
+        Begin { speed2: speed * speed, moment: self.moment, t: 0.0 }
+    }
+}
+
+type Found<E> = Result<(Begin, Period), Unsteady<E>>;
+
+/// A search and its work space.
+pub(super) struct Shooting<'s, 'a, S, O> {
+    pub equation: Equation<'a, S, O>,
+    pub search: Search<'s>,
+    integrator: Option<Integrator>,
+    breaks: Vec<f64>,
+}
+
+impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
+    pub(super) fn new(mut equation: Equation<'a, S, O>, search: Search<'s>) -> Self {
+        let breaks = breaks_of(equation.tables, search.breaks, [search.q, search.q + search.span]);
+        equation.flywheel = search.flywheel;
+        equation.slopes = true;
+        Self { equation, search, integrator: None, breaks }
+    }
+
+    fn pass(&mut self, begin: Begin) -> Result<Passage, Unsteady<O::Error>> {
+        period(&mut self.equation, &mut self.integrator, &self.search, &self.breaks, begin)
+    }
+
+    /// Finds the periodic motion, from a guess (speed² and moment) if there is one.
+    pub(super) fn find(&mut self, guess: Option<Begin>) -> Found<O::Error> {
+        let motors = self.equation.motors;
+        let idle = motors.iter().find_map(crate::dynamics::Motor::idle_speed);
+        let speed = self.search.speed.or(idle).ok_or(Unsteady::NeedsSpeed)?;
+        let begin = guess.unwrap_or(Begin { speed2: speed * speed, moment: 0.0, t: 0.0 });
+        if motors.is_empty() {
+            return self.at_speed(speed, begin);
+        }
+        let (begin, first) = self.passing(begin)?;
+        let is_neutral = (first.speed2_by[0] - 1.0).abs() < NEUTRAL;
+        if !is_neutral {
+            return self.self_found(begin, first);
+        }
+        let left = self.left_over(begin, &first);
+        if left.abs() > BALANCED * first.turnover {
+            let motor = first.drive / self.search.span;
+            let needed = motor - left / self.search.span;
+            return Err(Unsteady::Unbalanced { motor, needed });
+        }
+        match self.search.speed {
+            Some(speed) => self.at_speed(speed, begin),
+            None => Err(Unsteady::NeedsSpeed),
+        }
+    }
+
+    /// Energy that a period gains.
+    fn left_over(&mut self, begin: Begin, period: &Period) -> f64 {
+        let _ =
+            self.equation.begin(self.search.q, &[self.search.span.signum() * begin.speed2.sqrt()]);
+        let inertia = match self.equation.place(&[self.search.q]) {
+            Ok(()) => self.equation.reduced.inertia[0],
+            Err(_) => f64::NAN,
+        };
+        0.5 * inertia * (period.speed2 - begin.speed2)
+    }
+
+    /// The slowest beginning at or above this one, by powers of 4, that goes through the period.
+    fn passing(&mut self, mut begin: Begin) -> Found<O::Error> {
+        let from = begin.speed2.sqrt();
+        let mut stop = self.search.q;
+        for _ in 0..STEPS {
+            match self.pass(begin)? {
+                Passage::Whole(period) => return Ok((begin, period)),
+                Passage::Stops { q } => {
+                    stop = q;
+                    begin.speed2 *= 4.0;
+                }
+            }
+        }
+        Err(Unsteady::Stops { q: stop, from })
+    }
+
+    /// Where motors or loads depend on the speed: a zero of the gain of speed² over a period,
+    /// between a speed at which it falls and one at which it grows, by Newton's steps.
+    fn self_found(&mut self, begin: Begin, first: Period) -> Found<O::Error> {
+        let from = begin.speed2.sqrt();
+        let (mut begin, mut period) = (begin, first);
+        // Where it falls from on, and where it grows or the machine stops.
+        let (mut high, mut low) = (f64::INFINITY, 0.0);
+        let (mut grows, mut stop) = (false, None);
+        for _ in 0..2 * STEPS {
+            let gain = period.speed2 - begin.speed2;
+            let slope = period.speed2_by[0] - 1.0;
+            let newton = begin.speed2 - gain / slope;
+            if slope < 0.0 && (newton - begin.speed2).abs() <= SETTLED * begin.speed2 {
+                let last = Begin { speed2: newton, ..begin };
+                return match self.pass(last)? {
+                    Passage::Whole(period) => Ok((last, period)),
+                    Passage::Stops { q } => Err(Unsteady::Stops { q, from }),
+                };
+            }
+            if gain < 0.0 && slope < 0.0 {
+                high = begin.speed2;
+            } else if gain >= 0.0 {
+                (low, grows) = (begin.speed2, true);
+            } else {
+                // It falls, the more so the slower: below the unstable motion.
+                low = begin.speed2;
+            }
+            let between = newton > low && newton < high && slope < 0.0;
+            let mut next = match (between, high.is_finite()) {
+                (true, _) => newton,
+                (false, true) => 0.5 * (low + high),
+                (false, false) => 2.0 * begin.speed2,
+            };
+            next = next.max(FALL * begin.speed2).min(4.0 * begin.speed2);
+            loop {
+                if high.is_finite() && high - low <= SETTLED * high {
+                    return Err(match stop {
+                        Some(q) if !grows => Unsteady::Stops { q, from },
+                        _ => Unsteady::CannotCarry { from },
+                    });
+                }
+                if !next.is_finite() || next > 1e30 * first.speed2.max(from * from) {
+                    return Err(Unsteady::RunsAway { speed: begin.speed2.sqrt() });
+                }
+                begin.speed2 = next;
+                match self.pass(begin)? {
+                    Passage::Whole(own) => {
+                        period = own;
+                        break;
+                    }
+                    Passage::Stops { q } => {
+                        (low, stop) = (next, Some(q));
+                        next = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * next };
+                    }
+                }
+            }
+        }
+        Err(Unsteady::CannotCarry { from })
+    }
+
+    /// A motion of this mean speed, and the constant moment that it takes.
+    fn at_speed(&mut self, speed: f64, guess: Begin) -> Found<O::Error> {
+        let time = self.search.span / speed;
+        let first =
+            Begin { moment: guess.moment, speed2: guess.speed2.max(speed * speed), ..guess };
+        let (mut begin, mut period) = self.passing(first)?;
+        if guess.moment == 0.0 {
+            // In balance at so great a speed that the machine does not stop.
+            begin.moment -= self.left_over(begin, &period) / self.search.span;
+            (begin, period) = self.passing(begin)?;
+        }
+        let mut last = f64::INFINITY;
+        for _ in 0..STEPS {
+            let gaps = [period.speed2 - begin.speed2, period.time - time];
+            let ([a, b], [c, d]) =
+                ([period.speed2_by[0] - 1.0, period.speed2_by[1]], period.time_by);
+            let determinant = a * d - b * c;
+            let by_start = (b * gaps[1] - d * gaps[0]) / determinant;
+            let by_moment = (c * gaps[0] - a * gaps[1]) / determinant;
+            let mut part = 1.0;
+            let step = by_start.abs() / begin.speed2;
+            if !step.is_finite() {
+                break;
+            }
+            loop {
+                let next = Begin {
+                    speed2: begin.speed2 + part * by_start,
+                    moment: begin.moment + part * by_moment,
+                    ..begin
+                };
+                // Not to less than a fourth at once: there the machine may stop.
+                let is_near = next.speed2 > 0.25 * begin.speed2;
+                if is_near && let Passage::Whole(own) = self.pass(next)? {
+                    (begin, period) = (next, own);
+                    break;
+                }
+                part *= 0.5;
+                if part < 1e-6 {
+                    let from = begin.speed2.sqrt();
+                    return Err(Unsteady::Stops { q: self.search.q, from });
+                }
+            }
+            // As long as it gets better, but not beyond what rounding lets it.
+            if step <= SETTLED && (step >= 0.5 * last || step <= 1e-3 * SETTLED) {
+                return Ok((begin, period));
+            }
+            last = step;
+        }
+        Err(Unsteady::CannotCarry { from: speed })
+    }
+
+    /// The motion found, with all its moments.
+    pub(super) fn run(
+        mut self,
+        begin: Begin,
+        period: &Period,
+    ) -> Result<Steady, Unsteady<O::Error>> {
+        if self.equation.outside.count() > 0 {
+            // Again, a period later.
+            let later = self.pass(Begin { t: begin.t + period.time, ..begin })?;
+            let same = matches!(later, Passage::Whole(own)
+                if (own.speed2 - period.speed2).abs() <= SAME * period.speed2);
+            if !same {
+                return Err(Unsteady::NotPeriodic);
+            }
+        }
+        let Search { q, span, method, relative, max_steps, deadline, breaks, flywheel, .. } =
+            self.search;
+        let ends = [q, q + span].map(|q| {
+            let there = self.equation.enter(q, q).is_ok() && self.equation.place(&[q]).is_ok();
+            if there { self.equation.reduced.inertia[0] } else { f64::NAN }
+        });
+        let same = (ends[0] - ends[1]).abs() <= SAME * ends[0];
+        if !same {
+            return Err(Unsteady::NotPeriodic);
+        }
+        self.equation.extra = begin.moment;
+        let watches =
+            [Watch { occasion: Occasion::Extreme, crossing: Crossing::Either, stops: false }];
+        let task = Task {
+            along: Along::Coordinate,
+            t: 0.0,
+            q: &[q],
+            speed: &[span.signum() * begin.speed2.sqrt()],
+            end: q + span,
+            method,
+            relative,
+            absolute: None,
+            max_step: f64::INFINITY,
+            max_steps,
+            deadline,
+            breaks,
+            watches: &watches,
+            flywheel,
+        };
+        self.equation.slopes = false;
+        let run = finish_run(self.equation, &task).map_err(|error| match error {
+            crate::ode::Error::System(broken) => Unsteady::Broken(broken),
+            other => Unsteady::Other(other.to_string()),
+        })?;
+        let multiplier = period.speed2_by[0];
+        Ok(Steady { run, multiplier, moment: begin.moment, drive: period.drive, flywheel })
+    }
+}

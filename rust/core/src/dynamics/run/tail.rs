@@ -1,0 +1,118 @@
+//! The last bit of a way to a dead point.
+//!
+//! There the driver turns back while the mechanism goes through: with s the root of what is left of
+//! its coordinate, the speed is s b(s) with a smooth b (another link's angle, which goes through the
+//! dead point at a speed of its own, grows like s). So ṡ = −b/2; with b straight over the last 1e-4
+//! or so of s, whose slope the acceleration tells, its square is all that is left out.
+
+use super::outcome::Moment;
+use super::task::Along;
+
+/// From the last moment that was integrated to the dead point.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Tail {
+    last: Moment,
+    fold: f64,
+    sign: f64,
+    root: f64,
+    b: f64,
+    slope: f64,
+}
+
+impl Tail {
+    /// None if the coordinate is at the dead point already, or does not go to it.
+    pub(super) fn of(last: &Moment, fold: f64) -> Option<Self> {
+        let (left, sign) = (fold - last.q[0], last.speed[0].signum());
+        let root = (left * sign).sqrt();
+        let b = last.speed[0].abs() / root;
+        // v̇ = −(b + s b′) b / 2.
+        let slope = (-2.0 * sign * last.acceleration[0] / b - b) / root;
+        let is_way = root > 0.0 && b > 0.0 && (slope * root).abs() < 0.5 * b;
+        is_way.then(|| Self { last: last.clone(), fold, sign, root, b, slope })
+    }
+
+    fn b(&self, root: f64) -> f64 {
+        self.b - self.slope * (self.root - root)
+    }
+
+    /// Time from the last moment to a root.
+    fn time(&self, root: f64) -> f64 {
+        // ∫ 2/b ds, b straight: by its mean the logarithm is avoided where b hardly changes.
+        let (b, change) = (self.b(root), self.b - self.b(root));
+        let part = change / b;
+        let mean = if part.abs() < 1e-4 {
+            1.0 - part / 2.0 + part * part / 3.0
+        } else {
+            part.ln_1p() / part
+        };
+        2.0 * (self.root - root) / b * mean
+    }
+
+    fn moment(&self, root: f64) -> Moment {
+        let b = self.b(root);
+        Moment {
+            t: self.last.t + self.time(root),
+            q: vec![self.fold - self.sign * root * root],
+            speed: vec![self.sign * root * b],
+            acceleration: vec![-0.5 * self.sign * (b + root * self.slope) * b],
+            work: self.last.work,
+        }
+    }
+
+    /// The dead point.
+    pub(super) fn end(&self) -> Moment {
+        self.moment(0.0)
+    }
+
+    /// The motion at a time or a coordinate of this bit.
+    pub(super) fn at(&self, along: Along, x: f64) -> Option<Moment> {
+        let root = match along {
+            Along::Coordinate => ((self.fold - x) * self.sign).sqrt(),
+            Along::Time => {
+                // ṡ = −b(s)/2 is linear in s.
+                let (since, rate) = (x - self.last.t, 0.5 * self.slope);
+                let decay = -(rate * -since).exp_m1();
+                let gone = if rate == 0.0 { since } else { decay / rate };
+                self.root - 0.5 * self.b * gone
+            }
+        };
+        let slack = -1e-9 * self.root;
+        (root >= slack && root <= self.root).then(|| {
+            let mut moment = self.moment(root.max(0.0));
+            if along == Along::Time {
+                moment.t = x;
+            }
+            moment
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// q = 1 − (ψ² + ψ³) with ψ = 2 (1e-4 − t): a dead point at the time 1e-4.
+    fn motion(t: f64) -> Moment {
+        let p = 2.0 * (1e-4 - t);
+        Moment {
+            t,
+            q: vec![1.0 - p * p - p * p * p],
+            speed: vec![4.0 * p + 6.0 * p * p],
+            acceleration: vec![-8.0 - 24.0 * p],
+            work: 0.0,
+        }
+    }
+
+    #[test]
+    fn the_end_is_reached_smoothly() {
+        let tail = Tail::of(&motion(0.0), 1.0).expect("a way");
+        assert!((tail.end().t - 1e-4).abs() < 1e-11, "{}", tail.end().t);
+        assert_eq!((tail.end().q[0], tail.end().speed[0]), (1.0, 0.0));
+        let (own, exact) = (tail.at(Along::Time, 3e-5).expect("on the way"), motion(3e-5));
+        assert!((own.q[0] - exact.q[0]).abs() < 1e-14);
+        assert!((own.speed[0] - exact.speed[0]).abs() < 1e-10);
+        assert!((own.acceleration[0] - exact.acceleration[0]).abs() < 1e-5);
+        assert!(tail.at(Along::Time, 1.1e-4).is_none());
+        assert!(Tail::of(&motion(0.0), 0.9).is_none());
+    }
+}

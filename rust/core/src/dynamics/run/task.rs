@@ -1,0 +1,85 @@
+//! What is asked of a run.
+
+use std::time::Instant;
+
+use crate::dynamics::line::Angle;
+use crate::ode::{Crossing, Method};
+
+/// What a run goes along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Along {
+    /// The time.
+    Time,
+    /// The coordinate of the one driver.
+    Coordinate,
+}
+
+/// Something to be looked for on the way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Occasion {
+    /// A driver's coordinate has a value.
+    Coordinate {
+        /// Which driver.
+        driver: usize,
+        /// The value.
+        value: f64,
+    },
+    /// A driver's speed has a value; 0 is rest.
+    Speed {
+        /// Which driver.
+        driver: usize,
+        /// The value.
+        value: f64,
+    },
+    /// The speed of the one driver is the greatest or the least.
+    Extreme,
+    /// An angle has a value.
+    Angle(Angle, f64),
+    /// A function from outside is zero: which one.
+    Outside(usize),
+}
+
+/// An event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Watch {
+    /// What is looked for.
+    pub occasion: Occasion,
+    /// Which way.
+    pub crossing: Crossing,
+    /// Whether the run ends there.
+    pub stops: bool,
+}
+
+/// A run.
+#[derive(Debug, Clone, Copy)]
+pub struct Task<'a> {
+    /// What it goes along.
+    pub along: Along,
+    /// Time at the beginning, s.
+    pub t: f64,
+    /// Coordinates there.
+    pub q: &'a [f64],
+    /// Speeds there.
+    pub speed: &'a [f64],
+    /// Where it ends: a time or a coordinate.
+    pub end: f64,
+    /// The pair of formulas.
+    pub method: Method,
+    /// Relative tolerance of the speeds; that of the coordinates is as much of a radian, or of the
+    /// size of the mechanism.
+    pub relative: f64,
+    /// Absolute tolerances of coordinates and speeds instead.
+    pub absolute: Option<[f64; 2]>,
+    /// The widest step.
+    pub max_step: f64,
+    /// How many steps may be tried.
+    pub max_steps: u64,
+    /// When it must be over.
+    pub deadline: Option<Instant>,
+    /// Where functions from outside are not smooth (times or coordinates), ascending.
+    pub breaks: &'a [f64],
+    /// Events.
+    pub watches: &'a [Watch],
+    /// Inertia added to the first driver's.
+    pub flywheel: f64,
+}

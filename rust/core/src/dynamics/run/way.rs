@@ -1,0 +1,289 @@
+//! The equation of motion as a system of differential equations, along the time or the coordinate.
+
+use std::time::Instant;
+
+use super::equation::{Broken, Equation, within};
+use super::outside::Outside;
+use super::source::Source;
+use super::task::{Along, Occasion, Task, Watch};
+use crate::motion::Status;
+use crate::ode::{Action, Crossing, Fault, System};
+
+/// What ended a run of itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Ended {
+    /// A table over the coordinate.
+    Table(usize),
+    /// The table of a motor.
+    Motor(usize),
+    /// A dead point.
+    Dead,
+    /// The clock.
+    Late,
+}
+
+/// A machine on its way. Along the time its state is q, q̇ and the work done by all that is not
+/// told by the potential energy; along the coordinate q̇², the time and that work:
+/// d(q̇²)/dq = (2 M − J′ q̇²)/J.
+pub(super) struct Way<'a, S, O> {
+    pub equation: Equation<'a, S, O>,
+    pub along: Along,
+    pub watches: &'a [Watch],
+    pub deadline: Option<Instant>,
+    pub ended: Option<Ended>,
+    /// Sign of the speed, along the coordinate.
+    pub sign: f64,
+    drivers: usize,
+    /// Energy at the beginning, kinetic and potential, if it is known.
+    energy: Option<[f64; 2]>,
+    /// What is as near to a singular position is at it.
+    near_dead: f64,
+}
+
+/// Part of the energies of a motion below which what is left of the kinetic energy is none: the
+/// balance is kept far better.
+const AT_REST: f64 = 1.0e-6;
+/// How far (rad, or of the size) to both sides the change of a condition is looked for.
+const LOOK: f64 = 1.0e-6;
+
+impl<'a, S: Source, O: Outside> Way<'a, S, O> {
+    pub(super) fn new(equation: Equation<'a, S, O>, task: &Task<'a>) -> Self {
+        Self {
+            equation,
+            along: task.along,
+            watches: task.watches,
+            deadline: task.deadline,
+            ended: None,
+            sign: task.speed[0].signum(),
+            drivers: task.q.len(),
+            energy: None,
+            near_dead: 10.0 * task.relative.sqrt(),
+        }
+    }
+
+    /// Takes the energy at the beginning, from which what is kinetic is told later.
+    pub(super) fn begin(&mut self, task: &Task<'_>) {
+        if self.equation.place(task.q).is_ok() {
+            let reduced = &self.equation.reduced;
+            self.energy = Some([reduced.kinetic(task.speed), reduced.potential]);
+        }
+    }
+
+    /// Whether kinetic energy is left at coordinates after some work, by the balance: at a dead
+    /// point the driver rests and the mechanism does not.
+    pub(super) fn has_kinetic(&mut self, q: &[f64], work: f64) -> bool {
+        let Some([kinetic, potential]) = self.energy else { return true };
+        if self.equation.place(q).is_err() {
+            return true;
+        }
+        let change = self.equation.reduced.potential - potential;
+        let size = kinetic.abs().max(work.abs()).max(change.abs());
+        kinetic + work - change > AT_REST * size
+    }
+
+    /// How many numbers the state has.
+    pub(super) fn len(&self) -> usize {
+        2 * self.drivers + 1
+    }
+
+    /// The state at the beginning.
+    pub(super) fn start(task: &Task<'_>) -> Vec<f64> {
+        match task.along {
+            Along::Time => [task.q, task.speed, &[0.0]].concat(),
+            Along::Coordinate => vec![task.speed[0] * task.speed[0], task.t, 0.0],
+        }
+    }
+
+    /// Events at the borders of pieces come first: those of tables over q (along q they are breaks),
+    /// then those of motors.
+    fn has_table_borders(&self) -> bool {
+        self.along == Along::Time && !self.equation.tables.is_empty()
+    }
+
+    /// Behind them is the event that may be a dead point: of one driver its rest, of several the
+    /// least distance from a singular position.
+    fn has_dead_points(&self) -> bool {
+        self.along == Along::Time && self.equation.source.has_dead_points()
+    }
+
+    /// What makes each event function an event.
+    pub(super) fn crossings(&self) -> Vec<Crossing> {
+        let tables = usize::from(self.has_table_borders()) + self.equation.tabled().count();
+        let turning = if self.drivers == 1 { Crossing::Either } else { Crossing::Rising };
+        let own = self.watches.iter().map(|watch| watch.crossing);
+        std::iter::repeat_n(Crossing::Boundary, 2 * tables)
+            .chain(std::iter::repeat_n(turning, usize::from(self.has_dead_points())))
+            .chain(own)
+            .collect()
+    }
+
+    /// How the distance from a singular position grows along the motion.
+    fn receding(&mut self, q: &[f64], speed: &[f64]) -> f64 {
+        let fastest = speed.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let [back, ahead] = [-LOOK, LOOK].map(|part| {
+            let beside: Vec<f64> =
+                q.iter().zip(speed).map(|(q, v)| q + part * v / fastest).collect();
+            self.equation.source.flatness(&beside)
+        });
+        ahead - back
+    }
+
+    fn on_turning(&mut self, y: &[f64]) -> Action {
+        let n = self.drivers;
+        let dead = if n == 1 {
+            self.has_kinetic(&y[..1], y[2])
+        } else {
+            // What is nearer than the accuracy of the coordinates cannot be told from it.
+            self.equation.source.flatness(&y[..n]) <= self.near_dead
+        };
+        if !dead {
+            return Action::Continue;
+        }
+        self.equation.refused = Some((Status::Singular, y[..n].to_vec()));
+        self.ended = Some(Ended::Dead);
+        Action::Stop
+    }
+
+    /// Which watch an event is.
+    pub(super) fn watch(&self, event: usize) -> Option<usize> {
+        event.checked_sub(self.crossings().len() - self.watches.len())
+    }
+
+    fn occasion(
+        &mut self,
+        occasion: &Occasion,
+        t: f64,
+        q: &[f64],
+        speed: &[f64],
+    ) -> Result<f64, Broken<O::Error>> {
+        let equation = &mut self.equation;
+        Ok(match *occasion {
+            Occasion::Coordinate { driver, value } => q[driver] - value,
+            Occasion::Speed { driver, value } => speed[driver] - value,
+            Occasion::Angle(angle, value) => equation.source.angle(q, &angle) - value,
+            Occasion::Outside(which) => {
+                equation.outside.event(which, t, q, speed).map_err(Broken::Outside)?
+            }
+            Occasion::Extreme => {
+                let there = equation.place(q).and_then(|()| equation.load(t, q, speed));
+                match there {
+                    Ok(()) => equation.moment(0) - equation.reduced.centrifugal(0, speed),
+                    Err(Fault::NotThere) => f64::NAN,
+                    Err(Fault::Error(error)) => return Err(error),
+                }
+            }
+        })
+    }
+}
+
+impl<S: Source, O: Outside> System for Way<'_, S, O> {
+    type Error = Broken<O::Error>;
+
+    fn rates(&mut self, x: f64, y: &[f64], rates: &mut [f64]) -> Result<(), Fault<Self::Error>> {
+        let (n, equation) = (self.drivers, &mut self.equation);
+        match self.along {
+            Along::Time => {
+                let (q, speed) = (&y[..n], &y[n..2 * n]);
+                equation.place(q)?;
+                equation.load(x, q, speed)?;
+                rates[..n].copy_from_slice(speed);
+                equation.accelerations(q, speed, &mut rates[n..2 * n])?;
+                rates[2 * n] = equation.power(speed);
+            }
+            Along::Coordinate => {
+                // At rest the way ends.
+                let is_moving = y[0] > 0.0;
+                if !is_moving {
+                    equation.refused = None;
+                    return Err(Fault::NotThere);
+                }
+                let speed = [self.sign * y[0].sqrt()];
+                equation.place(&[x])?;
+                equation.load(y[1], &[x], &speed)?;
+                let inertia = equation.inertia(x)?;
+                rates[0] = (2.0 * equation.moment(0) - equation.reduced.rates[0] * y[0]) / inertia;
+                rates[1] = 1.0 / speed[0];
+                rates[2] = equation.power(&speed) / speed[0];
+            }
+        }
+        Ok(())
+    }
+
+    fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
+        if self.along == Along::Coordinate {
+            return self.equation.enter(from, to);
+        }
+        // The pieces of tables were found at the knots.
+        self.equation.times = within(from, to);
+        Ok(())
+    }
+
+    fn events(&mut self, x: f64, y: &[f64], values: &mut [f64]) -> Result<(), Self::Error> {
+        let (n, mut values) = (self.drivers, values);
+        let (one, alone) = ([x], [self.sign * y[0].max(0.0).sqrt()]);
+        let (t, q, speed) = match self.along {
+            Along::Time => (x, &y[..n], &y[n..2 * n]),
+            Along::Coordinate => (y[1], &one[..], &alone[..]),
+        };
+        if self.has_table_borders() {
+            let reader = &self.equation.reader;
+            (values[0], values[1]) = (y[0] - reader.low, reader.high - y[0]);
+            values = &mut values[2..];
+        }
+        let (borders, rest) = values.split_at_mut(2 * self.equation.tabled().count());
+        self.equation.motor_borders(speed, borders);
+        values = rest;
+        if self.has_dead_points() {
+            values[0] = if n == 1 { speed[0] } else { self.receding(q, speed) };
+            values = &mut values[1..];
+        }
+        for (value, watch) in values.iter_mut().zip(self.watches) {
+            *value = self.occasion(&watch.occasion, t, q, speed)?;
+        }
+        Ok(())
+    }
+
+    fn on_event(&mut self, event: usize, _: f64, y: &mut [f64]) -> Result<Action, Self::Error> {
+        if let Some(watch) = self.watch(event) {
+            let stops = self.watches[watch].stops;
+            return Ok(if stops { Action::Stop } else { Action::Continue });
+        }
+        let up = event % 2 == 1;
+        let mut event = event;
+        if self.has_table_borders() {
+            if event < 2 {
+                return Ok(match self.equation.reader.pass(self.equation.tables, up) {
+                    Ok(knot) => {
+                        y[0] = knot;
+                        Action::Restart
+                    }
+                    Err(which) => {
+                        self.ended = Some(Ended::Table(which));
+                        Action::Stop
+                    }
+                });
+            }
+            event -= 2;
+        }
+        let Some(which) = self.equation.tabled().nth(event / 2) else {
+            return Ok(self.on_turning(y));
+        };
+        let Some((driver, speed)) = self.equation.pass_motor(which, up) else {
+            self.ended = Some(Ended::Motor(which));
+            return Ok(Action::Stop);
+        };
+        match self.along {
+            Along::Time => y[self.drivers + driver] = speed,
+            Along::Coordinate => y[0] = speed * speed,
+        }
+        Ok(Action::Restart)
+    }
+
+    fn cancelled(&mut self) -> bool {
+        if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+            self.ended = Some(Ended::Late);
+            return true;
+        }
+        self.equation.outside.cancelled()
+    }
+}

@@ -1,0 +1,40 @@
+//! Numbers that loads and motors have.
+
+/// A number, or where it is read at every place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// Always the same.
+    Number(f64),
+    /// Over the first driver's coordinate: which of the machine's tables.
+    Table(usize),
+    /// Given from outside at every place: which of the numbers.
+    Given(usize),
+}
+
+/// What is read at a place.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Numbers<'a> {
+    /// Value of every table, and its slope.
+    pub tables: &'a [[f64; 2]],
+    /// Numbers from outside, and their slopes by the speed.
+    pub given: &'a [[f64; 2]],
+}
+
+impl Value {
+    pub(super) fn at(self, numbers: Numbers<'_>) -> f64 {
+        let of = |list: &[[f64; 2]], which: usize| list.get(which).map_or(f64::NAN, |pair| pair[0]);
+        match self {
+            Self::Number(number) => number,
+            Self::Table(which) => of(numbers.tables, which),
+            Self::Given(which) => of(numbers.given, which),
+        }
+    }
+
+    /// Its derivative by the driver's speed.
+    pub(super) fn by_speed(self, numbers: Numbers<'_>) -> f64 {
+        match self {
+            Self::Given(which) => numbers.given.get(which).map_or(f64::NAN, |pair| pair[1]),
+            Self::Number(_) | Self::Table(_) => 0.0,
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! Motions of machines: functions from Python in, arrays out.
+
+use std::time::{Duration, Instant};
+
+use assur::dynamics::{Broken, Ending, Happened, Moment, Outside, RunError, Unsteady};
+use assur::ode::Error;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::error;
+
+type Array<'py> = Bound<'py, PyArray1<f64>>;
+/// Watch, time, coordinates, speeds.
+type EventParts = (usize, f64, Vec<f64>, Vec<f64>);
+
+/// How often signals are looked for.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Python's functions of (t, q, speed), and its signals.
+pub(crate) struct Calls {
+    loads: Vec<Py<PyAny>>,
+    events: Vec<Py<PyAny>>,
+    looked: Instant,
+    pub(crate) signal: Option<PyErr>,
+}
+
+impl Calls {
+    pub(crate) fn new(loads: Vec<Py<PyAny>>, events: Vec<Py<PyAny>>) -> Self {
+        Self { loads, events, looked: Instant::now(), signal: None }
+    }
+
+    /// Whether Python's lock is needed all the time.
+    pub(crate) fn are_many(&self) -> bool {
+        !(self.loads.is_empty() && self.events.is_empty())
+    }
+}
+
+fn call(
+    py: Python<'_>,
+    function: &Py<PyAny>,
+    what: &str,
+    (t, q, speed): (f64, &[f64], &[f64]),
+) -> PyResult<f64> {
+    let given = match (q, speed) {
+        (&[q], &[speed]) => function.call1(py, (t, q, speed))?,
+        _ => function.call1(py, (t, PyTuple::new(py, q)?, PyTuple::new(py, speed)?))?,
+    };
+    let given = given.bind(py);
+    match given.extract::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => {
+            let name = function.bind(py).getattr("__name__").map_or_else(
+                |_| function.bind(py).repr().map_or_else(|_| "?".into(), |text| text.to_string()),
+                |name| name.to_string(),
+            );
+            let shown = given.repr()?;
+            let message = format!(
+                "the {what} {name}(t, q, speed) gave {shown} at t = {t}, q = {q:?}: a finite number is needed"
+            );
+            Err(error::input(message, None))
+        }
+    }
+}
+
+impl Outside for Calls {
+    type Error = PyErr;
+
+    fn count(&self) -> usize {
+        self.loads.len()
+    }
+
+    fn numbers(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        speed: &[f64],
+        numbers: &mut [f64],
+    ) -> Result<(), PyErr> {
+        Python::attach(|py| {
+            for (number, function) in numbers.iter_mut().zip(&self.loads) {
+                *number = call(py, function, "load", (t, q, speed))?;
+            }
+            Ok(())
+        })
+    }
+
+    fn event(&mut self, which: usize, t: f64, q: &[f64], speed: &[f64]) -> Result<f64, PyErr> {
+        Python::attach(|py| match self.events.get(which) {
+            Some(function) => call(py, function, "event", (t, q, speed)),
+            None => Ok(f64::NAN),
+        })
+    }
+
+    fn cancelled(&mut self) -> bool {
+        if self.looked.elapsed() < PATIENCE {
+            return false;
+        }
+        self.looked = Instant::now();
+        #[allow(
+            clippy::redundant_closure_for_method_calls,
+            reason = "the method by itself is not general over the lifetime"
+        )]
+        let heard = Python::attach(|py| py.check_signals());
+        self.signal = heard.err();
+        self.signal.is_some()
+    }
+}
+
+/// What a run could not be made for, as Python's.
+pub(crate) fn broken(error: RunError<PyErr>) -> PyErr {
+    match error {
+        Error::System(Broken::Outside(error)) => error,
+        Error::System(other) => error::input(other.to_string(), None),
+        other => error::input(other.to_string(), None),
+    }
+}
+
+/// Why there is no periodic motion, as Python's.
+pub(crate) fn unsteady(error: Unsteady<PyErr>) -> PyErr {
+    match error {
+        Unsteady::Broken(Broken::Outside(error)) => error,
+        other => error::input(other.to_string(), None),
+    }
+}
+
+/// A motion.
+#[pyclass(frozen, module = "assur._core")]
+pub(crate) struct Run(assur::dynamics::Run);
+
+impl Run {
+    pub(crate) fn new(run: assur::dynamics::Run) -> Self {
+        Self(run)
+    }
+}
+
+#[pymethods]
+impl Run {
+    /// Between steps: time, coordinates, speeds, accelerations, work, kinetic and potential energy.
+    fn arrays<'py>(&self, py: Python<'py>) -> Vec<Array<'py>> {
+        let energy = |which: usize| self.0.energies.iter().map(|pair| pair[which]).collect();
+        let mut arrays = arrays(py, &self.0.moments);
+        arrays.push(PyArray1::from_vec(py, energy(0)));
+        arrays.push(PyArray1::from_vec(py, energy(1)));
+        arrays
+    }
+
+    /// The same without energies at times (or coordinates, if it went along these); NaN beyond.
+    fn at<'py>(&self, py: Python<'py>, places: Vec<f64>) -> Vec<Array<'py>> {
+        let nan = || {
+            let n = self.0.moments.first().map_or(1, |moment| moment.q.len());
+            let nan = vec![f64::NAN; n];
+            let work = f64::NAN;
+            Moment { t: f64::NAN, q: nan.clone(), speed: nan.clone(), acceleration: nan, work }
+        };
+        let all: Vec<Moment> = places.iter().map(|&x| self.0.at(x).unwrap_or_else(nan)).collect();
+        arrays(py, &all)
+    }
+
+    /// What happened on the way.
+    #[getter]
+    fn events(&self) -> Vec<EventParts> {
+        let of = |one: &Happened| (one.watch, one.t, one.q.clone(), one.speed.clone());
+        self.0.events.iter().map(of).collect()
+    }
+
+    /// How it ended: kind, number of an event, table or motor (or code of a status), coordinates.
+    #[getter]
+    fn ending(&self) -> (&'static str, usize, Vec<f64>) {
+        let plain = |kind| (kind, 0, Vec::new());
+        match &self.0.ending {
+            Ending::Reached => plain("reached"),
+            Ending::Event(which) => ("event", *which, Vec::new()),
+            Ending::Rest => plain("rest"),
+            Ending::Edge(status, q) => ("edge", *status as usize, q.clone()),
+            Ending::TableEnds(which) => ("table ends", *which, Vec::new()),
+            Ending::MotorTableEnds(which) => ("motor table ends", *which, Vec::new()),
+            Ending::StepLimit(stiff) => ("step limit", usize::from(*stiff), Vec::new()),
+            Ending::Late => plain("time limit"),
+            Ending::Cancelled => plain("cancelled"),
+            _ => plain("stalled"),
+        }
+    }
+
+    /// What it cost.
+    #[getter]
+    fn statistics<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let own = &self.0.statistics;
+        let told = PyDict::new(py);
+        told.set_item("steps", own.steps)?;
+        told.set_item("rejected", own.rejected)?;
+        told.set_item("evaluations", own.evaluations)?;
+        told.set_item("restarts", own.restarts)?;
+        told.set_item("smallest_step", own.smallest)?;
+        told.set_item("largest_step", own.largest)?;
+        Ok(told)
+    }
+}
+
+fn arrays<'py>(py: Python<'py>, moments: &[Moment]) -> Vec<Array<'py>> {
+    let many =
+        |of: fn(&Moment) -> &[f64]| moments.iter().flat_map(|one| of(one)).copied().collect();
+    let lists: [Vec<f64>; 5] = [
+        moments.iter().map(|one| one.t).collect(),
+        many(|one| &one.q),
+        many(|one| &one.speed),
+        many(|one| &one.acceleration),
+        moments.iter().map(|one| one.work).collect(),
+    ];
+    lists.into_iter().map(|list| PyArray1::from_vec(py, list)).collect()
+}
