@@ -1,4 +1,4 @@
-"""P3's flywheel from its table beside scipy as a user would write it: one table and many."""
+"""P3's flywheel from its table beside SciPy and numba as users would write it: one and many."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from press_table import DELTA, INERTIA, MEAN, MOMENT, PHI, coefficients, sized
 from scipy.interpolate import CubicSpline
 from scipy.optimize import fsolve, minimize_scalar
 
@@ -16,10 +17,6 @@ if TYPE_CHECKING:
 
     from pytest_benchmark.fixture import BenchmarkFixture
 
-PHI = np.linspace(0.0, 2 * np.pi, 9)
-MOMENT = np.array([-0.23, -274.4, -950.5, 19.9, 1.26, -300.0, -23.9, -15.9, -0.23])
-INERTIA = np.array([4.93, 5.07, 5.1, 5.1, 4.93, 5.05, 5.1, 5.14, 4.93])
-DELTA, MEAN = 1 / 8, 15.0
 MANY = 100_000
 
 
@@ -51,8 +48,12 @@ def by_assur() -> float:
     return float(flywheel.from_table(PHI, MOMENT, INERTIA, DELTA, MEAN).inertia)
 
 
+def by_numba() -> float:
+    return float(sized(coefficients(MOMENT), coefficients(INERTIA), DELTA, MEAN)[0])
+
+
 @pytest.mark.benchmark(group="flywheel from a table")
-@pytest.mark.parametrize("way", [by_assur, by_scipy])
+@pytest.mark.parametrize("way", [by_assur, by_numba, by_scipy])
 def test_one_table(benchmark: BenchmarkFixture, way: Callable[[], float]) -> None:
     assert abs(benchmark(way) - 19.91815) < 1e-3
 

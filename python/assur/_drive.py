@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import operator
 import warnings
@@ -31,6 +32,8 @@ CUT_SHORT = ("lost", "table ends", "motor table ends", "stalled", "step limit", 
 FITS = 1e-9
 # Part by which a constant motor may differ from what the loads take: torques are typed too.
 GIVEN = 1e-2
+# Part of the motor's moment from which on it is told that it was mended.
+MENDED = 1e-6
 # Rows of the first table of `flywheel`, and of the last; each has twice those before.
 FIRST_ROWS, LAST_ROWS = 96, 12288
 # The fewest rows between two knots of a load's table.
@@ -116,7 +119,14 @@ def steady_state(
         None if wanted is None else (wanted, mean),
         machine._outside.functions,
     )
-    return SteadyState(core, numbers, machine.mechanism, options["mean"])
+    made = SteadyState(core, numbers, machine.mechanism, options["mean"])
+    if machine.motor is not None and abs(made.found_moment) > MENDED * abs(made.motor_moment):
+        message = (
+            f"nothing depends on the speed: {made.found_moment:.3g} N·m more than the motor gives "
+            "keep the machine in balance"
+        )
+        warnings.warn(message, AssurWarning, stacklevel=3)
+    return made
 
 
 def flywheel(
@@ -147,7 +157,7 @@ def flywheel(
         if off.any():
             needed = np.asarray(made.motor_moment).ravel()[int(np.argmax(off))]
             message = (
-                f"the motor gives {own:g} N·m on the driver, over a turn the loads take {needed:g}: "
+                f"the motor gives the driver {own:g} N·m, the loads take {needed:g} on average: "
                 "the flywheel is that of the latter"
             )
             warnings.warn(message, AssurWarning, stacklevel=3)
@@ -213,7 +223,7 @@ def _knots(machine: Machine) -> list[float]:
 def _rows(knots: list[float], rows: int) -> tuple[Any, list[int]]:
     """Coordinates with rows at all knots, and which these are."""
     parts, corners = [], [0]
-    for low, high in zip(knots[:-1], knots[1:], strict=True):
+    for low, high in itertools.pairwise(knots):
         count = max(LEAST_ROWS, math.ceil(rows * (high - low) / (2.0 * math.pi)))
         parts.append(np.linspace(low, high, count, endpoint=False))
         corners.append(corners[-1] + count)

@@ -136,10 +136,11 @@ def parts(
         raise InputError(message)
     ending = SIGNS[direction], bool(event.stop)
     if isinstance(event, Crossing):
-        if not callable(event.function):
+        function: Any = event.function
+        if not callable(function):
             message = f"{event!r}: a function of (t, q, speed) is needed"
             raise InputError(message)
-        functions.append(event.function)
+        functions.append(function)
         return "function", len(functions) - 1, 0.0, [], False, *ending
     if isinstance(event, TransmissionAngle):
         if mechanism is None:

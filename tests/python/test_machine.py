@@ -348,7 +348,7 @@ def test_designs_are_those_one_by_one() -> None:
         assert np.array_equal(potential[place], own.potential(q))
     with pytest.raises(assur.PositionError, match=r"design \(1, 2\)"):
         machine.reduced_inertia(q)
-    each = np.arange(6.0).reshape(2, 3, 1) + [0.0, 0.5]
+    each = np.arange(6.0).reshape(2, 3, 1) + np.array([0.0, 0.5])
     assert machine.reduced_inertia(each, on_error="nan").value.shape == (2, 3, 2)
     assert machine.reduced_inertia(1.0, on_error="nan").value.shape == (2, 3)
     with pytest.raises(assur.InputError, match="S \\+ \\(N,\\)"):
@@ -388,7 +388,7 @@ def test_corners_of_tables_are_knots() -> None:
     assert steady.motor_moment == pytest.approx(made.motor_moment, rel=1e-9)
     assert steady.greatest.value == pytest.approx(made.greatest.value, rel=1e-9)
 
-    def jump(t: float, q: float, speed: float) -> float:
+    def jump(_: float, q: float, __: float) -> float:
         return -1500.0 if 4.0 < q < 5.0 else 0.0
 
     rough = Machine(

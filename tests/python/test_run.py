@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from higher_library import loom
 
 import assur
 from assur import Body, Damper, Force, Gravity, Spring, Torque, TorsionDamper, TorsionSpring, events
-from higher_library import loom
 from oracle_dae import Dae
 from test_machine import five_bar, four_bar
 
@@ -40,7 +40,7 @@ def loaded_four_bar() -> assur.Machine:
         },
         [
             Gravity((0.3, -9.81)),
-            Force("P", (3.0, lambda t, q, speed: 2.0 * math.cos(3.0 * t) - 0.1 * speed)),
+            Force("P", (3.0, lambda t, _, speed: 2.0 * math.cos(3.0 * t) - 0.1 * speed)),
             Torque("rocker", 1.5, on="coupler"),
             Damper("P", "D", 0.4),
             TorsionDamper("coupler", 0.3, on="crank"),
@@ -171,10 +171,10 @@ def quarter(amplitude: float) -> float:
 
 def test_event_times_are_those_of_a_pendulum() -> None:
     # Its lowest place is at the angle π.
-    watched = [events.Position(math.pi, stop=False), events.Rest(stop=False)]
+    watched: list[Any] = [events.Position(math.pi, stop=False), events.Rest(stop=False)]
     run = pendulum().run(60.0, q0=math.pi - 1.0, rtol=1e-12, events=watched)
     own = quarter(1.0)
-    told = {watched[0]: [], watched[1]: []}
+    told: dict[Any, list[float]] = {watched[0]: [], watched[1]: []}
     for one in run.events:
         told[one.event].append(one.t)
     odd = own * (2 * np.arange(len(told[watched[0]])) + 1)
@@ -294,7 +294,7 @@ def test_both_methods_and_tolerances() -> None:
     errors = {}
     for method in ("DOP853", "RK45"):
         for rtol in (1e-6, 1e-8, 1e-10):
-            run = machine.run(3.0, speed0=3.0, rtol=rtol, method=method)  # type: ignore[arg-type]
+            run = machine.run(3.0, speed0=3.0, rtol=rtol, method=method)
             errors[method, rtol] = abs(float(run.q[-1] - exact))
             assert errors[method, rtol] < 300.0 * rtol
     assert machine.run(3.0, speed0=3.0, rtol=1e-3, atol=(1e-3, 1e-2)).statistics.steps < 60
@@ -317,7 +317,7 @@ def test_functions_are_called_once_a_stage_with_floats() -> None:
 
 
 def test_time_dependent_loads_and_breaks() -> None:
-    def step(t: float, q: float, speed: float) -> float:
+    def step(t: float, _: float, __: float) -> float:
         return 1.0 if t < 0.5 else -3.0
 
     machine = assur.Machine(four_bar(), {"crank": Body(inertia=2.0)}, [Torque("crank", step)])

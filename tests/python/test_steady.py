@@ -12,6 +12,7 @@ import assur
 from assur import Body, Force, InputError, Torque, flywheel
 
 TURN = math.tau
+ANY: Any = "median"  # what types would not let pass
 PAPER_PHI = np.linspace(0.0, TURN, 9)
 PAPER_MOMENT = [-0.23, -274.4, -950.5, 19.9, 1.26, -300.0, -23.9, -15.9, -0.23]
 PAPER_INERTIA = np.array([4.93, 5.07, 5.1, 5.1, 4.93, 5.05, 5.1, 5.14, 4.93])
@@ -146,20 +147,23 @@ def test_dampers_and_functions() -> None:
     damped = press(assur.ConstantTorque(60.0), loads=[assur.TorsionDamper("crank", 4.0)])
     with pytest.raises(InputError, match="speed="):
         damped.steady_state()
-    own = damped.steady_state(10.0)
+    own = damped.steady_state(10.0, flywheel=20.0)
 
-    def brake(t: float, q: float, speed: float) -> float:
+    def brake(_: float, __: float, speed: float) -> float:
         return -4.0 * speed
 
-    called = press(assur.ConstantTorque(60.0), loads=[Torque("crank", brake)]).steady_state(10.0)
+    braked = press(assur.ConstantTorque(60.0), loads=[Torque("crank", brake)])
+    called = braked.steady_state(10.0, flywheel=20.0)
     assert abs(called.mean_speed - own.mean_speed) < 1e-9
     assert abs(called.multiplier - own.multiplier) < 1e-6
 
-    def later(t: float, q: float, speed: float) -> float:
+    def later(t: float, _: float, speed: float) -> float:
         return -4.0 * speed - 0.1 * t
 
     with pytest.raises(InputError, match="depends on the time"):
-        press(assur.ConstantTorque(60.0), loads=[Torque("crank", later)]).steady_state(10.0)
+        press(assur.ConstantTorque(60.0), loads=[Torque("crank", later)]).steady_state(
+            10.0, flywheel=20.0
+        )
     # Without a motor: the moment that keeps the mean speed.
     kept = press(loads=[assur.TorsionDamper("crank", 4.0)]).steady_state(own.period and 15.0)
     again = press(
@@ -174,10 +178,13 @@ def test_a_constant_motor_must_be_in_balance() -> None:
     assert abs(free.multiplier - 1.0) < 1e-9
     # Rounded to three digits it is mended.
     rounded = press(assur.ConstantTorque(round(free.found_moment, 1)))
-    own = rounded.steady_state(12.0)
+    with pytest.warns(assur.AssurWarning, match=r"0\.0487 N·m more than the motor gives"):
+        own = rounded.steady_state(12.0)
     assert abs(own.found_moment) < 0.1
     assert abs(own.motor_moment - free.motor_moment) < 1e-8
-    with pytest.raises(InputError, match=r"mean moment is 80 N·m where [\d.]+ N·m would be"):
+    with pytest.raises(
+        InputError, match=r"mean moment is 80\.000000 N·m where [\d.]+ N·m would be"
+    ):
         press(assur.ConstantTorque(80.0)).steady_state(12.0)
 
 
@@ -197,7 +204,7 @@ def test_flywheel_with_a_motor(mean: Any) -> None:
 
 def test_flywheel_of_a_weak_motor() -> None:
     """Without a flywheel the machine would stop; with one it does not."""
-    machine = press(assur.LinearMotor(160.0, 9.0))
+    machine = press(assur.LinearMotor(40.0, 9.0))
     with pytest.raises(InputError, match=r"cannot carry|comes to rest"):
         machine.steady_state()
     own = machine.flywheel(0.1)
@@ -224,7 +231,7 @@ def test_two_turns_of_a_kite() -> None:
         (lambda: press(assur.LinearMotor(2.0, 30.0)).steady_state(), "cannot carry|never makes"),
         (lambda: press(assur.LinearMotor(9.0, 30.0)).steady_state(turns=0), "turns is 0"),
         (lambda: press().steady_state(5.0, flywheel=-1.0), "flywheel = -1"),
-        (lambda: press().steady_state(5.0, mean="median"), "mean is 'median'"),
+        (lambda: press().steady_state(5.0, mean=ANY), "mean is 'median'"),
         (
             lambda: press(
                 loads=[Torque("crank", assur.Table([0.0, 9.0], [1.0, 1.0]))]

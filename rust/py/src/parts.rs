@@ -42,16 +42,16 @@ pub(crate) enum LineParts {
 pub(crate) type WatchParts = (String, usize, f64, Vec<LineParts>, bool, i8, bool);
 
 impl Told {
-    fn value(self) -> PyResult<Value> {
-        Ok(match self {
+    fn value(self) -> Value {
+        match self {
             Self::Number(number) => Value::Number(number),
             Self::Listed((kind, which)) if kind == "table" => Value::Table(which),
             Self::Listed((_, which)) => Value::Given(which),
-        })
+        }
     }
 }
 
-fn values(told: Vec<Told>) -> PyResult<Vec<Value>> {
+fn values(told: Vec<Told>) -> Vec<Value> {
     told.into_iter().map(Told::value).collect()
 }
 
@@ -77,7 +77,7 @@ pub(crate) fn load(own: &Mechanism, parts: LoadParts) -> PyResult<Load> {
     let places = places.into_iter().map(|place| point(own, place)).collect::<PyResult<Vec<_>>>()?;
     let link = |name: &String| own.link(name).map_err(error::solve);
     let links = links.iter().map(link).collect::<PyResult<Vec<_>>>()?;
-    let values = values(told)?;
+    let values = values(told);
     Ok(match (kind.as_str(), &places[..], &links[..], &numbers[..], &values[..]) {
         ("force", &[at], links, [], &[x, y]) => {
             Load::Force { at, force: [x, y], axes: links.first().copied() }
@@ -99,7 +99,7 @@ pub(crate) fn load(own: &Mechanism, parts: LoadParts) -> PyResult<Load> {
 
 pub(crate) fn motor(parts: MotorParts) -> PyResult<Motor> {
     let (driver, ratio, rotor_inertia, kind, numbers, told, over_speed) = parts;
-    let values = values(told)?;
+    let values = values(told);
     let characteristic = match (kind.as_str(), &numbers[..], &values[..], over_speed) {
         ("value", [], &[value], None) => Characteristic::Value(value),
         ("linear", &[stall, no_load], [], None) => Characteristic::Linear { stall, no_load },

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use assur::dynamics::{Broken, Ending, Happened, Moment, Outside, RunError, Unsteady};
+use assur::dynamics::{Broken, Ending, Happened, Moment, Moments, Outside, RunError, Unsteady};
 use assur::ode::Error;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -139,7 +139,7 @@ impl Run {
     /// Between steps: time, coordinates, speeds, accelerations, work, kinetic and potential energy.
     fn arrays<'py>(&self, py: Python<'py>) -> Vec<Array<'py>> {
         let energy = |which: usize| self.0.energies.iter().map(|pair| pair[which]).collect();
-        let mut arrays = arrays(py, &self.0.moments);
+        let mut arrays = arrays(py, self.0.moments.clone());
         arrays.push(PyArray1::from_vec(py, energy(0)));
         arrays.push(PyArray1::from_vec(py, energy(1)));
         arrays
@@ -147,14 +147,20 @@ impl Run {
 
     /// The same without energies at times (or coordinates, if it went along these); NaN beyond.
     fn at<'py>(&self, py: Python<'py>, places: Vec<f64>) -> Vec<Array<'py>> {
-        let nan = || {
-            let n = self.0.moments.first().map_or(1, |moment| moment.q.len());
-            let nan = vec![f64::NAN; n];
-            let work = f64::NAN;
-            Moment { t: f64::NAN, q: nan.clone(), speed: nan.clone(), acceleration: nan, work }
+        let own = &self.0.moments;
+        let nan = vec![f64::NAN; own.q.len() / own.len().max(1)];
+        let nothing = Moment {
+            t: f64::NAN,
+            q: nan.clone(),
+            speed: nan.clone(),
+            acceleration: nan,
+            work: f64::NAN,
         };
-        let all: Vec<Moment> = places.iter().map(|&x| self.0.at(x).unwrap_or_else(nan)).collect();
-        arrays(py, &all)
+        let mut all = Moments::default();
+        for x in places {
+            all.push(self.0.at(x).as_ref().unwrap_or(&nothing));
+        }
+        arrays(py, all)
     }
 
     /// What happened on the way.
@@ -197,15 +203,7 @@ impl Run {
     }
 }
 
-fn arrays<'py>(py: Python<'py>, moments: &[Moment]) -> Vec<Array<'py>> {
-    let many =
-        |of: fn(&Moment) -> &[f64]| moments.iter().flat_map(|one| of(one)).copied().collect();
-    let lists: [Vec<f64>; 5] = [
-        moments.iter().map(|one| one.t).collect(),
-        many(|one| &one.q),
-        many(|one| &one.speed),
-        many(|one| &one.acceleration),
-        moments.iter().map(|one| one.work).collect(),
-    ];
-    lists.into_iter().map(|list| PyArray1::from_vec(py, list)).collect()
+fn arrays(py: Python<'_>, moments: Moments) -> Vec<Array<'_>> {
+    let Moments { t, q, speed, acceleration, work } = moments;
+    [t, q, speed, acceleration, work].map(|list| PyArray1::from_vec(py, list)).into()
 }

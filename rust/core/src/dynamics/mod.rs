@@ -43,8 +43,8 @@ pub use motor::{Characteristic, Motor};
 pub use pose::Point;
 pub use reduced::Reduced;
 pub use run::{
-    Along, Broken, Ending, Happened, Moment, Nothing, Occasion, Outside, Run, RunError, Search,
-    Sheet, Steady, Task, Unsteady, Wanted, Watch,
+    Along, Broken, Ending, Happened, Moment, Moments, Nothing, Occasion, Outside, Run, RunError,
+    Search, Sheet, Steady, Task, Unsteady, Wanted, Watch,
 };
 pub use spline::{Ends, Pieces, spline};
 pub use table::Table;

@@ -48,7 +48,7 @@ impl Reduced {
         0.5 * (0..n).map(|a| speed[a] * row(a)).sum::<f64>()
     }
 
-    /// What the inertia itself asks of a driver at speeds: Σ (∂M_ab/∂c − ½ ∂M_bc/∂a) v_b v_c (the
+    /// What the inertia itself asks of a driver at speeds: Σ (∂Mₐᵦ/∂γ − ½ ∂Mᵦᵧ/∂α) vᵦ vᵧ (the
     /// terms of Lagrange's equations without accelerations; of one driver ½ J′ v²).
     #[must_use]
     pub fn centrifugal(&self, driver: usize, speed: &[f64]) -> f64 {

@@ -119,6 +119,22 @@ impl Path {
         &self.ends
     }
 
+    /// Writes state and rates at the end of every step, one after another: what [`Path::at`] and
+    /// [`Path::slope`] give there.
+    pub fn each_end(&self, mut tell: impl FnMut(f64, &[f64], &[f64])) {
+        let (mut y, mut rates) = (vec![0.0; self.n], vec![0.0; self.n]);
+        let steps = self.starts.iter().zip(&self.widths).zip(&self.ends);
+        for (((start, width), &end), rows) in steps.zip(self.rows.chunks_exact(self.stride.max(1)))
+        {
+            let theta = (end - start) / width;
+            for (i, (y, rate)) in y.iter_mut().zip(&mut rates).enumerate() {
+                *y = component(rows, self.n, theta, i);
+                *rate = component_slope(rows, self.n, theta, i) / width;
+            }
+            tell(end, &y, &rates);
+        }
+    }
+
     /// Writes the state at t; says whether t is on the path (else all is NaN). Where an event has
     /// changed the state, it is the one before.
     pub fn at(&self, t: f64, y: &mut [f64]) -> bool {

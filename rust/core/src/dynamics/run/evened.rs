@@ -130,7 +130,7 @@ fn even<E>(
 /// The inertia where a motion begins, kg·m².
 fn find_inertia(steady: Option<&Steady>) -> f64 {
     let of = |steady: &Steady| {
-        let speed = steady.run.moments.first()?.speed[0];
+        let speed = steady.run.moments.speed.first()?;
         Some(2.0 * steady.run.energies.first()?[0] / (speed * speed))
     };
     steady.and_then(of).filter(|size| size.is_finite()).unwrap_or(1.0)
@@ -140,7 +140,8 @@ impl Steady {
     /// The least and the greatest speed, without its sign, and where they are.
     #[must_use]
     pub fn extremes(&self) -> [Extreme; 2] {
-        let within = self.run.moments.iter().map(|one| (one.q[0], one.speed[0]));
+        let moments = &self.run.moments;
+        let within = moments.q.iter().copied().zip(moments.speed.iter().copied());
         let between = self.run.events.iter().map(|one| (one.q[0], one.speed[0]));
         let mut extremes = [f64::INFINITY, 0.0].map(|value| Extreme { at: f64::NAN, value });
         for (at, speed) in between.chain(within) {
@@ -158,19 +159,16 @@ impl Steady {
     /// Time of a period, s.
     #[must_use]
     pub fn period(&self) -> f64 {
-        let ends = [self.run.moments.first(), self.run.moments.last()];
-        ends.map(|one| one.map_or(f64::NAN, |one| one.t)).into_iter().fold(0.0, |a, b| b - a)
+        width(&self.run.moments.t)
     }
 
     /// The mean speed without its sign, rad/s.
     #[must_use]
     pub fn mean(&self, by: Mean) -> f64 {
         let [least, greatest] = self.extremes();
-        let ends = [self.run.moments.first(), self.run.moments.last()];
-        match (by, ends) {
-            (Mean::Extremes, _) => 0.5 * (least.value + greatest.value),
-            (Mean::Period, [Some(a), Some(b)]) => (b.q[0] - a.q[0]).abs() / self.period(),
-            _ => f64::NAN,
+        match by {
+            Mean::Extremes => 0.5 * (least.value + greatest.value),
+            Mean::Period => width(&self.run.moments.q).abs() / self.period(),
         }
     }
 
@@ -179,5 +177,13 @@ impl Steady {
     pub fn fluctuation(&self, by: Mean) -> f64 {
         let [least, greatest] = self.extremes();
         (greatest.value - least.value) / self.mean(by)
+    }
+}
+
+/// From the first number to the last.
+fn width(list: &[f64]) -> f64 {
+    match list {
+        [first, .., last] => last - first,
+        _ => f64::NAN,
     }
 }

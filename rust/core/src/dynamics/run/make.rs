@@ -1,12 +1,13 @@
 //! Makes a run.
 
 use super::equation::{Broken, Equation};
-use super::outcome::{Ending, Happened, Run, moment};
+use super::outcome::{Ending, Happened, Moments, Run, moment};
 use super::outside::Outside;
 use super::reader::TOGETHER;
 use super::source::{Moving, Sheet, Source};
 use super::tail::Tail;
 use super::task::{Along, Task};
+use super::tolerances::tolerances;
 use super::way::{Ended, Way};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::table::Table;
@@ -87,7 +88,7 @@ fn run<S: Source, O: Outside>(
     let mut integrator = Integrator::new(task.method, way.len());
     let start = Way::<S, O>::start(task);
     let solution = integrator.run(&mut way, from, &start, to, &options)?;
-    finish(way, task, from, solution, clipped)
+    Ok(finish(way, task, from, solution, clipped))
 }
 
 /// Where a run along the coordinate must end, as a table does, and which.
@@ -122,68 +123,6 @@ pub(super) fn finish_run<S: Source, O: Outside>(
     run(equation, task, &[1.0])
 }
 
-/// Relative and absolute tolerances of the state.
-fn tolerances<S: Source, O: Outside>(
-    way: &mut Way<'_, S, O>,
-    task: &Task<'_>,
-    sizes: &[f64],
-) -> Result<[Vec<f64>; 2], Broken<O::Error>> {
-    let (n, relative) = (task.q.len(), task.relative);
-    if task.along == Along::Coordinate {
-        let speed = task.speed[0].abs();
-        let of_speed = task.absolute.map_or(relative * speed * 1e-3, |[_, of_speed]| of_speed);
-        let absolute = vec![2.0 * of_speed * speed, relative / speed, f64::INFINITY];
-        return Ok([vec![relative, relative, 0.0], absolute]);
-    }
-    let mut absolute = Vec::with_capacity(2 * n + 1);
-    match task.absolute {
-        Some([of_q, of_speed]) => {
-            absolute.extend(std::iter::repeat_n(of_q, n));
-            absolute.extend(std::iter::repeat_n(of_speed, n));
-        }
-        None => {
-            absolute.extend(sizes.iter().map(|size| relative * size));
-            absolute.extend(typical_speeds(way, task, sizes)?.iter().map(|v| relative * v));
-        }
-    }
-    absolute.push(f64::INFINITY);
-    // An angle counts turns: its size says nothing.
-    let relative = [vec![0.0; n], vec![relative; n], vec![0.0]].concat();
-    Ok([relative, absolute])
-}
-
-/// A thousandth of the speeds that a motion may be expected to have: those at its beginning, or
-/// what its accelerations there make of them over a radian (the size, of a slide).
-fn typical_speeds<S: Source, O: Outside>(
-    way: &mut Way<'_, S, O>,
-    task: &Task<'_>,
-    sizes: &[f64],
-) -> Result<Vec<f64>, Broken<O::Error>> {
-    use crate::ode::Fault;
-    let n = task.q.len();
-    let mut accelerations = vec![0.0; n];
-    let equation = &mut way.equation;
-    let there = equation
-        .place(task.q)
-        .and_then(|()| equation.load(task.t, task.q, task.speed))
-        .and_then(|()| equation.accelerations(task.q, task.speed, &mut accelerations));
-    match there {
-        Err(Fault::Error(error)) => return Err(error),
-        // The run will end where it begins.
-        Err(Fault::NotThere) => accelerations.fill(0.0),
-        Ok(()) => {}
-    }
-    let typical = |driver: usize| {
-        let own = task.speed[driver].abs();
-        own.max((accelerations[driver].abs() * sizes[driver]).sqrt())
-    };
-    let most = (0..n).map(typical).fold(0.0, f64::max);
-    // What rests in balance is measured by a size a second.
-    let of =
-        |driver: usize| if most > 0.0 { typical(driver).max(1e-3 * most) } else { sizes[driver] };
-    Ok((0..n).map(|driver| 1e-3 * of(driver)).collect())
-}
-
 /// Nothing is beyond: why, and where that was found.
 fn edge(refused: &mut Option<(Status, Vec<f64>)>) -> Ending {
     let (status, q) = refused.take().unwrap_or((Status::Singular, Vec::new()));
@@ -196,7 +135,7 @@ fn finish<S: Source, O: Outside>(
     from: f64,
     solution: Solution,
     clipped: Option<usize>,
-) -> Result<Run, RunError<O::Error>> {
+) -> Run {
     let Solution { end, events, event_states, path, statistics, y: y_end, .. } = solution;
     let (along, sign, len) = (way.along, way.sign, way.len());
     let read = |x: f64, y: &[f64]| moment(along, sign, x, y, &vec![f64::NAN; len]);
@@ -223,36 +162,35 @@ fn finish<S: Source, O: Outside>(
         (End::StepLimit { stiff, .. }, _) => Ending::StepLimit(stiff),
         (End::Stalled { .. }, _) => Ending::Stalled,
     };
-    let mut moments = Vec::with_capacity(path.ends().len() + 1);
+    let mut moments = Moments::default();
     let (mut y, mut rates) = (vec![0.0; len], vec![0.0; len]);
-    for &x in [from].iter().chain(path.ends()) {
-        if path.at(x, &mut y) && path.slope(x, &mut rates) {
-            moments.push(moment(along, sign, x, &y, &rates));
-        }
+    if path.at(from, &mut y) && path.slope(from, &mut rates) {
+        moments.read(along, sign, from, &y, &rates);
+    } else {
+        moments.push(&read(from, &Way::<S, O>::start(task)));
     }
-    if moments.is_empty() {
-        moments.push(read(from, &Way::<S, O>::start(task)));
-    }
+    path.each_end(|x, y, rates| moments.read(along, sign, x, y, rates));
     let tail = match (&ending, moments.last()) {
         (Ending::Edge(..), Some(last)) if last.q.len() == 1 => {
             let fold = way.equation.source.fold(last.q[0], last.speed[0]);
-            fold.and_then(|fold| Tail::of(last, fold))
+            fold.and_then(|fold| Tail::of(&last, fold))
         }
         _ => None,
     };
     // Backward: with several drivers each place is reached from the one before.
     let mut energies = vec![[f64::NAN; 2]; moments.len()];
-    for (pair, moment) in energies.iter_mut().zip(&moments).rev() {
-        if way.equation.reader.place(way.equation.tables, moment.q[0]).is_ok()
-            && way.equation.place(&moment.q).is_ok()
+    for (index, pair) in energies.iter_mut().enumerate().rev() {
+        let (q, speed) = moments.state(index);
+        if way.equation.reader.place(way.equation.tables, q[0]).is_ok()
+            && way.equation.place(q).is_ok()
         {
             let reduced = &way.equation.reduced;
-            *pair = [reduced.kinetic(&moment.speed), reduced.potential];
+            *pair = [reduced.kinetic(speed), reduced.potential];
         }
     }
     if let (Some(tail), Some(&energy)) = (&tail, energies.last()) {
-        moments.push(tail.end());
+        moments.push(&tail.end());
         energies.push(energy);
     }
-    Ok(Run { moments, energies, events, ending, statistics, along, sign, path, tail })
+    Run { moments, energies, events, ending, statistics, along, sign, path, tail }
 }

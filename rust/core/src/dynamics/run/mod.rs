@@ -11,12 +11,13 @@ mod source;
 mod steady;
 mod tail;
 mod task;
+mod tolerances;
 mod way;
 
 pub use equation::Broken;
 pub use evened::Wanted;
 pub use make::RunError;
-pub use outcome::{Ending, Happened, Moment, Run};
+pub use outcome::{Ending, Happened, Moment, Moments, Run};
 pub use outside::{Nothing, Outside};
 pub use source::Sheet;
 pub use steady::{Search, Steady, Unsteady};

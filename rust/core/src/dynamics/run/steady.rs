@@ -24,7 +24,7 @@ const FALL: f64 = 0.7;
 /// Where the end of a period depends less on its beginning than by this part, no speed is told.
 const NEUTRAL: f64 = 1.0e-7;
 /// Part of the work of a period that may be left over then: motors are given with so many digits.
-const BALANCED: f64 = 1.0e-3;
+const BALANCED: f64 = 1.0e-2;
 /// How far two periods may differ if functions from outside do not depend on the time.
 const SAME: f64 = 1.0e-7;
 
@@ -78,34 +78,34 @@ pub enum Unsteady<E> {
     )]
     NeedsSpeed,
     #[error(
-        "the motor cannot carry the load: begun at {from} rad/s and slower, the machine comes to rest at q = {q} rad"
+        "the motor cannot carry the load: begun at {from:.6} rad/s and slower, the machine comes to rest at q = {q:.6} rad"
     )]
     Stops { q: f64, from: f64 },
     #[error(
-        "no periodic motion was found below {from} rad/s: the motor's moment never makes up for the loads"
+        "no periodic motion was found below {from:.6} rad/s: the motor's moment never makes up for the loads"
     )]
     CannotCarry { from: f64 },
-    #[error("the machine runs away: the speed still grows over a period begun at {speed} rad/s")]
+    #[error("the machine runs away: the speed still grows over a period begun at {speed:.6} rad/s")]
     RunsAway { speed: f64 },
     #[error(
-        "nothing depends on the speed, and over a period the motor's mean moment is {motor} N·m where {needed} N·m would be in balance: the machine speeds up or stops (without a motor the moment is found)"
+        "nothing depends on the speed, and over a period the motor's mean moment is {motor:.6} N·m where {needed:.6} N·m would be in balance: the machine speeds up or stops (without a motor the moment is found)"
     )]
     Unbalanced { motor: f64, needed: f64 },
-    #[error("there is a dead point at q = {q}: the driver does not turn fully")]
+    #[error("there is a dead point at q = {q:.9}: the driver does not turn fully")]
     DeadPoint { q: f64 },
-    #[error("the motor's table ends at {speed} rad/s of the driver, met at q = {q}")]
+    #[error("the motor's table ends at {speed:.9} rad/s of the driver, met at q = {q:.6}")]
     MotorTableEnds { q: f64, speed: f64 },
     #[error(
         "the motion is another one from period to period: the machine is not the same a period on, or a function among its loads depends on the time"
     )]
     NotPeriodic,
     #[error(
-        "the fluctuation is {without} without a flywheel, not more than the {wanted} asked for: none is needed"
+        "the fluctuation is {without:.6} without a flywheel, not more than the {wanted} asked for: none is needed"
     )]
     AlreadyMet { without: f64, wanted: f64 },
     #[error("no flywheel gives a fluctuation of {wanted}")]
     NoFlywheel { wanted: f64 },
-    #[error("the time was over at q = {q}")]
+    #[error("the time was over at q = {q:.6}")]
     Cancelled { q: f64 },
     #[error("{0}")]
     Other(String),
@@ -114,7 +114,7 @@ pub enum Unsteady<E> {
 impl Steady {
     /// What a search near it begins with.
     pub(super) fn begin(&self) -> Begin {
-        let speed = self.run.moments.first().map_or(f64::NAN, |one| one.speed[0]);
+        let speed = self.run.moments.speed.first().copied().unwrap_or(f64::NAN);
         Begin { speed2: speed * speed, moment: self.moment, t: 0.0 }
     }
 }

@@ -1,0 +1,66 @@
+//! How accurate a run is.
+
+use super::equation::Broken;
+use super::outside::Outside;
+use super::source::Source;
+use super::task::{Along, Task};
+use super::way::Way;
+use crate::ode::Fault;
+
+/// Relative and absolute tolerances of the state.
+pub(super) fn tolerances<S: Source, O: Outside>(
+    way: &mut Way<'_, S, O>,
+    task: &Task<'_>,
+    sizes: &[f64],
+) -> Result<[Vec<f64>; 2], Broken<O::Error>> {
+    let (n, relative) = (task.q.len(), task.relative);
+    if task.along == Along::Coordinate {
+        let speed = task.speed[0].abs();
+        let of_speed = task.absolute.map_or(relative * speed * 1e-3, |[_, of_speed]| of_speed);
+        let absolute = vec![2.0 * of_speed * speed, relative / speed, f64::INFINITY];
+        return Ok([vec![relative, relative, 0.0], absolute]);
+    }
+    let mut absolute = Vec::with_capacity(2 * n + 1);
+    if let Some([of_q, of_speed]) = task.absolute {
+        absolute.extend(std::iter::repeat_n(of_q, n));
+        absolute.extend(std::iter::repeat_n(of_speed, n));
+    } else {
+        absolute.extend(sizes.iter().map(|size| relative * size));
+        absolute.extend(typical_speeds(way, task, sizes)?.iter().map(|v| relative * v));
+    }
+    absolute.push(f64::INFINITY);
+    // An angle counts turns: its size says nothing.
+    let relative = [vec![0.0; n], vec![relative; n], vec![0.0]].concat();
+    Ok([relative, absolute])
+}
+
+/// A thousandth of the speeds that a motion may be expected to have: those at its beginning, or
+/// what its accelerations there make of them over a radian (the size, of a slide).
+fn typical_speeds<S: Source, O: Outside>(
+    way: &mut Way<'_, S, O>,
+    task: &Task<'_>,
+    sizes: &[f64],
+) -> Result<Vec<f64>, Broken<O::Error>> {
+    let n = task.q.len();
+    let mut accelerations = vec![0.0; n];
+    let equation = &mut way.equation;
+    let there = equation
+        .place(task.q)
+        .and_then(|()| equation.load(task.t, task.q, task.speed))
+        .and_then(|()| equation.accelerations(task.q, task.speed, &mut accelerations));
+    match there {
+        Err(Fault::Error(error)) => return Err(error),
+        // The run will end where it begins.
+        Err(Fault::NotThere) => accelerations.fill(0.0),
+        Ok(()) => {}
+    }
+    let typical = |driver: usize| {
+        let own = task.speed[driver].abs();
+        own.max((accelerations[driver].abs() * sizes[driver]).sqrt())
+    };
+    let most = (0..n).map(typical).fold(0.0, f64::max);
+    // What rests in balance is measured by a size a second.
+    let of =
+        |driver: usize| if most > 0.0 { typical(driver).max(1e-3 * most) } else { sizes[driver] };
+    Ok((0..n).map(|driver| 1e-3 * of(driver)).collect())
+}
