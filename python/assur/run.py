@@ -126,7 +126,7 @@ class Run:
     >>> bodies = {"crank": assur.Body(inertia=0.3), "rocker": assur.Body(inertia=2.0)}
     >>> run = assur.Machine(wheel, bodies).run(t_end=10.0, q0=0.0, speed0=2.0)
     >>> run.at(10.0).q.round(6)
-    np.float64(22.474837)
+    np.float64(26.665873)
     >>> run.energy.error < 1e-9
     True
     """

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
+import press_motion
 import pytest
 
 import assur
@@ -221,6 +223,21 @@ def test_two_turns_of_a_kite() -> None:
     place = 1.0 + 2 * TURN * math.floor((run.q[-1] - 1.0) / (2 * TURN))
     crossed = machine.run(60.0, q0=1.0, speed0=7.0, events=[assur.events.Position(place)])
     assert abs(crossed.speed[-1] - own.speed[0]) < 1e-6
+
+
+def test_pictures() -> None:
+    steady = press(assur.LinearMotor(90.0, 30.0)).steady_state()
+    ax = steady.plot()
+    assert np.isfinite(ax.lines[0].get_ydata()).all()
+    run = press(assur.LinearMotor(90.0, 30.0)).run(1.0, events=[assur.events.Position(3.0, False)])
+    for what in ("speed", "q", "acceleration", "energy"):
+        ax = run.plot(what)
+        assert all(np.isfinite(line.get_ydata()).all() for line in ax.lines)
+    with pytest.raises(InputError, match="what is 'jerk'"):
+        run.plot("jerk")
+    figure = press_motion.draw(press_motion.press())
+    assert [len(ax.lines) for ax in figure.axes] == [1, 2]
+    plt.close("all")
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,139 @@
+//! Motions from Rust: a machine of a mechanism, and one of tables.
+
+use std::f64::consts::{PI, TAU};
+
+use assur::Mechanism;
+use assur::dynamics::{
+    Along, Body, Characteristic, Ending, Ends, Load, Machine, Mean, Motor, Nothing, Occasion,
+    Point, Search, Sheet, Table, Task, Unsteady, Value, Watch,
+};
+use assur::ode::{Crossing, Method};
+
+use crate::linkages::crank_rocker;
+
+fn task<'a>(q: &'a [f64], speed: &'a [f64], end: f64) -> Task<'a> {
+    Task {
+        along: Along::Time,
+        t: 0.0,
+        q,
+        speed,
+        end,
+        method: Method::DormandPrince853,
+        relative: 1e-12,
+        absolute: None,
+        max_step: f64::INFINITY,
+        max_steps: 100_000,
+        deadline: None,
+        breaks: &[],
+        watches: &[],
+        flywheel: 0.0,
+    }
+}
+
+fn search(span: f64, speed: Option<f64>) -> Search<'static> {
+    Search {
+        q: 0.0,
+        span,
+        speed,
+        method: Method::DormandPrince853,
+        relative: 1e-12,
+        max_steps: 100_000,
+        deadline: None,
+        breaks: &[],
+        flywheel: 0.0,
+    }
+}
+
+#[test]
+fn energy_stays_and_a_position_is_met() {
+    let mechanism = Mechanism::new(&crank_rocker()).expect("a mechanism");
+    let [coupler, rocker] = ["coupler", "rocker"].map(|name| mechanism.link(name).expect("a link"));
+    let machine = Machine {
+        bodies: vec![
+            Body {
+                link: coupler,
+                at: Point::Link { link: coupler, at: [2.0, 0.3] },
+                mass: 2.0,
+                inertia: 0.5,
+            },
+            Body { link: rocker, at: Point::Joint(2), mass: 1.0, inertia: 0.2 },
+            Body {
+                link: mechanism.link("crank").expect("a link"),
+                at: Point::Joint(0),
+                mass: 0.0,
+                inertia: 4.0,
+            },
+        ],
+        gravity: [0.0, -1.0],
+        ..Machine::default()
+    };
+    let watches = [Watch {
+        occasion: Occasion::Coordinate { driver: 0, value: 20.0 },
+        crossing: Crossing::Rising,
+        stops: true,
+    }];
+    let mut task = task(&[0.0], &[3.0], 60.0);
+    task.watches = &watches;
+    let run = machine.run(&mechanism, mechanism.drawing(), &task, Nothing).expect("a run");
+    assert_eq!(run.ending, Ending::Event(0));
+    let last = run.moments.last().expect("an end");
+    assert!((last.q[0] - 20.0).abs() < 1e-13);
+    let total: Vec<f64> =
+        run.energies.iter().map(|[kinetic, potential]| kinetic + potential).collect();
+    assert!(total.iter().all(|own| (own - total[0]).abs() < 1e-10 * total[0].abs()));
+    // Along the coordinate it takes the same time.
+    let mut along = task;
+    (along.along, along.end, along.watches) = (Along::Coordinate, 20.0, &[]);
+    let over = machine.run(&mechanism, mechanism.drawing(), &along, Nothing).expect("a run");
+    assert!((over.moments.last().expect("an end").t - last.t).abs() < 1e-10);
+    let there = over.at(10.0).expect("on the way");
+    assert!((run.at(there.t).expect("on the way").q[0] - 10.0).abs() < 1e-9);
+    assert!(over.at(21.0).is_none());
+}
+
+#[test]
+fn a_table_over_the_coordinate_does_its_work() {
+    let mechanism = Mechanism::new(&crank_rocker()).expect("a mechanism");
+    let crank = mechanism.link("crank").expect("a link");
+    let ground = mechanism.link("ground").expect("a link");
+    let torque =
+        Table::new(&[0.0, PI, TAU], &[1.0, 3.0, 1.0], Ends::Linear, true).expect("a table");
+    let machine = Machine {
+        bodies: vec![Body { link: crank, at: Point::Joint(0), mass: 0.0, inertia: 2.0 }],
+        loads: vec![Load::Torque { link: crank, on: ground, torque: Value::Table(0) }],
+        tables: vec![torque],
+        ..Machine::default()
+    };
+    let task = Task { along: Along::Coordinate, ..task(&[0.0], &[1.0], TAU) };
+    let run = machine.run(&mechanism, mechanism.drawing(), &task, Nothing).expect("a run");
+    // Work of 2 N·m over a turn.
+    let speed = run.moments.last().expect("an end").speed[0];
+    assert!((speed - (1.0 + 2.0 * TAU).sqrt()).abs() < 1e-12, "{speed}");
+    assert_eq!(run.statistics.restarts, 1);
+}
+
+#[test]
+fn tables_with_a_motor_come_to_a_periodic_motion() {
+    let flat = |value: f64| Table::new(&[0.0, TAU], &[value, value], Ends::Linear, true);
+    let motor = |stall: f64| Motor {
+        driver: 0,
+        ratio: 2.0,
+        rotor_inertia: 0.25,
+        characteristic: Characteristic::Linear { stall, no_load: 30.0 },
+    };
+    let sheet = |stall: f64| Sheet {
+        tables: vec![flat(3.0).expect("a table"), flat(-8.0).expect("a table")],
+        motors: vec![motor(stall)],
+    };
+    let steady = sheet(10.0).steady(&search(TAU, None), None, Nothing).expect("a motion");
+    // 2 · 10 (1 − 2 ω/30) = 8.
+    assert!((steady.mean(Mean::Period) - 9.0).abs() < 1e-12);
+    // Inertia 3 + 4 · 0.25, slope 4 · 10/30.
+    assert!((steady.multiplier - (-TAU * 4.0 / 3.0 / (4.0 * 9.0)).exp()).abs() < 1e-11);
+    assert!((steady.drive - 8.0 * TAU).abs() < 1e-10);
+    let weak = sheet(3.9).steady(&search(TAU, None), None, Nothing);
+    assert!(matches!(weak, Err(Unsteady::Stops { .. } | Unsteady::CannotCarry { .. })), "{weak:?}");
+    let unknown = Sheet { motors: vec![], ..sheet(1.0) };
+    let unknown = unknown.steady(&search(TAU, None), None, Nothing);
+    assert_eq!(unknown.unwrap_err(), Unsteady::NeedsSpeed);
+}
