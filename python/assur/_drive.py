@@ -13,7 +13,8 @@ import numpy as np
 from assur import events as known_events
 from assur import flywheel as flywheels
 from assur._checks import real_array
-from assur.errors import AssurWarning, InputError
+from assur.errors import AssurWarning, InputError, PositionError
+from assur.loads import Table
 from assur.motors import ConstantTorque
 from assur.run import Run
 from assur.steady import SteadyState
@@ -26,12 +27,18 @@ if TYPE_CHECKING:
     from assur.machine import Machine
 
 METHODS = ("DOP853", "RK45")
+# Errors below cannot be told from rounding (`assur::ode`).
+LEAST_RTOL = 2.3e-15
 # Ends of a run that nobody asked for.
 CUT_SHORT = ("lost", "table ends", "motor table ends", "stalled", "step limit", "time limit")
 # Part of a period by which a table's may differ from it: tables end with typed numbers.
 FITS = 1e-9
 # Part by which a constant motor may differ from what the loads take: torques are typed too.
 GIVEN = 1e-2
+# Knots of loads in a turn, at most.
+MOST_KNOTS = 100_000
+# Part by which inertia and moment may differ a turn on.
+SAME = 1e-7
 # Part of the motor's moment from which on it is told that it was mended.
 MENDED = 1e-6
 # Rows of the first table of `flywheel`, and of the last; each has twice those before.
@@ -52,7 +59,7 @@ def run(
         message = "one of t_end and q_end is needed, not both"
         raise InputError(message)
     functions: list[Function] = []
-    watched = list(options["events"])
+    watched = listed(options["events"], "events")
     n = machine._drivers
     watches = [known_events.parts(one, machine.mechanism, n, functions) for one in watched]
     start, speeds = _start(machine, q0, "q0"), _start(machine, speed0, "speed0")
@@ -66,22 +73,32 @@ def run(
     if along_q and (end - start[0]) * speeds[0] < 0.0:
         message = f"q_end = {end:g} lies behind q0 = {start[0]:g} at speed0 = {speeds[0]:g}"
         raise InputError(message, value=end)
-    core = machine._core.run(
-        _dimensions(machine),
-        along_q,
-        (_number(t0, "t0"), start, speeds),
-        end,
-        _is_low(options["method"]),
-        (_number(options["rtol"], "rtol"), _pair(options["atol"])),
-        (
-            _number(options["max_step"], "max_step", finite=False),
-            _count(options["max_steps"]),
-            _seconds(options["max_seconds"]),
-        ),
-        _breaks(options["breaks"]),
-        watches,
-        (machine._outside.functions, functions),
-    )
+    try:
+        core = machine._core.run(
+            _dimensions(machine),
+            along_q,
+            (_number(t0, "t0"), start, speeds),
+            end,
+            _is_low(options["method"]),
+            (_relative(options["rtol"]), _pair(options["atol"])),
+            (
+                _positive(options["max_step"], "max_step"),
+                _count(options["max_steps"]),
+                _seconds(options["max_seconds"]),
+            ),
+            _breaks(options["breaks"]),
+            watches,
+            (machine._outside.functions, functions),
+        )
+    except PositionError as error:
+        q = start[0] if n == 1 else np.array(start)
+        why = (
+            ""
+            if machine.mechanism is None
+            else machine.mechanism.solve(q, order=1, on_error="nan").explain()
+        )
+        message = f"{why or error}: a run cannot begin there (q0)"
+        raise PositionError(message, q=start[0] if n == 1 else tuple(start)) from error
     made = Run(core, machine.mechanism, n, watched, along_q)
     if made.end in CUT_SHORT:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)
@@ -112,7 +129,7 @@ def steady_state(
         [_start(machine, q0, "q0")[0], span],
         guess,
         _is_low(options["method"]),
-        _number(options["rtol"], "rtol"),
+        _relative(options["rtol"]),
         (_count(options["max_steps"]), _seconds(options["max_seconds"])),
         _breaks(options["breaks"]),
         flywheel,
@@ -134,7 +151,9 @@ def flywheel(
 ) -> Flywheel | SteadyState:
     """See `Machine.flywheel`."""
     turning(machine, "a flywheel")
-    constant = machine.motor is None or isinstance(machine.motor, ConstantTorque)
+    flywheels._one_of(on_error, ("raise", "nan"), "on_error")
+    torque: Any = 0.0 if machine.motor is None else getattr(machine.motor, "torque", None)
+    constant = torque is not None and not callable(torque) and not isinstance(torque, Table)
     if mean_speed is None:
         if machine.motor is None:
             message = "without a motor that tells the speed mean_speed is needed"
@@ -146,13 +165,13 @@ def flywheel(
         return machine.steady_state(mean=mean, _wanted=wanted)
     if not constant:
         message = (
-            f"the speed follows from the motor {machine.motor!r}: leave mean_speed out, or build "
-            "the machine without a motor"
+            f"{machine.motor!r} is no constant motor, its own torque counts: leave mean_speed out, "
+            "or build the machine without a motor"
         )
         raise InputError(message)
     made = _from_rows(machine, fluctuation, mean_speed, mean, on_error)
-    if isinstance(machine.motor, ConstantTorque) and isinstance(machine.motor.torque, int | float):
-        own = machine.motor.ratio * machine.motor.torque
+    if isinstance(machine.motor, ConstantTorque):
+        own = float(machine.motor.ratio) * float(torque)
         off = np.abs(np.asarray(made.motor_moment) - own) > GIVEN * abs(own)
         if off.any():
             needed = np.asarray(made.motor_moment).ravel()[int(np.argmax(off))]
@@ -176,6 +195,8 @@ def _from_rows(
         phi, corners = _rows(knots, rows)
         own_speed = speed[..., np.newaxis] if speed.ndim else speed
         inertia, _, moment, _ = machine._reduce(phi, own_speed, on_error)
+        if last is None:
+            _same_a_turn_on(machine, phi, own_speed, on_error, inertia, moment)
         own = flywheels._flywheel(
             phi,
             moment[..., 0],
@@ -203,17 +224,35 @@ def _from_rows(
         last, rows = own, 2 * rows
 
 
+def _same_a_turn_on(
+    machine: Machine, phi: Any, speed: Any, on_error: str, inertia: Any, moment: Any
+) -> None:
+    """Refuse a motion or a load that is another one after a turn."""
+    later, _, other, _ = machine._reduce(phi + 2.0 * math.pi, speed, on_error)
+    for name, one, two in (("inertia", inertia, later), ("moment", moment, other)):
+        size = np.nanmax(np.abs(one), initial=0.0)
+        off = np.abs(two - one)
+        if (off > SAME * size).any():
+            message = (
+                f"the reduced {name} is another one after a turn (by {np.nanmax(off):.3g}): there "
+                "is no flywheel of one turn"
+            )
+            raise InputError(message)
+
+
 def _knots(machine: Machine) -> list[float]:
     """Where loads are not smooth within a turn, its ends included."""
     turn = 2.0 * math.pi
     found = {0.0, turn}
     for rows, _, _, periodic in machine._outside.tables:
         first, period = rows[0], rows[-1] - rows[0]
-        if periodic:
-            _fits(period, turn)
+        _fits(period if periodic else None, turn)
         steps = range(math.floor(-first / period) - 1, math.ceil((turn - first) / period) + 1)
-        for shift in steps if periodic else (0,):
+        for shift in steps:
             found |= {q + shift * period for q in rows}
+            if len(found) > MOST_KNOTS:
+                message = f"a table's period of {period:g} rad has too many knots in a turn"
+                raise InputError(message, value=period)
     knots = sorted(q for q in found if 0.0 <= q <= turn)
     # What is nearer is rounding.
     kept = [q for q, before in zip(knots, [-1.0, *knots], strict=False) if q - before > FITS]
@@ -266,8 +305,16 @@ def _dimensions(machine: Machine) -> list[float]:
     return dimensions
 
 
+def listed(value: Any, name: str) -> list[Any]:
+    """A sequence as a list, or an error that names it."""
+    if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
+        message = f"{name} is {value!r}: a sequence of them is needed"
+        raise InputError(message)
+    return list(value)
+
+
 def _start(machine: Machine, value: npt.ArrayLike | None, name: str) -> list[float]:
-    if value is None:
+    if value is None and name == "q0":
         value = (
             machine._outside.tables[0][0][0] if machine.mechanism is None else machine.mechanism.q0
         )
@@ -291,8 +338,24 @@ def _number(value: Any, name: str, finite: bool = True) -> float:
     return float(array)
 
 
+def _positive(value: Any, name: str) -> float:
+    number = _number(value, name, finite=False)
+    if not number > 0.0:
+        message = f"{name} is {value!r}: it must be positive"
+        raise InputError(message, value=number)
+    return number
+
+
+def _relative(rtol: Any) -> float:
+    number = _number(rtol, "rtol")
+    if not LEAST_RTOL <= number < 1.0:
+        message = f"rtol is {rtol!r}: it must be from {LEAST_RTOL} to below 1"
+        raise InputError(message, value=number)
+    return number
+
+
 def _is_low(method: Any) -> bool:
-    if method not in METHODS:
+    if not isinstance(method, str) or method not in METHODS:
         message = f"method is {method!r}: one of {', '.join(map(repr, METHODS))}"
         raise InputError(message)
     return bool(method == "RK45")
@@ -305,12 +368,19 @@ def _pair(atol: Any) -> list[float] | None:
     if array.shape not in ((), (2,)):
         message = f"atol is {atol!r}: a number, or one for the coordinate and one for the speed"
         raise InputError(message)
+    if not (np.isfinite(array).all() and (array > 0.0).all()):
+        message = f"atol is {atol!r}: positive and finite numbers are needed"
+        raise InputError(message)
     pair: list[float] = np.broadcast_to(array, (2,)).tolist()
     return pair
 
 
 def _breaks(breaks: Any) -> list[float]:
-    ordered: list[float] = sorted(real_array(breaks, "breaks").ravel().tolist())
+    array = real_array(() if breaks is None else breaks, "breaks")
+    if not np.isfinite(array).all():
+        message = f"breaks is {breaks!r}: finite numbers are needed"
+        raise InputError(message)
+    ordered: list[float] = sorted(array.ravel().tolist())
     return ordered
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -105,7 +106,8 @@ class Crossing:
     Parameters
     ----------
     function : callable
-        Called with floats (with several drivers q and speed are tuples); smooth near its zeros.
+        Called with floats (with several drivers q and speed are tuples); smooth near its zeros. It
+        is looked at some six times a step: one that changes faster needs `max_step`.
     stop : bool
         Whether the run ends there.
     direction : {"either", "rising", "falling"}
@@ -130,33 +132,58 @@ def parts(
             "assur.events"
         )
         raise InputError(message)
-    direction = "either" if isinstance(event, Rest) else event.direction
-    if direction not in SIGNS:
-        message = f"{event!r}: direction is one of {', '.join(SIGNS)}"
-        raise InputError(message)
-    ending = SIGNS[direction], bool(event.stop)
+    sign = 0 if isinstance(event, Rest) else _sign(event, event.direction)
+    ending = sign, bool(event.stop)
     if isinstance(event, Crossing):
-        function: Any = event.function
-        if not callable(function):
-            message = f"{event!r}: a function of (t, q, speed) is needed"
-            raise InputError(message)
-        functions.append(function)
+        functions.append(_function(event, event.function))
         return "function", len(functions) - 1, 0.0, [], False, *ending
     if isinstance(event, TransmissionAngle):
-        if mechanism is None:
-            message = f"{event!r}: this machine is a table and has no joints"
-            raise InputError(message)
-        lines, complement = transmission.lines(mechanism, event.name, event.between)
-        limit = _number(event.limit, "the limit of a TransmissionAngle")
-        told = [_line(mechanism, line) for line in lines]
+        limit, told, complement = _angle(event, event.name, mechanism)
         return "angle", 0, limit, told, complement, *ending
-    if not 0 <= event.driver < drivers:
+    driver = _driver(event, event.driver, drivers)
+    if isinstance(event, Position):
+        return "coordinate", driver, _number(event.q, "Position q"), [], False, *ending
+    value = 0.0 if isinstance(event, Rest) else _number(event.speed, "Speed speed")
+    return "speed", driver, value, [], False, *ending
+
+
+def _sign(event: Any, direction: Any) -> int:
+    if not isinstance(direction, str) or direction not in SIGNS:
+        message = f"{event!r}: direction is one of {', '.join(SIGNS)}"
+        raise InputError(message)
+    return SIGNS[direction]
+
+
+def _function(event: Any, function: Any) -> Function:
+    if not callable(function):
+        message = f"{event!r}: a function of (t, q, speed) is needed"
+        raise InputError(message)
+    own: Function = function
+    return own
+
+
+def _driver(event: Any, driver: Any, drivers: int) -> int:
+    if not isinstance(driver, int) or not 0 <= driver < drivers:
         message = f"{event!r}: there are {drivers} drivers, counted from 0"
         raise InputError(message)
-    if isinstance(event, Position):
-        return "coordinate", event.driver, _number(event.q, "Position q"), [], False, *ending
-    value = 0.0 if isinstance(event, Rest) else _number(event.speed, "Speed speed")
-    return "speed", event.driver, value, [], False, *ending
+    return driver
+
+
+def _angle(
+    event: TransmissionAngle, name: Any, mechanism: Mechanism | None
+) -> tuple[float, list[Any], bool]:
+    if mechanism is None:
+        message = f"{event!r}: this machine is a table and has no joints"
+        raise InputError(message)
+    if not isinstance(name, str):
+        message = f"{event!r}: the name of a joint or slide is needed"
+        raise InputError(message)
+    limit = _number(event.limit, "the limit of a TransmissionAngle")
+    if not 0.0 < limit <= 0.5 * math.pi:
+        message = f"{event!r}: a transmission angle is acute: more than 0 and up to π/2 rad"
+        raise InputError(message, value=limit)
+    lines, complement = transmission.lines(mechanism, name, event.between)
+    return limit, [_line(mechanism, line) for line in lines], complement
 
 
 def _line(mechanism: Mechanism, line: transmission.Line) -> tuple[str, Any]:

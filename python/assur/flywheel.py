@@ -440,7 +440,7 @@ def _flywheel(
     if x.size < 2:
         message = f"the table has {x.size} rows: at least 2 are needed"
         raise InputError(message)
-    _doubt(float(x[-1] - x[0]))
+    doubt(float(x[-1] - x[0]))
     for column, name in ((m, "moment"), (i, "inertia")):
         if column.ndim == 0 or column.shape[-1] != x.size:
             message = (
@@ -471,8 +471,10 @@ def _flywheel(
     return result
 
 
-def _doubt(span: float) -> None:
+def doubt(span: float, periodic: bool = True) -> None:
     """Warn of a period that is neither turns nor a part of one: most likely degrees."""
+    if not periodic:
+        return
     turns = span / (2.0 * np.pi)
     ratio = max(turns, 1.0 / turns) if turns > 0.0 else 1.0
     if abs(ratio - round(ratio)) > WHOLE * ratio:

@@ -143,7 +143,7 @@ class Force:
         if not isinstance(force, tuple | list) or len(force) != 2:
             message = f"Force: {self.force!r} is not two components (fx, fy)"
             raise InputError(message)
-        links = [] if self.axes is None else [self.axes]
+        links = [] if self.axes is None else [_name(self.axes, "Force axes")]
         return "force", [_place(self.at)], links, [], [tell(value) for value in self.force]
 
 
@@ -166,7 +166,7 @@ class Torque:
     on: str = "ground"
 
     def _parts(self, tell: Any) -> Parts:
-        return "torque", [], [self.link, self.on], [], [tell(self.torque)]
+        return "torque", [], _links(self), [], [tell(self.torque)]
 
 
 @dataclass(frozen=True)
@@ -193,7 +193,7 @@ class Spring:
 
     def _parts(self, _: Any) -> Parts:
         numbers = _numbers(self, "stiffness", "length", "preload")
-        return "spring", [_place(self.first), _place(self.second)], [], numbers, []
+        return "spring", _ends(self), [], numbers, []
 
 
 @dataclass(frozen=True)
@@ -222,7 +222,7 @@ class TorsionSpring:
 
     def _parts(self, _: Any) -> Parts:
         numbers = _numbers(self, "stiffness", "angle", "preload")
-        return "torsion spring", [], [self.link, self.on], numbers, []
+        return "torsion spring", [], _links(self), numbers, []
 
 
 @dataclass(frozen=True)
@@ -235,7 +235,7 @@ class Damper:
 
     def _parts(self, _: Any) -> Parts:
         numbers = _numbers(self, "damping")
-        return "damper", [_place(self.first), _place(self.second)], [], numbers, []
+        return "damper", _ends(self), [], numbers, []
 
 
 @dataclass(frozen=True)
@@ -247,7 +247,7 @@ class TorsionDamper:
     on: str = "ground"
 
     def _parts(self, _: Any) -> Parts:
-        return "torsion damper", [], [self.link, self.on], _numbers(self, "damping"), []
+        return "torsion damper", [], _links(self), _numbers(self, "damping"), []
 
 
 Load: TypeAlias = Gravity | Force | Torque | Spring | TorsionSpring | Damper | TorsionDamper
@@ -290,7 +290,7 @@ def _called(function: Function, q: Any, speed: Any) -> float:
     value: Any = function(0.0, q, speed)
     try:
         return float(value)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         name = getattr(function, "__name__", repr(function))
         message = f"the load {name}(t, q, speed) gave {value!r} at q = {q}: a number is needed"
         raise InputError(message) from error
@@ -306,6 +306,28 @@ def _number(value: Any, what: str) -> float:
 
 def _numbers(load: Any, *names: str) -> list[float]:
     return [_number(getattr(load, name), f"{type(load).__name__} {name}") for name in names]
+
+
+def _name(name: Any, what: str) -> str:
+    if isinstance(name, str):
+        return name
+    message = f"{what} is {name!r}: the name of a link is needed"
+    raise InputError(message)
+
+
+def _links(load: Any) -> list[str]:
+    kind = type(load).__name__
+    if load.link == load.on:
+        message = f"{kind}: link and on are both {load.link!r}: between them nothing turns"
+        raise InputError(message, link=load.link)
+    return [_name(load.link, f"{kind} link"), _name(load.on, f"{kind} on")]
+
+
+def _ends(load: Any) -> list[Any]:
+    if load.first == load.second:
+        message = f"{type(load).__name__}: both ends are {load.first!r}: it has no length"
+        raise InputError(message)
+    return [_place(load.first), _place(load.second)]
 
 
 def _place(at: Any) -> Any:

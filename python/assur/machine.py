@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from assur import _core, _drive, motors
-from assur._checks import checked_threads, real_array
-from assur.errors import InputError, PositionError
+from assur import _core, _drive, _reduce, motors
+from assur._checks import real_array
+from assur.errors import InputError
+from assur.flywheel import doubt
 from assur.loads import Body, Gravity, Outside, Table
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from assur.events import Event
     from assur.flywheel import Flywheel, Mean, Spline
@@ -95,14 +97,17 @@ class Machine:
         loads: Sequence[Load] = (),
         motor: Motor | Sequence[Motor | None] | None = None,
     ) -> None:
+        _check(mechanism, bodies)
         self.mechanism = mechanism
         self.bodies = dict(bodies)
-        self.loads = tuple(loads)
-        self.motor = motor
+        self.loads = tuple(_drive.listed(loads, "loads"))
         self._drivers = int(np.size(mechanism.q0))
+        # Of one driver the motor itself.
+        is_list = isinstance(motor, list | tuple) and len(motor) == 1 == self._drivers
+        self.motor = motor[0] if is_list else motor  # type: ignore[index]
         self._made: tuple[Any, ...] = (
             Machine,
-            (mechanism, self.bodies, self.loads, motor),
+            (mechanism, self.bodies, self.loads, self.motor),
         )
         outside = Outside()
         gravity = np.zeros(2)
@@ -116,11 +121,14 @@ class Machine:
                 message = f"{load!r} is no load: Gravity, Force, Torque, Spring, Damper …"
                 raise InputError(message)
         told = [_body(mechanism, link, body) for link, body in self.bodies.items()]
-        turning = _motors(motor, self._drivers, outside)
+        turning = _motors(self.motor, self._drivers, outside)
         self._outside = outside
         self._core = _core.Machine(
             mechanism._core, told, parts, gravity.tolist(), outside.tables, turning
         )
+        if mechanism.driver not in mechanism.slides:
+            for rows, _, _, periodic in outside.tables:
+                doubt(rows[-1] - rows[0], periodic)
 
     @classmethod
     def from_table(
@@ -172,6 +180,10 @@ class Machine:
                 message = f"phi has the shape {x.shape}, {name} {y.shape}: two lists are needed"
                 raise InputError(message)
             outside.tell(Table(x, y, spline, periodic))
+        if x.size < 2:
+            message = f"the table has {x.size} rows: at least 2 are needed"
+            raise InputError(message)
+        doubt(float(x[-1] - x[0]), periodic)
         least = float(np.min(real_array(inertia, "inertia")))
         if not least > 0.0:
             message = f"the inertia is {least:g} kg·m² in the table, it must be positive everywhere"
@@ -526,77 +538,9 @@ class Machine:
         )
 
     def _reduce(
-        self, q: npt.ArrayLike, speed: npt.ArrayLike, on_error: str, threads: int | None = None
+        self, q: npt.ArrayLike, speed: npt.ArrayLike, on_error: str
     ) -> tuple[Float, Float, Float, Float]:
-        if on_error not in ("raise", "nan"):
-            message = f"on_error is {on_error!r}: 'raise' or 'nan'"
-            raise InputError(message)
-        n, designs = self._drivers, self.shape
-        x, v = real_array(q, "q"), real_array(speed, "speed")
-        if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
-            message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
-            raise InputError(message)
-        places = x.shape if n == 1 else x.shape[:-1]
-        shape = _with_designs(places, designs)
-        full = shape if n == 1 else (*shape, n)
-        try:
-            x, v = np.broadcast_to(x, full), np.broadcast_to(v, full)
-        except ValueError as error:
-            message = f"speed has the shape {v.shape}, q {x.shape}: they do not fit"
-            raise InputError(message) from error
-        flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
-        given = self._outside.numbers(flat.reshape(-1, n), speeds.reshape(-1, n))
-        values = np.empty(0) if self.mechanism is None else self.mechanism._values
-        dimensions = np.ascontiguousarray(values).ravel()
-        *arrays, status = self._core.reduce(
-            dimensions, flat, speeds, given, checked_threads(threads)
-        )
-        # All but NEAR_SINGULAR, whose analogues are there.
-        failed = np.flatnonzero(status > 1)
-        if on_error == "raise" and failed.size:
-            self._refuse(x, shape, int(failed[0]))
-        inertia, rates, moment, potential = arrays
-        beyond = np.flatnonzero(np.isnan(moment).reshape(-1, n).any(axis=1) & (status < 2))
-        if on_error == "raise" and beyond.size:
-            at = flat.reshape(-1, n)[beyond[0]]
-            message = (
-                f"q = {at[0]:g}: a load has no value there (a table ends, or a function gave nan)"
-            )
-            raise InputError(message, q=x[np.unravel_index(int(beyond[0]), shape) if shape else ()])
-        return (
-            inertia.reshape(*shape, n, n),
-            rates.reshape(*shape, n, n, n),
-            moment.reshape(*shape, n),
-            potential.reshape(shape),
-        )
-
-    def _refuse(self, q: Float, shape: tuple[int, ...], flat: int) -> None:
-        place = tuple(int(k) for k in np.unravel_index(flat, shape)) if shape else ()
-        if self.mechanism is None:
-            message = f"q = {q[place]:g} is beyond the table"
-            raise InputError(message, q=q[place])
-        design = place[: len(self.shape)]
-        one = self.mechanism.design(design) if design else self.mechanism
-        told = one.solve(q[place], order=1, on_error="nan").explain()
-        where = f"design {design}: " if design else ""
-        message = f"{where}{told}; nothing can be referred to the driver there"
-        raise PositionError(message, q=q[place], design=design or None)
-
-
-def _with_designs(places: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
-    """Shape of the result: q is a number, (N,) or S + (N,)."""
-    if not designs:
-        return places
-    if len(places) <= 1:
-        return (*designs, *places)
-    try:
-        np.broadcast_to(np.empty(places[:-1]), designs)
-    except ValueError as error:
-        message = (
-            f"q has the shape {places}: with designs {designs} it is a number, (N,) or S + (N,)"
-        )
-        raise InputError(message) from error
-    return (*designs, places[-1])
+        return _reduce.reduce(self, q, speed, on_error)
 
 
 def _motors(motor: Any, drivers: int, outside: Outside) -> list[motors.MotorParts]:
@@ -610,7 +554,19 @@ def _motors(motor: Any, drivers: int, outside: Outside) -> list[motors.MotorPart
     return [motors.parts(one, driver, outside) for driver, one in pairs if one is not None]
 
 
-def _body(mechanism: Mechanism, link: str, body: Any) -> tuple[str, Any, float, float]:
+def _check(mechanism: Any, bodies: Any) -> None:
+    if not hasattr(mechanism, "q0"):
+        message = f"{mechanism!r} is no assur.Mechanism"
+        raise InputError(message)
+    if not isinstance(bodies, Mapping):
+        message = f"bodies is {bodies!r}: a mapping of links to assur.Body is needed"
+        raise InputError(message)
+
+
+def _body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Any, float, float]:
+    if not isinstance(link, str):
+        message = f"bodies has {link!r}: names of links are needed"
+        raise InputError(message)
     if not isinstance(body, Body):
         message = f"bodies[{link!r}] is {body!r}: an assur.Body is needed"
         raise InputError(message)
@@ -619,8 +575,11 @@ def _body(mechanism: Mechanism, link: str, body: Any) -> tuple[str, Any, float, 
     if at is None and joints:
         at = joints[0]
     elif not isinstance(at, str):
-        x, y = (0.0, 0.0) if at is None else real_array(at, f"at of the body {link!r}")
-        at = link, [float(x), float(y)]
+        place = real_array((0.0, 0.0) if at is None else at, f"at of the body {link!r}")
+        if place.shape != (2,) or not np.isfinite(place).all():
+            message = f"bodies[{link!r}]: at is {at!r}, a joint or two finite numbers are needed"
+            raise InputError(message, link=link)
+        at = link, place.tolist()
     elif link in mechanism.links and at not in joints:
         message = f"bodies[{link!r}]: joint {at!r} is not one of its joints {', '.join(joints)}"
         raise InputError(message, joint=at, link=link)

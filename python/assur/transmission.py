@@ -32,12 +32,10 @@ def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
     return 0.5 * np.pi - acute if complement else acute
 
 
-def lines(
-    mechanism: Mechanism, name: str, between: tuple[str, ...] | None
-) -> tuple[list[Line], bool]:
+def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bool]:
     """Which two lines meet there, and whether the complement of their angle is meant."""
     if between is not None:
-        if len(between) != 2 or len({name, *between}) != 3:
+        if not isinstance(between, tuple | list) or len(between) != 2 or len({name, *between}) != 3:
             message = f"between={between!r}: two joints are needed, neither of them {name!r}"
             raise InputError(message, joint=name)
         for joint in (name, *between):

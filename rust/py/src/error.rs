@@ -124,6 +124,11 @@ pub(crate) fn input(message: String, value: Option<f64>) -> PyErr {
     raise("InputError", message, &Fields { value, ..Fields::default() })
 }
 
+/// A `PositionError`.
+pub(crate) fn position(message: String) -> PyErr {
+    raise("PositionError", message, &Fields::default())
+}
+
 /// The first name in quotes of a list made for a sentence.
 fn first_quoted(text: &str) -> Option<&str> {
     text.split('"').nth(1)

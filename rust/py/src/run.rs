@@ -56,7 +56,8 @@ fn call(
             );
             let shown = given.repr()?;
             let message = format!(
-                "the {what} {name}(t, q, speed) gave {shown} at t = {t}, q = {q:?}: a finite number is needed"
+                "the {what} {name}(t, q, speed) gave {shown} at t = {t}, q = {}: a finite number is needed",
+                q.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
             );
             Err(error::input(message, None))
         }
@@ -111,6 +112,9 @@ impl Outside for Calls {
 pub(crate) fn broken(error: RunError<PyErr>) -> PyErr {
     match error {
         Error::System(Broken::Outside(error)) => error,
+        Error::System(nothing @ Broken::NothingThere { .. }) => {
+            error::position(nothing.to_string())
+        }
         Error::System(other) => error::input(other.to_string(), None),
         other => error::input(other.to_string(), None),
     }

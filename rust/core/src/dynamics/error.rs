@@ -2,6 +2,17 @@
 
 use thiserror::Error;
 
+/// A number in six digits, for a sentence.
+pub(super) fn short(value: f64) -> String {
+    if value == 0.0 || !(1e-4..1e6).contains(&value.abs()) {
+        return if value == 0.0 { "0".into() } else { format!("{value:.5e}") };
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 9")]
+    let places = (5.0 - value.abs().log10().floor()).max(0.0) as usize;
+    let text = format!("{value:.places$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
+}
+
 /// Why there is no flywheel.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
@@ -39,7 +50,7 @@ pub enum TableError {
     BadInertia { value: f64 },
     /// Nothing to be done.
     #[error(
-        "the fluctuation is {without} without a flywheel, not more than the {wanted} asked for: none is needed"
+        "the fluctuation is {} without a flywheel, not more than the {wanted} asked for: none is needed", short(*without)
     )]
     AlreadyMet { without: f64, wanted: f64 },
     /// It stops on the way.
@@ -50,4 +61,16 @@ pub enum TableError {
     /// The search for a mean speed did not end.
     #[error("no speed with mean {mean} rad/s was found: the fluctuation is too great for it")]
     NoMean { mean: f64 },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn six_digits() {
+        let shown =
+            [0.0, 80.0, 28.448_695_02, -0.000_123_456_78, 1.5e9, 2.0e-7, f64::NAN].map(short);
+        assert_eq!(shown, ["0", "80", "28.4487", "-0.000123457", "1.50000e9", "2.00000e-7", "NaN"]);
+    }
 }

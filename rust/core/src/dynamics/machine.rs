@@ -96,7 +96,12 @@ impl Machine {
             numbers.extend(given[row * each..(row + 1) * each].iter().map(|&number| [number, 0.0]));
             self.place(&pose, &mut reduced);
             self.load(&pose, speed, Numbers { tables: &tables, given: &numbers }, &mut reduced);
-            rows.push(Some(&reduced), drivers, follower.status());
+            // At a change point the values are those of the motion through it.
+            let status = match follower.status() {
+                Status::Ok => Status::Ok,
+                _ => Status::NearSingular,
+            };
+            rows.push(Some(&reduced), drivers, status);
         }
         rows
     }

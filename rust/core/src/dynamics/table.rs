@@ -12,6 +12,9 @@ pub struct Table {
     periodic: bool,
 }
 
+/// Part of its size by which a place may be beyond a table.
+const SLACK: f64 = 1.0e-12;
+
 /// A piece of a table, whole periods on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Cell {
@@ -61,7 +64,10 @@ impl Table {
     /// The piece that a place is in; at a knot the one behind it.
     pub(super) fn cell(&self, x: f64) -> Option<Cell> {
         let [first, last] = self.range();
-        if !x.is_finite() || (!self.periodic && !(first..=last).contains(&x)) {
+        // A last digit beyond its end is at it.
+        let slack = SLACK * (last - first).max(first.abs()).max(last.abs());
+        let within = self.periodic || (first - slack..=last + slack).contains(&x);
+        if !x.is_finite() || !within {
             return None;
         }
         let whole = if self.periodic { ((x - first) / self.width()).floor() } else { 0.0 };
@@ -91,6 +97,12 @@ impl Table {
         let [_, b, c, d] = self.pieces[cell.piece];
         let x = x - (self.knots[cell.piece] + cell.whole * self.width());
         [value(&self.pieces[cell.piece], x), value(&[b, 2.0 * c, 3.0 * d], x)]
+    }
+
+    /// About how many knots there are on a way of this length.
+    pub(super) fn knots_in(&self, length: f64) -> f64 {
+        let own = self.knots.len() as f64;
+        if self.periodic { own * (1.0 + length / self.width()) } else { own }
     }
 
     /// Where it is not smooth within an interval, ascending.

@@ -25,6 +25,8 @@ pub(super) struct Watch {
     /// Parts of the step, from 0 to 1, and the values there, one row each.
     places: Vec<f64>,
     values: Vec<f64>,
+    /// The greatest value of each function over the last step.
+    sizes: Vec<f64>,
     /// Values at the place of the event last looked at.
     pub here: Vec<f64>,
     /// Changes of sign between two places: part of the step, and which function.
@@ -49,6 +51,8 @@ impl Watch {
         self.signs.resize(count, 0);
         self.fired.clear();
         self.fired.resize(count, false);
+        self.sizes.clear();
+        self.sizes.resize(count, 0.0);
         self.here.clear();
         self.here.resize(count, f64::NAN);
         self.places.clear();
@@ -78,15 +82,24 @@ impl Watch {
     /// again by its rounding, and what the event has changed is no crossing.
     pub(super) fn begin(&mut self) {
         for j in 0..self.len() {
-            let again = self.fired[j] && self.values[j].to_bits() == self.here[j].to_bits();
+            let value = self.values[j];
+            let same = value.to_bits() == self.here[j].to_bits();
+            // A border is left at once, on whichever side; what else is on zero has just happened.
+            let on_zero = !self.is_border(j) && value.abs() <= SEEN * self.sizes[j];
+            let again = self.fired[j] && (same || on_zero);
             self.signs[j] = match (self.crossings[j], again) {
                 (Crossing::Boundary, false) => 1,
                 (Crossing::Boundary, true) => -1,
-                (_, false) => sign(self.values[j]).unwrap_or(0),
+                (_, false) => sign(value).unwrap_or(0),
                 (_, true) => 0,
             };
             self.fired[j] = false;
         }
+    }
+
+    /// Whether a function is the border of a piece.
+    pub(super) fn is_border(&self, j: usize) -> bool {
+        self.crossings[j] == Crossing::Boundary
     }
 
     /// Whether a function makes an event by going to a value.
@@ -116,6 +129,8 @@ impl Watch {
             f(place, &mut self.values[at..])?;
         }
         for j in 0..count {
+            let own = self.values.iter().skip(j).step_by(count);
+            self.sizes[j] = own.fold(0.0, |most, value| most.max(value.abs()));
             let mut c = 1;
             while c + 1 < self.places.len() {
                 if let Some(place) = self.look_for_dip(j, c, &mut f)? {

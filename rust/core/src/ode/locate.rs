@@ -10,6 +10,8 @@ const MENDINGS: u32 = 3;
 /// Half width of the difference that gives the slope of an event function, as part of the step: its
 /// error, of the second order, costs nothing but speed of convergence.
 const SLOPE_HALF_WIDTH: f64 = 1e-3;
+/// Events nearer than so many spacings of t are at one place.
+const TOGETHER: f64 = 64.0;
 /// Mending moves an event by the error of the continuous output, which is far less than this part
 /// of the step; more is no mending.
 const FARTHEST: f64 = 1.0 / 32.0;
@@ -130,7 +132,7 @@ impl<S: System> Step<'_, S> {
                 *theta = self.mend(*j, *theta, spacing, &mut watch.here)?;
             }
             found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-            let cut = self.go_through(&found, watch, &mut record)?;
+            let cut = self.go_through(&found, TOGETHER * spacing, watch, &mut record)?;
             watch.found = found;
             if cut.is_some() {
                 return Ok(cut);
@@ -145,10 +147,11 @@ impl<S: System> Step<'_, S> {
     fn go_through(
         &mut self,
         found: &[(f64, usize)],
+        together: f64,
         watch: &mut Watch,
         record: &mut impl FnMut(usize, f64, &[f64]),
     ) -> Result<Option<Cut>, S::Error> {
-        for &(theta, j) in found {
+        for (i, &(theta, j)) in found.iter().enumerate() {
             let t = self.time(theta);
             // The place looked at last is this one, if it is the only one.
             if found.len() > 1 || theta == 0.0 {
@@ -163,13 +166,22 @@ impl<S: System> Step<'_, S> {
                 continue;
             }
             watch.fired[j] = true;
+            // What was recorded just here must not happen again.
+            for &(before, other) in &found[..i] {
+                watch.fired[other] = theta - before <= together;
+            }
             if theta > 0.0 {
                 self.interpolant.meet(theta, self.met.as_flattened());
             }
             let mut cut = Cut { t, stop: Some(j).filter(|_| action == Action::Stop) };
             // What else has crossed here must happen now: behind the restart it has happened.
             for other in 0..watch.len() {
-                if watch.fired[other] || !watch.happens(other, watch.here[other]) {
+                // By rounding it may be found just behind.
+                let mut near = found[i + 1..].iter();
+                let is_near = !watch.is_border(other)
+                    && near.any(|&(at, which)| which == other && at - theta <= together);
+                let happens = is_near || watch.happens(other, watch.here[other]);
+                if watch.fired[other] || !happens {
                     continue;
                 }
                 record(other, t, &self.met.as_flattened()[..self.n]);

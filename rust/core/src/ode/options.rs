@@ -50,6 +50,9 @@ pub struct Options<'a> {
     pub first_step: Option<f64>,
     /// The widest step that may be taken (one hundredth more where a stretch ends).
     pub max_step: f64,
+    /// By how much each of the first components may change in a step; of those after them as much as
+    /// they like. For events that the state is too smooth to show.
+    pub max_change: &'a [f64],
     /// How many steps may be tried.
     pub max_steps: u64,
     /// Where the right-hand side is not smooth in t, ascending. Steps end there.
@@ -67,6 +70,7 @@ impl Default for Options<'_> {
             absolute: &[1e-12],
             first_step: None,
             max_step: f64::INFINITY,
+            max_change: &[],
             max_steps: 1_000_000,
             breaks: &[],
             events: &[],
@@ -109,6 +113,13 @@ impl Options<'_> {
             if value.is_nan() || value <= 0.0 {
                 return Err(Error::Width { value });
             }
+        }
+        if self.max_change.len() > n {
+            return Err(Error::Dimension { expected: n, given: self.max_change.len() });
+        }
+        if let Some(&value) = self.max_change.iter().find(|value| value.is_nan() || **value <= 0.0)
+        {
+            return Err(Error::Width { value });
         }
         if let Some(index) = disorder(self.breaks, 1.0) {
             return Err(Error::Breaks { index });

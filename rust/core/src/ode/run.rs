@@ -236,10 +236,21 @@ impl<'a, S: System> Run<'a, S> {
         if let Some(component) = new.as_flattened().iter().position(|y| !y.is_finite()) {
             return Err(Refusal::NotFinite { t: t_new, component });
         }
+        let too_far = self
+            .options
+            .max_change
+            .iter()
+            .enumerate()
+            .map(|(i, most)| (new.as_flattened()[i] - y.as_flattened()[i]).abs() / most);
+        // As an error it gives the right width.
+        let too_far = too_far.fold(0.0, f64::max).powi(i32::from(stages.tableau.order));
+        if too_far > 1.0 {
+            return Ok(too_far);
+        }
         if stages.tableau.error_needs_end {
             stages.evaluate(self.system, end, t_new, new)?;
         }
-        let error = stages.error(&self.scale, y, new, h);
+        let error = stages.error(&self.scale, y, new, h).max(too_far);
         if error > 1.0 {
             return Ok(error);
         }

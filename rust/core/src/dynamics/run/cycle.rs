@@ -8,7 +8,8 @@
 use super::equation::{Broken, Equation};
 use super::outside::Outside;
 use super::source::Source;
-use super::steady::{Search, Unsteady};
+use super::steady::Search;
+use super::unsteady::Unsteady;
 use crate::ode::{
     Action, Crossing, End, Error, Fault, Integrator, Keep, Options, Solution, System,
 };
@@ -87,7 +88,8 @@ impl<S: Source, O: Outside> System for Cycle<'_, '_, S, O> {
         rates[0] = (2.0 * moment - rate * speed2) / inertia;
         rates[1] = 1.0 / speed;
         rates[2] = equation.drive[0] + self.moment;
-        rates[3] = self.sign * moment.abs();
+        let parts = [equation.reduced.stored[0], equation.reduced.applied[0], rates[2]];
+        rates[3] = self.sign * parts.map(f64::abs).iter().sum::<f64>();
         rates[4] = growth * by_start;
         rates[5] = growth * by_moment + 2.0 / inertia;
         let slower = -0.5 / (speed * speed2);
@@ -127,12 +129,12 @@ pub(super) fn period<S: Source, O: Outside>(
     equation: &mut Equation<'_, S, O>,
     integrator: &mut Option<Integrator>,
     search: &Search<'_>,
-    breaks: &[f64],
+    (from, breaks): (f64, &[f64]),
     begin: Begin,
 ) -> Result<Passage, Unsteady<O::Error>> {
     let sign = search.span.signum();
     let speed = sign * begin.speed2.sqrt();
-    equation.begin(search.q, &[speed]).map_err(Unsteady::Broken)?;
+    equation.begin(from, &[speed]).map_err(Unsteady::Broken)?;
     let events = vec![Crossing::Boundary; 2 * equation.tabled().count()];
     let deadline = search.deadline;
     let mut cycle = Cycle { equation, sign, moment: begin.moment, table: false, deadline };
@@ -152,7 +154,7 @@ pub(super) fn period<S: Source, O: Outside>(
     };
     let start = [begin.speed2, begin.t, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
     let integrator = integrator.get_or_insert_with(|| Integrator::new(search.method, LEN));
-    let made = integrator.run(&mut cycle, search.q, &start, search.q + search.span, &options);
+    let made = integrator.run(&mut cycle, from, &start, from + search.span, &options);
     let table = cycle.table;
     let Solution { t: q, y, end, .. } = made.map_err(|error| match error {
         Error::System(broken) => Unsteady::Broken(broken),
@@ -168,6 +170,7 @@ pub(super) fn period<S: Source, O: Outside>(
         }
         End::Edge { .. } => return Err(Unsteady::DeadPoint { q }),
         End::Cancelled { .. } => return Err(Unsteady::Cancelled { q }),
+        End::StepLimit { t: q, .. } => return Err(Unsteady::TooManySteps { q }),
         other => return Err(Unsteady::Other(other.to_string())),
     }
     Ok(Passage::Whole(Period {

@@ -34,9 +34,27 @@ pub enum Broken<E> {
         /// What is there instead.
         value: f64,
     },
+    /// There is no position, or no motion, where it begins.
+    #[error("there is nothing to begin with at q = {q:?}")]
+    NothingThere {
+        /// Where.
+        q: Vec<f64>,
+    },
+    /// Knots of tables without number.
+    #[error("the tables have more than {most:e} knots between q = {from} and {to}")]
+    ManyKnots {
+        /// How many are too many.
+        most: f64,
+        /// From here.
+        from: f64,
+        /// To there.
+        to: f64,
+    },
     /// A table does not cover the beginning.
-    #[error("a table covers {from} to {to}: q = {q} is not in it")]
+    #[error("a {what} covers {from} to {to}: {q} is not in it")]
     TableEnds {
+        /// What it is a table of.
+        what: &'static str,
         /// Its first row.
         from: f64,
         /// Its last.
@@ -119,15 +137,18 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
 
     /// Looks tables up where a motion begins.
     pub(super) fn begin(&mut self, q: f64, speed: &[f64]) -> Result<(), Broken<O::Error>> {
-        let ends = |table: &Table, q: f64| {
+        let ends = |what: &'static str, table: &Table, q: f64| {
             let [from, to] = table.range();
-            Broken::TableEnds { from, to, q }
+            Broken::TableEnds { what, from, to, q }
         };
-        self.reader.place(self.tables, q).map_err(|which| ends(&self.tables[which], q))?;
+        let over_q = "table over q";
+        self.reader.place(self.tables, q).map_err(|which| ends(over_q, &self.tables[which], q))?;
         for (motor, cell) in self.motors.iter().zip(&mut self.cells) {
             if let Some(table) = motor.table() {
                 let own = motor.ratio * speed[motor.driver];
-                *cell = table.cell(own).ok_or_else(|| ends(table, own))?;
+                *cell = table
+                    .cell(own)
+                    .ok_or_else(|| ends("motor's table over its speed", table, own))?;
             }
         }
         Ok(())
@@ -168,7 +189,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
         let tables = self.tables;
         self.reader.place(tables, q).map_err(|which| {
             let [from, to] = tables[which].range();
-            Broken::TableEnds { from, to, q }
+            Broken::TableEnds { what: "table over q", from, to, q }
         })
     }
 

@@ -3,7 +3,8 @@
 use super::equation::Equation;
 use super::outside::Outside;
 use super::source::{Moving, Sheet, Source};
-use super::steady::{Search, Shooting, Steady, Unsteady};
+use super::steady::{Search, Shooting, Steady};
+use super::unsteady::Unsteady;
 use crate::dynamics::flywheel::Mean;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::root;
@@ -76,7 +77,7 @@ fn find<S: Source, O: Outside>(
     search: Search<'_>,
     guess: Option<&Steady>,
 ) -> Result<Steady, Unsteady<O::Error>> {
-    let mut shooting = Shooting::new(equation, search);
+    let mut shooting = Shooting::new(equation, search)?;
     let (begin, period) = shooting.find(guess.map(Steady::begin))?;
     shooting.run(begin, &period)
 }
@@ -90,7 +91,9 @@ fn even<E>(
     // Without a flywheel it may stop; then it fluctuates as much as can be.
     let without = match find(*search, None) {
         Ok(steady) => Some(steady),
-        Err(Unsteady::Stops { .. } | Unsteady::CannotCarry { .. }) => None,
+        Err(Unsteady::Stops { .. } | Unsteady::CannotCarry { .. } | Unsteady::NotMet { .. }) => {
+            None
+        }
         Err(error) => return Err(error),
     };
     let own = without.as_ref().map_or(GREATEST, |steady| steady.fluctuation(mean));
@@ -109,7 +112,9 @@ fn even<E>(
                 last = Some(steady);
                 fluctuation - own
             }
-            Err(Unsteady::Stops { .. } | Unsteady::CannotCarry { .. }) => fluctuation - GREATEST,
+            Err(
+                Unsteady::Stops { .. } | Unsteady::CannotCarry { .. } | Unsteady::NotMet { .. },
+            ) => fluctuation - GREATEST,
             Err(error) => {
                 failed = Some(error);
                 f64::NAN

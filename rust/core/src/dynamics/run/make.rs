@@ -6,7 +6,7 @@ use super::outside::Outside;
 use super::reader::TOGETHER;
 use super::source::{Moving, Sheet, Source};
 use super::tail::Tail;
-use super::task::{Along, Task};
+use super::task::{Along, Occasion, Task};
 use super::tolerances::tolerances;
 use super::way::{Ended, Way};
 use crate::dynamics::machine::Machine;
@@ -60,7 +60,7 @@ fn run<S: Source, O: Outside>(
     equation.flywheel = task.flywheel;
     equation.begin(task.q[0], task.speed).map_err(Error::System)?;
     let mut way = Way::new(equation, task);
-    way.begin(task);
+    way.begin(task).map_err(Error::System)?;
     let (from, end) = match task.along {
         Along::Time => (task.t, task.end),
         Along::Coordinate => (task.q[0], task.end),
@@ -71,15 +71,26 @@ fn run<S: Source, O: Outside>(
     };
     let breaks = match task.along {
         Along::Time => task.breaks.to_vec(),
-        Along::Coordinate => breaks_of(way.equation.tables, task.breaks, [from, to]),
+        Along::Coordinate => {
+            breaks_of(way.equation.tables, task.breaks, [from, to]).map_err(Error::System)?
+        }
     };
     let [relative, absolute] = tolerances(&mut way, task, sizes).map_err(Error::System)?;
     let crossings = way.crossings();
+    // A smooth motion in wide steps does not show what the mechanism does on the way.
+    let looks = task.watches.iter().any(|w| matches!(w.occasion, Occasion::Angle(..)));
+    let (mut max_step, mut max_change) = (task.max_step, Vec::new());
+    if looks && task.along == Along::Coordinate {
+        max_step = max_step.min(LOOK);
+    } else if looks {
+        max_change.extend(sizes.iter().map(|size| LOOK * size));
+    }
     let options = Options {
         relative: &relative,
         absolute: &absolute,
         first_step: None,
-        max_step: task.max_step,
+        max_step,
+        max_change: &max_change,
         max_steps: task.max_steps,
         breaks: &breaks,
         events: &crossings,
@@ -104,15 +115,32 @@ fn clip(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>) {
     clipped
 }
 
+/// How far (rad, or of the size) a step goes where angles of the mechanism are looked at.
+const LOOK: f64 = 0.1;
+/// Knots on a way along the coordinate, at most: they are all known beforehand.
+const MOST_KNOTS: f64 = 1.0e7;
+/// Coordinates beyond this have no place in a table.
+const FARTHEST: f64 = 1.0e9;
+
 /// Knots of tables between two coordinates, with breaks that are given; knots of several tables at
 /// one place are one.
-pub(super) fn breaks_of(tables: &[Table], given: &[f64], [from, to]: [f64; 2]) -> Vec<f64> {
+pub(super) fn breaks_of<E>(
+    tables: &[Table],
+    given: &[f64],
+    [from, to]: [f64; 2],
+) -> Result<Vec<f64>, Broken<E>> {
+    let count: f64 = tables.iter().map(|table| table.knots_in((to - from).abs())).sum();
+    let far = from.abs().max(to.abs());
+    // Beyond a table's own accuracy knots are none.
+    if count > MOST_KNOTS || (!tables.is_empty() && far > FARTHEST) {
+        return Err(Broken::ManyKnots { most: MOST_KNOTS, from, to });
+    }
     let range = [from.min(to), from.max(to)];
     let mut breaks = given.to_vec();
     breaks.extend(tables.iter().flat_map(|table| table.knots_within(range)));
     breaks.sort_unstable_by(f64::total_cmp);
     breaks.dedup_by(|a, b| (*a - *b).abs() <= TOGETHER * b.abs().max(1.0));
-    breaks
+    Ok(breaks)
 }
 
 /// A run of one driver along its coordinate.
@@ -154,7 +182,9 @@ fn finish<S: Source, O: Outside>(
         (_, Some(Ended::Motor(which))) => Ending::MotorTableEnds(which),
         (_, Some(Ended::Dead)) => edge(&mut way.equation.refused),
         (End::Event { index, .. }, _) => way.watch(index).map_or(Ending::Stalled, Ending::Event),
-        (End::Edge { t }, _) if along == Along::Coordinate && way.has_kinetic(&[t], last_work) => {
+        (End::Edge { t } | End::Stalled { t }, _)
+            if along == Along::Coordinate && way.is_dead(&[t], last_work) =>
+        {
             edge(&mut way.equation.refused)
         }
         (End::Edge { .. }, _) if along == Along::Coordinate => Ending::Rest,

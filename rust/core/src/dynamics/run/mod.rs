@@ -12,6 +12,7 @@ mod steady;
 mod tail;
 mod task;
 mod tolerances;
+mod unsteady;
 mod way;
 
 pub use equation::Broken;
@@ -20,5 +21,6 @@ pub use make::RunError;
 pub use outcome::{Ending, Happened, Moment, Moments, Run};
 pub use outside::{Nothing, Outside};
 pub use source::Sheet;
-pub use steady::{Search, Steady, Unsteady};
+pub use steady::{Search, Steady};
 pub use task::{Along, Occasion, Task, Watch};
+pub use unsteady::Unsteady;

@@ -178,7 +178,14 @@ impl Run {
         if self.path.at(x, &mut y) && self.path.slope(x, &mut rates) {
             return Some(moment(self.along, self.sign, x, &y, &rates));
         }
-        self.tail.as_ref().and_then(|tail| tail.at(self.along, x))
+        if let Some(tail) = &self.tail {
+            return tail.at(self.along, x);
+        }
+        // A run of no length is at its place.
+        self.moments.get(0).filter(|one| match self.along {
+            Along::Time => one.t == x,
+            Along::Coordinate => one.q.first() == Some(&x),
+        })
     }
 }
 

@@ -33,6 +33,9 @@ pub(super) trait Source {
     /// Where the dead point ahead of the one driver's coordinate is, if it is near.
     fn fold(&mut self, q: f64, way: f64) -> Option<f64>;
 
+    /// Whether there is a dead point within this part of a radian (or of the size).
+    fn is_beside_fold(&mut self, q: &[f64], within: f64) -> bool;
+
     /// How far coordinates are from a singular position (the inverse of the condition); NaN where
     /// there is nothing.
     fn flatness(&mut self, q: &[f64]) -> f64;
@@ -54,15 +57,16 @@ const FOLD_WITHIN: f64 = 1.0e3;
 const HALVINGS: u32 = 80;
 
 impl<'m> Moving<'m> {
-    /// How far from here a dead point may be, in the coordinate's unit.
-    fn reach(&self, driver: usize) -> f64 {
+    /// How far from here a dead point may be, in the coordinate's unit; not farther than `most` of
+    /// it.
+    fn reach(&self, driver: usize, most: f64) -> f64 {
         let condition = self.follower.condition();
-        FOLD_WITHIN / (condition * condition) * self.follower.unit(driver)
+        (FOLD_WITHIN / (condition * condition)).min(most) * self.follower.unit(driver)
     }
 
-    /// Whether a dead point is near a place with so great a condition.
-    fn is_beside_fold(&mut self, q: &[f64]) -> bool {
-        let reaches: Vec<f64> = (0..q.len()).map(|driver| self.reach(driver)).collect();
+    /// Whether a dead point is near the place solved last.
+    fn folds_near(&mut self, q: &[f64], most: f64) -> bool {
+        let reaches: Vec<f64> = (0..q.len()).map(|driver| self.reach(driver, most)).collect();
         let mut beside = q.to_vec();
         for (driver, reach) in reaches.into_iter().enumerate() {
             for way in [-reach, reach] {
@@ -97,7 +101,7 @@ impl Source for Moving<'_> {
     fn place(&mut self, q: &[f64], _: Numbers<'_>, out: &mut Reduced) -> Result<(), Status> {
         self.follower.solve(q)?;
         if self.follower.condition() > GREATEST_CONDITION {
-            if self.is_beside_fold(q) {
+            if self.folds_near(q, f64::INFINITY) {
                 return Err(Status::Singular);
             }
             self.follower.solve(q)?;
@@ -124,7 +128,7 @@ impl Source for Moving<'_> {
 
     fn fold(&mut self, q: f64, way: f64) -> Option<f64> {
         self.follower.solve(&[q]).ok()?;
-        let (mut there, mut beyond) = (q, q + way.signum() * self.reach(0));
+        let (mut there, mut beyond) = (q, q + way.signum() * self.reach(0, f64::INFINITY));
         if self.follower.solve(&[beyond]).is_ok() {
             return None;
         }
@@ -137,6 +141,10 @@ impl Source for Moving<'_> {
             *(if is_there { &mut there } else { &mut beyond }) = middle;
         }
         Some(there)
+    }
+
+    fn is_beside_fold(&mut self, q: &[f64], within: f64) -> bool {
+        self.follower.solve(q).is_err() || self.folds_near(q, within)
     }
 
     fn flatness(&mut self, q: &[f64]) -> f64 {
@@ -199,6 +207,10 @@ impl Source for &Sheet {
 
     fn fold(&mut self, _: f64, _: f64) -> Option<f64> {
         None
+    }
+
+    fn is_beside_fold(&mut self, _: &[f64], _: f64) -> bool {
+        false
     }
 
     fn flatness(&mut self, _: &[f64]) -> f64 {

@@ -3,15 +3,14 @@
 
 use std::time::Instant;
 
-use thiserror::Error;
-
 use super::cycle::{Begin, Passage, Period, period};
-use super::equation::{Broken, Equation};
+use super::equation::Equation;
 use super::make::{breaks_of, finish_run};
-use super::outcome::Run;
+use super::outcome::{Ending, Run};
 use super::outside::Outside;
 use super::source::Source;
 use super::task::{Along, Occasion, Task, Watch};
+use super::unsteady::Unsteady;
 use crate::ode::{Crossing, Integrator, Method};
 
 /// Steps toward the periodic motion, at most; it takes some five.
@@ -25,7 +24,9 @@ const FALL: f64 = 0.7;
 const NEUTRAL: f64 = 1.0e-7;
 /// Part of the work of a period that may be left over then: motors are given with so many digits.
 const BALANCED: f64 = 1.0e-2;
-/// How far two periods may differ if functions from outside do not depend on the time.
+/// Part of the work of a period to which it is in balance.
+const BALANCE: f64 = 1.0e-6;
+/// How far two periods, one after the other, may differ.
 const SAME: f64 = 1.0e-7;
 
 /// What is asked for.
@@ -66,51 +67,6 @@ pub struct Steady {
     pub flywheel: f64,
 }
 
-/// Why there is no periodic motion.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-#[expect(missing_docs, reason = "the sentences say what the fields are")]
-pub enum Unsteady<E> {
-    #[error("{0}")]
-    Broken(Broken<E>),
-    #[error(
-        "neither motor nor loads tell a speed to begin with: say speed= (the mean speed, or with dampers a first guess)"
-    )]
-    NeedsSpeed,
-    #[error(
-        "the motor cannot carry the load: begun at {from:.6} rad/s and slower, the machine comes to rest at q = {q:.6} rad"
-    )]
-    Stops { q: f64, from: f64 },
-    #[error(
-        "no periodic motion was found below {from:.6} rad/s: the motor's moment never makes up for the loads"
-    )]
-    CannotCarry { from: f64 },
-    #[error("the machine runs away: the speed still grows over a period begun at {speed:.6} rad/s")]
-    RunsAway { speed: f64 },
-    #[error(
-        "nothing depends on the speed, and over a period the motor's mean moment is {motor:.6} N·m where {needed:.6} N·m would be in balance: the machine speeds up or stops (without a motor the moment is found)"
-    )]
-    Unbalanced { motor: f64, needed: f64 },
-    #[error("there is a dead point at q = {q:.9}: the driver does not turn fully")]
-    DeadPoint { q: f64 },
-    #[error("the motor's table ends at {speed:.9} rad/s of the driver, met at q = {q:.6}")]
-    MotorTableEnds { q: f64, speed: f64 },
-    #[error(
-        "the motion is another one from period to period: the machine is not the same a period on, or a function among its loads depends on the time"
-    )]
-    NotPeriodic,
-    #[error(
-        "the fluctuation is {without:.6} without a flywheel, not more than the {wanted} asked for: none is needed"
-    )]
-    AlreadyMet { without: f64, wanted: f64 },
-    #[error("no flywheel gives a fluctuation of {wanted}")]
-    NoFlywheel { wanted: f64 },
-    #[error("the time was over at q = {q:.6}")]
-    Cancelled { q: f64 },
-    #[error("{0}")]
-    Other(String),
-}
-
 impl Steady {
     /// What a search near it begins with.
     pub(super) fn begin(&self) -> Begin {
@@ -126,19 +82,37 @@ pub(super) struct Shooting<'s, 'a, S, O> {
     pub equation: Equation<'a, S, O>,
     pub search: Search<'s>,
     integrator: Option<Integrator>,
+    /// Where the period at hand begins, and its breaks.
+    from: f64,
     breaks: Vec<f64>,
 }
 
 impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
-    pub(super) fn new(mut equation: Equation<'a, S, O>, search: Search<'s>) -> Self {
-        let breaks = breaks_of(equation.tables, search.breaks, [search.q, search.q + search.span]);
+    pub(super) fn new(
+        mut equation: Equation<'a, S, O>,
+        search: Search<'s>,
+    ) -> Result<Self, Unsteady<O::Error>> {
         equation.flywheel = search.flywheel;
         equation.slopes = true;
-        Self { equation, search, integrator: None, breaks }
+        let mut own =
+            Self { equation, search, integrator: None, from: search.q, breaks: Vec::new() };
+        own.begin_at(search.q)?;
+        Ok(own)
+    }
+
+    /// Periods begin here from now on.
+    fn begin_at(&mut self, q: f64) -> Result<(), Unsteady<O::Error>> {
+        let Search { span, breaks, .. } = self.search;
+        let given: Vec<f64> = breaks.iter().map(|at| at + (q - self.search.q)).collect();
+        self.from = q;
+        self.breaks =
+            breaks_of(self.equation.tables, &given, [q, q + span]).map_err(Unsteady::Broken)?;
+        Ok(())
     }
 
     fn pass(&mut self, begin: Begin) -> Result<Passage, Unsteady<O::Error>> {
-        period(&mut self.equation, &mut self.integrator, &self.search, &self.breaks, begin)
+        let Self { equation, integrator, search, from, breaks } = self;
+        period(equation, integrator, search, (*from, breaks), begin)
     }
 
     /// Finds the periodic motion, from a guess (speed² and moment) if there is one.
@@ -298,11 +272,13 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
             }
             // As long as it gets better, but not beyond what rounding lets it.
             if step <= SETTLED && (step >= 0.5 * last || step <= 1e-3 * SETTLED) {
-                return Ok((begin, period));
+                let met = (period.time - time).abs() <= SETTLED * time.abs()
+                    && (period.speed2 - begin.speed2).abs() <= SETTLED * begin.speed2;
+                return if met { Ok((begin, period)) } else { Err(Unsteady::NotMet { speed }) };
             }
             last = step;
         }
-        Err(Unsteady::CannotCarry { from: speed })
+        Err(Unsteady::NotMet { speed })
     }
 
     /// The motion found, with all its moments.
@@ -311,22 +287,15 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         begin: Begin,
         period: &Period,
     ) -> Result<Steady, Unsteady<O::Error>> {
-        if self.equation.outside.count() > 0 {
-            // Again, a period later.
-            let later = self.pass(Begin { t: begin.t + period.time, ..begin })?;
-            let same = matches!(later, Passage::Whole(own)
-                if (own.speed2 - period.speed2).abs() <= SAME * period.speed2);
-            if !same {
-                return Err(Unsteady::NotPeriodic);
-            }
-        }
+        // Once more, a period on: there the machine must be the same.
         let Search { q, span, method, relative, max_steps, deadline, breaks, flywheel, .. } =
             self.search;
-        let ends = [q, q + span].map(|q| {
-            let there = self.equation.enter(q, q).is_ok() && self.equation.place(&[q]).is_ok();
-            if there { self.equation.reduced.inertia[0] } else { f64::NAN }
-        });
-        let same = (ends[0] - ends[1]).abs() <= SAME * ends[0];
+        self.begin_at(q + span)?;
+        let later = self.pass(Begin { t: begin.t + period.time, ..begin })?;
+        let same = matches!(later, Passage::Whole(own)
+            if (own.speed2 - period.speed2).abs() <= SAME * period.speed2
+            && (own.time - period.time).abs() <= SAME * period.time.abs()
+            && (own.drive - period.drive).abs() <= BALANCE * period.turnover);
         if !same {
             return Err(Unsteady::NotPeriodic);
         }
@@ -354,6 +323,19 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
             crate::ode::Error::System(broken) => Unsteady::Broken(broken),
             other => Unsteady::Other(other.to_string()),
         })?;
+        match run.ending {
+            Ending::Reached => {}
+            Ending::Late | Ending::Cancelled => return Err(Unsteady::Cancelled { q }),
+            ref other => return Err(Unsteady::Other(format!("the period ended early: {other:?}"))),
+        }
+        let ends = |list: &[f64]| list.last().zip(list.first()).map_or(f64::NAN, |(b, a)| b - a);
+        let stored: Vec<f64> = run.energies.iter().map(|pair| pair[1]).collect();
+        let left = ends(&run.moments.work) - ends(&stored);
+        // At too great a speed the energy's own rounding is more than a period's work.
+        let balanced = left.abs() <= BALANCE * period.turnover;
+        if !balanced {
+            return Err(Unsteady::RunsAway { speed: begin.speed2.sqrt() });
+        }
         let multiplier = period.speed2_by[0];
         Ok(Steady { run, multiplier, moment: begin.moment, drive: period.drive, flywheel })
     }

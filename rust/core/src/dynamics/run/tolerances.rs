@@ -15,9 +15,11 @@ pub(super) fn tolerances<S: Source, O: Outside>(
 ) -> Result<[Vec<f64>; 2], Broken<O::Error>> {
     let (n, relative) = (task.q.len(), task.relative);
     if task.along == Along::Coordinate {
-        let speed = task.speed[0].abs();
-        let of_speed = task.absolute.map_or(relative * speed * 1e-3, |[_, of_speed]| of_speed);
-        let absolute = vec![2.0 * of_speed * speed, relative / speed, f64::INFINITY];
+        // A thousandth of it is that of a speed; but the motion may begin slowly.
+        let typical = 1e3 * typical_speeds(way, task, sizes)?[0];
+        let of_speed = task.absolute.map_or(relative * typical * 1e-3, |[_, of_speed]| of_speed);
+        let absolute =
+            vec![2.0 * of_speed * task.speed[0].abs(), relative / typical, f64::INFINITY];
         return Ok([vec![relative, relative, 0.0], absolute]);
     }
     let mut absolute = Vec::with_capacity(2 * n + 1);

@@ -36,13 +36,17 @@ pub(super) struct Way<'a, S, O> {
     drivers: usize,
     /// Energy at the beginning, kinetic and potential, if it is known.
     energy: Option<[f64; 2]>,
-    /// What is as near to a singular position is at it.
-    near_dead: f64,
+    /// What is as near to a dead point may be at it.
+    near: f64,
 }
 
 /// Part of the energies of a motion below which what is left of the kinetic energy is none: the
 /// balance is kept far better.
 const AT_REST: f64 = 1.0e-6;
+/// Distance from a dead point (rad, or of the size) within which one is looked for; with loose
+/// tolerances a thousand of them, up to the second.
+const NEAR: f64 = 1.0e-3;
+const FAR: f64 = 0.05;
 /// How far (rad, or of the size) to both sides the change of a condition is looked for.
 const LOOK: f64 = 1.0e-6;
 
@@ -57,21 +61,29 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
             sign: task.speed[0].signum(),
             drivers: task.q.len(),
             energy: None,
-            near_dead: 10.0 * task.relative.sqrt(),
+            near: (1.0e3 * task.relative).clamp(NEAR, FAR),
         }
     }
 
     /// Takes the energy at the beginning, from which what is kinetic is told later.
-    pub(super) fn begin(&mut self, task: &Task<'_>) {
-        if self.equation.place(task.q).is_ok() {
-            let reduced = &self.equation.reduced;
-            self.energy = Some([reduced.kinetic(task.speed), reduced.potential]);
+    pub(super) fn begin(&mut self, task: &Task<'_>) -> Result<(), Broken<O::Error>> {
+        match self.equation.place(task.q) {
+            Ok(()) => {}
+            Err(Fault::Error(error)) => return Err(error),
+            Err(Fault::NotThere) => return Err(Broken::NothingThere { q: task.q.to_vec() }),
         }
+        let reduced = &self.equation.reduced;
+        self.energy = Some([reduced.kinetic(task.speed), reduced.potential]);
+        Ok(())
     }
 
-    /// Whether kinetic energy is left at coordinates after some work, by the balance: at a dead
-    /// point the driver rests and the mechanism does not.
-    pub(super) fn has_kinetic(&mut self, q: &[f64], work: f64) -> bool {
+    /// Whether a driver that rests at coordinates after some work is at a dead point: there is one
+    /// as near as the coordinates are known, and by the balance kinetic energy is left, as the
+    /// mechanism does not rest.
+    pub(super) fn is_dead(&mut self, q: &[f64], work: f64) -> bool {
+        if !self.equation.source.is_beside_fold(q, self.near) {
+            return false;
+        }
         let Some([kinetic, potential]) = self.energy else { return true };
         if self.equation.place(q).is_err() {
             return true;
@@ -131,10 +143,9 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
     fn on_turning(&mut self, y: &[f64]) -> Action {
         let n = self.drivers;
         let dead = if n == 1 {
-            self.has_kinetic(&y[..1], y[2])
+            self.is_dead(&y[..1], y[2])
         } else {
-            // What is nearer than the accuracy of the coordinates cannot be told from it.
-            self.equation.source.flatness(&y[..n]) <= self.near_dead
+            self.equation.source.is_beside_fold(&y[..n], self.near)
         };
         if !dead {
             return Action::Continue;

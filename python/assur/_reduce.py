@@ -1,0 +1,91 @@
+"""Machines referred to their drivers at many places: shapes checked, the core called."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur._checks import real_array
+from assur.errors import InputError, PositionError
+
+if TYPE_CHECKING:
+    from assur.machine import Machine
+
+Float: TypeAlias = npt.NDArray[np.float64]
+
+
+def reduce(
+    machine: Machine, q: npt.ArrayLike, speed: npt.ArrayLike, on_error: str
+) -> tuple[Float, Float, Float, Float]:
+    """Mass matrices, their derivatives, moments, potential energies at coordinates and speeds."""
+    if on_error not in ("raise", "nan"):
+        message = f"on_error is {on_error!r}: 'raise' or 'nan'"
+        raise InputError(message)
+    n, designs = machine._drivers, machine.shape
+    x, v = real_array(q, "q"), real_array(speed, "speed")
+    if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
+        message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
+        raise InputError(message)
+    places = x.shape if n == 1 else x.shape[:-1]
+    shape = _with_designs(places, designs)
+    full = shape if n == 1 else (*shape, n)
+    if not np.isfinite(v).all():
+        message = f"speed is {speed!r}: finite numbers are needed"
+        raise InputError(message)
+    try:
+        x, v = np.broadcast_to(x, full), np.broadcast_to(v, full)
+    except ValueError as error:
+        message = f"speed has the shape {v.shape}, q {x.shape}: they do not fit"
+        raise InputError(message) from error
+    flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
+    given = machine._outside.numbers(flat.reshape(-1, n), speeds.reshape(-1, n))
+    values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
+    dimensions = np.ascontiguousarray(values).ravel()
+    *arrays, status = machine._core.reduce(dimensions, flat, speeds, given, None)
+    # All but NEAR_SINGULAR, whose analogues are there.
+    failed = np.flatnonzero(status > 1)
+    if on_error == "raise" and failed.size:
+        _refuse(machine, x, shape, int(failed[0]))
+    inertia, rates, moment, potential = arrays
+    beyond = np.flatnonzero(np.isnan(moment).reshape(-1, n).any(axis=1) & (status < 2))
+    if on_error == "raise" and beyond.size:
+        at = flat.reshape(-1, n)[beyond[0]]
+        message = f"q = {at[0]:g}: a load has no value there (a table ends, or a function gave nan)"
+        raise InputError(message, q=x[np.unravel_index(int(beyond[0]), shape) if shape else ()])
+    return (
+        inertia.reshape(*shape, n, n),
+        rates.reshape(*shape, n, n, n),
+        moment.reshape(*shape, n),
+        potential.reshape(shape),
+    )
+
+
+def _refuse(machine: Machine, q: Float, shape: tuple[int, ...], flat: int) -> None:
+    place = tuple(int(k) for k in np.unravel_index(flat, shape)) if shape else ()
+    if machine.mechanism is None:
+        message = f"q = {q[place]:g} is beyond the table"
+        raise InputError(message, q=q[place])
+    design = place[: len(machine.shape)]
+    one = machine.mechanism.design(design) if design else machine.mechanism
+    told = one.solve(q[place], order=1, on_error="nan").explain()
+    where = f"design {design}: " if design else ""
+    message = f"{where}{told}; nothing can be referred to the driver there"
+    raise PositionError(message, q=q[place], design=design or None)
+
+
+def _with_designs(places: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
+    """Shape of the result: q is a number, (N,) or S + (N,)."""
+    if not designs:
+        return places
+    if len(places) <= 1:
+        return (*designs, *places)
+    try:
+        np.broadcast_to(np.empty(places[:-1]), designs)
+    except ValueError as error:
+        message = (
+            f"q has the shape {places}: with designs {designs} it is a number, (N,) or S + (N,)"
+        )
+        raise InputError(message) from error
+    return (*designs, places[-1])

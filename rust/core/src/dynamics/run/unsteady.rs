@@ -1,0 +1,47 @@
+//! Why there is no periodic motion.
+
+use thiserror::Error;
+
+use super::equation::Broken;
+use crate::dynamics::error::short;
+
+/// Why there is no periodic motion.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the sentences say what the fields are")]
+pub enum Unsteady<E> {
+    #[error("{0}")]
+    Broken(Broken<E>),
+    #[error(
+        "neither motor nor loads tell a speed to begin with: say speed= (the mean speed, or with dampers a first guess)"
+    )]
+    NeedsSpeed,
+    #[error("the motor cannot carry the load: begun at {} rad/s and slower, the machine comes to rest at q = {} rad", short(*from), short(*q))]
+    Stops { q: f64, from: f64 },
+    #[error("no periodic motion was found below {} rad/s: the motor's moment never makes up for the loads", short(*from))]
+    CannotCarry { from: f64 },
+    #[error("the machine runs away: the speed still grows over a period begun at {} rad/s", short(*speed))]
+    RunsAway { speed: f64 },
+    #[error("nothing depends on the speed, and over a period the motor's mean moment is {} N·m where {} N·m would be in balance: the machine speeds up or stops (without a motor the moment is found)", short(*motor), short(*needed))]
+    Unbalanced { motor: f64, needed: f64 },
+    #[error("no periodic motion with a mean speed of {} rad/s was found: so slow a machine would stop on its way (flywheel= keeps it going), so fast a one cannot be told from rounding", short(*speed))]
+    NotMet { speed: f64 },
+    #[error("there is a dead point at q = {}: the driver does not turn fully", short(*q))]
+    DeadPoint { q: f64 },
+    #[error("the motor's table ends at {} rad/s of the driver, met at q = {}", short(*speed), short(*q))]
+    MotorTableEnds { q: f64, speed: f64 },
+    #[error(
+        "the motion is another one from period to period: the machine is not the same a period on, or a function among its loads depends on the time"
+    )]
+    NotPeriodic,
+    #[error("the fluctuation is {} without a flywheel, not more than the {} asked for: none is needed", short(*without), short(*wanted))]
+    AlreadyMet { without: f64, wanted: f64 },
+    #[error("no flywheel gives a fluctuation of {}", short(*wanted))]
+    NoFlywheel { wanted: f64 },
+    #[error("max_steps was met at q = {}: beside change points a tolerance may be too tight (rtol), or the machine is stiff", short(*q))]
+    TooManySteps { q: f64 },
+    #[error("the time was over at q = {}", short(*q))]
+    Cancelled { q: f64 },
+    #[error("{0}")]
+    Other(String),
+}

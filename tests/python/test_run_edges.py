@@ -1,0 +1,271 @@
+"""Motions where something ends, jumps, coincides or cannot be."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import assur
+from assur import Body, Gravity, InputError, Table, Torque, TorsionDamper, TorsionSpring, events
+from test_machine import five_bar
+from test_run import pendulum
+from test_steady import press
+
+TURN = math.tau
+ANY: Any = None  # what types would not let pass
+
+
+def wheel(*loads: Any, inertia: float = 2.0) -> assur.Machine:
+    """A crank with an inertia; nothing else has mass."""
+    return assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": Body(inertia=inertia)}, loads)
+
+
+def four_bar() -> assur.Mechanism:
+    return assur.FourBar(1.0, 3.0, 2.5, 3.2)
+
+
+def test_turning_points_are_no_dead_points() -> None:
+    """At two of them the potential is the same: no energy tells them from rest but the geometry."""
+    run = wheel(TorsionSpring("crank", 50.0)).run(100.0, q0=1.0, rtol=1e-12)
+    assert run.end == "reached"
+    assert abs(run.q[-1] - math.cos(500.0)) < 1e-8
+    driven = wheel(Torque("crank", lambda t, _, __: math.cos(t))).run(100.0)
+    assert driven.end == "reached"
+    for rtol in (1e-2, 1e-4, 1e-6, 1e-10):
+        assert pendulum().run(100.0, q0=math.pi - 1.0, rtol=rtol).end == "reached"
+    resting = pendulum().run(q_end=9.0, q0=3.0, speed0=1e-3)
+    assert resting.end == "rest"
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3, 1e-5])
+def test_loose_tolerances_make_no_dead_points(rtol: float) -> None:
+    machine = assur.Machine(
+        five_bar(),
+        {name: Body(1.0 + i, 0.3, (0.4, 0.1)) for i, name in enumerate(("c1", "b1", "b2", "c2"))},
+        [Gravity((0.0, -4.0)), Torque("c2", 0.5)],
+    )
+    assert machine.run(1.2, speed0=[1.0, -0.5], rtol=rtol).end == "reached"
+    rocker = assur.FourBar(1.0, 3.0, 3.0, 3.0).with_driver("rocker")
+    dead = assur.Machine(rocker, {"crank": Body(inertia=1.0), "rocker": Body(inertia=1.0)})
+    run = dead.run(50.0, q0=2.0, speed0=1.0, rtol=rtol)
+    assert run.end == "dead point"
+    assert abs(run.q[-1] - (math.pi - math.acos(14.0 / 18.0))) < 100.0 * rtol
+
+
+def test_two_drivers_come_to_a_dead_point() -> None:
+    """Both bars in one line: the joint between goes through, the drivers turn back."""
+    machine = assur.Machine(
+        five_bar(), {name: Body(1.0, 0.3, (0.4, 0.1)) for name in ("c1", "b1", "b2", "c2")}
+    )
+    run = machine.run(20.0, speed0=[0.6, -0.6])
+    assert run.end == "dead point"
+    assert run.t[-1] < 20.0
+    at = machine.mechanism.solve(run.q[-1]) if machine.mechanism else None
+    assert at is not None
+    assert at.condition > 1e3
+    assert run.energy.error < 1e-7
+
+
+def test_a_narrow_barrier_is_no_way() -> None:
+    """Almost at rest beside the top, on the way up: it must turn back."""
+    run = pendulum().run(q_end=30.0, q0=TURN - 0.01, speed0=1e-8)
+    assert run.end == "reached" or run.end == "rest"
+    for q0, speed in ((0.01, 1e-8), (0.003, 1e-9), (0.05, 1e-6)):
+        run = pendulum().run(q_end=30.0, q0=q0, speed0=speed)
+        assert run.end == "rest"
+        assert abs(run.q[-1] - (TURN - q0)) < 1e-4
+
+
+def test_an_event_at_a_knot_happens_once() -> None:
+    table = Table([0.0, 1.0, 2.0, TURN], [0.0, 2.0, -2.0, 0.0], "linear")
+    for method in ("DOP853", "RK45"):
+        watched = [events.Position(1.0, stop=False), events.Position(2.0, stop=False)]
+        run = wheel(Torque("crank", table)).run(
+            3.0, q0=0.0, speed0=1.0, events=watched, method=method
+        )
+        assert [one.event for one in run.events] == watched
+        over = wheel(Torque("crank", table)).run(q_end=3.0, q0=0.0, speed0=1.0, events=watched)
+        assert [one.event for one in over.events] == watched
+    both = [events.Position(0.5, stop=False), events.Position(0.5)]
+    run = wheel().run(2.0, q0=0.0, speed0=1.0, events=both)
+    assert [one.event for one in run.events] == both
+    # Coming back through the same knot it happens again.
+    back = wheel(Torque("crank", table), Torque("crank", -3.0))
+    again = back.run(3.0, q0=0.9, speed0=0.6, events=[events.Position(1.0, stop=False)])
+    assert len(again.events) == 2
+
+
+def test_a_smooth_motion_of_a_mechanism_that_is_not() -> None:
+    """At constant speed steps are wide, the transmission angle goes up and down in each."""
+    machine = assur.Machine(four_bar(), {"crank": Body(inertia=1.0)})
+    cases: tuple[tuple[float, dict[str, Any]], ...] = (
+        (85.0, {"t_end": 2 * TURN}),
+        (89.0, {"q_end": 2 * TURN}),
+    )
+    for degrees, end in cases:
+        watched = events.TransmissionAngle(
+            "C", math.radians(degrees), stop=False, direction="either"
+        )
+        run = machine.run(q0=0.0, speed0=1.0, events=[watched], **end)
+        own = four_bar().solve(np.linspace(0.0, 2 * TURN, 20001)).transmission_angle("C")
+        crossings = np.count_nonzero(np.diff(own > math.radians(degrees)))
+        assert len(run.events) == crossings == 8
+
+
+def test_periods_must_be_the_same() -> None:
+    motor = assur.LinearMotor(90.0, 30.0)
+    half = Torque("crank", lambda _, q, __: -5.0 * math.sin(q / 2.0))
+    for load in (TorsionSpring("crank", 1.0), half):
+        with pytest.raises(InputError, match="another one from period to period"):
+            press(motor, loads=[load]).steady_state()
+    assert press(motor, loads=[half]).steady_state(turns=2).multiplier < 1.0
+    with pytest.raises(InputError, match="another one after a turn"):
+        press(loads=[half]).flywheel(0.01, 12.0)
+    # Of this mechanism the inertia is the same after a turn from 0, the assembly is not.
+    kite = assur.Machine(
+        assur.FourBar(1.0, 2.0, 3.0, 4.0),
+        {"crank": Body(inertia=0.2), "rocker": Body(inertia=2.0), "coupler": Body(1.0)},
+        [TorsionDamper("rocker", 0.5)],
+    )
+    with pytest.raises(InputError, match="another one from period to period"):
+        kite.steady_state(5.0, q0=0.0, rtol=1e-9)
+
+
+def test_what_is_cut_short_is_no_period() -> None:
+    motor = assur.LinearMotor(90.0, 30.0)
+    enough = press(motor).steady_state().run.statistics.steps
+    for steps in (1, enough // 2, enough - 1):
+        with pytest.raises(InputError, match=r"max_steps|ended early"):
+            press(motor).steady_state(max_steps=steps)
+    with pytest.raises(InputError, match="the time was over"):
+        press(motor).steady_state(max_seconds=0.0)
+
+
+def test_speeds_that_cannot_be_met() -> None:
+    with pytest.raises(InputError, match="mean speed of 1 rad/s was found"):
+        press().steady_state(1.0, mean="period")
+    with pytest.raises(InputError, match=r"mean speed|runs away"):
+        press().steady_state(1e8, mean="period")
+    overrun = assur.Machine(
+        four_bar(),
+        {"crank": Body(inertia=0.05), "rocker": Body(0.9, 0.1)},
+        [Torque("crank", 50.0)],
+        assur.InductionMotor(3.78, 0.145, 14.64),
+    )
+    with pytest.raises(InputError, match="runs away"):
+        overrun.steady_state()
+
+
+def test_motors_that_are_not_constant_are_not_taken_for_it() -> None:
+    swelling = assur.ConstantTorque(Table([0.0, math.pi, TURN], [0.0, 20.0, 0.0], "linear"))
+    crank = {"crank": Body(inertia=0.5)}
+    machine = assur.Machine(assur.SliderCrank(0.1, 0.4), crank, [Torque("crank", -10.0)], swelling)
+    with pytest.raises(InputError, match="no constant motor"):
+        machine.flywheel(0.001, 10.0)
+    torques: tuple[Any, ...] = (np.int64(500), np.float32(500.0))
+    for torque in torques:
+        given = press(assur.ConstantTorque(torque))
+        with pytest.warns(assur.AssurWarning, match="500 N·m"):
+            given.flywheel(0.05, 20.0)
+    listed = press([assur.ConstantTorque(28.45)])
+    assert listed.flywheel(0.05, 20.0).inertia == press().flywheel(0.05, 20.0).inertia
+
+
+def test_knots_without_number() -> None:
+    machine = wheel(Torque("crank", Table([0.0, 3.0, TURN], [0.0, 1.0, 0.0], "linear")))
+    for q0, q_end in ((0.0, 1e12), (1e17, 1e17 + 1e3)):
+        with pytest.raises(InputError, match=r"more than 1e7 knots"):
+            machine.run(q_end=q_end, q0=q0, speed0=1.0)
+    fine = Table([0.0, TURN / 2e9, TURN / 1e9], [0.0, 1.0, 0.0], "linear")
+    with pytest.raises(InputError, match="knots"):
+        wheel(Torque("crank", fine)).steady_state(5.0)
+    with pytest.raises(InputError, match="knots"):
+        wheel(Torque("crank", fine)).flywheel(0.1, 5.0)
+
+
+def test_change_points_have_reductions() -> None:
+    machine = assur.Machine(assur.FourBar(1.0, 3.0, 1.0, 3.0), {"rocker": Body(inertia=2.0)})
+    value, d1 = machine.reduced_inertia([0.0, math.pi])
+    assert np.abs(value - 2.0).max() < 1e-9
+    assert np.abs(d1).max() < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda: wheel().run(1.0, speed0=ANY), "speed0"),
+        (lambda: wheel().run(), "one of t_end and q_end"),
+        (lambda: wheel().run(1.0, q_end=2.0), "one of t_end and q_end"),
+        (lambda: wheel().run(q_end=2.0), "begins with a motion"),
+        (lambda: wheel().run(q_end=-2.0, q0=0.0, speed0=1.0), "lies behind q0"),
+        (lambda: wheel().run(1.0, breaks=[-np.inf]), "breaks is"),
+        (lambda: wheel().run(1.0, rtol=0.0), "rtol is 0.0"),
+        (lambda: wheel().run(1.0, atol=-1.0), "atol is -1.0"),
+        (lambda: wheel().run(1.0, max_step=0.0), "max_step is 0.0"),
+        (lambda: wheel().run(1.0, max_steps=0), "max_steps is 0"),
+        (lambda: wheel().run(1.0, max_seconds=-1.0), "max_seconds is -1"),
+        (lambda: wheel().run(1.0, method=ANY), "method is None"),
+        (lambda: wheel().run(1.0, events=ANY), "events is None"),
+        (lambda: wheel().run(1.0, events=[ANY]), "None is no event"),
+        (lambda: wheel().run(1.0, events=[events.TransmissionAngle("A", 50.0)]), "acute"),
+        (lambda: wheel().run(1.0, events=[events.Rest(driver=1)]), "there are 1 drivers"),
+        (lambda: wheel().run(1.0, events=[events.Crossing(ANY)]), "a function of"),
+        (lambda: wheel().run(1.0, q0=[1.0, 2.0]), "q0 has the shape"),
+        (lambda: wheel().run(math.inf), "t_end is inf"),
+        (lambda: assur.Machine(ANY, {}), "None is no assur.Mechanism"),
+        (lambda: assur.Machine(four_bar(), ANY), "bodies is None"),
+        (lambda: assur.Machine(four_bar(), {}, ANY), "loads is None"),
+        (lambda: wheel(Torque(ANY, 1.0)), "Torque link is None"),
+        (lambda: wheel(Torque("crank", 1.0, on="crank")), "nothing turns"),
+        (lambda: wheel(assur.Spring("A", "A", 1.0, 0.0)), "it has no length"),
+        (lambda: assur.Machine.from_table([], [], []), "0 rows"),
+        (lambda: wheel(inertia=0.0).run(1.0, speed0=1.0), "must be positive everywhere"),
+        (
+            lambda: assur.Machine.from_table([0, 1], [1, 1], [1, 1], periodic=False).run(
+                1.0, q0=3.0
+            ),
+            "table over q covers 0 to 1: 3 is not in it",
+        ),
+        (
+            lambda: assur.Machine.from_table(
+                [0.0, TURN], [1.0, 1.0], [1.0, 1.0], Table([0.0, 9.0], [1.0, 0.0])
+            ).run(1.0, speed0=11.0),
+            "motor's table over its speed covers 0 to 9: 11 is not in it",
+        ),
+        (lambda: wheel(Torque("crank", lambda *_: math.nan)).run(1.0), "gave nan at t = 0"),
+    ],
+)
+def test_refusals(make: Any, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        make()
+
+
+def test_a_start_where_nothing_is() -> None:
+    swinging = assur.Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), {"crank": Body(inertia=1.0)})
+    with pytest.raises(assur.PositionError, match=r"q = 3 .*cannot begin there"):
+        swinging.run(1.0, q0=3.0)
+
+
+def test_degrees_are_doubted() -> None:
+    with pytest.warns(assur.AssurWarning, match="degrees"):
+        wheel(Torque("crank", Table([0.0, 90.0, 360.0], [0.0, 1.0, 0.0])))
+
+
+def test_tables_and_limits_end_a_run_with_a_warning() -> None:
+    once = assur.Machine.from_table([0.0, 5.0], [1.0, 1.0], [1.0, 1.0], periodic=False)
+    both: tuple[dict[str, Any], ...] = ({"t_end": 50.0}, {"q_end": 50.0})
+    for asked in both:
+        with pytest.warns(assur.AssurWarning, match="a table over q ends"):
+            run = once.run(q0=1.0, speed0=3.0, **asked)
+        assert run.end == "table ends"
+        assert abs(run.q[-1] - 5.0) < 1e-14
+        assert np.isfinite(run.energy.kinetic).all()
+    with pytest.warns(assur.AssurWarning, match="max_steps"):
+        assert wheel().run(1e9, speed0=1.0, max_step=1.0, max_steps=9).end == "step limit"
+    with pytest.warns(assur.AssurWarning, match="max_seconds"):
+        assert wheel().run(1e9, speed0=1.0, max_step=1.0, max_seconds=0.0).end == "time limit"
+    still = wheel().run(0.0, speed0=1.0)
+    assert still.at(0.0).speed == 1.0
