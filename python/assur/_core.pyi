@@ -9,6 +9,7 @@ __all__ = [
     "Flywheels",
     "Machine",
     "Mechanism",
+    "Run",
     "acute",
     "asin",
     "atan2",
@@ -135,6 +136,7 @@ class Run:
     @property
     def statistics(self) -> dict[str, Any]: ...
 
+@final
 class Machine:
     def __new__(
         cls,

@@ -184,9 +184,7 @@ def test_a_constant_motor_must_be_in_balance() -> None:
         own = rounded.steady_state(12.0)
     assert abs(own.found_moment) < 0.1
     assert abs(own.motor_moment - free.motor_moment) < 1e-8
-    with pytest.raises(
-        InputError, match=r"mean moment is 80 N·m where [\d.]+ N·m would be"
-    ):
+    with pytest.raises(InputError, match=r"mean moment is 80 N·m where [\d.]+ N·m would be"):
         press(assur.ConstantTorque(80.0)).steady_state(12.0)
 
 
