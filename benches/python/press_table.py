@@ -17,7 +17,7 @@ DELTA, MEAN = 1 / 8, 15.0
 TURNS = 20
 WIDTH = float(PHI[1])
 # Steps of the fourth order between two knots, so many that the error is below 1e-9.
-STEPS = 20
+STEPS = 24
 # Places of a turn among which extremes are looked for.
 GRID = 181
 

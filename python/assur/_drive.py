@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 METHODS = ("DOP853", "RK45")
 # Errors below cannot be told from rounding (`assur::ode`).
 LEAST_RTOL = 2.3e-15
+# A period that is less accurate tells no speed.
+LOOSEST = 1e-4
 # Ends of a run that nobody asked for.
 CUT_SHORT = ("lost", "table ends", "motor table ends", "stalled", "step limit", "time limit")
 # Part of a period by which a table's may differ from it: tables end with typed numbers.
@@ -97,6 +99,8 @@ def run(
             if machine.mechanism is None
             else machine.mechanism.solve(q, order=1, on_error="nan").explain()
         )
+        if " is solved" in why:
+            why = f"{why}, but a dead point is beside it"
         message = f"{why or error}: a run cannot begin there (q0)"
         raise PositionError(message, q=start[0] if n == 1 else tuple(start)) from error
     made = Run(core, machine.mechanism, n, watched, along_q)
@@ -124,6 +128,9 @@ def steady_state(
     if flywheel < 0.0:
         message = f"flywheel = {flywheel:g} kg·m²: it must be 0 or more"
         raise InputError(message, value=flywheel)
+    if _relative(options["rtol"]) > LOOSEST:
+        message = f"rtol is {options['rtol']!r}: a period is found with {LOOSEST} or less"
+        raise InputError(message)
     core, numbers = machine._core.steady(
         _dimensions(machine),
         [_start(machine, q0, "q0")[0], span],

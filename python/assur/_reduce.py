@@ -17,14 +17,17 @@ Float: TypeAlias = npt.NDArray[np.float64]
 
 
 def reduce(
-    machine: Machine, q: npt.ArrayLike, speed: npt.ArrayLike, on_error: str
+    machine: Machine, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
 ) -> tuple[Float, Float, Float, Float]:
-    """Mass matrices, their derivatives, moments, potential energies at coordinates and speeds."""
+    """Mass matrices, their derivatives, moments, potential energies at coordinates and speeds.
+
+    Without a speed no function is called, and the moments are none.
+    """
     if on_error not in ("raise", "nan"):
         message = f"on_error is {on_error!r}: 'raise' or 'nan'"
         raise InputError(message)
     n, designs = machine._drivers, machine.shape
-    x, v = real_array(q, "q"), real_array(speed, "speed")
+    x, v = real_array(q, "q"), real_array(0.0 if speed is None else speed, "speed")
     if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
         message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
         raise InputError(message)
@@ -40,7 +43,9 @@ def reduce(
         message = f"speed has the shape {v.shape}, q {x.shape}: they do not fit"
         raise InputError(message) from error
     flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
-    given = machine._outside.numbers(flat.reshape(-1, n), speeds.reshape(-1, n))
+    given = np.empty(0)
+    if speed is not None:
+        given = machine._outside.numbers(flat.reshape(-1, n), speeds.reshape(-1, n))
     values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
     dimensions = np.ascontiguousarray(values).ravel()
     *arrays, status = machine._core.reduce(dimensions, flat, speeds, given, None)
@@ -50,7 +55,7 @@ def reduce(
         _refuse(machine, x, shape, int(failed[0]))
     inertia, rates, moment, potential = arrays
     beyond = np.flatnonzero(np.isnan(moment).reshape(-1, n).any(axis=1) & (status < 2))
-    if on_error == "raise" and beyond.size:
+    if speed is not None and on_error == "raise" and beyond.size:
         at = flat.reshape(-1, n)[beyond[0]]
         message = f"q = {at[0]:g}: a load has no value there (a table ends, or a function gave nan)"
         raise InputError(message, q=x[np.unravel_index(int(beyond[0]), shape) if shape else ()])

@@ -259,6 +259,8 @@ class Outside:
 
     tables: list[Rows] = field(default_factory=list)
     functions: list[Function] = field(default_factory=list)
+    # How many of the functions are loads; those of motors come behind.
+    loads: int = 0
 
     def tell(self, value: Value) -> Told:
         """What the core is told of a value."""
@@ -276,13 +278,14 @@ class Outside:
     def numbers(
         self, q: npt.NDArray[np.float64], speed: npt.NDArray[np.float64]
     ) -> npt.NDArray[np.float64]:
-        """The functions' values at positions (rows of coordinates), at the time 0."""
-        if not self.functions:
+        """The loads' functions' values at positions (rows of coordinates), at the time 0."""
+        functions = self.functions[: self.loads]
+        if not functions:
             return np.empty(0)
         one = q.shape[1] == 1
         rows = zip(q.tolist(), speed.tolist(), strict=True)
         pairs = ((a[0], b[0]) if one else (tuple(a), tuple(b)) for a, b in rows)
-        table = [[_called(f, a, b) for f in self.functions] for a, b in pairs]
+        table = [[_called(f, a, b) for f in functions] for a, b in pairs]
         return np.array(table, np.float64).ravel()
 
 

@@ -120,6 +120,7 @@ class Machine:
             else:
                 message = f"{load!r} is no load: Gravity, Force, Torque, Spring, Damper …"
                 raise InputError(message)
+        outside.loads = len(outside.functions)
         told = [_body(mechanism, link, body) for link, body in self.bodies.items()]
         turning = _motors(self.motor, self._drivers, outside)
         self._outside = outside
@@ -239,7 +240,7 @@ class Machine:
         >>> value.round(6)
         array([0.5     , 0.015382])
         """
-        inertia, rates, _, _ = self._reduce(q, 0.0, on_error)
+        inertia, rates, _, _ = self._reduce(q, None, on_error)
         if self._drivers == 1:
             return Reduced(inertia[..., 0, 0][()], rates[..., 0, 0, 0][()])
         return Reduced(inertia, np.moveaxis(rates, -3, -1))
@@ -269,7 +270,7 @@ class Machine:
 
     def potential(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Any:
         """Return the potential energy of weights and springs, J."""
-        return self._reduce(q, 0.0, on_error)[3][()]
+        return self._reduce(q, None, on_error)[3][()]
 
     @overload
     def flywheel(
@@ -538,7 +539,7 @@ class Machine:
         )
 
     def _reduce(
-        self, q: npt.ArrayLike, speed: npt.ArrayLike, on_error: str
+        self, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
     ) -> tuple[Float, Float, Float, Float]:
         return _reduce.reduce(self, q, speed, on_error)
 

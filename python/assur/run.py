@@ -141,6 +141,8 @@ class Run:
     ) -> None:
         self._core, self._along_q, self._drivers = core, along_q, drivers
         self.t, *arrays = core.arrays()
+        for array in (self.t, *arrays):
+            array.flags.writeable = False
         self.q, self.speed, self.acceleration = (self._shaped(one) for one in arrays[:3])
         self._energies = arrays[3:]
         self.statistics = Statistics(**core.statistics)
@@ -227,9 +229,10 @@ class Run:
         place = f"t = {self.t[-1]:.9g} s, q = {self.q[-1]}"
         if kind == "edge":
             return self._edge(mechanism, Status(which), q, place)
+        event = events[which] if kind == "event" else None
         sentences = {
             "reached": "it went to its end",
-            "event": f"{events[which] if events else None} at {place}",
+            "event": f"{event} at {place}",
             "rest": f"the machine came to rest at {place}",
             "table ends": f"a table over q ends at {place}",
             "motor table ends": f"the motor's table ends at {place}",

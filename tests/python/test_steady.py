@@ -261,7 +261,8 @@ def test_pictures() -> None:
         ),
         (
             lambda: assur.Machine(
-                assur.FourBar(2.0, 3.0, 3.0, 4.5), {"crank": Body(inertia=1.0)}
+                assur.FourBar(2.0, 3.0, 3.0, 4.5),
+                {"crank": Body(inertia=1.0), "rocker": Body(inertia=1.0)},
             ).steady_state(5.0),
             "dead point",
         ),

@@ -94,6 +94,9 @@ impl Outside for Calls {
     }
 
     fn cancelled(&mut self) -> bool {
+        if self.signal.is_some() {
+            return true;
+        }
         if self.looked.elapsed() < PATIENCE {
             return false;
         }

@@ -70,7 +70,8 @@ pub enum Load {
     },
 }
 
-/// Unit vector of a distance, and the distance; of none no direction.
+/// Unit vector of a distance, and the distance; of none no direction (unless a spring has no force
+/// there either).
 fn along(pose: &Pose<'_>, ends: [Point; 2]) -> (Vector, f64) {
     let span = pose.point(ends[1], 0) - pose.point(ends[0], 0);
     let length = span.x.hypot(span.y);
@@ -86,6 +87,9 @@ impl Load {
                 let longer = now - length;
                 out.potential += (0.5 * stiffness * longer + preload) * longer;
                 let tension = stiffness * longer + preload;
+                if now == 0.0 && tension == 0.0 {
+                    return;
+                }
                 for (driver, sum) in out.stored.iter_mut().enumerate() {
                     *sum += -tension * growing(pose, *ends, unit, driver);
                 }

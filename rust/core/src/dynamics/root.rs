@@ -47,6 +47,9 @@ pub fn zero_to(mut f: impl FnMut(f64) -> f64, guess: f64, part: f64) -> Option<f
             next = 0.5 * (a + b);
         }
         let value = f(next);
+        if value.is_nan() {
+            return None;
+        }
         if next == a || next == b || (next - b).abs() <= part * next.abs() {
             return Some(next);
         }

@@ -58,11 +58,13 @@ impl Turn {
         corners: &[usize],
     ) -> Result<Self, TableError> {
         check(knots, [("moment", moment), ("inertia", inertia)])?;
-        let cuts: Vec<usize> = [0]
+        let mut cuts: Vec<usize> = [0]
             .into_iter()
             .chain(corners.iter().copied().filter(|&row| row > 0 && row + 1 < knots.len()))
             .chain([knots.len() - 1])
             .collect();
+        cuts.sort_unstable();
+        cuts.dedup();
         let lay = |values: &[f64]| -> Result<Pieces, TableError> {
             let mut all = Pieces::with_capacity(knots.len());
             for cut in cuts.windows(2) {
@@ -210,7 +212,8 @@ pub(super) fn check_columns(
 ) -> Result<(), TableError> {
     let all = || std::iter::once(("phi", knots)).chain(columns.iter().copied());
     let count = all().map(|(_, column)| column.len()).min().unwrap_or(0);
-    if count < 2 {
+    let is_long = all().any(|(_, column)| column.len() != count);
+    if count < 2 || is_long {
         return Err(TableError::TooShort { count, least: 2 });
     }
     for (quantity, column) in all() {

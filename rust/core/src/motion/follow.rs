@@ -22,6 +22,10 @@ pub(crate) enum Asked<'a> {
 /// A slide is followed as far as it goes: farther than this many sizes it is refused anyway.
 const FAR: f64 = 1.0e9;
 
+/// With several drivers the way from one position to the next is walked: not farther at once (rad,
+/// or sizes) than takes a millisecond or so.
+const FAR_STEP: f64 = 50.0;
+
 /// A mechanism of one design with its way laid, and work space for a position.
 pub(crate) struct Follower<'m> {
     design: Design<'m>,
@@ -107,6 +111,11 @@ impl<'m> Follower<'m> {
     pub(crate) fn solve(&mut self, q: &[f64]) -> Result<(), Status> {
         self.q.clear();
         self.q.extend(q.iter().zip(&self.design.unit.coordinate).map(|(q, unit)| q * unit));
+        if let Some(last) = &self.last
+            && last.q.iter().zip(&self.q).any(|(a, b)| (a - b).abs() > FAR_STEP)
+        {
+            return Err(Status::Lost);
+        }
         let place = match self.last.as_ref().filter(|_| self.q.iter().all(|q| q.is_finite())) {
             Some(last) => Some(last.way(&self.design, &self.q)),
             None => self.design.way(&self.q),

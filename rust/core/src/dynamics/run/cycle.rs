@@ -34,8 +34,10 @@ pub(super) struct Period {
     pub time: f64,
     /// Work of the motors.
     pub drive: f64,
-    /// Work of everything, each part counted positive.
+    /// Work of loads and motors, each counted positive.
     pub turnover: f64,
+    /// Whether anything depends on the speed.
+    pub depends: bool,
     /// Derivatives of the first two by `speed2` at the beginning and by the moment.
     pub speed2_by: [f64; 2],
     pub time_by: [f64; 2],
@@ -56,6 +58,7 @@ struct Cycle<'c, 'a, S, O> {
     equation: &'c mut Equation<'a, S, O>,
     sign: f64,
     moment: f64,
+    depends: bool,
     table: bool,
     deadline: Option<std::time::Instant>,
 }
@@ -63,6 +66,9 @@ struct Cycle<'c, 'a, S, O> {
 /// What is left of q̇² where a machine comes to rest, as a part of it at the beginning: the time
 /// grows as its root there, and steps become too narrow before it is none.
 const AT_REST: f64 = 1.0e-4;
+
+/// How far (rad) from a dead point a period that ends there may end.
+const BESIDE: f64 = 1.0e-3;
 
 /// Numbers of its state: w, t, work of motors, sum of all work, and derivatives.
 const LEN: usize = 8;
@@ -83,12 +89,13 @@ impl<S: Source, O: Outside> System for Cycle<'_, '_, S, O> {
         let inertia = equation.inertia(q)?;
         let moment = equation.moment(0) + self.moment;
         let by_speed = equation.reduced.by_speed + equation.drive_by_speed;
+        self.depends |= by_speed != 0.0;
         let rate = equation.reduced.rates[0];
         let growth = (by_speed / speed - rate) / inertia;
         rates[0] = (2.0 * moment - rate * speed2) / inertia;
         rates[1] = 1.0 / speed;
         rates[2] = equation.drive[0] + self.moment;
-        let parts = [equation.reduced.stored[0], equation.reduced.applied[0], rates[2]];
+        let parts = [equation.reduced.stored[0], equation.reduced.applied[0], equation.drive[0]];
         rates[3] = self.sign * parts.map(f64::abs).iter().sum::<f64>();
         rates[4] = growth * by_start;
         rates[5] = growth * by_moment + 2.0 / inertia;
@@ -137,7 +144,8 @@ pub(super) fn period<S: Source, O: Outside>(
     equation.begin(from, &[speed]).map_err(Unsteady::Broken)?;
     let events = vec![Crossing::Boundary; 2 * equation.tabled().count()];
     let deadline = search.deadline;
-    let mut cycle = Cycle { equation, sign, moment: begin.moment, table: false, deadline };
+    let mut cycle =
+        Cycle { equation, sign, moment: begin.moment, depends: false, table: false, deadline };
     let free = f64::INFINITY;
     let r = search.relative;
     let relative = [r, r, 0.0, 0.0, r, r, r, r];
@@ -155,13 +163,18 @@ pub(super) fn period<S: Source, O: Outside>(
     let start = [begin.speed2, begin.t, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
     let integrator = integrator.get_or_insert_with(|| Integrator::new(search.method, LEN));
     let made = integrator.run(&mut cycle, from, &start, from + search.span, &options);
-    let table = cycle.table;
+    let (table, depends) = (cycle.table, cycle.depends);
     let Solution { t: q, y, end, .. } = made.map_err(|error| match error {
         Error::System(broken) => Unsteady::Broken(broken),
         other => Unsteady::Other(other.to_string()),
     })?;
     match end {
         End::Reached => {}
+        End::Edge { .. } | End::Stalled { .. }
+            if cycle.equation.source.is_beside_fold(&[q], BESIDE) =>
+        {
+            return Err(Unsteady::DeadPoint { q });
+        }
         End::Edge { .. } | End::Stalled { .. } if y[0] <= AT_REST * begin.speed2 => {
             return Ok(Passage::Stops { q });
         }
@@ -178,6 +191,7 @@ pub(super) fn period<S: Source, O: Outside>(
         time: y[1] - begin.t,
         drive: y[2],
         turnover: y[3].abs(),
+        depends,
         speed2_by: [y[4], y[5]],
         time_by: [y[6], y[7]],
     }))

@@ -105,6 +105,9 @@ fn even<E>(
     let guess = size * (own / fluctuation - 1.0).max(0.1);
     let (mut last, mut failed) = (without, None);
     let lack = |flywheel: f64| {
+        if failed.is_some() {
+            return f64::NAN;
+        }
         let search = Search { flywheel: search.flywheel + flywheel, ..*search };
         match find(search, last.as_ref()) {
             Ok(steady) => {

@@ -82,8 +82,10 @@ fn run<S: Source, O: Outside>(
     let (mut max_step, mut max_change) = (task.max_step, Vec::new());
     if looks && task.along == Along::Coordinate {
         max_step = max_step.min(LOOK);
-    } else if looks {
-        max_change.extend(sizes.iter().map(|size| LOOK * size));
+    } else if looks || sizes.len() > 1 {
+        // With several drivers positions are followed from one to the next.
+        let most = if looks { LOOK } else { STRIDE };
+        max_change.extend(sizes.iter().map(|size| most * size));
     }
     let options = Options {
         relative: &relative,
@@ -105,6 +107,9 @@ fn run<S: Source, O: Outside>(
 /// Where a run along the coordinate must end, as a table does, and which.
 fn clip(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>) {
     let mut clipped = (end, None);
+    if from == end {
+        return clipped;
+    }
     for (which, table) in tables.iter().enumerate() {
         let [first, last] = table.range();
         let limit = if end > from { last } else { first };
@@ -117,6 +122,8 @@ fn clip(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>) {
 
 /// How far (rad, or of the size) a step goes where angles of the mechanism are looked at.
 const LOOK: f64 = 0.1;
+/// The same with several drivers, where nothing is.
+const STRIDE: f64 = 1.0;
 /// Knots on a way along the coordinate, at most: they are all known beforehand.
 const MOST_KNOTS: f64 = 1.0e7;
 /// Coordinates beyond this have no place in a table.

@@ -27,6 +27,9 @@ pub(super) trait Source {
     /// An angle at coordinates; NaN where there is none.
     fn angle(&mut self, q: &[f64], angle: &Angle) -> f64;
 
+    /// What a driver's coordinate is measured in: the size of a slide, of an angle 1.
+    fn unit(&self, driver: usize) -> f64;
+
     /// Whether there may be dead points.
     fn has_dead_points(&self) -> bool;
 
@@ -90,11 +93,6 @@ impl<'m> Moving<'m> {
         let follower = Follower::new(mechanism, dimensions, jets, Asked::Any, lifted);
         Self { machine, jets, follower }
     }
-
-    /// What a driver's coordinate is measured in.
-    pub(super) fn unit(&self, driver: usize) -> f64 {
-        self.follower.unit(driver)
-    }
 }
 
 impl Source for Moving<'_> {
@@ -120,6 +118,10 @@ impl Source for Moving<'_> {
             Ok(()) => angle.at(&Pose::new(self.follower.position(), self.jets)),
             Err(_) => f64::NAN,
         }
+    }
+
+    fn unit(&self, driver: usize) -> f64 {
+        self.follower.unit(driver)
     }
 
     fn has_dead_points(&self) -> bool {
@@ -199,6 +201,10 @@ impl Source for &Sheet {
 
     fn angle(&mut self, _: &[f64], _: &Angle) -> f64 {
         f64::NAN
+    }
+
+    fn unit(&self, _: usize) -> f64 {
+        1.0
     }
 
     fn has_dead_points(&self) -> bool {

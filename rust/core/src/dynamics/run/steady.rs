@@ -20,10 +20,15 @@ const SETTLED: f64 = 1.0e-9;
 /// By how much speed² may fall in one step: what is looked for is the first motion below the idle
 /// speed, which is the stable one.
 const FALL: f64 = 0.7;
-/// Where the end of a period depends less on its beginning than by this part, no speed is told.
-const NEUTRAL: f64 = 1.0e-7;
+/// A speed that is known to no more than this part is not told by the motor: a period's end then
+/// depends on its beginning alone.
+const KNOWN: f64 = 1.0e-5;
 /// Part of the work of a period that may be left over then: motors are given with so many digits.
 const BALANCED: f64 = 1.0e-2;
+/// Errors of a period, as multiples of the tolerance.
+const NOISE: f64 = 100.0;
+/// Part of the work of a period that may be lost in them.
+const UNKNOWN: f64 = 0.05;
 /// Part of the work of a period to which it is in balance.
 const BALANCE: f64 = 1.0e-6;
 /// How far two periods, one after the other, may differ.
@@ -125,8 +130,7 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
             return self.at_speed(speed, begin);
         }
         let (begin, first) = self.passing(begin)?;
-        let is_neutral = (first.speed2_by[0] - 1.0).abs() < NEUTRAL;
-        if !is_neutral {
+        if first.depends {
             return self.self_found(begin, first);
         }
         let left = self.left_over(begin, &first);
@@ -172,6 +176,8 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
     /// between a speed at which it falls and one at which it grows, by Newton's steps.
     fn self_found(&mut self, begin: Begin, first: Period) -> Found<O::Error> {
         let from = begin.speed2.sqrt();
+        let idle = self.equation.motors.iter().find_map(crate::dynamics::Motor::idle_speed);
+        let idle2 = idle.map_or(0.0, |idle| idle * idle);
         let (mut begin, mut period) = (begin, first);
         // Where it falls from on, and where it grows or the machine stops.
         let (mut high, mut low) = (f64::INFINITY, 0.0);
@@ -180,7 +186,13 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
             let gain = period.speed2 - begin.speed2;
             let slope = period.speed2_by[0] - 1.0;
             let newton = begin.speed2 - gain / slope;
-            if slope < 0.0 && (newton - begin.speed2).abs() <= SETTLED * begin.speed2 {
+            // What the errors of a period make of it.
+            let noise = NOISE * self.search.relative / slope.abs();
+            let settled = SETTLED.max(noise) * begin.speed2;
+            if slope < 0.0 && (newton - begin.speed2).abs() <= settled {
+                if noise > KNOWN.max(10.0 * NOISE * self.search.relative) {
+                    return Err(Unsteady::Weak { part: -slope });
+                }
                 let last = Begin { speed2: newton, ..begin };
                 return match self.pass(last)? {
                     Passage::Whole(period) => Ok((last, period)),
@@ -191,7 +203,7 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
                 high = begin.speed2;
             } else if gain >= 0.0 {
                 (low, grows) = (begin.speed2, true);
-            } else {
+            } else if begin.speed2 <= idle2 {
                 // It falls, the more so the slower: below the unstable motion.
                 low = begin.speed2;
             }
@@ -199,6 +211,8 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
             let mut next = match (between, high.is_finite()) {
                 (true, _) => newton,
                 (false, true) => 0.5 * (low + high),
+                // Above the speed without load a motor brakes, if less and less.
+                (false, false) if gain < 0.0 && begin.speed2 > idle2 => FALL * begin.speed2,
                 (false, false) => 2.0 * begin.speed2,
             };
             next = next.max(FALL * begin.speed2).min(4.0 * begin.speed2);
@@ -292,10 +306,10 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
             self.search;
         self.begin_at(q + span)?;
         let later = self.pass(Begin { t: begin.t + period.time, ..begin })?;
+        let part = SAME.max(NOISE * relative);
         let same = matches!(later, Passage::Whole(own)
-            if (own.speed2 - period.speed2).abs() <= SAME * period.speed2
-            && (own.time - period.time).abs() <= SAME * period.time.abs()
-            && (own.drive - period.drive).abs() <= BALANCE * period.turnover);
+            if (own.speed2 - period.speed2).abs() <= part * period.speed2
+            && (own.time - period.time).abs() <= part * period.time.abs());
         if !same {
             return Err(Unsteady::NotPeriodic);
         }
@@ -332,8 +346,11 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         let stored: Vec<f64> = run.energies.iter().map(|pair| pair[1]).collect();
         let left = ends(&run.moments.work) - ends(&stored);
         // At too great a speed the energy's own rounding is more than a period's work.
-        let balanced = left.abs() <= BALANCE * period.turnover;
-        if !balanced {
+        let kinetic = run.energies.first().map_or(f64::NAN, |pair| pair[0]);
+        let noise = NOISE * relative * kinetic;
+        let idle = period.turnover <= 64.0 * f64::EPSILON * kinetic;
+        let balanced = left.abs() <= BALANCE * period.turnover + noise;
+        if !(balanced && (idle || noise <= UNKNOWN * period.turnover)) {
             return Err(Unsteady::RunsAway { speed: begin.speed2.sqrt() });
         }
         let multiplier = period.speed2_by[0];

@@ -26,6 +26,11 @@ pub enum Unsteady<E> {
     Unbalanced { motor: f64, needed: f64 },
     #[error("no periodic motion with a mean speed of {} rad/s was found: so slow a machine would stop on its way (flywheel= keeps it going), so fast a one cannot be told from rounding", short(*speed))]
     NotMet { speed: f64 },
+    #[error(
+        "the speed is hardly told: over a period a change of it dies away by {} alone, which this tolerance (rtol) cannot see",
+        short(*part)
+    )]
+    Weak { part: f64 },
     #[error("there is a dead point at q = {}: the driver does not turn fully", short(*q))]
     DeadPoint { q: f64 },
     #[error("the motor's table ends at {} rad/s of the driver, met at q = {}", short(*speed), short(*q))]

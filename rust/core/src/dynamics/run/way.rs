@@ -131,7 +131,8 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
 
     /// How the distance from a singular position grows along the motion.
     fn receding(&mut self, q: &[f64], speed: &[f64]) -> f64 {
-        let fastest = speed.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let own = speed.iter().enumerate().map(|(i, v)| v.abs() / self.equation.source.unit(i));
+        let fastest = own.fold(0.0_f64, f64::max);
         let [back, ahead] = [-LOOK, LOOK].map(|part| {
             let beside: Vec<f64> =
                 q.iter().zip(speed).map(|(q, v)| q + part * v / fastest).collect();
