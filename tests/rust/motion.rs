@@ -133,6 +133,17 @@ fn tables_with_a_motor_come_to_a_periodic_motion() {
     assert!((steady.drive - 8.0 * TAU).abs() < 1e-10);
     let weak = sheet(3.9).steady(&search(TAU, None), None, Nothing);
     assert!(matches!(weak, Err(Unsteady::Stops { .. } | Unsteady::CannotCarry { .. })), "{weak:?}");
+    // A guess far above the field's speed, where the motor brakes less and less.
+    let induction = Characteristic::Induction { breakdown: 60.0, slip: 0.2, synchronous: 15.7 };
+    let kloss =
+        Sheet { motors: vec![Motor { characteristic: induction, ..motor(1.0) }], ..sheet(1.0) };
+    // 2 · 120 s 0.2 / (s² + 0.04) = 8.
+    let slip = 0.2 * (15.0 - 224.0_f64.sqrt());
+    for guess in [None, Some(5.0), Some(20.0), Some(100.0), Some(3000.0)] {
+        let own = kloss.steady(&search(TAU, guess), None, Nothing).expect("a motion");
+        let exact = 0.5 * 15.7 * (1.0 - slip);
+        assert!((own.mean(Mean::Period) - exact).abs() < 1e-10, "{guess:?}");
+    }
     let unknown = Sheet { motors: vec![], ..sheet(1.0) };
     let unknown = unknown.steady(&search(TAU, None), None, Nothing);
     assert_eq!(unknown.unwrap_err(), Unsteady::NeedsSpeed);

@@ -199,11 +199,12 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
                     Passage::Stops { q } => Err(Unsteady::Stops { q, from }),
                 };
             }
-            if gain < 0.0 && slope < 0.0 {
+            // Above the speed without load a motor brakes, if less and less.
+            if gain < 0.0 && (slope < 0.0 || begin.speed2 > idle2) {
                 high = begin.speed2;
             } else if gain >= 0.0 {
                 (low, grows) = (begin.speed2, true);
-            } else if begin.speed2 <= idle2 {
+            } else {
                 // It falls, the more so the slower: below the unstable motion.
                 low = begin.speed2;
             }
@@ -211,8 +212,6 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
             let mut next = match (between, high.is_finite()) {
                 (true, _) => newton,
                 (false, true) => 0.5 * (low + high),
-                // Above the speed without load a motor brakes, if less and less.
-                (false, false) if gain < 0.0 && begin.speed2 > idle2 => FALL * begin.speed2,
                 (false, false) => 2.0 * begin.speed2,
             };
             next = next.max(FALL * begin.speed2).min(4.0 * begin.speed2);
