@@ -50,7 +50,8 @@ def draw(machine: assur.Machine) -> Any:
         q = np.linspace(0.0, 2 * np.pi, 721)
         axes[1].plot(q, steady.at(q).speed, label=f"{label}: δ = {steady.delta:.3g}")
     axes[1].set(title="periodic", xlabel="q, rad", ylabel="ω, rad/s")
-    axes[1].legend(loc="lower right")
+    axes[1].margins(y=0.5)
+    axes[1].legend(loc="upper right")
     return figure
 
 

@@ -196,6 +196,15 @@ def _from_rows(
     """The flywheel from tables of moment and inertia, dense enough."""
     knots = _knots(machine)
     speed = real_array(mean_speed, "mean_speed")
+    if speed.ndim and speed.shape != machine.shape:
+        message = (
+            f"mean_speed has the shape {speed.shape}, the designs {machine.shape}: a number, or "
+            "one for each design"
+        )
+        raise InputError(message)
+    if not np.isfinite(speed).all():
+        message = f"mean_speed is {mean_speed!r}: finite numbers are needed"
+        raise InputError(message)
     last: Flywheel | None = None
     rows = FIRST_ROWS
     while True:

@@ -275,6 +275,8 @@ def test_change_points_have_reductions() -> None:
     ("make", "said"),
     [
         (lambda: wheel().run(1.0, speed0=ANY), "speed0"),
+        (lambda: press().flywheel(0.1, [10.0, 20.0]), r"mean_speed has the shape \(2,\)"),
+        (lambda: press().flywheel(0.1, math.nan), "mean_speed is nan"),
         (lambda: wheel().run(), "one of t_end and q_end"),
         (lambda: wheel().run(1.0, q_end=2.0), "one of t_end and q_end"),
         (lambda: wheel().run(q_end=2.0), "begins with a motion"),
