@@ -43,6 +43,7 @@ pub enum Characteristic {
 
 impl Motor {
     /// Moment on the driver and its derivative by the driver's speed; a table is read in `cell`.
+    #[inline]
     pub(super) fn moment(&self, speed: f64, cell: Cell, numbers: Numbers<'_>) -> [f64; 2] {
         let own = self.ratio * speed;
         let [torque, slope] = match &self.characteristic {

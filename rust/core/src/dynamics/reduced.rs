@@ -52,6 +52,9 @@ impl Reduced {
     /// terms of Lagrange's equations without accelerations; of one driver ½ J′ v²).
     #[must_use]
     pub fn centrifugal(&self, driver: usize, speed: &[f64]) -> f64 {
+        if let &[speed] = speed {
+            return 0.5 * self.rates[0] * speed * speed;
+        }
         let n = speed.len();
         let rate = |c: usize, a: usize, b: usize| self.rates[(c * n + a) * n + b];
         let mut sum = 0.0;

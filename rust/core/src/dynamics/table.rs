@@ -1,7 +1,6 @@
 //! Values over a coordinate or a speed.
 
 use super::error::TableError;
-use super::polynomial::value;
 use super::spline::{Ends, Pieces, spline};
 
 /// A table with a curve through its rows.
@@ -20,6 +19,8 @@ const SLACK: f64 = 1.0e-12;
 pub(super) struct Cell {
     piece: usize,
     whole: f64,
+    /// Its first knot, whole periods on.
+    start: f64,
 }
 
 impl Table {
@@ -73,7 +74,11 @@ impl Table {
         let whole = if self.periodic { ((x - first) / self.width()).floor() } else { 0.0 };
         let within = x - self.width() * whole;
         let after = self.knots.partition_point(|&knot| knot <= within);
-        Some(Cell { piece: after.clamp(1, self.pieces.len()) - 1, whole })
+        Some(self.own(after.clamp(1, self.pieces.len()) - 1, whole))
+    }
+
+    fn own(&self, piece: usize, whole: f64) -> Cell {
+        Cell { piece, whole, start: self.knots[piece] + whole * self.width() }
     }
 
     /// The knots around a piece.
@@ -84,19 +89,21 @@ impl Table {
     /// The piece behind (`up`) or before another.
     pub(super) fn next(&self, cell: Cell, up: bool) -> Option<Cell> {
         let last = self.pieces.len() - 1;
-        match (up, cell.piece) {
-            (true, piece) if piece < last => Some(Cell { piece: piece + 1, ..cell }),
-            (false, piece) if piece > 0 => Some(Cell { piece: piece - 1, ..cell }),
-            (true, _) => self.periodic.then_some(Cell { piece: 0, whole: cell.whole + 1.0 }),
-            (false, _) => self.periodic.then_some(Cell { piece: last, whole: cell.whole - 1.0 }),
+        let Cell { piece, whole, .. } = cell;
+        match up {
+            true if piece < last => Some(self.own(piece + 1, whole)),
+            false if piece > 0 => Some(self.own(piece - 1, whole)),
+            true => self.periodic.then(|| self.own(0, whole + 1.0)),
+            false => self.periodic.then(|| self.own(last, whole - 1.0)),
         }
     }
 
     /// Value and slope of a piece, also a little beyond it.
+    #[inline]
     pub(super) fn read(&self, cell: Cell, x: f64) -> [f64; 2] {
-        let [_, b, c, d] = self.pieces[cell.piece];
-        let x = x - (self.knots[cell.piece] + cell.whole * self.width());
-        [value(&self.pieces[cell.piece], x), value(&[b, 2.0 * c, 3.0 * d], x)]
+        let [a, b, c, d] = self.pieces[cell.piece];
+        let x = x - cell.start;
+        [a + x * (b + x * (c + x * d)), b + x * (2.0 * c + x * (3.0 * d))]
     }
 
     /// About how many knots there are on a way of this length.

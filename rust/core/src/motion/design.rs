@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use super::bridge::bridge;
+use super::bridge::{Bridge, bridge};
 use super::quick::{Quick, Template};
 use super::simd::Level;
 use super::state::{Context, Fault, State, Status};
@@ -85,6 +85,8 @@ pub(crate) struct Design<'a> {
     q0: Vec<f64>,
     /// The way from the drawing, if one serves all positions.
     pub track: Track,
+    /// Where the way through a change point is a polynomial.
+    pub bridge: Bridge,
 }
 
 impl<'a> Design<'a> {
@@ -103,6 +105,7 @@ impl<'a> Design<'a> {
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
             q0: Vec::new(),
             track: Track::default(),
+            bridge: Bridge::SHORT,
         }
     }
 
@@ -360,8 +363,8 @@ impl<'a> Design<'a> {
         let solved = matches!(state.status, Status::Ok | Status::NearSingular);
         if let [one] = *q
             && state.status != Status::BadInput
-            && let Some(change) = track.change_near(*at)
-            && let Some(smooth) = bridge(&cx, state, track, one, change.at)
+            && let Some(change) = track.change_near(*at, self.bridge.reach)
+            && let Some(smooth) = bridge(&cx, state, track, (one, change.at), self.bridge)
             && (!solved || smooth.is_near(state))
         {
             let at_change = !solved || (*at - change.at).abs() <= CHANGE_WIDTH;

@@ -1,5 +1,6 @@
 //! One design, one position after another: what a motion in time asks for.
 
+use super::bridge::Bridge;
 use super::design::{Design, Place, Units};
 use super::state::{Context, State, Status};
 use super::track::{Track, nearest};
@@ -69,6 +70,7 @@ impl<'m> Follower<'m> {
         lifted: bool,
     ) -> Self {
         let mut design = Design::new(mechanism, mechanism.signs(), jets);
+        design.bridge = Bridge::LONG;
         design.bind(dimensions);
         let far = FAR * design.bound.scale;
         match asked {

@@ -163,7 +163,9 @@ impl<'a> Worker<'a> {
         let track = &self.design.track;
         let strange = |i: usize| {
             let at = q.lane(i);
-            !track.covers(at) || track.hides(spot, i) || track.change_near(at).is_some()
+            !track.covers(at)
+                || track.hides(spot, i)
+                || track.change_near(at, self.design.bridge.reach).is_some()
         };
         Lanes::ZERO.lt(Lanes::from_lanes(|i| if strange(i) { 1.0 } else { 0.0 }))
     }

@@ -5,7 +5,7 @@ use super::state::{Context, State};
 use crate::lanes::Real;
 use crate::plan::{Along, Dyad, Form};
 use crate::plane::Vector;
-use crate::tolerance::CHANGE_MISFIT;
+use crate::tolerance::{CHANGE_MISFIT, SMOOTH_CLOSURE};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// How far a dyad is from flat, with the sign of its assembly, and the rate of
@@ -75,6 +75,17 @@ impl State {
         let values = |state: &Self| state.points.iter().step_by(state.len).map(|p| p[0]).collect();
         let (a, b): (Vec<Vector>, Vec<Vector>) = (values(self), values(other));
         a.iter().zip(&b).all(|(&a, &b)| (a - b).norm() <= allowed)
+    }
+
+    /// Whether points and their analogues are those of another state, to the rounding of that:
+    /// analogues of order k know u κ^(2k − 1).
+    pub(crate) fn is_as(&self, other: &Self) -> bool {
+        let condition = other.condition2[0].sqrt().max(1.0);
+        self.points.iter().zip(&other.points).enumerate().all(|(i, (one, own))| {
+            let power = i32::try_from(i % self.len).unwrap_or(1);
+            let allowed = SMOOTH_CLOSURE * condition.powi((2 * power - 1).max(1));
+            (one[0] - own[0]).norm() <= allowed * (1.0 + own[0].norm())
+        })
     }
 
     /// Becomes the weighted sum of other states of the same plan: a polynomial

@@ -15,7 +15,6 @@ use super::state::{Context, State};
 use super::walk::{Knot, Start, Stretch, Walker};
 use crate::lanes::{LANES, Real};
 use crate::plan::Plan;
-use crate::tolerance::CHANGE_REACH;
 
 /// Cells in a turn of a driven angle: knots fill the lanes of four groups, and an odd
 /// number keeps them off the places half a turn from the drawing.
@@ -354,13 +353,13 @@ impl Track {
     }
 
     /// The change point that a parameter is beside, if there is one.
-    pub(crate) fn change_near(&self, at: f64) -> Option<Change> {
+    pub(crate) fn change_near(&self, at: f64, reach: f64) -> Option<Change> {
         if self.changes.is_empty() {
             return None;
         }
         let (place, whole) = self.reduced(at);
         let period = self.period.unwrap_or(0.0);
-        let beside = |c: &Change| (c.at - place).abs() <= CHANGE_REACH;
+        let beside = |c: &Change| (c.at - place).abs() <= reach;
         let images = |c: &Change| [0.0, -period, period].map(|by| Change { at: c.at + by, ..*c });
         let found = self.changes.iter().flat_map(images).find(beside)?;
         Some(Change { at: found.at + whole * period, ..found })

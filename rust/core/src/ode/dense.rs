@@ -50,6 +50,14 @@ impl Interpolant {
         evaluate(&self.rows, self.n, theta, y);
     }
 
+    /// Moves a state from one part of the step to another.
+    pub(super) fn shift(&self, from: f64, to: f64, y: &mut [f64]) {
+        for (i, y) in y.iter_mut().enumerate() {
+            let [before, behind] = [from, to].map(|at| component(&self.rows, self.n, at, i));
+            *y += behind - before;
+        }
+    }
+
     /// Bends it so that it meets a state at θ that is better known: the difference is of the size
     /// of its error, and is spread over the step evenly.
     pub(super) fn meet(&mut self, theta: f64, y: &[f64]) {
@@ -127,7 +135,14 @@ impl Path {
         for (((start, width), &end), rows) in steps.zip(self.rows.chunks_exact(self.stride.max(1)))
         {
             let theta = (end - start) / width;
+            let n = self.n;
             for (i, (y, rate)) in y.iter_mut().zip(&mut rates).enumerate() {
+                if theta == 1.0 {
+                    // Most steps are whole ones: all other terms are zero there.
+                    *y = rows[i] + rows[n + i];
+                    *rate = (rows[n + i] - (rows[2 * n + i] + rows[3 * n + i])) / width;
+                    continue;
+                }
                 *y = component(rows, self.n, theta, i);
                 *rate = component_slope(rows, self.n, theta, i) / width;
             }

@@ -7,6 +7,9 @@ use super::system::{Action, System};
 
 /// How often the place of an event is mended by steps of the method itself.
 const MENDINGS: u32 = 3;
+/// Over so small a part of the step the continuous output tells the change of a state as well as
+/// another step would: its slope is wrong by little, and by so little of that.
+const BESIDE: f64 = 1e-8;
 /// Half width of the difference that gives the slope of an event function, as part of the step: its
 /// error, of the second order, costs nothing but speed of convergence.
 const SLOPE_HALF_WIDTH: f64 = 1e-3;
@@ -75,6 +78,14 @@ impl<S: System> Step<'_, S> {
         self.system.events(t, &self.state.as_flattened()[..self.n], values)
     }
 
+    /// The event functions beside the place looked at last, which is `from`.
+    fn shift(&mut self, from: f64, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
+        let state = &mut self.state.as_flattened_mut()[..self.n];
+        self.interpolant.shift(from, theta, state);
+        let t = self.time(theta);
+        self.system.events(t, &self.state.as_flattened()[..self.n], values)
+    }
+
     /// Mends the place of an event by simplified Newton steps with the method's own states.
     fn mend(
         &mut self,
@@ -101,7 +112,11 @@ impl<S: System> Step<'_, S> {
                 break;
             }
             last = (best - change).clamp(0.0, 1.0);
-            self.method(last, values)?;
+            if change.abs() <= BESIDE {
+                self.shift(best, last, values)?;
+            } else {
+                self.method(last, values)?;
+            }
             let better = values[j].abs() < value.abs();
             if !better {
                 break;

@@ -215,17 +215,27 @@ impl Stages {
 /// Σ wⱼ kⱼ.
 #[inline]
 fn weigh(row: Row, k: &[Block], sum: &mut [Block]) {
+    // One block is by far the most frequent, and then its number is no question.
+    if let [sum] = sum {
+        *sum = weigh_one(row, |stage| &k[stage]);
+        return;
+    }
     let blocks = sum.len();
     for (b, sum) in sum.iter_mut().enumerate() {
-        let mut total = [0.0; LANES];
-        for &(stage, weight) in row {
-            let k = &k[stage * blocks + b];
-            for l in 0..LANES {
-                total[l] += weight * k[l];
-            }
-        }
-        *sum = total;
+        *sum = weigh_one(row, |stage| &k[stage * blocks + b]);
     }
+}
+
+#[inline(always)]
+fn weigh_one<'k>(row: Row, k: impl Fn(usize) -> &'k Block) -> Block {
+    let mut total = [0.0; LANES];
+    for &(stage, weight) in row {
+        let k = k(stage);
+        for l in 0..LANES {
+            total[l] += weight * k[l];
+        }
+    }
+    total
 }
 
 /// y + h Σ wⱼ kⱼ.

@@ -128,7 +128,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
             coordinates: [f64::NEG_INFINITY, f64::INFINITY],
             slopes: false,
             refused: None,
-            readings: Vec::with_capacity(tables.len()),
+            readings: vec![[f64::NAN; 2]; tables.len()],
             given: vec![[0.0; 2]; count],
             numbers: vec![0.0; count],
             varied: vec![0.0; count],
@@ -193,7 +193,15 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
         })
     }
 
+    /// Looks tables up at a coordinate, unless they are in their pieces there; whether they are
+    /// there.
+    pub(super) fn find(&mut self, q: f64) -> bool {
+        (self.reader.low..=self.reader.high).contains(&q)
+            || self.reader.place(self.tables, q).is_ok()
+    }
+
     /// Inertia, weights and springs at coordinates.
+    #[inline]
     pub(super) fn place(&mut self, q: &[f64]) -> Result<(), Stop<O::Error>> {
         self.reader.read(self.tables, q[0], &mut self.readings);
         let numbers = Numbers { tables: &self.readings, given: &[] };
@@ -206,6 +214,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
     }
 
     /// All other loads and motors there, at speeds.
+    #[inline]
     pub(super) fn load(&mut self, t: f64, q: &[f64], speed: &[f64]) -> Result<(), Stop<O::Error>> {
         if !self.numbers.is_empty() {
             self.call(t, q, speed).map_err(|error| Fault::Error(Broken::Outside(error)))?;
@@ -257,6 +266,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
     }
 
     /// The reduced inertia of the one driver.
+    #[inline]
     pub(super) fn inertia(&self, q: f64) -> Result<f64, Stop<O::Error>> {
         let value = self.reduced.inertia[0];
         // NaN as well is none.

@@ -218,9 +218,7 @@ fn finish<S: Source, O: Outside>(
     let mut energies = vec![[f64::NAN; 2]; moments.len()];
     for (index, pair) in energies.iter_mut().enumerate().rev() {
         let (q, speed) = moments.state(index);
-        if way.equation.reader.place(way.equation.tables, q[0]).is_ok()
-            && way.equation.place(q).is_ok()
-        {
+        if way.equation.find(q[0]) && way.equation.place(q).is_ok() {
             let reduced = &way.equation.reduced;
             *pair = [reduced.kinetic(speed), reduced.potential];
         }

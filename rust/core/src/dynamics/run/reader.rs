@@ -27,6 +27,8 @@ impl Reader {
     /// The table that has nothing there.
     pub(super) fn place(&mut self, tables: &[Table], x: f64) -> Result<(), usize> {
         self.cells.clear();
+        // Of a place that is in no pieces nothing is read.
+        (self.low, self.high) = (f64::INFINITY, f64::NEG_INFINITY);
         for (which, table) in tables.iter().enumerate() {
             self.cells.push(table.cell(x).ok_or(which)?);
         }
@@ -62,8 +64,10 @@ impl Reader {
     }
 
     /// Value and slope of every table.
-    pub(super) fn read(&self, tables: &[Table], x: f64, readings: &mut Vec<[f64; 2]>) {
-        readings.clear();
-        readings.extend(tables.iter().zip(&self.cells).map(|(table, &cell)| table.read(cell, x)));
+    #[inline]
+    pub(super) fn read(&self, tables: &[Table], x: f64, readings: &mut [[f64; 2]]) {
+        for ((reading, table), &cell) in readings.iter_mut().zip(tables).zip(&self.cells) {
+            *reading = table.read(cell, x);
+        }
     }
 }

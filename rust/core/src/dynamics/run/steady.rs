@@ -31,6 +31,8 @@ const NOISE: f64 = 100.0;
 const UNKNOWN: f64 = 0.05;
 /// Part of the work of a period to which it is in balance.
 const BALANCE: f64 = 1.0e-6;
+/// At how many places of a period the machine is compared with itself a period on.
+const LOOKS: u32 = 5;
 /// How far two periods, one after the other, may differ.
 const SAME: f64 = 1.0e-7;
 
@@ -102,7 +104,26 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         let mut own =
             Self { equation, search, integrator: None, from: search.q, breaks: Vec::new() };
         own.begin_at(search.q)?;
+        own.compare()?;
         Ok(own)
+    }
+
+    /// Refuses a machine that is another one a period on.
+    fn compare(&mut self) -> Result<(), Unsteady<O::Error>> {
+        let Search { q: from, span, .. } = self.search;
+        for part in 0..LOOKS {
+            let here = from + span * f64::from(part) / f64::from(LOOKS);
+            let q = [here, here + span];
+            let inertia = q.map(|q| {
+                let is_there = self.equation.find(q) && self.equation.place(&[q]).is_ok();
+                if is_there { self.equation.reduced.inertia[0] } else { f64::NAN }
+            });
+            // Where there is nothing the period will tell.
+            if (inertia[1] - inertia[0]).abs() > SAME * inertia[0].abs() {
+                return Err(Unsteady::AnotherOne { q, inertia });
+            }
+        }
+        Ok(())
     }
 
     /// Periods begin here from now on.

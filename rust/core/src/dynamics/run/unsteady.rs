@@ -39,6 +39,11 @@ pub enum Unsteady<E> {
         "the motion is another one from period to period: the machine is not the same a period on, or a function among its loads depends on the time"
     )]
     NotPeriodic,
+    #[error(
+        "the machine is another one a period on: its reduced inertia is {} kg·m² at q = {}, but {} at q = {} (a motion through change points may take two turns: turns=2)",
+        short(inertia[0]), short(q[0]), short(inertia[1]), short(q[1])
+    )]
+    AnotherOne { q: [f64; 2], inertia: [f64; 2] },
     #[error("the fluctuation is {} without a flywheel, not more than the {} asked for: none is needed", short(*without), short(*wanted))]
     AlreadyMet { without: f64, wanted: f64 },
     #[error("no flywheel gives a fluctuation of {}", short(*wanted))]

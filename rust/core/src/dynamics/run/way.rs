@@ -213,9 +213,11 @@ impl<S: Source, O: Outside> System for Way<'_, S, O> {
                 equation.place(&[x])?;
                 equation.load(y[1], &[x], &speed)?;
                 let inertia = equation.inertia(x)?;
-                rates[0] = (2.0 * equation.moment(0) - equation.reduced.rates[0] * y[0]) / inertia;
+                // The quotient does not wait for the state.
+                let inverse = 1.0 / inertia;
+                rates[0] = (2.0 * equation.moment(0) - equation.reduced.rates[0] * y[0]) * inverse;
                 rates[1] = 1.0 / speed[0];
-                rates[2] = equation.power(&speed) / speed[0];
+                rates[2] = equation.reduced.applied[0] + equation.drive[0];
             }
         }
         Ok(())
