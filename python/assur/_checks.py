@@ -30,6 +30,15 @@ def real_array(value: Any, what: str) -> Float:
     raise InputError(message)
 
 
+def real_number(value: Any, what: str, finite: bool = True) -> float:
+    """One number, or an error that names it."""
+    array = real_array(value, what)
+    if array.ndim or np.isnan(array) or (finite and not np.isfinite(array)):
+        message = f"{what} is {_short(value)}: a finite number is needed"
+        raise InputError(message)
+    return float(array)
+
+
 def _short(value: Any) -> str:
     text = f"{str(value)[:12]}…" if isinstance(value, int) else repr(value)
     return text if len(text) < 80 else text[:77] + "..."

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._checks import real_array
+from assur._checks import real_number
 from assur.errors import DimensionError, InputError, PositionError
 
 __all__ = ["Event", "Run", "run"]
@@ -146,7 +146,7 @@ def run(
     [('jam', 348.255903), ('return', 371.744097)]
     """
     numbers = {"l1": l1, "l2": l2, "l3": l3, "gamma_min": gamma_min, "speed": speed}
-    values = {n: _number(v, n) for n, v in {**numbers, "phi0": phi0, "turns": turns}.items()}
+    values = {n: real_number(v, n) for n, v in {**numbers, "phi0": phi0, "turns": turns}.items()}
     for name in ("l1", "l2", "l3"):
         if values[name] <= 0.0:
             message = f"{name} is {values[name]!r}: a length must be positive"
@@ -163,7 +163,7 @@ def run(
 
     def place(t: float) -> float:
         what = f"ground at t = {t!r}" if callable(ground) else "ground"
-        number = _number(ground(t) if callable(ground) else ground, what)
+        number = real_number(ground(t) if callable(ground) else ground, what)
         if number <= 0.0:
             message = f"{what} is {number!r}: a length must be positive"
             raise DimensionError(message, dimension="l4", value=number)
@@ -224,11 +224,3 @@ def _event(kind: Any, is_outer: bool, numbers: list[float], case: dict[str, floa
     text = f"t = {t:.9g} s, φ₁ = {math.degrees(phi1):.9g}°: {texts[kind]}"
     of_ground, of_rod = (speeds[0], speeds[1]), (speeds[2], speeds[3])
     return Event(kind, t, phi1, l4, side, of_ground, of_rod, text)
-
-
-def _number(value: Any, name: str) -> float:
-    array = real_array(value, name)
-    if array.ndim or not np.isfinite(array):
-        message = f"{name} is {value!r}: a finite number is needed"
-        raise InputError(message)
-    return float(array)

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from assur import transmission
+from assur._checks import real_number
 from assur.errors import InputError
-from assur.loads import Function, _number
 
 if TYPE_CHECKING:
+    from assur.loads import Function
     from assur.mechanism import Mechanism
 
 __all__ = ["Crossing", "Position", "Rest", "Speed", "TransmissionAngle"]
@@ -142,8 +143,8 @@ def parts(
         return "angle", 0, limit, told, complement, *ending
     driver = _driver(event, event.driver, drivers)
     if isinstance(event, Position):
-        return "coordinate", driver, _number(event.q, "Position q"), [], False, *ending
-    value = 0.0 if isinstance(event, Rest) else _number(event.speed, "Speed speed")
+        return "coordinate", driver, real_number(event.q, "Position q"), [], False, *ending
+    value = 0.0 if isinstance(event, Rest) else real_number(event.speed, "Speed speed")
     return "speed", driver, value, [], False, *ending
 
 
@@ -178,7 +179,7 @@ def _angle(
     if not isinstance(name, str):
         message = f"{event!r}: the name of a joint or slide is needed"
         raise InputError(message)
-    limit = _number(event.limit, "the limit of a TransmissionAngle")
+    limit = real_number(event.limit, "the limit of a TransmissionAngle")
     if not 0.0 < limit <= 0.5 * math.pi:
         message = f"{event!r}: a transmission angle is acute: more than 0 and up to π/2 rad"
         raise InputError(message, value=limit)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -10,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._checks import real_array
+from assur._checks import real_array, real_number
 from assur.errors import InputError
 
 __all__ = [
@@ -107,7 +106,7 @@ class Body:
 
     def __post_init__(self) -> None:
         for name in ("mass", "inertia"):
-            value = _number(getattr(self, name), f"Body {name}")
+            value = real_number(getattr(self, name), f"Body {name}")
             if value < 0.0:
                 message = f"Body: {name} is {value:g}, it must not be negative"
                 raise InputError(message, value=value)
@@ -273,7 +272,7 @@ class Outside:
         if callable(value):
             self.functions.append(value)
             return "function", len(self.functions) - 1
-        return _number(value, "the value of a load")
+        return real_number(value, "the value of a load")
 
     def numbers(
         self, q: npt.NDArray[np.float64], speed: npt.NDArray[np.float64]
@@ -299,16 +298,8 @@ def _called(function: Function, q: Any, speed: Any) -> float:
         raise InputError(message) from error
 
 
-def _number(value: Any, what: str) -> float:
-    number = real_array(value, what)
-    if number.ndim or not math.isfinite(number):
-        message = f"{what} is {value!r}: a finite number is needed"
-        raise InputError(message)
-    return float(number)
-
-
 def _numbers(load: Any, *names: str) -> list[float]:
-    return [_number(getattr(load, name), f"{type(load).__name__} {name}") for name in names]
+    return [real_number(getattr(load, name), f"{type(load).__name__} {name}") for name in names]
 
 
 def _name(name: Any, what: str) -> str:
@@ -339,7 +330,7 @@ def _place(at: Any) -> Any:
     try:
         link, (x, y) = at
         if isinstance(link, str):
-            return link, [_number(x, "a place's x"), _number(y, "a place's y")]
+            return link, [real_number(x, "a place's x"), real_number(y, "a place's y")]
     except (TypeError, ValueError):
         pass
     message = f"{at!r} is no place: a joint's name, or (link, (x, y)) in the link's frame"

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 import numpy as np
 import numpy.typing as npt
 
-from assur import _core, _drive, _reduce, motors
+from assur import _core, _drive, _even, _reduce, motors
 from assur._checks import real_array
+from assur._options import listed
 from assur.errors import InputError
 from assur.flywheel import doubt
 from assur.loads import Body, Gravity, Outside, Table
@@ -100,7 +101,7 @@ class Machine:
         _check(mechanism, bodies)
         self.mechanism = mechanism
         self.bodies = dict(bodies)
-        self.loads = tuple(_drive.listed(loads, "loads"))
+        self.loads = tuple(listed(loads, "loads"))
         self._drivers = int(np.size(mechanism.q0))
         # Of one driver the motor itself.
         is_list = isinstance(motor, list | tuple) and len(motor) == 1 == self._drivers
@@ -193,6 +194,13 @@ class Machine:
         self._outside = outside
         self._core = _core.Machine(None, [], [], [0.0, 0.0], outside.tables, turning)
         return self
+
+    def __setattr__(self, name: str, value: object) -> None:
+        # The core has been told everything at the beginning.
+        if "_core" in self.__dict__:
+            message = f"a Machine does not change ({name!r}): make another one"
+            raise AttributeError(message)
+        super().__setattr__(name, value)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return self._made
@@ -342,7 +350,7 @@ class Machine:
         >>> machine.flywheel(fluctuation=0.05, mean_speed=20.0).delta.__round__(6)
         0.05
         """
-        return _drive.flywheel(self, fluctuation, mean_speed, mean, on_error)
+        return _even.flywheel(self, fluctuation, mean_speed, mean, on_error)
 
     def run(
         self,
@@ -466,7 +474,6 @@ class Machine:
         breaks: npt.ArrayLike = (),
         max_steps: int = 100_000,
         max_seconds: float | None = 60.0,
-        _wanted: float | None = None,
     ) -> SteadyState:
         """Return the periodic motion under the motor, found by shooting.
 
@@ -528,7 +535,7 @@ class Machine:
             speed,
             turns,
             q0,
-            _wanted,
+            None,
             mean=mean,
             flywheel=flywheel,
             rtol=rtol,

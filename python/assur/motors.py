@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
+from assur._checks import real_number
 from assur.errors import InputError
-from assur.loads import Outside, Rows, Table, Told, Value, _number
+from assur.loads import Outside, Rows, Table, Told, Value
 
 __all__ = ["ConstantTorque", "InductionMotor", "LinearMotor"]
 
@@ -110,8 +111,8 @@ def parts(motor: Any, driver: int, outside: Outside) -> MotorParts:
         )
         raise InputError(message)
     name = type(motor).__name__
-    ratio = _number(motor.ratio, f"{name} ratio")
-    inertia = _number(motor.rotor_inertia, f"{name} rotor_inertia")
+    ratio = real_number(motor.ratio, f"{name} ratio")
+    inertia = real_number(motor.rotor_inertia, f"{name} rotor_inertia")
     if ratio == 0.0:
         message = f"{name}: ratio is 0, the motor would not turn"
         raise InputError(message, value=ratio)
@@ -131,7 +132,7 @@ def parts(motor: Any, driver: int, outside: Outside) -> MotorParts:
 
 
 def _positive(motor: Any, name: str) -> float:
-    value = _number(getattr(motor, name), f"{type(motor).__name__} {name}")
+    value = real_number(getattr(motor, name), f"{type(motor).__name__} {name}")
     if value <= 0.0:
         message = (
             f"{type(motor).__name__}: {name} is {value:g}, it must be positive (a negative ratio "

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from assur import _core
 from assur._checks import real_array
 from assur.description import Status
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur import _core
     from assur.mechanism import Mechanism
 
 __all__ = ["Energy", "Happened", "Run", "State", "Statistics"]
@@ -139,6 +139,7 @@ class Run:
         events: list[Any],
         along_q: bool,
     ) -> None:
+        self._made = core, mechanism, drivers, events, along_q
         self._core, self._along_q, self._drivers = core, along_q, drivers
         self.t, *arrays = core.arrays()
         for array in (self.t, *arrays):
@@ -154,6 +155,10 @@ class Run:
         if self.end in ("dead point", "rest"):
             last = self.end, float(self.t[-1]), self.q[-1], self.speed[-1]
             self.events.append(Happened(*last))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        core, *others = self._made
+        return _rebuild, (core.to_bytes(), *others)
 
     def __repr__(self) -> str:
         return (
@@ -252,3 +257,7 @@ class Run:
         if mechanism is not None:
             why = ": " + mechanism.solve(self._one(q), order=1, on_error="nan").explain()
         return "lost", f"the way beyond {place} is not known{why}"
+
+
+def _rebuild(core: bytes, *others: Any) -> Run:
+    return Run(_core.Run.from_bytes(core), *others)

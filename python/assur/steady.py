@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from assur import _core
 from assur._checks import real_array
 from assur.flywheel import Place
 from assur.run import Run
@@ -14,11 +15,14 @@ from assur.run import Run
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from assur import _core
     from assur.mechanism import Mechanism
     from assur.run import State
 
 __all__ = ["SteadyState"]
+
+
+# What the events of a period are.
+EXTREME = "extreme speed"
 
 
 class SteadyState:
@@ -63,7 +67,8 @@ class SteadyState:
         mechanism: Mechanism | None,
         mean: Literal["extremes", "period"],
     ) -> None:
-        self.run = Run(core, mechanism, 1, [None], along_q=True)
+        self._made = core, numbers, mechanism, mean
+        self.run = Run(core, mechanism, 1, [EXTREME], along_q=True)
         multiplier, found, work, inertia, least_at, least, greatest_at, greatest = numbers
         self.q, self.speed = self.run.q, self.run.speed
         self.period = float(self.run.t[-1] - self.run.t[0])
@@ -75,6 +80,10 @@ class SteadyState:
         self.multiplier, self.found_moment, self.inertia = multiplier, found, inertia
         self.energy, self.power = work, work / self.period
         self.motor_moment = work / math.copysign(span, float(self.q[-1] - self.q[0]))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        core, *others = self._made
+        return _rebuild, (core.to_bytes(), *others)
 
     def __repr__(self) -> str:
         flywheel = f", flywheel {self.inertia:.6g} kg·m²" if self.inertia else ""
@@ -118,3 +127,7 @@ class SteadyState:
         from assur.plot import steady_picture
 
         return steady_picture(self, ax)
+
+
+def _rebuild(core: bytes, *others: Any) -> SteadyState:
+    return SteadyState(_core.Run.from_bytes(core), *others)

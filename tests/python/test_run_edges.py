@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 import math
+import pickle
 from typing import Any
 
 import numpy as np
 import pytest
 
 import assur
-from assur import Body, Gravity, InputError, Table, Torque, TorsionDamper, TorsionSpring, events
+from assur import (
+    Body,
+    Force,
+    Gravity,
+    InputError,
+    Table,
+    Torque,
+    TorsionDamper,
+    TorsionSpring,
+    events,
+)
 from test_machine import five_bar
 from test_run import pendulum
 from test_steady import press
@@ -202,13 +213,20 @@ def test_periods_must_be_the_same() -> None:
     assert press(motor, loads=[half]).steady_state(turns=2).multiplier < 1.0
     with pytest.raises(InputError, match="another one after a turn"):
         press(loads=[half]).flywheel(0.01, 12.0)
+    # A design that is a thousandth of another is seen too.
+    lengths = np.array([1e3, 1.0])
+    pair = assur.SliderCrank(0.1 * lengths, 0.4 * lengths)
+    half_turns = Force("B", (lambda _, q, __: -1.0 if q < TURN else -1.1, 0.0))
+    both = assur.Machine(pair, {"crank": Body(inertia=1.0)}, [half_turns])
+    with pytest.raises(InputError, match="another one after a turn"):
+        both.flywheel(0.01, 12.0)
     # Of this mechanism the inertia is the same after a turn from 0, the assembly is not.
     kite = assur.Machine(
         assur.FourBar(1.0, 2.0, 3.0, 4.0),
         {"crank": Body(inertia=0.2), "rocker": Body(inertia=2.0), "coupler": Body(1.0)},
         [TorsionDamper("rocker", 0.5)],
     )
-    with pytest.raises(InputError, match="another one from period to period"):
+    with pytest.raises(InputError, match=r"another one a period on.*turns=2"):
         kite.steady_state(5.0, q0=0.0, rtol=1e-9)
 
 
@@ -266,9 +284,79 @@ def test_knots_without_number() -> None:
 
 def test_change_points_have_reductions() -> None:
     machine = assur.Machine(assur.FourBar(1.0, 3.0, 1.0, 3.0), {"rocker": Body(inertia=2.0)})
-    value, d1 = machine.reduced_inertia([0.0, math.pi])
-    assert np.abs(value - 2.0).max() < 1e-9
-    assert np.abs(d1).max() < 1e-4
+    beside = np.array([0.0, 1e-9, 1e-6, 1e-3, 0.02, 0.029])
+    value, d1 = machine.reduced_inertia([beside, math.pi - beside])
+    assert np.abs(value - 2.0).max() < 1e-12
+    assert np.abs(d1).max() < 1e-10
+
+
+def test_beside_change_points_analogues_are_known() -> None:
+    """The joint of a kite is on its axis: its place and two derivatives in closed form."""
+    machine = assur.Machine(assur.FourBar(1.0, 2.5, 2.5, 1.0), {"rocker": Body(1.0, at="C")})
+    steps = np.logspace(-9, math.log10(0.4), 60)
+    for change in (0.0, TURN):
+        q = change + np.concatenate([-steps, [0.0], steps])
+        value, d1 = machine.reduced_inertia(q)
+        c, s = np.cos(0.5 * q), np.sin(0.5 * q)
+        root = np.sqrt(5.25 + c * c)
+        first = -0.5 * c * s / root
+        second = -0.25 * (c * c - s * s) / root - first**2 / root
+        # Along the axis, and around it.
+        along, rate, bend = c + root, -0.5 * s + first, -0.25 * c + second
+        assert np.abs(value - (rate**2 + 0.25 * along**2)).max() < 1e-12
+        exact = 2.0 * rate * bend + 0.5 * along * rate
+        assert np.abs(d1 - exact).max() < 4e-11
+
+
+@pytest.mark.parametrize("lengths", [(1.0, 2.5, 2.5, 1.0), (1.0, 2.0, 4.0, 3.0)])
+def test_periods_through_change_points_know_tight_tolerances(lengths: Any) -> None:
+    bodies = {
+        "crank": Body(inertia=0.3),
+        "rocker": Body(1.0, 0.4, (0.2, 0.3)),
+        "coupler": Body(2.0, 0.3, (1.0, 0.5)),
+    }
+    loads = (Torque("rocker", -1.0), Gravity())
+    machine = assur.Machine(assur.FourBar(*lengths), bodies, loads, assur.LinearMotor(30.0, 30.0))
+    with pytest.raises(InputError, match=r"another one a period on.*turns=2"):
+        machine.steady_state()
+    loose, tight = (machine.steady_state(turns=2, rtol=rtol) for rtol in (1e-9, 1e-12))
+    assert abs(tight.mean_speed / loose.mean_speed - 1.0) < 1e-7
+    assert tight.run.statistics.steps < 400
+    assert tight.run.energy.error < 1e-9
+
+
+def test_a_machine_does_not_change() -> None:
+    machine = wheel()
+    with pytest.raises(AttributeError, match="does not change"):
+        machine.motor = assur.ConstantTorque(1.0)
+
+
+def test_no_way_has_an_acceleration_too() -> None:
+    machine = wheel(Torque("crank", 3.0))
+    assert machine.run(0.0).acceleration == pytest.approx([1.5])
+    assert machine.run(q_end=1.0, q0=1.0, speed0=2.0).acceleration == pytest.approx([1.5])
+
+
+def test_motions_are_pickled() -> None:
+    pend = pendulum().run(3.0, q0=1.0, events=[events.Rest(), events.Position(0.5)])
+    steady = press(assur.LinearMotor(90.0, 30.0)).steady_state(mean="period")
+    for made in (pend, steady.run):
+        again = pickle.loads(pickle.dumps(made))
+        assert (repr(again), again.message) == (repr(made), made.message)
+        assert again.energy.error == made.energy.error
+        assert [one.t for one in again.events] == [one.t for one in made.events]
+    times = np.linspace(0.0, 3.0, 50)
+    assert np.array_equal(pickle.loads(pickle.dumps(pend)).at(times), pend.at(times))
+    again = pickle.loads(pickle.dumps(steady))
+    assert (again.delta, again.power, again.mean) == (steady.delta, steady.power, "period")
+    assert np.array_equal(again.at([1.0, 9.0]), steady.at([1.0, 9.0]))
+    # The way to a dead point too.
+    lever = assur.Machine(four_bar().with_driver("rocker"), {"rocker": Body(inertia=1.0)})
+    dead = lever.run(9.0, speed0=1.0)
+    assert dead.end == "dead point"
+    assert np.array_equal(pickle.loads(pickle.dumps(dead)).at(dead.t), dead.at(dead.t))
+    with pytest.raises(InputError, match="are no run"):
+        type(pend._core).from_bytes(b"...")
 
 
 @pytest.mark.parametrize(

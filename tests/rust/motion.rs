@@ -45,6 +45,33 @@ fn search(span: f64, speed: Option<f64>) -> Search<'static> {
 }
 
 #[test]
+fn what_does_not_fit_is_named() {
+    let table = |values: [f64; 2]| Table::new(&[0.0, TAU], &values, Ends::Linear, true);
+    let sheet = Sheet { tables: vec![table([1.0; 2]).expect("a table")], motors: Vec::new() };
+    assert!(sheet.reduce(&[0.0]).moment[0].is_nan());
+    let said = |error: String, what: &str| assert!(error.contains(what), "{error}");
+    let run = sheet.run(&task(&[0.0], &[1.0], 1.0), Nothing);
+    said(run.expect_err("one table").to_string(), "1 tables of inertia and moment are given: 2");
+    let steady = sheet.steady(&search(TAU, Some(1.0)), None, Nothing);
+    said(steady.expect_err("one table").to_string(), "2 are needed");
+    let mechanism = Mechanism::new(&crank_rocker()).expect("a mechanism");
+    let machine = Machine::default();
+    let own = mechanism.drawing();
+    let run = |task: &Task<'_>, own: &[f64]| {
+        machine.run(&mechanism, own, task, Nothing).expect_err("too few").to_string()
+    };
+    said(run(&task(&[0.0], &[1.0], 1.0), &own[1..]), "dimensions are given");
+    said(run(&task(&[0.0, 1.0], &[1.0], 1.0), own), "2 coordinates are given: 1 are needed");
+    said(run(&task(&[0.0], &[], 1.0), own), "0 speeds are given: 1 are needed");
+    let occasion = Occasion::Speed { driver: 1, value: 0.0 };
+    let watches = [Watch { occasion, crossing: Crossing::Either, stops: true }];
+    let watched = Task { watches: &watches, ..task(&[0.0], &[1.0], 1.0) };
+    said(run(&watched, own), "1 drivers are given: 2 are needed");
+    let steady = machine.steady(&mechanism, &own[1..], &search(TAU, Some(1.0)), None, Nothing);
+    said(steady.expect_err("too few").to_string(), "dimensions are given");
+}
+
+#[test]
 fn energy_stays_and_a_position_is_met() {
     let mechanism = Mechanism::new(&crank_rocker()).expect("a mechanism");
     let [coupler, rocker] = ["coupler", "rocker"].map(|name| mechanism.link(name).expect("a link"));

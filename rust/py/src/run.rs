@@ -6,7 +6,7 @@ use assur::dynamics::{Broken, Ending, Happened, Moment, Moments, Outside, RunErr
 use assur::ode::Error;
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyBytes, PyDict, PyTuple};
 
 use crate::error;
 
@@ -168,6 +168,21 @@ impl Run {
             all.push(self.0.at(x).as_ref().unwrap_or(&nothing));
         }
         arrays(py, all)
+    }
+
+    /// Everything in bytes, for this version alone.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = postcard::to_stdvec(&self.0).map_err(|e| error::input(e.to_string(), None))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// The same again.
+    #[staticmethod]
+    fn from_bytes(written: &[u8]) -> PyResult<Self> {
+        match postcard::from_bytes(written) {
+            Ok(run) => Ok(Self(run)),
+            Err(e) => Err(error::input(format!("these bytes are no run: {e}"), None)),
+        }
     }
 
     /// What happened on the way.

@@ -21,6 +21,9 @@ pub enum TableError {
     /// Too few rows.
     #[error("the table has {count} rows: at least {least} are needed")]
     TooShort { count: usize, least: usize },
+    /// Columns of different lengths.
+    #[error("the table has {given} rows of {quantity} and {needed} of phi: as many are needed")]
+    Unequal { quantity: &'static str, given: usize, needed: usize },
     /// A number that is none.
     #[error("row {row} of the table: {quantity} is {value}, not a finite number")]
     NotFinite { row: usize, quantity: &'static str, value: f64 },

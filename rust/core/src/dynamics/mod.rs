@@ -41,7 +41,6 @@ pub use load::Load;
 pub use machine::{Body, Machine, Rows};
 pub use motor::{Characteristic, Motor};
 pub use pose::Point;
-pub use reduced::Reduced;
 pub use run::{
     Along, Broken, Ending, Happened, Moment, Moments, Nothing, Occasion, Outside, Run, RunError,
     Search, Sheet, Steady, Task, Unsteady, Wanted, Watch,

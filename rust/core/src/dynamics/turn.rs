@@ -212,8 +212,11 @@ pub(super) fn check_columns(
 ) -> Result<(), TableError> {
     let all = || std::iter::once(("phi", knots)).chain(columns.iter().copied());
     let count = all().map(|(_, column)| column.len()).min().unwrap_or(0);
-    let is_long = all().any(|(_, column)| column.len() != count);
-    if count < 2 || is_long {
+    if let Some((quantity, column)) = columns.iter().find(|(_, c)| c.len() != knots.len()) {
+        let (given, needed) = (column.len(), knots.len());
+        return Err(TableError::Unequal { quantity, given, needed });
+    }
+    if count < 2 {
         return Err(TableError::TooShort { count, least: 2 });
     }
     for (quantity, column) in all() {

@@ -14,6 +14,7 @@ use crate::tolerance::{NEAR_SINGULAR_CONDITION, SINGULAR_CONDITION};
 pub(super) const FLAT2: f64 = 1.0 / (SINGULAR_CONDITION * SINGULAR_CONDITION);
 
 /// How a position came out; the codes are those of the arrays.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Status {

@@ -100,6 +100,7 @@ fn evaluate(rows: &[f64], n: usize, theta: f64, y: &mut [f64]) {
 }
 
 /// The steps of a run: the state at any t of it.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Path {
     n: usize,

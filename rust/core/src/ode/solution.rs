@@ -62,6 +62,7 @@ impl fmt::Display for End {
 }
 
 /// What a run cost.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Statistics {
     /// Steps taken.

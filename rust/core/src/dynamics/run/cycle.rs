@@ -5,7 +5,8 @@
 //! what they make of the time t′ = 1/q̇ is integrated along. So the matrix of the period is exact to
 //! the tolerance (E. Hairer, S. P. Nørsett, G. Wanner I, I.14).
 
-use super::equation::{Broken, Equation};
+use super::broken::Broken;
+use super::equation::Equation;
 use super::outside::Outside;
 use super::source::Source;
 use super::steady::Search;

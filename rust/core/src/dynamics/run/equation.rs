@@ -2,8 +2,8 @@
 //! Shlyakhov, equation 3, differentiated; of several drivers Lagrange's equations).
 
 use nalgebra::{Cholesky, DMatrix, DVector};
-use thiserror::Error;
 
+use super::broken::{Broken, beyond};
 use super::outside::Outside;
 use super::reader::Reader;
 use super::source::Source;
@@ -17,52 +17,6 @@ use crate::ode::Fault;
 /// Part of the speed by which functions from outside are varied to find their slopes: the cube root
 /// of the unit roundoff, where rounding and curvature are equal.
 const VARIED: f64 = 6.0e-6;
-
-/// Why a motion could not go on, other than by an end of its own.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Broken<E> {
-    /// What a function from outside said.
-    #[error("{0}")]
-    Outside(E),
-    /// There is nothing to be accelerated.
-    #[error(
-        "the reduced inertia is {value} at q = {q}: it must be positive everywhere (give masses to the links that turn with the driver)"
-    )]
-    NoInertia {
-        /// Where.
-        q: f64,
-        /// What is there instead.
-        value: f64,
-    },
-    /// There is no position, or no motion, where it begins.
-    #[error("there is nothing to begin with at q = {q:?}")]
-    NothingThere {
-        /// Where.
-        q: Vec<f64>,
-    },
-    /// Knots of tables without number.
-    #[error("the tables have more than {most:e} knots between q = {from} and {to}")]
-    ManyKnots {
-        /// How many are too many.
-        most: f64,
-        /// From here.
-        from: f64,
-        /// To there.
-        to: f64,
-    },
-    /// A table does not cover the beginning.
-    #[error("a {what} covers {from} to {to}: {q} is not in it")]
-    TableEnds {
-        /// What it is a table of.
-        what: &'static str,
-        /// Its first row.
-        from: f64,
-        /// Its last.
-        to: f64,
-        /// What was asked of it.
-        q: f64,
-    },
-}
 
 type Stop<E> = Fault<Broken<E>>;
 
@@ -137,18 +91,13 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
 
     /// Looks tables up where a motion begins.
     pub(super) fn begin(&mut self, q: f64, speed: &[f64]) -> Result<(), Broken<O::Error>> {
-        let ends = |what: &'static str, table: &Table, q: f64| {
-            let [from, to] = table.range();
-            Broken::TableEnds { what, from, to, q }
-        };
-        let over_q = "table over q";
-        self.reader.place(self.tables, q).map_err(|which| ends(over_q, &self.tables[which], q))?;
+        self.look_up(q)?;
         for (motor, cell) in self.motors.iter().zip(&mut self.cells) {
             if let Some(table) = motor.table() {
                 let own = motor.ratio * speed[motor.driver];
                 *cell = table
                     .cell(own)
-                    .ok_or_else(|| ends("motor's table over its speed", table, own))?;
+                    .ok_or_else(|| beyond("motor's table over its speed", table, own))?;
             }
         }
         Ok(())
@@ -185,12 +134,12 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
     /// Looks tables up in the middle of a stretch between knots.
     pub(super) fn enter(&mut self, from: f64, to: f64) -> Result<(), Broken<O::Error>> {
         self.coordinates = within(from, to);
-        let q = 0.5 * (from + to);
+        self.look_up(0.5 * (from + to))
+    }
+
+    fn look_up(&mut self, q: f64) -> Result<(), Broken<O::Error>> {
         let tables = self.tables;
-        self.reader.place(tables, q).map_err(|which| {
-            let [from, to] = tables[which].range();
-            Broken::TableEnds { what: "table over q", from, to, q }
-        })
+        self.reader.place(tables, q).map_err(|which| beyond("table over q", &tables[which], q))
     }
 
     /// Looks tables up at a coordinate, unless they are in their pieces there; whether they are

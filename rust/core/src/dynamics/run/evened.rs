@@ -1,5 +1,6 @@
 //! Periodic motions of machines and of tables, and the flywheel that evens them.
 
+use super::broken::counted;
 use super::equation::Equation;
 use super::outside::Outside;
 use super::source::{Moving, Sheet, Source};
@@ -41,6 +42,8 @@ impl Machine {
         wanted: Option<Wanted>,
         mut outside: O,
     ) -> Result<Steady, Unsteady<O::Error>> {
+        let needed = mechanism.dimensions().len();
+        counted(&[("dimensions", needed, dimensions.len())]).map_err(Unsteady::Broken)?;
         let jets = Jets::new(1, 2);
         if mechanism.q0().len() != 1 || mechanism.plan().driven_slide(0).is_some() {
             return Err(Unsteady::Other("a periodic motion is of one driver that turns".into()));
@@ -65,6 +68,7 @@ impl Sheet {
         wanted: Option<Wanted>,
         mut outside: O,
     ) -> Result<Steady, Unsteady<O::Error>> {
+        self.check().map_err(Unsteady::Broken)?;
         even(search, wanted, |search, guess| {
             let equation = Equation::new(self, &mut outside, &self.tables, &self.motors, 1);
             find(equation, search, guess)

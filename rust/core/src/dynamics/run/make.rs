@@ -1,6 +1,7 @@
 //! Makes a run.
 
-use super::equation::{Broken, Equation};
+use super::broken::{Broken, counted};
+use super::equation::Equation;
 use super::outcome::{Ending, Happened, Moments, Run, moment};
 use super::outside::Outside;
 use super::reader::TOGETHER;
@@ -13,7 +14,7 @@ use crate::dynamics::machine::Machine;
 use crate::dynamics::table::Table;
 use crate::mechanism::Mechanism;
 use crate::motion::Status;
-use crate::ode::{End, Error, Integrator, Keep, Options, Solution};
+use crate::ode::{End, Error, Integrator, Keep, Options, Solution, System};
 use crate::plan::jet::Jets;
 
 /// What a run cannot be made for.
@@ -32,7 +33,11 @@ impl Machine {
         task: &Task<'_>,
         outside: O,
     ) -> Result<Run, RunError<O::Error>> {
-        let jets = Jets::new(mechanism.q0().len(), 2);
+        let drivers = mechanism.q0().len();
+        task.check(drivers, &self.motors).map_err(Error::System)?;
+        let needed = mechanism.dimensions().len();
+        counted(&[("dimensions", needed, dimensions.len())]).map_err(Error::System)?;
+        let jets = Jets::new(drivers, 2);
         let source = Moving::new(self, mechanism, dimensions, &jets);
         let sizes: Vec<f64> = (0..task.q.len()).map(|driver| source.unit(driver)).collect();
         let equation = Equation::new(source, outside, &self.tables, &self.motors, task.q.len());
@@ -47,12 +52,19 @@ impl Sheet {
     ///
     /// As of [`Machine::run`].
     pub fn run<O: Outside>(&self, task: &Task<'_>, outside: O) -> Result<Run, RunError<O::Error>> {
+        task.check(1, &self.motors).map_err(Error::System)?;
+        self.check().map_err(Error::System)?;
         run(Equation::new(self, outside, &self.tables, &self.motors, 1), task, &[1.0])
+    }
+
+    /// Inertia and moment are its first two tables.
+    pub(super) fn check<E>(&self) -> Result<(), Broken<E>> {
+        counted(&[("tables of inertia and moment", 2, self.tables.len().min(2))])
     }
 }
 
-/// `sizes`: what a coordinate's tolerance is a part of.
-fn run<S: Source, O: Outside>(
+/// Makes it; `sizes`: what a coordinate's tolerance is a part of.
+pub(super) fn run<S: Source, O: Outside>(
     mut equation: Equation<'_, S, O>,
     task: &Task<'_>,
     sizes: &[f64],
@@ -150,14 +162,6 @@ pub(super) fn breaks_of<E>(
     Ok(breaks)
 }
 
-/// A run of one driver along its coordinate.
-pub(super) fn finish_run<S: Source, O: Outside>(
-    equation: Equation<'_, S, O>,
-    task: &Task<'_>,
-) -> Result<Run, RunError<O::Error>> {
-    run(equation, task, &[1.0])
-}
-
 /// Nothing is beyond: why, and where that was found.
 fn edge(refused: &mut Option<(Status, Vec<f64>)>) -> Ending {
     let (status, q) = refused.take().unwrap_or((Status::Singular, Vec::new()));
@@ -204,7 +208,12 @@ fn finish<S: Source, O: Outside>(
     if path.at(from, &mut y) && path.slope(from, &mut rates) {
         moments.read(along, sign, from, &y, &rates);
     } else {
-        moments.push(&read(from, &Way::<S, O>::start(task)));
+        // A run of no length has its rates too.
+        let start = Way::<S, O>::start(task);
+        if way.rates(from, &start, &mut rates).is_err() {
+            rates.fill(f64::NAN);
+        }
+        moments.read(along, sign, from, &start, &rates);
     }
     path.each_end(|x, y, rates| moments.read(along, sign, x, y, rates));
     let tail = match (&ending, moments.last()) {

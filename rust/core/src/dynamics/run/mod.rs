@@ -1,5 +1,6 @@
 //! Motion of machines under their loads and motors.
 
+mod broken;
 mod cycle;
 mod equation;
 mod evened;
@@ -7,6 +8,7 @@ mod make;
 mod outcome;
 mod outside;
 mod reader;
+mod shooting;
 mod source;
 mod steady;
 mod tail;
@@ -15,7 +17,7 @@ mod tolerances;
 mod unsteady;
 mod way;
 
-pub use equation::Broken;
+pub use broken::Broken;
 pub use evened::Wanted;
 pub use make::RunError;
 pub use outcome::{Ending, Happened, Moment, Moments, Run};

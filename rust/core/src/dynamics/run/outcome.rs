@@ -6,6 +6,7 @@ use crate::motion::Status;
 use crate::ode::{Path, Statistics};
 
 /// How a run ended.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Ending {
@@ -32,6 +33,7 @@ pub enum Ending {
 }
 
 /// An event on the way.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Happened {
     /// Which of the watches.
@@ -45,6 +47,7 @@ pub struct Happened {
 }
 
 /// One moment of a motion.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Moment {
     /// Time, s.
@@ -60,6 +63,7 @@ pub struct Moment {
 }
 
 /// Many of them, one after another (of several drivers the drivers fastest).
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Moments {
     /// Times, s.
@@ -150,6 +154,7 @@ impl Moments {
 }
 
 /// A motion of a machine.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     /// The moments between steps.

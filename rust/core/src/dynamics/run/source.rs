@@ -173,8 +173,9 @@ impl Sheet {
         let mut rows = Rows::default();
         for &q in q {
             let [inertia, moment] = [0, 1].map(|which| {
-                let table = &self.tables[which];
-                table.cell(q).map_or([f64::NAN; 2], |cell| table.read(cell, q))
+                let table = self.tables.get(which);
+                let read = |table: &Table| Some(table.read(table.cell(q)?, q));
+                table.and_then(read).unwrap_or([f64::NAN; 2])
             });
             rows.inertia.push(inertia[0] + self.motors.iter().map(Motor::inertia).sum::<f64>());
             rows.rates.push(inertia[1]);

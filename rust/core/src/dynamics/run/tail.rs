@@ -9,6 +9,7 @@ use super::outcome::Moment;
 use super::task::Along;
 
 /// From the last moment that was integrated to the dead point.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tail {
     last: Moment,

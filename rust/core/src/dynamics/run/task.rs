@@ -2,10 +2,13 @@
 
 use std::time::Instant;
 
+use super::broken::{Broken, counted};
 use crate::dynamics::line::Angle;
+use crate::dynamics::motor::Motor;
 use crate::ode::{Crossing, Method};
 
 /// What a run goes along.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Along {
     /// The time.
@@ -82,4 +85,25 @@ pub struct Task<'a> {
     pub watches: &'a [Watch],
     /// Inertia added to the first driver's.
     pub flywheel: f64,
+}
+
+impl Task<'_> {
+    /// Refuses what is no task of a machine with so many drivers.
+    pub(super) fn check<E>(&self, drivers: usize, motors: &[Motor]) -> Result<(), Broken<E>> {
+        counted(&[("coordinates", drivers, self.q.len()), ("speeds", drivers, self.speed.len())])?;
+        if self.along == Along::Coordinate {
+            counted(&[("drivers of a motion along the coordinate", 1, drivers)])?;
+        }
+        let own = |watch: &Watch| match watch.occasion {
+            Occasion::Coordinate { driver, .. } | Occasion::Speed { driver, .. } => driver,
+            _ => 0,
+        };
+        let watched = self.watches.iter().map(own).chain(motors.iter().map(|motor| motor.driver));
+        match watched.max().filter(|driver| *driver >= drivers) {
+            Some(driver) => {
+                Err(Broken::Malformed { what: "drivers", needed: driver + 1, given: drivers })
+            }
+            None => Ok(()),
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! How accurate a run is.
 
-use super::equation::Broken;
+use super::broken::Broken;
 use super::outside::Outside;
 use super::source::Source;
 use super::task::{Along, Task};

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::equation::Broken;
+use super::broken::Broken;
 use crate::dynamics::error::short;
 
 /// Why there is no periodic motion.

@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use super::equation::{Broken, Equation, within};
+use super::broken::Broken;
+use super::equation::{Equation, within};
 use super::outside::Outside;
 use super::source::Source;
 use super::task::{Along, Occasion, Task, Watch};

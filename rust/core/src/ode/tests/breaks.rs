@@ -78,6 +78,24 @@ fn breaks_keep_the_tolerance_and_cost_less() {
 }
 
 /// Breaks closer than any step, at the ends, doubled, and outside of the interval.
+/// No sliver is left before a break.
+#[test]
+fn the_last_steps_of_a_stretch_are_equal() {
+    let options = Options {
+        breaks: &[1.0],
+        first_step: Some(0.3),
+        max_step: 0.3,
+        keep: Keep::Path,
+        ..Options::default()
+    };
+    let run = Integrator::new(Method::DormandPrince853, 1)
+        .run(&mut smooth(|t, _, r| r[0] = t), 0.0, &[0.0], 1.4, &options)
+        .unwrap();
+    let ends = [0.25, 0.5, 0.75, 1.0, 1.2, 1.4];
+    assert_eq!(run.path.ends().len(), ends.len());
+    assert!(largest_difference(run.path.ends(), &ends) < 1e-15, "{:?}", run.path.ends());
+}
+
 #[test]
 fn odd_breaks_do_no_harm() {
     let near = 1.0 + 2.0 * f64::EPSILON;

@@ -1,0 +1,179 @@
+"""Flywheels of machines: tables of moment and inertia, dense enough, or the motor's own motion."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur import flywheel as flywheels
+from assur._checks import real_array, real_number
+from assur._drive import steady_state
+from assur._options import FITS, fits, turning
+from assur.errors import AssurWarning, InputError
+from assur.loads import Table
+from assur.motors import ConstantTorque
+
+if TYPE_CHECKING:
+    from assur.flywheel import Flywheel
+    from assur.machine import Machine
+    from assur.steady import SteadyState
+
+# How the motor's own motion is searched for: as `Machine.steady_state` does it.
+SEARCH: dict[str, Any] = {
+    "flywheel": 0.0,
+    "rtol": 1e-12,
+    "method": "DOP853",
+    "breaks": (),
+    "max_steps": 100_000,
+    "max_seconds": 60.0,
+}
+# Part by which a constant motor may differ from what the loads take: torques are typed too.
+GIVEN = 1e-2
+# Knots of loads in a turn, at most.
+MOST_KNOTS = 100_000
+# Part by which inertia and moment may differ a turn on.
+SAME = 1e-7
+# Rows of the first table of `flywheel`, and of the last; each has twice those before.
+FIRST_ROWS, LAST_ROWS = 96, 12288
+# The fewest rows between two knots of a load's table.
+LEAST_ROWS = 6
+# Change of the flywheel between two tables after which it is known.
+SETTLED = 1e-9
+
+
+def flywheel(
+    machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, on_error: str
+) -> Flywheel | SteadyState:
+    """See `Machine.flywheel`."""
+    turning(machine, "a flywheel")
+    flywheels._one_of(on_error, ("raise", "nan"), "on_error")
+    torque: Any = 0.0 if machine.motor is None else getattr(machine.motor, "torque", None)
+    constant = torque is not None and not callable(torque) and not isinstance(torque, Table)
+    if mean_speed is None:
+        if machine.motor is None:
+            message = "without a motor that tells the speed mean_speed is needed"
+            raise InputError(message)
+        wanted = real_number(fluctuation, "fluctuation")
+        if not 0.0 < wanted < 2.0:
+            message = f"fluctuation = {wanted:g}: it must be more than 0 and less than 2"
+            raise InputError(message, value=wanted)
+        return steady_state(machine, None, 1, None, wanted, mean=mean, **SEARCH)
+    if not constant:
+        message = (
+            f"{machine.motor!r} is no constant motor, its own torque counts: leave mean_speed out, "
+            "or build the machine without a motor"
+        )
+        raise InputError(message)
+    made = _from_rows(machine, fluctuation, mean_speed, mean, on_error)
+    if isinstance(machine.motor, ConstantTorque):
+        own = float(machine.motor.ratio) * float(torque)
+        off = np.abs(np.asarray(made.motor_moment) - own) > GIVEN * abs(own)
+        if off.any():
+            needed = np.asarray(made.motor_moment).ravel()[int(np.argmax(off))]
+            message = (
+                f"the motor gives the driver {own:g} N·m, the loads take {needed:g} on average: "
+                "the flywheel is that of the latter"
+            )
+            warnings.warn(message, AssurWarning, stacklevel=3)
+    return made
+
+
+def _from_rows(
+    machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, on_error: str
+) -> Flywheel:
+    """The flywheel from tables of moment and inertia, dense enough."""
+    knots = _knots(machine)
+    speed = real_array(mean_speed, "mean_speed")
+    if speed.ndim and speed.shape != machine.shape:
+        message = (
+            f"mean_speed has the shape {speed.shape}, the designs {machine.shape}: a number, or "
+            "one for each design"
+        )
+        raise InputError(message)
+    if not np.isfinite(speed).all():
+        message = f"mean_speed is {mean_speed!r}: finite numbers are needed"
+        raise InputError(message)
+    last: Flywheel | None = None
+    rows = FIRST_ROWS
+    while True:
+        phi, corners = _rows(knots, rows)
+        own_speed = speed[..., np.newaxis] if speed.ndim else speed
+        inertia, _, moment, _ = machine._reduce(phi, own_speed, on_error)
+        if last is None:
+            _same_a_turn_on(machine, phi, own_speed, on_error, inertia, moment)
+        own = flywheels._flywheel(
+            phi,
+            moment[..., 0],
+            inertia[..., 0, 0],
+            "not-a-knot",
+            f"sized {flywheels._one_of(mean, flywheels.MEANS, 'mean')}",
+            ((fluctuation, "fluctuation"), (speed, "mean_speed")),
+            mean,
+            on_error,
+            None,
+            corners,
+        )
+        if last is not None:
+            size = np.asarray(own.inertia) + inertia[..., 0, 0].max(axis=-1)
+            change = np.abs(np.asarray(own.inertia) - np.asarray(last.inertia)) / size
+            if not (change > SETTLED).any():
+                return own
+        if rows == LAST_ROWS:
+            message = (
+                f"tables of {rows} rows still change the flywheel by {float(np.nanmax(change)):.1e}"
+                ": a function among the loads is not smooth (a Table is cut at its knots)"
+            )
+            warnings.warn(message, AssurWarning, stacklevel=4)
+            return own
+        last, rows = own, 2 * rows
+
+
+def _same_a_turn_on(
+    machine: Machine, phi: Any, speed: Any, on_error: str, inertia: Any, moment: Any
+) -> None:
+    """Refuse a motion or a load that is another one after a turn."""
+    later, _, other, _ = machine._reduce(phi + 2.0 * math.pi, speed, on_error)
+    for name, one, two in (("inertia", inertia, later), ("moment", moment, other)):
+        # Of each design its own.
+        own = np.abs(one).reshape(*machine.shape, -1)
+        size = np.nanmax(own, axis=-1, initial=0.0)
+        off = np.abs(two - one)
+        if (off.reshape(own.shape) > SAME * size[..., np.newaxis]).any():
+            message = (
+                f"the reduced {name} is another one after a turn (by {np.nanmax(off):.3g}): there "
+                "is no flywheel of one turn"
+            )
+            raise InputError(message)
+
+
+def _knots(machine: Machine) -> list[float]:
+    """Where loads are not smooth within a turn, its ends included."""
+    turn = 2.0 * math.pi
+    found = {0.0, turn}
+    for rows, _, _, periodic in machine._outside.tables:
+        first, period = rows[0], rows[-1] - rows[0]
+        fits(period if periodic else None, turn)
+        steps = range(math.floor(-first / period) - 1, math.ceil((turn - first) / period) + 1)
+        for shift in steps:
+            found |= {q + shift * period for q in rows}
+            if len(found) > MOST_KNOTS:
+                message = f"a table's period of {period:g} rad has too many knots in a turn"
+                raise InputError(message, value=period)
+    knots = sorted(q for q in found if 0.0 <= q <= turn)
+    # What is nearer is rounding.
+    kept = [q for q, before in zip(knots, [-1.0, *knots], strict=False) if q - before > FITS]
+    return [*(q for q in kept if q < turn - FITS), turn]
+
+
+def _rows(knots: list[float], rows: int) -> tuple[Any, list[int]]:
+    """Coordinates with rows at all knots, and which these are."""
+    parts, corners = [], [0]
+    for low, high in itertools.pairwise(knots):
+        count = max(LEAST_ROWS, math.ceil(rows * (high - low) / (2.0 * math.pi)))
+        parts.append(np.linspace(low, high, count, endpoint=False))
+        corners.append(corners[-1] + count)
+    return np.append(np.concatenate(parts), knots[-1]), corners

@@ -1,0 +1,143 @@
+"""Options of motions and what a machine must be for them: checked, with errors that name them."""
+
+from __future__ import annotations
+
+import operator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._checks import real_array, real_number
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from assur.machine import Machine
+
+METHODS = ("DOP853", "RK45")
+# Errors below cannot be told from rounding (`assur::ode`).
+LEAST_RTOL = 2.3e-15
+# Part of a period by which a table's may differ from it: tables end with typed numbers.
+FITS = 1e-9
+
+
+def one_design(machine: Machine, what: str) -> None:
+    """Refuse a batch."""
+    if machine.shape:
+        message = f"{what} is for one design, this is a batch {machine.shape}: design(i)"
+        raise InputError(message)
+
+
+def turning(machine: Machine, what: str) -> None:
+    """Refuse what does not turn."""
+    driver = None if machine.mechanism is None else machine.mechanism.driver
+    slides = {} if machine.mechanism is None else machine.mechanism.slides
+    if machine._drivers > 1 or (isinstance(driver, str) and driver in slides):
+        message = f"driver {driver!r}: {what} is of one driver that turns"
+        raise InputError(message)
+
+
+def fits(period: float | None, span: float) -> None:
+    """Refuse a table that is another one a period on."""
+    if period is None:
+        message = "a table that is not periodic is among the loads: there is no periodic motion"
+        raise InputError(message)
+    ratio = span / period
+    if abs(ratio - round(ratio)) > FITS * ratio or round(ratio) < 1:
+        message = (
+            f"a table's period of {period:g} rad does not fit {span:g} rad a whole number of times"
+        )
+        raise InputError(message, value=period)
+
+
+def listed(value: Any, name: str) -> list[Any]:
+    """A sequence as a list, or an error that names it."""
+    if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
+        message = f"{name} is {value!r}: a sequence of them is needed"
+        raise InputError(message)
+    return list(value)
+
+
+def positive(value: Any, name: str) -> float:
+    """A positive number, infinite too."""
+    number = real_number(value, name, finite=False)
+    if not number > 0.0:
+        message = f"{name} is {value!r}: it must be positive"
+        raise InputError(message, value=number)
+    return number
+
+
+def relative(rtol: Any) -> float:
+    """A relative tolerance."""
+    number = real_number(rtol, "rtol")
+    if not LEAST_RTOL <= number < 1.0:
+        message = f"rtol is {rtol!r}: it must be from {LEAST_RTOL} to below 1"
+        raise InputError(message, value=number)
+    return number
+
+
+def is_low(method: Any) -> bool:
+    """Whether the method is the one of lower order."""
+    if not isinstance(method, str) or method not in METHODS:
+        message = f"method is {method!r}: one of {', '.join(map(repr, METHODS))}"
+        raise InputError(message)
+    return bool(method == "RK45")
+
+
+def pair(atol: Any) -> list[float] | None:
+    """Absolute tolerances of coordinate and speed."""
+    if atol is None:
+        return None
+    array = real_array(atol, "atol")
+    if array.shape not in ((), (2,)):
+        message = f"atol is {atol!r}: a number, or one for the coordinate and one for the speed"
+        raise InputError(message)
+    if not (np.isfinite(array).all() and (array > 0.0).all()):
+        message = f"atol is {atol!r}: positive and finite numbers are needed"
+        raise InputError(message)
+    both: list[float] = np.broadcast_to(array, (2,)).tolist()
+    return both
+
+
+def given_breaks(breaks: Any) -> list[float]:
+    """Places, ascending."""
+    array = real_array(() if breaks is None else breaks, "breaks")
+    if not np.isfinite(array).all():
+        message = f"breaks is {breaks!r}: finite numbers are needed"
+        raise InputError(message)
+    ordered: list[float] = sorted(array.ravel().tolist())
+    return ordered
+
+
+def whole(turns: Any) -> int:
+    """Turns of a period."""
+    try:
+        number = operator.index(turns)
+    except TypeError:
+        number = 0
+    if not 1 <= number <= 1024:
+        message = f"turns is {turns!r}: a whole number from 1 to 1024 is needed"
+        raise InputError(message)
+    return number
+
+
+def count(steps: Any) -> int:
+    """A number of steps."""
+    try:
+        number = operator.index(steps)
+    except TypeError:
+        number = 0
+    if not 1 <= number < 2**63:
+        message = f"max_steps is {steps!r}: a whole number above 0 is needed"
+        raise InputError(message)
+    return number
+
+
+def given_seconds(seconds: Any) -> float | None:
+    """A limit of time."""
+    if seconds is None:
+        return None
+    number = real_number(seconds, "max_seconds")
+    if number < 0.0:
+        message = f"max_seconds is {seconds!r}: 0 or more is needed"
+        raise InputError(message, value=number)
+    return min(number, 1e9)
