@@ -437,3 +437,10 @@ def test_tables_and_limits_end_a_run_with_a_warning() -> None:
         assert wheel().run(1e9, speed0=1.0, max_step=1.0, max_seconds=0.0).end == "time limit"
     still = wheel().run(0.0, speed0=1.0)
     assert still.at(0.0).speed == 1.0
+
+
+@pytest.mark.parametrize("method", ["DOP853", "RK45"])
+def test_stiff_machines_are_told(method: Any) -> None:
+    braked = wheel(TorsionDamper("crank", 1e6), Torque("crank", 100.0))
+    with pytest.warns(assur.AssurWarning, match="stiff"):
+        assert braked.run(1.0, method=method, max_steps=5000).end == "step limit"

@@ -60,6 +60,8 @@ pub(super) struct Run<'a, S> {
     /// Width of the next step, if nothing is in its way.
     h: Option<f64>,
     tried: u64,
+    /// Whether stability held the last good step.
+    stiff: bool,
     /// What was met since the last good step.
     obstacle: Option<Obstacle>,
     /// Refusals on the way to an edge, and steps since the last.
@@ -90,6 +92,7 @@ impl<'a, S: System> Run<'a, S> {
             way,
             h: None,
             tried: 0,
+            stiff: false,
             obstacle: None,
             refusals: 0,
             free: 0,
@@ -266,6 +269,8 @@ impl<'a, S: System> Run<'a, S> {
         if !stages.tableau.error_needs_end {
             stages.evaluate(self.system, end, t_new, new)?;
         }
+        // The stages of the continuous output take the place of what this looks at.
+        self.stiff = stages.is_stiff(&self.scale, y, new, h);
         if output {
             stages.extend(self.system, self.t, y, h)?;
             interpolant.set(stages, y, new, h);
@@ -280,10 +285,9 @@ impl<'a, S: System> Run<'a, S> {
         if self.free >= FREE {
             self.refusals = 0;
         }
-        let stiff = self.work.stages.is_stiff(&self.work.new, h);
         let cut = self.look_for_events(h, t_new).map_err(Error::System)?;
         let reached = cut.as_ref().map_or(t_new, |cut| cut.t);
-        self.statistics.count((reached - self.t).abs(), last || cut.is_some(), stiff);
+        self.statistics.count((reached - self.t).abs(), last || cut.is_some(), self.stiff);
         if reached != self.t {
             self.record.step(&self.work.interpolant, self.work.n, self.t, h, reached);
         }

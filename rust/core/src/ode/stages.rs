@@ -186,17 +186,15 @@ impl Stages {
     }
 
     /// Whether stability and not accuracy holds a step, from the two last stages, which are both
-    /// at its end (Shampine; Hairer & Wanner II, IV.2, eq. 2.26). Only after `advance`.
-    pub(super) fn is_stiff(&self, new: &[Block], h: f64) -> bool {
+    /// at its end (Shampine; Hairer & Wanner II, IV.2, eq. 2.26), by what the tolerances make of
+    /// each component: a sum that nothing depends on says nothing. Only after `advance`.
+    pub(super) fn is_stiff(&mut self, scale: &Scale, y: &[Block], new: &[Block], h: f64) -> bool {
         let last = self.tableau.stages - 1;
-        let (mut rates, mut states) = (0.0, 0.0);
-        let (before, after) = (self.rates(last), self.rates(last + 1));
-        for b in 0..self.blocks {
-            for l in 0..LANES {
-                rates += (after[b][l] - before[b][l]).powi(2);
-                states += (new[b][l] - self.argument[b][l]).powi(2);
-            }
-        }
+        let k = |stage: usize| &self.k[stage * self.blocks..(stage + 1) * self.blocks];
+        subtract(k(last + 1), k(last), &mut self.error);
+        let rates = scale.square_sum(&self.error, y, new);
+        subtract(new, &self.argument, &mut self.error);
+        let states = scale.square_sum(&self.error, y, new);
         states > 0.0 && h * h * rates > self.tableau.stability.powi(2) * states
     }
 
@@ -209,6 +207,12 @@ impl Stages {
     /// Weighted sum of the rates of the stages.
     pub(super) fn weigh(&self, row: Row, sum: &mut [Block]) {
         weigh(row, &self.k, sum);
+    }
+}
+
+fn subtract(a: &[Block], b: &[Block], out: &mut [Block]) {
+    for ((out, a), b) in out.iter_mut().zip(a).zip(b) {
+        *out = std::array::from_fn(|l| a[l] - b[l]);
     }
 }
 

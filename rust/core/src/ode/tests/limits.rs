@@ -153,10 +153,13 @@ fn stiff_problems_are_told() {
     for method in BOTH {
         let (relative, absolute) = (&[1e-4][..], &[1e-4][..]);
         let options = Options { relative, absolute, max_steps: 20_000, ..Options::default() };
-        let end = run(method, &mut smooth(rates), (0.0, 10.0), &[1.0], &options).unwrap();
-        println!("{method:?}: {} {:?}", end.end, end.statistics);
-        assert!(matches!(end.end, End::StepLimit { stiff: true, .. }), "{}", end.end);
-        assert!(end.end.to_string().contains("stiff"));
+        for keep in [Keep::End, Keep::Path] {
+            let options = Options { keep, ..options };
+            let end = run(method, &mut smooth(rates), (0.0, 10.0), &[1.0], &options).unwrap();
+            println!("{method:?}: {} {:?}", end.end, end.statistics);
+            assert!(matches!(end.end, End::StepLimit { stiff: true, .. }), "{}", end.end);
+            assert!(end.end.to_string().contains("stiff"));
+        }
         let end =
             run(method, &mut smooth(oscillate), (0.0, 99.0 * TAU), &[1.0, 0.0], &options).unwrap();
         assert!(end.statistics.stiff * 10 < end.statistics.steps, "{:?}", end.statistics);
