@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 from collections.abc import Mapping
 from typing import Any, TypeAlias
@@ -32,6 +33,9 @@ def real_array(value: Any, what: str) -> Float:
 
 def real_number(value: Any, what: str, finite: bool = True) -> float:
     """One number, or an error that names it."""
+    # Nearly all are.
+    if isinstance(value, float) and math.isfinite(value):
+        return float(value)
     array = real_array(value, what)
     if array.ndim or np.isnan(array) or (finite and not np.isfinite(array)):
         message = f"{what} is {_short(value)}: a finite number is needed"

@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 LOOSEST = 1e-4
 # Ends of a run that nobody asked for.
 CUT_SHORT = ("lost", "table ends", "motor table ends", "stalled", "step limit", "time limit")
+# Imbalance of energy that is told: as a part of the greatest energy, and in tolerances.
+LEAST_OFF, OFF = 1e-6, 1e3
 # Part of the motor's moment from which on it is told that it was mended.
 MENDED = 1e-6
 
@@ -98,6 +100,14 @@ def run(
     made = Run(core, machine.mechanism, n, watched, along_q)
     if made.end in CUT_SHORT:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)
+    # Tables alone have no position that is badly known.
+    off = 0.0 if machine.mechanism is None else made.energy.error
+    if off > max(LEAST_OFF, OFF * float(options["rtol"])):
+        message = (
+            f"the balance of energy is off by {off:.1e} of the greatest energy: beside singular "
+            "positions, or where a function jumps (breaks=), the motion is not known better"
+        )
+        warnings.warn(message, AssurWarning, stacklevel=3)
     return made
 
 
@@ -165,5 +175,5 @@ def _start(machine: Machine, value: npt.ArrayLike | None, name: str) -> list[flo
     if not np.isfinite(array).all():
         message = f"{name} is {value!r}: finite numbers are needed"
         raise InputError(message)
-    numbers: list[float] = np.broadcast_to(array, (n,)).tolist()
+    numbers: list[float] = array.tolist() if array.ndim else [float(array)] * n
     return numbers

@@ -37,6 +37,8 @@ GIVEN = 1e-2
 MOST_KNOTS = 100_000
 # Part by which inertia and moment may differ a turn on.
 SAME = 1e-7
+# The same of moments as a part of the inertia times the squared speed: what is less is rounding.
+ROUNDING = 1e-12
 # Rows of the first table of `flywheel`, and of the last; each has twice those before.
 FIRST_ROWS, LAST_ROWS = 96, 12288
 # The fewest rows between two knots of a load's table.
@@ -135,19 +137,35 @@ def _from_rows(
 def _same_a_turn_on(
     machine: Machine, phi: Any, speed: Any, on_error: str, inertia: Any, moment: Any
 ) -> None:
-    """Refuse a motion or a load that is another one after a turn."""
+    """Refuse designs whose motion or loads are others after a turn: an error, or NaN."""
     later, _, other, _ = machine._reduce(phi + 2.0 * math.pi, speed, on_error)
-    for name, one, two in (("inertia", inertia, later), ("moment", moment, other)):
-        # Of each design its own.
-        own = np.abs(one).reshape(*machine.shape, -1)
-        size = np.nanmax(own, axis=-1, initial=0.0)
-        off = np.abs(two - one)
-        if (off.reshape(own.shape) > SAME * size[..., np.newaxis]).any():
-            message = (
-                f"the reduced {name} is another one after a turn (by {np.nanmax(off):.3g}): there "
-                "is no flywheel of one turn"
-            )
-            raise InputError(message)
+    # Moments are told from rounding by what the inertia itself asks at this speed.
+    of_inertia = np.nanmax(np.abs(_flat(machine, inertia)), axis=-1, initial=0.0)
+    floor = ROUNDING * of_inertia * np.square(np.max(speed, axis=-1) if np.ndim(speed) else speed)
+    for name, one, two, least in (
+        ("inertia", inertia, later, 0.0),
+        ("moment", moment, other, floor),
+    ):
+        size = np.nanmax(np.abs(_flat(machine, one)), axis=-1, initial=0.0)
+        off = np.nanmax(np.abs(_flat(machine, two - one)), axis=-1, initial=0.0)
+        others = off > SAME * size + least
+        if not others.any():
+            continue
+        if on_error == "nan":
+            inertia[others], moment[others] = math.nan, math.nan
+            continue
+        first = tuple(int(i) for i in np.argwhere(others)[0])
+        which = f"design {first if len(first) > 1 else first[0]}: " if first else ""
+        message = (
+            f"{which}the reduced {name} is another one after a turn (by {off[first]:.3g}): there "
+            "is no flywheel of one turn"
+        )
+        raise InputError(message)
+
+
+def _flat(machine: Machine, array: Any) -> Any:
+    """One row for each design."""
+    return array.reshape(*machine.shape, -1)
 
 
 def _knots(machine: Machine) -> list[float]:

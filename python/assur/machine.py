@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
@@ -100,7 +101,7 @@ class Machine:
     ) -> None:
         _check(mechanism, bodies)
         self.mechanism = mechanism
-        self.bodies = dict(bodies)
+        self.bodies = MappingProxyType(dict(bodies))
         self.loads = tuple(listed(loads, "loads"))
         self._drivers = int(np.size(mechanism.q0))
         # Of one driver the motor itself.
@@ -108,7 +109,7 @@ class Machine:
         self.motor = motor[0] if is_list else motor  # type: ignore[index]
         self._made: tuple[Any, ...] = (
             Machine,
-            (mechanism, self.bodies, self.loads, self.motor),
+            (mechanism, dict(bodies), self.loads, self.motor),
         )
         outside = Outside()
         gravity = np.zeros(2)
@@ -172,16 +173,18 @@ class Machine:
         True
         """
         self = cls.__new__(cls)
-        self.mechanism, self.bodies, self.loads, self.motor = None, {}, (), motor
+        self.mechanism, self.loads, self.motor = None, (), motor
+        self.bodies = MappingProxyType({})
         self._drivers = 1
-        self._made = Machine.from_table, (phi, moment, inertia, motor, spline, periodic)
         outside = Outside()
+        columns = {}
         for name, column in (("inertia", inertia), ("moment", moment)):
             x, y = real_array(phi, "phi"), real_array(column, name)
             if x.ndim != 1 or x.shape != y.shape:
                 message = f"phi has the shape {x.shape}, {name} {y.shape}: two lists are needed"
                 raise InputError(message)
             outside.tell(Table(x, y, spline, periodic))
+            columns[name] = y
         if x.size < 2:
             message = f"the table has {x.size} rows: at least 2 are needed"
             raise InputError(message)
@@ -190,6 +193,9 @@ class Machine:
         if not least > 0.0:
             message = f"the inertia is {least:g} kg·m² in the table, it must be positive everywhere"
             raise InputError(message, value=least)
+        # Arrays of the caller may change.
+        table = x, columns["moment"], columns["inertia"]
+        self._made = Machine.from_table, (*table, motor, spline, periodic)
         turning = _motors(motor, 1, outside)
         self._outside = outside
         self._core = _core.Machine(None, [], [], [0.0, 0.0], outside.tables, turning)
@@ -201,6 +207,10 @@ class Machine:
             message = f"a Machine does not change ({name!r}): make another one"
             raise AttributeError(message)
         super().__setattr__(name, value)
+
+    def __delattr__(self, name: str) -> None:
+        message = f"a Machine does not change ({name!r}): make another one"
+        raise AttributeError(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return self._made
@@ -418,7 +428,8 @@ class Machine:
         -----
         AssurWarning
             The run ended early without an event: its tolerance cannot be met, a table ends, a limit
-            of steps or seconds is met.
+            of steps or seconds is met. The balance of energy is off by more than a thousand
+            tolerances (and 1e-6).
 
         Notes
         -----

@@ -6,6 +6,7 @@ import math
 import pickle
 from typing import Any
 
+import mpmath as mp  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 
@@ -444,3 +445,115 @@ def test_stiff_machines_are_told(method: Any) -> None:
     braked = wheel(TorsionDamper("crank", 1e6), Torque("crank", 100.0))
     with pytest.warns(assur.AssurWarning, match="stiff"):
         assert braked.run(1.0, method=method, max_steps=5000).end == "step limit"
+
+
+def four_bar_rates(lengths: Any, q: float, sign: int) -> tuple[float, float]:
+    """Rocker's two analogues of a four-bar, with 50 digits; `sign` of its assembly."""
+    with mp.workdps(50):
+        a, b, c, d, q = (mp.mpf(x) for x in (*lengths, q))
+
+        def angle(q: Any) -> Any:
+            x, y = a * mp.cos(q) - d, a * mp.sin(q)
+            far = mp.hypot(x, y)
+            return mp.atan2(y, x) + sign * mp.acos((c * c + far * far - b * b) / (2 * c * far))
+
+        return float(mp.diff(angle, q, 1, h=mp.mpf(10) ** -16)), float(
+            mp.diff(angle, q, 2, h=mp.mpf(10) ** -14)
+        )
+
+
+@pytest.mark.parametrize(
+    ("lengths", "accuracy"),
+    [
+        # Nearly a deltoid: beside the change point the rocker turns 128 times as fast as the crank.
+        ((1.0, 1.5, 1.5 + 1 / 64, 1.0 + 1 / 64), 1e-7),
+        ((50.0, 80.0, 82.0, 52.0), 1e-8),
+        # A dead point beside the change point.
+        ((1.0, 2.00146484375, 0.00146484375, 3.0), 1e-7),
+        ((1.0, 2.00048828125, 0.00048828125, 3.0), 1e-6),
+        ((1.0, 2.0020751953125, 0.0020751953125, 3.0), 1e-7),
+    ],
+)
+def test_change_points_with_something_beside(lengths: Any, accuracy: float) -> None:
+    linkage = assur.FourBar(*lengths)
+    machine = assur.Machine(linkage, {"rocker": Body(inertia=1.0)})
+    motion = linkage.solve([1e-6, -1e-6], order=1)
+    for q in (1e-7, 1e-6, 1e-4, 1e-3, 0.01, 0.02):
+        for at in (-q, q):
+            both = [four_bar_rates(lengths, at, sign) for sign in (1, -1)]
+            value, d1 = machine.reduced_inertia(at)
+            first, second = min(both, key=lambda pair: abs(pair[0] ** 2 - value))
+            assert abs(value - first**2) < accuracy * first**2
+            assert abs(d1 - 2.0 * first * second) < accuracy * (first**2 + abs(first * second))
+            if q == 1e-6:
+                own = motion.link("rocker").d1[0 if at > 0.0 else 1]
+                assert abs(own - first) < accuracy * abs(first)
+
+
+def test_motions_through_near_deltoids_come_to_an_end() -> None:
+    machine = assur.Machine(
+        assur.FourBar(0.05, 0.08, 0.082, 0.052),
+        {"crank": Body(inertia=1e-3), "coupler": Body(0.2, 1e-4), "rocker": Body(0.1, 1e-4)},
+        [Torque("crank", -0.1)],
+        assur.LinearMotor(1.0, 30.0),
+    )
+    run = machine.run(3.0, max_seconds=20.0)
+    assert run.end == "reached"
+    assert run.energy.error < 1e-7
+    assert machine.steady_state(turns=2).multiplier < 1.0
+
+
+def test_a_run_may_end_at_the_time_of_a_knot() -> None:
+    rows = [1.9036057848577688, 2.389018380201142, 3.837363979520809, 3.998000887250964]
+    for seed in range(30):
+        values = np.random.default_rng(seed).normal(0.0, 3.0, 4)
+        values[-1] = values[0]
+        machine = wheel(Torque("crank", Table(rows, values, "linear")))
+        q0, speed0 = 0.5684791439409276, -5.465030032399637
+        knot = rows[0] - 2.0 * (rows[-1] - rows[0])
+        along = machine.run(q_end=knot, q0=q0, speed0=speed0, rtol=1e-12)
+        if along.end == "reached":
+            run = machine.run(float(along.t[-1]), q0, speed0, max_step=0.02, max_steps=500)
+            assert run.end == "reached"
+            assert abs(run.q[-1] - knot) < 1e-9
+
+
+def test_moments_of_rounding_are_the_same_a_turn_on() -> None:
+    tilted = assur.SliderCrank(0.1, 0.4).with_dimensions({"bore.angle": 0.3})
+    for loads in (
+        [Torque("crank", 0.1), Torque("crank", 0.2), Torque("crank", -0.3)],
+        [assur.Spring("O", "A", 100.0, 0.1)],
+    ):
+        bodies = {"crank": Body(inertia=0.5), "piston": Body(20.0)}
+        assert assur.Machine(tilted, bodies, loads).flywheel(0.01, 12.0).inertia > 0.0
+
+
+def test_designs_that_are_others_a_turn_on_are_nan() -> None:
+    lengths = ([3.0, 2.5, 4.0], [1.0, 2.5, 2.5], [3.0, 1.0, 4.5])
+    bodies = {"crank": Body(inertia=0.1), "coupler": Body(2.0, 0.3), "rocker": Body(1.0, 0.2)}
+    batch = assur.Machine(assur.FourBar(1.0, *lengths), bodies)
+    with pytest.raises(InputError, match="design 1: the reduced inertia is another one after a"):
+        batch.flywheel(0.001, 10.0)
+    made = batch.flywheel(0.001, 10.0, on_error="nan")
+    assert np.isnan(made.inertia[1])
+    assert made.inertia[2] == batch.design(2).flywheel(0.001, 10.0).inertia
+
+
+def test_gaps_are_told_as_dead_points() -> None:
+    bodies = {"crank": Body(inertia=0.1), "rocker": Body(1.0, 0.2)}
+    swinging = assur.Machine(assur.FourBar(2.0, 1.0, 3.0, 4.0), bodies, (), assur.LinearMotor(5, 9))
+    for turns in (1, 2):
+        with pytest.raises(InputError, match=r"a dead point at q = 1\.318"):
+            swinging.steady_state(turns=turns, q0=0.5)
+    with pytest.raises(assur.PositionError, match="nothing to begin with"):
+        swinging.steady_state(q0=math.pi)
+
+
+def test_what_is_not_in_balance_is_told() -> None:
+    """Nearly a parallelogram: between a change point and a gap of 1e-6 rad nobody knows."""
+    nearly = assur.FourBar(1.0 - 3e-14, 3.0, 1.0, 3.0)
+    machine = assur.Machine(
+        nearly, {"crank": Body(inertia=0.1), "rocker": Body(1.0, 0.2), "coupler": Body(2.0, 0.3)}
+    )
+    with pytest.warns(assur.AssurWarning, match="the balance of energy is off by"):
+        machine.run(q_end=7.0, q0=1.0, speed0=1.0, max_steps=300_000)

@@ -127,6 +127,9 @@ pub(crate) fn broken(error: RunError<PyErr>) -> PyErr {
 pub(crate) fn unsteady(error: Unsteady<PyErr>) -> PyErr {
     match error {
         Unsteady::Broken(Broken::Outside(error)) => error,
+        Unsteady::Broken(nothing @ Broken::NothingThere { .. }) => {
+            error::position(nothing.to_string())
+        }
         other => error::input(other.to_string(), None),
     }
 }
@@ -179,8 +182,12 @@ impl Run {
     /// The same again.
     #[staticmethod]
     fn from_bytes(written: &[u8]) -> PyResult<Self> {
-        match postcard::from_bytes(written) {
-            Ok(run) => Ok(Self(run)),
+        match postcard::take_from_bytes(written) {
+            Ok((run, [])) => Ok(Self(run)),
+            Ok((_, rest)) => {
+                let message = format!("these bytes are no run: {} too many", rest.len());
+                Err(error::input(message, None))
+            }
             Err(e) => Err(error::input(format!("these bytes are no run: {e}"), None)),
         }
     }

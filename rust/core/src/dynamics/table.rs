@@ -81,9 +81,10 @@ impl Table {
         Cell { piece, whole, start: self.knots[piece] + whole * self.width() }
     }
 
-    /// The knots around a piece.
+    /// The knots around a piece: where it ends the next one begins, to the last bit.
     pub(super) fn ends(&self, cell: Cell) -> [f64; 2] {
-        [0, 1].map(|end| self.knots[cell.piece + end] + cell.whole * self.width())
+        let end = self.next(cell, true).map(|next| next.start);
+        [cell.start, end.unwrap_or(self.range()[1])]
     }
 
     /// The piece behind (`up`) or before another.

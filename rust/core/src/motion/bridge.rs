@@ -1,86 +1,130 @@
 //! The smooth motion through a change point, where a dyad by itself knows too little.
 
-use super::state::{Context, State};
-use super::track::Track;
-use crate::tolerance::{CHANGE_REACH, SMOOTH_CLOSURE};
+use super::state::State;
+use crate::tolerance::CHANGE_REACH;
 
-/// Where the polynomial is taken.
+/// Where the polynomial through a change point is taken.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bridge {
-    /// How near to a change point (rad, or units of the scale).
+    /// How near to the change point (rad, or units of the scale).
     pub reach: f64,
-    /// How far around it the polynomial reaches at first.
+    /// How far around it the polynomial is laid at first.
     widest: f64,
     /// Nodes of the polynomial: Chebyshev's, of an even number, so that none is at the change
     /// point.
     nodes: u32,
+    /// Whether the condition told is that of the nodes, not that of the dyad.
+    is_known: bool,
 }
 
 impl Bridge {
     /// Of positions by themselves: where too few digits remain.
-    pub(crate) const SHORT: Self = Self { reach: CHANGE_REACH, widest: 0.1, nodes: 16 };
+    pub(crate) const SHORT: Self =
+        Self { reach: CHANGE_REACH, widest: 0.1, nodes: 16, is_known: false };
     /// Of positions that are integrated over: beside a change point second analogues are off by
     /// u κ³, which no step is narrow enough for. Nodes, the nearest at 0.03, are good to 1e-12 or
     /// so.
-    pub(crate) const LONG: Self = Self { reach: 0.03, widest: 0.5, nodes: 24 };
+    pub(crate) const LONG: Self = Self { reach: 0.03, widest: 0.5, nodes: 24, is_known: true };
 }
 
-/// How far the polynomial reaches at least: its nodes, the nearest at a tenth of the reach, stay
-/// about outside [`CHANGE_REACH`].
-const NARROWEST: f64 = 1.0e-3;
+/// How far around the polynomial is laid at least: nodes, the nearest at a fifteenth of that, are
+/// hardly known there.
+const NARROWEST: f64 = 2.0e-4;
+/// Misfit of points and analogues (in sizes, or of themselves), at most.
+const MISFIT: f64 = 1.0e-4;
+/// Part of its misfit that half a polynomial has at most if the whole one is truncated.
+const GAIN: f64 = 0.25;
+/// It is used within this part of that, far from its ends.
+const INNER: f64 = 0.5;
 
-/// Position and analogues of the smooth motion at (or beside) a change point: the
-/// polynomial through states around it, as far around as it closes. None if there is no
-/// room.
-pub(crate) fn bridge(
-    cx: &Context<'_>,
-    state: &State,
-    track: &Track,
-    (q, change): (f64, f64),
-    wide: Bridge,
-) -> Option<State> {
-    let solve = |at: f64| {
-        let mut trial = state.clone();
-        trial.solve(&Context { signs: track.signs(at), ..*cx }, &[at]);
-        let is_there = trial.fault.is_none() && !trial.points.iter().any(|p| p[0].x.is_nan());
-        is_there.then_some(trial)
-    };
-    let mut reach = wide.widest;
-    // Nodes must be far around where the polynomial is asked for.
-    while reach > NARROWEST.max(2.0 * (q - change).abs()) {
-        let place = |part: f64| {
-            let angle = std::f64::consts::PI * part / f64::from(wide.nodes);
-            (change + reach * angle.cos(), angle.sin())
-        };
-        let mut states = Vec::new();
-        let mut nodes = Vec::new();
-        for node in 0..wide.nodes {
-            let (at, sine) = place(f64::from(node) + 0.5);
-            let Some(solved) = solve(at) else { break };
-            // Weights of Chebyshev's nodes of the first kind (Berrut & Trefethen 2004, 5.3).
-            nodes.push((at, if node % 2 == 0 { sine } else { -sine }));
-            states.push(solved);
-        }
-        let smooth = |q: f64| {
-            let raw: Vec<f64> = nodes.iter().map(|(at, w)| w / (q - at)).collect();
-            let total: f64 = raw.iter().sum();
-            let weights: Vec<f64> = raw.iter().map(|w| w / total).collect();
-            let mut smooth = state.clone();
-            smooth.blend(&states, &weights);
-            smooth
-        };
-        // A flat dyad closes almost whatever its angle: far around, where it is not, and farthest
-        // from the nodes the polynomial must be the motion too.
-        let is_whole = states.len() == wide.nodes as usize;
-        let is_motion = |at: f64| solve(at).is_some_and(|own| smooth(at).is_as(&own));
-        let ends = [1.0, f64::from(wide.nodes) - 1.0].map(|part| place(part).0);
-        if is_whole && (reach <= Bridge::SHORT.widest || ends.into_iter().all(is_motion)) {
-            let found = smooth(q);
-            if found.residual(cx) <= SMOOTH_CLOSURE {
-                return Some(found);
+/// The polynomial through states around a change point, as far around as it is the motion.
+#[derive(Debug, Clone)]
+pub(crate) struct Span {
+    reach: f64,
+    /// Places, from the change point, with their weights.
+    nodes: Vec<(f64, f64)>,
+    states: Vec<State>,
+    /// The greatest condition (squared) of these, if that is what is told.
+    condition2: Option<f64>,
+}
+
+impl Span {
+    /// Lays it; `solve` gives the state at a distance from the change point. None if there is no
+    /// room.
+    ///
+    /// As long as the polynomial is truncated, half as far around it fits far better; once it is
+    /// the motion only rounding grows. That is told without knowing how large the rounding is.
+    pub(crate) fn lay(wide: Bridge, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
+        let mut best: Option<(f64, Self)> = None;
+        let mut reach = wide.widest;
+        while reach > NARROWEST {
+            if let Some(span) = Self::of(reach, wide, &solve)
+                && let Some(misfit) = span.misfit(&solve)
+                && misfit <= MISFIT
+            {
+                if let Some((before, _)) = &best
+                    && misfit > GAIN * before
+                {
+                    break;
+                }
+                best = Some((misfit, span));
             }
+            reach *= 0.5;
         }
-        reach *= 0.5;
+        best.map(|(_, span)| span)
     }
-    None
+
+    fn of(reach: f64, wide: Bridge, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
+        // Weights of Chebyshev's nodes of the first kind (Berrut & Trefethen 2004, 5.3).
+        let nodes: Vec<_> = (0..wide.nodes)
+            .map(|node| {
+                let (at, sine) = place(f64::from(node) + 0.5, wide.nodes);
+                (reach * at, if node % 2 == 0 { sine } else { -sine })
+            })
+            .collect();
+        let states = nodes.iter().map(|(at, _)| solve(*at)).collect::<Option<Vec<_>>>()?;
+        let condition2 = states.iter().map(|state| state.condition2[0]).fold(0.0, f64::max);
+        let condition2 = wide.is_known.then_some(condition2);
+        Some(Self { reach, nodes, states, condition2 })
+    }
+
+    /// How far from the motion it is between nodes, near its ends. (At the change point itself
+    /// nothing tells: a flat dyad closes whatever its angle.)
+    fn misfit(&self, solve: impl Fn(f64) -> Option<State>) -> Option<f64> {
+        let count = u32::try_from(self.nodes.len()).unwrap_or(u32::MAX);
+        let mut most: f64 = 0.0;
+        for part in [1, 2, 3, count - 3, count - 2, count - 1] {
+            let at = self.reach * place(f64::from(part), count).0;
+            let own = solve(at)?;
+            most = most.max(self.blend(at, &own).distance(&own));
+        }
+        Some(most)
+    }
+
+    /// The state at a distance from the change point, if it is well inside; `like` a state of the
+    /// same plan.
+    pub(crate) fn at(&self, distance: f64, like: &State) -> Option<State> {
+        (distance.abs() <= INNER * self.reach).then(|| self.blend(distance, like))
+    }
+
+    fn blend(&self, distance: f64, like: &State) -> State {
+        let mut state = like.clone();
+        if let Some(node) = self.nodes.iter().position(|(at, _)| *at == distance) {
+            return self.states[node].clone();
+        }
+        let raw: Vec<f64> = self.nodes.iter().map(|(at, w)| w / (distance - at)).collect();
+        let total: f64 = raw.iter().sum();
+        let weights: Vec<f64> = raw.iter().map(|w| w / total).collect();
+        state.blend(&self.states, &weights);
+        if let Some(known) = self.condition2 {
+            state.condition2[0] = known;
+        }
+        state
+    }
+}
+
+/// A place of Chebyshev's angles, in parts of their number: from 1 to -1; and its sine.
+fn place(part: f64, count: u32) -> (f64, f64) {
+    let angle = std::f64::consts::PI * part / f64::from(count);
+    (angle.cos(), angle.sin())
 }

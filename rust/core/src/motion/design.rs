@@ -2,8 +2,10 @@
 //! the drawing.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
 
-use super::bridge::{Bridge, bridge};
+use super::bridge::{Bridge, Span};
+use super::change::Change;
 use super::quick::{Quick, Template};
 use super::simd::Level;
 use super::state::{Context, Fault, State, Status};
@@ -87,6 +89,8 @@ pub(crate) struct Design<'a> {
     pub track: Track,
     /// Where the way through a change point is a polynomial.
     pub bridge: Bridge,
+    /// Those that were asked for, by the place of their change point.
+    spans: RefCell<Vec<(f64, Option<Span>)>>,
 }
 
 impl<'a> Design<'a> {
@@ -106,12 +110,14 @@ impl<'a> Design<'a> {
             q0: Vec::new(),
             track: Track::default(),
             bridge: Bridge::SHORT,
+            spans: RefCell::default(),
         }
     }
 
     /// Takes the dimensions of a design; its way is yet to be laid.
     pub(crate) fn bind(&mut self, values: &[f64]) {
         let mechanism = self.mechanism;
+        self.spans.get_mut().clear();
         self.bound.bind(mechanism.plan(), &mechanism.slots, values);
         self.unit.set(mechanism, self.bound.scale, self.jets);
         self.q0.clear();
@@ -338,6 +344,35 @@ impl<'a> Design<'a> {
         (0..classes).map(|class| place.track.near(&spot, class)).collect()
     }
 
+    /// The smooth motion beside a change point.
+    #[cold]
+    #[inline(never)]
+    fn smooth(
+        &self,
+        state: &State,
+        track: &Track,
+        change: &Change,
+        distance: f64,
+    ) -> Option<State> {
+        let mut spans = self.spans.borrow_mut();
+        let known = spans.iter().position(|(at, _)| *at == change.at);
+        let known = known.unwrap_or_else(|| {
+            let cx = self.context(self.jets);
+            let solve = |distance: f64| {
+                let at = change.at + distance;
+                let mut trial = state.clone();
+                trial.prepare(cx.plan, cx.bound, cx.jets);
+                self.guess(0, &mut trial, track, &track.spot(at));
+                trial.solve(&Context { signs: track.signs(at), ..cx }, &[at]);
+                let lost = trial.fault.is_some() || trial.points.iter().any(|p| p[0].x.is_nan());
+                (!lost).then_some(trial)
+            };
+            spans.push((change.at, Span::lay(self.bridge, solve)));
+            spans.len() - 1
+        });
+        spans[known].1.as_ref()?.at(distance, state)
+    }
+
     /// Solves one position with the signs of its place on the way; true if the
     /// analogues exist.
     pub(crate) fn solve(&self, state: &mut State, q: &[f64], place: Option<&Place<'_>>) -> bool {
@@ -361,13 +396,13 @@ impl<'a> Design<'a> {
         // At a change point a dyad is flat, and beside it little is left of the
         // analogues: the smooth motion through the point is known better.
         let solved = matches!(state.status, Status::Ok | Status::NearSingular);
-        if let [one] = *q
+        if q.len() == 1
             && state.status != Status::BadInput
-            && let Some(change) = track.change_near(*at, self.bridge.reach)
-            && let Some(smooth) = bridge(&cx, state, track, (one, change.at), self.bridge)
+            && let Some((change, distance)) = track.change_near(*at, self.bridge.reach)
+            && let Some(smooth) = self.smooth(state, track, &change, distance)
             && (!solved || smooth.is_near(state))
         {
-            let at_change = !solved || (*at - change.at).abs() <= CHANGE_WIDTH;
+            let at_change = !solved || distance.abs() <= CHANGE_WIDTH;
             let status = if at_change { Status::Singular } else { state.status };
             *state = smooth;
             state.status = status;

@@ -5,7 +5,7 @@ use super::state::{Context, State};
 use crate::lanes::Real;
 use crate::plan::{Along, Dyad, Form};
 use crate::plane::Vector;
-use crate::tolerance::{CHANGE_MISFIT, SMOOTH_CLOSURE};
+use crate::tolerance::CHANGE_MISFIT;
 
 impl<R: Real, const G: usize> State<R, G> {
     /// How far a dyad is from flat, with the sign of its assembly, and the rate of
@@ -77,15 +77,15 @@ impl State {
         a.iter().zip(&b).all(|(&a, &b)| (a - b).norm() <= allowed)
     }
 
-    /// Whether points and their analogues are those of another state, to the rounding of that:
-    /// analogues of order k know u κ^(2k − 1).
-    pub(crate) fn is_as(&self, other: &Self) -> bool {
-        let condition = other.condition2[0].sqrt().max(1.0);
-        self.points.iter().zip(&other.points).enumerate().all(|(i, (one, own))| {
-            let power = i32::try_from(i % self.len).unwrap_or(1);
-            let allowed = SMOOTH_CLOSURE * condition.powi((2 * power - 1).max(1));
-            (one[0] - own[0]).norm() <= allowed * (1.0 + own[0].norm())
-        })
+    /// How far points and their analogues are from those of another state, of the size or of
+    /// themselves.
+    pub(crate) fn distance(&self, other: &Self) -> f64 {
+        let pairs = self.points.iter().zip(&other.points);
+        let far = |(one, own): (&[Vector; 1], &[Vector; 1])| {
+            (one[0] - own[0]).norm() / (1.0 + own[0].norm())
+        };
+        // What is no number is no fit.
+        pairs.map(far).fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
     }
 
     /// Becomes the weighted sum of other states of the same plan: a polynomial

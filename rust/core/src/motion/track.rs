@@ -352,17 +352,16 @@ impl Track {
         self.stretches.len() == 1
     }
 
-    /// The change point that a parameter is beside, if there is one.
-    pub(crate) fn change_near(&self, at: f64, reach: f64) -> Option<Change> {
+    /// The change point (of the first period) that a parameter is beside, if there is one, and how
+    /// far from it.
+    pub(crate) fn change_near(&self, at: f64, reach: f64) -> Option<(Change, f64)> {
         if self.changes.is_empty() {
             return None;
         }
-        let (place, whole) = self.reduced(at);
+        let (place, _) = self.reduced(at);
         let period = self.period.unwrap_or(0.0);
-        let beside = |c: &Change| (c.at - place).abs() <= reach;
-        let images = |c: &Change| [0.0, -period, period].map(|by| Change { at: c.at + by, ..*c });
-        let found = self.changes.iter().flat_map(images).find(beside)?;
-        Some(Change { at: found.at + whole * period, ..found })
+        let images = |c: &Change| [0.0, -period, period].map(|by| (*c, place - (c.at + by)));
+        self.changes.iter().flat_map(images).find(|(_, distance)| distance.abs() <= reach)
     }
 
     /// Whether a place lies on an island that no knot has seen.

@@ -32,6 +32,10 @@ const MOST_REFUSALS: u32 = 256;
 /// before, near an edge some are refused soon.
 const FREE: u32 = 8;
 
+/// So many restarts at one place are no progress: pieces whose borders do not meet send the run to
+/// and fro.
+const MOST_STANDS: u32 = 64;
+
 /// What a step met that was not there.
 #[derive(Debug, Clone, Copy)]
 enum Obstacle {
@@ -67,6 +71,8 @@ pub(super) struct Run<'a, S> {
     /// Refusals on the way to an edge, and steps since the last.
     refusals: u32,
     free: u32,
+    /// Events met at one place, one after another.
+    stands: u32,
     record: Record<'a>,
     statistics: Statistics,
 }
@@ -96,6 +102,7 @@ impl<'a, S: System> Run<'a, S> {
             obstacle: None,
             refusals: 0,
             free: 0,
+            stands: 0,
             statistics: Statistics::default(),
         }
     }
@@ -290,7 +297,9 @@ impl<'a, S: System> Run<'a, S> {
         self.statistics.count((reached - self.t).abs(), last || cut.is_some(), self.stiff);
         if reached != self.t {
             self.record.step(&self.work.interpolant, self.work.n, self.t, h, reached);
+            self.stands = 0;
         }
+        self.stands += 1;
         self.t = reached;
         let Some(cut) = cut else {
             std::mem::swap(&mut self.work.y, &mut self.work.new);
@@ -301,6 +310,7 @@ impl<'a, S: System> Run<'a, S> {
         match cut.stop {
             Some(index) => Ok(Next::End(End::Event { index, t: cut.t })),
             None if self.t == self.t_end => Ok(Next::Step),
+            None if self.stands > MOST_STANDS => Ok(Next::End(End::Stalled { t: self.t })),
             None => Ok(Next::Restart),
         }
     }

@@ -120,15 +120,24 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
         }
     }
 
-    /// A motor goes on to the next piece of its table: the driver and its speed there; none if the
-    /// table ends.
+    /// A motor goes on to the next piece of its table: the driver and its speed there, inside that
+    /// piece; none if the table ends.
     pub(super) fn pass_motor(&mut self, which: usize, up: bool) -> Option<(usize, f64)> {
         let motor = &self.motors[which];
         let table = motor.table()?;
         let cell = &mut self.cells[which];
         let knot = table.ends(*cell)[usize::from(up)];
         *cell = table.next(*cell, up)?;
-        Some((motor.driver, knot / motor.ratio))
+        let mut speed = knot / motor.ratio;
+        // By its rounding the motor's own speed may be before the knot.
+        let is_before = |speed: f64| {
+            let own = motor.ratio * speed;
+            if up { own < knot } else { own > knot }
+        };
+        while is_before(speed) {
+            speed = if up == (motor.ratio > 0.0) { speed.next_up() } else { speed.next_down() };
+        }
+        Some((motor.driver, speed))
     }
 
     /// Looks tables up in the middle of a stretch between knots.

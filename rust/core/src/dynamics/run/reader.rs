@@ -37,7 +37,7 @@ impl Reader {
     }
 
     /// Goes on to the next piece of every table that has a knot at this end of the interval, and
-    /// says where that is.
+    /// says where that is: inside the next interval.
     ///
     /// # Errors
     ///
@@ -52,7 +52,8 @@ impl Reader {
             }
         }
         self.bound(tables);
-        Ok(border)
+        // Knots of several tables that are one may lie apart by a last digit.
+        Ok(if up { border.max(self.low) } else { border.min(self.high) })
     }
 
     fn bound(&mut self, tables: &[Table]) {

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use super::broken::Broken;
 use super::cycle::{Begin, Passage, Period, period};
 use super::equation::Equation;
 use super::make::{breaks_of, run};
@@ -96,20 +97,26 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
     /// Refuses a machine that is another one a period on.
     fn compare(&mut self) -> Result<(), Unsteady<O::Error>> {
         let Search { q: from, span, .. } = self.search;
-        for part in 0..LOOKS {
+        let mut inertia = |q: f64| {
+            let is_there = self.equation.find(q) && self.equation.place(&[q]).is_ok();
+            if is_there { self.equation.reduced.inertia[0] } else { f64::NAN }
+        };
+        let looks = (0..LOOKS).map(|part| {
             let here = from + span * f64::from(part) / f64::from(LOOKS);
             let q = [here, here + span];
-            let inertia = q.map(|q| {
-                let is_there = self.equation.find(q) && self.equation.place(&[q]).is_ok();
-                if is_there { self.equation.reduced.inertia[0] } else { f64::NAN }
-            });
-            // Where there is nothing the period will tell.
-            if (inertia[1] - inertia[0]).abs() > SAME * inertia[0].abs() {
-                return Err(Unsteady::AnotherOne { q, inertia });
-            }
-        }
+            (q, q.map(&mut inertia))
+        });
+        let looks: Vec<_> = looks.collect();
         self.equation.refused = None;
-        Ok(())
+        if looks[0].1[0].is_nan() {
+            return Err(Unsteady::Broken(Broken::NothingThere { q: vec![from] }));
+        }
+        // Where somewhere nothing is, the period will tell; beyond, all may be other.
+        if looks.iter().any(|(_, pair)| pair.iter().any(|value| value.is_nan())) {
+            return Ok(());
+        }
+        let other = looks.into_iter().find(|(_, [a, b])| (b - a).abs() > SAME * a.abs());
+        other.map_or(Ok(()), |(q, inertia)| Err(Unsteady::AnotherOne { q, inertia }))
     }
 
     /// Periods begin here from now on.
