@@ -106,7 +106,10 @@ def _from_rows(
         own_speed = speed[..., np.newaxis] if speed.ndim else speed
         inertia, _, moment, _ = machine._reduce(phi, own_speed, on_error)
         if last is None:
-            _same_a_turn_on(machine, phi, own_speed, on_error, inertia, moment)
+            others = _others_a_turn_on(machine, phi, own_speed, on_error, inertia, moment)
+        inertia[others], moment[others] = math.nan, math.nan
+        # But for rounding its last row is its first.
+        moment[..., -1, :], inertia[..., -1, :, :] = moment[..., 0, :], inertia[..., 0, :, :]
         own = flywheels._flywheel(
             phi,
             moment[..., 0],
@@ -134,10 +137,11 @@ def _from_rows(
         last, rows = own, 2 * rows
 
 
-def _same_a_turn_on(
+def _others_a_turn_on(
     machine: Machine, phi: Any, speed: Any, on_error: str, inertia: Any, moment: Any
-) -> None:
-    """Refuse designs whose motion or loads are others after a turn: an error, or NaN."""
+) -> Any:
+    """Designs whose motion or loads are others after a turn: an error, or where they are."""
+    found = np.zeros(machine.shape, bool)
     later, _, other, _ = machine._reduce(phi + 2.0 * math.pi, speed, on_error)
     # Moments are told from rounding by what the inertia itself asks at this speed.
     of_inertia = np.nanmax(np.abs(_flat(machine, inertia)), axis=-1, initial=0.0)
@@ -151,8 +155,8 @@ def _same_a_turn_on(
         others = off > SAME * size + least
         if not others.any():
             continue
+        found |= others
         if on_error == "nan":
-            inertia[others], moment[others] = math.nan, math.nan
             continue
         first = tuple(int(i) for i in np.argwhere(others)[0])
         which = f"design {first if len(first) > 1 else first[0]}: " if first else ""
@@ -161,6 +165,7 @@ def _same_a_turn_on(
             "is no flywheel of one turn"
         )
         raise InputError(message)
+    return found
 
 
 def _flat(machine: Machine, array: Any) -> Any:

@@ -13,6 +13,15 @@ pub(super) fn short(value: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
 }
 
+/// A number in all its digits, but not in all its zeros.
+fn full(value: f64) -> String {
+    if value == 0.0 || (1e-6..1e16).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
 /// Why there is no flywheel.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
@@ -32,7 +41,7 @@ pub enum TableError {
     NotIncreasing { row: usize, value: f64, before: f64 },
     /// Ends that differ.
     #[error(
-        "the table is not periodic: {quantity} is {first} in its first row and {last} in its last, one period on; they must agree"
+        "the table is not periodic: {quantity} is {} in its first row and {} in its last, one period on; they must agree", full(*first), full(*last)
     )]
     NotPeriodic { quantity: &'static str, first: f64, last: f64 },
     /// An inertia that is not positive.

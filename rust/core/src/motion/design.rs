@@ -360,8 +360,8 @@ impl<'a> Design<'a> {
             let cx = self.context(self.jets);
             let solve = |distance: f64| {
                 let at = change.at + distance;
-                let mut trial = state.clone();
-                trial.prepare(cx.plan, cx.bound, cx.jets);
+                // Nothing of the position that asks first.
+                let mut trial = self.state(self.jets);
                 self.guess(0, &mut trial, track, &track.spot(at));
                 trial.solve(&Context { signs: track.signs(at), ..cx }, &[at]);
                 let lost = trial.fault.is_some() || trial.points.iter().any(|p| p[0].x.is_nan());

@@ -22,7 +22,8 @@ pub enum End {
         t: f64,
     },
     /// The tolerance cannot be met beyond this t with steps above the spacing of t: a singularity,
-    /// a jump that is not among the breaks, or a tolerance that is too small.
+    /// a jump that is not among the breaks, or a tolerance that is too small. Or both sides of a
+    /// border push towards it.
     Stalled {
         /// The last t.
         t: f64,

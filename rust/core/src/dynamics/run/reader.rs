@@ -17,7 +17,8 @@ pub(super) struct Reader {
 
 impl Reader {
     pub(super) fn new() -> Self {
-        Self { cells: Vec::new(), low: f64::NEG_INFINITY, high: f64::INFINITY }
+        // Nowhere yet.
+        Self { cells: Vec::new(), low: f64::INFINITY, high: f64::NEG_INFINITY }
     }
 
     /// Looks a coordinate up in all tables.
