@@ -90,6 +90,10 @@ pub const CHANGE_REACH: f64 = 1.0 / NEAR_SINGULAR_CONDITION;
 /// How near it is the change point itself: nearer no dyad can be told from a flat one.
 pub const CHANGE_WIDTH: f64 = 1.0 / SINGULAR_CONDITION;
 
+/// How well (of the size) the polynomial through a change point must close: that of
+/// some 20 states, each closed to a few u, has no more rounding; what is more is truncation.
+pub const SMOOTH_CLOSURE: f64 = 256.0 * UNIT_ROUNDOFF;
+
 /// How far (of the size, per condition) that smooth motion may be from the position
 /// solved for: the errors of both. Farther, something else happens near by.
 pub const CHANGE_MISFIT: f64 = 4.0 * CLOSURE_PER_CONDITION;

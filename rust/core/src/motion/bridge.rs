@@ -30,8 +30,6 @@ impl Bridge {
 /// How far around the polynomial is laid at least: nodes, the nearest at a fifteenth of that, are
 /// hardly known there.
 const NARROWEST: f64 = 2.0e-4;
-/// Misfit of points and analogues (in sizes, or of themselves), at most.
-const MISFIT: f64 = 1.0e-4;
 /// Part of its misfit that half a polynomial has at most if the whole one is truncated.
 const GAIN: f64 = 0.25;
 /// It is used within this part of that, far from its ends.
@@ -55,15 +53,15 @@ impl Span {
     /// As long as the polynomial is truncated, half as far around it fits far better; once it is
     /// the motion only rounding grows. That is told without knowing how large the rounding is.
     pub(crate) fn lay(wide: Bridge, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
-        let mut best: Option<(f64, Self)> = None;
+        let mut best: Option<(Misfit, Self)> = None;
         let mut reach = wide.widest;
         while reach > NARROWEST {
             if let Some(span) = Self::of(reach, wide, &solve)
                 && let Some(misfit) = span.misfit(&solve)
-                && misfit <= MISFIT
+                && misfit.is_small()
             {
                 if let Some((before, _)) = &best
-                    && misfit > GAIN * before
+                    && !misfit.is_far_below(before)
                 {
                     break;
                 }
@@ -90,13 +88,16 @@ impl Span {
 
     /// How far from the motion it is between nodes, near its ends. (At the change point itself
     /// nothing tells: a flat dyad closes whatever its angle.)
-    fn misfit(&self, solve: impl Fn(f64) -> Option<State>) -> Option<f64> {
+    fn misfit(&self, solve: impl Fn(f64) -> Option<State>) -> Option<Misfit> {
         let count = u32::try_from(self.nodes.len()).unwrap_or(u32::MAX);
-        let mut most: f64 = 0.0;
+        let mut most = Misfit::default();
         for part in [1, 2, 3, count - 3, count - 2, count - 1] {
             let at = self.reach * place(f64::from(part), count).0;
             let own = solve(at)?;
-            most = most.max(self.blend(at, &own).distance(&own));
+            let smooth = self.blend(at, &own);
+            for (order, most) in most.0.iter_mut().enumerate() {
+                *most = most.max(smooth.distance(&own, order));
+            }
         }
         Some(most)
     }
@@ -120,6 +121,26 @@ impl Span {
             state.condition2[0] = known;
         }
         state
+    }
+}
+
+/// How far points and their first two analogues are from the motion, in sizes or of themselves.
+#[derive(Debug, Clone, Copy, Default)]
+struct Misfit([f64; 3]);
+
+impl Misfit {
+    /// What may be left at most.
+    const MOST: [f64; 3] = [1.0e-9, 1.0e-6, 1.0e-4];
+    /// Less is rounding, which may be smaller by chance.
+    const ROUNDING: [f64; 3] = [1.0e-14, 1.0e-13, 1.0e-12];
+
+    fn is_small(&self) -> bool {
+        self.0.iter().zip(Self::MOST).all(|(own, most)| *own <= most)
+    }
+
+    fn is_far_below(&self, other: &Self) -> bool {
+        let mut pairs = self.0.iter().zip(other.0).zip(Self::ROUNDING);
+        pairs.any(|((own, other), rounding)| *own <= GAIN * other && other > rounding)
     }
 }
 

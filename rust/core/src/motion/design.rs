@@ -18,7 +18,7 @@ use crate::plan::bind_rate::BoundRate;
 use crate::plan::jet::Jets;
 use crate::plan::{Step, Unknown};
 use crate::plane::Vector;
-use crate::tolerance::CHANGE_WIDTH;
+use crate::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
 
 /// Powers of two between the design's own unit of length and the metre.
 #[derive(Debug, Default)]
@@ -370,7 +370,8 @@ impl<'a> Design<'a> {
             spans.push((change.at, Span::lay(self.bridge, solve)));
             spans.len() - 1
         });
-        spans[known].1.as_ref()?.at(distance, state)
+        let smooth = spans[known].1.as_ref()?.at(distance, state)?;
+        (smooth.residual(&self.context(self.jets)) <= SMOOTH_CLOSURE).then_some(smooth)
     }
 
     /// Solves one position with the signs of its place on the way; true if the

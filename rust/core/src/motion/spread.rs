@@ -77,13 +77,14 @@ impl State {
         a.iter().zip(&b).all(|(&a, &b)| (a - b).norm() <= allowed)
     }
 
-    /// How far points and their analogues are from those of another state, of the size or of
-    /// themselves.
-    pub(crate) fn distance(&self, other: &Self) -> f64 {
-        let pairs = self.points.iter().zip(&other.points);
+    /// How far the analogues of an order (of one driver; 0: points) are from those of another state,
+    /// of the size or of themselves.
+    pub(crate) fn distance(&self, other: &Self, order: usize) -> f64 {
         let far = |(one, own): (&[Vector; 1], &[Vector; 1])| {
             (one[0] - own[0]).norm() / (1.0 + own[0].norm())
         };
+        let pairs = self.points.iter().zip(&other.points).skip(order).step_by(self.len);
+        let pairs = pairs.take(if order < self.len { usize::MAX } else { 0 });
         // What is no number is no fit.
         pairs.map(far).fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
     }
