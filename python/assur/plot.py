@@ -159,10 +159,7 @@ def flywheel_picture(
     ax.plot(x, speed, color=_COLOURS[0])
     for place in (flywheel.greatest, flywheel.least):
         at = place.at if what == "speed" else flywheel.time(place.at)
-        ax.plot(at, place.value, "o", color=_COLOURS[1], markersize=5)
-        ax.annotate(
-            f"{place.value:.4g}", (at, place.value), xytext=(4, 4), textcoords="offset points"
-        )
+        _mark(ax, at, place.value, place is flywheel.greatest)
     ax.axhline(flywheel.mean_speed, color="0.6", linewidth=0.8)
     ax.set(xlabel=label, ylabel="ω, rad/s")
     return ax
@@ -182,9 +179,34 @@ def run_picture(run: Run, what: str, ax: Any) -> Any:
         ax.plot(own, values, color=_COLOURS[0] if np.ndim(values) == 1 else None)
     for one in run.events:
         ax.axvline(one.t, color="0.7", linewidth=0.8, zorder=0)
-    labels = {"q": "q, rad or m", "speed": "speed, 1/s", "energy": "energy, J"}
-    ax.set(xlabel="t, s", ylabel=labels.get(what, "acceleration, 1/s²"))
+    unit = _unit(run._made[1])
+    units = {"q": unit, "speed": f"{unit}/s", "acceleration": f"{unit}/s²", "energy": "J"}
+    ax.set(xlabel="t, s", ylabel=f"{what}, {units[what]}")
     return ax
+
+
+def _unit(mechanism: Mechanism | None) -> str:
+    """What drivers are measured in."""
+    if mechanism is None:
+        return "rad"
+    driver = mechanism.driver
+    drivers = driver if isinstance(driver, list | tuple) else [driver]
+    sliding = {isinstance(one, str) and one in mechanism.slides for one in drivers}
+    return "m" if sliding == {True} else "rad" if sliding == {False} else "(rad or m)"
+
+
+def _mark(ax: Any, x: float, y: float, above: bool) -> None:
+    """A place on a curve with its number, where the curve is not."""
+    ax.plot(x, y, "o", color=_COLOURS[1], markersize=5)
+    ax.annotate(
+        f"{y:.4g}",
+        (x, y),
+        xytext=(0, 6 if above else -6),
+        textcoords="offset points",
+        ha="center",
+        va="bottom" if above else "top",
+    )
+    ax.margins(y=0.12)
 
 
 def steady_picture(steady: SteadyState, ax: Any) -> Any:
@@ -194,8 +216,7 @@ def steady_picture(steady: SteadyState, ax: Any) -> Any:
     ax.plot(q, steady.at(q).speed, color=_COLOURS[0])
     for place in (steady.greatest, steady.least):
         value = float(np.copysign(place.value, steady.speed[0]))
-        ax.plot(place.at, value, "o", color=_COLOURS[1], markersize=5)
-        ax.annotate(f"{value:.4g}", (place.at, value), xytext=(4, 4), textcoords="offset points")
+        _mark(ax, place.at, value, (place is steady.greatest) == (value > 0.0))
     ax.axhline(np.copysign(steady.mean_speed, steady.speed[0]), color="0.6", linewidth=0.8)
     ax.set(xlabel="q, rad", ylabel="ω, rad/s")
     return ax
