@@ -74,7 +74,8 @@ clean:
 
 # The extension module, built in place (python/assur) and made importable in the environment.
 $(EXTENSION): $(SOURCES) $(RUN_STAMP)
-	VIRTUAL_ENV=$(abspath $(VENV)) PIP_QUIET=1 $(PY) -m maturin develop --release --group run $(LOCKED)
+	VIRTUAL_ENV=$(abspath $(VENV)) PIP_QUIET=1 $(PY) -m maturin develop --release --features test-hooks \
+	  --group run $(LOCKED)
 	@touch $@
 
 $(DEV_STAMP): pyproject.toml $(RUN_STAMP)

@@ -18,6 +18,18 @@ Held: TypeAlias = dict[str, tuple[Float, ...]]
 Outputs: TypeAlias = tuple[list[int], list[int], list[int], list[int]]
 
 
+@dataclass(eq=False)
+class Buffers:
+    """The arrays of a motion in the core's order, and its statuses.
+
+    The core writes them, and they are not `complete` while it does.
+    """
+
+    columns: list[Float]
+    status: npt.NDArray[np.uint8]
+    complete: bool = True
+
+
 @dataclass(frozen=True, eq=False)
 class Tracks:
     """What a motion holds, by name: arrays by order."""
@@ -25,8 +37,16 @@ class Tracks:
     joints: Held
     links: Held
     slides: Held
-    # The same as the core wrote them, with the statuses; none in a copy.
-    raw: tuple[list[Float], npt.NDArray[np.uint8]] | None = None
+    # The same as the core wrote them; none in a copy.
+    buffers: Buffers | None = None
+
+    def copied(self) -> Tracks:
+        """The same numbers in arrays of their own."""
+
+        def own(held: Held) -> Held:
+            return {name: tuple(a.copy() for a in arrays) for name, arrays in held.items()}
+
+        return Tracks(own(self.joints), own(self.links), own(self.slides))
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +70,7 @@ class Call:
         joints: dict[str, int],
         links: dict[str, int],
         slides: dict[str, int],
-        kept: tuple[list[Float], npt.NDArray[np.uint8]] | None = None,
+        kept: Buffers | None = None,
         by: int | None = None,
     ) -> tuple[Tracks, npt.NDArray[np.uint8]]:
         """Solve for these joints, angles of links, and slides; into the arrays kept.
@@ -64,7 +84,7 @@ class Call:
             joints=self._named("joint", joints, found, (*shape, 2)),
             links=self._named("link", links, found, shape),
             slides=self._named("slide", slides, found, shape),
-            raw=(list(found.values()), status),
+            buffers=kept or Buffers(list(found.values()), status),
         )
         status = status.reshape(shape)
         status.flags.writeable = False
@@ -88,7 +108,7 @@ class Call:
     def _solve(
         self,
         outputs: Outputs,
-        kept: tuple[list[Float], npt.NDArray[np.uint8]] | None = None,
+        kept: Buffers | None = None,
         by: int | None = None,
     ) -> tuple[dict[tuple[str, int, int], Float], npt.NDArray[np.uint8]]:
         return self.mechanism._core.solve(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._call import Call, Tracks
+from assur._call import Call
 from assur._checks import checked_order, checked_signs, checked_threads, real_array
 from assur.description import Status
 from assur.errors import AssurError, DimensionError, InputError, PositionError
@@ -63,28 +63,21 @@ def _overwritten(motion: Any, call: Call, wanted: Names) -> Motion:
     if not isinstance(motion, Motion):
         message = f"out is {motion!r}: a motion is needed"
         raise InputError(message)
-    held = motion._tracks
+    held = motion._stored
     names = [list(of) for of in (held.joints, held.links, held.slides)]
     drivers = len(call.mechanism._core.q0)
-    given = (motion.shape, motion.order, motion._drivers, *names)
+    given = (motion._status.shape, motion.order, motion._drivers, *names)
     needed = (call.shape, call.order, drivers, *(list(of) for of in wanted))
     what = ("shape", "order", "number of drivers", "joints", "links", "slides")
     for of, one, other in zip(what, given, needed, strict=True):
         if one != other:
             message = f"out: its {of} is {one}, this call needs {other}"
             raise InputError(message)
-    if held.raw is None:
+    if held.buffers is None:
         message = "out: a copy cannot be overwritten, only a motion as solve returned it"
         raise InputError(message)
-    # Interrupted, it is neither the one motion nor the other.
-    motion._tracks = Tracks({}, {}, {})
-    try:
-        tracks, status = call.arrays(*wanted, held.raw)
-    except Exception:
-        # Refused before anything was written.
-        motion._tracks = held
-        raise
-    motion._become(call, tracks, status)
+    # Interrupted, it is neither the one motion nor the other: its buffers stay incomplete.
+    motion._become(call, *call.arrays(*wanted, held.buffers))
     return motion
 
 

@@ -117,6 +117,10 @@ class Mechanism:
         message = f"a Mechanism does not change ({name!r}): see with_dimensions, with_driver"
         raise AttributeError(message)
 
+    def __delattr__(self, name: str) -> None:
+        message = f"a Mechanism does not change ({name!r}): see with_dimensions, with_driver"
+        raise AttributeError(message)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return (_rebuild, (self._parts, np.array(self._values)))
 
@@ -151,8 +155,12 @@ class Mechanism:
         """
         if self._joints is None:
             drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._parts[0]}
-            # A named assembly may be other than the drawing's.
-            as_drawn = self._values.tolist() == self._core.drawing and not self._parts[4]
+            # A named assembly may be other than the drawing's; redundant links adjust a drawing.
+            as_drawn = (
+                self._values.tolist() == self._core.drawing
+                and not self._parts[4]
+                and self._core.adjustment == 0.0
+            )
             if not as_drawn:
                 motion = self.solve(self._q0_array(), order=0, on_error="nan")
                 arrays = {name: motion.joint(name).value for name in drawn}
@@ -206,6 +214,7 @@ class Mechanism:
                 formula=self._core.formula,
                 groups=groups,
                 redundant=(*links, *slides),
+                adjustment=self._core.adjustment,
             )
             object.__setattr__(self, "_structure", structure)
         assert self._structure is not None

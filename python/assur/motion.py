@@ -33,8 +33,6 @@ class Motion:
         The coordinates.
     order : int
         Highest order of the analogues.
-    status : numpy.ndarray of uint8
-        One `Status` a position.
     """
 
     def __init__(self, call: Call, tracks: Tracks, status: npt.NDArray[np.uint8]) -> None:
@@ -44,29 +42,59 @@ class Motion:
         self.mechanism = call.mechanism
         self.q = call.q
         self.order = call.order
-        self.status = status
+        self._status = status
         self._call = call
-        self._tracks = tracks
+        self._stored = tracks
         self._drivers = len(call.mechanism._core.q0)
         self._places: dict[str, tuple[Float, ...]] = {}
         self._diagnostics: tuple[Float, Float] | None = None
 
+    @property
+    def _tracks(self) -> Tracks:
+        """What it holds."""
+        self._checked()
+        return self._stored
+
+    def _checked(self) -> None:
+        """Refuse to be read after a call that was to overwrite it and did not come to its end."""
+        buffers = self._stored.buffers
+        if buffers is not None and not buffers.complete:
+            message = (
+                "this motion is incomplete: a call that overwrites it (out=) is at work, was "
+                "interrupted or failed; solve it again"
+            )
+            raise InputError(message)
+
+    @property
+    def status(self) -> npt.NDArray[np.uint8]:
+        """One `Status` a position, S + (N,)."""
+        self._checked()
+        return self._status
+
     def __getstate__(self) -> dict[str, Any]:
         # Only the motion that was made may be overwritten.
-        return {**self.__dict__, "_tracks": replace(self._tracks, raw=None)}
+        return {**self.__dict__, "_stored": replace(self._tracks, buffers=None)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
-        held = (self._tracks.joints, self._tracks.links, self._tracks.slides, self._places)
+        stored = self._stored
+        held = (stored.joints, stored.links, stored.slides, self._places)
         for array in (a for kind in held for arrays in kind.values() for a in arrays):
             array.flags.writeable = False
-        for array in (self.q, self.status, *(self._diagnostics or ())):
+        for array in (self.q, self._status, *(self._diagnostics or ())):
             array.flags.writeable = False
+
+    def __copy__(self) -> Motion:
+        # In arrays of its own: those of this motion may be overwritten, its q is not.
+        own = Motion.__new__(Motion)
+        state = self.__getstate__()
+        own.__setstate__({**state, "_stored": self._tracks.copied(), "_status": self.status.copy()})
+        return own
 
     @property
     def shape(self) -> tuple[int, ...]:
         """S + (N,)."""
-        return self.status.shape
+        return self._status.shape
 
     def __repr__(self) -> str:
         formula = self.mechanism._core.formula

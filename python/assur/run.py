@@ -16,7 +16,7 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from assur.mechanism import Mechanism
 
-__all__ = ["Energy", "Happened", "Run", "State", "Statistics"]
+__all__ = ["Energy", "Happened", "NearChangePoint", "Run", "State", "Statistics"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
@@ -30,13 +30,52 @@ class State(NamedTuple):
     acceleration: Any
 
 
+class NearChangePoint(str):
+    """The event "near_change_point": a run came to a place that is nearly a change point.
+
+    The lengths of a dyad miss a change point by so little that the motion turns within less than
+    can be integrated. Draw the change point exactly, or lengths that are clear of it.
+
+    Attributes
+    ----------
+    dyad : str
+        The dyad that is nearly flat, by its inner joint or slide.
+    miss : float
+        By how much its lengths miss the change point, m.
+    q : float
+        Coordinate of the driver where the dyad is nearest to flat.
+
+    Examples
+    --------
+    The rocker of this four-bar is 1e-10 m too long for a change point at half a turn:
+
+    >>> import assur
+    >>> linkage = assur.FourBar(1.0, 3.0, 2.0 + 1e-10, 4.0)
+    >>> machine = assur.Machine(linkage, {"rocker": assur.Body(inertia=1.0)})
+    >>> run = machine.run(q_end=4.0, q0=1.0, speed0=1.0)
+    >>> run.end, run.events[-1].event.dyad, f"{run.events[-1].event.miss:.1e} m"
+    ('near_change_point', 'C', '1.0e-10 m')
+    """
+
+    dyad: str
+    miss: float
+    q: float
+
+    def __new__(cls, dyad: str, miss: float, q: float) -> NearChangePoint:
+        """Make the event of a dyad whose lengths miss by `miss` at `q`."""
+        event = super().__new__(cls, "near_change_point")
+        event.dyad, event.miss, event.q = dyad, miss, q
+        return event
+
+
 class Happened(NamedTuple):
     """An event of a run.
 
     Attributes
     ----------
     event : object
-        The event as it was given; "dead point" or "rest" where the mechanism itself ended the run.
+        The event as it was given; "dead point", "rest" or "near_change_point" (`NearChangePoint`)
+        where the mechanism itself ended the run.
     t, q, speed
         When, and the driver's coordinate and speed there.
     """
@@ -112,8 +151,8 @@ class Run:
     events : list of Happened
         What happened on the way, in order.
     end : str
-        How it ended: "reached", "event", "rest", "dead point", "lost", "table ends", "stalled",
-        "step limit" or "time limit".
+        How it ended: "reached", "event", "rest", "dead point", "near_change_point", "lost",
+        "table ends", "stalled", "step limit" or "time limit".
     message : str
         The same as a sentence.
     statistics : Statistics
@@ -152,9 +191,10 @@ class Run:
             for which, t, q, speed in core.events
         ]
         self.end, self.message = self._ending(mechanism, events)
-        if self.end in ("dead point", "rest"):
-            last = self.end, float(self.t[-1]), self.q[-1], self.speed[-1]
-            self.events.append(Happened(*last))
+        if self.end in ("dead point", "rest", "near_change_point"):
+            near = core.near_change_point
+            event = self.end if near is None else NearChangePoint(*near)
+            self.events.append(Happened(event, float(self.t[-1]), self.q[-1], self.speed[-1]))
 
     def __reduce__(self) -> tuple[Any, ...]:
         core, *others = self._made
@@ -234,6 +274,13 @@ class Run:
         place = f"t = {self.t[-1]:.9g} s, q = {self.q[-1]}"
         if kind == "edge":
             return self._edge(mechanism, Status(which), q, place)
+        if self._core.near_change_point is not None:
+            dyad, miss, at = self._core.near_change_point
+            return kind, (
+                f"nearly a change point of dyad {dyad!r} at {place}: near q = {at:.9g} its lengths "
+                f"miss one by {miss:.1e} m, and the motion turns within less than can be "
+                "integrated; draw the change point exactly, or lengths clear of it"
+            )
         event = events[which] if kind == "event" else None
         sentences = {
             "reached": "it went to its end",

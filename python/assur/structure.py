@@ -58,6 +58,9 @@ class Structure:
     redundant : tuple of str
         Links and slides without which it moves the same; they are checked for
         closure at every position.
+    adjustment : float
+        How far the joints of the drawing were moved, at most, for the redundant
+        links to fit, m; 0 if they fit as drawn.
     """
 
     mobility: int
@@ -67,3 +70,4 @@ class Structure:
     formula: str
     groups: tuple[Group, ...]
     redundant: tuple[str, ...]
+    adjustment: float = 0.0

@@ -9,6 +9,7 @@ mod drawing;
 mod found;
 mod law;
 mod linkages;
+mod long;
 mod motion;
 mod newton;
 mod numbers;

@@ -140,9 +140,23 @@ pub enum StructureError {
         "dyad {dyad} is drawn flat (sine {sine:.1e} between its legs): the drawing does not say on which side {name:?} is; draw it to one side, or name the assembly: assembly={{{name:?}: +1}} or -1"
     )]
     FlatDyad { dyad: String, name: String, sine: f64 },
+    /// Links that would be redundant, were they drawn well enough.
+    #[error(
+        "{links} can only move together if their lengths agree, and these are {gap:.1e} m off ({part:.0e} of the size; up to 1e-8 a drawing is adjusted): type it with more digits, or leave one of them out"
+    )]
+    AlmostFits { links: String, gap: f64, part: f64 },
+    /// The work was called off.
+    #[error("the work was interrupted: the structure is not known")]
+    Interrupted,
     /// An assembly sign that is not ±1.
     #[error("assembly[{name:?}] is {value}: it must be +1 or -1")]
     BadSign { name: String, value: i64 },
+}
+
+impl From<crate::structure::rank::Interrupted> for StructureError {
+    fn from(_: crate::structure::rank::Interrupted) -> Self {
+        Self::Interrupted
+    }
 }
 
 /// A number as short as it can be read again: no rows of zeros.

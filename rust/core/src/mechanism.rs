@@ -1,6 +1,7 @@
 //! A mechanism ready to be moved: description, structure, plan, assembly.
 
 use std::f64::consts::TAU;
+use std::sync::atomic::AtomicBool;
 
 use crate::error::{Named, SolveError, StructureError};
 use crate::linkage::{Description, Dimensions, Linkage, nearest};
@@ -8,7 +9,7 @@ use crate::motion::{Motion, Request};
 use crate::plan::bind::{Bound, Slots};
 use crate::plan::{Dyad, Form, Plan};
 use crate::plane::Vector;
-use crate::structure::{Closure, Structure};
+use crate::structure::{Adjusted, Closure, Structure, adjust};
 use crate::tolerance::FLAT_SINE;
 
 /// A mechanism: what it is, how it is built, and how it is solved.
@@ -19,6 +20,7 @@ pub struct Mechanism {
     plan: Plan,
     dimensions: Dimensions,
     drawing: Vec<f64>,
+    adjustment: f64,
     q0: Vec<f64>,
     signs: Vec<i8>,
     /// Where the dimensions of edges and slides stand.
@@ -37,9 +39,33 @@ impl Mechanism {
     /// [`StructureError`]: whatever keeps the description from being a mechanism
     /// with as many drivers as freedoms and a definite assembly.
     pub fn new(description: &Description) -> Result<Self, StructureError> {
-        let linkage = Linkage::new(description)?;
+        Self::new_unless(description, None)
+    }
+
+    /// The same, which stops once `cancel` is true: thousands of links take seconds.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::new`], and [`StructureError::Interrupted`].
+    pub fn new_unless(
+        description: &Description,
+        cancel: Option<&AtomicBool>,
+    ) -> Result<Self, StructureError> {
+        let mut linkage = Linkage::new(description)?;
         let closure = Closure::of(&linkage);
-        let structure = Structure::of(&linkage, &closure)?;
+        let mut adjusted = adjust(&linkage, &closure, cancel)?;
+        let mut adjustment = 0.0;
+        if let Adjusted::By(other, by) = adjusted {
+            (linkage, adjustment, adjusted) = (*other, by, Adjusted::AsDrawn);
+        }
+        let structure = Structure::of(&linkage, &closure, cancel);
+        let structure = match (structure, adjusted) {
+            (Err(StructureError::Interrupted), _) => return Err(StructureError::Interrupted),
+            (Err(_), Adjusted::TooFar { links, gap, part }) => {
+                return Err(StructureError::AlmostFits { links, gap, part });
+            }
+            (structure, _) => structure?,
+        };
         let plan = Plan::new(&linkage, &closure, &structure)?;
         let dimensions = Dimensions::of(&linkage);
         let drawing = dimensions.of_drawing(&linkage);
@@ -62,6 +88,7 @@ impl Mechanism {
             plan,
             dimensions,
             drawing,
+            adjustment,
             q0,
             signs,
             slots,
@@ -98,6 +125,13 @@ impl Mechanism {
     #[must_use]
     pub fn drawing(&self) -> &[f64] {
         &self.drawing
+    }
+
+    /// How far the joints of the drawing were moved, at most, for its redundant links to fit, m; 0
+    /// for most drawings.
+    #[must_use]
+    pub fn adjustment(&self) -> f64 {
+        self.adjustment
     }
 
     /// Coordinates of the drawing, one a driver, rad or m.

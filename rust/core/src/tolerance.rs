@@ -43,10 +43,14 @@ pub const RANK: f64 = 2.0e-9;
 /// or far away.
 pub const REGULAR_CLOSURE: f64 = 1.0e-12;
 
-/// A redundant link fits while its misfit is below this part of the size (or
-/// below [`CLOSURE_PER_CONDITION`] times the condition). It is the drawing's
-/// rounding (a few u for each link), carried through ten or twenty links.
-pub const REDUNDANT_CLOSURE: f64 = 1024.0 * UNIT_ROUNDOFF;
+/// Entries of an elimination below this belong to equations that nearly depend on others: links
+/// that are redundant, drawn with few digits.
+pub const NEARLY_REDUNDANT: f64 = 1.0e-6;
+
+/// A redundant link fits while its misfit is below this part of the size (or below
+/// [`CLOSURE_PER_CONDITION`] times the condition), and joints of a drawing are moved by no more
+/// until its redundant links fit: half a unit of the eighth digit, doubled.
+pub const REDUNDANT_CLOSURE: f64 = 1.0e-8;
 
 /// No redundant link fits with a greater misfit, however bad the condition.
 pub const REDUNDANT_GREATEST: f64 = 1.0e-6;

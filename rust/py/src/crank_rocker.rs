@@ -4,10 +4,14 @@ use assur::crank_rocker as core;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
+use crate::gate;
 use crate::metrics::same;
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
+
+/// Rows of `crank_rocker_solve`.
+const ROWS: usize = 18;
 
 /// Positions (8 rows), rates (8 rows) and speeds of C (2 rows), one row after another; NaN where
 /// the coupler does not reach. `lengths`: crank, coupler, rocker, ground, one after another.
@@ -27,24 +31,21 @@ pub(crate) fn crank_rocker_solve<'py>(
         columns.push(column);
     }
     let assembly = if printed { core::Assembly::Printed } else { core::Assembly::Other };
-    let rows = py.detach(|| {
-        let count = phi1.len();
-        let mut rows = vec![f64::NAN; 18 * count];
-        for i in 0..count {
-            let at = |column: usize| columns[column][i];
-            let lengths = [at(0), at(1), at(2), at(3)];
-            let found = core::position(phi1[i], lengths, assembly, [at(4), at(5)]);
-            let Some((p, r)) = found else { continue };
-            let numbers = [p, r.of].map(|p| {
-                [p.s, p.phi3_first, p.phi3_second, p.beta, p.phi2, p.phi3, p.gamma23, p.gamma]
-            });
-            for (row, x) in numbers.into_iter().flatten().chain(r.v_c).enumerate() {
-                rows[row * count + i] = x;
-            }
+    let found = gate::each(py, phi1.len(), |i| {
+        let at = |column: usize| columns[column][i];
+        let lengths = [at(0), at(1), at(2), at(3)];
+        let (p, r) = core::position(phi1[i], lengths, assembly, [at(4), at(5)])?;
+        let numbers = [p, r.of].map(|p| {
+            [p.s, p.phi3_first, p.phi3_second, p.beta, p.phi2, p.phi3, p.gamma23, p.gamma]
+        });
+        let mut all = [f64::NAN; ROWS];
+        for (own, x) in all.iter_mut().zip(numbers.into_iter().flatten().chain(r.v_c)) {
+            *own = x;
         }
-        rows
-    });
-    Ok(PyArray1::from_vec(py, rows))
+        Some(all)
+    })?;
+    let row = |row: usize| found.iter().map(move |one| one.map_or(f64::NAN, |all| all[row]));
+    Ok(PyArray1::from_vec(py, (0..ROWS).flat_map(row).collect()))
 }
 
 /// Rows of lengths, one design after another.
@@ -60,6 +61,7 @@ fn designs(lengths: &[Flat<'_>; 4]) -> PyResult<Vec<core::Lengths>> {
 /// Types by Grashof, as the field names them.
 #[pyfunction]
 pub(crate) fn crank_rocker_grashof(
+    py: Python<'_>,
     lengths: [Flat<'_>; 4],
     tolerance: f64,
 ) -> PyResult<Vec<&'static str>> {
@@ -71,7 +73,8 @@ pub(crate) fn crank_rocker_grashof(
         core::Grashof::TripleRocker => "triple-rocker",
         core::Grashof::ChangePoint => "change-point",
     };
-    Ok(designs(&lengths)?.iter().map(name).collect())
+    let designs = designs(&lengths)?;
+    gate::each(py, designs.len(), |i| name(&designs[i]))
 }
 
 /// The three margins of each design, and whether its crank turns.
@@ -81,8 +84,9 @@ pub(crate) fn crank_rocker_turns<'py>(
     lengths: [Flat<'py>; 4],
 ) -> PyResult<(Array<'py>, Bound<'py, PyArray1<bool>>)> {
     let designs = designs(&lengths)?;
-    let margins = designs.iter().flat_map(|one| core::margins(*one)).collect();
-    let turns = designs.iter().map(|one| core::crank_turns(*one)).collect();
+    let margins = gate::each(py, designs.len(), |i| core::margins(designs[i]))?;
+    let turns = gate::each(py, designs.len(), |i| core::crank_turns(designs[i]))?;
+    let margins = margins.into_iter().flatten().collect();
     Ok((PyArray1::from_vec(py, margins), PyArray1::from_vec(py, turns)))
 }
 
@@ -95,15 +99,14 @@ pub(crate) fn crank_rocker_ground_range<'py>(
     margins: [f64; 2],
     gamma_min: Flat<'py>,
 ) -> PyResult<Array<'py>> {
-    let (coupler, rocker) = (coupler.as_slice()?, rocker.as_slice()?);
-    let gamma_min = gamma_min.as_slice()?;
+    let (coupler, rocker) = (coupler.as_slice()?.to_vec(), rocker.as_slice()?.to_vec());
+    let gamma_min = gamma_min.as_slice()?.to_vec();
     same(coupler.len(), rocker.len())?;
     same(coupler.len(), gamma_min.len())?;
-    let mut ends = Vec::with_capacity(2 * coupler.len());
-    for (i, &coupler) in coupler.iter().enumerate() {
-        ends.extend(core::ground_range(coupler, rocker[i], margins, gamma_min[i]));
-    }
-    Ok(PyArray1::from_vec(py, ends))
+    let ends = gate::each(py, coupler.len(), |i| {
+        core::ground_range(coupler[i], rocker[i], margins, gamma_min[i])
+    })?;
+    Ok(PyArray1::from_vec(py, ends.into_iter().flatten().collect()))
 }
 
 /// Least and greatest transmission angle over a turn; NaN where the crank does not turn.
@@ -117,7 +120,9 @@ pub(crate) fn crank_rocker_extremes<'py>(
         let found = if turns { core::transmission_extremes(*one) } else { None };
         found.unwrap_or([f64::NAN; 2])
     };
-    Ok(PyArray1::from_vec(py, designs(&lengths)?.iter().flat_map(ends).collect()))
+    let designs = designs(&lengths)?;
+    let all = gate::each(py, designs.len(), |i| ends(&designs[i]))?;
+    Ok(PyArray1::from_vec(py, all.into_iter().flatten().collect()))
 }
 
 /// Least transmission angles that friction allows; NaN where nothing is passed on. `friction`:
@@ -128,10 +133,10 @@ pub(crate) fn crank_rocker_least_gamma<'py>(
     friction: [Flat<'py>; 4],
     rocker: Flat<'py>,
 ) -> PyResult<Array<'py>> {
-    let (rows, rocker) = (designs(&friction)?, rocker.as_slice()?);
+    let (rows, rocker) = (designs(&friction)?, rocker.as_slice()?.to_vec());
     same(rows.len(), rocker.len())?;
-    let least = rows.iter().zip(rocker).map(|(row, &rocker)| core::least_gamma(*row, rocker));
-    Ok(PyArray1::from_vec(py, least.map(|angle| angle.unwrap_or(f64::NAN)).collect()))
+    let least = |i: usize| core::least_gamma(rows[i], rocker[i]).unwrap_or(f64::NAN);
+    Ok(PyArray1::from_vec(py, gate::each(py, rows.len(), least)?))
 }
 
 /// Kind, whether outer, and t, φ₁, l₄, ground, speeds of D and of the rod before and after.
@@ -150,14 +155,17 @@ pub(crate) fn crank_rocker_run<'py>(
     let [l1, l2, l3, gamma_min, speed, phi0, turns] = case;
     let case = core::Case { lengths: [l1, l2, l3], gamma_min, speed, phi0, turns };
     let mut calls = 0_u32;
-    let found = core::run(&case, |t| {
-        // Signals are heard in between.
-        calls = calls.wrapping_add(1);
-        if calls.is_multiple_of(4096) {
-            py.check_signals()?;
-        }
-        ground.call1((t,))?.extract::<f64>()
-    });
+    let mut follow = || {
+        core::run(&case, |t| {
+            // Signals are heard in between.
+            calls = calls.wrapping_add(1);
+            if calls.is_multiple_of(4096) {
+                py.check_signals()?;
+            }
+            ground.call1((t,))?.extract::<f64>()
+        })
+    };
+    let found = gate::guard(|| Ok(follow()))?;
     let nothing =
         |why, value| Ok((PyArray1::from_vec(py, Vec::new()), Vec::new(), Some((why, value))));
     match found {

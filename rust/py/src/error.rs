@@ -71,6 +71,9 @@ pub(crate) fn structure(error: StructureError) -> PyErr {
         E::GroundDriven { driver }
         | E::DoubledDriver { driver }
         | E::CannotDrive { driver, .. } => Fields { driver: Some(driver), ..Fields::default() },
+        E::AlmostFits { links, gap, .. } => {
+            Fields { link: first_quoted(links), value: Some(*gap), ..Fields::default() }
+        }
         E::Unconnected { links } | E::OverConstrained { links, .. } => {
             Fields { link: first_quoted(links), ..Fields::default() }
         }
@@ -122,6 +125,20 @@ pub(crate) fn solve(error: SolveError) -> PyErr {
 /// An `InputError`, with the number that is wrong.
 pub(crate) fn input(message: String, value: Option<f64>) -> PyErr {
     raise("InputError", message, &Fields { value, ..Fields::default() })
+}
+
+/// An `AssurError` for what should not happen.
+pub(crate) fn internal(what: &str, place: &str) -> PyErr {
+    let message = format!(
+        "a fault of assur, not of your input: {what} ({place}); please report it with the call that led to it"
+    );
+    raise("AssurError", message, &Fields::default())
+}
+
+/// Whether an exception is [`internal`]'s: an `AssurError` and none of its kinds.
+pub(crate) fn is_internal(py: Python<'_>, error: &PyErr) -> bool {
+    let base = py.import("assur.errors").and_then(|module| module.getattr("AssurError"));
+    base.is_ok_and(|base| error.get_type(py).is(&base))
 }
 
 /// A `PositionError`.

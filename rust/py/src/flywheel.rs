@@ -100,7 +100,7 @@ impl Flywheels {
 
     /// Of every table: flywheel, speed at the beginning, motor, place and value of the greatest
     /// speed and of the least, time of a turn. NaN where there is none.
-    fn numbers<'py>(&self, py: Python<'py>) -> Vec<Array<'py>> {
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Vec<Array<'py>>> {
         let of: [fn(&Flywheel) -> f64; 8] = [
             |f| f.inertia,
             |f| f.speed0,
@@ -114,7 +114,7 @@ impl Flywheels {
         let all = |of: fn(&Flywheel) -> f64| {
             self.0.iter().map(|one| one.as_ref().map_or(f64::NAN, of)).collect()
         };
-        of.into_iter().map(|of| PyArray1::from_vec(py, all(of))).collect()
+        gate::guard(|| Ok(of.into_iter().map(|of| PyArray1::from_vec(py, all(of))).collect()))
     }
 
     /// Why a table has none.
@@ -134,16 +134,11 @@ impl Flywheels {
             _ => return Err(error::input(format!("no such curve: {what:?}"), None)),
         };
         let places = places.as_slice()?.to_vec();
-        let each = places.len().checked_div(self.0.len()).unwrap_or(0);
-        let values = py.detach(|| {
-            let rows = self.0.iter().zip(places.chunks(each.max(1)));
-            rows.flat_map(|(one, row)| {
-                row.iter().map(move |&x| {
-                    one.as_ref().ok().filter(|_| x.is_finite()).map_or(f64::NAN, |f| of(f, x))
-                })
-            })
-            .collect()
-        });
+        let each = places.len().checked_div(self.0.len()).unwrap_or(0).max(1);
+        let values = gate::each(py, places.len(), |i| {
+            let (x, one) = (places[i], self.0.get(i / each).and_then(|one| one.as_ref().ok()));
+            one.filter(|_| x.is_finite()).map_or(f64::NAN, |f| of(f, x))
+        })?;
         Ok(PyArray1::from_vec(py, values))
     }
 }

@@ -12,6 +12,8 @@ mod parts;
 mod run;
 mod slider_crank;
 mod spread;
+#[cfg(feature = "test-hooks")]
+mod test_hooks;
 mod trig;
 
 use pyo3::prelude::*;
@@ -32,7 +34,6 @@ mod _core {
     use super::mechanism::Mechanism;
     #[pymodule_export]
     use super::metrics::{acute, curvature, instant_centre};
-    use super::pyfunction;
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]
@@ -42,7 +43,17 @@ mod _core {
         slider_crank_rod_point, slider_crank_series, slider_crank_stroke,
     };
     #[pymodule_export]
+    #[cfg(feature = "test-hooks")]
+    use super::test_hooks::panic_in_chunk;
+    #[pymodule_export]
     use super::trig::{asin, atan2, sin_cos};
+    use super::{Bound, PyModule, PyResult, gate, pyfunction};
+
+    #[pymodule_init]
+    fn init(_module: &Bound<'_, PyModule>) -> PyResult<()> {
+        gate::keep_places_of_panics();
+        Ok(())
+    }
 
     /// The version of the compiled core.
     #[pyfunction]

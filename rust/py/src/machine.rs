@@ -8,11 +8,12 @@ use assur::ode::Method;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
+use crate::error;
+use crate::gate::{self, guard};
 use crate::mechanism::Mechanism;
 use crate::parts::{self, BodyParts, LoadParts, MotorParts, TableParts, WatchParts};
 use crate::run::{Calls, Run, broken, unsteady};
 use crate::spread::spread;
-use crate::{error, gate};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -45,16 +46,19 @@ impl Machine {
         tables: Vec<TableParts>,
         motors: Vec<MotorParts>,
     ) -> PyResult<Self> {
-        let tables = tables.into_iter().map(parts::table).collect::<PyResult<_>>()?;
-        let motors = motors.into_iter().map(parts::motor).collect::<PyResult<_>>()?;
+        let tables = guard(|| tables.into_iter().map(parts::table).collect::<PyResult<_>>())?;
+        let motors = guard(|| motors.into_iter().map(parts::motor).collect::<PyResult<_>>())?;
         let Some(mechanism) = mechanism else {
             return Ok(Self(Inner::Sheet(Sheet { tables, motors })));
         };
         let own = &mechanism.bind(py).get().inner;
-        let bodies =
-            bodies.into_iter().map(|one| parts::body(own, one)).collect::<PyResult<_>>()?;
-        let loads = loads.into_iter().map(|one| parts::load(own, one)).collect::<PyResult<_>>()?;
-        let inner = assur::dynamics::Machine { bodies, loads, gravity, tables, motors };
+        let inner = guard(|| {
+            let bodies =
+                bodies.into_iter().map(|one| parts::body(own, one)).collect::<PyResult<_>>()?;
+            let loads =
+                loads.into_iter().map(|one| parts::load(own, one)).collect::<PyResult<_>>()?;
+            Ok(assur::dynamics::Machine { bodies, loads, gravity, tables, motors })
+        })?;
         Ok(Self(Inner::Mechanism(mechanism, inner)))
     }
 
@@ -71,7 +75,10 @@ impl Machine {
     ) -> PyResult<Arrays<'py>> {
         let (mechanism, machine) = match &self.0 {
             Inner::Mechanism(mechanism, machine) => (mechanism, machine),
-            Inner::Sheet(sheet) => return Ok(arrays(py, &[sheet.reduce(q.as_slice()?)])),
+            Inner::Sheet(sheet) => {
+                let q = q.as_slice()?;
+                return guard(|| Ok(arrays(py, &[sheet.reduce(q)])));
+            }
         };
         let mechanism = &mechanism.get().inner;
         let drivers = mechanism.q0().len();
@@ -216,7 +223,9 @@ fn called<T: Send>(
     work: impl FnOnce(&mut Calls) -> T + Send,
 ) -> PyResult<T> {
     let mut calls = Calls::new(functions.0, functions.1);
-    let done = if calls.are_many() { work(&mut calls) } else { py.detach(|| work(&mut calls)) };
+    let done = guard(|| {
+        Ok(if calls.are_many() { work(&mut calls) } else { py.detach(|| work(&mut calls)) })
+    })?;
     calls.signal.map_or(Ok(done), Err)
 }
 

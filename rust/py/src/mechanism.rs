@@ -15,11 +15,16 @@ use pyo3::exceptions::{PyMemoryError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice};
 
-use crate::{error, gate};
+use crate::error;
+use crate::gate::{self, guard};
 
 /// Positions below which a call with one driver ends sooner than a person can interrupt
 /// it: some milliseconds. (With several drivers a single position may take that.)
 const SMALL: usize = 100_000;
+/// Dyads with two solutions below which all assemblies are found as soon.
+const FEW_SIGNS: usize = 12;
+/// Links below which a mechanism is built sooner than a person can interrupt it.
+const FEW_LINKS: usize = 64;
 /// Positions that take as long as one way from the drawing.
 const WAY: usize = 1000;
 /// Positions (with several drivers a part of them) that are looked at closely before
@@ -28,8 +33,6 @@ const LOOK: usize = 8192;
 
 /// Arrays by kind ("joint", "link", "place", "slide"), index and order; statuses.
 type Solved<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>);
-/// Arrays of an earlier call, in the order of its columns; statuses.
-type Kept<'py> = (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>);
 /// Residuals and conditions.
 type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 type SlideArguments = (String, String, String, f64, Option<String>);
@@ -46,6 +49,7 @@ pub(crate) struct Mechanism {
 impl Mechanism {
     #[new]
     fn new(
+        py: Python<'_>,
         joints: Vec<(String, f64, f64)>,
         links: Vec<(String, Vec<String>)>,
         slides: Vec<SlideArguments>,
@@ -74,8 +78,11 @@ impl Mechanism {
                 .collect(),
             assembly,
         };
-        let inner = assur::Mechanism::new(&description).map_err(error::structure)?;
-        Ok(Self { inner })
+        let small = description.links.len() < FEW_LINKS;
+        let built = gate::run(py, small, |cancel| {
+            assur::Mechanism::new_unless(&description, Some(cancel))
+        })?;
+        Ok(Self { inner: built.map_err(error::structure)? })
     }
 
     /// Names of the dimensions, in order.
@@ -103,10 +110,16 @@ impl Mechanism {
         names.zip(self.inner.signs().iter().copied()).collect()
     }
 
+    /// How far the joints of the drawing were moved, at most, for redundant links to fit, m.
+    #[getter]
+    fn adjustment(&self) -> f64 {
+        self.inner.adjustment()
+    }
+
     /// The structural formula.
     #[getter]
-    fn formula(&self) -> String {
-        self.inner.structure().formula()
+    fn formula(&self) -> PyResult<String> {
+        guard(|| Ok(self.inner.structure().formula()))
     }
 
     /// Mobility by rank, at the drawing, and counted.
@@ -124,58 +137,57 @@ impl Mechanism {
 
     /// Redundant links and slides.
     #[getter]
-    fn redundant(&self) -> (Vec<String>, Vec<String>) {
+    fn redundant(&self) -> PyResult<(Vec<String>, Vec<String>)> {
         let redundant = &self.inner.structure().redundant;
         let linkage = self.inner.linkage();
-        (
-            redundant.links.iter().map(|&l| linkage.links[l].name.clone()).collect(),
-            redundant.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect(),
-        )
+        let links = || redundant.links.iter().map(|&l| linkage.links[l].name.clone()).collect();
+        let slides = || redundant.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect();
+        guard(|| Ok((links(), slides())))
     }
 
     /// Groups: class, order, kind, Artobolevsky's number, links, joints, slides.
     #[getter]
-    fn groups(&self) -> Vec<GroupParts> {
+    fn groups(&self) -> PyResult<Vec<GroupParts>> {
         let linkage = self.inner.linkage();
-        let groups = self.inner.structure().groups.iter();
-        groups
-            .map(|g| {
-                (
-                    g.class,
-                    g.order,
-                    g.kind,
-                    g.artobolevsky_kind(),
-                    g.links.iter().map(|&l| linkage.links[l].name.clone()).collect(),
-                    g.joints.iter().map(|&j| linkage.joints[j].name.clone()).collect(),
-                    g.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect(),
-                )
-            })
-            .collect()
+        let parts = |g: &assur::structure::Group| {
+            (
+                g.class,
+                g.order,
+                g.kind,
+                g.artobolevsky_kind(),
+                g.links.iter().map(|&l| linkage.links[l].name.clone()).collect(),
+                g.joints.iter().map(|&j| linkage.joints[j].name.clone()).collect(),
+                g.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect(),
+            )
+        };
+        guard(|| Ok(self.inner.structure().groups.iter().map(parts).collect()))
     }
 
     /// Place of a dimension; an unknown name is refused with the nearest ones.
     fn dimension(&self, name: &str) -> PyResult<usize> {
-        self.inner.dimensions().position(name).map_err(error::solve)
+        guard(|| self.inner.dimensions().position(name).map_err(error::solve))
     }
 
     /// Refuses a name that is no joint, link or slide.
     fn require(&self, kind: &str, name: &str) -> PyResult<usize> {
-        match kind {
+        let found = || match kind {
             "joint" => self.inner.joint(name),
             "link" => self.inner.link(name),
             _ => self.inner.slide(name),
-        }
-        .map_err(error::solve)
+        };
+        guard(|| found().map_err(error::solve))
     }
 
     /// Refuses the first value that is no dimension.
     fn check_dimensions(&self, values: Vec<f64>) -> PyResult<()> {
-        self.inner.dimensions().first_fault(&values).map_or(Ok(()), |e| Err(error::solve(e)))
+        let fault = || self.inner.dimensions().first_fault(&values);
+        guard(|| fault().map_or(Ok(()), |e| Err(error::solve(e))))
     }
 
     /// Solves designs at positions; see `assur.Mechanism.solve`. Outputs: indices of
     /// joints, links, links whose places are wanted, slides. `kept`: arrays of an earlier
-    /// call, written again. `by`: the dimension by which all is differentiated.
+    /// call (`columns`, `status`), written again; it is not `complete` while they are. `by`: the
+    /// dimension by which all is differentiated.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     fn solve<'py>(
         &self,
@@ -187,7 +199,7 @@ impl Mechanism {
         order: usize,
         outputs: [Vec<usize>; 4],
         threads: Option<NonZeroUsize>,
-        kept: Option<Kept<'py>>,
+        kept: Option<Bound<'py, PyAny>>,
         by: Option<usize>,
     ) -> PyResult<Solved<'py>> {
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
@@ -203,37 +215,56 @@ impl Mechanism {
             outputs: &outputs,
             by,
         };
-        let [designs, positions] = request.shape(&self.inner).map_err(error::solve)?;
+        let shape = || request.shape(&self.inner).map_err(error::solve);
+        let [designs, positions] = guard(shape)?;
         let columns = request.columns(&self.inner);
-        let (values, status) = if let Some(kept) = kept {
-            kept
-        } else {
-            let status = unwritten::<u8>(py, designs, positions)?;
-            let rows = designs * positions;
-            let new = columns.iter().map(|column| unwritten::<f64>(py, rows, column.width));
-            (new.collect::<PyResult<_>>()?, status)
-        };
         let rows = designs.saturating_mul(positions);
+        let (values, status): (Vec<Bound<'_, PyArray1<f64>>>, _) = match &kept {
+            Some(kept) => (kept.getattr("columns")?.extract()?, kept.getattr("status")?.extract()?),
+            None => {
+                let status = unwritten::<u8>(py, rows, 1)?;
+                let new = columns.iter().map(|column| unwritten::<f64>(py, rows, column.width));
+                (new.collect::<PyResult<_>>()?, status)
+            }
+        };
         // Two calls cannot write the same arrays at once.
         let mut held = Vec::new();
         for array in &values {
             held.push(array.try_readwrite().map_err(in_use)?);
         }
         let mut held_status = status.try_readwrite().map_err(in_use)?;
-        let arrays = Mutex::new(Some(Arrays {
-            columns: held.iter_mut().map(places_of).collect(),
-            status: places_of(&mut held_status),
-        }));
+        let arrays = Arrays {
+            columns: held.iter_mut().map(places_of).collect::<PyResult<_>>()?,
+            status: places_of(&mut held_status)?,
+        };
+        request.check_arrays(&self.inner, &arrays).map_err(error::solve)?;
+        let arrays = Mutex::new(Some(arrays));
         let quick = rows.saturating_add(designs.saturating_mul(WAY)) < SMALL;
         let small = self.inner.q0().len() == 1 && quick;
-        gate::run(py, small, |cancel| {
+        if let Some(kept) = &kept {
+            kept.setattr("complete", false)?;
+        }
+        let solved = gate::run(py, small, |cancel| {
             let control = Control { threads, cancel: Some(cancel), ..Control::default() };
             let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
             arrays.map_or(Err(SolveError::Interrupted), |arrays| {
                 fill(&self.inner, &request, arrays, &control)
             })
-        })?
-        .map_err(error::solve)?;
+        });
+        drop(arrays);
+        if let (Some(_), Err(error)) = (&kept, &solved)
+            && error::is_internal(py, error)
+        {
+            // Whoever took arrays from the earlier motion reads no mixture of it and this one.
+            for array in &mut held {
+                array.as_slice_mut()?.fill(f64::NAN);
+            }
+            held_status.as_slice_mut()?.fill(Status::Lost as u8);
+        }
+        solved?.map_err(error::solve)?;
+        if let Some(kept) = &kept {
+            kept.setattr("complete", true)?;
+        }
         drop((held, held_status));
         let dict = PyDict::new(py);
         for (column, values) in columns.iter().zip(values) {
@@ -291,15 +322,26 @@ impl Mechanism {
         q: Vec<f64>,
         signs: Vec<i8>,
     ) -> PyResult<(u8, Option<String>, String)> {
-        let found = self.inner.diagnose(&dimensions, &q, &signs).map_err(error::solve)?;
-        let one = found.into_iter().next();
-        one.map(|d| (d.status as u8, d.name, d.sentence))
-            .ok_or_else(|| pyo3::exceptions::PyValueError::new_err("no coordinate"))
+        guard(|| {
+            let found = self.inner.diagnose(&dimensions, &q, &signs).map_err(error::solve)?;
+            let one = found.into_iter().next();
+            one.map(|d| (d.status as u8, d.name, d.sentence))
+                .ok_or_else(|| error::input("no coordinate".into(), None))
+        })
     }
 
     /// Every assembly that exists at `q`, as signs.
-    fn assemblies(&self, dimensions: Vec<f64>, q: Vec<f64>) -> PyResult<Vec<Vec<i8>>> {
-        self.inner.assemblies(&dimensions, &q).map_err(error::solve)
+    fn assemblies(
+        &self,
+        py: Python<'_>,
+        dimensions: Vec<f64>,
+        q: Vec<f64>,
+    ) -> PyResult<Vec<Vec<i8>>> {
+        let small = self.inner.plan().signs() < FEW_SIGNS;
+        let found = gate::run(py, small, |cancel| {
+            self.inner.assemblies_unless(&dimensions, &q, Some(cancel))
+        })?;
+        found.map_err(error::solve)
     }
 
     /// Names and codes of the statuses.
@@ -349,12 +391,16 @@ fn in_use(error: numpy::BorrowError) -> PyErr {
 /// The places of an array that is held for writing.
 fn places_of<'a, T: numpy::Element>(
     array: &'a mut PyReadwriteArray1<'_, T>,
-) -> &'a mut [MaybeUninit<T>] {
-    #[allow(unsafe_code, reason = "NumPy knows no places that are not written")]
-    // SAFETY: one-dimensional and contiguous (made by `unwritten`), of this length; the exclusive
-    // borrow keeps other calls away. `fill` writes every number, or the array is dropped unread
-    // (error, panic, Ctrl-C).
-    unsafe {
-        std::slice::from_raw_parts_mut(array.data().cast(), array.len())
+) -> PyResult<&'a mut [MaybeUninit<T>]> {
+    let data: *mut T = array.data();
+    if !(array.is_c_contiguous() && data.is_aligned()) {
+        let message = "out: its arrays are not contiguous: only those of a motion can be written";
+        return Err(error::input(message.into(), None));
     }
+    #[allow(unsafe_code, reason = "NumPy knows no places that are not written")]
+    // SAFETY: one-dimensional, contiguous and aligned (looked at above), of this length; the
+    // exclusive borrow keeps other calls away. `fill` writes every number, or nobody reads them:
+    // new arrays are dropped, those of a motion are marked as not complete.
+    let places = unsafe { std::slice::from_raw_parts_mut(data.cast(), array.len()) };
+    Ok(places)
 }

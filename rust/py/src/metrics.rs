@@ -6,6 +6,8 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::gate;
+
 /// Pairs of a flat array of x, y.
 fn pairs(array: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<Vector>> {
     Ok(array.as_slice()?.as_chunks::<2>().0.iter().map(|&[x, y]| Vector::new(x, y)).collect())
@@ -28,7 +30,7 @@ pub(crate) fn acute<'py>(
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let (a, b) = (pairs(&a)?, pairs(&b)?);
     same(a.len(), b.len())?;
-    let angles = a.iter().zip(&b).map(|(&a, &b)| metrics::acute(a, b)).collect();
+    let angles = gate::each(py, a.len(), |i| metrics::acute(a[i], b[i]))?;
     Ok(PyArray1::from_vec(py, angles))
 }
 
@@ -41,7 +43,7 @@ pub(crate) fn curvature<'py>(
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let (d1, d2) = (pairs(&d1)?, pairs(&d2)?);
     same(d1.len(), d2.len())?;
-    let values = d1.iter().zip(&d2).map(|(&a, &b)| metrics::curvature(a, b)).collect();
+    let values = gate::each(py, d1.len(), |i| metrics::curvature(d1[i], d2[i]))?;
     Ok(PyArray1::from_vec(py, values))
 }
 
@@ -59,10 +61,12 @@ pub(crate) fn instant_centre<'py>(
     };
     let (a, b) = (read(&a)?, read(&b)?);
     same(a.2.len(), b.2.len())?;
-    let mut out = Vec::with_capacity(2 * a.2.len());
-    for i in 0..a.2.len().min(a.0.len()).min(b.0.len()) {
-        let p = metrics::instant_centre((a.0[i], a.1[i], a.2[i]), (b.0[i], b.1[i], b.2[i]));
-        out.extend([p.x, p.y]);
+    for (places, rates, turns) in [&a, &b] {
+        same(places.len(), turns.len())?;
+        same(rates.len(), turns.len())?;
     }
-    Ok(PyArray1::from_vec(py, out))
+    let centres = gate::each(py, a.2.len(), |i| {
+        metrics::instant_centre((a.0[i], a.1[i], a.2[i]), (b.0[i], b.1[i], b.2[i]))
+    })?;
+    Ok(PyArray1::from_vec(py, centres.into_iter().flat_map(|p| [p.x, p.y]).collect()))
 }

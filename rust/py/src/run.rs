@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 
 use crate::error;
+use crate::gate::{self, guard};
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 /// Watch, time, coordinates, speeds.
@@ -147,16 +148,18 @@ impl Run {
 #[pymethods]
 impl Run {
     /// Between steps: time, coordinates, speeds, accelerations, work, kinetic and potential energy.
-    fn arrays<'py>(&self, py: Python<'py>) -> Vec<Array<'py>> {
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Vec<Array<'py>>> {
         let energy = |which: usize| self.0.energies.iter().map(|pair| pair[which]).collect();
-        let mut arrays = arrays(py, self.0.moments.clone());
-        arrays.push(PyArray1::from_vec(py, energy(0)));
-        arrays.push(PyArray1::from_vec(py, energy(1)));
-        arrays
+        guard(|| {
+            let mut arrays = arrays(py, self.0.moments.clone());
+            arrays.push(PyArray1::from_vec(py, energy(0)));
+            arrays.push(PyArray1::from_vec(py, energy(1)));
+            Ok(arrays)
+        })
     }
 
     /// The same without energies at times (or coordinates, if it went along these); NaN beyond.
-    fn at<'py>(&self, py: Python<'py>, places: Vec<f64>) -> Vec<Array<'py>> {
+    fn at<'py>(&self, py: Python<'py>, places: Vec<f64>) -> PyResult<Vec<Array<'py>>> {
         let own = &self.0.moments;
         let nan = vec![f64::NAN; own.q.len() / own.len().max(1)];
         let nothing = Moment {
@@ -166,30 +169,34 @@ impl Run {
             acceleration: nan,
             work: f64::NAN,
         };
+        let found = gate::each(py, places.len(), |i| self.0.at(places[i]))?;
         let mut all = Moments::default();
-        for x in places {
-            all.push(self.0.at(x).as_ref().unwrap_or(&nothing));
+        for one in &found {
+            all.push(one.as_ref().unwrap_or(&nothing));
         }
-        arrays(py, all)
+        Ok(arrays(py, all))
     }
 
     /// Everything in bytes, for this version alone.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = postcard::to_stdvec(&self.0).map_err(|e| error::input(e.to_string(), None))?;
-        Ok(PyBytes::new(py, &bytes))
+        guard(|| {
+            let bytes =
+                postcard::to_stdvec(&self.0).map_err(|e| error::input(e.to_string(), None))?;
+            Ok(PyBytes::new(py, &bytes))
+        })
     }
 
     /// The same again.
     #[staticmethod]
     fn from_bytes(written: &[u8]) -> PyResult<Self> {
-        match postcard::take_from_bytes(written) {
+        guard(|| match postcard::take_from_bytes(written) {
             Ok((run, [])) => Ok(Self(run)),
             Ok((_, rest)) => {
-                let message = format!("these bytes are no run: {} too many", rest.len());
+                let message = format!("these bytes are not a run: {} too many", rest.len());
                 Err(error::input(message, None))
             }
-            Err(e) => Err(error::input(format!("these bytes are no run: {e}"), None)),
-        }
+            Err(e) => Err(error::input(format!("these bytes are not a run: {e}"), None)),
+        })
     }
 
     /// What happened on the way.
@@ -197,6 +204,16 @@ impl Run {
     fn events(&self) -> Vec<EventParts> {
         let of = |one: &Happened| (one.watch, one.t, one.q.clone(), one.speed.clone());
         self.0.events.iter().map(of).collect()
+    }
+
+    /// The near miss of a change point at which it ended: dyad, by how much its lengths miss,
+    /// coordinate.
+    #[getter]
+    fn near_change_point(&self) -> Option<(String, f64, f64)> {
+        match &self.0.ending {
+            Ending::NearChangePoint { dyad, miss, q } => Some((dyad.clone(), *miss, *q)),
+            _ => None,
+        }
     }
 
     /// How it ended: kind, number of an event, table or motor (or code of a status), coordinates.
@@ -208,6 +225,7 @@ impl Run {
             Ending::Event(which) => ("event", *which, Vec::new()),
             Ending::Rest => plain("rest"),
             Ending::Edge(status, q) => ("edge", *status as usize, q.clone()),
+            Ending::NearChangePoint { .. } => plain("near_change_point"),
             Ending::TableEnds(which) => ("table ends", *which, Vec::new()),
             Ending::MotorTableEnds(which) => ("motor table ends", *which, Vec::new()),
             Ending::StepLimit(stiff) => ("step limit", usize::from(*stiff), Vec::new()),

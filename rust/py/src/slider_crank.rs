@@ -1,11 +1,17 @@
 //! The slider-crank of the papers over flat arrays; Python checks, broadcasts and reshapes.
 
+use std::sync::atomic::Ordering;
+
 use assur::slider_crank::{self as core, Jet, Quantity, Series, SlowSeries};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::error;
+use crate::gate;
 use crate::metrics::same;
+
+/// Numbers below which a series is summed sooner than a person can interrupt it.
+const SMALL: usize = 4096;
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -36,8 +42,7 @@ fn each<'py>(
 ) -> PyResult<Three<'py>> {
     let (phi, ratio) = (phi.as_slice()?.to_vec(), ratio.as_slice()?.to_vec());
     same(phi.len(), ratio.len())?;
-    let jets: Vec<Jet> =
-        py.detach(|| phi.iter().zip(&ratio).map(|(&phi, &ratio)| of(phi, ratio)).collect());
+    let jets = gate::each(py, phi.len(), |i| of(phi[i], ratio[i]))?;
     Ok(three(py, &jets))
 }
 
@@ -83,11 +88,11 @@ pub(crate) fn slider_crank_series<'py>(
 ) -> PyResult<Three<'py>> {
     let (phi, k) = (phi.as_slice()?.to_vec(), k.as_slice()?.to_vec());
     same(phi.len(), k.len())?;
-    let jets = py.detach(|| {
+    let jets = gate::run(py, phi.len() < SMALL, |cancel| {
         // Designs mostly have their angles side by side.
         let mut last: Option<(f64, Series)> = None;
         let mut jets = Vec::with_capacity(phi.len());
-        for (&phi, &k) in phi.iter().zip(&k) {
+        for (&phi, &k) in phi.iter().zip(&k).take_while(|_| !cancel.load(Ordering::Relaxed)) {
             let series = match last.take() {
                 Some((own, series)) if own.to_bits() == k.to_bits() => series,
                 _ => Series::new(k, harmonics, terms)?,
@@ -96,7 +101,7 @@ pub(crate) fn slider_crank_series<'py>(
             last = Some((k, series));
         }
         Ok(jets)
-    });
+    })?;
     Ok(three(py, &jets.map_err(slow)?))
 }
 
@@ -109,14 +114,14 @@ pub(crate) fn slider_crank_fourier<'py>(
     terms: Option<usize>,
 ) -> PyResult<Array<'py>> {
     let k = k.as_slice()?.to_vec();
-    let all = py.detach(|| {
+    let all = gate::run(py, k.len() < SMALL, |cancel| {
         let mut all = Vec::new();
-        for &k in &k {
+        for &k in k.iter().take_while(|_| !cancel.load(Ordering::Relaxed)) {
             let series = Series::new(k, harmonics.max(1), terms)?;
             all.extend_from_slice(series.coefficients());
         }
         Ok(all)
-    });
+    })?;
     Ok(PyArray1::from_vec(py, all.map_err(slow)?))
 }
 
@@ -129,16 +134,14 @@ pub(crate) fn slider_crank_rod_point<'py>(
     along: Flat<'py>,
     across: Flat<'py>,
 ) -> PyResult<Three<'py>> {
-    let (phi, lambda) = (phi.as_slice()?, lambda_.as_slice()?);
-    let (along, across) = (along.as_slice()?, across.as_slice()?);
+    let (phi, lambda) = (phi.as_slice()?.to_vec(), lambda_.as_slice()?.to_vec());
+    let (along, across) = (along.as_slice()?.to_vec(), across.as_slice()?.to_vec());
     same(phi.len(), lambda.len())?;
     same(along.len(), across.len())?;
     same(phi.len(), along.len())?;
-    let mut jets = Vec::with_capacity(2 * phi.len());
-    for (i, &angle) in phi.iter().enumerate() {
-        jets.extend(core::rod_point(angle, lambda[i], along[i], across[i]));
-    }
-    Ok(three(py, &jets))
+    let jets =
+        gate::each(py, phi.len(), |i| core::rod_point(phi[i], lambda[i], along[i], across[i]))?;
+    Ok(three(py, &jets.into_iter().flatten().collect::<Vec<_>>()))
 }
 
 /// Angles of greatest speed, and the speeds; exactly, or by three terms of the series.
@@ -148,16 +151,13 @@ pub(crate) fn slider_crank_greatest_speed<'py>(
     k: Flat<'py>,
     exact: bool,
 ) -> PyResult<Two<'py>> {
-    let (mut places, mut values) = (Vec::new(), Vec::new());
-    for &k in k.as_slice()? {
-        let greatest = if exact {
-            core::greatest_speed(k)
-        } else {
-            core::greatest_speed_by_series(k).map_err(slow)?
-        };
-        places.push(greatest.at);
-        values.push(greatest.value);
-    }
+    let k = k.as_slice()?.to_vec();
+    let of = |k: f64| {
+        if exact { Ok(core::greatest_speed(k)) } else { core::greatest_speed_by_series(k) }
+    };
+    let found = gate::each(py, k.len(), |i| of(k[i]))?;
+    let found = found.into_iter().collect::<Result<Vec<_>, _>>().map_err(slow)?;
+    let (places, values) = found.iter().map(|g| (g.at, g.value)).unzip();
     Ok(two(py, places, values))
 }
 
@@ -167,7 +167,8 @@ pub(crate) fn slider_crank_greatest_acceleration<'py>(
     py: Python<'py>,
     k: Flat<'py>,
 ) -> PyResult<Two<'py>> {
-    let found: Vec<_> = k.as_slice()?.iter().map(|&k| core::greatest_acceleration(k)).collect();
+    let k = k.as_slice()?.to_vec();
+    let found = gate::each(py, k.len(), |i| core::greatest_acceleration(k[i]))?;
     let (places, values) = found.iter().map(|g| (g.at, g.value)).unzip();
     Ok(two(py, places, values))
 }
@@ -182,8 +183,7 @@ pub(crate) fn slider_crank_deviation<'py>(
 ) -> PyResult<(Array<'py>, Array<'py>, Array<'py>, Array<'py>)> {
     let quantity = [Quantity::Stroke, Quantity::First, Quantity::Second][order.min(2)];
     let lambda = lambda_.as_slice()?.to_vec();
-    let found: Vec<_> =
-        py.detach(|| lambda.iter().map(|&lambda| core::deviation(lambda, n, quantity)).collect());
+    let found = gate::each(py, lambda.len(), |i| core::deviation(lambda[i], n, quantity))?;
     let relative = |of: fn(&core::Greatest) -> f64| {
         let one = |d: &core::Deviation| d.relative.as_ref().map_or(f64::NAN, of);
         PyArray1::from_vec(py, found.iter().map(one).collect())

@@ -4,6 +4,7 @@ use assur::lanes::{LANES, Lanes, Real, trig};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
+use crate::gate;
 use crate::metrics::same;
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -15,19 +16,21 @@ pub(crate) fn sin_cos<'py>(
     x: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<(Array<'py>, Array<'py>)> {
     let x = x.as_slice()?;
-    let (mut sines, mut cosines) = (Vec::new(), Vec::new());
-    let (groups, rest) = x.as_chunks::<LANES>();
-    for &group in groups {
-        let (s, c) = trig::sin_cos(Lanes(group));
-        sines.extend(s.0);
-        cosines.extend(c.0);
-    }
-    for &one in rest {
-        let (s, c) = trig::sin_cos(one);
-        sines.push(s);
-        cosines.push(c);
-    }
-    Ok((PyArray1::from_vec(py, sines), PyArray1::from_vec(py, cosines)))
+    gate::guard(|| {
+        let (mut sines, mut cosines) = (Vec::new(), Vec::new());
+        let (groups, rest) = x.as_chunks::<LANES>();
+        for &group in groups {
+            let (s, c) = trig::sin_cos(Lanes(group));
+            sines.extend(s.0);
+            cosines.extend(c.0);
+        }
+        for &one in rest {
+            let (s, c) = trig::sin_cos(one);
+            sines.push(s);
+            cosines.push(c);
+        }
+        Ok((PyArray1::from_vec(py, sines), PyArray1::from_vec(py, cosines)))
+    })
 }
 
 /// Angles of points (x, y).
@@ -39,23 +42,27 @@ pub(crate) fn atan2<'py>(
 ) -> PyResult<Array<'py>> {
     let (y, x) = (y.as_slice()?, x.as_slice()?);
     same(y.len(), x.len())?;
-    let mut angles = Vec::new();
-    for (y, x) in y.chunks(LANES).zip(x.chunks(LANES)) {
-        if y.len() == LANES {
-            let lanes = |of: &[f64]| Lanes::from_lanes(|i| of[i]);
-            angles.extend(trig::atan2(lanes(y), lanes(x)).0);
-        } else {
-            angles.extend(y.iter().zip(x).map(|(&y, &x)| trig::atan2(y, x)));
+    gate::guard(|| {
+        let mut angles = Vec::new();
+        for (y, x) in y.chunks(LANES).zip(x.chunks(LANES)) {
+            if y.len() == LANES {
+                let lanes = |of: &[f64]| Lanes::from_lanes(|i| of[i]);
+                angles.extend(trig::atan2(lanes(y), lanes(x)).0);
+            } else {
+                angles.extend(y.iter().zip(x).map(|(&y, &x)| trig::atan2(y, x)));
+            }
         }
-    }
-    Ok(PyArray1::from_vec(py, angles))
+        Ok(PyArray1::from_vec(py, angles))
+    })
 }
 
 /// Arc sines.
 #[pyfunction]
 pub(crate) fn asin<'py>(py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Array<'py>> {
     let (groups, rest) = x.as_slice()?.as_chunks::<LANES>();
-    let mut angles: Vec<f64> = groups.iter().flat_map(|&g| trig::asin(Lanes(g)).0).collect();
-    angles.extend(rest.iter().map(|&one| trig::asin(one)));
-    Ok(PyArray1::from_vec(py, angles))
+    gate::guard(|| {
+        let mut angles: Vec<f64> = groups.iter().flat_map(|&g| trig::asin(Lanes(g)).0).collect();
+        angles.extend(rest.iter().map(|&one| trig::asin(one)));
+        Ok(PyArray1::from_vec(py, angles))
+    })
 }

@@ -263,7 +263,7 @@ impl<'a> Design<'a> {
         let cx = self.context(&self.first);
         let angles = &self.mechanism.class_angle;
         let Ok(seeds) = &self.home else {
-            self.track = Track::nowhere(angles.len());
+            self.track = Track::nowhere(angles.len(), &self.signs);
             return;
         };
         let from = &Start { angles, seeds };
@@ -313,7 +313,7 @@ impl<'a> Design<'a> {
                 let start = &Start { angles, seeds };
                 Track::straight(&cx, &mut state, &self.q0, q, start)
             } else {
-                Track::nowhere(angles.len())
+                Track::nowhere(angles.len(), &self.signs)
             };
             Place { track: Cow::Owned(track), at: 1.0 }
         })

@@ -1,5 +1,7 @@
 //! Why a position is what it is: status, residual, condition, a sentence.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::design::Design;
 use super::state::{Context, Fault, State, Status};
 use crate::error::{SolveError, number};
@@ -126,6 +128,21 @@ impl Mechanism {
     ///
     /// A group of higher class, or slices of the wrong length.
     pub fn assemblies(&self, dimensions: &[f64], q: &[f64]) -> Result<Vec<Vec<i8>>, SolveError> {
+        self.assemblies_unless(dimensions, q, None)
+    }
+
+    /// The same, which stops once `cancel` is true: each dyad may double their number.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::assemblies`], and [`SolveError::Interrupted`].
+    pub fn assemblies_unless(
+        &self,
+        dimensions: &[f64],
+        q: &[f64],
+        cancel: Option<&AtomicBool>,
+    ) -> Result<Vec<Vec<i8>>, SolveError> {
+        let is_cancelled = || cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
         self.require_closed_form()?;
         let count = self.plan().signs();
         self.check(dimensions, q, &vec![1; count])?;
@@ -149,12 +166,18 @@ impl Mechanism {
             let choices: &[f64] = if count == 0 { &[] } else { &[1.0, -1.0] };
             let mut longer = Vec::new();
             for head in &found {
+                if is_cancelled() {
+                    return Err(SolveError::Interrupted);
+                }
                 longer.extend(choices.iter().map(|&sign| [&head[..], &[sign]].concat()));
                 if choices.is_empty() {
                     longer.push(Vec::new());
                 }
             }
             longer.retain(|signs| {
+                if is_cancelled() {
+                    return false;
+                }
                 let mut trial = signs.clone();
                 trial.resize(count, 1.0);
                 state.solve(&Context { signs: &trial, ..design.context(&jets) }, &scaled);
@@ -168,7 +191,11 @@ impl Mechanism {
             });
             found = longer;
         }
-        Ok(found.iter().map(|signs| design.at_drawing(signs, &scaled)).collect())
+        let at_drawing = |signs: &Vec<f64>| {
+            let goes_on = !is_cancelled();
+            goes_on.then(|| design.at_drawing(signs, &scaled)).ok_or(SolveError::Interrupted)
+        };
+        found.iter().map(at_drawing).collect()
     }
 
     /// Whether a step comes after the dyad with sign number `place`.

@@ -8,7 +8,7 @@ use super::walk::{Seed, Start};
 use crate::mechanism::Mechanism;
 use crate::plan::bind::Bound;
 use crate::plan::jet::Jets;
-use crate::plan::{Plan, Unknown};
+use crate::plan::{Dyad, Plan, Step, Unknown};
 use std::borrow::Cow;
 
 /// Which positions will be asked for.
@@ -40,7 +40,24 @@ pub(crate) struct Follower<'m> {
     roams: bool,
 }
 
+/// Where a dyad is nearly flat: a change point, if its lengths were a little others.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NearMiss {
+    /// Inner joint or slide of the dyad.
+    pub dyad: String,
+    /// By how much its lengths miss, m.
+    pub miss: f64,
+    /// Where it is nearest to flat.
+    pub q: f64,
+}
+
+/// How far (rad, or of the size) by the condition a near miss is from a position beside it.
+const NEAR_MISS_WITHIN: f64 = 64.0;
+/// Steps in which it is narrowed down, each to two thirds.
+const HALVINGS: u32 = 60;
+
 /// A position from which another is reached straight.
+#[derive(Clone)]
 struct Anchor {
     q: Vec<f64>,
     signs: Vec<f64>,
@@ -100,9 +117,60 @@ impl<'m> Follower<'m> {
         self.state.status
     }
 
-    /// Its condition.
-    pub(crate) fn condition(&self) -> f64 {
-        self.state.condition2[0].sqrt()
+    /// The greatest condition of a dyad or group of the last position by itself, and which step of
+    /// the plan that is; none beside a change point, where the position is a polynomial's.
+    pub(crate) fn condition(&self) -> (Option<usize>, f64) {
+        let beside_change = match *self.q {
+            [q] => self.design.track.change_near(q, self.design.bridge.reach).is_some(),
+            _ => false,
+        };
+        let worst = self.state.worst_by_itself(&self.design.context(self.design.jets));
+        match worst.filter(|_| !beside_change) {
+            Some((step, condition)) => (Some(step), condition),
+            None => (None, self.state.condition2[0].sqrt()),
+        }
+    }
+
+    /// Solves at a coordinate without leaving the position from which the next one is reached.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Follower::solve`].
+    pub(crate) fn solve_aside(&mut self, q: &[f64]) -> Result<(), Status> {
+        let last = self.last.clone();
+        let solved = self.solve(q);
+        self.last = last;
+        solved
+    }
+
+    /// The near miss of a change point beside a coordinate of one driver: the name of the dyad, by
+    /// how much its lengths miss (m), and the coordinate where they are nearest.
+    pub(crate) fn near_miss(&mut self, q: f64) -> Option<NearMiss> {
+        self.solve(&[q]).ok()?;
+        let (step, condition) = self.condition();
+        let step = step?;
+        let plan = self.design.mechanism.plan();
+        let Step::Dyad(dyad) = &plan.steps[step] else { return None };
+        let name = plan.dyad_names.get(dyad.sign?)?;
+        // A dyad is as flat as its distance from there, up to a factor.
+        let reach = NEAR_MISS_WITHIN / condition * self.unit(0);
+        let (mut low, mut high) = (q - reach, q + reach);
+        for _ in 0..HALVINGS {
+            let third = (high - low) / 3.0;
+            let [a, b] = [low + third, high - third].map(|at| {
+                let solved = self.solve(&[at]).is_ok();
+                if solved { self.misses_flat_by(dyad) } else { f64::INFINITY }
+            });
+            if a < b { high -= third } else { low += third }
+        }
+        let at = 0.5 * (low + high);
+        self.solve(&[at]).ok()?;
+        let miss = self.misses_flat_by(dyad) * self.design.bound.scale;
+        Some(NearMiss { dyad: name.clone(), miss, q: at })
+    }
+
+    fn misses_flat_by(&self, dyad: &Dyad) -> f64 {
+        self.state.misses_flat_by(&self.design.context(self.design.jets), dyad)
     }
 
     /// Solves at a coordinate (rad or m, of every driver).

@@ -18,6 +18,7 @@ mod group_equations;
 mod home;
 pub mod metrics;
 mod outputs;
+mod own_condition;
 mod parallel;
 mod place;
 mod quick;
@@ -29,6 +30,8 @@ mod spread;
 mod state;
 mod stream;
 mod template;
+#[cfg(feature = "test-hooks")]
+pub mod test_hooks;
 mod track;
 mod unknowns;
 mod walk;

@@ -1,8 +1,8 @@
 //! Work cut into chunks, and threads that take one after another.
 
-use std::mem::MaybeUninit;
 use std::num::NonZeroUsize;
 use std::ops::Range;
+use std::panic::resume_unwind;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -11,7 +11,6 @@ use super::outputs::{Column, Rows};
 use super::simd::Simd;
 use super::solve::Arrays;
 use crate::error::SolveError;
-use crate::motion::Status;
 
 /// Positions in a chunk: some hundred microseconds, so that its way from the drawing
 /// and the taking of it cost little.
@@ -28,7 +27,7 @@ pub struct Control<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Vector instructions, at most.
     pub simd: Simd,
-    /// When true, work stops after the chunks at hand.
+    /// When true, work stops after the blocks at hand.
     pub cancel: Option<&'a AtomicBool>,
 }
 
@@ -40,7 +39,8 @@ pub(crate) struct Chunk {
 }
 
 /// Chunks that are yet to be done, with the rows to be written. Each is taken by one
-/// thread; what nobody takes is written when this is dropped.
+/// thread. After an interruption the rest stays unwritten: nobody may read it, and writing it
+/// would take as long as solving it.
 pub(crate) struct Chunks<'a> {
     rest: Arrays<'a>,
     columns: &'a [Column],
@@ -112,16 +112,23 @@ fn front<'a, T>(all: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     front
 }
 
-impl Drop for Chunks<'_> {
+/// Stops the other workers when one panics.
+struct Alarm<'a>(&'a AtomicBool);
+
+impl Drop for Alarm<'_> {
     fn drop(&mut self) {
-        for column in &mut self.rest.columns {
-            column.fill(MaybeUninit::new(f64::NAN));
+        if thread::panicking() {
+            self.0.store(true, Ordering::Relaxed);
         }
-        self.rest.status.fill(MaybeUninit::new(Status::Lost as u8));
     }
 }
 
 impl Control<'_> {
+    /// Whether the work is no longer wanted.
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+
     /// Does all chunks; each thread makes its own worker.
     ///
     /// Threads are made for the call and gone after it: they cost some ten
@@ -140,23 +147,32 @@ impl Control<'_> {
             None => thread::available_parallelism().map_or(1, NonZeroUsize::get).min(count),
         };
         let queue = Mutex::new(chunks);
-        let cancelled = || self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
+        let panicked = AtomicBool::new(false);
         let one = || {
+            let alarm = Alarm(&panicked);
             let mut worker = worker();
-            while !cancelled() {
+            while !self.is_cancelled() && !panicked.load(Ordering::Relaxed) {
                 // A worker that panics does not hold the queue.
                 let next = queue.lock().ok().and_then(|mut queue| queue.take());
                 let Some((chunk, rows)) = next else { break };
+                #[cfg(feature = "test-hooks")]
+                super::test_hooks::before_chunk();
                 work(&mut worker, &chunk, rows);
             }
+            drop(alarm);
         };
         thread::scope(|scope| {
-            for _ in 1..threads {
-                // Where the system gives no thread, the others do its part.
-                let _ = thread::Builder::new().spawn_scoped(scope, one);
-            }
+            // Where the system gives no thread, the others do its part.
+            let others: Vec<_> = (1..threads)
+                .filter_map(|_| thread::Builder::new().spawn_scoped(scope, one).ok())
+                .collect();
             one();
+            for other in others {
+                if let Err(panic) = other.join() {
+                    resume_unwind(panic);
+                }
+            }
         });
-        if cancelled() { Err(SolveError::Interrupted) } else { Ok(()) }
+        if self.is_cancelled() { Err(SolveError::Interrupted) } else { Ok(()) }
     }
 }

@@ -2,14 +2,17 @@
 //! those that need care.
 
 use std::mem::MaybeUninit;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::design::Design;
 use super::outputs::{Column, Rows, Writer};
+use super::parallel::Control;
 use super::quick::Quick;
 use super::sensitivity::Sensitivity;
 use super::simd::{self, Level, Simd};
 use super::solve::Request;
 use super::state::{State, Status};
+use super::stream;
 use super::track::{Spot, nearest};
 use crate::lanes::{LANES, Lanes, Mask, Real};
 use crate::mechanism::Mechanism;
@@ -39,6 +42,8 @@ pub(crate) struct Worker<'a> {
     spots: Vec<Spot<Lanes>>,
     /// Whether that was a quick one.
     spots_even: bool,
+    /// When true, work stops after the block at hand.
+    cancel: Option<&'a AtomicBool>,
 }
 
 /// Some positions of one design, and where they go.
@@ -66,7 +71,7 @@ impl<'a> Worker<'a> {
         jets: &'a Jets,
         writer: &'a Writer<'a>,
         columns: &'a [Column],
-        simd: Simd,
+        control: &Control<'a>,
     ) -> Self {
         let design = Design::new(mechanism, request.signs, jets);
         let plan = mechanism.plan();
@@ -85,8 +90,14 @@ impl<'a> Worker<'a> {
             design,
             writer,
             columns,
-            simd,
+            simd: control.simd,
+            cancel: control.cancel,
         }
+    }
+
+    /// Whether work is no longer wanted.
+    fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
     /// Solves positions of the design with these dimensions.
@@ -117,6 +128,9 @@ impl<'a> Worker<'a> {
         }
         if drivers > 1 {
             for row in 0..count {
+                if self.is_cancelled() {
+                    return;
+                }
                 self.one_row(job, row);
             }
             return;
@@ -125,6 +139,9 @@ impl<'a> Worker<'a> {
         self.many.prepare(plan, &self.design.bound, jets);
         self.turn(job);
         for row in (0..count).step_by(GROUPS * LANES) {
+            if self.is_cancelled() {
+                return;
+            }
             self.block::<L>(job, row, (count - row).min(GROUPS * LANES));
         }
     }
@@ -232,7 +249,14 @@ impl<'a> Worker<'a> {
             }
         }
         if again {
+            if self.writer.streams {
+                // These rows are written a second time.
+                stream::fence();
+            }
             for place in 0..count {
+                if self.is_cancelled() {
+                    return;
+                }
                 if care[place / LANES].lane(place % LANES) {
                     self.one_row(job, row + place);
                 }
@@ -276,6 +300,9 @@ impl<'a> Worker<'a> {
         let rate = design.rate(index);
         let nothing = vec![[0.0]; self.lifted.len()];
         for (row, q) in job.q.chunks_exact(drivers).enumerate() {
+            if self.is_cancelled() {
+                return;
+            }
             let q = design.scaled(q);
             let place = design.way(&q);
             let state = &mut self.one;

@@ -104,6 +104,20 @@ impl Request<'_> {
         let shape = Shape::of(mechanism, self)?;
         Ok([shape.designs, shape.positions])
     }
+
+    /// Refuses arrays of other sizes than this request fills.
+    ///
+    /// # Errors
+    ///
+    /// That, and those of [`Mechanism::solve`].
+    pub fn check_arrays(
+        &self,
+        mechanism: &Mechanism,
+        arrays: &Arrays<'_>,
+    ) -> Result<(), SolveError> {
+        let [designs, positions] = self.shape(mechanism)?;
+        check_arrays(&self.columns(mechanism), arrays, product(designs, positions)?)
+    }
 }
 
 /// Solves a request; see [`Mechanism::solve`].
@@ -117,9 +131,13 @@ pub fn solve(mechanism: &Mechanism, request: &Request<'_>) -> Result<Motion, Sol
     let columns = request.columns(mechanism);
     let mut values: Vec<Vec<f64>> = columns.iter().map(|c| vec![0.0; rows * c.width]).collect();
     let mut status = vec![0; rows];
-    let arrays = Arrays {
-        columns: values.iter_mut().map(|v| as_unwritten(v)).collect(),
-        status: as_unwritten(&mut status),
+    // SAFETY: `fill` stores nothing but numbers.
+    #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
+    let arrays = unsafe {
+        Arrays {
+            columns: values.iter_mut().map(|v| as_unwritten(v)).collect(),
+            status: as_unwritten(&mut status),
+        }
     };
     fill(mechanism, request, arrays, &Control::default())?;
     let mut motion = Motion { designs, positions, status, ..Motion::default() };
@@ -146,13 +164,14 @@ fn product(designs: usize, positions: usize) -> Result<usize, SolveError> {
 }
 
 /// Numbers seen as places to be written.
-fn as_unwritten<T: Copy>(values: &mut [T]) -> &mut [MaybeUninit<T>] {
-    #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
-    // SAFETY: same layout; nothing in this crate stores an uninitialised value, so they stay
-    // numbers.
-    unsafe {
-        &mut *(std::ptr::from_mut(values) as *mut [MaybeUninit<T>])
-    }
+///
+/// # Safety
+///
+/// Whoever has the places stores no uninitialised value there.
+#[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
+unsafe fn as_unwritten<T: Copy>(values: &mut [T]) -> &mut [MaybeUninit<T>] {
+    // SAFETY: same layout; what is stored there are numbers, as the caller promises.
+    unsafe { &mut *(std::ptr::from_mut(values) as *mut [MaybeUninit<T>]) }
 }
 
 /// Solves a request into arrays that are given.
@@ -160,7 +179,7 @@ fn as_unwritten<T: Copy>(values: &mut [T]) -> &mut [MaybeUninit<T>] {
 /// # Errors
 ///
 /// Those of [`Mechanism::solve`], and arrays of other sizes: nothing is written then.
-/// [`SolveError::Interrupted`]: every number is written, those not come to as NaN.
+/// [`SolveError::Interrupted`]: some numbers are written and others not.
 pub fn fill(
     mechanism: &Mechanism,
     request: &Request<'_>,
@@ -178,10 +197,13 @@ pub fn fill(
     };
     writer.streams = numbers >= stream::LEAST;
     let chunks = Chunks::new(arrays, &columns, [shape.designs, shape.positions], shape.drivers);
-    let worker = || Worker::new(mechanism, request, &jets, &writer, &columns, control.simd);
+    let worker = || Worker::new(mechanism, request, &jets, &writer, &columns, control);
     let per_design = shape.positions * shape.drivers;
     control.run(chunks, worker, |worker, chunk, mut rows| {
         for design in chunk.designs.clone() {
+            if control.is_cancelled() {
+                break;
+            }
             let values = &request.dimensions[design * shape.dimensions..][..shape.dimensions];
             let q = request.coordinates.of(design, per_design);
             let q = &q[chunk.positions.start * shape.drivers..chunk.positions.end * shape.drivers];

@@ -11,37 +11,50 @@ pub(super) const LEAST: usize = 4 << 20;
 
 /// Whether points may be stored so here.
 #[inline(always)]
-pub(super) fn is_aligned(out: &[MaybeUninit<f64>]) -> bool {
+fn is_aligned(out: &[MaybeUninit<f64>]) -> bool {
     cfg!(target_arch = "x86_64") && out.as_ptr().addr().is_multiple_of(16)
 }
 
-/// The lanes of a point, x and y side by side, at a place that is aligned.
+/// The lanes of a point, x and y side by side. Nothing may touch that memory before a [`fence`],
+/// not even this thread; where it is not aligned these are plain stores.
 #[inline(always)]
+#[allow(unsafe_code, reason = "only the instruction itself stores so")]
 pub(super) fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
-    for (lane, pair) in out[..2 * R::LANES].chunks_exact_mut(2).enumerate() {
-        store_pair(pair, [p.x.lane(lane), p.y.lane(lane)]);
+    let out = &mut out[..2 * R::LANES];
+    if is_aligned(out) {
+        for (lane, pair) in out.as_chunks_mut::<2>().0.iter_mut().enumerate() {
+            // SAFETY: the slice is aligned, and so is every pair of it.
+            unsafe { store_pair(pair, [p.x.lane(lane), p.y.lane(lane)]) };
+        }
+        return;
+    }
+    for (lane, pair) in out.as_chunks_mut::<2>().0.iter_mut().enumerate() {
+        *pair = [p.x.lane(lane), p.y.lane(lane)].map(MaybeUninit::new);
     }
 }
 
+/// Stores two numbers past the caches.
+///
+/// # Safety
+///
+/// The place is at a multiple of 16 bytes.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 #[allow(unsafe_code, reason = "only the instruction itself stores so")]
-fn store_pair(pair: &mut [MaybeUninit<f64>], [x, y]: [f64; 2]) {
+unsafe fn store_pair(pair: &mut [MaybeUninit<f64>; 2], [x, y]: [f64; 2]) {
     use std::arch::x86_64::{_mm_set_pd, _mm_stream_pd};
-    debug_assert!(pair.len() == 2 && is_aligned(pair));
-    // SAFETY: every x86-64 has SSE2; these are two numbers at a multiple of 16 bytes, as every
-    // pair is from one on that is.
+    debug_assert!(is_aligned(pair));
+    // SAFETY: every x86-64 has SSE2; the place is aligned, as the caller promises.
     unsafe { _mm_stream_pd(pair.as_mut_ptr().cast(), _mm_set_pd(y, x)) };
 }
 
 #[cfg(not(target_arch = "x86_64"))]
-fn store_pair(pair: &mut [MaybeUninit<f64>], numbers: [f64; 2]) {
-    for (place, number) in pair.iter_mut().zip(numbers) {
-        *place = MaybeUninit::new(number);
-    }
+#[allow(unsafe_code, reason = "the same signature as with the instruction")]
+unsafe fn store_pair(pair: &mut [MaybeUninit<f64>; 2], numbers: [f64; 2]) {
+    *pair = numbers.map(MaybeUninit::new);
 }
 
-/// Such stores are seen by other threads only after this.
+/// After this such stores are seen by other threads, and this one may store there again.
 #[allow(unsafe_code, reason = "only the instruction itself waits for them")]
 pub(super) fn fence() {
     #[cfg(target_arch = "x86_64")]

@@ -101,10 +101,14 @@ fn whole_part(cells: f64) -> usize {
 }
 
 impl Track {
-    /// A way that leads nowhere.
-    pub(crate) fn nowhere(classes: usize) -> Self {
+    /// A path without a single position: the dimensions cannot be followed from the drawing's.
+    ///
+    /// It has the signs of the drawing all the same: lanes are filled with them before a lane's
+    /// coordinate is looked at.
+    pub(crate) fn nowhere(classes: usize, signs: &[f64]) -> Self {
         let covered = Some([f64::INFINITY, f64::NEG_INFINITY]);
-        Self { gain: vec![0.0; classes], covered, ..Self::default() }
+        let stretches = vec![Stretch { from: f64::NEG_INFINITY, signs: signs.to_vec() }];
+        Self { gain: vec![0.0; classes], stretches, covered, ..Self::default() }
     }
 
     /// Along one driven angle, from `q0` on, for ever.

@@ -7,11 +7,16 @@
 //! its null space, back onto the closure by Gauss-Newton, and taking the rank
 //! there. A shaky structure does not move and has mobility 0.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use nalgebra::{DMatrix, DVector};
 
 use super::closure::{Closure, LeftOut, Rotation, Span};
+use super::elimination::SparseRows;
+use super::rank::{self, Interrupted, Rank};
 use crate::linkage::{Driver, Linkage};
-use crate::tolerance::{RANK, REGULAR_CLOSURE};
+use crate::plane::Vector;
+use crate::tolerance::{NEARLY_REDUNDANT, RANK, REGULAR_CLOSURE};
 
 /// A displaced linkage: every point, the turn of every free class since the
 /// drawing, the displacement of every slide. Lengths in units of the size.
@@ -57,6 +62,10 @@ pub struct System {
     pub unknowns: Vec<Unknown>,
     /// Class of every link in this system.
     class_of: Vec<usize>,
+    /// Columns by point (that of x), class and slide.
+    of_point: Vec<Option<usize>>,
+    of_class: Vec<Option<usize>>,
+    of_slide: Vec<Option<usize>>,
 }
 
 impl System {
@@ -96,7 +105,18 @@ impl System {
                 unknowns.push(Unknown::Slide(slide));
             }
         }
-        Self { edges, unknowns, class_of }
+        let mut of_point = vec![None; closure.points];
+        let mut of_class = vec![None; linkage.links.len()];
+        let mut of_slide = vec![None; linkage.slides.len()];
+        for (column, unknown) in unknowns.iter().enumerate() {
+            match *unknown {
+                Unknown::Point { point, axis: 0 } => of_point[point] = Some(column),
+                Unknown::Point { .. } => {}
+                Unknown::Class(class) => of_class[class] = Some(column),
+                Unknown::Slide(slide) => of_slide[slide] = Some(column),
+            }
+        }
+        Self { edges, unknowns, class_of, of_point, of_class, of_slide }
     }
 
     /// Number of scalar equations.
@@ -104,19 +124,6 @@ impl System {
     pub fn rows(&self) -> usize {
         2 * self.edges.len()
     }
-}
-
-/// A rank with the spaces that belong to it.
-#[derive(Debug, Clone)]
-pub struct Rank {
-    /// Unknowns minus rank.
-    pub mobility: usize,
-    /// Equations minus rank.
-    pub excess: usize,
-    /// Columns that span the motions the equations allow (rows: unknowns).
-    pub motions: DMatrix<f64>,
-    /// Columns that span the self-stresses, the dependent equations (rows: equations).
-    pub stresses: DMatrix<f64>,
 }
 
 /// The geometry of the drawing, ready to be displaced.
@@ -128,6 +135,10 @@ pub struct Skeleton<'a> {
     vector: Vec<[f64; 2]>,
     direction: Vec<[f64; 2]>,
     start: Pose,
+    /// Unit of all lengths here, m.
+    size: f64,
+    /// When true, work stops.
+    cancel: Option<&'a AtomicBool>,
 }
 
 impl<'a> Skeleton<'a> {
@@ -138,6 +149,7 @@ impl<'a> Skeleton<'a> {
         closure: &'a Closure,
         free: &'a [Rotation],
         classes: usize,
+        cancel: Option<&'a AtomicBool>,
     ) -> Self {
         let size = paired_size(linkage);
         let origin = linkage.joints.first().map_or([0.0; 2], |j| j.at);
@@ -166,7 +178,7 @@ impl<'a> Skeleton<'a> {
             .collect();
         let start =
             Pose { points, turn: vec![0.0; classes], slide: vec![0.0; linkage.slides.len()] };
-        Self { linkage, closure, free, vector, direction, start }
+        Self { linkage, closure, free, vector, direction, start, size, cancel }
     }
 
     /// The drawing itself.
@@ -175,10 +187,22 @@ impl<'a> Skeleton<'a> {
         &self.start
     }
 
+    /// Unit of all lengths here, m.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// How far the link of an edge has turned since the drawing.
+    fn turn(&self, pose: &Pose, e: usize) -> Vector {
+        Vector::at_angle(pose.turn[self.free[self.closure.edges[e].link].class])
+    }
+
     /// Edge vector and guide direction in a pose.
     fn edge(&self, pose: &Pose, e: usize) -> ([f64; 2], [f64; 2]) {
         let edge = &self.closure.edges[e];
-        let (sin, cos) = pose.turn[self.free[edge.link].class].sin_cos();
+        let turn = self.turn(pose, e);
+        let (sin, cos) = (turn.y, turn.x);
         let turned = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
         let d = turned(self.direction[e]);
         let s = edge.slide().map_or(0.0, |s| pose.slide[s]);
@@ -186,7 +210,9 @@ impl<'a> Skeleton<'a> {
         ([v[0] + s * d[0], v[1] + s * d[1]], d)
     }
 
-    fn residual(&self, system: &System, pose: &Pose) -> DVector<f64> {
+    /// How far every equation of a system is from being met in a pose.
+    #[must_use]
+    pub fn residual(&self, system: &System, pose: &Pose) -> DVector<f64> {
         let mut rows = Vec::with_capacity(system.rows());
         for &e in &system.edges {
             let edge = &self.closure.edges[e];
@@ -198,71 +224,95 @@ impl<'a> Skeleton<'a> {
         DVector::from_vec(rows)
     }
 
-    fn jacobian(&self, system: &System, pose: &Pose) -> DMatrix<f64> {
-        let mut j = DMatrix::zeros(system.rows(), system.unknowns.len());
-        for (row, &e) in system.edges.iter().enumerate() {
+    /// Derivatives of the closure equations: entries of every row, in the order of columns.
+    fn jacobian(&self, system: &System, pose: &Pose) -> SparseRows {
+        let mut rows = Vec::with_capacity(system.rows());
+        for &e in &system.edges {
             let edge = &self.closure.edges[e];
             let (v, d) = self.edge(pose, e);
-            for (column, unknown) in system.unknowns.iter().enumerate() {
-                let [x, y] = match *unknown {
-                    Unknown::Point { point, axis } => {
-                        let sign = f64::from(u8::from(point == edge.to))
-                            - f64::from(u8::from(point == edge.from));
-                        if axis == 0 { [sign, 0.0] } else { [0.0, sign] }
-                    }
-                    Unknown::Class(class) if system.class_of[edge.link] == class => [v[1], -v[0]],
-                    Unknown::Slide(slide) if edge.slide() == Some(slide) => [-d[0], -d[1]],
-                    _ => [0.0, 0.0],
-                };
-                j[(2 * row, column)] = x;
-                j[(2 * row + 1, column)] = y;
+            let class = system.of_class[system.class_of[edge.link]];
+            let slide = edge.slide().and_then(|slide| system.of_slide[slide]);
+            for (axis, turned) in [v[1], -v[0]].into_iter().enumerate() {
+                let mut row = Vec::with_capacity(4);
+                if edge.from != edge.to {
+                    row.extend(system.of_point[edge.to].map(|x| (x + axis, 1.0)));
+                    row.extend(system.of_point[edge.from].map(|x| (x + axis, -1.0)));
+                }
+                row.extend(class.map(|column| (column, turned)));
+                row.extend(slide.map(|column| (column, -d[axis])));
+                row.sort_unstable_by_key(|entry| entry.0);
+                rows.push(row);
             }
         }
-        j
+        rows
     }
 
     /// Rank, motions and self-stresses of a system in a pose.
+    ///
+    /// # Errors
+    ///
+    /// [`Interrupted`].
+    pub fn rank(&self, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
+        self.rank_above(RANK, system, pose)
+    }
+
+    /// The same, where what nearly depends on others counts as dependent.
+    ///
+    /// # Errors
+    ///
+    /// [`Interrupted`].
+    pub fn nearly_rank(&self, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
+        self.rank_above(NEARLY_REDUNDANT, system, pose)
+    }
+
+    fn rank_above(&self, least: f64, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
+        self.go_on()?;
+        let (jacobian, unknowns) = (self.jacobian(system, pose), system.unknowns.len());
+        rank::rank(jacobian, unknowns, least, || self.go_on().is_err())
+    }
+
+    /// Derivatives of a weighted sum of the closure equations by the drawing: the coordinates of
+    /// all joints (of the size), then the angles of all guides.
     #[must_use]
-    pub fn rank(&self, system: &System, pose: &Pose) -> Rank {
-        let mut j = self.jacobian(system, pose);
-        let (m, n) = j.shape();
-        let mut scale = vec![1.0; n];
-        for (column, factor) in scale.iter_mut().enumerate() {
-            let norm = j.column(column).norm();
-            if norm > 0.0 {
-                *factor = 1.0 / norm;
-                j.column_mut(column).scale_mut(*factor);
+    pub fn by_drawing(&self, system: &System, pose: &Pose, weights: &DVector<f64>) -> Vec<f64> {
+        let joints = self.linkage.joints.len();
+        let mut all = vec![0.0; 2 * joints + self.linkage.slides.len()];
+        for (row, &e) in system.edges.iter().enumerate() {
+            let edge = &self.closure.edges[e];
+            let weight = Vector::new(weights[2 * row], weights[2 * row + 1]);
+            // The equation is P_to − P_from − U · (w + s d), with w = P_to − P_from as drawn.
+            let turned = self.turn(pose, e).conj() * weight;
+            for (point, sign) in [(edge.to, 1.0), (edge.from, -1.0)] {
+                let Some(joint) = joint_of_point(point).filter(|&j| j < joints) else { continue };
+                let own = if self.closure.fixed[point] { weight } else { Vector::ZERO };
+                let change = (own - turned).scale(sign);
+                all[2 * joint] += change.x;
+                all[2 * joint + 1] += change.y;
+            }
+            if let Some(slide) = edge.slide() {
+                let guide = Vector::new(self.direction[e][0], self.direction[e][1]);
+                all[2 * joints + slide] -= pose.slide[slide] * guide.left().dot(turned);
             }
         }
-        // Square, so that the decomposition has both null spaces.
-        let side = m.max(n).max(1);
-        let svd = j.resize(side, side, 0.0).svd(true, true);
-        let greatest = svd.singular_values.max();
-        let small: Vec<usize> =
-            (0..side).filter(|&i| svd.singular_values[i] <= RANK * greatest).collect();
-        let empty = DMatrix::zeros(side, side);
-        let (u, vt) = (svd.u.as_ref().unwrap_or(&empty), svd.v_t.as_ref().unwrap_or(&empty));
-        let rank = side - small.len();
-        // The null spaces of the padded matrix, cut to the real rows or columns,
-        // still span the real ones.
-        let span = |count: usize, dimension: usize, of: &dyn Fn(usize, usize) -> f64| {
-            let columns = if dimension == 0 { 0 } else { small.len() };
-            DMatrix::from_fn(count, columns, |row, k| of(row, small[k]))
-        };
-        let (mobility, excess) = (n - rank, m - rank);
-        let motions = span(n, mobility, &|row, i| vt[(i, row)] * scale[row]);
-        let stresses = span(m, excess, &|row, i| u[(row, i)]);
-        Rank { mobility, excess, motions, stresses }
+        all
+    }
+
+    fn go_on(&self) -> Result<(), Interrupted> {
+        let stop = self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
+        if stop { Err(Interrupted) } else { Ok(()) }
     }
 
     /// Positions to which the linkage lets itself be displaced from the drawing, along
     /// its null space in fixed pseudo-random directions, the most regular first.
     /// Empty: it is rigid.
-    #[must_use]
-    pub fn displaced(&self, system: &System) -> Vec<(Pose, Rank)> {
-        let here = self.rank(system, &self.start);
+    ///
+    /// # Errors
+    ///
+    /// [`Interrupted`].
+    pub fn displaced(&self, system: &System) -> Result<Vec<(Pose, Rank)>, Interrupted> {
+        let here = self.rank(system, &self.start)?;
         if here.mobility == 0 {
-            return Vec::new();
+            return Ok(Vec::new());
         }
         let mut random = 0x9E37_79B9_7F4A_7C15_u64;
         let mut found: Vec<(Pose, Rank)> = Vec::new();
@@ -273,36 +323,88 @@ impl<'a> Skeleton<'a> {
                     DVector::from_fn(here.motions.ncols(), |_, _| next_random(&mut random));
                 let direction = &here.motions * weights;
                 let step = direction.scale(reach / direction.amax().max(f64::MIN_POSITIVE));
-                if let Some(reached) = self.project(system, &self.start, &step) {
-                    let rank = self.rank(system, &reached);
+                if let Some(reached) = self.project(system, &self.start, &step)? {
+                    let rank = self.rank(system, &reached)?;
                     found.push((reached, rank));
                     break;
                 }
             }
         }
         found.sort_by_key(|(_, rank)| rank.mobility);
-        found
+        Ok(found)
     }
 
     /// Gauss-Newton back onto the closure; None if it fails or goes back.
-    fn project(&self, system: &System, from: &Pose, step: &DVector<f64>) -> Option<Pose> {
+    fn project(
+        &self,
+        system: &System,
+        from: &Pose,
+        step: &DVector<f64>,
+    ) -> Result<Option<Pose>, Interrupted> {
         let mut pose = from.moved(step, system);
         let mut total = step.clone();
         for _ in 0..30 {
             let residual = self.residual(system, &pose);
             if residual.amax() < REGULAR_CLOSURE {
-                return (total.amax() > 0.25 * step.amax()).then_some(pose);
+                return Ok((total.amax() > 0.25 * step.amax()).then_some(pose));
             }
-            let svd = self.jacobian(system, &pose).svd(true, true);
-            // Only directions that are not (nearly) dependent are corrected.
-            let correction = -svd.solve(&residual, 1e-6 * svd.singular_values.max()).ok()?;
+            let correction = self.correction(system, &pose, &residual)?;
             if !correction.amax().is_finite() || correction.amax() > 1.0 {
-                return None;
+                return Ok(None);
             }
             total += &correction;
             pose = pose.moved(&correction, system);
         }
-        None
+        Ok(None)
+    }
+
+    /// The same where equations that nearly depend on others are left as they are, as long as they
+    /// miss by little.
+    ///
+    /// # Errors
+    ///
+    /// [`Interrupted`].
+    pub fn project_nearly(
+        &self,
+        system: &System,
+        from: &Pose,
+        step: &DVector<f64>,
+    ) -> Result<Option<Pose>, Interrupted> {
+        let mut pose = from.moved(step, system);
+        let mut total = step.clone();
+        let mut before = f64::INFINITY;
+        for _ in 0..30 {
+            let residual = self.residual(system, &pose);
+            let correction = self.correction(system, &pose, &residual)?;
+            let length = correction.amax();
+            if !length.is_finite() || length > 1.0 {
+                return Ok(None);
+            }
+            total += &correction;
+            pose = pose.moved(&correction, system);
+            // Which of the equations are left unmet may change from step to step: then steps stay
+            // as long as what these miss.
+            let ends =
+                length < REGULAR_CLOSURE || (length < NEARLY_REDUNDANT && length > 0.5 * before);
+            before = length;
+            if ends {
+                let fits = self.residual(system, &pose).amax() < NEARLY_REDUNDANT;
+                return Ok((fits && total.amax() > 0.25 * step.amax()).then_some(pose));
+            }
+        }
+        Ok(None)
+    }
+
+    /// A step of Gauss-Newton.
+    fn correction(
+        &self,
+        system: &System,
+        pose: &Pose,
+        residual: &DVector<f64>,
+    ) -> Result<DVector<f64>, Interrupted> {
+        self.go_on()?;
+        let (jacobian, unknowns) = (self.jacobian(system, pose), system.unknowns.len());
+        Ok(-rank::solve(jacobian, unknowns, residual, || self.go_on().is_err())?)
     }
 
     /// The links that a motion (a vector over the unknowns) moves.
@@ -346,6 +448,11 @@ impl<'a> Skeleton<'a> {
         let links = links.into_iter().map(|l| self.linkage.links[l].name.clone());
         links.chain(slides.into_iter().map(|s| self.linkage.slides[s].name.clone())).collect()
     }
+}
+
+/// The joint at a point; what is no joint has a greater index than there are joints.
+fn joint_of_point(point: usize) -> Option<usize> {
+    point.checked_sub(1)
 }
 
 /// Greatest extent of the joints that are pairs.

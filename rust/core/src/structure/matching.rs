@@ -80,22 +80,45 @@ impl Pattern {
         Some(of_equation)
     }
 
+    /// Matches one scalar more of an equation, along an augmenting path. (The path is as long as
+    /// the linkage, so it is kept in a list and not on the thread's stack.)
     fn augment(&self, equation: usize, of_unknown: &mut [Vec<usize>], seen: &mut [bool]) -> bool {
-        for &unknown in &self.touches[equation] {
-            if seen[unknown] {
+        /// An equation that looks for a place at the unknowns it touches, from `touch` on; `slot`:
+        /// which of that unknown's partners is asked to move.
+        struct Search {
+            equation: usize,
+            touch: usize,
+            slot: usize,
+        }
+        let mut path = vec![Search { equation, touch: 0, slot: 0 }];
+        while let Some(top) = path.last_mut() {
+            let Some(&unknown) = self.touches[top.equation].get(top.touch) else {
+                path.pop();
+                if let Some(before) = path.last_mut() {
+                    before.slot += 1;
+                }
                 continue;
-            }
-            seen[unknown] = true;
-            if of_unknown[unknown].len() < self.unknown_size[unknown] {
-                of_unknown[unknown].push(equation);
-                return true;
-            }
-            for slot in 0..of_unknown[unknown].len() {
-                let other = of_unknown[unknown][slot];
-                if self.augment(other, of_unknown, seen) {
-                    of_unknown[unknown][slot] = equation;
+            };
+            if top.slot == 0 {
+                if seen[unknown] {
+                    top.touch += 1;
+                    continue;
+                }
+                seen[unknown] = true;
+                if of_unknown[unknown].len() < self.unknown_size[unknown] {
+                    of_unknown[unknown].push(top.equation);
+                    path.pop();
+                    for search in path {
+                        let unknown = self.touches[search.equation][search.touch];
+                        of_unknown[unknown][search.slot] = search.equation;
+                    }
                     return true;
                 }
+            }
+            if let Some(&equation) = of_unknown[unknown].get(top.slot) {
+                path.push(Search { equation, touch: 0, slot: 0 });
+            } else {
+                (top.touch, top.slot) = (top.touch + 1, 0);
             }
         }
         false
@@ -122,7 +145,7 @@ impl Pattern {
         };
         for u in 0..n {
             if tarjan.index[u] == usize::MAX {
-                tarjan.visit(u);
+                tarjan.visit_from(u);
             }
         }
         tarjan.component
@@ -140,19 +163,41 @@ struct Tarjan<'a> {
 }
 
 impl Tarjan<'_> {
-    fn visit(&mut self, u: usize) {
+    /// Visits what can be reached from an unknown, depth first. (The depth is that of the linkage:
+    /// the path is kept in a list and not on the thread's stack.)
+    fn visit_from(&mut self, root: usize) {
+        // Every unknown on the path, with how many of those it needs have been looked at.
+        let mut path = vec![(root, 0)];
+        self.enter(root);
+        while let Some((u, looked)) = path.last_mut() {
+            let u = *u;
+            if let Some(&v) = self.needs[u].get(*looked) {
+                *looked += 1;
+                if self.index[v] == usize::MAX {
+                    self.enter(v);
+                    path.push((v, 0));
+                } else if self.component[v] == usize::MAX {
+                    self.low[u] = self.low[u].min(self.index[v]);
+                }
+                continue;
+            }
+            path.pop();
+            if let Some(&(before, _)) = path.last() {
+                self.low[before] = self.low[before].min(self.low[u]);
+            }
+            self.leave(u);
+        }
+    }
+
+    fn enter(&mut self, u: usize) {
         self.index[u] = self.next;
         self.low[u] = self.next;
         self.next += 1;
         self.stack.push(u);
-        for &v in &self.needs[u] {
-            if self.index[v] == usize::MAX {
-                self.visit(v);
-                self.low[u] = self.low[u].min(self.low[v]);
-            } else if self.component[v] == usize::MAX {
-                self.low[u] = self.low[u].min(self.index[v]);
-            }
-        }
+    }
+
+    /// Closes the component of which an unknown is the root.
+    fn leave(&mut self, u: usize) {
         if self.low[u] == self.index[u] {
             while let Some(v) = self.stack.pop() {
                 self.component[v] = self.components;

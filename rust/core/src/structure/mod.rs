@@ -1,12 +1,16 @@
 //! What kind of mechanism it is: mobility, redundant links, Assur groups.
 
+mod adjust;
 pub mod assur_group;
 pub mod closure;
 mod contour;
+mod elimination;
 pub(crate) mod freedom;
 pub mod matching;
+pub(crate) mod rank;
 mod redundancy;
 
+pub(crate) use adjust::{Adjusted, adjust};
 pub use assur_group::{Group, roman};
 pub use closure::{Closure, LeftOut, Rotation};
 
@@ -15,7 +19,9 @@ use std::fmt::Write as _;
 use crate::error::StructureError;
 use crate::linkage::{Driver, Linkage};
 use closure::{list, rotations};
-use freedom::{Pose, Rank, Skeleton, System};
+use freedom::{Pose, Skeleton, System};
+use rank::Rank;
+use std::sync::atomic::AtomicBool;
 
 /// The structure of a mechanism with its drivers.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,26 +65,38 @@ impl Structure {
     /// # Errors
     ///
     /// Every way in which it is not a mechanism with as many drivers as freedoms;
-    /// the sentence names the links.
-    pub fn of(linkage: &Linkage, closure: &Closure) -> Result<Self, StructureError> {
+    /// the sentence names the links. [`StructureError::Interrupted`] once `cancel` is true.
+    pub fn of(
+        linkage: &Linkage,
+        closure: &Closure,
+        cancel: Option<&AtomicBool>,
+    ) -> Result<Self, StructureError> {
         refuse_unconnected(linkage)?;
         let everything = LeftOut::default();
         let (free, classes) = rotations(linkage, &everything, false)?;
-        let skeleton = Skeleton::new(linkage, closure, &free, classes);
+        let skeleton = Skeleton::new(linkage, closure, &free, classes, cancel);
         let system = System::new(linkage, closure, &everything, &free, false);
-        let at_drawing = skeleton.rank(&system, skeleton.drawing());
-        let drives = |pose: &Pose| {
-            idle(linkage, closure, &skeleton, pose, &everything)
-                .is_ok_and(|rank| rank.mobility == 0)
+        let at_drawing = skeleton.rank(&system, skeleton.drawing())?;
+        let drives = |pose: &Pose| match idle(linkage, closure, &skeleton, pose, &everything) {
+            Ok(rank) => Ok(rank.mobility == 0),
+            Err(StructureError::Interrupted) => Err(StructureError::Interrupted),
+            Err(_) => Ok(false),
         };
         // The drawing itself, if all its equations are independent; else displaced, on
         // a branch on which the drivers drive, if there is one.
         let drawing = (skeleton.drawing().clone(), at_drawing.clone());
-        let chosen = if at_drawing.excess == 0 && at_drawing.mobility > 0 && drives(&drawing.0) {
+        let chosen = if at_drawing.excess == 0 && at_drawing.mobility > 0 && drives(&drawing.0)? {
             Some(drawing)
         } else {
-            let poses = skeleton.displaced(&system);
-            poses.iter().find(|(pose, _)| drives(pose)).or(poses.first()).cloned()
+            let poses = skeleton.displaced(&system)?;
+            let mut chosen = None;
+            for (place, (pose, _)) in poses.iter().enumerate() {
+                if drives(pose)? {
+                    chosen = Some(place);
+                    break;
+                }
+            }
+            poses.into_iter().nth(chosen.unwrap_or(0))
         };
         let Some((pose, rank)) = chosen else {
             return Err(StructureError::Immovable {
@@ -210,7 +228,7 @@ fn under_constrained(
     let everything = LeftOut::default();
     let (rotation, _) = rotations(linkage, &everything, true)?;
     let locked = System::new(linkage, closure, &everything, &rotation, true);
-    let rank = skeleton.rank(&locked, pose);
+    let rank = skeleton.rank(&locked, pose)?;
     if rank.mobility == 0 {
         return Ok("; leave out drivers".into());
     }
@@ -230,7 +248,7 @@ fn idle(
 ) -> Result<Rank, StructureError> {
     let (rotation, _) = rotations(linkage, redundant, true)?;
     let system = System::new(linkage, closure, redundant, &rotation, true);
-    Ok(skeleton.rank(&system, pose))
+    Ok(skeleton.rank(&system, pose)?)
 }
 
 /// With all drivers locked nothing may move any more.

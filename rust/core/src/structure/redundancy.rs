@@ -1,7 +1,8 @@
 //! Redundant links and slides: those without which the linkage moves just the same.
 
 use super::closure::{Closure, LeftOut, rotations};
-use super::freedom::{Pose, Rank, Skeleton, System};
+use super::freedom::{Pose, Skeleton, System};
+use super::rank::Rank;
 use crate::error::StructureError;
 use crate::linkage::{Driver, Linkage};
 
@@ -31,7 +32,7 @@ pub fn leave_out(
             if !still_placed(linkage, closure, &candidate) {
                 continue;
             }
-            let rank = skeleton.rank(&system, pose);
+            let rank = skeleton.rank(&system, pose)?;
             if rank.mobility == full.mobility && rank.excess < excess {
                 found = Some((candidate, rank.excess));
                 break;

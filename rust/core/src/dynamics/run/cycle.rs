@@ -11,6 +11,7 @@ use super::outside::Outside;
 use super::source::Source;
 use super::steady::Search;
 use super::unsteady::Unsteady;
+use crate::motion::follow::NearMiss;
 use crate::ode::{
     Action, Crossing, End, Error, Fault, Integrator, Keep, Options, Solution, System,
 };
@@ -182,7 +183,13 @@ pub(super) fn period<S: Source, O: Outside>(
         End::Event { .. } if table => {
             return Err(Unsteady::MotorTableEnds { q, speed: sign * y[0].max(0.0).sqrt() });
         }
-        End::Edge { .. } => return Err(Unsteady::DeadPoint { q }),
+        End::Edge { .. } => {
+            let near = cycle.equation.is_near_miss().then(|| cycle.equation.source.near_miss(q));
+            return Err(match near.flatten() {
+                Some(NearMiss { dyad, miss, q }) => Unsteady::NearChangePoint { dyad, miss, q },
+                None => Unsteady::DeadPoint { q },
+            });
+        }
         End::Cancelled { .. } => return Err(Unsteady::Cancelled { q }),
         End::StepLimit { t: q, .. } => return Err(Unsteady::TooManySteps { q }),
         other => return Err(Unsteady::Other(other.to_string())),

@@ -158,6 +158,11 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
             || self.reader.place(self.tables, q).is_ok()
     }
 
+    /// Whether the last place that was refused is beside a near miss of a change point.
+    pub(super) fn is_near_miss(&self) -> bool {
+        matches!(self.refused, Some((Status::NearSingular, _)))
+    }
+
     /// Inertia, weights and springs at coordinates.
     #[inline]
     pub(super) fn place(&mut self, q: &[f64]) -> Result<(), Stop<O::Error>> {

@@ -14,6 +14,7 @@ use crate::dynamics::machine::Machine;
 use crate::dynamics::table::Table;
 use crate::mechanism::Mechanism;
 use crate::motion::Status;
+use crate::motion::follow::NearMiss;
 use crate::ode::{End, Error, Integrator, Keep, Options, Solution, System};
 use crate::plan::jet::Jets;
 
@@ -163,8 +164,13 @@ pub(super) fn breaks_of<E>(
 }
 
 /// Nothing is beyond: why, and where that was found.
-fn edge(refused: &mut Option<(Status, Vec<f64>)>) -> Ending {
-    let (status, q) = refused.take().unwrap_or((Status::Singular, Vec::new()));
+fn edge<S: Source, O: Outside>(equation: &mut Equation<'_, S, O>) -> Ending {
+    let (status, q) = equation.refused.take().unwrap_or((Status::Singular, Vec::new()));
+    if let (Status::NearSingular, &[at]) = (status, &q[..])
+        && let Some(NearMiss { dyad, miss, q }) = equation.source.near_miss(at)
+    {
+        return Ending::NearChangePoint { dyad, miss, q };
+    }
     Ending::Edge(status, q)
 }
 
@@ -191,15 +197,16 @@ fn finish<S: Source, O: Outside>(
         (End::Cancelled { .. }, _) => Ending::Cancelled,
         (_, Some(Ended::Table(which))) => Ending::TableEnds(which),
         (_, Some(Ended::Motor(which))) => Ending::MotorTableEnds(which),
-        (_, Some(Ended::Dead)) => edge(&mut way.equation.refused),
+        (_, Some(Ended::Dead)) => edge(&mut way.equation),
         (End::Event { index, .. }, _) => way.watch(index).map_or(Ending::Stalled, Ending::Event),
         (End::Edge { t } | End::Stalled { t }, _)
             if along == Along::Coordinate && way.is_dead(&[t], last_work) =>
         {
-            edge(&mut way.equation.refused)
+            edge(&mut way.equation)
         }
+        (End::Edge { .. }, _) if way.equation.is_near_miss() => edge(&mut way.equation),
         (End::Edge { .. }, _) if along == Along::Coordinate => Ending::Rest,
-        (End::Edge { .. }, _) => edge(&mut way.equation.refused),
+        (End::Edge { .. }, _) => edge(&mut way.equation),
         (End::StepLimit { stiff, .. }, _) => Ending::StepLimit(stiff),
         (End::Stalled { .. }, _) => Ending::Stalled,
     };

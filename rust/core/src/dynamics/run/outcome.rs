@@ -18,6 +18,16 @@ pub enum Ending {
     Rest,
     /// At a dead point, or where the way is not known: why there is nothing, and where that was.
     Edge(Status, Vec<f64>),
+    /// Beside a change point that the lengths of a dyad (its inner joint or slide) miss by so much,
+    /// m: where they are nearest, the motion turns within less than can be integrated.
+    NearChangePoint {
+        /// Inner joint or slide of the dyad.
+        dyad: String,
+        /// By how much its lengths miss, m.
+        miss: f64,
+        /// Where it is nearest to flat.
+        q: f64,
+    },
     /// Where a table over the coordinate ends: which.
     TableEnds(usize),
     /// Where the table of a motor ends: which motor.

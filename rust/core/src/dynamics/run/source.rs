@@ -9,8 +9,9 @@ use crate::dynamics::table::Table;
 use crate::dynamics::value::Numbers;
 use crate::mechanism::Mechanism;
 use crate::motion::Status;
-use crate::motion::follow::{Asked, Follower};
+use crate::motion::follow::{Asked, Follower, NearMiss};
 use crate::plan::jet::Jets;
+use crate::tolerance::NEAR_SINGULAR_CONDITION;
 
 /// A machine, place after place.
 pub(super) trait Source {
@@ -36,6 +37,9 @@ pub(super) trait Source {
     /// Where the dead point ahead of the one driver's coordinate is, if it is near.
     fn fold(&mut self, q: f64, way: f64) -> Option<f64>;
 
+    /// The near miss of a change point beside the one driver's coordinate, if there is one.
+    fn near_miss(&mut self, q: f64) -> Option<NearMiss>;
+
     /// Whether there is a dead point within this part of a radian (or of the size).
     fn is_beside_fold(&mut self, q: &[f64], within: f64) -> bool;
 
@@ -51,8 +55,9 @@ pub(super) struct Moving<'m> {
     follower: Follower<'m>,
 }
 
-/// Beyond this condition too few digits of the analogues are left to be integrated: some eight of
-/// them (64 u κ²). A dead point at a distance x has about 1/√x, so this is some 1e-7 before it.
+/// Beyond this condition of a dyad or group too few digits of the analogues are left to be
+/// integrated: some eight of them (64 u κ²). A dead point at a distance x has about 1/√x, so this
+/// is some 1e-7 before it.
 const GREATEST_CONDITION: f64 = 3.0e3;
 /// Where there is a dead point it is within this part of 1/κ².
 const FOLD_WITHIN: f64 = 1.0e3;
@@ -63,7 +68,7 @@ impl<'m> Moving<'m> {
     /// How far from here a dead point may be, in the coordinate's unit; not farther than `most` of
     /// it.
     fn reach(&self, driver: usize, most: f64) -> f64 {
-        let condition = self.follower.condition();
+        let (_, condition) = self.follower.condition();
         (FOLD_WITHIN / (condition * condition)).min(most) * self.follower.unit(driver)
     }
 
@@ -74,7 +79,7 @@ impl<'m> Moving<'m> {
         for (driver, reach) in reaches.into_iter().enumerate() {
             for way in [-reach, reach] {
                 beside[driver] = q[driver] + way;
-                if self.follower.solve(&beside).is_err() {
+                if self.follower.solve_aside(&beside).is_err() {
                     return true;
                 }
                 beside[driver] = q[driver];
@@ -98,9 +103,13 @@ impl<'m> Moving<'m> {
 impl Source for Moving<'_> {
     fn place(&mut self, q: &[f64], _: Numbers<'_>, out: &mut Reduced) -> Result<(), Status> {
         self.follower.solve(q)?;
-        if self.follower.condition() > GREATEST_CONDITION {
+        let (step, condition) = self.follower.condition();
+        if condition > GREATEST_CONDITION {
             if self.folds_near(q, f64::INFINITY) {
                 return Err(Status::Singular);
+            }
+            if q.len() == 1 && step.is_some() && condition > NEAR_SINGULAR_CONDITION {
+                return Err(Status::NearSingular);
             }
             self.follower.solve(q)?;
         }
@@ -145,13 +154,17 @@ impl Source for Moving<'_> {
         Some(there)
     }
 
+    fn near_miss(&mut self, q: f64) -> Option<NearMiss> {
+        self.follower.near_miss(q)
+    }
+
     fn is_beside_fold(&mut self, q: &[f64], within: f64) -> bool {
         self.follower.solve(q).is_err() || self.folds_near(q, within)
     }
 
     fn flatness(&mut self, q: &[f64]) -> f64 {
         match self.follower.solve(q) {
-            Ok(()) => 1.0 / self.follower.condition(),
+            Ok(()) => 1.0 / self.follower.condition().1,
             Err(_) => f64::NAN,
         }
     }
@@ -213,6 +226,10 @@ impl Source for &Sheet {
     }
 
     fn fold(&mut self, _: f64, _: f64) -> Option<f64> {
+        None
+    }
+
+    fn near_miss(&mut self, _: f64) -> Option<NearMiss> {
         None
     }
 

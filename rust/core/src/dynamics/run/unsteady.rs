@@ -33,6 +33,8 @@ pub enum Unsteady<E> {
     Weak { part: f64 },
     #[error("there is a dead point at q = {}: the driver does not turn fully", short(*q))]
     DeadPoint { q: f64 },
+    #[error("near q = {} the mechanism nearly has a change point: its lengths miss one by {} m at dyad {dyad:?}, and the motion turns there within less than can be integrated; draw the change point exactly, or lengths clear of it", short(*q), short(*miss))]
+    NearChangePoint { dyad: String, miss: f64, q: f64 },
     #[error("the motor's table ends at {} rad/s of the driver, met at q = {}", short(*speed), short(*q))]
     MotorTableEnds { q: f64, speed: f64 },
     #[error(

@@ -1,0 +1,87 @@
+//! Which dyad or group of a position is nearest to a singular one, by itself, and by how much the
+//! lengths of a dyad miss a change point.
+//!
+//! The condition of a position multiplies those along a chain; a long chain is large throughout
+//! and shows no single dyad that is about to fold.
+
+use super::state::{Context, State};
+use crate::plan::{Along, Dyad, Form, Group, Step, Unknown};
+
+impl State {
+    /// The step with the greatest condition by itself, and that condition; none without groups.
+    pub(crate) fn worst_by_itself(&self, cx: &Context<'_>) -> Option<(usize, f64)> {
+        let steps = cx.plan.steps.iter().enumerate();
+        let conditions = steps.filter_map(|(index, step)| match step {
+            Step::Dyad(dyad) => {
+                let of = self.condition2_of(dyad.unknowns[0]);
+                Some((index, of / self.before_dyad(cx, dyad)))
+            }
+            Step::Group(group) => {
+                let of = self.condition2_of(*group.unknowns.first()?);
+                Some((index, of / self.before_group(cx, group)))
+            }
+            _ => None,
+        });
+        let worst = conditions.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some((worst.0, worst.1.sqrt()))
+    }
+
+    fn condition2_of(&self, unknown: Unknown) -> f64 {
+        match unknown {
+            Unknown::Class(class) => self.class_condition[class][0],
+            Unknown::Slide(slide) => self.slide_condition[slide][0],
+        }
+    }
+
+    /// Square of the condition of what a dyad hangs on.
+    fn before_dyad(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
+        let ends = [dyad.start, dyad.end].map(|point| self.point_condition[point][0]);
+        let others = dyad.others.iter().map(|part| {
+            let class = cx.plan.class_of(part.edge);
+            let turned = if part.turns.is_none() { self.class_condition[class][0] } else { 1.0 };
+            match (cx.plan.edges[part.edge].along, part.slides) {
+                (Along::Slide(slide), None) => turned.max(self.slide_condition[slide][0]),
+                _ => turned,
+            }
+        });
+        others.fold(ends[0].max(ends[1]), f64::max)
+    }
+
+    /// The same of a group.
+    fn before_group(&self, cx: &Context<'_>, group: &Group) -> f64 {
+        let found: Vec<Unknown> = group.found().collect();
+        let ends = group.loops.iter().flat_map(|l| [l.start, l.end]);
+        let points = ends.map(|point| self.point_condition[point][0]);
+        let classes = group.edges.iter().map(|edge| cx.plan.class_of(edge.edge));
+        let carried = classes
+            .filter(|&class| !found.contains(&Unknown::Class(class)))
+            .map(|class| self.class_condition[class][0]);
+        points.chain(carried).fold(1.0, f64::max)
+    }
+
+    /// By how much the sides of a dyad's triangle miss those of a flat one, in units of the scale.
+    pub(crate) fn misses_flat_by(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
+        let a = self.turning(0, cx, dyad, 0, 0);
+        match dyad.form {
+            Form::TwoCircles => {
+                let b = self.turning(0, cx, dyad, 1, 0);
+                let (product, along, across) = (a.norm() * b.norm(), a.dot(b), a.cross(b));
+                let third = (a + b).norm();
+                // (a + b)² − c² or c² − (a − b)² is twice |a||b| (1 ± cos), and that the square of
+                // the sine by 1 ∓ cos.
+                let side = if along > 0.0 {
+                    a.norm() + b.norm() + third
+                } else {
+                    third + (a.norm() - b.norm()).abs()
+                };
+                2.0 * across * across / ((product + along.abs()) * side)
+            }
+            Form::CircleAndLine | Form::TurningGuide => {
+                let guide = self.sliding(0, cx, dyad, 1, 0);
+                let (along, across) = (guide.dot(a), guide.cross(a));
+                along * along / (a.norm() + across.abs())
+            }
+            Form::TwoLines => f64::INFINITY,
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Drawings of linkages with redundant links: adjusted until these fit at every position.
+//!
+//! Redundant links move only if some lengths agree, and typed coordinates agree to the digits they
+//! have. Moved along its motion, such a linkage misses its closure by `r`; the self-stress `ω` of
+//! the pose (`ωᵀ J = 0`) says that no displacement makes up for the part `ωᵀ r`. To first order a
+//! change `δ` of the drawing does where `ωᵀ (r + ∂r/∂δ · δ) = 0` at all poses: the least such
+//! change is found (minimum norm), and that again until nothing but rounding is left.
+
+use std::sync::atomic::AtomicBool;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::closure::{Closure, LeftOut, list, rotations};
+use super::freedom::{Pose, Skeleton, System};
+use crate::error::StructureError;
+use crate::linkage::Linkage;
+use crate::tolerance::{REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
+
+/// A misfit that is nothing but the rounding of coordinates, of the size.
+const EXACT: f64 = 16.0 * UNIT_ROUNDOFF;
+/// Length of a step along the motion (rad, or of the size), and steps each way.
+const STEP: f64 = 0.2;
+const STEPS: usize = 16;
+/// Directions that are tried where the drawing does not show which way it moves.
+const DIRECTIONS: usize = 4;
+/// Part of the poses at which a link must be redundant to be so everywhere.
+const MOSTLY: f64 = 0.75;
+/// Rounds, at most: each leaves the square of what the one before left.
+const ROUNDS: usize = 8;
+/// Eigenvalues (squares of singular values) that count, as a part of the greatest.
+const TRUNCATED: f64 = 1.0e-14;
+
+/// A drawing that was looked at.
+#[derive(Debug)]
+pub enum Adjusted {
+    /// It fits, or nothing is redundant.
+    AsDrawn,
+    /// Another drawing that fits, and how far its joints were moved at most, m.
+    By(Box<Linkage>, f64),
+    /// Lengths that should agree do not: the links concerned, by how much they miss (m), and what
+    /// part of the size that is.
+    TooFar { links: String, gap: f64, part: f64 },
+}
+
+/// Adjusts a drawing.
+///
+/// # Errors
+///
+/// [`StructureError::Interrupted`], and those of [`rotations`].
+pub fn adjust(
+    linkage: &Linkage,
+    closure: &Closure,
+    cancel: Option<&AtomicBool>,
+) -> Result<Adjusted, StructureError> {
+    let Some(first) = Conditions::of(linkage, closure, cancel)? else {
+        return Ok(Adjusted::AsDrawn);
+    };
+    if first.misfit() <= EXACT {
+        return Ok(Adjusted::AsDrawn);
+    }
+    let (part, size) = (first.misfit(), first.size);
+    let too_far = Adjusted::TooFar { links: first.links.clone(), gap: part * size, part };
+    let (mut best, mut conditions) = (linkage.clone(), first);
+    for _ in 0..ROUNDS {
+        let next = conditions.met(&best);
+        if moved(linkage, &next) > REDUNDANT_CLOSURE * size {
+            return Ok(too_far);
+        }
+        match Conditions::of(&next, closure, cancel)? {
+            Some(after) if after.misfit() < 0.5 * conditions.misfit() => {
+                (best, conditions) = (next, after);
+            }
+            _ => break,
+        }
+        if conditions.misfit() <= EXACT {
+            break;
+        }
+    }
+    if conditions.misfit() > REDUNDANT_CLOSURE {
+        return Ok(too_far);
+    }
+    let by = moved(linkage, &best);
+    Ok(Adjusted::By(Box::new(best), by))
+}
+
+/// How far the joints of one drawing are from those of another, at most.
+fn moved(one: &Linkage, other: &Linkage) -> f64 {
+    let pairs = one.joints.iter().zip(&other.joints);
+    pairs.flat_map(|(a, b)| [0, 1].map(|k| (a.at[k] - b.at[k]).abs())).fold(0.0, f64::max)
+}
+
+/// What a drawing must meet for its redundant links to fit: a row for every pose and self-stress.
+struct Conditions {
+    size: f64,
+    /// Names of links and slides that are under stress.
+    links: String,
+    /// Derivatives by the coordinates of all joints (of the size), then by the angles of guides.
+    rows: DMatrix<f64>,
+    /// Misfits, of the size.
+    misfits: DVector<f64>,
+}
+
+impl Conditions {
+    /// None if nothing is redundant.
+    fn of(
+        linkage: &Linkage,
+        closure: &Closure,
+        cancel: Option<&AtomicBool>,
+    ) -> Result<Option<Self>, StructureError> {
+        let everything = LeftOut::default();
+        let (free, classes) = rotations(linkage, &everything, false)?;
+        let skeleton = Skeleton::new(linkage, closure, &free, classes, cancel);
+        let system = System::new(linkage, closure, &everything, &free, false);
+        let here = skeleton.nearly_rank(&system, skeleton.drawing())?;
+        if here.excess == 0 || here.mobility == 0 {
+            return Ok(None);
+        }
+        let links = skeleton.stressed(&system, &here.stresses);
+        let (mut rows, mut misfits, mut poses) = (Vec::new(), Vec::new(), 0);
+        let mut stressed = 0;
+        for pose in walk(&skeleton, &system)? {
+            let rank = skeleton.nearly_rank(&system, &pose)?;
+            poses += 1;
+            stressed += usize::from(rank.excess > 0);
+            let residual = skeleton.residual(&system, &pose);
+            for stress in rank.stresses.column_iter() {
+                misfits.push(stress.dot(&residual));
+                rows.push(skeleton.by_drawing(&system, &pose, &stress.into_owned()));
+            }
+        }
+        if poses == 0 || (stressed as f64) < MOSTLY * f64::from(poses) {
+            return Ok(None);
+        }
+        Ok(Some(Self {
+            size: skeleton.size(),
+            links: list(links.iter().map(String::as_str)),
+            rows: DMatrix::from_fn(rows.len(), rows[0].len(), |i, j| rows[i][j]),
+            misfits: DVector::from_vec(misfits),
+        }))
+    }
+
+    fn misfit(&self) -> f64 {
+        self.misfits.amax()
+    }
+
+    /// The drawing with the least change that meets them.
+    fn met(&self, linkage: &Linkage) -> Linkage {
+        // Minimum norm: δ = Aᵀ (A Aᵀ)⁺ (−c), by the eigenvalues of A Aᵀ.
+        let eigen = (&self.rows * self.rows.transpose()).symmetric_eigen();
+        let least = TRUNCATED * eigen.eigenvalues.amax();
+        let mut weights = eigen.eigenvectors.tr_mul(&self.misfits);
+        for (weight, &value) in weights.iter_mut().zip(eigen.eigenvalues.iter()) {
+            *weight = if value > least { -*weight / value } else { 0.0 };
+        }
+        let change = self.rows.tr_mul(&(&eigen.eigenvectors * weights));
+        let mut next = linkage.clone();
+        for (j, joint) in next.joints.iter_mut().enumerate() {
+            for (k, at) in joint.at.iter_mut().enumerate() {
+                *at += self.size * change[2 * j + k];
+            }
+        }
+        for (s, slide) in next.slides.iter_mut().enumerate() {
+            slide.angle += change[2 * linkage.joints.len() + s];
+        }
+        next
+    }
+}
+
+/// Poses along the motion, both ways from the drawing.
+fn walk(skeleton: &Skeleton<'_>, system: &System) -> Result<Vec<Pose>, StructureError> {
+    let start = skeleton.nearly_rank(system, skeleton.drawing())?;
+    let mut found = Vec::new();
+    let directions = if start.mobility == 1 { 1 } else { DIRECTIONS };
+    for direction in 0..directions {
+        // Any mixture; the same one in every run.
+        let weights = DVector::from_fn(start.motions.ncols(), |k, _| {
+            (1.0 + 2.3 * (k + 3 * direction) as f64) % 1.7 - 0.83
+        });
+        for way in [1.0, -1.0] {
+            let mut pose = skeleton.drawing().clone();
+            let mut along = (&start.motions * &weights).scale(way);
+            for _ in 0..STEPS {
+                let step = along.scale(STEP / along.amax().max(f64::MIN_POSITIVE));
+                let Some(next) = skeleton.project_nearly(system, &pose, &step)? else { break };
+                let motions = skeleton.nearly_rank(system, &next)?.motions;
+                // The motion there that goes on as before.
+                let Some(gram) = motions.tr_mul(&motions).cholesky() else { break };
+                along = &motions * gram.solve(&motions.tr_mul(&along));
+                found.push(next.clone());
+                pose = next;
+            }
+        }
+    }
+    Ok(found)
+}

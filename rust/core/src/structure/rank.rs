@@ -1,0 +1,171 @@
+//! Rank of a system of closure equations, with the motions it allows and its self-stresses.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::elimination::{Elimination, SparseRows};
+use crate::tolerance::NEARLY_REDUNDANT;
+
+/// A rank with the spaces that belong to it.
+#[derive(Debug, Clone)]
+pub struct Rank {
+    /// Unknowns minus rank.
+    pub mobility: usize,
+    /// Equations minus rank.
+    pub excess: usize,
+    /// Columns that span the motions the equations allow (rows: unknowns).
+    pub motions: DMatrix<f64>,
+    /// Columns that span the self-stresses, the dependent equations (rows: equations).
+    pub stresses: DMatrix<f64>,
+}
+
+/// The work was called off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Interrupted;
+
+/// Rank of a matrix, its columns scaled to length 1; what is not above `least` counts as zero.
+///
+/// # Errors
+///
+/// [`Interrupted`] when `stop` says so.
+pub fn rank(
+    mut matrix: SparseRows,
+    unknowns: usize,
+    least: f64,
+    stop: impl Fn() -> bool,
+) -> Result<Rank, Interrupted> {
+    let equations = matrix.len();
+    let scale = scale_columns(&mut matrix, unknowns);
+    let eliminated = Elimination::of(matrix, unknowns, least, stop).ok_or(Interrupted)?;
+    let rank = eliminated.rank();
+    let mut motions = eliminated.null_space();
+    for (mut row, factor) in motions.row_iter_mut().zip(scale) {
+        row *= factor;
+    }
+    let stresses = eliminated.left_null_space();
+    Ok(Rank { mobility: unknowns - rank, excess: equations - rank, motions, stresses })
+}
+
+/// A solution of `matrix · x = right` in which what nearly depends on others is left out.
+///
+/// # Errors
+///
+/// [`Interrupted`] when `stop` says so.
+pub fn solve(
+    matrix: SparseRows,
+    unknowns: usize,
+    right: &DVector<f64>,
+    stop: impl Fn() -> bool,
+) -> Result<DVector<f64>, Interrupted> {
+    let eliminated =
+        Elimination::of(matrix, unknowns, NEARLY_REDUNDANT, stop).ok_or(Interrupted)?;
+    Ok(eliminated.solve(right))
+}
+
+/// Scales columns to length 1; returns the factors.
+fn scale_columns(matrix: &mut SparseRows, unknowns: usize) -> Vec<f64> {
+    let mut squares = vec![0.0; unknowns];
+    for &(column, value) in matrix.iter().flatten() {
+        squares[column] += value * value;
+    }
+    let factor = |square: f64| if square > 0.0 { 1.0 / square.sqrt() } else { 1.0 };
+    let scale: Vec<f64> = squares.into_iter().map(factor).collect();
+    for (column, value) in matrix.iter_mut().flatten() {
+        *value *= scale[*column];
+    }
+    scale
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tolerance::RANK;
+
+    /// A sparse matrix with entries of size 1, some rows and columns sums of others; the same
+    /// numbers for the same seed.
+    fn matrix(seed: u64) -> (SparseRows, usize) {
+        let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+        let mut next = move |below: usize| {
+            state ^= state >> 12;
+            state ^= state << 25;
+            state ^= state >> 27;
+            let high = state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33;
+            usize::try_from(high).expect("31 bits") % below
+        };
+        let (m, n) = (12 + next(20), 12 + next(20));
+        let mut all = DMatrix::<f64>::zeros(m, n);
+        for row in 0..m {
+            for _ in 0..=next(3) {
+                all[(row, next(n))] = 0.25 * (next(17) as f64 - 8.0);
+            }
+        }
+        for _ in 0..next(4) {
+            let (a, b, c) = (next(m), next(m), next(m));
+            let sum = all.row(a) + all.row(b);
+            all.set_row(c, &sum);
+            let (a, b, c) = (next(n), next(n), next(n));
+            let sum = all.column(a) + all.column(b);
+            all.set_column(c, &sum);
+        }
+        let entries = |row: usize| (0..n).map(move |c| (row, c));
+        let rows = (0..m).map(|row| {
+            let kept = entries(row).filter(|&place| all[place] != 0.0);
+            kept.map(|place| (place.1, all[place])).collect()
+        });
+        (rows.collect(), n)
+    }
+
+    fn dense(rows: &SparseRows, n: usize) -> DMatrix<f64> {
+        let mut all = DMatrix::zeros(rows.len(), n);
+        for (row, entries) in rows.iter().enumerate() {
+            for &(column, value) in entries {
+                all[(row, column)] = value;
+            }
+        }
+        all
+    }
+
+    /// Singular values of the columns, each scaled to length 1, that are above [`RANK`].
+    fn rank_by_singular_values(mut all: DMatrix<f64>) -> usize {
+        for mut column in all.column_iter_mut() {
+            let norm = column.norm();
+            if norm > 0.0 {
+                column /= norm;
+            }
+        }
+        // The squares' eigenvalues would lose half the digits; the matrix beside its transpose
+        // has the singular values and their negatives as eigenvalues (Golub & Van Loan 8.6).
+        let (m, n) = all.shape();
+        let mut both = DMatrix::zeros(m + n, m + n);
+        both.view_mut((0, m), (m, n)).copy_from(&all);
+        both.view_mut((m, 0), (n, m)).copy_from(&all.transpose());
+        both.symmetric_eigenvalues().iter().filter(|&&value| value > RANK).count()
+    }
+
+    #[test]
+    fn elimination_finds_the_rank_that_singular_values_find() {
+        let mut deficient = 0;
+        for seed in 1..400 {
+            let (rows, n) = matrix(seed);
+            let (all, m) = (dense(&rows, n), rows.len());
+            let found = rank(rows, n, RANK, || false).expect("goes on");
+            let wanted = rank_by_singular_values(all.clone());
+            assert_eq!((found.mobility, found.excess), (n - wanted, m - wanted), "{seed}");
+            deficient += usize::from(found.mobility.min(found.excess) > 0);
+            assert!((&all * &found.motions).amax() < 1e-12, "{seed}");
+            assert!((found.stresses.transpose() * &all).amax() < 1e-12, "{seed}");
+            for (span, dimension) in
+                [(&found.motions, found.mobility), (&found.stresses, found.excess)]
+            {
+                assert_eq!(span.ncols(), dimension, "{seed}");
+                assert!(dimension == 0 || span.rank(1e-9) == dimension, "{seed}");
+            }
+        }
+        assert!(deficient > 100, "{deficient} of them are deficient");
+    }
+
+    #[test]
+    fn elimination_can_be_stopped() {
+        let (rows, n) = matrix(1);
+        assert_eq!(rank(rows, n, RANK, || true).err(), Some(Interrupted));
+    }
+}
