@@ -142,7 +142,7 @@ pub enum StructureError {
     FlatDyad { dyad: String, name: String, sine: f64 },
     /// Links that would be redundant, were they drawn well enough.
     #[error(
-        "{links} can only move together if their lengths agree, and these are {gap:.1e} m off ({part:.0e} of the size; up to 1e-8 a drawing is adjusted): type it with more digits, or leave one of them out"
+        "{links} can only move together if their lengths agree, and these are {gap:.1e} m off ({part:.0e} of the size; up to 2e-9 a drawing is adjusted): type it with more digits, or leave one of them out"
     )]
     AlmostFits { links: String, gap: f64, part: f64 },
     /// The work was called off.

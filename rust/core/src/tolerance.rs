@@ -49,8 +49,8 @@ pub const NEARLY_REDUNDANT: f64 = 1.0e-6;
 
 /// A redundant link fits while its misfit is below this part of the size (or below
 /// [`CLOSURE_PER_CONDITION`] times the condition), and joints of a drawing are moved by no more
-/// until its redundant links fit: half a unit of the eighth digit, doubled.
-pub const REDUNDANT_CLOSURE: f64 = 1.0e-8;
+/// until its redundant links fit. Drawings typed with nine digits are off by less.
+pub const REDUNDANT_CLOSURE: f64 = 2.0e-9;
 
 /// No redundant link fits with a greater misfit, however bad the condition.
 pub const REDUNDANT_GREATEST: f64 = 1.0e-6;

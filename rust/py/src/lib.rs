@@ -50,6 +50,7 @@ mod _core {
     use super::{Bound, PyModule, PyResult, gate, pyfunction};
 
     #[pymodule_init]
+    #[allow(clippy::unnecessary_wraps, reason = "PyO3 asks for a result")]
     fn init(_module: &Bound<'_, PyModule>) -> PyResult<()> {
         gate::keep_places_of_panics();
         Ok(())

@@ -219,14 +219,14 @@ impl Mechanism {
         let [designs, positions] = guard(shape)?;
         let columns = request.columns(&self.inner);
         let rows = designs.saturating_mul(positions);
-        let (values, status): (Vec<Bound<'_, PyArray1<f64>>>, _) = match &kept {
-            Some(kept) => (kept.getattr("columns")?.extract()?, kept.getattr("status")?.extract()?),
-            None => {
+        let (values, status): (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>) =
+            if let Some(kept) = &kept {
+                (kept.getattr("columns")?.extract()?, kept.getattr("status")?.extract()?)
+            } else {
                 let status = unwritten::<u8>(py, rows, 1)?;
                 let new = columns.iter().map(|column| unwritten::<f64>(py, rows, column.width));
                 (new.collect::<PyResult<_>>()?, status)
-            }
-        };
+            };
         // Two calls cannot write the same arrays at once.
         let mut held = Vec::new();
         for array in &values {

@@ -192,10 +192,10 @@ impl Run {
         guard(|| match postcard::take_from_bytes(written) {
             Ok((run, [])) => Ok(Self(run)),
             Ok((_, rest)) => {
-                let message = format!("these bytes are not a run: {} too many", rest.len());
+                let message = format!("these bytes are no run: {} too many", rest.len());
                 Err(error::input(message, None))
             }
-            Err(e) => Err(error::input(format!("these bytes are not a run: {e}"), None)),
+            Err(e) => Err(error::input(format!("these bytes are no run: {e}"), None)),
         })
     }
 

@@ -117,18 +117,26 @@ impl<'m> Follower<'m> {
         self.state.status
     }
 
-    /// The greatest condition of a dyad or group of the last position by itself, and which step of
-    /// the plan that is; none beside a change point, where the position is a polynomial's.
+    /// The condition of the last position: the product along its worst chain.
+    pub(crate) fn product(&self) -> f64 {
+        self.state.condition2[0].sqrt()
+    }
+
+    /// The greatest condition of a dyad or group of the last position by itself, and the step of the
+    /// plan if that is a dyad with two solutions. (Beside a change point the position is a
+    /// polynomial's, and the condition is that of its nodes.)
     pub(crate) fn condition(&self) -> (Option<usize>, f64) {
         let beside_change = match *self.q {
             [q] => self.design.track.change_near(q, self.design.bridge.reach).is_some(),
             _ => false,
         };
         let worst = self.state.worst_by_itself(&self.design.context(self.design.jets));
-        match worst.filter(|_| !beside_change) {
-            Some((step, condition)) => (Some(step), condition),
-            None => (None, self.state.condition2[0].sqrt()),
-        }
+        let Some((step, condition)) = worst.filter(|_| !beside_change) else {
+            return (None, self.product());
+        };
+        let is_flat_soon = |step: &Step| matches!(step, Step::Dyad(dyad) if dyad.sign.is_some());
+        let steps = &self.design.mechanism.plan().steps;
+        (Some(step).filter(|&step| is_flat_soon(&steps[step])), condition)
     }
 
     /// Solves at a coordinate without leaving the position from which the next one is reached.

@@ -32,6 +32,10 @@ const MOST_REFUSALS: u32 = 256;
 /// before, near an edge some are refused soon.
 const FREE: u32 = 8;
 
+/// So often a step is tried again because an invariant has moved: what then is left does not depend
+/// on its width.
+const MOST_DOUBTS: u32 = 3;
+
 /// So many restarts at one place are no progress: pieces whose borders do not meet send the run to
 /// and fro.
 const MOST_STANDS: u32 = 64;
@@ -73,6 +77,8 @@ pub(super) struct Run<'a, S> {
     free: u32,
     /// Events met at one place, one after another.
     stands: u32,
+    /// Steps refused for the drift of an invariant, one after another.
+    doubted: u32,
     record: Record<'a>,
     statistics: Statistics,
 }
@@ -103,6 +109,7 @@ impl<'a, S: System> Run<'a, S> {
             refusals: 0,
             free: 0,
             stands: 0,
+            doubted: 0,
             statistics: Statistics::default(),
         }
     }
@@ -166,6 +173,7 @@ impl<'a, S: System> Run<'a, S> {
                 Refusal::System(error) => Err(Error::System(error)),
             };
         }
+        self.system.watch_invariant(self.t, &y.as_flattened()[..*n]);
         if self.h.is_none() {
             let most = (self.t_end - self.t).abs().min(self.options.max_step);
             let width = if let Some(width) = self.options.first_step {
@@ -249,7 +257,7 @@ impl<'a, S: System> Run<'a, S> {
     /// Makes a step and says how large its error is. All stages are there if it is good.
     fn attempt(&mut self, h: f64, t_new: f64) -> Result<f64, Refusal<S::Error>> {
         let output = self.work.watch.len() > 0 || self.record.asks_before(t_new);
-        let Integrator { stages, interpolant, y, new, .. } = &mut *self.work;
+        let Integrator { n, stages, interpolant, y, new, .. } = &mut *self.work;
         let end = stages.tableau.stages;
         stages.advance(self.system, self.t, y, h, new)?;
         if let Some(component) = new.as_flattened().iter().position(|y| !y.is_finite()) {
@@ -276,6 +284,11 @@ impl<'a, S: System> Run<'a, S> {
         if !stages.tableau.error_needs_end {
             stages.evaluate(self.system, end, t_new, new)?;
         }
+        let drift = self.system.drift(t_new, &new.as_flattened()[..*n]);
+        if drift > 1.0 && self.doubted < MOST_DOUBTS {
+            self.doubted += 1;
+            return Ok(drift);
+        }
         // The stages of the continuous output take the place of what this looks at.
         self.stiff = stages.is_stiff(&self.scale, y, new, h);
         if output {
@@ -288,6 +301,7 @@ impl<'a, S: System> Run<'a, S> {
     /// Takes a good step, as far as no event cuts it.
     fn accept(&mut self, h: f64, t_new: f64, last: bool) -> Result<Next, Error<S::Error>> {
         self.obstacle = None;
+        self.doubted = 0;
         self.free = self.free.saturating_add(1);
         if self.free >= FREE {
             self.refusals = 0;
@@ -302,6 +316,7 @@ impl<'a, S: System> Run<'a, S> {
         self.stands += 1;
         self.t = reached;
         let Some(cut) = cut else {
+            self.system.keep_invariant();
             std::mem::swap(&mut self.work.y, &mut self.work.new);
             self.work.stages.turn_over();
             return Ok(Next::Step);

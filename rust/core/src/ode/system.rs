@@ -91,6 +91,22 @@ pub trait System {
         Ok(Action::Continue)
     }
 
+    /// An invariant is watched from here: the right-hand side was asked last for this state.
+    fn watch_invariant(&mut self, t: f64, y: &[f64]) {
+        let _ = (t, y);
+    }
+
+    /// How far an invariant has moved over a step whose end is this state, for which the right-hand
+    /// side was asked last: in tolerances, of which it may take one. (An estimate of the error sees
+    /// a narrow feature between its stages as little as they do.)
+    fn drift(&mut self, t: f64, y: &[f64]) -> f64 {
+        let _ = (t, y);
+        0.0
+    }
+
+    /// The step that was asked for its [`System::drift`] last was taken.
+    fn keep_invariant(&mut self) {}
+
     /// Whether the run is to end, as after a signal or a deadline. Asked every few steps.
     fn cancelled(&mut self) -> bool {
         false

@@ -11,7 +11,7 @@ use crate::mechanism::Mechanism;
 use crate::motion::Status;
 use crate::motion::follow::{Asked, Follower, NearMiss};
 use crate::plan::jet::Jets;
-use crate::tolerance::NEAR_SINGULAR_CONDITION;
+use crate::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
 
 /// A machine, place after place.
 pub(super) trait Source {
@@ -42,6 +42,9 @@ pub(super) trait Source {
 
     /// Whether there is a dead point within this part of a radian (or of the size).
     fn is_beside_fold(&mut self, q: &[f64], within: f64) -> bool;
+
+    /// Part of the inertia at the last place that is rounding.
+    fn noise(&self) -> f64;
 
     /// How far coordinates are from a singular position (the inverse of the condition); NaN where
     /// there is nothing.
@@ -88,6 +91,23 @@ impl<'m> Moving<'m> {
         false
     }
 
+    /// Refuses a place beside a dead point or a near miss of a change point.
+    #[cold]
+    #[inline(never)]
+    fn look_around(&mut self, q: &[f64]) -> Result<(), Status> {
+        let (step, condition) = self.follower.condition();
+        if condition > GREATEST_CONDITION {
+            if self.folds_near(q, f64::INFINITY) {
+                return Err(Status::Singular);
+            }
+            if q.len() == 1 && step.is_some() && condition > NEAR_SINGULAR_CONDITION {
+                return Err(Status::NearSingular);
+            }
+            self.follower.solve(q)?;
+        }
+        Ok(())
+    }
+
     pub(super) fn new(
         machine: &'m Machine,
         mechanism: &'m Mechanism,
@@ -103,15 +123,9 @@ impl<'m> Moving<'m> {
 impl Source for Moving<'_> {
     fn place(&mut self, q: &[f64], _: Numbers<'_>, out: &mut Reduced) -> Result<(), Status> {
         self.follower.solve(q)?;
-        let (step, condition) = self.follower.condition();
-        if condition > GREATEST_CONDITION {
-            if self.folds_near(q, f64::INFINITY) {
-                return Err(Status::Singular);
-            }
-            if q.len() == 1 && step.is_some() && condition > NEAR_SINGULAR_CONDITION {
-                return Err(Status::NearSingular);
-            }
-            self.follower.solve(q)?;
+        // No dyad has more by itself than the whole position.
+        if self.follower.product() > GREATEST_CONDITION {
+            self.look_around(q)?;
         }
         self.machine.place(&Pose::new(self.follower.position(), self.jets), out);
         Ok(())
@@ -160,6 +174,11 @@ impl Source for Moving<'_> {
 
     fn is_beside_fold(&mut self, q: &[f64], within: f64) -> bool {
         self.follower.solve(q).is_err() || self.folds_near(q, within)
+    }
+
+    fn noise(&self) -> f64 {
+        let condition = self.follower.product();
+        ANALOGUE_PER_CONDITION_SQUARED * condition * condition
     }
 
     fn flatness(&mut self, q: &[f64]) -> f64 {
@@ -235,6 +254,10 @@ impl Source for &Sheet {
 
     fn is_beside_fold(&mut self, _: &[f64], _: f64) -> bool {
         false
+    }
+
+    fn noise(&self) -> f64 {
+        0.0
     }
 
     fn flatness(&mut self, _: &[f64]) -> f64 {

@@ -39,7 +39,18 @@ pub(super) struct Way<'a, S, O> {
     energy: Option<[f64; 2]>,
     /// What is as near to a dead point may be at it.
     near: f64,
+    /// The relative tolerance.
+    relative: f64,
+    /// Kinetic and potential energy less work where a step begins, and at the end of the last that
+    /// was tried.
+    total: f64,
+    tried: f64,
 }
+
+/// In so many tolerances the energy may change over a step, as its error is estimated.
+const DRIFT: f64 = 3.0;
+/// Roundings of the energies themselves that are not counted as such.
+const ROUNDINGS: f64 = 64.0;
 
 /// Part of the energies of a motion below which what is left of the kinetic energy is none: the
 /// balance is kept far better.
@@ -63,6 +74,9 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
             drivers: task.q.len(),
             energy: None,
             near: (1.0e3 * task.relative).clamp(NEAR, FAR),
+            relative: task.relative,
+            total: f64::NAN,
+            tried: f64::NAN,
         }
     }
 
@@ -76,6 +90,29 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
         let reduced = &self.equation.reduced;
         self.energy = Some([reduced.kinetic(task.speed), reduced.potential]);
         Ok(())
+    }
+
+    /// Kinetic and potential energy less work at the place found last, and its tolerance.
+    fn balance(&self, y: &[f64]) -> (f64, f64) {
+        let n = self.drivers;
+        let alone = [self.sign * y[0].max(0.0).sqrt()];
+        let (speed, work) = match self.along {
+            Along::Time => (&y[n..2 * n], y[2 * n]),
+            Along::Coordinate => (&alone[..], y[2]),
+        };
+        let (reduced, source) = (&self.equation.reduced, &self.equation.source);
+        let kinetic = reduced.kinetic(speed);
+        // Speeds are good to the tolerance, coordinates to as much of their unit.
+        let by_place = |driver: usize| {
+            let change = reduced.centrifugal(driver, speed) - reduced.stored[driver];
+            change.abs() * source.unit(driver)
+        };
+        let by_places: f64 = (0..n).map(by_place).sum();
+        let size = kinetic.abs() + reduced.potential.abs() + work.abs();
+        let allowed = DRIFT * self.relative * (2.0 * kinetic + by_places)
+            + ROUNDINGS * f64::EPSILON * size
+            + source.noise() * kinetic;
+        (kinetic + reduced.potential - work, allowed)
     }
 
     /// Whether a driver that rests at coordinates after some work is at a dead point: there is one
@@ -292,6 +329,22 @@ impl<S: Source, O: Outside> System for Way<'_, S, O> {
             Along::Coordinate => y[0] = speed * speed,
         }
         Ok(Action::Restart)
+    }
+
+    fn watch_invariant(&mut self, _: f64, y: &[f64]) {
+        self.total = self.balance(y).0;
+    }
+
+    fn drift(&mut self, _: f64, y: &[f64]) -> f64 {
+        let (total, allowed) = self.balance(y);
+        self.tried = total;
+        // Where the energy is not a number nothing is known of it.
+        let drift = (total - self.total).abs() / allowed;
+        if drift.is_finite() { drift } else { 0.0 }
+    }
+
+    fn keep_invariant(&mut self) {
+        self.total = self.tried;
     }
 
     fn cancelled(&mut self) -> bool {
