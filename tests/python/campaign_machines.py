@@ -1,0 +1,191 @@
+"""All checks of one machine: reductions and the energy balance of a run.
+
+Both sides of every comparison start from `Mechanism.solve`; energies, powers and generalised
+forces are the ones of `machine_energy`, the work is a quadrature of its own.
+"""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import assur
+from assur import Status
+from campaign_report import Findings
+from machine_energy import Balance
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from assur.run import Run
+    from machine_models import Case
+
+RTOL = 1e-9
+BALANCE = 10.0  # times rtol of the greatest energy
+# Gauss-Legendre nodes on the dense output between two steps. The work by half as many says what
+# the quadrature itself is good for.
+NODES, FEWER = 12, 6
+QUADRATURE = 0.1  # of what is allowed, else the interval is halved
+HALVINGS = 6
+PLACES = 4  # where reductions are compared
+REACH = 0.4  # either way of the drawing, rad or m
+# Of the sum of absolute values, besides 64 u κ² of analogues and 8 u κ of positions.
+MOMENT = 1e-10
+POTENTIAL = 1e-12
+U = 2.220446049250313e-16
+MAX_STEPS = 1000
+# The coordinate is granted rtol of a radian, which changes the kinetic energy by rtol ∂E/∂q: near a
+# dead point by any amount. A run is compared up to where ∂E/∂q is so many times the energy.
+SLOPE = 200.0
+SLOPE_STEP = 1e-6
+
+
+class Checked(Findings):
+    """All checks of one machine."""
+
+    def __init__(self, case: Case) -> None:
+        super().__init__()
+        self.case, self.machine = case, case.machine
+        self.rng = np.random.default_rng(case.seed)
+        mechanism = case.machine.mechanism
+        assert mechanism is not None
+        self.mechanism, self.drivers = mechanism, int(np.size(mechanism.q0))
+        counts = self.report.counts
+        counts["machines"] += 1
+        counts["of class II"] += mechanism.structure.cls == 2
+        counts["two drivers"] += self.drivers > 1
+        counts["with motors"] += case.machine.motor is not None
+        for load in case.machine.loads:
+            counts[type(load).__name__] += 1
+        self.guarded(self.reductions)
+        self.guarded(self.run)
+
+    # -- reductions ---------------------------------------------------------------------------
+
+    def reductions(self) -> None:
+        """Inertia, moments and potential at random positions and speeds."""
+        machine, n = self.machine, self.drivers
+        q = np.asarray(self.mechanism.q0) + self.rng.uniform(-REACH, REACH, (PLACES, n))
+        speed = self.rng.uniform(-3.0, 3.0, (PLACES, n))
+        plain = (lambda x: x) if n > 1 else (lambda x: x[:, 0])
+        own = Balance(machine, np.zeros(PLACES), q, speed)
+        inertia = machine.reduced_inertia(plain(q), on_error="nan").value.reshape(PLACES, n, n)
+        moment = machine.reduced_moment(plain(q), plain(speed), on_error="nan")
+        potential = machine.potential(plain(q), on_error="nan")
+        good = np.asarray(own.motion.status == Status.OK)
+        self.report.counts["reductions"] += int(good.sum())
+        condition = np.where(good, own.motion.condition, 1.0)
+        with np.errstate(invalid="ignore"):
+            forces = np.concatenate([own.conservative(), own.applied()])
+            wanted, size = forces.sum(axis=0), np.abs(forces).sum(axis=(0, 2))
+            allowed = (MOMENT + 64 * U * condition**2) * size
+            apart = np.abs(moment.reshape(PLACES, n) - wanted).max(axis=1)
+            self.compare("moment", apart, allowed, good, q)
+            twice = 2.0 * own.kinetic()
+            apart = np.abs(np.einsum("ij,ijk,ik->i", speed, inertia, speed) - twice)
+            size = np.einsum("ij,ijk,ik->i", np.abs(speed), np.abs(inertia), np.abs(speed))
+            self.compare("inertia", apart, (MOMENT + 64 * U * condition**2) * size, good, q)
+            parts = own.potentials()
+            apart, size = np.abs(potential - parts.sum(axis=0)), np.abs(parts).sum(axis=0)
+            self.compare("potential", apart, (POTENTIAL + 8 * U * condition) * size, good, q)
+
+    def compare(self, kind: str, apart: Any, allowed: Any, good: Any, q: Any) -> None:
+        part = np.where(good, apart / np.maximum(allowed, 1e-300), 0.0)
+        self.report.note(kind, float(np.max(np.nan_to_num(part, nan=np.inf))))
+        for k in np.flatnonzero(~(part <= 1.0))[:1]:
+            self.fail(kind, f"q = {q[k]!r}: off by {apart[k]:.3g}, allowed {allowed[k]:.3g}")
+
+    # -- a run --------------------------------------------------------------------------------
+
+    def run(self) -> None:
+        """Energy is kept on the way, as far as positions are not near singular ones."""
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            run = self.machine.run(
+                self.case.t_end, None, self.case.speed0, rtol=RTOL, max_steps=MAX_STEPS
+            )
+        for one in caught:
+            if not issubclass(one.category, assur.AssurWarning):
+                self.fail("warned", str(one.message))
+        counts = self.report.counts
+        counts[f"end {run.end}"] += 1
+        counts["warned of energy"] += bool(caught)
+        last = self.last(run)
+        counts["cut"] += last < len(run.t) - 1
+        counts["steps"] += len(run.t) - 1
+        counts["compared"] += max(last, 0)
+        if last < 1:
+            counts["nothing compared"] += 1
+            return
+        own = Balance(self.machine, run.t[: last + 1], run.q[: last + 1], run.speed[: last + 1])
+        kinetic, potentials = own.kinetic(), own.potentials()
+        work, absolute = self.work(run, last, float(kinetic.max()))
+        stored = potentials - potentials[:, :1]
+        imbalance = np.abs(kinetic - kinetic[0] + stored.sum(axis=0) - work)
+        size = self.size(kinetic, stored, absolute)
+        # Positions, and so potentials, are rounded to 8 u κ.
+        heights = np.abs(potentials).sum(axis=0) * own.motion.condition
+        allowed = BALANCE * RTOL * size + 8 * U * float(heights.max())
+        self.report.note("balance", float(imbalance.max() / allowed))
+        if not imbalance.max() <= allowed:
+            k = int(np.argmax(imbalance))
+            text = f"{imbalance[k]:.3g} J of {size:.3g} J at t = {float(run.t[k])!r}"
+            self.fail("balance", f"{text} ({run.end})")
+
+    def size(self, kinetic: Any, stored: Any, absolute: Any) -> float:
+        """The greatest energy: kinetic, stored in weights and springs, or gone through loads."""
+        parts = kinetic, np.abs(stored).sum(axis=0), absolute
+        return max(float(part.max()) for part in parts)
+
+    def last(self, run: Run) -> int:
+        """The last step up to which the tolerances tell the energy."""
+        q, speed = (np.reshape(one, (len(run.t), -1)) for one in (run.q, run.speed))
+        status = self.mechanism.solve(run.q, 0, [], on_error="nan").status
+        count = len(q) if (status == Status.OK).all() else int(np.argmax(status != Status.OK))
+        if not count:
+            return -1
+        t, q, speed = run.t[:count], q[:count], speed[:count]
+        greatest = np.maximum.accumulate(Balance(self.machine, t, q, speed).kinetic())
+        good = np.ones(count, np.bool_)
+        for k in range(self.drivers):
+            step = SLOPE_STEP * (np.arange(self.drivers) == k)
+            low, high = (Balance(self.machine, t, q + s * step, speed) for s in (-1, 1))
+            slope = np.abs(high.kinetic() - low.kinetic()) / (2 * SLOPE_STEP)
+            good &= slope <= SLOPE * greatest
+        return count - 1 if good.all() else int(np.argmin(good)) - 1
+
+    def work(self, run: Run, last: int, size: float) -> tuple[Any, Any]:
+        """Work since the beginning at every step, and that of absolute powers."""
+        ends = run.t[: last + 1]
+        starts, widths = ends[:-1].copy(), np.diff(ends)
+        owner = np.arange(last)
+        total, absolute = np.zeros(last), np.zeros(last)
+        for halving in range(HALVINGS + 1):
+            fine, both = self.quadrature(run, starts, widths, NODES)
+            rough, _ = self.quadrature(run, starts, widths, FEWER)
+            share = QUADRATURE * BALANCE * RTOL * max(size, float(absolute.sum() + both.sum()))
+            good = np.abs(fine - rough) <= share * widths / widths.sum()
+            good |= halving == HALVINGS
+            np.add.at(total, owner[good], fine[good])
+            np.add.at(absolute, owner[good], both[good])
+            starts, widths, owner = starts[~good], 0.5 * widths[~good], owner[~good]
+            if not len(starts):
+                break
+            self.report.counts["quadratures halved"] += len(starts)
+            starts = np.concatenate([starts, starts + widths])
+            widths, owner = np.tile(widths, 2), np.tile(owner, 2)
+        return np.append(0.0, np.cumsum(total)), np.append(0.0, np.cumsum(absolute))
+
+    def quadrature(
+        self, run: Run, starts: Any, widths: Any, nodes: int
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Integrals of the power and of its absolute parts over intervals."""
+        x, weight = np.polynomial.legendre.leggauss(nodes)
+        t = (starts[:, np.newaxis] + 0.5 * widths[:, np.newaxis] * (x + 1.0)).ravel()
+        state = run.at(t)
+        powers = Balance(self.machine, t, state.q, state.speed).powers()
+        signed = powers.sum(axis=0).reshape(-1, nodes) @ weight
+        parts = np.abs(powers).sum(axis=0).reshape(-1, nodes) @ weight
+        return 0.5 * widths * signed, 0.5 * widths * parts
