@@ -219,9 +219,7 @@ def main() -> int:
         ("mixed", "of dyads and higher groups in any order"),
         ("machines", "with bodies, loads and motors"),
     ):
-        kinds.add_argument(
-            f"--{which}", dest="which", action="store_const", const=which, help=text
-        )
+        kinds.add_argument(f"--{which}", dest="which", action="store_const", const=which, help=text)
     parser.add_argument("--processes", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--out", type=Path, help="page to be written")
     given = parser.parse_args()

@@ -48,8 +48,7 @@ class Sample:
         if direction is not None:
             rates = [rate @ direction for rate in rates]
         self.value, self.rate = (
-            np.concatenate([one.reshape(n, -1) for one in both], axis=1)
-            for both in (values, rates)
+            np.concatenate([one.reshape(n, -1) for one in both], axis=1) for both in (values, rates)
         )
 
         self.reached: Bools = self.status <= Status.SINGULAR

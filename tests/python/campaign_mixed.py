@@ -20,7 +20,6 @@ from description import arguments
 if TYPE_CHECKING:
     import models
     from campaign_geometry import Array
-    from description import Description
 
 DESIGNS = 3  # beside the drawing
 CHANGES = (0.02, 0.40)  # of dimensions, either way
@@ -48,10 +47,11 @@ class Path:
         reach = TURN if all(turning) and not self.many else REACH
         step = rng.uniform(*STEPS)
         count = int(reach / step)
-        t = step * (np.arange(-count, count + 1) + rng.uniform(0.0, 1.0))
+        t = np.asarray(step * (np.arange(-count, count + 1) + rng.uniform(0.0, 1.0)), np.float64)
         # With one driver the parameter is q itself, so that its neighbours are q's.
-        self.grid = t if self.many else float(m.q0) + t
-        self.fine = t if self.many else float(m.q0) + _finer(t)
+        base = 0.0 if self.many else float(m.q0)
+        self.grid: Array = base + t
+        self.fine: Array = base + (t if self.many else _finer(t))
 
     def q(self, t: Array) -> Array:
         if not self.many:
@@ -103,7 +103,7 @@ class Mixed(Findings):
         if int(motion.status) not in (Status.OK, Status.NEAR_SINGULAR):
             self.fail("drawing", motion.explain())
             return
-        drawn = np.array([p for p in self.description.joints.values()], np.float64)
+        drawn = np.array(list(self.description.joints.values()), np.float64)
         found = np.array([motion.joint(n).value for n in self.description.joints])
         base = np.array(self.description.joints[self.description.links["ground"][0]])
         size = float(np.abs(drawn - base).max())

@@ -73,13 +73,14 @@ def machines(report: Report) -> str:
         *((f"runs that ended: {name[4:]}", number(report, name)) for name in ends),
         ("steps of all runs", number(report, "steps")),
         ("steps compared", number(report, "compared")),
-        ("runs compared up to a place before their end only", number(report, "cut")),
+        ("runs compared up to a position that is not `OK`", number(report, "cut")),
         ("runs with nothing to compare", number(report, "nothing compared")),
         ("runs whose own balance warned", number(report, "warned of energy")),
         (
-            f"greatest imbalance, in {of_machines.BALANCE:g} rtol of the greatest energy",
-            greatest(report, "balance"),
+            f"runs within {of_machines.BALANCE:g} rtol of the greatest energy",
+            number(report, "within the greatest energy"),
         ),
+        ("greatest imbalance, in what is allowed", greatest(report, "balance")),
     ]
     return page(report, MACHINES, rows, "")
 
@@ -146,15 +147,17 @@ SciPy's splines).
   the law's 64 u κ² (8 u κ).
 - **Energy.** In a run with rtol = {of_machines.RTOL:g} the kinetic and potential energy change by
   the work of all other loads and motors, which is integrated by Gauss and Legendre's rule with
-  {of_machines.NODES} nodes on the dense output between steps. The imbalance at every step is at
-  most {of_machines.BALANCE:g} rtol of the greatest energy.
-- **Nothing raises or panics**, and a run warns of nothing but what it says of itself.
+  {of_machines.NODES} nodes on the dense output between steps. A run is granted rtol of a radian in
+  its coordinate too, which changes its energy E by rtol ∂E/∂q: beside a dead point that is more
+  than rtol of E. The imbalance at every step is at most {of_machines.BALANCE:g} rtol of the
+  greatest energy, or of the greatest ∂E/∂q (J/rad; for a slide, by the size of the drawing) so far
+  if that is greater; the table says how many runs keep to the greatest energy alone.
+- **Nothing raises or panics**, and a run warns only by `AssurWarning`.
 
-A run is granted rtol of a radian in its coordinate, which changes its kinetic energy by
-rtol ∂E/∂q. Near a dead point ∂E/∂q is without bound, so that no energy is known there. A run is
-compared up to where ∂E/∂q (per rad) exceeds {of_machines.SLOPE:g} times the greatest kinetic
-energy, or to the first position that is not `OK`; the table says how many end there. Drawings with
-a condition above {math.floor(machine_models.CONDITION):d} are drawn again.
+A run is compared up to its first position that is not `OK`, mostly beside the dead point that ends
+it; the table says how many. Drawings with a condition above
+{math.floor(machine_models.CONDITION):d} are drawn again, and a run has at most
+{of_machines.MAX_STEPS} steps.
 
 | | |
 | --- | --- |

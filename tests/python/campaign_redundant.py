@@ -63,7 +63,7 @@ class Overconstrained(Findings):
             if not MISFIT.search(str(error)) or case.digits >= FITTING:
                 self.fail("refused", f"{case.digits} digits: {error}")
             return
-        here = path.sample(typed, path.grid - exact.q0 + typed.q0)
+        here = path.sample(typed, path.grid - float(exact.q0) + float(typed.q0))
         counts["positions"] += 2 * here.q.size
         self.moves(there, here)
         self.closes(typed, here)

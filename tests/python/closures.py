@@ -92,7 +92,7 @@ class Closures:
         """The law's size: greatest extent from the ground's first joint, slides' values too."""
         far = [np.abs(p - self.base) for p in places.joints.values()]
         far += [np.abs(v) for v in places.values.values()]
-        return np.maximum(np.max(far, axis=0), self.drawn)
+        return np.asarray(np.maximum(np.max(far, axis=0), self.drawn))
 
     def misfit(self, motion: assur.Motion) -> tuple[Array, Array]:
         """Greatest misfit at every position in the law's 8 u κ of the size, and κ."""
@@ -103,8 +103,8 @@ class Closures:
         arms = self._arms(places, size)
         for error, arm in self._slides(places, arms):
             np.maximum(worst, np.abs(error) * arm, out=worst)
-        for error, arm in self._drivers(places, arms, motion):
-            np.maximum(worst, np.abs(error) * arm, out=worst)
+        for apart, arm in self._drivers(places, arms, motion):
+            np.maximum(worst, np.abs(apart) * arm, out=worst)
         turned = [np.abs(angle) for angle in places.angles.values()]
         condition = np.asarray(motion.condition)
         # Angles count turns, and are rounded as such.

@@ -94,7 +94,8 @@ class Balance:
         """The distance of two places."""
         span = self.place(second) - self.place(first)
         length = np.abs(span.value)
-        unit = np.conj(span.value / length)[:, np.newaxis]
+        with np.errstate(invalid="ignore"):
+            unit = np.conj(span.value / length)[:, np.newaxis]
         return Moving(length, np.real(unit * span.rates))
 
     def relative(self, load: Any) -> Moving:
@@ -180,8 +181,10 @@ class Balance:
                 torque = self.number(load.torque)
                 parts.append(torque[:, np.newaxis] * self.relative(load).rates)
             elif isinstance(load, assur.Damper | assur.TorsionDamper):
-                is_torsion = isinstance(load, assur.TorsionDamper)
-                what = self.relative(load) if is_torsion else self.along(load.first, load.second)
+                if isinstance(load, assur.Damper):
+                    what = self.along(load.first, load.second)
+                else:
+                    what = self.relative(load)
                 against = -load.damping * self.velocity(what)
                 parts.append(against[:, np.newaxis] * what.rates)
         return np.array(parts)
@@ -223,5 +226,6 @@ def spline(table: assur.Table, periodic: bool) -> Callable[[Any], Any]:
 
     if table.spline == "linear":
         return lambda x: np.interp(within(x), knots, values)
-    curve = CubicSpline(knots, values, bc_type=table.spline)
+    kind: Any = table.spline
+    curve = CubicSpline(knots, values, bc_type=kind)
     return lambda x: curve(within(x))

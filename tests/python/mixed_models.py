@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import models
-from description import GROUND, Description
+from description import GROUND
 from pair_jacobian import regularity
 
 if TYPE_CHECKING:
@@ -166,4 +166,3 @@ def draw_kinds(rng: random.Random) -> list[str]:
         for k in rng.sample(range(count), rng.choice((1, 1, 2)) if count > 1 else 1):
             kinds[k] = rng.choices(list(GROUPS), weights)[0]
     return kinds
-

@@ -58,9 +58,9 @@ def jacobian(
     for name, slide in description.slides.items():
         relative(slide.link, slide.on, 0.0, turning=1.0)
         guide(name, 1j * np.asarray(along[name]))
-    for kind, name, *other in description.drivers:
+    for kind, name, *on in description.drivers:
         if kind == "angle":
-            relative(name, other[0] if other else GROUND, 0.0, turning=1.0)
+            relative(name, on[0] if on else GROUND, 0.0, turning=1.0)
         else:
             guide(name, np.asarray(along[name]))
     return np.stack(rows, axis=-2)
