@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 DESIGNS = 3  # beside the drawing
 CHANGES = (0.02, 0.40)  # of dimensions, either way
-# The path: steps, and ends to either side in rad or (of a slide, of two drivers together) m.
+# The path: mean steps, and ends to either side in rad or (of a slide, of two drivers together) m.
 STEPS = (0.08, 0.16)
 TURN = 1.2 * math.pi
 REACH = 1.2
@@ -45,9 +45,10 @@ class Path:
         angle = rng.uniform(-math.pi, math.pi)
         self.direction = np.array([math.cos(angle), math.sin(angle)])
         reach = TURN if all(turning) and not self.many else REACH
-        step = rng.uniform(*STEPS)
-        count = int(reach / step)
-        t = np.asarray(step * (np.arange(-count, count + 1) + rng.uniform(0.0, 1.0)), np.float64)
+        count = int(reach / rng.uniform(*STEPS))
+        part = (np.arange(-count, count) + rng.uniform(0.1, 0.9)) / count
+        # Closer to the drawing, because some motions end soon.
+        t = np.asarray(reach * part * np.abs(part), np.float64)
         # With one driver the parameter is q itself, so that its neighbours are q's.
         base = 0.0 if self.many else float(m.q0)
         self.grid: Array = base + t
@@ -216,4 +217,5 @@ def _rows(motion: assur.Motion) -> Array:
 
 def _finer(t: Array) -> Array:
     """The same span in smaller steps."""
-    return np.linspace(t[0], t[-1], FINER * (len(t) - 1) + 1)
+    k = np.arange(len(t))
+    return np.interp(np.linspace(0.0, k[-1], FINER * int(k[-1]) + 1), k, t)
