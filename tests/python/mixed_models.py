@@ -11,6 +11,8 @@ from collections import Counter
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from hypothesis import strategies as st
+
 import models
 from description import GROUND
 from pair_jacobian import regularity
@@ -166,3 +168,8 @@ def draw_kinds(rng: random.Random) -> list[str]:
         for k in rng.sample(range(count), rng.choice((1, 1, 2)) if count > 1 else 1):
             kinds[k] = rng.choices(list(GROUPS), weights)[0]
     return kinds
+
+
+def mixed() -> st.SearchStrategy[models.Case]:
+    """Dyads and higher groups in any order."""
+    return st.builds(mixed_case, st.integers(0, 2**32 - 1))
