@@ -191,7 +191,7 @@ def work(count: int, which: str = "class II") -> list[tuple[str, int]]:
 
 def run_all(count: int, processes: int, which: str = "class II") -> Report:
     """The same on several processes, with progress on stderr."""
-    report, begun, todo, done = Report(), time.monotonic(), work(count, which), 0
+    report, start, todo, done = Report(), time.monotonic(), work(count, which), 0
     with ProcessPoolExecutor(processes) as pool:
         portions = [todo[i : i + PORTION] for i in range(0, count, PORTION)]
         futures = {pool.submit(run, portion): len(portion) for portion in portions}
@@ -200,7 +200,7 @@ def run_all(count: int, processes: int, which: str = "class II") -> Report:
             for text in one.failures[: max(0, SHOWN - len(report.failures))]:
                 sys.stderr.write(f"\r{text}\n")
             report.add(one)
-            done, spent = done + futures[future], time.monotonic() - begun
+            done, spent = done + futures[future], time.monotonic() - start
             left = spent / done * (count - done) / 60
             note = f"\r{done} of {count}, {len(report.failures)} failures, {left:.0f} min left "
             sys.stderr.write(note)

@@ -120,7 +120,8 @@ wheels, or a crosshead with a second guide, with up to two groups hung on it. It
 random angle and its numbers are rounded to {redundant_models.DIGITS[0]} to
 {redundant_models.DIGITS[1]} digits. Construction either refuses it and says by how much it misfits
 (never with {of_redundant.FITTING} digits or more), or it must move wherever the exact one does,
-within {of_redundant.MOVED:g} κ times the rounding of it.
+within {of_redundant.MOVED:g} κ times the rounding of it. So must designs of the exact one that are
+scaled as a whole, or whose dimensions are off by up to {of_redundant.OFF:g} of themselves.
 
 | | |
 | --- | --- |

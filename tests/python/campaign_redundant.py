@@ -25,10 +25,12 @@ if TYPE_CHECKING:
 
 # Data of so many digits or more fit to rounding: they must be taken.
 FITTING = 14
-# The rounding moves a position by κ times its size, times what has been the most in 10 000 tries
-# with room; near a fold, from κ = ROOM / sqrt(rounding) on, it moves the fold past the position.
-MOVED = 100.0
+# The rounding moves a position by about κ times itself (of the size; at most 2.3 times that was
+# seen). From κ = ROOM / sqrt(rounding) on it may move a fold past the position.
+MOVED = 20.0
 ROOM = 0.03
+# Designs of the exact one: scaled as a whole, and every dimension off by so much of itself.
+SCALE, OFF = 1.1, 1e-12
 MISFIT = re.compile(r"\d m\b|\d rad\b")
 
 
@@ -56,6 +58,7 @@ class Overconstrained(Findings):
         if case.everywhere and not there.reached.all():
             k = int(np.argmin(there.reached))
             self.fail("moves", f"exact: {there.motion.explain(k)}")
+        self.designs(exact, path, there)
         try:
             typed = assur.Mechanism(**arguments(case.typed))
         except assur.AssurError as error:
@@ -75,6 +78,21 @@ class Overconstrained(Findings):
         )
         self.report.counts.update(count)
         self.fail("jump", *found)
+
+    def designs(self, exact: assur.Mechanism, path: Path, there: Sample) -> None:
+        """What fits but for rounding moves too."""
+        off = {
+            n: v * (1.0 + OFF * self.rng.uniform(-1.0, 1.0)) for n, v in exact.dimensions.items()
+        }
+        angles = (".angle", ".link_angle")
+        scaled = {n: v if n.endswith(angles) else SCALE * v for n, v in own.items()}
+        batch = exact.with_dimensions({n: [off[n], scaled[n]] for n in off})
+        motion = batch.solve(path.q(path.grid), order=1, on_error="nan", threads=1)
+        self.report.counts["positions"] += motion.status.size
+        wanted = there.reached & (np.asarray(there.motion.condition) < ROOM / np.sqrt(OFF))
+        for i, what in enumerate(("off by 1e-12", "scaled")):
+            missing = np.flatnonzero(wanted & (motion.status[i] > Status.SINGULAR))
+            self.fail(f"design {what}", *(motion.explain((i, int(k))) for k in missing))
 
     def moves(self, there: Sample, here: Sample) -> None:
         """Wherever the exact one is, and there."""
