@@ -37,8 +37,10 @@ class Sample:
         direction: Array | None = None,
     ) -> None:
         self.motion, self.order, m = motion, order, motion.mechanism
-        tracks = [motion.joint(n) for n in m.joints] + [motion.slide(n) for n in m.slides]
-        self.lengths = 2 * len(m.joints) + len(m.slides)
+        # Of a design `joints` would solve it at the drawing's coordinate.
+        joints = dict.fromkeys(n for own in m.links.values() for n in own)
+        tracks = [motion.joint(n) for n in joints] + [motion.slide(n) for n in m.slides]
+        self.lengths = 2 * len(joints) + len(m.slides)
         tracks += [motion.link(n) for n in m.links]
         n = motion.status.size
         self.q = motion.q.reshape(n) if parameter is None else parameter

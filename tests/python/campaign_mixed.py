@@ -146,11 +146,11 @@ class Mixed(Findings):
             self.fail("explain", f"{where}: {text!r}")
 
     def bits(self, motion: assur.Motion) -> None:
-        """Each design alone, some of its positions in any order: the same bits."""
+        """The drawing and another design alone, at some positions in any order: the same bits."""
         grid, width = self.path.grid, len(self.path.grid)
         whole = _rows(motion).reshape(DESIGNS + 1, width, -1)
-        alone = [self.m, *(self.batch.design(i) for i in range(1, DESIGNS + 1))]
-        for i, m in enumerate(alone):
+        for i in (0, int(self.rng.integers(1, DESIGNS + 1))):
+            m = self.batch.design(i) if i else self.m
             few = self.rng.permutation(width)[: self.rng.integers(1, width)]
             other = _rows(m.solve(self.path.q(grid[few]), order=1, on_error="nan", threads=1))
             apart = np.flatnonzero((other != whole[i, few]).any(axis=1))
@@ -207,7 +207,7 @@ def designs(m: assur.Mechanism, rng: np.random.Generator) -> assur.Mechanism:
 def _rows(motion: assur.Motion) -> Array:
     """Everything in the motion, a row of whole numbers a position."""
     m, n = motion.mechanism, motion.status.size
-    tracks = [motion.joint(j) for j in m.joints]
+    tracks = [motion.joint(j) for j in dict.fromkeys(j for own in m.links.values() for j in own)]
     tracks += [motion.link(j) for j in m.links] + [motion.slide(j) for j in m.slides]
     parts = [one.reshape(n, -1) for track in tracks for one in (track.value, track.d1)]
     rows = np.concatenate([*parts, motion.status.reshape(n, 1)], axis=1)

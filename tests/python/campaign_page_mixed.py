@@ -100,8 +100,8 @@ What is checked of every mechanism:
 
 - **The drawing.** It is regular (the least singular value of its Jacobian says so), so it must be
   accepted, and at its own coordinate every joint is where it was drawn.
-- **The same bits.** Each design alone, at some of the positions in any order, has the bits that it
-  has in the batch.
+- **The same bits.** The drawing and another design, each alone and at some of the positions in any
+  order, have the bits that they have in the batch.
 - **No false OK.** Every position with values satisfies every pin, guide and driver to the law's
   8 u κ of the size. The equations follow from the table of dimensions in
   [the conventions](conventions.md) and share no code with `assur`.

@@ -81,9 +81,8 @@ class Overconstrained(Findings):
 
     def designs(self, exact: assur.Mechanism, path: Path, there: Sample) -> None:
         """What fits but for rounding moves too."""
-        off = {
-            n: v * (1.0 + OFF * self.rng.uniform(-1.0, 1.0)) for n, v in exact.dimensions.items()
-        }
+        own, rng = exact.dimensions, self.rng
+        off = {n: v * (1.0 + OFF * rng.uniform(-1.0, 1.0)) for n, v in own.items()}
         angles = (".angle", ".link_angle")
         scaled = {n: v if n.endswith(angles) else SCALE * v for n, v in own.items()}
         batch = exact.with_dimensions({n: [off[n], scaled[n]] for n in off})

@@ -35,18 +35,18 @@ class Places:
     values: dict[str, Array]  # of slides
 
     @classmethod
-    def of(cls, motion: assur.Motion, bare: list[str]) -> Places:
-        m = motion.mechanism
+    def of(cls, motion: assur.Motion, description: Description) -> Places:
+        bare = [n for n, own in description.links.items() if n != GROUND and not own]
 
         def point(value: Array) -> Complex:
             where: Complex = value[..., 0] + 1j * value[..., 1]
             return where
 
         return cls(
-            {n: point(motion.joint(n).value) for n in m.joints},
-            {n: motion.link(n).value for n in m.links if n != GROUND},
+            {n: point(motion.joint(n).value) for n in description.joints},
+            {n: motion.link(n).value for n in description.links if n != GROUND},
             {n: point(motion._place(n).value) for n in bare},
-            {n: motion.slide(n).value for n in m.slides},
+            {n: motion.slide(n).value for n in description.slides},
         )
 
 
@@ -56,8 +56,6 @@ class Closures:
     def __init__(self, description: Description, dimensions: dict[str, Array]) -> None:
         self.description = description
         self.dimensions = dimensions
-        self.links = [n for n in description.links if n != GROUND]
-        self.bare = [n for n in self.links if not description.links[n]]
         drawn = [complex(*p) for p in description.joints.values()]
         self.base = complex(*description.joints[description.links[GROUND][0]])
         self.drawn = max(abs(p - self.base) for p in drawn)
@@ -96,7 +94,7 @@ class Closures:
 
     def misfit(self, motion: assur.Motion) -> tuple[Array, Array]:
         """Greatest misfit at every position in the law's 8 u κ of the size, and κ."""
-        places = Places.of(motion, self.bare)
+        places = Places.of(motion, self.description)
         size, worst = self.size(places), np.zeros(motion.status.shape)
         for error in self._joints(places):
             np.maximum(worst, np.abs(error), out=worst)
@@ -178,7 +176,7 @@ class Closures:
 
     def determinants(self, motion: assur.Motion) -> Array:
         """The Jacobian's determinant at every position; the size of it with redundant links."""
-        places = Places.of(motion, self.bare)
+        places = Places.of(motion, self.description)
         rows = jacobian(self.description, places.joints, self.directions(places))
         if rows.shape[-1] == rows.shape[-2]:
             return np.asarray(np.linalg.det(rows))

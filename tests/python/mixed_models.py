@@ -42,7 +42,7 @@ TWO = ("two_cranks", "arm")
 SLIDING = 0.25  # of the turning pairs become sliding ones
 TWICE = 0.1  # of the mechanisms have two drivers
 HIGHER = 0.85  # of the mechanisms have a group above class II of their own
-MOVED = 0.4  # of the mechanisms are driven by another pair, link or two links
+MOVED = 0.25  # of the mechanisms are driven by another pair, link or two links
 LEAST_APART = 0.2
 # The least singular value of the drawing's Jacobian: no drawing is near a dead point.
 REGULAR = 2e-3
