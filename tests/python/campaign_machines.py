@@ -135,8 +135,8 @@ class Checked(Findings):
         rounded = 8 * U * float(heights.max())
         strict = float(imbalance.max()) / (BALANCE * RTOL * size + rounded)
         counts["within the greatest energy"] += strict <= 1.0
-        known = np.maximum(size, self.slopes(run, last))
-        part = imbalance / (BALANCE * RTOL * known + rounded)
+        known = np.full(last + 1, size) if strict <= 1.0 else self.slopes(run, last)
+        part = imbalance / (BALANCE * RTOL * np.maximum(known, size) + rounded)
         self.report.note("balance", float(part.max()))
         if not part.max() <= 1.0:
             k = int(np.argmax(part))
