@@ -35,7 +35,8 @@ REACH = 0.4  # either way of the drawing, rad or m
 MOMENT = 1e-10
 POTENTIAL = 1e-12
 U = 2.220446049250313e-16
-MAX_STEPS = 1000
+MAX_STEPS = 1000  # tried
+COMPARED = 300  # steps of a run, the first ones
 # The derivative of the energy by the coordinate, at so many places of each step.
 SLOPE_STEP = 1e-7
 SLOPES = 8
@@ -116,7 +117,7 @@ class Checked(Findings):
         counts["warned of energy"] += bool(caught)
         status = self.mechanism.solve(run.q, 0, [], on_error="nan").status
         last = int(np.argmax(status != Status.OK) if (status != Status.OK).any() else len(status))
-        last -= 1
+        last = min(last - 1, COMPARED)
         counts["cut"] += last < len(run.t) - 1
         counts["steps"] += len(run.t) - 1
         counts["compared"] += max(last, 0)

@@ -73,7 +73,7 @@ def machines(report: Report) -> str:
         *((f"runs that ended: {name[4:]}", number(report, name)) for name in ends),
         ("steps of all runs", number(report, "steps")),
         ("steps compared", number(report, "compared")),
-        ("runs compared up to a position that is not `OK`", number(report, "cut")),
+        ("runs not compared up to their end", number(report, "cut")),
         ("runs with nothing to compare", number(report, "nothing compared")),
         ("runs whose own balance warned", number(report, "warned of energy")),
         (
@@ -156,9 +156,9 @@ SciPy's splines).
 - **Nothing raises or panics**, and a run warns only by `AssurWarning`.
 
 A run is compared up to its first position that is not `OK`, mostly beside the dead point that ends
-it; the table says how many. Drawings with a condition above
-{math.floor(machine_models.CONDITION):d} are drawn again, and a run has at most
-{of_machines.MAX_STEPS} steps.
+it; the table says how many runs have such an end. Drawings with a condition above
+{math.floor(machine_models.CONDITION):d} are drawn again; a run tries at most
+{of_machines.MAX_STEPS} steps, and its first {of_machines.COMPARED} are compared.
 
 | | |
 | --- | --- |
