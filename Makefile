@@ -33,7 +33,7 @@ help:
 	@echo "make rust-test    the Rust half of it"
 	@echo "make python-test  the Python half of it"
 	@echo "make bench        benchmarks, beside NumPy and numba"
-	@echo "make campaign     random mechanisms by the hundred thousand (half an hour); docs/campaign*.md"
+	@echo "make campaign     random mechanisms by the hundred thousand (three hours); docs/campaign*.md"
 	@echo "make clean        remove everything that was built, the environment too"
 
 run: rust-tools $(EXTENSION)
@@ -64,6 +64,8 @@ bench: rust-tools $(EXTENSION) $(DEV_STAMP)
 campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) tests/python/campaign.py --count 100000 --out docs/campaign.md
 	$(PY) tests/python/campaign.py --higher --count 10000 --out docs/campaign-higher.md
+	$(PY) tests/python/campaign.py --mixed --count 100000 --out docs/campaign-mixed.md
+	$(PY) tests/python/campaign.py --machines --count 10000 --out docs/campaign-machines.md
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/test_function_of_q.py
 
 clean:

@@ -1,8 +1,10 @@
 """A campaign over random mechanisms: nothing jumps, nothing is called solved that is not, every
-gap is real.
+gap is real, and the energy of machines is kept.
 
     python tests/python/campaign.py --count 100000 --out docs/campaign.md
     python tests/python/campaign.py --higher --count 10000 --out docs/campaign-higher.md
+    python tests/python/campaign.py --mixed --count 100000 --out docs/campaign-mixed.md
+    python tests/python/campaign.py --machines --count 10000 --out docs/campaign-machines.md
 """
 
 from __future__ import annotations
@@ -11,10 +13,8 @@ import argparse
 import os
 import sys
 import time
-import traceback
-from collections import Counter
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,48 +25,35 @@ import campaign_cases as cases
 import campaign_checks as checks
 from assur import Status
 from campaign_geometry import Geometry, Sample
-from campaign_page import page
+from campaign_machines import Checked
+from campaign_mixed import Mixed
+from campaign_page import one_kind
+from campaign_page_mixed import machines, mixed
+from campaign_redundant import Overconstrained
+from campaign_report import Findings, Report, raised
 from description import arguments
+from machine_models import machine_case
+from mixed_models import mixed_case
+from redundant_models import redundant_case
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from numpy.typing import NDArray
+    from collections.abc import Callable, Iterable
 
     import models
     from campaign_geometry import Array
 
-# Mechanisms given to a process at once, and one in how many is built to have change points.
+# Mechanisms given to a process at once, and one in how many is built to have change points, or is
+# overconstrained.
 PORTION = 200
-CHANGING = 10
+FEW = {"changing": 10, "overconstrained": 20}
 SHOWN = 20  # failures printed as they come
 
 
-@dataclass
-class Report:
-    """Counts, worst figures and failures; reports of different mechanisms add up."""
-
-    counts: Counter[str] = field(default_factory=Counter)
-    worst: dict[str, float] = field(default_factory=dict)
-    failures: list[str] = field(default_factory=list)
-
-    def add(self, other: Report) -> None:
-        self.counts.update(other.counts)
-        self.failures += other.failures
-        for name, value in other.worst.items():
-            self.note(name, value)
-
-    def note(self, name: str, value: float) -> None:
-        """A figure of which the greatest is wanted."""
-        self.worst[name] = max(self.worst.get(name, 0.0), value)
-
-
-class Check:
+class Check(Findings):
     """All checks of one mechanism."""
 
     def __init__(self, case: models.Case) -> None:
-        self.report = Report()
-        self.failed: set[str] = set()
+        super().__init__()
         self.rng = np.random.default_rng(case.seed)
         self.changing = case.driver in cases.CHANGING
         try:
@@ -93,12 +80,6 @@ class Check:
         self.fail("analogues", *found)
         self.report.counts["differences"] += points
         self.report.note("difference", worst)
-
-    def fail(self, kind: str, *texts: str) -> None:
-        """Of each kind the first: the others mostly have its cause."""
-        if texts and kind not in self.failed:
-            self.failed.add(kind)
-            self.report.failures.append(f"{kind}: {texts[0]}")
 
     def solve(self, q: Array) -> Sample:
         """Positions and first analogues; their statuses must fit them."""
@@ -131,23 +112,6 @@ class Check:
         self.fail("false", *(f"status {fine.status[i]} at q = {fine.q[i]!r}" for i in false))
         return condition
 
-    def is_pole(self, edges: Array) -> NDArray[np.bool_]:
-        """Whether a point goes to infinity right behind the ends."""
-        size = self.geometry.drawn
-        way = np.sign(edges[:, 1] - edges[:, 0])
-        inside, before = (
-            self.solve(edges[:, 0]),
-            self.solve(edges[:, 0] - way * checks.POLE_STEP),
-        )
-        near, far = (np.abs(sample.value[:, : sample.lengths]) for sample in (inside, before))
-        if not self.higher:
-            return np.asarray(near.max(axis=1) > checks.POLE * size)
-        place = np.arange(len(near)), near.argmax(axis=1)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            distance = checks.POLE_STEP * far[place] / (near[place] - far[place])
-        is_near = (distance > 0.0) & (distance < checks.POLE_NEAR)
-        return np.asarray((near[place] > checks.POLE_OF_GROUPS * size) & is_near)
-
     def motion(self, fine: Sample) -> None:
         """Nothing jumps; where it ends is a dead point."""
         size = self.geometry.drawn
@@ -166,7 +130,7 @@ class Check:
         if not len(edges):
             return
         edges = checks.bisected(self.solve, edges)
-        far = self.is_pole(edges)
+        far = checks.poles(self.solve, edges, size, self.higher)
         edges = edges[~far]
         self.report.counts["infinite"] += int(far.sum())
         self.report.counts["gaps"] += len(edges)
@@ -180,43 +144,64 @@ class Check:
         self.fail("explain", *(text for text in told if not any(word in text for word in words)))
 
 
+PAGES: dict[str, Callable[[Report], str]] = {
+    "class II": lambda report: one_kind(report, higher=False),
+    "higher": lambda report: one_kind(report, higher=True),
+    "mixed": mixed,
+    "machines": machines,
+}
+
+
+def _drawn_by(make: Callable[[int], models.Case], seed: int) -> Check:
+    return Check(make(seed))
+
+
+# What is checked of a mechanism or machine, by kind and seed.
+CHECKS: dict[str, Callable[[int], Findings]] = {
+    **{kind: partial(_drawn_by, make) for kind, make in cases.MAKE.items()},
+    "mixed": lambda seed: Mixed(mixed_case(seed)),
+    "overconstrained": lambda seed: Overconstrained(redundant_case(seed)),
+    "machine": lambda seed: Checked(machine_case(seed)),
+}
+
+
 def run(work: Iterable[tuple[str, int]]) -> Report:
     """The checks of (kind, seed); what a mechanism raises is a failure, panics too."""
     report = Report()
     for kind, seed in work:
         try:
-            one = Check(cases.MAKE[kind](seed)).report
+            one = CHECKS[kind](seed).report
         except KeyboardInterrupt:
             raise
         except BaseException:  # noqa: BLE001 (a panic of the core is no Exception)
-            one = Report(failures=[" ".join(traceback.format_exc(limit=-3).split())])
+            one = Report(failures=[raised()])
         one.failures = [f"{kind} {seed}: {text}" for text in one.failures]
         report.add(one)
     return report
 
 
-def work(count: int, higher: bool = False) -> list[tuple[str, int]]:
-    """So many mechanisms."""
-    if higher:
-        return [("higher", i) for i in range(count)]
-    changing = count // CHANGING
-    return [("changing", i) for i in range(changing)] + [
-        ("random", i) for i in range(count - changing)
-    ]
+def work(count: int, which: str = "class II") -> list[tuple[str, int]]:
+    """So many mechanisms (or machines) of a campaign."""
+    if which in ("higher", "machines"):
+        return [(which.rstrip("s"), i) for i in range(count)]
+    some, most = {"class II": ("changing", "random"), "mixed": ("overconstrained", "mixed")}[which]
+    few = count // FEW[some]
+    return [(some, i) for i in range(few)] + [(most, i) for i in range(count - few)]
 
 
-def run_all(count: int, processes: int, higher: bool = False) -> Report:
+def run_all(count: int, processes: int, which: str = "class II") -> Report:
     """The same on several processes, with progress on stderr."""
-    report, begun, todo = Report(), time.monotonic(), work(count, higher)
+    report, start, todo, done = Report(), time.monotonic(), work(count, which), 0
     with ProcessPoolExecutor(processes) as pool:
         portions = [todo[i : i + PORTION] for i in range(0, count, PORTION)]
-        for future in as_completed([pool.submit(run, portion) for portion in portions]):
+        futures = {pool.submit(run, portion): len(portion) for portion in portions}
+        for future in as_completed(futures):
             one = future.result()
             for text in one.failures[: max(0, SHOWN - len(report.failures))]:
                 sys.stderr.write(f"\r{text}\n")
             report.add(one)
-            done, spent = report.counts["mechanisms"], time.monotonic() - begun
-            left = spent / max(done, 1) * (count - done) / 60
+            done, spent = done + futures[future], time.monotonic() - start
+            left = spent / done * (count - done) / 60
             note = f"\r{done} of {count}, {len(report.failures)} failures, {left:.0f} min left "
             sys.stderr.write(note)
             sys.stderr.flush()
@@ -227,13 +212,20 @@ def run_all(count: int, processes: int, higher: bool = False) -> Report:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=100_000, help="mechanisms")
-    parser.add_argument("--higher", action="store_true", help="of class III and IV")
+    parser.add_argument("--count", type=int, default=100_000, help="mechanisms or machines")
+    kinds = parser.add_mutually_exclusive_group()
+    for which, text in (
+        ("higher", "of class III and IV"),
+        ("mixed", "of dyads and higher groups in any order"),
+        ("machines", "with bodies, loads and motors"),
+    ):
+        kinds.add_argument(f"--{which}", dest="which", action="store_const", const=which, help=text)
     parser.add_argument("--processes", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--out", type=Path, help="page to be written")
     given = parser.parse_args()
-    report = run_all(given.count, given.processes, given.higher)
-    text = page(report.counts, report.worst, report.failures, given.higher)
+    which = given.which or "class II"
+    report = run_all(given.count, given.processes, which)
+    text = PAGES[which](report)
     if given.out:
         given.out.write_text(text, encoding="utf-8")
     else:

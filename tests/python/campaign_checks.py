@@ -6,7 +6,7 @@ bodies.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
@@ -15,7 +15,8 @@ from agreement import POSITION
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from campaign_geometry import Array, Bools, Geometry, Sample
+    import assur
+    from campaign_geometry import Array, Bools, Sample
 
 Solve: TypeAlias = "Callable[[Array], Sample]"
 Test: TypeAlias = "Callable[[Array, Array, Array, Array, Array], Bools]"
@@ -54,6 +55,13 @@ DIFFERENCE_STEP = 1e-3
 DIFFERENCE_CONDITION = 50.0
 DIFFERENCE_MARGIN = 4.0  # times the change when the step is halved (their error is 1/15 of it)
 DIFFERENCE_KNOWN = 1e-3  # where halving the step changes more (of the value), they tell nothing
+
+
+class HasDeterminants(Protocol):
+    """Something that knows the Jacobian of a mechanism's bodies."""
+
+    def determinants(self, motion: assur.Motion) -> Array:
+        """The Jacobian's determinant at every position."""
 
 
 def broken(
@@ -117,11 +125,11 @@ def bends(h: Array, moved: Array, u: Array, v: Array, scale: Array) -> Bools:
     return np.asarray(np.abs(moved - 0.5 * h * (u + v)) <= BEND * scale)
 
 
-def bisected(solve: Solve, edges: Array) -> Array:
-    """Edges with their two ends neighbouring numbers, or nearly so."""
+def bisected(solve: Solve, edges: Array, bits: int = 4) -> Array:
+    """Edges with their two ends neighbouring numbers, or nearly so; so many bits in a call."""
     inside, outside = edges[:, 0].copy(), edges[:, 1].copy()
-    parts = np.arange(1, 16) / 16.0
-    for _ in range(14):  # 2^-56 of a cell
+    parts = np.arange(1, 2**bits) / 2.0**bits
+    for _ in range(56 // bits):  # 2^-56 of a cell
         grid = inside[:, np.newaxis] + parts * (outside - inside)[:, np.newaxis]
         reached = solve(grid.reshape(-1)).reached.reshape(grid.shape)
         first = np.where(reached.all(axis=1), len(parts), np.argmin(reached, axis=1))
@@ -133,7 +141,21 @@ def bisected(solve: Solve, edges: Array) -> Array:
     return np.stack([inside, outside], axis=1)
 
 
-def unreal(solve: Solve, geometry: Geometry, edges: Array) -> tuple[list[str], float]:
+def poles(solve: Solve, edges: Array, size: float, higher: bool) -> Bools:
+    """Whether a point goes to infinity right behind the ends (bisected)."""
+    way = np.sign(edges[:, 1] - edges[:, 0])
+    inside, before = solve(edges[:, 0]), solve(edges[:, 0] - way * POLE_STEP)
+    near, far = (np.abs(sample.value[:, : sample.lengths]) for sample in (inside, before))
+    if not higher:
+        return np.asarray(near.max(axis=1) > POLE * size)
+    place = np.arange(len(near)), near.argmax(axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        distance = POLE_STEP * far[place] / (near[place] - far[place])
+    is_near = (distance > 0.0) & (distance < POLE_NEAR)
+    return np.asarray((near[place] > POLE_OF_GROUPS * size) & is_near)
+
+
+def unreal(solve: Solve, geometry: HasDeterminants, edges: Array) -> tuple[list[str], float]:
     """Ends of gaps (bisected) that are no folds, and the worst ratio of those that are."""
     if not len(edges):
         return [], 0.0

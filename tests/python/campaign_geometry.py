@@ -24,20 +24,33 @@ Bools: TypeAlias = NDArray[np.bool_]
 class Sample:
     """A motion in arrays, one row a position; the columns are joints, slides, then links.
 
-    Values and their rates are those of order 0, or first analogues and the second.
+    Values and their rates are those of order 0, or first analogues and the second. With several
+    drivers q is the parameter of a straight path, and rates are by it: the second and third
+    arguments are its values and the path's direction.
     """
 
-    def __init__(self, motion: assur.Motion, order: int = 0) -> None:
+    def __init__(
+        self,
+        motion: assur.Motion,
+        order: int = 0,
+        parameter: Array | None = None,
+        direction: Array | None = None,
+    ) -> None:
         self.motion, self.order, m = motion, order, motion.mechanism
-        tracks = [motion.joint(n) for n in m.joints] + [motion.slide(n) for n in m.slides]
-        self.lengths = 2 * len(m.joints) + len(m.slides)
+        # Of a design `joints` would solve it at the drawing's coordinate.
+        joints = dict.fromkeys(n for own in m.links.values() for n in own)
+        tracks = [motion.joint(n) for n in joints] + [motion.slide(n) for n in m.slides]
+        self.lengths = 2 * len(joints) + len(m.slides)
         tracks += [motion.link(n) for n in m.links]
-        n = motion.q.size
-        self.q = motion.q.reshape(n)
+        n = motion.status.size
+        self.q = motion.q.reshape(n) if parameter is None else parameter
         self.status = motion.status.reshape(n)
+        names = ("value", "d1") if order == 0 else ("d1", "d2")
+        values, rates = ([getattr(t, name) for t in tracks] for name in names)
+        if direction is not None:
+            rates = [rate @ direction for rate in rates]
         self.value, self.rate = (
-            np.concatenate([getattr(t, name).reshape(n, -1) for t in tracks], axis=1)
-            for name in (("value", "d1") if order == 0 else ("d1", "d2"))
+            np.concatenate([one.reshape(n, -1) for one in both], axis=1) for both in (values, rates)
         )
 
         self.reached: Bools = self.status <= Status.SINGULAR

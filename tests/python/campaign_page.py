@@ -9,55 +9,72 @@ import campaign_cases as cases
 import campaign_checks as checks
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
+
+    from campaign_report import Report
 
 STATUSES = ("OK", "NEAR_SINGULAR", "SINGULAR", "UNREACHABLE", "LOST")
 SHOWN = 50  # failures on the page
 
 
-def page(
-    counts: Mapping[str, int],
-    worst: Mapping[str, float],
-    failures: Sequence[str],
-    higher: bool = False,
-) -> str:
-    """Markdown."""
+def page(report: Report, head: str, rows: Sequence[tuple[str, str]], text: str) -> str:
+    """Markdown: a heading, what is checked with a table of figures, and the failures."""
+    rows = [*rows, ("**failures**", f"**{len(report.failures)}**")]
+    table = "\n".join(f"| {what} | {figure} |" for what, figure in rows)
+    return (head + text).format(table=table, failed=failed(report.failures))
 
-    def n(name: str) -> str:
-        return f"{counts.get(name, 0):,}".replace(",", " ")
 
-    changing = [("of these built to have change points", n("changing"))]
+def number(report: Report, name: str) -> str:
+    return f"{report.counts.get(name, 0):,}".replace(",", " ")
+
+
+def greatest(report: Report, name: str, digits: int = 2) -> str:
+    return f"{report.worst.get(name, 0.0):.{digits}f}"
+
+
+def statuses(report: Report, where: str) -> list[tuple[str, str]]:
+    names = [name for name in STATUSES if report.counts.get(name)]
+    return [(f"status {name} on the {where}", number(report, name)) for name in names]
+
+
+def motions(report: Report) -> list[tuple[str, str]]:
+    """Figures that all campaigns of mechanisms have."""
+    allowed = f"allowed: {checks.TERMS:g}"
+    return [
+        ("positions whose every length, offset and guide was checked", number(report, "closures")),
+        (f"greatest misfit, in 8 u κ of the size ({allowed})", greatest(report, "misfit")),
+        ("pairs of neighbours looked at for jumps", number(report, "cells")),
+        ("of these halved further", number(report, "halved")),
+        ("points that went through infinity", number(report, "poles")),
+        ("ends of gaps shown to be dead points", number(report, "gaps")),
+        ("further ends where a point goes to infinity", number(report, "infinite")),
+        (f"farthest from a fold's 1 (allowed: {checks.FOLD_RATIO:g})", greatest(report, "fold")),
+        ("positions with analogues against differences", number(report, "differences")),
+        ("greatest error there, in what is allowed", greatest(report, "difference")),
+    ]
+
+
+def one_kind(report: Report, higher: bool) -> str:
+    """The page of the campaign on class II, or of that on classes III and IV."""
+    changing = [("of these built to have change points", number(report, "changing"))]
     of_higher = [
-        ("of these of class III", n("class 3")),
-        ("of class IV", n("class 4")),
-        ("with sliding pairs", n("sliding")),
-        ("signs of the closures' determinant, the same between ends", n("determinants")),
+        ("of these of class III", number(report, "class 3")),
+        ("of class IV", number(report, "class 4")),
+        ("with sliding pairs", number(report, "sliding")),
+        (
+            "signs of the closures' determinant, the same between ends",
+            number(report, "determinants"),
+        ),
     ]
     rows = [
-        ("mechanisms", n("mechanisms")),
+        ("mechanisms", number(report, "mechanisms")),
         *(of_higher if higher else changing),
-        ("positions solved", n("positions")),
-        *((f"status {name} on the fine grids", n(name)) for name in STATUSES if counts.get(name)),
-        ("positions compared to the bit between grids", n("shared")),
-        ("positions whose every length, offset and guide was checked", n("closures")),
-        (f"greatest misfit, in 8 u κ of the size (allowed: {checks.TERMS:g})", w(worst, "misfit")),
-        ("pairs of neighbours looked at for jumps", n("cells")),
-        ("of these halved further", n("halved")),
-        ("points that went through infinity", n("poles")),
-        ("ends of gaps shown to be dead points", n("gaps")),
-        ("further ends where a point goes to infinity", n("infinite")),
-        (f"farthest from a fold's 1 (allowed: {checks.FOLD_RATIO:g})", w(worst, "fold")),
-        ("positions with analogues against differences", n("differences")),
-        ("greatest error there, in what is allowed", w(worst, "difference")),
-        ("**failures**", f"**{len(failures)}**"),
+        ("positions solved", number(report, "positions")),
+        *statuses(report, "fine grids"),
+        ("positions compared to the bit between grids", number(report, "shared")),
+        *motions(report),
     ]
-    table = "\n".join(f"| {what} | {figure} |" for what, figure in rows)
-    head = HIGHER if higher else CLASS_II
-    return (head + TEXT).format(table=table, failed=failed(failures))
-
-
-def w(worst: Mapping[str, float], name: str) -> str:
-    return f"{worst.get(name, 0.0):.2f}"
+    return page(report, HIGHER if higher else CLASS_II, rows, TEXT)
 
 
 def failed(failures: Sequence[str]) -> str:
@@ -80,7 +97,8 @@ CLASS_II = f"""# Campaign
 `make campaign` draws random class II mechanisms (any driver, one to four dyads of any kind; one
 in ten with a dyad that has change points), moves each over {cases.TURNS} turns of its crank, or a
 range of its slide, and asks what no example can: that nothing goes wrong anywhere. This page is
-written by it; [another](campaign-higher.md) is on classes III and IV.
+written by it; there are others on [classes III and IV](campaign-higher.md), on
+[dyads and higher groups in any order](campaign-mixed.md) and on [machines](campaign-machines.md).
 
 """
 
@@ -89,7 +107,8 @@ HIGHER = f"""# Campaign: classes III and IV
 `make campaign` draws random mechanisms with a group of class III or IV behind a crank (triads, both
 kinds of quadrilaterals, among them P4's; a quarter of the inner pairs slide) and moves each over
 {cases.TURNS} turns, or as far as it goes between dead points. This page is written by it;
-[another](campaign.md) is on class II. Besides what is said below, the sign of the Jacobian's
+there are others on [class II](campaign.md), on [mixed groups](campaign-mixed.md) and on
+[machines](campaign-machines.md). Besides what is said below, the sign of the Jacobian's
 determinant must be the same at all positions of a mechanism: where two assemblies meet, the other
 one has the other sign. Ends with a point beyond {checks.POLE_OF_GROUPS:g} sizes of the drawing
 are counted apart: the condition has grown with the square of that, and the way is given up.

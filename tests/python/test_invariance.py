@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 
 import agreement
 import assur
+import mixed_models
 import models
 import named_models
 from assur import Status
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 
 NO_SHRINK = settings(phases=(Phase.explicit, Phase.reuse, Phase.generate))  # seeds: no simpler
 moves = st.floats(-0.5, 0.5)
+# Dyads alone as often as dyads and higher groups in any order.
+ANY = models.sequences() | mixed_models.mixed()
 PARTS = (0.0, 0.1, 1.0)  # of a move: half of the whole ones end beyond a fold
 # Positions looked at for a gap on the way.
 LOOKS = 1001
@@ -162,13 +165,13 @@ def gap_before(m: assur.Mechanism, change: float) -> bool:
 
 
 @NO_SHRINK
-@given(models.sequences(), moves, st.floats(-math.pi, math.pi))
+@given(ANY, moves, st.floats(-math.pi, math.pi))
 def test_rotation(case: models.Case, move: float, turn: float) -> None:
     check_frame(case, move, Frame(turn=turn))
 
 
 @NO_SHRINK
-@given(models.sequences(), moves, st.tuples(st.floats(-9, 9), st.floats(-9, 9)))
+@given(ANY, moves, st.tuples(st.floats(-9, 9), st.floats(-9, 9)))
 def test_translation(case: models.Case, move: float, shift: tuple[float, float]) -> None:
     check_frame(case, move, Frame(shift=shift))
 
@@ -186,13 +189,13 @@ def test_mirror(case: models.Case, move: float, upright: bool) -> None:
 
 
 @NO_SHRINK
-@given(models.sequences(), moves, st.floats(1e-3, 1e3))
+@given(ANY, moves, st.floats(1e-3, 1e3))
 def test_scale(case: models.Case, move: float, scale: float) -> None:
     check_frame(case, move, Frame(scale=scale))
 
 
 @NO_SHRINK
-@given(models.sequences(), moves, st.integers(-300, 300))
+@given(ANY, moves, st.integers(-300, 300))
 def test_scale_by_a_power_of_two(case: models.Case, move: float, power: int) -> None:
     """Not a bit changes."""
     d, scale = case.description, 2.0**power
@@ -321,7 +324,7 @@ def test_library_in_other_units(
 
 
 @NO_SHRINK
-@given(models.sequences(), moves, st.integers(0, 2**32 - 1))
+@given(ANY, moves, st.integers(0, 2**32 - 1))
 def test_order_of_the_description(case: models.Case, move: float, seed: int) -> None:
     """Joints, links and slides in any order, and the joints inside links."""
     rng = random.Random(seed)
