@@ -11,8 +11,8 @@ from assur._checks import real_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.loads import Function
     from assur.mechanism import Mechanism
+    from assur.values import Function
 
 __all__ = ["Crossing", "Position", "Rest", "Speed", "TransmissionAngle"]
 
