@@ -138,12 +138,13 @@ def steady_state(
         _dimensions(machine),
         [_start(machine, q0, "q0")[0], span],
         guess,
+        mean,
         is_low(options["method"]),
         relative(options["rtol"]),
         (count(options["max_steps"]), given_seconds(options["max_seconds"])),
         given_breaks(options["breaks"]),
         flywheel,
-        None if wanted is None else (wanted, mean),
+        wanted,
         machine._outside.functions,
     )
     made = SteadyState(core, numbers, machine.mechanism, options["mean"])

@@ -486,14 +486,16 @@ class Machine:
         ----------
         speed : float, optional
             With a motor whose torque falls with the speed, a first guess (by default the motor's
-            speed without load). Where neither motor nor loads tell a speed, or without a motor, the
-            mean speed (period by its time): a constant moment is found that keeps it.
+            speed without load). Where neither motor nor loads set a speed, or without a motor, the
+            mean speed that `mean` names: a constant moment is found that keeps it. Negative if the
+            driver turns backward.
         turns : int
             Turns of the driver in a period.
         q0 : float, optional
             Where the period begins, rad; that of the drawing by default.
         mean : {"extremes", "period"}
-            What the mean speed of the result is, by which its δ is divided.
+            What the mean speed is, both `speed` and that of the result by which its δ is divided:
+            half the sum of the greatest and the least speed, or the period by its time.
         flywheel : float
             Moment of inertia added to the driver's, kg·m².
         rtol, method, breaks, max_steps, max_seconds
@@ -507,8 +509,9 @@ class Machine:
         Raises
         ------
         InputError
-            A motor that cannot carry the load or is not in balance with it, a dead point, tables
-            that do not fit the period, a motion that is another one from period to period.
+            A motor that cannot carry the load or is not in balance with it, a mean speed so low
+            that the machine would stop within the turn, a dead point, tables that do not fit the
+            period, a motion that is another one from period to period.
 
         Warns
         -----

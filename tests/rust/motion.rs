@@ -35,6 +35,7 @@ fn search(span: f64, speed: Option<f64>) -> Search<'static> {
         q: 0.0,
         span,
         speed,
+        mean: Mean::Period,
         method: Method::DormandPrince853,
         relative: 1e-12,
         max_steps: 100_000,

@@ -11,6 +11,7 @@ use super::outside::Outside;
 use super::source::Source;
 use super::task::{Along, Occasion, Task, Watch};
 use super::unsteady::Unsteady;
+use crate::dynamics::flywheel::Mean;
 use crate::ode::{Crossing, Integrator, Method};
 
 /// Errors of a period, as multiples of the tolerance.
@@ -31,8 +32,10 @@ pub struct Search<'a> {
     pub q: f64,
     /// Its length, negative if the driver turns backward.
     pub span: f64,
-    /// The mean speed (span by time), where motors and loads tell none; else a first guess.
+    /// The mean speed, where motors and loads tell none; else a first guess.
     pub speed: Option<f64>,
+    /// What that mean is.
+    pub mean: Mean,
     /// The pair of formulas.
     pub method: Method,
     /// Relative tolerance.
@@ -60,6 +63,8 @@ pub struct Steady {
     pub drive: f64,
     /// Inertia added to the driver's, kg·m².
     pub flywheel: f64,
+    /// Whether the mean speed was prescribed and the moment found for it.
+    pub prescribed: bool,
 }
 
 impl Steady {
@@ -74,6 +79,8 @@ impl Steady {
 pub(super) struct Shooting<'s, 'a, S, O> {
     pub equation: Equation<'a, S, O>,
     pub search: Search<'s>,
+    /// Whether the motion has the mean speed of the search.
+    pub prescribed: bool,
     integrator: Option<Integrator>,
     /// Where the period at hand begins, and its breaks.
     from: f64,
@@ -87,8 +94,14 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
     ) -> Result<Self, Unsteady<O::Error>> {
         equation.flywheel = search.flywheel;
         equation.slopes = true;
-        let mut own =
-            Self { equation, search, integrator: None, from: search.q, breaks: Vec::new() };
+        let mut own = Self {
+            equation,
+            search,
+            prescribed: false,
+            integrator: None,
+            from: search.q,
+            breaks: Vec::new(),
+        };
         own.begin_at(search.q)?;
         own.compare()?;
         Ok(own)
@@ -130,7 +143,7 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
     }
 
     pub(super) fn pass(&mut self, begin: Begin) -> Result<Passage, Unsteady<O::Error>> {
-        let Self { equation, integrator, search, from, breaks } = self;
+        let Self { equation, integrator, search, from, breaks, .. } = self;
         period(equation, integrator, search, (*from, breaks), begin)
     }
 
@@ -192,7 +205,7 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         if !(balanced && (idle || noise <= UNKNOWN * period.turnover)) {
             return Err(Unsteady::RunsAway { speed: begin.speed2.sqrt() });
         }
-        let multiplier = period.speed2_by[0];
-        Ok(Steady { run, multiplier, moment: begin.moment, drive: period.drive, flywheel })
+        let (multiplier, moment, drive) = (period.speed2_by[0], begin.moment, period.drive);
+        Ok(Steady { run, multiplier, moment, drive, flywheel, prescribed: self.prescribed })
     }
 }
