@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._checks import real_array
+from assur._arrays import real_array
 from assur.errors import InputError
 
 __all__ = ["Analogues"]

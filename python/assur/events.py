@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from assur import transmission
-from assur._checks import real_number
+from assur._arrays import real_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
