@@ -14,6 +14,7 @@ Float: TypeAlias = npt.NDArray[np.float64]
 
 # What float() takes, though it is not a real number; NumPy converts it without a word.
 NOT_NUMBERS = (
+    type(None),
     str,
     bytes,
     bytearray,

@@ -277,7 +277,7 @@ class Machine:
         ndarray
             N·m (a driven slide: N), of the shape of q.
         """
-        moment = self._reduce(q, speed, on_error)[2]
+        moment = self._reduce(q, real_array(speed, "speed"), on_error)[2]
         return moment[..., 0][()] if self._drivers == 1 else moment
 
     def potential(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Any:
