@@ -97,7 +97,10 @@ class Force:
 
     def __post_init__(self) -> None:
         force: Any = self.force
-        if not isinstance(force, tuple | list | np.ndarray) or np.shape(force)[:1] != (2,):
+        listed = isinstance(force, tuple | list) or (
+            isinstance(force, np.ndarray) and force.ndim == 1
+        )
+        if not listed or len(force) != 2:
             message = f"Force: {short(force)} is not two components (fx, fy)"
             raise InputError(message)
         replace_fields(

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import Float, not_negative, real_array, real_number
+from assur._arrays import Float, not_negative, real_array, real_number, short
 from assur._checks import one_of
 from assur.errors import InputError
 from assur.flywheel import SPLINES, Spline
@@ -195,6 +195,6 @@ def _called(function: Function, q: Any, speed: Any) -> float:
     except InputError:
         array = np.empty(0)
     if array.ndim:
-        message = f"the load {name}(t, q, speed) gave {value!r} at q = {q}: a number is needed"
+        message = f"the load {name}(t, q, speed) gave {short(value)} at q = {q}: a number is needed"
         raise InputError(message)
     return float(array)
