@@ -217,9 +217,7 @@ class Flywheel:
         if self.shape:
             message = "plot is for one table, this is a batch"
             raise InputError(message)
-        if what not in ("speed", "time", "energy-mass"):
-            message = f"what is {what!r}: 'speed', 'time' or 'energy-mass'"
-            raise InputError(message)
+        one_of(what, ("speed", "time", "energy-mass"), "what")
         return flywheel_picture(self, what, self._span, DRAWN, ax)
 
     def _curve(self, what: str, places: npt.ArrayLike, name: str) -> Any:
@@ -423,15 +421,16 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> Table:
     Raises
     ------
     InputError
-        A file that cannot be read, or a row that is not three numbers, with its line.
+        A file that cannot be read or has fewer than two rows, or a row that is not three numbers,
+        with its line.
     """
     try:
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
+        kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line[:1] != "#"]
+        cells = list(csv.reader(line for _, line in kept))
+    except (OSError, ValueError, csv.Error) as error:
         message = f"{path}: the table cannot be read ({error})"
         raise InputError(message) from error
-    kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line[:1] != "#"]
-    cells = list(csv.reader(line for _, line in kept))
     columns = [0, 1, 2]
     if cells and _number(cells[0], 0) is None:
         names = [cell.strip().lower() for cell in cells[0]]
@@ -446,6 +445,9 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> Table:
     if bad is not None:
         line, text = kept[bad]
         message = f"{path}, line {line}: {text!r} is not three numbers phi, moment, inertia"
+        raise InputError(message)
+    if len(rows) < 2:
+        message = f"{path}: the table has {len(rows)} rows: at least 2 are needed"
         raise InputError(message)
     phi, moment, inertia = np.array(rows, np.float64).reshape(-1, 3).T
     return Table(np.deg2rad(phi) if degrees else phi, moment, inertia)
