@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import real_array
+from assur._checks import one_of
 from assur.description import Status
 from assur.errors import InputError
 
@@ -243,9 +244,7 @@ class Run:
         """
         from assur.plot import run_picture
 
-        if what not in ("speed", "q", "acceleration", "energy"):
-            message = f"what is {what!r}: 'speed', 'q', 'acceleration' or 'energy'"
-            raise InputError(message)
+        one_of(what, ("speed", "q", "acceleration", "energy"), "what")
         return run_picture(self, what, ax)
 
     def _shaped(self, array: Float) -> Float:
