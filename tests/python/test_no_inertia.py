@@ -154,6 +154,19 @@ def test_without_any_inertia_a_machine_of_a_table_does_not_move() -> None:
             ask()
 
 
+def test_a_place_without_inertia_is_named() -> None:
+    """A piston alone: at its dead points nothing resists the crank, but for rounding."""
+    press = Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(20.0)})
+    for q0 in (0.0, math.pi):
+        with pytest.raises(InputError, match=r"the reduced inertia is \S+ at q = .*positive"):
+            press.steady_state(5.0, q0=q0)
+    # With a flywheel it runs, and the flywheel is found.
+    wheel = press.flywheel(0.05, 20.0)
+    assert isinstance(wheel, flywheel.Flywheel)
+    steady = press.steady_state(20.0, flywheel=wheel.inertia)
+    assert steady.delta == pytest.approx(0.05, rel=1e-9)
+
+
 def test_statics_needs_no_bodies() -> None:
     """Virtual work: the crank's moment is the force times the piston's analogue."""
     press = assur.SliderCrank(0.1, 0.4)

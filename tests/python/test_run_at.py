@@ -47,8 +47,8 @@ def test_a_run_that_ended_early_says_so() -> None:
 
 
 def test_last_digits_beyond_an_end_are_at_it() -> None:
-    run = coasting().run(0.7, 0.0, 2.0, t0=0.1)
-    ends = {0.1: run.q[0], 0.7: run.q[-1]}
+    run = coasting().run(0.3, 0.0, 2.0, t0=0.1)
+    ends = {0.1: run.q[0], 0.3: run.q[-1]}
     for end, q in ends.items():
         for way in (-math.inf, math.inf):
             beside = end
@@ -56,9 +56,9 @@ def test_last_digits_beyond_an_end_are_at_it() -> None:
                 beside = math.nextafter(beside, way)
             assert run.at(beside).q == pytest.approx(q, rel=1e-15, abs=1e-15)
     # 0.1 + 0.2 + … as a loop adds them up.
-    times = np.cumsum(np.full(7, 0.1))
-    assert times[-1] != 0.7
-    assert run.at(times).q.shape == (7,)
+    times = np.cumsum(np.full(3, 0.1))
+    assert times[-1] > 0.3
+    assert run.at(times).q[-1] == run.q[-1]
 
 
 def test_a_run_of_no_length_has_its_one_place() -> None:

@@ -109,14 +109,15 @@ fn at_mean<E>(
     }
     let not_met = || Unsteady::NotMet { speed, mean: search.mean };
     let wanted = speed.abs();
-    let (mut first, mut last, mut failed) = (Some(first), None, None);
+    let (mut first, mut best, mut failed) = (Some(first), None, None);
+    let mut least_error = f64::INFINITY;
     let excess = |over_period: f64| {
         if failed.is_some() {
             return f64::NAN;
         }
         let made = first.take().unwrap_or_else(|| {
             let speed = Some(over_period.copysign(speed));
-            find(Search { speed, ..*search }, last.as_ref())
+            find(Search { speed, ..*search }, best.as_ref())
         });
         match made {
             Ok(steady) if steady.least_mean_of_extremes() > wanted => {
@@ -124,9 +125,12 @@ fn at_mean<E>(
                 f64::NAN
             }
             Ok(steady) => {
-                let own = steady.mean(Mean::Extremes);
-                last = Some(steady);
-                own - wanted
+                let error = steady.mean(Mean::Extremes) - wanted;
+                if error.abs() < least_error {
+                    (best, least_error) = (Some(steady), error.abs());
+                }
+                // What is nearer than the motions themselves is met.
+                if error.abs() <= search.relative * wanted { 0.0 } else { error }
             }
             // Too slow to be carried through the turn.
             Err(Unsteady::Stops { .. } | Unsteady::NotMet { .. }) => -wanted,
@@ -140,10 +144,8 @@ fn at_mean<E>(
     if let Some(error) = failed {
         return Err(error);
     }
-    let is_met = |steady: &Steady| {
-        (steady.mean(Mean::Extremes) - wanted).abs() <= NOISE * search.relative * wanted
-    };
-    last.filter(is_met).ok_or_else(not_met)
+    let is_met = least_error <= NOISE * search.relative * wanted;
+    best.filter(|_| is_met).ok_or_else(not_met)
 }
 
 fn even<E>(

@@ -22,6 +22,8 @@ const UNKNOWN: f64 = 0.05;
 const BALANCE: f64 = 1.0e-6;
 /// At how many places of a period the machine is compared with itself a period on.
 const LOOKS: u32 = 5;
+/// Part of the greatest inertia that is rounding.
+const NO_INERTIA: f64 = 64.0 * f64::EPSILON;
 /// How far two periods, one after the other, may differ.
 const SAME: f64 = 1.0e-7;
 
@@ -127,6 +129,11 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         // Where somewhere nothing is, the period will tell; beyond, all may be other.
         if looks.iter().any(|(_, pair)| pair.iter().any(|value| value.is_nan())) {
             return Ok(());
+        }
+        let most = looks.iter().fold(0.0_f64, |most, (_, [inertia, _])| most.max(inertia.abs()));
+        let none = looks.iter().find(|(_, [inertia, _])| *inertia <= NO_INERTIA * most);
+        if let Some(&([q, _], [value, _])) = none {
+            return Err(Unsteady::Broken(Broken::NoInertia { q, value }));
         }
         let other = looks.into_iter().find(|(_, [a, b])| (b - a).abs() > SAME * a.abs());
         other.map_or(Ok(()), |(q, inertia)| Err(Unsteady::AnotherOne { q, inertia }))
