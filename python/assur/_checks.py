@@ -5,47 +5,46 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Mapping
-from typing import Any, TypeAlias
+from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
+from assur._arrays import real_array, real_number, short
 from assur.errors import InputError
 
-Float: TypeAlias = npt.NDArray[np.float64]
+__all__ = [
+    "checked_index",
+    "checked_name",
+    "checked_order",
+    "checked_signs",
+    "checked_threads",
+    "one_of",
+    "real_array",
+    "real_number",
+]
 
 # More would only take memory; no machine has them.
 MOST_THREADS = 4096
+# What the core can name in its own refusal of a sign: it takes whole numbers of 64 bits.
+MOST_SIGN = 2**53
 
 
-def real_array(value: Any, what: str) -> Float:
-    """An array of float64, or an error that names what it should have been."""
-    try:
-        array = np.asarray(value)
-        if not np.iscomplexobj(array):
-            return array.astype(np.float64)
-    except (TypeError, ValueError, OverflowError) as error:
-        message = f"{what} is {_short(value)}: a number or an array of numbers is needed"
-        raise InputError(message) from error
-    message = f"{what} is {_short(value)}: real numbers are needed"
+def one_of(value: Any, known: tuple[str, ...], what: str) -> str:
+    """One of a few words."""
+    if isinstance(value, str) and value in known:
+        return value
+    message = f"{what} is {short(value)}: one of {', '.join(map(repr, known))} is needed"
     raise InputError(message)
 
 
-def real_number(value: Any, what: str, finite: bool = True) -> float:
-    """One number, or an error that names it."""
-    # Nearly all are.
-    if isinstance(value, float) and math.isfinite(value):
-        return float(value)
-    array = real_array(value, what)
-    if array.ndim or np.isnan(array) or (finite and not np.isfinite(array)):
-        message = f"{what} is {_short(value)}: a finite number is needed"
+def checked_name(name: Any, what: str) -> str:
+    """A name: a string that is Unicode text."""
+    if not isinstance(name, str):
+        message = f"{what}: the name {short(name)} is not a string"
         raise InputError(message)
-    return float(array)
-
-
-def _short(value: Any) -> str:
-    text = f"{str(value)[:12]}…" if isinstance(value, int) else repr(value)
-    return text if len(text) < 80 else text[:77] + "..."
+    # A lone half of a surrogate pair has no encoding.
+    if any("\ud800" <= letter <= "\udfff" for letter in name):
+        message = f"{what}: the name {name!a} is not Unicode text"
+        raise InputError(message)
+    return name
 
 
 def checked_signs(assembly: Any, strict: bool = True) -> tuple[tuple[str, int], ...]:
@@ -55,24 +54,21 @@ def checked_signs(assembly: Any, strict: bool = True) -> tuple[tuple[str, int], 
     if not isinstance(assembly, Mapping):
         message = f"assembly is {assembly!r}: a mapping of inner joints or slides to +1 or -1"
         raise InputError(message)
-    return tuple((_name(name), _sign(name, sign, strict)) for name, sign in assembly.items())
-
-
-def _name(name: Any) -> str:
-    if not isinstance(name, str):
-        message = f"assembly: the name {name!r} is not a string"
-        raise InputError(message)
-    return name
+    return tuple(
+        (checked_name(name, "assembly"), _sign(name, sign, strict))
+        for name, sign in assembly.items()
+    )
 
 
 def _sign(name: str, sign: Any, strict: bool) -> int:
     try:
-        whole = operator.index(sign) if not isinstance(sign, float) else int(sign)
-    except (TypeError, ValueError, OverflowError):
-        whole = 0
-    if whole == sign and (whole in (1, -1) or not strict):
-        return whole
-    message = f"assembly[{name!r}] is {sign!r}: it must be +1 or -1"
+        number = real_number(sign, f"assembly[{name!r}]")
+    except InputError:
+        number = math.nan
+    whole = number.is_integer() and abs(number) <= MOST_SIGN
+    if whole and (number in (1.0, -1.0) or not strict):
+        return int(number)
+    message = f"assembly[{name!r}] is {short(sign)}: it must be +1 or -1"
     raise InputError(message, joint=name)
 
 

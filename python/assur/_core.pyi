@@ -183,12 +183,13 @@ class Machine:
         dimensions: list[float],
         places: list[float],
         speed: float | None,
+        mean: str,
         low_order: bool,
         relative: float,
         limits: tuple[int, float | None],
         breaks: list[float],
         flywheel: float,
-        wanted: tuple[float, str] | None,
+        wanted: float | None,
         functions: list[Any],
     ) -> tuple[Run, list[float]]: ...
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from assur import events as known_events
 from assur import flywheel as flywheels
-from assur._checks import real_array, real_number
+from assur._arrays import real_array, real_number
+from assur._checks import one_of
 from assur._options import (
     count,
     fits,
@@ -32,8 +33,8 @@ from assur.steady import SteadyState
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from assur.loads import Function
     from assur.machine import Machine
+    from assur.values import Function
 
 # A period that is less accurate tells no speed.
 LOOSEST = 1e-4
@@ -117,7 +118,7 @@ def steady_state(
     """See `Machine.steady_state`; `wanted`: the fluctuation that a flywheel gives."""
     one_design(machine, "steady_state")
     turning(machine, "a periodic motion")
-    mean = flywheels._one_of(options["mean"], flywheels.MEANS, "mean")
+    mean = one_of(options["mean"], flywheels.MEANS, "mean")
     guess = None if speed is None else real_number(speed, "speed")
     if guess == 0.0:
         message = "speed is 0: a periodic motion has none at rest"
@@ -137,12 +138,13 @@ def steady_state(
         _dimensions(machine),
         [_start(machine, q0, "q0")[0], span],
         guess,
+        mean,
         is_low(options["method"]),
         relative(options["rtol"]),
         (count(options["max_steps"]), given_seconds(options["max_seconds"])),
         given_breaks(options["breaks"]),
         flywheel,
-        None if wanted is None else (wanted, mean),
+        wanted,
         machine._outside.functions,
     )
     made = SteadyState(core, numbers, machine.mechanism, options["mean"])

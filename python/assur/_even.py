@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur import flywheel as flywheels
-from assur._checks import real_array, real_number
+from assur._arrays import real_array, real_number
+from assur._checks import one_of
 from assur._drive import steady_state
 from assur._options import FITS, fits, turning
 from assur.errors import AssurWarning, InputError
-from assur.loads import Table
 from assur.motors import ConstantTorque
+from assur.values import Table
 
 if TYPE_CHECKING:
     from assur.flywheel import Flywheel
@@ -52,7 +53,7 @@ def flywheel(
 ) -> Flywheel | SteadyState:
     """See `Machine.flywheel`."""
     turning(machine, "a flywheel")
-    flywheels._one_of(on_error, ("raise", "nan"), "on_error")
+    one_of(on_error, ("raise", "nan"), "on_error")
     torque: Any = 0.0 if machine.motor is None else getattr(machine.motor, "torque", None)
     constant = torque is not None and not callable(torque) and not isinstance(torque, Table)
     if mean_speed is None:
@@ -115,7 +116,7 @@ def _from_rows(
             moment[..., 0],
             inertia[..., 0, 0],
             "not-a-knot",
-            f"sized {flywheels._one_of(mean, flywheels.MEANS, 'mean')}",
+            f"sized {one_of(mean, flywheels.MEANS, 'mean')}",
             ((fluctuation, "fluctuation"), (speed, "mean_speed")),
             mean,
             on_error,

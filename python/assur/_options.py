@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._checks import real_array, real_number
+from assur._arrays import real_array, real_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:

@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
+import numpy as np
+
+from assur._arrays import real_array, short
+from assur._checks import checked_name
 from assur._core import Mechanism as Core
 from assur.description import Drive, Slide
 from assur.errors import InputError
@@ -35,39 +39,45 @@ def items(mapping: Any, what: str) -> list[tuple[str, Any]]:
         message = f"{what} must be a mapping of names, not {type(mapping).__name__}"
         raise InputError(message)
     for name in mapping:
-        if not isinstance(name, str):
-            message = f"{what}: the name {name!r} is not a string"
-            raise InputError(message)
-        if any("\ud800" <= letter <= "\udfff" for letter in name):
-            message = f"{what}: the name {name!a} is no Unicode text"
-            raise InputError(message)
+        checked_name(name, what)
     return list(mapping.items())
 
 
 def joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
     try:
-        x, y = (float(v) for v in at)
-    except (TypeError, ValueError, OverflowError) as error:
-        message = f"joint {name!r} is at {at!r}: two numbers (x, y) are needed"
+        place = real_array(at, f"joint {name!r}")
+    except InputError as error:
+        message = f"joint {name!r} is at {short(at)}: two numbers (x, y) are needed"
         raise InputError(message, joint=name) from error
-    return (name, x, y)
+    if place.shape != (2,):
+        message = f"joint {name!r} is at {short(at)}: two numbers (x, y) are needed"
+        raise InputError(message, joint=name)
+    return (name, float(place[0]), float(place[1]))
 
 
 def slide(name: str, slide: Any) -> Slide:
     if not isinstance(slide, Slide):
         message = f"slide {name!r} is {slide!r}: an assur.Slide is needed"
         raise InputError(message, slide=name)
+    for what, word in (("link", slide.link), ("on", slide.on), ("origin", slide.origin)):
+        if what != "origin" or word is not None:
+            _checked(word, f"slide {name!r}, {what}", slide=name)
     try:
-        checked = Slide(slide.link, slide.on, float(slide.angle), slide.origin)
-    except (TypeError, ValueError, OverflowError) as error:
-        message = f"slide {name!r} has angle {slide.angle!r}: a number (rad) is needed"
-        raise InputError(message, slide=name) from error
-    words: tuple[Any, ...] = (slide.link, slide.on, slide.origin or "")
-    for word in words:
-        if not isinstance(word, str):
-            message = f"slide {name!r}: {word!r} is not a name"
-            raise InputError(message, slide=name)
-    return checked
+        angle = real_array(slide.angle, "angle")
+    except InputError:
+        angle = np.empty(0)
+    if angle.ndim:
+        message = f"slide {name!r} has angle {short(slide.angle)}: a number (rad) is needed"
+        raise InputError(message, slide=name)
+    return Slide(slide.link, slide.on, float(angle), slide.origin)
+
+
+def _checked(word: Any, what: str, **field: str) -> None:
+    """Refuse what is not a name, with the field of the part that holds it."""
+    try:
+        checked_name(word, what)
+    except InputError as error:
+        raise InputError(str(error), **field) from error  # type: ignore[arg-type]
 
 
 def drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]:
@@ -75,8 +85,12 @@ def drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]
     for d in drivers:
         words: tuple[Any, ...] = (d.link, d.relative_to) if isinstance(d, Drive) else (d,)
         if not all(isinstance(word, str) for word in words):
-            message = f"driver {d!r}: the name of a link or slide, or an assur.Drive, is needed"
+            message = (
+                f"driver {short(d)}: the name of a link or slide, or an assur.Drive, is needed"
+            )
             raise InputError(message)
+        for word in words:
+            checked_name(word, "driver")
     return drivers
 
 
@@ -87,7 +101,5 @@ def members(name: str, joints: Any) -> tuple[str, ...]:
         message = f"link {name!r} is {joints!r}: a list of names of joints is needed"
         raise InputError(message, link=name) from error
     for member in members:
-        if not isinstance(member, str):
-            message = f"link {name!r}: {member!r} is not the name of a joint"
-            raise InputError(message, link=name)
+        _checked(member, f"link {name!r}, joints", link=name)
     return members

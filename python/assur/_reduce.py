@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._checks import real_array
+from assur._arrays import real_array
+from assur._checks import one_of
 from assur.errors import InputError, PositionError
 
 if TYPE_CHECKING:
@@ -23,9 +24,7 @@ def reduce(
 
     Without a speed no function is called, and the moments are none.
     """
-    if on_error not in ("raise", "nan"):
-        message = f"on_error is {on_error!r}: 'raise' or 'nan'"
-        raise InputError(message)
+    one_of(on_error, ("raise", "nan"), "on_error")
     n, designs = machine._drivers, machine.shape
     x, v = real_array(q, "q"), real_array(0.0 if speed is None else speed, "speed")
     if n > 1 and (x.ndim == 0 or x.shape[-1] != n):

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._checks import real_array
+from assur._arrays import real_array
 from assur.errors import InputError
 
 __all__ = ["Analogues"]
@@ -76,50 +76,69 @@ class Analogues:
         Returns
         -------
         numpy.ndarray
-            m/s, or rad/s for a link.
+            m/s, or rad/s for a link; points with a last axis of 2. Several speeds at one
+            position, or of each design, are axes before S + (N,).
+
+        Examples
+        --------
+        >>> import assur
+        >>> pin = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(1.0).joint("C")
+        >>> pin.acceleration(np.array([1.0, 2.0, 3.0])).shape
+        (3, 2)
         """
-        return self._contract(self.d1, self._speeds(omega))
+        (w,) = self._speeds(omega=omega)
+        return self._contract(self.d1, w)
 
     def acceleration(self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0) -> Float:
         """Acceleration for a driver's speed and acceleration: ``d2 ω² + d1 α``."""
-        w, a = self._speeds(omega), self._speeds(alpha)
+        w, a = self._speeds(omega=omega, alpha=alpha)
         return self._contract(self.d2, w, w) + self._contract(self.d1, a)
 
     def jerk(
         self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0, beta: npt.ArrayLike = 0.0
     ) -> Float:
         """Jerk: ``d3 ω³ + 3 d2 ω α + d1 β`` with β the driver's jerk."""
-        w, a, b = self._speeds(omega), self._speeds(alpha), self._speeds(beta)
+        w, a, b = self._speeds(omega=omega, alpha=alpha, beta=beta)
         mixed = self._contract(self.d2, w, a)
         return self._contract(self.d3, w, w, w) + 3.0 * mixed + self._contract(self.d1, b)
 
-    def _speeds(self, given: npt.ArrayLike) -> Float:
-        """Speeds with an axis for the components, and a last one for the drivers."""
-        array = real_array(given, "a speed or acceleration")
+    def _speeds(self, **given: npt.ArrayLike) -> list[Float]:
+        """Arrays that broadcast together: axes of the motion, of a point, and a last of drivers."""
+        arrays = [self._drivers_last(value, name) for name, value in given.items()]
+        shape = self.value.shape[:-1] if self._point else self.value.shape
+        try:
+            np.broadcast_shapes(shape, *(array.shape[:-1] for array in arrays))
+        except ValueError as error:
+            pairs = zip(given, arrays, strict=True)
+            shapes = ", ".join(f"{name} {array.shape[:-1]}" for name, array in pairs)
+            message = f"{shapes} does not broadcast to the motion's shape {shape}"
+            raise InputError(message) from error
+        return [array[..., np.newaxis, :] if self._point else array for array in arrays]
+
+    def _drivers_last(self, value: npt.ArrayLike, name: str) -> Float:
+        array = real_array(value, name)
         if self._drivers == 1:
-            array = array[..., np.newaxis]
-        elif array.ndim == 0 and array == 0.0:
-            array = np.zeros(self._drivers)
-        elif array.ndim == 0 or array.shape[-1] != self._drivers:
-            message = f"shape {array.shape}: the last axis must hold the {self._drivers} drivers"
+            return array[..., np.newaxis]
+        if array.ndim == 0 and array == 0.0:
+            return np.zeros(self._drivers)
+        if array.ndim == 0 or array.shape[-1] != self._drivers:
+            message = (
+                f"{name} has shape {array.shape}: the last axis must hold the "
+                f"{self._drivers} drivers"
+            )
             raise InputError(message)
-        return array[..., np.newaxis, :] if self._point else array
+        return array
 
     def _contract(self, derivative: Float, *speeds: Float) -> Float:
         array = derivative
         if self._drivers == 1:
             array = array.reshape(array.shape + (1,) * len(speeds))
-        for speed in reversed(speeds):
-            axes = array.ndim - (self.value.ndim + 1)
-            aligned = speed.reshape(speed.shape[:-1] + (1,) * axes + speed.shape[-1:])
-            try:
-                array = (array * aligned).sum(axis=-1)
-            except ValueError as error:
-                given, shape = speed.shape[:-1], self.value.shape
-                if self._point:
-                    given, shape = given[:-1], shape[:-1]
-                message = f"shape {given} does not broadcast to {shape}"
-                raise InputError(message) from error
+        # The last axis first. Before the axis of this speed there are those of the speeds to come;
+        # everything before them broadcasts.
+        for to_come in range(len(speeds) - 1, -1, -1):
+            speed = speeds[to_come]
+            aligned = speed.reshape(speed.shape[:-1] + (1,) * to_come + speed.shape[-1:])
+            array = (array * aligned).sum(axis=-1)
         return array
 
     def __repr__(self) -> str:

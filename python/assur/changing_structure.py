@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._checks import real_number
+from assur._arrays import real_number
 from assur.errors import DimensionError, InputError, PositionError
 
 __all__ = ["Event", "Run", "run"]

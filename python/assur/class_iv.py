@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._checks import real_array
+from assur._arrays import real_array
 from assur.description import Status
 from assur.errors import DimensionError, InputError
 from assur.mechanism import Mechanism

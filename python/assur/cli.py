@@ -3,17 +3,26 @@
 from __future__ import annotations
 
 import argparse
+import codecs
+import contextlib
+import io
+import os
 import sys
-from typing import TYPE_CHECKING
+import warnings
+from typing import TYPE_CHECKING, TextIO
 
 from assur import flywheel
 from assur._core import version
-from assur.errors import AssurError
+from assur.errors import AssurError, AssurWarning, InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
 __all__ = ["main"]
+
+
+# Instead of letters that a terminal's encoding does not have.
+PLAIN = {"·": "*", "²": "^2", "δ": "delta", "φ": "phi", "π": "pi", "ω": "omega", "−": "-"}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -27,15 +36,76 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0, or 1 after an error that is told on the standard error.
+        0, or 1 after an error, with a line about it on the standard error.
     """
-    given = _parser().parse_args(arguments)
-    try:
-        given.run(given)
-    except AssurError as error:
-        print(f"assur: {error}", file=sys.stderr)
-        return 1
+    with _any_encoding(), warnings.catch_warnings():
+        warnings.showwarning = _show_warning
+        try:
+            try:
+                given = _parser().parse_args(arguments)
+                given.run(given)
+            finally:
+                # Here a full disk can still be reported.
+                sys.stdout.flush()
+        except (AssurError, AssurWarning) as error:
+            print(f"assur: {error}", file=sys.stderr)
+            return 1
+        except OSError as error:
+            return _cannot_write(error)
     return 0
+
+
+@contextlib.contextmanager
+def _any_encoding() -> Iterator[None]:
+    """Let letters that an output cannot encode be written in others."""
+    codecs.register_error("assur.plain", _plain)
+    streams = [s for s in (sys.stdout, sys.stderr) if isinstance(s, io.TextIOWrapper)]
+    before = [stream.errors for stream in streams]
+    for stream in streams:
+        stream.reconfigure(errors="assur.plain")
+    try:
+        yield
+    finally:
+        for stream, errors in zip(streams, before, strict=True):
+            # What could not be written would be tried again.
+            with contextlib.suppress(OSError):
+                stream.reconfigure(errors=errors)
+
+
+def _plain(error: UnicodeError) -> tuple[str | bytes, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    letters = error.object[error.start : error.end]
+    escaped = (x.encode("ascii", "backslashreplace").decode("ascii") for x in letters)
+    return "".join(PLAIN.get(x, y) for x, y in zip(letters, escaped, strict=True)), error.end
+
+
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    """A warning of this package as one line; its source is of no use here."""
+    if issubclass(category, AssurWarning):
+        print(f"assur: warning: {message}", file=file or sys.stderr)
+    else:
+        text = warnings.formatwarning(message, category, filename, lineno, line)
+        print(text, end="", file=file or sys.stderr)
+
+
+def _cannot_write(error: OSError) -> int:
+    # Else Python would try once more when it ends, and show a traceback.
+    with contextlib.suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
+    # Whoever closed the pipe wants no more of it.
+    if not isinstance(error, BrokenPipeError):
+        print(f"assur: the output cannot be written ({error})", file=sys.stderr)
+    return 1
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -83,7 +153,16 @@ def _flywheel(given: argparse.Namespace) -> None:
     print(f"motor         {f.motor_moment:.9g} N·m")
     print(f"period        {f.period:.9g} s")
     if given.plot:
-        f.plot().figure.savefig(given.plot)
+        _draw(f, given.plot)
+
+
+def _draw(f: flywheel.Flywheel, path: str) -> None:
+    figure = f.plot().figure
+    try:
+        figure.savefig(path)
+    except (OSError, ValueError) as error:
+        message = f"{path}: the picture cannot be written ({error})"
+        raise InputError(message) from error
 
 
 if __name__ == "__main__":

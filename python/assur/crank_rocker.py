@@ -19,7 +19,8 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._checks import real_array
+from assur._arrays import real_array, real_number
+from assur._checks import one_of
 from assur.changing_structure import Event, Run, run
 from assur.errors import DimensionError, InputError
 
@@ -139,9 +140,7 @@ def solve(
     >>> found.dS.round(8), found.v_C.round(8)
     (np.float64(-2.14608491), np.float64(2.38405545))
     """
-    if assembly not in ("printed", "other"):
-        message = f'assembly is {assembly!r}: "printed" or "other"'
-        raise InputError(message)
+    one_of(assembly, ("printed", "other"), "assembly")
     named = [("phi1", phi1), *zip(LENGTHS, (l1, l2, l3, l4), strict=True)]
     named += [("speed", speed), ("ground_speed", ground_speed)]
     arrays = [_finite(value, name) for name, value in named]
@@ -188,7 +187,7 @@ def grashof(
     array(['crank-rocker', 'rocker-crank'], dtype='<U12')
     """
     flat, shape = _designs(l1, l2, l3, l4)
-    names = _core.crank_rocker_grashof(flat, float(tolerance))
+    names = _core.crank_rocker_grashof(flat, real_number(tolerance, "tolerance"))
     return np.array(names).reshape(shape) if shape else names[0]
 
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from assur import transmission
-from assur._checks import real_number
+from assur._arrays import real_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.loads import Function
     from assur.mechanism import Mechanism
+    from assur.values import Function
 
 __all__ = ["Crossing", "Position", "Rest", "Speed", "TransmissionAngle"]
 

@@ -13,15 +13,17 @@ fluctuation in Mathcad*, equations 1 to 6. F. Wittenbauer, *Graphische Dynamik* 
 from __future__ import annotations
 
 import csv
+import operator
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._checks import checked_index, checked_threads, real_array
+from assur._arrays import real_array, short
+from assur._checks import checked_index, checked_threads, one_of
 from assur.errors import AssurWarning, InputError
 
 if TYPE_CHECKING:
@@ -190,7 +192,7 @@ class Flywheel:
             flywheel at the beginning, J; the tangents with slopes ω²/2 at the extreme speeds meet
             at the flywheel's place.
         """
-        q = np.linspace(*self._span, points)
+        q = np.linspace(*self._span, _row_count(points))
         inertia = self.reduced_inertia(q)
         start = np.asarray(self.reduced_inertia(self._span[0]) * np.square(self.speed0) / 2.0)
         return inertia, self.work(q) + start[..., np.newaxis]
@@ -215,9 +217,7 @@ class Flywheel:
         if self.shape:
             message = "plot is for one table, this is a batch"
             raise InputError(message)
-        if what not in ("speed", "time", "energy-mass"):
-            message = f"what is {what!r}: 'speed', 'time' or 'energy-mass'"
-            raise InputError(message)
+        one_of(what, ("speed", "time", "energy-mass"), "what")
         return flywheel_picture(self, what, self._span, DRAWN, ax)
 
     def _curve(self, what: str, places: npt.ArrayLike, name: str) -> Any:
@@ -231,12 +231,41 @@ class Flywheel:
         return _shaped(self._core.curve(what, flat), shape)
 
 
+@overload
 def from_table(
     phi: npt.ArrayLike,
     moment: npt.ArrayLike,
     inertia: npt.ArrayLike,
     fluctuation: npt.ArrayLike,
     mean_speed: npt.ArrayLike,
+    mean: Mean = ...,
+    spline: Spline = ...,
+    on_error: Literal["raise", "nan"] = ...,
+    threads: int | None = ...,
+) -> Flywheel: ...
+
+
+@overload
+def from_table(
+    phi: npt.ArrayLike,
+    moment: npt.ArrayLike,
+    inertia: npt.ArrayLike = ...,
+    *,
+    fluctuation: npt.ArrayLike,
+    mean_speed: npt.ArrayLike,
+    mean: Mean = ...,
+    spline: Spline = ...,
+    on_error: Literal["raise", "nan"] = ...,
+    threads: int | None = ...,
+) -> Flywheel: ...
+
+
+def from_table(
+    phi: npt.ArrayLike,
+    moment: npt.ArrayLike,
+    inertia: npt.ArrayLike = 0.0,
+    fluctuation: npt.ArrayLike | None = None,
+    mean_speed: npt.ArrayLike | None = None,
     mean: Mean = "extremes",
     spline: Spline = "not-a-knot",
     on_error: Literal["raise", "nan"] = "raise",
@@ -248,13 +277,16 @@ def from_table(
     ----------
     phi : array_like
         Coordinates of the driver over one period, rad, growing, the end included: (K,).
-    moment, inertia : array_like
-        Reduced moment of the loads (N·m) and reduced inertia (kg·m²) there, the last row equal to
-        the first: (K,), or S + (K,) for a batch of tables.
+    moment : array_like
+        Reduced moment of the loads there, N·m, the last row equal to the first: (K,), or S + (K,)
+        for a batch of tables.
+    inertia : array_like
+        Reduced inertia of the machine without the flywheel, kg·m²; likewise, or a number for all
+        rows. It may be 0, the default: all of the inertia is then the flywheel's.
     fluctuation : array_like
         Coefficient of speed fluctuation δ wanted, of shape S or a number.
     mean_speed : array_like
-        Mean speed wanted, rad/s, likewise.
+        Mean speed wanted, rad/s, of shape S or a number.
     mean : {"extremes", "period"}
         What that mean is, by which δ is divided: half the sum of the greatest and the least speed,
         or the period by its time.
@@ -273,8 +305,8 @@ def from_table(
     Raises
     ------
     InputError
-        A table that is short, not growing, not periodic or without inertia; a fluctuation or speed
-        that cannot be; a fluctuation that is already met without a flywheel.
+        A table that is short, not growing, not periodic or of negative inertia; a fluctuation or
+        speed that cannot be; a fluctuation that is already met without a flywheel.
 
     Warns
     -----
@@ -295,8 +327,20 @@ def from_table(
     <assur.flywheel.Flywheel 19.9182 kg·m², δ = 0.125, mean 15 rad/s, speed0 15.5166 rad/s>
     >>> print(f"{f.motor_moment:.3f} N·m, {f.greatest.value:.4f} rad/s at {f.greatest.at:.5f} rad")
     184.035 N·m, 15.9375 rad/s at 0.70933 rad
+
+    A turning-moment diagram alone, as of an engine whose parts weigh little against its flywheel:
+
+    >>> phi = np.linspace(0.0, 2 * np.pi, 721)
+    >>> moment = 20e3 + 9.5e3 * np.sin(2 * phi) - 5.7e3 * np.cos(2 * phi)
+    >>> f = flywheel.from_table(phi, moment, fluctuation=0.01, mean_speed=6 * np.pi)
+    >>> round(f.inertia, 3)
+    3118.106
     """
-    task = f"sized {_one_of(mean, MEANS, 'mean')}"
+    if fluctuation is None or mean_speed is None:
+        missing = "fluctuation" if fluctuation is None else "mean_speed"
+        message = f"{missing} is missing: both fluctuation and mean_speed are needed"
+        raise InputError(message)
+    task = f"sized {one_of(mean, MEANS, 'mean')}"
     wanted = (fluctuation, "fluctuation"), (mean_speed, "mean_speed")
     return _flywheel(phi, moment, inertia, spline, task, wanted, mean, on_error, threads)
 
@@ -318,7 +362,7 @@ def evaluate(
     Parameters
     ----------
     phi, moment, inertia, spline, on_error, threads
-        As of `from_table`.
+        As of `from_table`; with the flywheel the inertia must be positive everywhere.
     flywheel : array_like
         The flywheel's moment of inertia, kg·m²; none by default.
     speed0 : array_like, optional
@@ -351,7 +395,7 @@ def evaluate(
     if (speed0 is None) == (mean_speed is None):
         message = "one of speed0 and mean_speed is needed, not both"
         raise InputError(message)
-    _one_of(mean, MEANS, "mean")
+    one_of(mean, MEANS, "mean")
     task = "given" if mean_speed is None else f"driven {mean}"
     second = (speed0, "speed0") if mean_speed is None else (mean_speed, "mean_speed")
     wanted = (flywheel, "flywheel"), second
@@ -377,15 +421,16 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> Table:
     Raises
     ------
     InputError
-        A file that cannot be read, or a row that is not three numbers, with its line.
+        A file that cannot be read or has fewer than two rows, or a row that is not three numbers,
+        with its line.
     """
     try:
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
+        kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line[:1] != "#"]
+        cells = list(csv.reader(line for _, line in kept))
+    except (OSError, ValueError, csv.Error) as error:
         message = f"{path}: the table cannot be read ({error})"
         raise InputError(message) from error
-    kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line[:1] != "#"]
-    cells = list(csv.reader(line for _, line in kept))
     columns = [0, 1, 2]
     if cells and _number(cells[0], 0) is None:
         names = [cell.strip().lower() for cell in cells[0]]
@@ -401,6 +446,9 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> Table:
         line, text = kept[bad]
         message = f"{path}, line {line}: {text!r} is not three numbers phi, moment, inertia"
         raise InputError(message)
+    if len(rows) < 2:
+        message = f"{path}: the table has {len(rows)} rows: at least 2 are needed"
+        raise InputError(message)
     phi, moment, inertia = np.array(rows, np.float64).reshape(-1, 3).T
     return Table(np.deg2rad(phi) if degrees else phi, moment, inertia)
 
@@ -410,13 +458,6 @@ def _number(row: list[str], column: int) -> float | None:
         return float(row[column])
     except (ValueError, IndexError):
         return None
-
-
-def _one_of(value: Any, known: tuple[str, ...], what: str) -> str:
-    if isinstance(value, str) and value in known:
-        return value
-    message = f"{what} is {value!r}: one of {', '.join(map(repr, known))} is needed"
-    raise InputError(message)
 
 
 def _flywheel(
@@ -431,8 +472,8 @@ def _flywheel(
     threads: int | None,
     corners: list[int] | None = None,
 ) -> Flywheel:
-    _one_of(spline, SPLINES, "spline")
-    _one_of(on_error, ("raise", "nan"), "on_error")
+    one_of(spline, SPLINES, "spline")
+    one_of(on_error, ("raise", "nan"), "on_error")
     x, m, i = real_array(phi, "phi"), real_array(moment, "moment"), real_array(inertia, "inertia")
     if x.ndim != 1:
         message = f"phi has the shape {x.shape}: one list of coordinates is needed"
@@ -441,6 +482,8 @@ def _flywheel(
         message = f"the table has {x.size} rows: at least 2 are needed"
         raise InputError(message)
     doubt(float(x[-1] - x[0]))
+    if i.ndim == 0:
+        i = np.full(x.shape, i)
     for column, name in ((m, "moment"), (i, "inertia")):
         if column.ndim == 0 or column.shape[-1] != x.size:
             message = (
@@ -483,6 +526,17 @@ def doubt(span: float, periodic: bool = True) -> None:
             "a part of one. Is phi in degrees?"
         )
         warnings.warn(message, AssurWarning, stacklevel=4)
+
+
+def _row_count(points: Any) -> int:
+    try:
+        number = operator.index(points)
+    except TypeError:
+        number = 0
+    if number < 2:
+        message = f"points is {short(points)}: a whole number of at least 2 is needed"
+        raise InputError(message)
+    return number
 
 
 def _shaped(flat: Float, shape: tuple[int, ...]) -> Any:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
-from assur._checks import real_array, real_number
+from assur._arrays import not_negative, real_array, real_number, short, two_numbers
+from assur._checks import checked_name
 from assur.errors import InputError
+from assur.values import Encoded, Outside, Table, Value, checked, replace_fields
 
 __all__ = [
     "Body",
@@ -25,58 +25,8 @@ __all__ = [
 ]
 
 Place: TypeAlias = str | tuple[str, tuple[float, float]]
-# What the core is told of a value (a number, or which table or function), of a table, of a load.
-Told: TypeAlias = float | tuple[str, int]
-Rows: TypeAlias = tuple[list[float], list[float], str, bool]
-Parts: TypeAlias = tuple[str, list[Any], list[str], list[float], list[Told]]
-
-
-@dataclass(frozen=True, eq=False)
-class Table:
-    """Values over the (first) driver's coordinate; as a motor, torque over the motor's own speed.
-
-    Parameters
-    ----------
-    q : array_like
-        Coordinates, growing, rad or m; of a motor its speeds, rad/s.
-    value : array_like
-        Values there.
-    spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
-        What is laid through the rows.
-    periodic : bool
-        Whether this is one period, its end the same as its beginning (the default); otherwise
-        there is no value beyond the rows. A motor's table never is.
-    ratio : float
-        As a motor: its speed by that of the driver.
-    rotor_inertia : float
-        As a motor: moment of inertia of its rotor, kg·m².
-
-    Examples
-    --------
-    >>> import assur
-    >>> work = assur.Table([0.0, 3.0, 3.4, 6.283185307179586], [0.0, 0.0, 900.0, 0.0], "linear")
-    """
-
-    q: npt.ArrayLike
-    value: npt.ArrayLike
-    spline: str = "not-a-knot"
-    periodic: bool = True
-    ratio: float = 1.0
-    rotor_inertia: float = 0.0
-
-    def _rows(self, periodic: bool | None = None) -> Rows:
-        q, value = real_array(self.q, "Table q"), real_array(self.value, "Table value")
-        if q.ndim != 1 or q.shape != value.shape:
-            message = f"Table: q has the shape {q.shape}, value {value.shape}: two lists are needed"
-            raise InputError(message)
-        whole = self.periodic if periodic is None else periodic
-        return q.tolist(), value.tolist(), str(self.spline), bool(whole)
-
-
-# Called with floats; of a machine with several drivers q and speed are tuples of them.
-Function: TypeAlias = Callable[[float, Any, Any], float]
-# A number, a table over q, or a function of (t, q, speed).
-Value: TypeAlias = float | Table | Function
+# As the core takes a load: kind, places, links, numbers, values.
+Parts: TypeAlias = tuple[str, list[Any], list[str], list[float], list[Encoded]]
 
 
 @dataclass(frozen=True)
@@ -105,11 +55,16 @@ class Body:
     at: str | tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
-        for name in ("mass", "inertia"):
-            value = real_number(getattr(self, name), f"Body {name}")
-            if value < 0.0:
-                message = f"Body: {name} is {value:g}, it must not be negative"
-                raise InputError(message, value=value)
+        at: Any = self.at
+        if at is not None:
+            is_name = isinstance(at, str)
+            at = checked_name(at, "Body at") if is_name else two_numbers(at, "Body at")
+        replace_fields(
+            self,
+            mass=not_negative(self.mass, "Body: mass"),
+            inertia=not_negative(self.inertia, "Body: inertia"),
+            at=at,
+        )
 
 
 @dataclass(frozen=True)
@@ -117,6 +72,9 @@ class Gravity:
     """Free fall, (x, y), m/s²; bodies have weight by it."""
 
     acceleration: tuple[float, float] = (0.0, -9.81)
+
+    def __post_init__(self) -> None:
+        replace_fields(self, acceleration=two_numbers(self.acceleration, "Gravity"))
 
 
 @dataclass(frozen=True)
@@ -137,13 +95,24 @@ class Force:
     force: tuple[Value, Value]
     axes: str | None = None
 
-    def _parts(self, tell: Any) -> Parts:
+    def __post_init__(self) -> None:
         force: Any = self.force
-        if not isinstance(force, tuple | list) or len(force) != 2:
-            message = f"Force: {self.force!r} is not two components (fx, fy)"
+        listed = isinstance(force, tuple | list) or (
+            isinstance(force, np.ndarray) and force.ndim == 1
+        )
+        if not listed or len(force) != 2:
+            message = f"Force: {short(force)} is not two components (fx, fy)"
             raise InputError(message)
-        links = [] if self.axes is None else [_name(self.axes, "Force axes")]
-        return "force", [_place(self.at)], links, [], [tell(value) for value in self.force]
+        replace_fields(
+            self,
+            at=_place(self.at, "Force at"),
+            force=tuple(checked(value) for value in force),
+            axes=None if self.axes is None else _link(self.axes, "Force axes"),
+        )
+
+    def _parts(self, outside: Outside) -> Parts:
+        links = [] if self.axes is None else [self.axes]
+        return "force", [self.at], links, [], [outside.encode(value) for value in self.force]
 
 
 @dataclass(frozen=True)
@@ -164,8 +133,12 @@ class Torque:
     torque: Value
     on: str = "ground"
 
-    def _parts(self, tell: Any) -> Parts:
-        return "torque", [], _links(self), [], [tell(self.torque)]
+    def __post_init__(self) -> None:
+        _check_links(self)
+        replace_fields(self, torque=checked(self.torque))
+
+    def _parts(self, outside: Outside) -> Parts:
+        return "torque", [], [self.link, self.on], [], [outside.encode(self.torque)]
 
 
 @dataclass(frozen=True)
@@ -190,9 +163,18 @@ class Spring:
     length: float
     preload: float = 0.0
 
-    def _parts(self, _: Any) -> Parts:
-        numbers = _numbers(self, "stiffness", "length", "preload")
-        return "spring", _ends(self), [], numbers, []
+    def __post_init__(self) -> None:
+        _check_ends(self)
+        _check_numbers(self, "stiffness", "length", "preload")
+
+    def _parts(self, _: Outside) -> Parts:
+        return (
+            "spring",
+            [self.first, self.second],
+            [],
+            [self.stiffness, self.length, self.preload],
+            [],
+        )
 
 
 @dataclass(frozen=True)
@@ -219,9 +201,18 @@ class TorsionSpring:
     on: str = "ground"
     preload: float = 0.0
 
-    def _parts(self, _: Any) -> Parts:
-        numbers = _numbers(self, "stiffness", "angle", "preload")
-        return "torsion spring", [], _links(self), numbers, []
+    def __post_init__(self) -> None:
+        _check_links(self)
+        _check_numbers(self, "stiffness", "angle", "preload")
+
+    def _parts(self, _: Outside) -> Parts:
+        return (
+            "torsion spring",
+            [],
+            [self.link, self.on],
+            [self.stiffness, self.angle, self.preload],
+            [],
+        )
 
 
 @dataclass(frozen=True)
@@ -232,9 +223,12 @@ class Damper:
     second: Place
     damping: float
 
-    def _parts(self, _: Any) -> Parts:
-        numbers = _numbers(self, "damping")
-        return "damper", _ends(self), [], numbers, []
+    def __post_init__(self) -> None:
+        _check_ends(self)
+        _check_numbers(self, "damping")
+
+    def _parts(self, _: Outside) -> Parts:
+        return "damper", [self.first, self.second], [], [self.damping], []
 
 
 @dataclass(frozen=True)
@@ -245,93 +239,52 @@ class TorsionDamper:
     damping: float
     on: str = "ground"
 
-    def _parts(self, _: Any) -> Parts:
-        return "torsion damper", [], _links(self), _numbers(self, "damping"), []
+    def __post_init__(self) -> None:
+        _check_links(self)
+        _check_numbers(self, "damping")
+
+    def _parts(self, _: Outside) -> Parts:
+        return "torsion damper", [], [self.link, self.on], [self.damping], []
 
 
 Load: TypeAlias = Gravity | Force | Torque | Spring | TorsionSpring | Damper | TorsionDamper
 
 
-@dataclass
-class Outside:
-    """The tables and functions among the values, in order."""
-
-    tables: list[Rows] = field(default_factory=list)
-    functions: list[Function] = field(default_factory=list)
-    # How many of the functions are loads; those of motors come behind.
-    loads: int = 0
-
-    def tell(self, value: Value) -> Told:
-        """What the core is told of a value."""
-        if isinstance(value, Table):
-            if value.ratio != 1.0 or value.rotor_inertia != 0.0:
-                message = "Table: ratio and rotor_inertia are for a table that is a motor"
-                raise InputError(message)
-            self.tables.append(value._rows())
-            return "table", len(self.tables) - 1
-        if callable(value):
-            self.functions.append(value)
-            return "function", len(self.functions) - 1
-        return real_number(value, "the value of a load")
-
-    def numbers(
-        self, q: npt.NDArray[np.float64], speed: npt.NDArray[np.float64]
-    ) -> npt.NDArray[np.float64]:
-        """The loads' functions' values at positions (rows of coordinates), at the time 0."""
-        functions = self.functions[: self.loads]
-        if not functions:
-            return np.empty(0)
-        one = q.shape[1] == 1
-        rows = zip(q.tolist(), speed.tolist(), strict=True)
-        pairs = ((a[0], b[0]) if one else (tuple(a), tuple(b)) for a, b in rows)
-        table = [[_called(f, a, b) for f in functions] for a, b in pairs]
-        return np.array(table, np.float64).ravel()
-
-
-def _called(function: Function, q: Any, speed: Any) -> float:
-    value: Any = function(0.0, q, speed)
-    try:
-        return float(value)
-    except (TypeError, ValueError, OverflowError) as error:
-        name = getattr(function, "__name__", repr(function))
-        message = f"the load {name}(t, q, speed) gave {value!r} at q = {q}: a number is needed"
-        raise InputError(message) from error
-
-
-def _numbers(load: Any, *names: str) -> list[float]:
-    return [real_number(getattr(load, name), f"{type(load).__name__} {name}") for name in names]
-
-
-def _name(name: Any, what: str) -> str:
-    if isinstance(name, str):
-        return name
-    message = f"{what} is {name!r}: the name of a link is needed"
-    raise InputError(message)
-
-
-def _links(load: Any) -> list[str]:
+def _check_numbers(load: Any, *names: str) -> None:
     kind = type(load).__name__
-    if load.link == load.on:
-        message = f"{kind}: link and on are both {load.link!r}: between them nothing turns"
-        raise InputError(message, link=load.link)
-    return [_name(load.link, f"{kind} link"), _name(load.on, f"{kind} on")]
+    replace_fields(load, **{n: real_number(getattr(load, n), f"{kind} {n}") for n in names})
 
 
-def _ends(load: Any) -> list[Any]:
-    if load.first == load.second:
-        message = f"{type(load).__name__}: both ends are {load.first!r}: it has no length"
+def _link(name: Any, what: str) -> str:
+    if not isinstance(name, str):
+        message = f"{what} is {short(name)}: the name of a link is needed"
         raise InputError(message)
-    return [_place(load.first), _place(load.second)]
+    return checked_name(name, what)
 
 
-def _place(at: Any) -> Any:
+def _check_links(load: Any) -> None:
+    kind = type(load).__name__
+    link, on = _link(load.link, f"{kind} link"), _link(load.on, f"{kind} on")
+    if link == on:
+        message = f"{kind}: link and on are both {link!r}: between them nothing turns"
+        raise InputError(message, link=link)
+
+
+def _check_ends(load: Any) -> None:
+    kind = type(load).__name__
+    first, second = _place(load.first, f"{kind} first"), _place(load.second, f"{kind} second")
+    if first == second:
+        message = f"{kind}: both ends are {first!r}: it has no length"
+        raise InputError(message)
+    replace_fields(load, first=first, second=second)
+
+
+def _place(at: Any, what: str) -> Place:
     if isinstance(at, str):
-        return at
-    try:
-        link, (x, y) = at
-        if isinstance(link, str):
-            return link, [real_number(x, "a place's x"), real_number(y, "a place's y")]
-    except (TypeError, ValueError):
-        pass
-    message = f"{at!r} is no place: a joint's name, or (link, (x, y)) in the link's frame"
+        return checked_name(at, what)
+    if isinstance(at, tuple | list) and len(at) == 2 and isinstance(at[0], str):
+        place = real_array(at[1], f"{what}, in the frame of {at[0]!a}")
+        if place.shape == (2,) and np.isfinite(place).all():
+            return checked_name(at[0], what), (float(place[0]), float(place[1]))
+    message = f"{what}: {short(at)} is no place: a joint's name, or (link, (x, y)) in its frame"
     raise InputError(message)

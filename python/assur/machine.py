@@ -11,11 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core, _drive, _even, _reduce, motors
-from assur._checks import real_array
+from assur._arrays import real_array, short
+from assur._checks import checked_name, one_of
 from assur._options import listed
 from assur.errors import InputError
-from assur.flywheel import doubt
-from assur.loads import Body, Gravity, Outside, Table
+from assur.flywheel import SPLINES, doubt
+from assur.loads import Body, Gravity
+from assur.values import Outside
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -58,8 +60,8 @@ class Machine:
     ----------
     mechanism : Mechanism
         One design, or (for everything but motions in time) a batch of them.
-    bodies : mapping of str to Body
-        The masses of links, by name.
+    bodies : mapping of str to Body, optional
+        The masses of links, by name. Statics needs none.
     loads : sequence of Gravity, Force, Torque, Spring, TorsionSpring, Damper, TorsionDamper
         What acts on it; several of a kind are added.
     motor : ConstantTorque, LinearMotor, InductionMotor or Table, optional
@@ -95,7 +97,7 @@ class Machine:
     def __init__(
         self,
         mechanism: Mechanism,
-        bodies: Mapping[str, Body],
+        bodies: Mapping[str, Body] = MappingProxyType({}),
         loads: Sequence[Load] = (),
         motor: Motor | Sequence[Motor | None] | None = None,
     ) -> None:
@@ -105,8 +107,9 @@ class Machine:
         self.loads = tuple(listed(loads, "loads"))
         self._drivers = int(np.size(mechanism.q0))
         # Of one driver the motor itself.
-        is_list = isinstance(motor, list | tuple) and len(motor) == 1 == self._drivers
-        self.motor = motor[0] if is_list else motor  # type: ignore[index]
+        self.motor: Any = tuple(motor) if isinstance(motor, list | tuple) else motor
+        if isinstance(self.motor, tuple) and len(self.motor) == 1 == self._drivers:
+            self.motor = self.motor[0]
         self._made: tuple[Any, ...] = (
             Machine,
             (mechanism, dict(bodies), self.loads, self.motor),
@@ -116,18 +119,18 @@ class Machine:
         parts = []
         for load in self.loads:
             if isinstance(load, Gravity):
-                gravity = gravity + _gravity(load)
+                gravity = gravity + load.acceleration
             elif hasattr(load, "_parts"):
-                parts.append(load._parts(outside.tell))
+                parts.append(load._parts(outside))
             else:
-                message = f"{load!r} is no load: Gravity, Force, Torque, Spring, Damper …"
+                message = f"{short(load)} is no load: Gravity, Force, Torque, Spring, Damper …"
                 raise InputError(message)
         outside.loads = len(outside.functions)
-        told = [_body(mechanism, link, body) for link, body in self.bodies.items()]
+        masses = [_body(mechanism, link, body) for link, body in self.bodies.items()]
         turning = _motors(self.motor, self._drivers, outside)
         self._outside = outside
         self._core = _core.Machine(
-            mechanism._core, told, parts, gravity.tolist(), outside.tables, turning
+            mechanism._core, masses, parts, gravity.tolist(), outside.tables, turning
         )
         if mechanism.driver not in mechanism.slides:
             for rows, _, _, periodic in outside.tables:
@@ -138,7 +141,7 @@ class Machine:
         cls,
         phi: npt.ArrayLike,
         moment: npt.ArrayLike,
-        inertia: npt.ArrayLike,
+        inertia: npt.ArrayLike = 0.0,
         motor: Motor | None = None,
         spline: Spline = "not-a-knot",
         periodic: bool = True,
@@ -149,8 +152,11 @@ class Machine:
         ----------
         phi : array_like
             Coordinates of the driver, rad, growing, the end of the period included: (K,).
-        moment, inertia : array_like
-            Reduced moment of the loads (N·m) and reduced inertia (kg·m²) there: (K,).
+        moment : array_like
+            Reduced moment of the loads there, N·m: (K,).
+        inertia : array_like
+            Reduced inertia there, kg·m²: (K,), or one number; not negative. With none of it a rotor
+            or a flywheel must have some.
         motor : ConstantTorque, LinearMotor, InductionMotor or Table, optional
             What turns the driver.
         spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
@@ -177,23 +183,11 @@ class Machine:
         self.bodies = MappingProxyType({})
         self._drivers = 1
         outside = Outside()
-        columns = {}
-        for name, column in (("inertia", inertia), ("moment", moment)):
-            x, y = real_array(phi, "phi"), real_array(column, name)
-            if x.ndim != 1 or x.shape != y.shape:
-                message = f"phi has the shape {x.shape}, {name} {y.shape}: two lists are needed"
-                raise InputError(message)
-            outside.tell(Table(x, y, spline, periodic))
-            columns[name] = y
-        if x.size < 2:
-            message = f"the table has {x.size} rows: at least 2 are needed"
-            raise InputError(message)
+        x, columns = _columns(phi, moment, inertia)
+        one_of(spline, SPLINES, "spline")
         doubt(float(x[-1] - x[0]), periodic)
-        least = float(np.min(real_array(inertia, "inertia")))
-        if not least > 0.0:
-            message = f"the inertia is {least:g} kg·m² in the table, it must be positive everywhere"
-            raise InputError(message, value=least)
-        # Arrays of the caller may change.
+        for column in (columns["inertia"], columns["moment"]):
+            outside.tables.append((x.tolist(), column.tolist(), spline, bool(periodic)))
         table = x, columns["moment"], columns["inertia"]
         self._made = Machine.from_table, (*table, motor, spline, periodic)
         turning = _motors(motor, 1, outside)
@@ -202,7 +196,7 @@ class Machine:
         return self
 
     def __setattr__(self, name: str, value: object) -> None:
-        # The core has been told everything at the beginning.
+        # The core got everything at the beginning.
         if "_core" in self.__dict__:
             message = f"a Machine does not change ({name!r}): make another one"
             raise AttributeError(message)
@@ -283,7 +277,7 @@ class Machine:
         ndarray
             N·m (a driven slide: N), of the shape of q.
         """
-        moment = self._reduce(q, speed, on_error)[2]
+        moment = self._reduce(q, real_array(speed, "speed"), on_error)[2]
         return moment[..., 0][()] if self._drivers == 1 else moment
 
     def potential(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Any:
@@ -492,14 +486,16 @@ class Machine:
         ----------
         speed : float, optional
             With a motor whose torque falls with the speed, a first guess (by default the motor's
-            speed without load). Where neither motor nor loads tell a speed, or without a motor, the
-            mean speed (period by its time): a constant moment is found that keeps it.
+            speed without load). Where neither motor nor loads set a speed, or without a motor, the
+            mean speed that `mean` names: a constant moment is found that keeps it. Negative if the
+            driver turns backward.
         turns : int
             Turns of the driver in a period.
         q0 : float, optional
             Where the period begins, rad; that of the drawing by default.
         mean : {"extremes", "period"}
-            What the mean speed of the result is, by which its δ is divided.
+            What the mean speed is, both `speed` and that of the result by which its δ is divided:
+            half the sum of the greatest and the least speed, or the period by its time.
         flywheel : float
             Moment of inertia added to the driver's, kg·m².
         rtol, method, breaks, max_steps, max_seconds
@@ -513,8 +509,9 @@ class Machine:
         Raises
         ------
         InputError
-            A motor that cannot carry the load or is not in balance with it, a dead point, tables
-            that do not fit the period, a motion that is another one from period to period.
+            A motor that cannot carry the load or is not in balance with it, a mean speed so low
+            that the machine would stop within the turn, a dead point, tables that do not fit the
+            period, a motion that is another one from period to period.
 
         Warns
         -----
@@ -582,10 +579,35 @@ def _check(mechanism: Any, bodies: Any) -> None:
         raise InputError(message)
 
 
+def _columns(phi: Any, moment: Any, inertia: Any) -> tuple[Float, dict[str, Float]]:
+    """Check a table's coordinates, moments and inertias; a single inertia is that of all rows."""
+    x = real_array(phi, "phi")
+    columns = {"moment": real_array(moment, "moment"), "inertia": real_array(inertia, "inertia")}
+    if x.ndim == 1 and columns["inertia"].ndim == 0:
+        columns["inertia"] = np.full(x.shape, columns["inertia"])
+    for name, column in columns.items():
+        if x.ndim != 1 or x.shape != column.shape:
+            message = f"phi has the shape {x.shape}, {name} {column.shape}: two lists are needed"
+            raise InputError(message)
+    if x.size < 2:
+        message = f"the table has {x.size} rows: at least 2 are needed"
+        raise InputError(message)
+    row = int(np.argmin(columns["inertia"]))
+    least = float(columns["inertia"][row])
+    if least < 0.0:
+        message = (
+            f"the inertia is {least:g} kg·m² at phi = {x[row]:g} rad in the table, it must not be "
+            "negative"
+        )
+        raise InputError(message, value=least)
+    return x, columns
+
+
 def _body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Any, float, float]:
     if not isinstance(link, str):
-        message = f"bodies has {link!r}: names of links are needed"
+        message = f"bodies has {short(link)}: names of links are needed"
         raise InputError(message)
+    checked_name(link, "bodies")
     if not isinstance(body, Body):
         message = f"bodies[{link!r}] is {body!r}: an assur.Body is needed"
         raise InputError(message)
@@ -594,20 +616,8 @@ def _body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Any, float, 
     if at is None and joints:
         at = joints[0]
     elif not isinstance(at, str):
-        place = real_array((0.0, 0.0) if at is None else at, f"at of the body {link!r}")
-        if place.shape != (2,) or not np.isfinite(place).all():
-            message = f"bodies[{link!r}]: at is {at!r}, a joint or two finite numbers are needed"
-            raise InputError(message, link=link)
-        at = link, place.tolist()
+        at = link, (0.0, 0.0) if at is None else at
     elif link in mechanism.links and at not in joints:
         message = f"bodies[{link!r}]: joint {at!r} is not one of its joints {', '.join(joints)}"
         raise InputError(message, joint=at, link=link)
-    return link, at, float(body.mass), float(body.inertia)
-
-
-def _gravity(load: Gravity) -> Float:
-    gravity = real_array(load.acceleration, "Gravity")
-    if gravity.shape != (2,) or not np.isfinite(gravity).all():
-        message = f"Gravity is {load.acceleration!r}: two finite components (x, y) are needed"
-        raise InputError(message)
-    return gravity
+    return link, at, body.mass, body.inertia

@@ -5,14 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from assur._checks import real_number
+from assur._arrays import not_negative, real_number, short
 from assur.errors import InputError
-from assur.loads import Outside, Rows, Table, Told, Value
+from assur.values import (
+    Encoded,
+    Outside,
+    Rows,
+    Table,
+    Value,
+    checked,
+    checked_ratio,
+    replace_fields,
+)
 
 __all__ = ["ConstantTorque", "InductionMotor", "LinearMotor"]
 
 # Driver, ratio, rotor's inertia, kind, numbers, values, table over the speed.
-MotorParts: TypeAlias = tuple[int, float, float, str, list[float], list[Told], Rows | None]
+MotorParts: TypeAlias = tuple[int, float, float, str, list[float], list[Encoded], Rows | None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +47,10 @@ class ConstantTorque:
     torque: Value
     ratio: float = 1.0
     rotor_inertia: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_shaft(self)
+        replace_fields(self, torque=checked(self.torque, "ConstantTorque torque"))
 
 
 @dataclass(frozen=True)
@@ -65,6 +78,10 @@ class LinearMotor:
     no_load: float
     ratio: float = 1.0
     rotor_inertia: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_shaft(self)
+        _check_positive(self, "stall", "no_load")
 
 
 @dataclass(frozen=True)
@@ -98,45 +115,50 @@ class InductionMotor:
     ratio: float = 1.0
     rotor_inertia: float = 0.0
 
+    def __post_init__(self) -> None:
+        _check_shaft(self)
+        _check_positive(self, "breakdown", "slip", "synchronous")
+
 
 Motor: TypeAlias = ConstantTorque | LinearMotor | InductionMotor | Table
 
 
 def parts(motor: Any, driver: int, outside: Outside) -> MotorParts:
-    """What the core is told of a motor."""
+    """Encode a motor for the core; its table and functions go to the lists."""
     if not isinstance(motor, Motor):
         message = (
-            f"{motor!r} is no motor: ConstantTorque, LinearMotor, InductionMotor, or a Table of "
-            "torque over speed"
+            f"{short(motor)} is no motor: ConstantTorque, LinearMotor, InductionMotor, or a Table "
+            "of torque over speed"
         )
         raise InputError(message)
-    name = type(motor).__name__
-    ratio = real_number(motor.ratio, f"{name} ratio")
-    inertia = real_number(motor.rotor_inertia, f"{name} rotor_inertia")
-    if ratio == 0.0:
-        message = f"{name}: ratio is 0, the motor would not turn"
-        raise InputError(message, value=ratio)
-    if inertia < 0.0:
-        message = f"{name}: rotor_inertia is {inertia:g}, it must not be negative"
-        raise InputError(message, value=inertia)
-    common = driver, ratio, inertia
+    common = driver, motor.ratio, motor.rotor_inertia
     if isinstance(motor, ConstantTorque):
-        return (*common, "value", [], [outside.tell(motor.torque)], None)
+        return (*common, "value", [], [outside.encode(motor.torque)], None)
     if isinstance(motor, Table):
         return (*common, "table", [], [], motor._rows(periodic=False))
     if isinstance(motor, LinearMotor):
-        numbers = [_positive(motor, "stall"), _positive(motor, "no_load")]
-        return (*common, "linear", numbers, [], None)
-    numbers = [_positive(motor, "breakdown"), _positive(motor, "slip")]
-    return (*common, "induction", [*numbers, _positive(motor, "synchronous")], [], None)
+        return (*common, "linear", [motor.stall, motor.no_load], [], None)
+    numbers = [motor.breakdown, motor.slip, motor.synchronous]
+    return (*common, "induction", numbers, [], None)
 
 
-def _positive(motor: Any, name: str) -> float:
-    value = real_number(getattr(motor, name), f"{type(motor).__name__} {name}")
-    if value <= 0.0:
-        message = (
-            f"{type(motor).__name__}: {name} is {value:g}, it must be positive (a negative ratio "
-            "turns the driver the other way)"
-        )
-        raise InputError(message, value=value)
-    return value
+def _check_shaft(motor: Any) -> None:
+    name = type(motor).__name__
+    replace_fields(
+        motor,
+        ratio=checked_ratio(motor.ratio, f"{name}: ratio"),
+        rotor_inertia=not_negative(motor.rotor_inertia, f"{name}: rotor_inertia"),
+    )
+
+
+def _check_positive(motor: Any, *names: str) -> None:
+    kind = type(motor).__name__
+    for name in names:
+        value = real_number(getattr(motor, name), f"{kind} {name}")
+        if value <= 0.0:
+            message = (
+                f"{kind}: {name} is {value:g}, it must be positive (a negative ratio turns the "
+                "driver the other way)"
+            )
+            raise InputError(message, value=value)
+        replace_fields(motor, **{name: value})

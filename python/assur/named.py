@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from assur._checks import real_array
+from assur._arrays import real_array
+from assur._checks import one_of
 from assur.description import Slide
-from assur.errors import DimensionError, InputError
+from assur.errors import DimensionError
 from assur.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -53,9 +54,7 @@ class FourBar(Mechanism):
         if length.ndim == 0 and length <= 0.0:
             message = f"ground is {ground!r}: a length must be positive"
             raise DimensionError(message, dimension="ground.D.x", value=float(length))
-        if mode not in ("open", "crossed"):
-            message = f'mode is {mode!r}: "open" or "crossed"'
-            raise InputError(message)
+        one_of(mode, ("open", "crossed"), "mode")
         # Drawn with lengths of its own, so that neither the assembly nor q0
         # depends on the dimensions (or on the neighbours in a batch).
         drawn = Mechanism(

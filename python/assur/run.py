@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._checks import real_array
+from assur._arrays import real_array
+from assur._checks import one_of
 from assur.description import Status
 from assur.errors import InputError
 
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 __all__ = ["Energy", "Happened", "NearChangePoint", "Run", "State", "Statistics"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
+
+# Last digits by which a place may be beyond an end of a run: sums of steps are off by so many.
+END_ULPS = 4.0
 
 
 class State(NamedTuple):
@@ -212,28 +216,50 @@ class Run:
         Parameters
         ----------
         t : array_like
-            Times, s: a number or (N,).
+            Times, s: a number or an array.
         q : array_like
             Instead of times the coordinates, if the run went along these (`q_end`).
 
         Returns
         -------
         State
-            t, q, speed and acceleration, of the shape of t (with n drivers (..., n)); NaN before
-            and behind the run. Acceleration is that of the continuous output: between steps it is
-            less accurate than the speed.
+            t, q, speed and acceleration, of the shape of t (with n drivers (..., n)). Acceleration
+            is that of the continuous output: between steps it is less accurate than the speed.
+
+        Raises
+        ------
+        InputError
+            A time (or coordinate) outside the run, which may have ended early.
         """
         own, other, name = (q, t, "q") if self._along_q else (t, q, "t")
         if own is None or other is not None:
             message = f"this run goes along {name}: ask for at({name}=...)"
             raise InputError(message)
-        x = real_array(own, name)
+        x = self._within(real_array(own, name), name)
         arrays = self._core.at(x.ravel().tolist())
         tail = () if self._drivers == 1 else (self._drivers,)
         return State(
             arrays[0].reshape(x.shape)[()],
             *(one.reshape((*x.shape, *tail))[()] for one in arrays[1:4]),
         )
+
+    def _within(self, x: Float, name: str) -> Float:
+        """Refuse places outside the run; a few last digits beyond an end are at it."""
+        first, last = (float(end) for end in (self.q if self._along_q else self.t)[[0, -1]])
+        low, high = min(first, last), max(first, last)
+        slack = END_ULPS * np.finfo(np.float64).eps * max(abs(low), abs(high))
+        # NaN is outside too.
+        outside = ~((x >= low - slack) & (x <= high + slack))
+        if outside.any():
+            value = float(x[outside].flat[0])
+            unit = " s" if name == "t" else ""
+            early = "" if self.end == "reached" else f": {self.message}"
+            message = (
+                f"{name} = {value!r}{unit} is outside the run: it goes from {name} = {first!r} "
+                f"to {last!r}{unit}{early}"
+            )
+            raise InputError(message, value=value)
+        return np.clip(x, low, high)
 
     @cached_property
     def energy(self) -> Energy:
@@ -258,9 +284,7 @@ class Run:
         """
         from assur.plot import run_picture
 
-        if what not in ("speed", "q", "acceleration", "energy"):
-            message = f"what is {what!r}: 'speed', 'q', 'acceleration' or 'energy'"
-            raise InputError(message)
+        one_of(what, ("speed", "q", "acceleration", "energy"), "what")
         return run_picture(self, what, ax)
 
     def _shaped(self, array: Float) -> Float:

@@ -19,7 +19,8 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._checks import real_array
+from assur._arrays import real_array
+from assur._checks import one_of
 from assur.analogues import Analogues
 from assur.errors import DimensionError, InputError
 
@@ -152,9 +153,7 @@ def stroke(
     >>> s.value.round(6), s.d1, s.d2.round(6)
     (np.float64(1.171573), array(1.), np.float64(-0.353553))
     """
-    if method not in ("exact", "series", "fraction"):
-        message = f'method is {method!r}: "exact", "series" or "fraction"'
-        raise InputError(message)
+    one_of(method, ("exact", "series", "fraction"), "method")
     angles, cranks, rods = _lengths(phi, crank, rod)
     flat, ratios, inverse = _flat(angles, cranks / rods, rods / cranks)
     if method == "exact":
@@ -275,9 +274,7 @@ def greatest_speed(
     """
     ratios = real_array(k, "k")
     _ratio(ratios, "k")
-    if method not in ("exact", "series", "perpendicular"):
-        message = f'method is {method!r}: "exact", "series" or "perpendicular"'
-        raise InputError(message)
+    one_of(method, ("exact", "series", "perpendicular"), "method")
     if method == "perpendicular":
         at = np.arctan(ratios)
         return Extreme(at, stroke(at, 1.0, ratios).d1)
@@ -349,9 +346,7 @@ def deviation(
         message = f"lam is {value!r}: crank over rod must be above 0 and below 1"
         raise InputError(message, value=value)
     orders = {"stroke": 0, "d1": 1, "d2": 2}
-    if quantity not in orders:
-        message = f'quantity is {quantity!r}: "stroke", "d1" or "d2"'
-        raise InputError(message)
+    one_of(quantity, tuple(orders), "quantity")
     number = _whole(n, "n", 1)
     flat = np.ascontiguousarray(ratios).reshape(-1)
     found = _core.slider_crank_deviation(flat, number, orders[quantity])

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from assur import _core
-from assur._checks import real_array
+from assur._arrays import real_array
+from assur.errors import InputError
 from assur.flywheel import Place
 from assur.run import Run
 
@@ -41,7 +42,7 @@ class SteadyState:
     greatest, least : Place
         The extreme speeds (without their sign) and where they are.
     mean_speed : float
-        By the definition chosen, rad/s.
+        By the definition chosen, rad/s; the speed asked for, where neither motor nor loads set one.
     delta : float
         Coefficient of speed fluctuation: (greatest − least) / `mean_speed`.
     multiplier : float
@@ -106,10 +107,17 @@ class SteadyState:
             t (0 where the period begins), q, speed and acceleration, of the shape of q.
         """
         x = real_array(q, "q")
-        span = float(self.q[-1] - self.q[0])
-        whole = np.floor((x - self.q[0]) / span)
-        within = np.clip(x - whole * span, min(self.q[0], self.q[-1]), max(self.q[0], self.q[-1]))
-        state = self.run.at(q=within)
+        if not np.isfinite(x).all():
+            value = float(x[~np.isfinite(x)].flat[0])
+            message = f"q has {value}: finite numbers are needed"
+            raise InputError(message, value=value)
+        first, last = float(self.q[0]), float(self.q[-1])
+        low, high = min(first, last), max(first, last)
+        # The remainder of a division is exact, whatever the size of q.
+        rest = np.remainder(x - first, last - first)
+        is_here = (x >= low) & (x <= high)
+        whole = np.where(is_here, 0.0, np.round((x - first - rest) / (last - first)))
+        state = self.run.at(q=np.where(is_here, x, np.clip(first + rest, low, high)))
         return state._replace(t=state.t + whole * self.period, q=x[()])
 
     def plot(self, ax: Any = None) -> Any:

@@ -12,7 +12,11 @@ if TYPE_CHECKING:
 
 
 def dataframe(motion: Motion) -> Any:
-    """See `Motion.to_dataframe`."""
+    """See `Motion.to_dataframe`.
+
+    A link or slide that is called as a column of the designs, coordinates or statuses ("q",
+    "status", "design") keeps its own columns under "link q", "slide status" and so on.
+    """
     try:
         import pandas as pd
     except ImportError as error:  # pragma: no cover
@@ -30,14 +34,20 @@ def dataframe(motion: Motion) -> Any:
         name = "q" if drivers == 1 else f"q{k}"
         columns[name] = np.broadcast_to(q[..., k], shape).reshape(-1)
     columns["status"] = motion.status.reshape(-1)
-    columns.update(_columns(motion))
+    columns.update(_columns(motion, set(columns)))
     return pd.DataFrame(columns)
 
 
-def _columns(motion: Motion) -> dict[str, Any]:
+def _columns(motion: Motion, taken: set[str]) -> dict[str, Any]:
+    """Quantities by column; a link or slide of a name that is taken is called what it is as well.
+
+    Names have no blanks, so "link q" is no other's.
+    """
     tracks, drivers = motion._tracks, motion._drivers
     named = [(f"{n}.{xy}", a, k, 2) for n, a in tracks.joints.items() for k, xy in enumerate("xy")]
-    named += [(n, a, 0, 1) for n, a in (*tracks.links.items(), *tracks.slides.items())]
+    for kind, held in (("link", tracks.links), ("slide", tracks.slides)):
+        for name, arrays in held.items():
+            named.append((f"{kind} {name}" if name in taken else name, arrays, 0, 1))
     columns: dict[str, Any] = {}
     for name, arrays, component, width in named:
         for order, array in enumerate(arrays):

@@ -8,6 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
+from assur._arrays import short
+from assur._checks import checked_name
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -34,11 +36,15 @@ def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
 
 def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bool]:
     """Which two lines meet there, and whether the complement of their angle is meant."""
+    checked_name(name, "transmission_angle")
     if between is not None:
-        if not isinstance(between, tuple | list) or len(between) != 2 or len({name, *between}) != 3:
-            message = f"between={between!r}: two joints are needed, neither of them {name!r}"
+        joints = (name, *between) if isinstance(between, tuple | list) else ()
+        for joint in joints:
+            checked_name(joint, "between")
+        if len(set(joints)) != 3 or len(joints) != 3:
+            message = f"between={short(between)}: two joints are needed, neither of them {name!r}"
             raise InputError(message, joint=name)
-        for joint in (name, *between):
+        for joint in joints:
             mechanism._core.require("joint", joint)
         return [Line(name, other) for other in between], False
     slide = name if name in mechanism.slides else _slide_at(mechanism, name)

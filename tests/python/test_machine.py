@@ -286,7 +286,7 @@ def pushed(t: float, q: float, speed: float) -> Any:
         (lambda m: Machine(m, {}, [Force(ANY, (1, 1))]), "3 is no place"),
         (lambda m: Machine(m, {}, [Torque("rockr", 1.0)]), 'did you mean "rocker"'),
         (lambda m: Machine(m, {}, [Torque("rocker", np.inf)]), "inf: a finite number is needed"),
-        (lambda m: Machine(m, {}, [Gravity(ANY)]), "two finite components"),
+        (lambda m: Machine(m, {}, [Gravity(ANY)]), "two finite numbers"),
         (lambda m: Machine(m, {}, [Torque("rocker", Table([0, 1], [1, 2]))]), "not periodic"),
         (lambda m: Machine(m, {}, [Torque("rocker", Table([1, 0], [1, 1]))]), "does not grow"),
         (

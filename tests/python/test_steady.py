@@ -167,7 +167,7 @@ def test_dampers_and_functions() -> None:
             10.0, flywheel=20.0
         )
     # Without a motor: the moment that keeps the mean speed.
-    kept = press(loads=[assur.TorsionDamper("crank", 4.0)]).steady_state(own.period and 15.0)
+    kept = press(loads=[assur.TorsionDamper("crank", 4.0)]).steady_state(15.0, mean="period")
     again = press(
         assur.ConstantTorque(kept.found_moment), loads=[assur.TorsionDamper("crank", 4.0)]
     ).steady_state(12.0, mean="period")

@@ -1,11 +1,12 @@
 //! Motions from Rust: a machine of a mechanism, and one of tables.
 
 use std::f64::consts::{PI, TAU};
+use std::sync::atomic::AtomicBool;
 
 use assur::Mechanism;
 use assur::dynamics::{
-    Along, Body, Characteristic, Ending, Ends, Load, Machine, Mean, Motor, Nothing, Occasion,
-    Point, Search, Sheet, Table, Task, Unsteady, Value, Watch,
+    Along, Body, Broken, Characteristic, Ending, Ends, Load, Machine, Mean, Motor, Nothing,
+    Occasion, Point, Search, Sheet, Table, Task, Unsteady, Value, Watch,
 };
 use assur::ode::{Crossing, Method};
 
@@ -35,6 +36,7 @@ fn search(span: f64, speed: Option<f64>) -> Search<'static> {
         q: 0.0,
         span,
         speed,
+        mean: Mean::Period,
         method: Method::DormandPrince853,
         relative: 1e-12,
         max_steps: 100_000,
@@ -137,6 +139,45 @@ fn a_table_over_the_coordinate_does_its_work() {
     let speed = run.moments.last().expect("an end").speed[0];
     assert!((speed - (1.0 + 2.0 * TAU).sqrt()).abs() < 1e-12, "{speed}");
     assert_eq!(run.statistics.restarts, 1);
+}
+
+#[test]
+fn a_place_on_the_ground_is_in_the_drawings_frame() {
+    let mechanism = Mechanism::new(&crank_rocker()).expect("a mechanism");
+    let ground = mechanism.link("ground").expect("a link");
+    // Joint 1 is B, wherever the ground's first joint is.
+    let [x, y] = mechanism.linkage().joints[1].at;
+    let anchor = Point::Link { link: ground, at: [x - 3.0, y + 4.0] };
+    let spring =
+        Load::Spring { ends: [Point::Joint(1), anchor], stiffness: 8.0, length: 0.0, preload: 0.0 };
+    let machine = Machine { loads: vec![spring], ..Machine::default() };
+    let (q, cancel) = (mechanism.q0(), AtomicBool::new(false));
+    let rows = machine.reduce(&mechanism, mechanism.drawing(), q, &[0.0], &[], &cancel);
+    // 8/2 · 5².
+    assert!((rows.potential[0] - 100.0).abs() < 1e-12);
+}
+
+#[test]
+fn the_mean_of_the_search_is_met() {
+    let table = |of: fn(f64) -> f64| {
+        let rows: Vec<f64> = (0..97).map(|k| f64::from(k) * TAU / 96.0).collect();
+        let mut values: Vec<f64> = rows.iter().map(|&q| of(q)).collect();
+        values[96] = values[0];
+        Table::new(&rows, &values, Ends::NotAKnot, true).expect("a table")
+    };
+    let tables = vec![table(|q| 2.0 + q.cos()), table(|q| 40.0 * (2.0 * q).sin())];
+    let sheet = Sheet { tables, motors: Vec::new() };
+    for mean in [Mean::Period, Mean::Extremes] {
+        for speed in [9.0, -25.0] {
+            let search = Search { mean, ..search(TAU.copysign(speed), Some(speed)) };
+            let steady = sheet.steady(&search, None, Nothing).expect("a motion");
+            assert!((steady.mean(mean) - speed.abs()).abs() < 1e-10, "{mean:?} {speed}");
+            assert!(steady.prescribed);
+        }
+    }
+    let bare = Sheet { tables: vec![table(|_| 0.0), table(f64::sin)], motors: Vec::new() };
+    let none = bare.steady(&search(TAU, Some(5.0)), None, Nothing);
+    assert!(matches!(none, Err(Unsteady::Broken(Broken::NoInertia { .. }))), "{none:?}");
 }
 
 #[test]

@@ -160,9 +160,9 @@ impl Machine {
         made.map(Run::new).map_err(broken)
     }
 
-    /// The periodic motion from `q` over `span`, with a flywheel or one for a fluctuation (`wanted`:
-    /// that and its mean): a period along the coordinate; multiplier, moment, work of the motors,
-    /// flywheel.
+    /// The periodic motion from `q` over `span`, with a flywheel or one for a fluctuation
+    /// (`wanted`); `mean`: what the mean speed is. A period along the coordinate; multiplier,
+    /// moment, work of the motors, flywheel, least and greatest speed.
     #[allow(clippy::too_many_arguments, reason = "what is asked of it")]
     fn steady(
         &self,
@@ -170,19 +170,22 @@ impl Machine {
         dimensions: Vec<f64>,
         places: [f64; 2],
         speed: Option<f64>,
+        mean: &str,
         low_order: bool,
         relative: f64,
         limits: (u64, Option<f64>),
         breaks: Vec<f64>,
         flywheel: f64,
-        wanted: Option<(f64, String)>,
+        wanted: Option<f64>,
         functions: Vec<Py<PyAny>>,
     ) -> PyResult<(Run, Vec<f64>)> {
         let [q, span] = places;
+        let mean = if mean == "period" { Mean::Period } else { Mean::Extremes };
         let search = Search {
             q,
             span,
             speed,
+            mean,
             method: method(low_order),
             relative,
             max_steps: limits.0,
@@ -190,10 +193,7 @@ impl Machine {
             breaks: &breaks,
             flywheel,
         };
-        let wanted = wanted.map(|(fluctuation, mean)| {
-            let mean = if mean == "period" { Mean::Period } else { Mean::Extremes };
-            Wanted { fluctuation, mean }
-        });
+        let wanted = wanted.map(|fluctuation| Wanted { fluctuation, mean });
         let made = called(py, (functions, Vec::new()), |calls| match &self.0 {
             Inner::Mechanism(mechanism, machine) => {
                 machine.steady(&mechanism.get().inner, &dimensions, &search, wanted, calls)

@@ -44,11 +44,16 @@ pub enum TableError {
         "the table is not periodic: {quantity} is {} in its first row and {} in its last, one period on; they must agree", full(*first), full(*last)
     )]
     NotPeriodic { quantity: &'static str, first: f64, last: f64 },
-    /// An inertia that is not positive.
+    /// An inertia that is negative.
     #[error(
-        "the inertia is {value} kg·m² at phi = {at} rad (of the curve through the table), it must be positive everywhere"
+        "the inertia is {value} kg·m² at phi = {at} rad (of the curve through the table), it must not be negative: between rows of zero only spline=\"linear\" keeps it so"
     )]
-    NotPositive { value: f64, at: f64 },
+    Negative { value: f64, at: f64 },
+    /// No inertia with the flywheel either.
+    #[error(
+        "the inertia is {} kg·m² at phi = {at} rad with a flywheel of {flywheel} kg·m²: it must be positive, so give the machine an inertia or a greater flywheel", short(*value)
+    )]
+    NoInertia { flywheel: f64, value: f64, at: f64 },
     /// A fluctuation beyond (0, 2).
     #[error(
         "fluctuation = {value}: it must be more than 0 and less than 2 (where the least speed is 0)"

@@ -9,7 +9,7 @@
 use super::error::TableError;
 use super::quadrature::integral;
 use super::root;
-use super::turn::{Extreme, Turn};
+use super::turn::{Extreme, Turn, within_period};
 
 /// Steps toward an extreme of the speed, at most; it takes some five.
 const STEPS: u32 = 64;
@@ -81,7 +81,7 @@ impl Flywheel {
     ///
     /// A flywheel or mean that cannot be, or a mean at which the machine would stop.
     pub fn driven(turn: Turn, inertia: f64, mean: f64, by: Mean) -> Result<Self, TableError> {
-        check_inertia(inertia)?;
+        check_inertia(&turn, inertia)?;
         check_speed("mean_speed", mean)?;
         // Below, the speed would not be real everywhere.
         let [_, least] = turn.extremes(0.0, 2.0);
@@ -107,7 +107,7 @@ impl Flywheel {
     ///
     /// A flywheel or speed that cannot be, or with which the machine stops on the way.
     pub fn given(turn: Turn, inertia: f64, speed0: f64) -> Result<Self, TableError> {
-        check_inertia(inertia)?;
+        check_inertia(&turn, inertia)?;
         check_speed("speed0", speed0)?;
         let constant = (turn.inertia(turn.start()) + inertia) * speed0 * speed0;
         let [_, least] = turn.extremes(0.0, 2.0);
@@ -119,6 +119,7 @@ impl Flywheel {
     }
 
     fn of(turn: Turn, inertia: f64, constant: f64) -> Result<Self, TableError> {
+        check_inertia(&turn, inertia)?;
         let speed0 = (constant / (turn.inertia(turn.start()) + inertia)).sqrt();
         let [least, greatest] = speeds(&turn, inertia, constant);
         let mut times = vec![0.0];
@@ -172,8 +173,7 @@ impl Flywheel {
     /// The coordinate at a time, rad.
     #[must_use]
     pub fn angle(&self, time: f64) -> f64 {
-        let whole = (time / self.period()).floor();
-        let within = time - whole * self.period();
+        let [within, whole] = within_period(time, 0.0, self.period());
         let piece = self.times.partition_point(|&t| t <= within).clamp(1, self.times.len() - 1) - 1;
         let [low, high] = [self.turn.knots()[piece], self.turn.knots()[piece + 1]];
         let (since, width) = (within - self.times[piece], high - low);
@@ -199,8 +199,14 @@ fn check_speed(name: &'static str, value: f64) -> Result<(), TableError> {
     }
 }
 
-fn check_inertia(value: f64) -> Result<(), TableError> {
-    if value >= 0.0 && value.is_finite() { Ok(()) } else { Err(TableError::BadInertia { value }) }
+/// Refuses a flywheel that is none, or with which a machine has no inertia somewhere.
+fn check_inertia(turn: &Turn, flywheel: f64) -> Result<(), TableError> {
+    if !(flywheel >= 0.0 && flywheel.is_finite()) {
+        return Err(TableError::BadInertia { value: flywheel });
+    }
+    let least = turn.least_inertia();
+    let value = least.value + flywheel;
+    if value > 0.0 { Ok(()) } else { Err(TableError::NoInertia { flywheel, value, at: least.at }) }
 }
 
 /// Flywheel and C for which these are the extreme speeds.

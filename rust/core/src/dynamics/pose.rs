@@ -11,7 +11,8 @@ use crate::structure::closure::point_of_joint;
 pub enum Point {
     /// A joint.
     Joint(usize),
-    /// A place in a link's frame (origin at its first joint, x toward its second), m.
+    /// A place in a link's frame (origin at its first joint, x toward its second; the ground's is
+    /// the drawing's), m.
     Link {
         /// The link.
         link: usize,
@@ -56,6 +57,14 @@ impl<'p> Pose<'p> {
         };
         match point {
             Point::Joint(joint) => own(point_of_joint(joint)),
+            // The ground's frame is the drawing's, wherever its first joint is.
+            Point::Link { link, at: [x, y] } if link == plan.ground => {
+                if k == 0 {
+                    Vector::new(x, y)
+                } else {
+                    Vector::new(0.0, 0.0)
+                }
+            }
             Point::Link { link, at } => {
                 own(plan.reference[link]) + self.frame(link, k) * Vector::new(at[0], at[1])
             }

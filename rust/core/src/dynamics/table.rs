@@ -2,6 +2,7 @@
 
 use super::error::TableError;
 use super::spline::{Ends, Pieces, spline};
+use super::turn::within_period;
 
 /// A table with a curve through its rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +43,17 @@ impl Table {
     /// The value at a place; no number beyond a table that is not periodic.
     #[must_use]
     pub fn at(&self, x: f64) -> f64 {
-        self.cell(x).map_or(f64::NAN, |cell| self.read(cell, x)[0])
+        self.value_and_slope(x).map_or(f64::NAN, |pair| pair[0])
+    }
+
+    /// Value and slope at a place; none beyond a table that is not periodic.
+    pub(super) fn value_and_slope(&self, x: f64) -> Option<[f64; 2]> {
+        let within = if self.periodic && x.is_finite() {
+            within_period(x, self.knots[0], self.width())[0]
+        } else {
+            x
+        };
+        self.cell(within).map(|cell| self.read(cell, within))
     }
 
     /// Its period, if it has one.

@@ -7,6 +7,11 @@ use super::spline::{Ends, Pieces, spline};
 /// Part of the greatest value by which the ends of a table may differ: tables are rounded.
 const PERIODIC: f64 = 1.0e-9;
 
+/// Part of the greatest inertia by which the curve may be negative between rows that are not: tables
+/// have three or four digits, and a spline beside rows of zero swings by its own error. What it is
+/// with a flywheel must be positive all the same.
+const UNDERSHOOT: f64 = 1.0e-3;
+
 /// An extreme value and its place.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Extreme {
@@ -79,10 +84,11 @@ impl Turn {
         // The moment's mean, taken off.
         turn.motor = -turn.work_of_turn() / turn.period();
         turn.lay_work();
-        let least = turn.least_inertia();
-        let is_positive = least.value > 0.0;
-        if !is_positive {
-            return Err(TableError::NotPositive { value: least.value, at: least.at });
+        let [least, greatest] = turn.extremes(1.0, 0.0);
+        // NaN is refused too.
+        let is_inertia = least.value >= -UNDERSHOOT * greatest.value;
+        if !is_inertia {
+            return Err(TableError::Negative { value: least.value, at: least.at });
         }
         Ok(turn)
     }
@@ -123,8 +129,7 @@ impl Turn {
 
     /// The piece that a coordinate is in, how far from its knot, and whole periods before it.
     pub(super) fn place(&self, phi: f64) -> (usize, f64, f64) {
-        let whole = ((phi - self.start()) / self.period()).floor();
-        let within = phi - whole * self.period();
+        let [within, whole] = within_period(phi, self.start(), self.period());
         let after = self.knots.partition_point(|&knot| knot <= within);
         let piece = after.clamp(1, self.knots.len() - 1) - 1;
         (piece, within - self.knots[piece], whole)
@@ -156,7 +161,7 @@ impl Turn {
         [value(&self.inertia[piece], x), value(&self.work[piece], x)]
     }
 
-    fn least_inertia(&self) -> Extreme {
+    pub(super) fn least_inertia(&self) -> Extreme {
         self.extremes(1.0, 0.0)[0]
     }
 
@@ -195,11 +200,22 @@ impl Turn {
     }
 }
 
+/// A place less whole periods, from `start` on, and how many these are. The remainder of a division
+/// is exact, so a place of any size is found.
+pub(super) fn within_period(x: f64, start: f64, period: f64) -> [f64; 2] {
+    if (start..start + period).contains(&x) {
+        return [x, 0.0];
+    }
+    let since = x - start;
+    let rest = since.rem_euclid(period);
+    [start + rest, ((since - rest) / period).round()]
+}
+
 fn check(knots: &[f64], columns: [(&'static str, &[f64]); 2]) -> Result<(), TableError> {
     check_columns(knots, &columns, true)?;
     let inertia = columns[1].1;
-    if let Some(row) = inertia.iter().position(|&x| x <= 0.0) {
-        return Err(TableError::NotPositive { value: inertia[row], at: knots[row] });
+    if let Some(row) = inertia.iter().position(|&x| x < 0.0) {
+        return Err(TableError::Negative { value: inertia[row], at: knots[row] });
     }
     Ok(())
 }

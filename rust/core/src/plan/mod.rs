@@ -158,6 +158,8 @@ pub struct Plan {
     pub link_orientation: Vec<usize>,
     /// Reference point of every link.
     pub reference: Vec<usize>,
+    /// The link that is the frame.
+    pub ground: usize,
     /// Points fixed to the ground.
     pub fixed: Vec<bool>,
     /// What to do, in order.
@@ -239,6 +241,7 @@ impl Plan {
             rotation,
             link_orientation,
             reference: closure.reference.clone(),
+            ground: linkage.ground,
             fixed: closure.fixed.clone(),
             steps: Vec::new(),
             dyad_names: Vec::new(),

@@ -1,10 +1,10 @@
 //! Periodic motions of machines and of tables, and the flywheel that evens them.
 
-use super::broken::counted;
+use super::broken::{Broken, counted};
 use super::equation::Equation;
 use super::outside::Outside;
 use super::source::{Moving, Sheet, Source};
-use super::steady::{Search, Shooting, Steady};
+use super::steady::{NOISE, Search, Shooting, Steady};
 use super::unsteady::Unsteady;
 use crate::dynamics::flywheel::Mean;
 use crate::dynamics::machine::Machine;
@@ -17,6 +17,11 @@ use crate::plan::jet::Jets;
 const FOUND: f64 = 1.0e-12;
 /// The greatest fluctuation there can be, where the least speed is none.
 const GREATEST: f64 = 2.0;
+
+/// How far sampled inertias may be off between the samples.
+const SAMPLED: f64 = 1.01;
+/// A multiplier this near 1 is that of a machine in which nothing depends on the speed.
+const UNDAMPED: f64 = 1.0e-6;
 
 /// What a periodic motion is asked to have.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,11 +91,69 @@ fn find<S: Source, O: Outside>(
     shooting.run(begin, &period)
 }
 
+/// Finds the motion of the mean speed that the search asks for, if motors and loads leave it open.
+///
+/// `find` meets the mean over the period. The mean of the extremes grows with it: where nothing
+/// depends on the speed, q̇² J gains the same energy everywhere.
+fn at_mean<E>(
+    search: &Search<'_>,
+    guess: Option<&Steady>,
+    find: &mut impl FnMut(Search<'_>, Option<&Steady>) -> Result<Steady, Unsteady<E>>,
+) -> Result<Steady, Unsteady<E>> {
+    let first = find(*search, guess);
+    let (Some(speed), Mean::Extremes) = (search.speed, search.mean) else { return first };
+    match &first {
+        Ok(steady) if steady.prescribed => {}
+        Err(Unsteady::NotMet { .. }) => {}
+        _ => return first,
+    }
+    let not_met = || Unsteady::NotMet { speed, mean: search.mean };
+    let wanted = speed.abs();
+    let (mut first, mut best, mut failed) = (Some(first), None, None);
+    let mut least_error = f64::INFINITY;
+    let excess = |over_period: f64| {
+        if failed.is_some() {
+            return f64::NAN;
+        }
+        let made = first.take().unwrap_or_else(|| {
+            let speed = Some(over_period.copysign(speed));
+            find(Search { speed, ..*search }, best.as_ref())
+        });
+        match made {
+            Ok(steady) if steady.least_mean_of_extremes() > wanted => {
+                failed = Some(not_met());
+                f64::NAN
+            }
+            Ok(steady) => {
+                let error = steady.mean(Mean::Extremes) - wanted;
+                if error.abs() < least_error {
+                    (best, least_error) = (Some(steady), error.abs());
+                }
+                // What is nearer than the motions themselves is met.
+                if error.abs() <= search.relative * wanted { 0.0 } else { error }
+            }
+            // Too slow to be carried through the turn.
+            Err(Unsteady::Stops { .. } | Unsteady::NotMet { .. }) => -wanted,
+            Err(error) => {
+                failed = Some(error);
+                f64::NAN
+            }
+        }
+    };
+    root::zero_to(excess, wanted, search.relative);
+    if let Some(error) = failed {
+        return Err(error);
+    }
+    let is_met = least_error <= NOISE * search.relative * wanted;
+    best.filter(|_| is_met).ok_or_else(not_met)
+}
+
 fn even<E>(
     search: &Search<'_>,
     wanted: Option<Wanted>,
     mut find: impl FnMut(Search<'_>, Option<&Steady>) -> Result<Steady, Unsteady<E>>,
 ) -> Result<Steady, Unsteady<E>> {
+    let mut find = |search: Search<'_>, guess: Option<&Steady>| at_mean(&search, guess, &mut find);
     let Some(Wanted { fluctuation, mean }) = wanted else { return find(*search, None) };
     // Without a flywheel it may stop; then it fluctuates as much as can be.
     let without = match find(*search, None) {
@@ -98,6 +161,8 @@ fn even<E>(
         Err(Unsteady::Stops { .. } | Unsteady::CannotCarry { .. } | Unsteady::NotMet { .. }) => {
             None
         }
+        // The flywheel may be all the inertia there is.
+        Err(Unsteady::Broken(Broken::NoInertia { .. })) => None,
         Err(error) => return Err(error),
     };
     let own = without.as_ref().map_or(GREATEST, |steady| steady.fluctuation(mean));
@@ -166,6 +231,23 @@ impl Steady {
             }
         }
         extremes
+    }
+
+    /// Below which no motion of this machine has its mean of the extremes; 0 if that is not known.
+    ///
+    /// At a lower energy level q̇² falls everywhere by C/J, at most until the least is 0: the
+    /// greatest is then still q̇² − (least q̇²) J/J′.
+    fn least_mean_of_extremes(&self) -> f64 {
+        if (self.multiplier - 1.0).abs() > UNDAMPED {
+            return 0.0;
+        }
+        let moments = self.run.moments.speed.iter().zip(&self.run.energies);
+        let inertias = moments.map(|(speed, [kinetic, _])| 2.0 * kinetic / (speed * speed));
+        let [least, most] = inertias.fold([f64::INFINITY, 0.0_f64], |[least, most], inertia| {
+            [least.min(inertia), most.max(inertia)]
+        });
+        let [slow, fast] = self.extremes().map(|extreme| extreme.value * extreme.value);
+        0.5 * (fast - SAMPLED * slow * most / least).max(0.0).sqrt()
     }
 
     /// Time of a period, s.

@@ -144,8 +144,9 @@ impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
         Err(Unsteady::CannotCarry { from })
     }
 
-    /// A motion of this mean speed, and the constant moment that it takes.
+    /// A motion of this mean speed over the period, and the constant moment that it takes.
     fn at_speed(&mut self, speed: f64, guess: Begin) -> Found<O::Error> {
+        self.prescribed = true;
         let time = self.search.span / speed;
         let first =
             Begin { moment: guess.moment, speed2: guess.speed2.max(speed * speed), ..guess };
@@ -190,10 +191,14 @@ impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
             if step <= SETTLED && (step >= 0.5 * last || step <= 1e-3 * SETTLED) {
                 let met = (period.time - time).abs() <= SETTLED * time.abs()
                     && (period.speed2 - begin.speed2).abs() <= SETTLED * begin.speed2;
-                return if met { Ok((begin, period)) } else { Err(Unsteady::NotMet { speed }) };
+                return if met {
+                    Ok((begin, period))
+                } else {
+                    Err(Unsteady::NotMet { speed, mean: self.search.mean })
+                };
             }
             last = step;
         }
-        Err(Unsteady::NotMet { speed })
+        Err(Unsteady::NotMet { speed, mean: self.search.mean })
     }
 }

@@ -206,8 +206,7 @@ impl Sheet {
         for &q in q {
             let [inertia, moment] = [0, 1].map(|which| {
                 let table = self.tables.get(which);
-                let read = |table: &Table| Some(table.read(table.cell(q)?, q));
-                table.and_then(read).unwrap_or([f64::NAN; 2])
+                table.and_then(|table| table.value_and_slope(q)).unwrap_or([f64::NAN; 2])
             });
             rows.inertia.push(inertia[0] + self.motors.iter().map(Motor::inertia).sum::<f64>());
             rows.rates.push(inertia[1]);

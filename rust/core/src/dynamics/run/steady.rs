@@ -11,6 +11,7 @@ use super::outside::Outside;
 use super::source::Source;
 use super::task::{Along, Occasion, Task, Watch};
 use super::unsteady::Unsteady;
+use crate::dynamics::flywheel::Mean;
 use crate::ode::{Crossing, Integrator, Method};
 
 /// Errors of a period, as multiples of the tolerance.
@@ -21,6 +22,8 @@ const UNKNOWN: f64 = 0.05;
 const BALANCE: f64 = 1.0e-6;
 /// At how many places of a period the machine is compared with itself a period on.
 const LOOKS: u32 = 5;
+/// Part of the greatest inertia that is rounding.
+const NO_INERTIA: f64 = 64.0 * f64::EPSILON;
 /// How far two periods, one after the other, may differ.
 const SAME: f64 = 1.0e-7;
 
@@ -31,8 +34,10 @@ pub struct Search<'a> {
     pub q: f64,
     /// Its length, negative if the driver turns backward.
     pub span: f64,
-    /// The mean speed (span by time), where motors and loads tell none; else a first guess.
+    /// The mean speed, where motors and loads tell none; else a first guess.
     pub speed: Option<f64>,
+    /// What that mean is.
+    pub mean: Mean,
     /// The pair of formulas.
     pub method: Method,
     /// Relative tolerance.
@@ -60,6 +65,8 @@ pub struct Steady {
     pub drive: f64,
     /// Inertia added to the driver's, kg·m².
     pub flywheel: f64,
+    /// Whether the mean speed was prescribed and the moment found for it.
+    pub prescribed: bool,
 }
 
 impl Steady {
@@ -74,6 +81,8 @@ impl Steady {
 pub(super) struct Shooting<'s, 'a, S, O> {
     pub equation: Equation<'a, S, O>,
     pub search: Search<'s>,
+    /// Whether the motion has the mean speed of the search.
+    pub prescribed: bool,
     integrator: Option<Integrator>,
     /// Where the period at hand begins, and its breaks.
     from: f64,
@@ -87,8 +96,14 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
     ) -> Result<Self, Unsteady<O::Error>> {
         equation.flywheel = search.flywheel;
         equation.slopes = true;
-        let mut own =
-            Self { equation, search, integrator: None, from: search.q, breaks: Vec::new() };
+        let mut own = Self {
+            equation,
+            search,
+            prescribed: false,
+            integrator: None,
+            from: search.q,
+            breaks: Vec::new(),
+        };
         own.begin_at(search.q)?;
         own.compare()?;
         Ok(own)
@@ -115,6 +130,11 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         if looks.iter().any(|(_, pair)| pair.iter().any(|value| value.is_nan())) {
             return Ok(());
         }
+        let most = looks.iter().fold(0.0_f64, |most, (_, [inertia, _])| most.max(inertia.abs()));
+        let none = looks.iter().find(|(_, [inertia, _])| *inertia <= NO_INERTIA * most);
+        if let Some(&([q, _], [value, _])) = none {
+            return Err(Unsteady::Broken(Broken::NoInertia { q, value }));
+        }
         let other = looks.into_iter().find(|(_, [a, b])| (b - a).abs() > SAME * a.abs());
         other.map_or(Ok(()), |(q, inertia)| Err(Unsteady::AnotherOne { q, inertia }))
     }
@@ -130,7 +150,7 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
     }
 
     pub(super) fn pass(&mut self, begin: Begin) -> Result<Passage, Unsteady<O::Error>> {
-        let Self { equation, integrator, search, from, breaks } = self;
+        let Self { equation, integrator, search, from, breaks, .. } = self;
         period(equation, integrator, search, (*from, breaks), begin)
     }
 
@@ -192,7 +212,7 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         if !(balanced && (idle || noise <= UNKNOWN * period.turnover)) {
             return Err(Unsteady::RunsAway { speed: begin.speed2.sqrt() });
         }
-        let multiplier = period.speed2_by[0];
-        Ok(Steady { run, multiplier, moment: begin.moment, drive: period.drive, flywheel })
+        let (multiplier, moment, drive) = (period.speed2_by[0], begin.moment, period.drive);
+        Ok(Steady { run, multiplier, moment, drive, flywheel, prescribed: self.prescribed })
     }
 }

@@ -4,6 +4,15 @@ use thiserror::Error;
 
 use super::broken::Broken;
 use crate::dynamics::error::short;
+use crate::dynamics::flywheel::Mean;
+
+/// A mean as it is named in Python, and what it is.
+fn mean_named(mean: Mean) -> &'static str {
+    match mean {
+        Mean::Extremes => "mean=\"extremes\", half the sum of the extreme speeds",
+        Mean::Period => "mean=\"period\", the turn by its time",
+    }
+}
 
 /// Why there is no periodic motion.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -24,8 +33,11 @@ pub enum Unsteady<E> {
     RunsAway { speed: f64 },
     #[error("nothing depends on the speed, and over a period the motor's mean moment is {} N·m where {} N·m would be in balance: the machine speeds up or stops (without a motor the moment is found)", short(*motor), short(*needed))]
     Unbalanced { motor: f64, needed: f64 },
-    #[error("no periodic motion with a mean speed of {} rad/s was found: so slow a machine would stop on its way (flywheel= keeps it going), so fast a one cannot be told from rounding", short(*speed))]
-    NotMet { speed: f64 },
+    #[error(
+        "no periodic motion with a mean speed of {} rad/s was found ({}): at so low a speed the machine stops within the turn (add flywheel=), at so high a speed its variation is below rounding",
+        short(*speed), mean_named(*mean)
+    )]
+    NotMet { speed: f64, mean: Mean },
     #[error(
         "the speed is hardly told: over a period a change of it dies away by {} alone, which this tolerance (rtol) cannot see",
         short(*part)

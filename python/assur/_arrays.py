@@ -1,0 +1,104 @@
+"""Numbers of the caller as arrays of float64; what is not a number is refused by name."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur.errors import InputError
+
+Float: TypeAlias = npt.NDArray[np.float64]
+
+# What float() takes, though it is not a real number; NumPy converts it without a word.
+NOT_NUMBERS = (
+    type(None),
+    str,
+    bytes,
+    bytearray,
+    complex,
+    np.complexfloating,
+    np.datetime64,
+    np.timedelta64,
+    np.ndarray,
+    np.void,
+)
+
+
+def real_array(value: Any, what: str) -> Float:
+    """Copy to an array of float64.
+
+    Masked entries, text, times, records and complex numbers are refused.
+    """
+    if _is_masked(value):
+        message = f"{what} has masked entries: fill them, or leave them out"
+        raise InputError(message)
+    try:
+        # The bytes of a buffer would be numbers from 0 to 255.
+        array = np.asarray(bytes(value) if isinstance(value, bytearray) else value)
+        kind = array.dtype.kind
+        if kind in "biuf" or (kind == "O" and _holds_numbers(array)):
+            return array.astype(np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        message = f"{what} is {short(value)}: a number or an array of numbers is needed"
+        raise InputError(message) from error
+    message = f"{what} is {short(value)}: real numbers are needed"
+    raise InputError(message)
+
+
+def real_number(value: Any, what: str, finite: bool = True) -> float:
+    """One number, or an error that names it."""
+    # Nearly all are.
+    if isinstance(value, float) and math.isfinite(value):
+        return float(value)
+    array = real_array(value, what)
+    if array.ndim or np.isnan(array) or (finite and not np.isfinite(array)):
+        message = f"{what} is {short(value)}: a finite number is needed"
+        raise InputError(message)
+    return float(array)
+
+
+def not_negative(value: Any, what: str) -> float:
+    """One finite number that is 0 or more."""
+    number = real_number(value, what)
+    if number < 0.0:
+        message = f"{what} is {number:g}, it must not be negative"
+        raise InputError(message, value=number)
+    return number
+
+
+def two_numbers(value: Any, what: str) -> tuple[float, float]:
+    """Two finite numbers (x, y)."""
+    array = real_array(value, what)
+    if array.shape != (2,) or not np.isfinite(array).all():
+        message = f"{what} is {short(value)}: two finite numbers (x, y) are needed"
+        raise InputError(message)
+    return float(array[0]), float(array[1])
+
+
+def short(value: Any) -> str:
+    """Show a value in a message, however long it is."""
+    try:
+        text = repr(value)
+    except ValueError:
+        # Python does not print a whole number of more than 4300 digits.
+        return f"a {type(value).__name__} of very many digits"
+    return text if len(text) < 80 else text[:77] + "..."
+
+
+def _is_masked(value: Any) -> bool:
+    """Whether something is masked, also inside of lists (whose masks NumPy forgets)."""
+    if isinstance(value, np.ma.MaskedArray):
+        return bool(np.ma.is_masked(value))
+    if not isinstance(value, list | tuple):
+        return False
+    kinds = set(map(type, value))
+    inside = (list, tuple, np.ma.MaskedArray)
+    return any(issubclass(kind, inside) for kind in kinds) and any(map(_is_masked, value))
+
+
+def _holds_numbers(array: npt.NDArray[Any]) -> bool:
+    kinds = set(map(type, array.ravel().tolist()))
+    return not any(issubclass(kind, NOT_NUMBERS) for kind in kinds)

@@ -1,0 +1,200 @@
+"""Values of loads and motors: numbers, tables over the coordinate, functions of (t, q, speed)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur._arrays import Float, not_negative, real_array, real_number, short
+from assur._checks import one_of
+from assur.errors import InputError
+from assur.flywheel import SPLINES, Spline
+
+__all__ = ["Function", "Outside", "Table", "Value", "checked", "replace_fields"]
+
+# As the core takes them: a number, or which table or function; a table.
+Encoded: TypeAlias = float | tuple[str, int]
+Rows: TypeAlias = tuple[list[float], list[float], str, bool]
+
+
+def replace_fields(instance: Any, **values: Any) -> None:
+    """Put checked values in place of those given, in a frozen dataclass being made."""
+    for name, value in values.items():
+        object.__setattr__(instance, name, value)
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Table:
+    """Values over the (first) driver's coordinate; as a motor, torque over the motor's own speed.
+
+    Parameters
+    ----------
+    q : array_like
+        Coordinates, growing, rad or m; of a motor its speeds, rad/s. The table has its own copy,
+        as a read-only array.
+    value : array_like
+        Values there, as many.
+    spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
+        What is laid through the rows.
+    periodic : bool
+        Whether this is one period, its end the same as its beginning (the default); otherwise
+        there is no value beyond the rows. A motor's table never is.
+    ratio : float
+        As a motor: its speed by that of the driver.
+    rotor_inertia : float
+        As a motor: moment of inertia of its rotor, kg·m².
+
+    Raises
+    ------
+    InputError
+        Fewer than two rows (three of a periodic spline), lists of different lengths, a number that
+        is not finite, coordinates that do not grow, an unknown spline.
+
+    Examples
+    --------
+    >>> import assur
+    >>> work = assur.Table([0.0, 3.0, 3.4, 6.283185307179586], [0.0, 0.0, 900.0, 0.0], "linear")
+    >>> work.value
+    array([  0.,   0., 900.,   0.])
+    """
+
+    q: Float
+    value: Float
+    spline: Spline
+    periodic: bool
+    ratio: float
+    rotor_inertia: float
+
+    def __init__(
+        self,
+        q: npt.ArrayLike,
+        value: npt.ArrayLike,
+        spline: Spline = "not-a-knot",
+        periodic: bool = True,
+        ratio: float = 1.0,
+        rotor_inertia: float = 0.0,
+    ) -> None:
+        one_of(spline, SPLINES, "Table spline")
+        x, y = real_array(q, "Table q"), real_array(value, "Table value")
+        _check_rows(x, y, 3 if spline == "periodic" else 2)
+        for column in (x, y):
+            column.flags.writeable = False
+        replace_fields(
+            self,
+            q=x,
+            value=y,
+            spline=spline,
+            periodic=bool(periodic),
+            ratio=checked_ratio(ratio, "Table: ratio"),
+            rotor_inertia=not_negative(rotor_inertia, "Table: rotor_inertia"),
+        )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # A copy checks its arrays again and makes them read-only.
+        return type(self), tuple(getattr(self, one.name) for one in fields(self))
+
+    def _rows(self, periodic: bool | None = None) -> Rows:
+        whole = self.periodic if periodic is None else periodic
+        return self.q.tolist(), self.value.tolist(), self.spline, whole
+
+
+def _check_rows(q: Float, value: Float, least: int) -> None:
+    if q.ndim != 1 or q.shape != value.shape:
+        message = f"Table: q has the shape {q.shape}, value {value.shape}: two lists are needed"
+        raise InputError(message)
+    if q.size < least:
+        message = f"Table: it has {q.size} rows, at least {least} are needed"
+        raise InputError(message)
+    for name, column in (("q", q), ("value", value)):
+        bad = np.flatnonzero(~np.isfinite(column))
+        if bad.size:
+            wrong = float(column[bad[0]])
+            message = f"Table: {name}[{bad[0]}] is {wrong}, it must be finite"
+            raise InputError(message, value=wrong)
+    back = np.flatnonzero(np.diff(q) <= 0.0)
+    if back.size:
+        row = int(back[0]) + 1
+        message = (
+            f"Table: q[{row}] = {q[row]!s} does not grow beyond {q[row - 1]!s} before it: "
+            "coordinates must ascend without repeats"
+        )
+        raise InputError(message, value=float(q[row]))
+
+
+def checked_ratio(value: Any, what: str) -> float:
+    """Speed of a motor by that of its driver."""
+    ratio = real_number(value, what)
+    if ratio == 0.0:
+        message = f"{what} is 0, the motor would not turn"
+        raise InputError(message, value=ratio)
+    return ratio
+
+
+# Called with floats; of a machine with several drivers q and speed are tuples of them.
+Function: TypeAlias = Callable[[float, Any, Any], float]
+# A number, a table over q, or a function of (t, q, speed).
+Value: TypeAlias = float | Table | Function
+
+
+def checked(value: Any, what: str = "the value of a load") -> Value:
+    """A value that cannot change any more: a float, a table, or a function."""
+    if isinstance(value, Table):
+        if value.ratio != 1.0 or value.rotor_inertia != 0.0:
+            message = "Table: ratio and rotor_inertia are for a table that is a motor"
+            raise InputError(message)
+        return value
+    if callable(value):
+        function: Function = value
+        return function
+    return real_number(value, what)
+
+
+@dataclass
+class Outside:
+    """The tables and functions among the values, in order."""
+
+    tables: list[Rows] = field(default_factory=list)
+    functions: list[Function] = field(default_factory=list)
+    # How many of the functions are loads; those of motors come behind.
+    loads: int = 0
+
+    def encode(self, value: Value) -> Encoded:
+        """Encode a value for the core; tables and functions go to the lists."""
+        if isinstance(value, Table):
+            self.tables.append(value._rows())
+            return "table", len(self.tables) - 1
+        if callable(value):
+            self.functions.append(value)
+            return "function", len(self.functions) - 1
+        return float(value)
+
+    def numbers(self, q: Float, speed: Float) -> Float:
+        """The loads' functions' values at positions (rows of coordinates), at the time 0."""
+        functions = self.functions[: self.loads]
+        if not functions:
+            return np.empty(0)
+        one = q.shape[1] == 1
+        rows = zip(q.tolist(), speed.tolist(), strict=True)
+        pairs = ((a[0], b[0]) if one else (tuple(a), tuple(b)) for a, b in rows)
+        table = [[_called(f, a, b) for f in functions] for a, b in pairs]
+        return np.array(table, np.float64).ravel()
+
+
+def _called(function: Function, q: Any, speed: Any) -> float:
+    value: Any = function(0.0, q, speed)
+    if type(value) is float:
+        # NaN has its own message, with the place.
+        return value
+    name = getattr(function, "__name__", repr(function))
+    try:
+        array = real_array(value, "it")
+    except InputError:
+        array = np.empty(0)
+    if array.ndim:
+        message = f"the load {name}(t, q, speed) gave {short(value)} at q = {q}: a number is needed"
+        raise InputError(message)
+    return float(array)

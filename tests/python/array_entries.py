@@ -1,0 +1,193 @@
+"""Every public function that takes arrays, with numbers that it takes.
+
+An entry is called `module.function.parameter` or `Class.method.parameter`, as the guard finds them.
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+import types
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import assur
+from assur import crank_rocker, flywheel, slider_crank
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+TURN = 2.0 * math.pi
+MODULES = (assur, flywheel, slider_crank, crank_rocker, assur.events)
+
+PHI = np.arange(7.0)
+MOMENT = np.array([0.0, 40.0, 20.0, -30.0, 10.0, -50.0, 0.0])
+INERTIA = np.array([2.0, 3.0, 4.0, 2.0, 3.0, 4.0, 2.0])
+FOUR_BAR = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+MOTION = FOUR_BAR.solve([0.5, 1.0, 1.5], order=3)
+FIVE_BAR = assur.Mechanism(
+    joints={"A": (0, 0), "B": (0.3, 1), "C": (1.4, 2), "D": (2.5, 0.9), "E": (2, 0)},
+    links={"ground": "AE", "left": "AB", "l2": "BC", "l3": "CD", "right": "ED"},
+    driver=["left", "right"],
+)
+MACHINE = assur.Machine(
+    FOUR_BAR,
+    {"crank": assur.Body(inertia=2.0), "rocker": assur.Body(1.0, 0.5)},
+    [assur.Gravity(), assur.TorsionDamper("rocker", 0.5)],
+)
+OF_TABLE = assur.Machine.from_table(PHI * (TURN / 6.0), MOMENT, INERTIA, spline="linear")
+RUN = MACHINE.run(4.0, 0.5, 5.0, rtol=1e-6)
+ALONG = MACHINE.run(q_end=8.0, q0=0.5, speed0=5.0, rtol=1e-6)
+STEADY = OF_TABLE.steady_state(9.0, mean="period")
+WHEEL = flywheel.evaluate(PHI * (TURN / 6.0), MOMENT, INERTIA, 20.0, speed0=9.0)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A function of one array, and arrays that it takes."""
+
+    call: Callable[[Any], Any]
+    arrays: tuple[Any, ...]
+
+
+def numbers(first: float) -> tuple[Any, ...]:
+    """Numbers from the first on: one of them, in a row, in rows, and no numbers at all."""
+    row = first + np.arange(4.0)
+    return np.array(first), row, row.reshape(2, 2), row[:0], first + np.arange(4.0) / 4.0
+
+
+def each_of(name: str, function: Callable[..., Any], **usual: Any) -> dict[str, Entry]:
+    """An entry for each parameter that is a list of numbers, the others as usual."""
+
+    def entry(parameter: str) -> Entry:
+        own = usual[parameter]
+        arrays = (own,) if isinstance(own, np.ndarray) else numbers(own)
+        return Entry(lambda value: function(**{**usual, parameter: value}), arrays)
+
+    listed = [one for one in array_parameters(function) if one in usual]
+    return {f"{name}.{parameter}": entry(parameter) for parameter in listed}
+
+
+def array_parameters(function: Callable[..., Any]) -> list[str]:
+    every = inspect.signature(function).parameters.values()
+    return [one.name for one in every if "ArrayLike" in str(one.annotation)]
+
+
+def public() -> Iterator[tuple[str, Callable[..., Any]]]:
+    """Every public function, method and constructor, by its name."""
+    for module in MODULES:
+        for name in module.__all__:
+            thing = getattr(module, name)
+            if isinstance(thing, types.FunctionType):
+                yield f"{module.__name__}.{name}", thing
+            elif inspect.isclass(thing):
+                for key, member in inspect.getmembers(thing, inspect.isroutine):
+                    is_own = (getattr(member, "__module__", None) or "").startswith("assur")
+                    if is_own and (key == "__init__" or not key.startswith("_")):
+                        # Where it is defined; a method inherited is the same one.
+                        yield member.__qualname__, member
+
+
+def with_lengths(value: Any) -> Any:
+    return FOUR_BAR.with_dimensions({"coupler.length": value}).solve(1.0, on_error="nan")
+
+
+LENGTHS = {"l1": 1.0, "l2": 9.0, "l3": 6.0, "l4": 10.0}
+SLIDER = {"phi": 0.0, "crank": 1.0, "rod": 5.0}
+COLUMNS = {"phi": PHI, "moment": MOMENT, "inertia": INERTIA}
+ENTRIES: dict[str, Entry] = {
+    "Mechanism.solve.q": Entry(FOUR_BAR.solve, numbers(0.0)),
+    "Mechanism.solve.q of two": Entry(
+        lambda q: FIVE_BAR.solve(q, on_error="nan"), (np.ones((3, 2)), np.ones(2), np.ones((0, 2)))
+    ),
+    "Mechanism.with_dimensions.dimensions": Entry(with_lengths, numbers(3.0)),
+    "Mechanism.with_dimensions.by_name": Entry(
+        lambda x: FOUR_BAR.with_dimensions(**{"coupler.length": x}).dimensions, numbers(3.0)
+    ),
+    "Mechanism.assemblies.q": Entry(FOUR_BAR.assemblies, numbers(1.0)),
+    **each_of("FourBar.__init__", assur.FourBar, crank=1.0, coupler=3.0, rocker=2.0, ground=3.0),
+    **each_of("SliderCrank.__init__", assur.SliderCrank, crank=1.0, rod=5.0, offset=0.0),
+    **each_of("Analogues.velocity", MOTION.joint("C").velocity, omega=1.0),
+    **each_of("Analogues.acceleration", MOTION.joint("C").acceleration, omega=1.0, alpha=2.0),
+    **each_of("Analogues.jerk", MOTION.link("rocker").jerk, omega=1.0, alpha=2.0, beta=3.0),
+    **each_of("Machine.reduced_inertia", MACHINE.reduced_inertia, q=0.0),
+    **each_of("Machine.reduced_moment", MACHINE.reduced_moment, q=0.0, speed=1.0),
+    **each_of("Machine.potential", MACHINE.potential, q=0.0),
+    **each_of("Machine.flywheel", OF_TABLE.flywheel, fluctuation=0.125, mean_speed=4.0),
+    **each_of("Machine.run", MACHINE.run, t_end=0.5, q0=1.0, speed0=2.0, breaks=0.0, rtol=1e-6),
+    "Machine.run.atol": Entry(
+        lambda x: MACHINE.run(0.5, 1.0, 2.0, atol=x),
+        (np.array([1.0, 2.0]) / 1024.0, np.array(0.125)),
+    ),
+    "Machine.steady_state.breaks": Entry(
+        lambda x: OF_TABLE.steady_state(9.0, breaks=x, mean="period"), (np.array([1.0, 2.0]),)
+    ),
+    **each_of("Machine.from_table", assur.Machine.from_table, **COLUMNS),
+    "Run.at.t": Entry(RUN.at, numbers(0.0)),
+    "Run.at.q": Entry(lambda q: ALONG.at(q=q), numbers(1.0)),
+    **each_of("SteadyState.at", STEADY.at, q=0.0),
+    **each_of("Table.__init__", assur.Table, q=PHI, value=MOMENT),
+    **each_of("Flywheel.angle", WHEEL.angle, t=0.0),
+    **each_of("Flywheel.moment", WHEEL.moment, q=0.0),
+    **each_of("Flywheel.reduced_inertia", WHEEL.reduced_inertia, q=0.0),
+    **each_of("Flywheel.speed", WHEEL.speed, q=0.0),
+    **each_of("Flywheel.speed_at", WHEEL.speed_at, t=0.0),
+    **each_of("Flywheel.time", WHEEL.time, q=0.0),
+    **each_of("Flywheel.work", WHEEL.work, q=0.0),
+    **each_of(
+        "assur.flywheel.from_table",
+        flywheel.from_table,
+        **COLUMNS,
+        fluctuation=0.125,
+        mean_speed=4.0,
+    ),
+    **each_of("assur.flywheel.evaluate", flywheel.evaluate, **COLUMNS, flywheel=8.0, speed0=9.0),
+    **each_of(
+        "assur.flywheel.evaluate", flywheel.evaluate, **COLUMNS, flywheel=8.0, mean_speed=9.0
+    ),
+    **each_of("assur.slider_crank.stroke", slider_crank.stroke, **SLIDER),
+    **each_of("assur.slider_crank.coordinate", slider_crank.coordinate, **SLIDER),
+    **each_of("assur.slider_crank.rod_angle", slider_crank.rod_angle, **SLIDER),
+    **each_of(
+        "assur.slider_crank.rod_point", slider_crank.rod_point, **SLIDER, along=2.0, across=1.0
+    ),
+    "assur.slider_crank.fourier.k": Entry(slider_crank.fourier, numbers(2.0)),
+    "assur.slider_crank.greatest_speed.k": Entry(slider_crank.greatest_speed, numbers(2.0)),
+    "assur.slider_crank.greatest_acceleration.k": Entry(
+        slider_crank.greatest_acceleration, numbers(2.0)
+    ),
+    "assur.slider_crank.deviation.lam": Entry(
+        lambda lam: slider_crank.deviation(lam, 2), (np.array([0.25, 0.5]), np.array(0.125))
+    ),
+    **each_of(
+        "assur.crank_rocker.solve",
+        crank_rocker.solve,
+        phi1=0.0,
+        **LENGTHS,
+        speed=1.0,
+        ground_speed=0.0,
+    ),
+    **each_of("assur.crank_rocker.grashof", crank_rocker.grashof, **LENGTHS),
+    **each_of("assur.crank_rocker.crank_turns", crank_rocker.crank_turns, **LENGTHS),
+    **each_of(
+        "assur.crank_rocker.transmission_extremes", crank_rocker.transmission_extremes, **LENGTHS
+    ),
+    **each_of(
+        "assur.crank_rocker.ground_range",
+        crank_rocker.ground_range,
+        coupler=9.0,
+        rocker=6.0,
+        gamma_min=0.5,
+    ),
+    **each_of(
+        "assur.crank_rocker.least_transmission_angle",
+        crank_rocker.least_transmission_angle,
+        f_c=6.0,
+        r_c=1.0,
+        f_d=8.0,
+        r_d=2.0,
+        rocker=5.0,
+    ),
+}

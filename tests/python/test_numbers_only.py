@@ -1,0 +1,152 @@
+"""Where one number is wanted, text, times, masks and the like are refused, not converted."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import assur
+from assur import Body, Machine, crank_rocker, slider_crank
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+PRESS = assur.SliderCrank(0.1, 0.4)
+MACHINE = Machine(PRESS, {"crank": Body(inertia=0.5), "piston": Body(20.0)})
+ROCKER = {"l1": 1.0, "l2": 9.0, "l3": 6.0}
+
+
+def drawn(**changed: Any) -> assur.Mechanism:
+    joints: dict[str, Any] = {"O": (0, 0), "A": (0.05, 0), "B": (0.25, 0), **changed}
+    return assur.Mechanism(joints, PRESS.links, "crank", PRESS.slides)
+
+
+def guided(angle: Any) -> assur.Mechanism:
+    bore = assur.Slide("piston", on="ground", angle=angle, origin="O")
+    joints = {"O": (0, 0), "A": (0.05, 0), "B": (0.25, 0)}
+    return assur.Mechanism(joints, PRESS.links, "crank", {"bore": bore})
+
+
+def stopped(event: Any) -> assur.Run:
+    return MACHINE.run(0.1, speed0=1.0, events=[event])
+
+
+ASKS: dict[str, Callable[[Any], object]] = {
+    "joint": lambda x: drawn(A=(x, 0.0)),
+    "both of a joint": lambda x: drawn(A=x),
+    "guide": guided,
+    "mass": lambda x: Body(mass=x),
+    "inertia": lambda x: Body(inertia=x),
+    "centre of mass": lambda x: Body(1.0, at=(x, 0.0)),
+    "gravity": lambda x: assur.Gravity((0.0, x)),
+    "force": lambda x: assur.Force("B", (x, 0.0)),
+    "place": lambda x: assur.Force(("rod", (x, 0.0)), (1.0, 0.0)),
+    "torque": lambda x: assur.Torque("crank", x),
+    "stiffness": lambda x: assur.Spring("A", "O", x, 0.1),
+    "length": lambda x: assur.Spring("A", "O", 1.0, x),
+    "preload": lambda x: assur.Spring("A", "O", 1.0, 0.1, x),
+    "torsion": lambda x: assur.TorsionSpring("crank", x),
+    "angle": lambda x: assur.TorsionSpring("crank", 1.0, x),
+    "damping": lambda x: assur.Damper("A", "O", x),
+    "torsion damping": lambda x: assur.TorsionDamper("crank", x),
+    "motor": assur.ConstantTorque,
+    "ratio": lambda x: assur.ConstantTorque(1.0, x),
+    "rotor": lambda x: assur.ConstantTorque(1.0, 1.0, x),
+    "stall": lambda x: assur.LinearMotor(x, 10.0),
+    "no_load": lambda x: assur.LinearMotor(10.0, x),
+    "breakdown": lambda x: assur.InductionMotor(x, 0.1, 10.0),
+    "slip": lambda x: assur.InductionMotor(1.0, x, 10.0),
+    "synchronous": lambda x: assur.InductionMotor(1.0, 0.1, x),
+    "table's ratio": lambda x: assur.Table([0, 1], [1, 1], ratio=x),
+    "table's rotor": lambda x: assur.Table([0, 1], [1, 1], rotor_inertia=x),
+    "t_end": lambda x: MACHINE.run(x, speed0=1.0),
+    "q_end": lambda x: MACHINE.run(q_end=x, speed0=1.0),
+    "t0": lambda x: MACHINE.run(2.0, t0=x),
+    "rtol": lambda x: MACHINE.run(1.0, rtol=x),
+    "max_step": lambda x: MACHINE.run(1.0, max_step=x),
+    "max_seconds": lambda x: MACHINE.run(1.0, max_seconds=x),
+    "speed": MACHINE.steady_state,
+    "steady q0": lambda x: MACHINE.steady_state(5.0, q0=x),
+    "steady flywheel": lambda x: MACHINE.steady_state(5.0, flywheel=x),
+    "steady rtol": lambda x: MACHINE.steady_state(5.0, rtol=x),
+    "value of a function": lambda x: Machine(
+        PRESS, loads=[assur.Torque("crank", lambda *_: x)]
+    ).reduced_moment(1.0),
+    "event q": lambda x: stopped(assur.events.Position(x)),
+    "event speed": lambda x: stopped(assur.events.Speed(x)),
+    "event limit": lambda x: stopped(assur.events.TransmissionAngle("A", x)),
+    "contour": lambda x: slider_crank.contour(x, 1.0, 3.0),
+    "tolerance": lambda x: crank_rocker.grashof(1, 4.5, 1.5, 4.8, x),
+    "margin": lambda x: crank_rocker.ground_range(9.0, 6.0, x),
+    "blocked": lambda x: crank_rocker.blocked(x, 9.0, 6.0, 10.0, 0.5),
+    "ground": lambda x: crank_rocker.run(**ROCKER, ground=x, gamma_min=0.5),
+    "crank": lambda x: crank_rocker.run(x, 9.0, 6.0, 10.0, 0.5),
+    "sign": lambda x: PRESS.solve(1.0, assembly={"bore": x}),
+}
+NOT_NUMBERS: dict[str, Any] = {
+    "text": "1.0",
+    "bytes": b"1",
+    "a buffer": bytearray(b"1"),
+    "an array of text": np.array("1.0"),
+    "a date": np.datetime64(1, "s"),
+    "a time": np.timedelta64(1, "s"),
+    "masked": np.ma.masked,
+    "a masked array": np.ma.array(1.0, mask=True),
+    "complex": 1.0 + 0.0j,
+    "NumPy's complex": np.complex128(1.0),
+    "a record": np.array((1.0,), [("x", "f8")])[()],
+    "an object of text": np.array("1.0", object),
+    "a dictionary": {"x": 1.0},
+    "too great": 10**400,
+    "far too great": 10**5000,
+}
+
+
+@pytest.mark.parametrize("what", list(NOT_NUMBERS))
+@pytest.mark.parametrize("name", list(ASKS))
+def test_what_is_not_a_number_is_refused(name: str, what: str) -> None:
+    with pytest.raises(assur.InputError):
+        ASKS[name](NOT_NUMBERS[what])
+
+
+@pytest.mark.parametrize("what", ["text", "bytes", "a buffer", "masked", "complex", "a dictionary"])
+def test_a_run_refuses_a_function_that_gives_no_number(what: str) -> None:
+    value = NOT_NUMBERS[what]
+    load = assur.Torque("crank", lambda *_: value)
+    with pytest.raises(assur.InputError, match=r"gave .* at t = 0"):
+        Machine(PRESS, {"crank": Body(inertia=1.0)}, [load]).run(0.1)
+
+
+def made(name: str, value: Any) -> type:
+    """What becomes of a number: a value, or which refusal of it."""
+    try:
+        return type(ASKS[name]((value, value) if name == "both of a joint" else value))
+    except assur.AssurError as error:
+        return type(error)
+
+
+@pytest.mark.parametrize("name", list(ASKS))
+def test_a_number_of_numpy_is_a_number(name: str) -> None:
+    """A number of no axes, and a mask of nothing, are what they hold."""
+    values = [1.0] if name in ("sign", "ratio") else [0.25, 2.0]
+    for value in values:
+        plain = made(name, value)
+        for number in (np.float64(value), np.array(value), np.ma.array(value, mask=False)):
+            assert made(name, number) is plain
+
+
+def test_a_sign_of_any_size_is_refused_by_this_package() -> None:
+    for sign in (2**70, -(2**63), 0, 2, math.inf, 1.5):
+        with pytest.raises(assur.AssurError):
+            drawn_flat(sign)
+        with pytest.raises(assur.InputError, match="must be"):
+            PRESS.solve(1.0, assembly={"bore": sign})  # type: ignore[dict-item]
+
+
+def drawn_flat(sign: Any) -> assur.Mechanism:
+    joints = {"A": (0, 0), "B": (1, 0), "C": (3, 0), "D": (4, 0)}
+    links = {"ground": "AD", "crank": "AB", "coupler": "BC", "rocker": "DC"}
+    return assur.Mechanism(joints, links, "crank", assembly={"C": sign})
