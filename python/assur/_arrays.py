@@ -32,7 +32,12 @@ def real_array(value: Any, what: str) -> Float:
 
     Masked entries, text, times, records and complex numbers are refused.
     """
-    if _is_masked(value):
+    try:
+        masked = _is_masked(value)
+    except RecursionError as error:
+        message = f"{what} is a list that contains itself: a number or an array is needed"
+        raise InputError(message) from error
+    if masked:
         message = f"{what} has masked entries: fill them, or leave them out"
         raise InputError(message)
     try:
@@ -58,6 +63,14 @@ def real_number(value: Any, what: str, finite: bool = True) -> float:
         message = f"{what} is {short(value)}: a finite number is needed"
         raise InputError(message)
     return float(array)
+
+
+def flag(value: Any, what: str) -> bool:
+    """True or False, or an error that names it."""
+    if isinstance(value, bool | np.bool_):
+        return bool(value)
+    message = f"{what} is {short(value)}: True or False is needed"
+    raise InputError(message)
 
 
 def not_negative(value: Any, what: str) -> float:

@@ -54,6 +54,9 @@ def listed(value: Any, name: str) -> list[Any]:
     if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
         message = f"{name} is {value!r}: a sequence of them is needed"
         raise InputError(message)
+    if getattr(value, "ndim", 1) == 0:
+        message = f"{name} is {value!r}: a sequence of them is needed"
+        raise InputError(message)
     return list(value)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._call import Call
-from assur._checks import checked_order, checked_signs, checked_threads, real_array
+from assur._checks import checked_order, checked_signs, checked_threads, one_of, real_array
 from assur.description import Status
 from assur.errors import AssurError, DimensionError, InputError, PositionError
 from assur.motion import Motion
@@ -35,9 +35,7 @@ def solve(
     out: Motion | None,
 ) -> Motion:
     """See `Mechanism.solve`."""
-    if on_error not in ("raise", "nan"):
-        message = f'on_error is {on_error!r}: "raise" or "nan"'
-        raise InputError(message)
+    one_of(on_error, ("raise", "nan"), "on_error")
     order = checked_order(order)
     coordinates, positions, per_design = _coordinates(mechanism, q)
     coordinates.flags.writeable = False

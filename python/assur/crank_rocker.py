@@ -358,13 +358,14 @@ def blocked(
     >>> np.degrees(assur.crank_rocker.blocked(1, 4.5, 1.5, 4.995, 0.2)).round(6)
     array([[-11.744097,  11.744097]])
     """
-    _angle(gamma_min, "gamma_min")
+    least = real_number(gamma_min, "gamma_min")
+    _angle(np.asarray(least), "gamma_min")
     flat, shape = _designs(l1, l2, l3, l4)
     if shape:
         message = f"blocked has intervals of one mechanism, not of {shape}"
         raise InputError(message)
     crank, coupler, rocker, ground = (float(column[0]) for column in flat)
-    squares, product = coupler**2 + rocker**2, 2.0 * coupler * rocker * np.cos(gamma_min)
+    squares, product = coupler**2 + rocker**2, 2.0 * coupler * rocker * np.cos(least)
     found = []
     # S² = l1² + l4² + 2 l1 l4 cos φ1 at γ23 = π − γ_min and at γ_min.
     for middle, s2, sign in ((0.0, squares + product, 1.0), (np.pi, squares - product, -1.0)):

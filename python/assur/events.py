@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from assur import transmission
-from assur._arrays import real_number
+from assur._arrays import flag, real_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -134,7 +134,7 @@ def parts(
         )
         raise InputError(message)
     sign = 0 if isinstance(event, Rest) else _sign(event, event.direction)
-    ending = sign, bool(event.stop)
+    ending = sign, flag(event.stop, f"{type(event).__name__} stop")
     if isinstance(event, Crossing):
         functions.append(_function(event, event.function))
         return "function", len(functions) - 1, 0.0, [], False, *ending

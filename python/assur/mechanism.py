@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -9,13 +10,14 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _parts, _solve
-from assur._checks import checked_index, checked_signs, real_array
+from assur._arrays import short
+from assur._checks import checked_index, checked_name, checked_signs, real_array
 from assur.description import Assembly, Slide
 from assur.errors import InputError
 from assur.structure import Group, Structure
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Sequence
 
     from assur._core import Mechanism as Core
     from assur._parts import DriverLike, Parts
@@ -274,7 +276,11 @@ class Mechanism:
         >>> m.with_dimensions({"coupler.length": np.linspace(2.8, 3.2, 5)}).shape
         (5,)
         """
-        wanted = {**(dimensions or {}), **by_name}
+        given: Any = {} if dimensions is None else dimensions
+        if not isinstance(given, Mapping):
+            message = f"dimensions is {short(given)}: a mapping of names to values is needed"
+            raise InputError(message)
+        wanted = {**{checked_name(name, "dimensions"): v for name, v in given.items()}, **by_name}
         places = [self._core.dimension(name) for name in wanted]
         new = [real_array(value, f"dimension {name!r}") for name, value in wanted.items()]
         try:

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core, transmission
-from assur._checks import checked_index
+from assur._checks import checked_index, checked_name
 from assur.analogues import Analogues
 from assur.errors import InputError
 from assur.sensitivity import Sensitivity
@@ -101,7 +101,7 @@ class Motion:
         return f"<assur.Motion of {formula}, shape {self.shape}, order {self.order}>"
 
     def _find(self, kind: str, held: dict[str, tuple[Float, ...]], name: str) -> tuple[Float, ...]:
-        if name not in held:
+        if checked_name(name, kind) not in held:
             self.mechanism._core.require(kind, name)
             message = f"{kind} {name!r} was not among the outputs of this motion"
             raise InputError(message, **{kind: name})  # type: ignore[arg-type]
@@ -130,6 +130,7 @@ class Motion:
         return joints, links, slides
 
     def _place(self, link: str) -> Analogues:
+        checked_name(link, "link")
         # Seldom asked for, so solved for then.
         if link not in self._places:
             self._places[link] = self._call.place(link)
@@ -174,7 +175,8 @@ class Motion:
         dead points.
         """
         self._one_driver("mechanical_advantage")
-        output = self.slide(name) if name in self.mechanism.slides else self.link(name)
+        is_slide = checked_name(name, "mechanical_advantage") in self.mechanism.slides
+        output = self.slide(name) if is_slide else self.link(name)
         with np.errstate(divide="ignore"):
             ratio: Float = 1.0 / output.d1
         return ratio
@@ -292,7 +294,8 @@ class Motion:
         """Return a pandas DataFrame, one row a position (needs pandas).
 
         Columns: the design's index, q, status, and every value and analogue held,
-        such as ``C.x``, ``C.x.d1``, ``coupler``, ``coupler.d1``.
+        such as ``C.x``, ``C.x.d1``, ``coupler``, ``coupler.d1``. A link or slide called
+        as one of the first columns has its own under ``link q``, ``slide status``.
         """
         from assur.table import dataframe
 

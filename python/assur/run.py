@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+from typing_extensions import Self
 
 from assur import _core
 from assur._arrays import real_array
@@ -65,7 +66,7 @@ class NearChangePoint(str):
     miss: float
     q: float
 
-    def __new__(cls, dyad: str, miss: float, q: float) -> NearChangePoint:
+    def __new__(cls, dyad: str, miss: float, q: float) -> Self:
         """Make the event of a dyad whose lengths miss by `miss` at `q`."""
         event = super().__new__(cls, "near_change_point")
         event.dyad, event.miss, event.q = dyad, miss, q

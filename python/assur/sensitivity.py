@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from assur._checks import checked_name
 from assur.analogues import Analogues
 from assur.errors import InputError
 
@@ -29,7 +30,7 @@ class Sensitivity:
     """
 
     def __init__(self, motion: Motion, dimension: str) -> None:
-        index = motion.mechanism._core.dimension(dimension)
+        index = motion.mechanism._core.dimension(checked_name(dimension, "sensitivity"))
         outputs = motion._names()
         self.dimension = dimension
         self._drivers = len(motion.mechanism._core.q0)
@@ -48,7 +49,7 @@ class Sensitivity:
         return Analogues(name, self._of("slide", self._tracks.slides, name), self._drivers, False)
 
     def _of(self, kind: str, held: Held, name: str) -> tuple[npt.NDArray[np.float64], ...]:
-        if name not in held:
+        if checked_name(name, kind) not in held:
             message = f"{kind} {name!r} was not among the outputs of this motion"
             raise InputError(message, **{kind: name})  # type: ignore[arg-type]
         return held[name]

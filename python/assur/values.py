@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import Float, not_negative, real_array, real_number, short
+from assur._arrays import Float, flag, not_negative, real_array, real_number, short
 from assur._checks import one_of
 from assur.errors import InputError
 from assur.flywheel import SPLINES, Spline
@@ -88,7 +88,7 @@ class Table:
             q=x,
             value=y,
             spline=spline,
-            periodic=bool(periodic),
+            periodic=flag(periodic, "Table periodic"),
             ratio=checked_ratio(ratio, "Table: ratio"),
             rotor_inertia=not_negative(rotor_inertia, "Table: rotor_inertia"),
         )

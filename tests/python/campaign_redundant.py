@@ -80,9 +80,11 @@ class Overconstrained(Findings):
         self.fail("jump", *found)
 
     def designs(self, exact: assur.Mechanism, path: Path, there: Sample) -> None:
-        """What fits but for rounding moves too."""
+        """What fits but for rounding moves too: the redundant links' own dimensions."""
         own, rng = exact.dimensions, self.rng
-        off = {n: v * (1.0 + OFF * rng.uniform(-1.0, 1.0)) for n, v in own.items()}
+        spare = exact.structure.redundant
+        by = {n: OFF * rng.uniform(-1.0, 1.0) if n.split(".")[0] in spare else 0.0 for n in own}
+        off = {n: v * (1.0 + by[n]) for n, v in own.items()}
         angles = (".angle", ".link_angle")
         scaled = {n: v if n.endswith(angles) else SCALE * v for n, v in own.items()}
         batch = exact.with_dimensions({n: [off[n], scaled[n]] for n in off})

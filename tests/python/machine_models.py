@@ -15,12 +15,15 @@ import models
 from description import GROUND, Description, arguments
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from assur import Machine
+    from assur.flywheel import Spline
 
 T_END = (0.1, 0.6)
 SPEED = (0.5, 3.0)
 KINDS = ("force", "torque", "spring", "torsion spring", "damper", "torsion damper")
-SPLINES = ("not-a-knot", "natural", "clamped", "periodic", "linear")
+SPLINES: tuple[Spline, ...] = ("not-a-knot", "natural", "clamped", "periodic", "linear")
 # The greatest condition at the drawing: a run that begins beside a dead point is soon over.
 CONDITION = 200.0
 CARRIED = 0.6  # of the links have a body
@@ -164,7 +167,9 @@ class Parts:
         values = np.array([rng.uniform(-size, size) for _ in knots])
         if periodic:
             values[-1] = values[0]
-        kinds = SPLINES if periodic else [kind for kind in SPLINES if kind != "periodic"]
+        kinds: Sequence[Spline] = SPLINES
+        if not periodic:
+            kinds = [kind for kind in SPLINES if kind != "periodic"]
         return assur.Table(knots, values, rng.choice(kinds), periodic=periodic)
 
     def function(self, size: float) -> Any:

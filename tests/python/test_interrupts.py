@@ -9,26 +9,28 @@ import sys
 import textwrap
 import threading
 import time
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 
 import assur
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
 
-class Stopped(Exception):
+
+class StoppedError(Exception):
     """What the handler raises: an ordinary exception, as that of a time limit is."""
 
 
 @contextmanager
 def signal_after(seconds: float) -> Iterator[None]:
-    """Raise `Stopped` in the main thread by a signal."""
+    """Raise `StoppedError` in the main thread by a signal."""
 
     def stop(*_: object) -> None:
-        raise Stopped
+        raise StoppedError
 
     before = signal.signal(signal.SIGALRM, stop)
     signal.setitimer(signal.ITIMER_REAL, seconds)
@@ -45,7 +47,7 @@ def stopped(call: Callable[[int], object], size: int, seconds: float = 0.1) -> i
         try:
             with signal_after(seconds):
                 call(size)
-        except Stopped:
+        except StoppedError:
             return size
         size *= 4
         assert size < 1e10, "the signal is never heard"
@@ -55,7 +57,7 @@ def test_a_motion_whose_overwriting_was_stopped_cannot_be_read() -> None:
     for size in (10_000, 40_000, 160_000):
         m = _class_iv(size)
         motion: Any = m.solve([0.3], order=0, on_error="nan")
-        with suppress(Stopped), signal_after(0.05):
+        with suppress(StoppedError), signal_after(0.05):
             m.solve([0.4], order=0, on_error="nan", out=motion)
         if not motion._stored.buffers.complete:
             break
@@ -65,7 +67,7 @@ def test_a_motion_whose_overwriting_was_stopped_cannot_be_read() -> None:
         motion.joint("8")
     with pytest.raises(assur.InputError, match="this motion is incomplete"):
         assert motion.status is None
-    assert f"shape {m.shape + (1,)}" in repr(motion)
+    assert f"shape {(*m.shape, 1)}" in repr(motion)
     whole = m.solve([0.4], order=0, on_error="nan", out=motion)
     again = m.design(7).solve([0.4], order=0, on_error="nan")
     np.testing.assert_array_equal(whole.joint("8").value[7], again.joint("8").value)

@@ -61,7 +61,7 @@ def test_several_drivers_are_lost_likewise() -> None:
     """Two cranks drive a triad, and a dyad hangs on it."""
     m = assur.Mechanism(
         joints={
-            "A": (0, 0), "B": (1, 0.2), "C": (6, 0), "D": (5.2, 0.8), "E": (3.0, 5.0), "F": (1.6, 2.6),
+            "A": (0, 0), "B": (1, 0.2), "C": (6, 0), "D": (5.2, 0.8), "E": (3, 5), "F": (1.6, 2.6),
             "G": (2.6, 2.2), "H": (2.2, 3.4), "I": (4.6, 3.2), "K": (5.4, 4.4), "L": (6.8, 3.0),
         },
         links={

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 import assur
 from assur import _core
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 Q = np.linspace(0.0, 2.0 * np.pi, 50)
 MANY = np.linspace(2.9, 3.1, 4000)  # designs: more than one chunk of work

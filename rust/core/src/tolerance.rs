@@ -43,9 +43,16 @@ pub const RANK: f64 = 2.0e-9;
 /// or far away.
 pub const REGULAR_CLOSURE: f64 = 1.0e-12;
 
+/// Entries of an elimination below this are not solved for when a displaced linkage is brought back
+/// onto its closure.
+pub const TRUNCATED: f64 = 1.0e-6;
+
 /// Entries of an elimination below this belong to equations that nearly depend on others: links
-/// that are redundant, drawn with few digits.
-pub const NEARLY_REDUNDANT: f64 = 1.0e-6;
+/// that would be redundant, drawn with few digits. (Their misfit is amplified by the condition.)
+pub const NEARLY_DEPENDENT: f64 = 1.0e-2;
+
+/// So much (of the size) the misfit of such links may be for them to be said to nearly fit.
+pub const NEARLY_REDUNDANT: f64 = 1.0e-4;
 
 /// A redundant link fits while its misfit is below this part of the size (or below
 /// [`CLOSURE_PER_CONDITION`] times the condition), and joints of a drawing are moved by no more

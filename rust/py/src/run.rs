@@ -6,7 +6,7 @@ use assur::dynamics::{Broken, Ending, Happened, Moment, Moments, Outside, RunErr
 use assur::ode::Error;
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyTuple};
+use pyo3::types::{PyBytes, PyDict, PyFloat, PyTuple};
 
 use crate::error;
 use crate::gate::{self, guard};
@@ -37,6 +37,15 @@ impl Calls {
     }
 }
 
+/// A number, by the package's own rules: text and dates are none.
+fn number(given: &Bound<'_, PyAny>) -> PyResult<f64> {
+    if let Ok(float) = given.cast_exact::<PyFloat>() {
+        return Ok(float.value());
+    }
+    let read = given.py().import("assur._arrays")?.getattr("real_number")?;
+    read.call1((given, "it"))?.extract()
+}
+
 fn call(
     py: Python<'_>,
     function: &Py<PyAny>,
@@ -48,7 +57,7 @@ fn call(
         _ => function.call1(py, (t, PyTuple::new(py, q)?, PyTuple::new(py, speed)?))?,
     };
     let given = given.bind(py);
-    match given.extract::<f64>() {
+    match number(given) {
         Ok(number) if number.is_finite() => Ok(number),
         _ => {
             let name = function.bind(py).getattr("__name__").map_or_else(

@@ -84,7 +84,12 @@ impl Flywheel {
         check_inertia(&turn, inertia)?;
         check_speed("mean_speed", mean)?;
         // Below, the speed would not be real everywhere.
-        let [_, least] = turn.extremes(0.0, 2.0);
+        let [greatest, least] = turn.extremes(0.0, 2.0);
+        let guess = mean * mean * (turn.inertia(turn.start()) + inertia);
+        if guess <= f64::EPSILON * greatest.value.abs().max(least.value.abs()) {
+            // Beside such energies that of the mean speed is rounding.
+            return Err(TableError::NoMean { mean });
+        }
         let lack = |above: f64| {
             let constant = least.value + above;
             let own = match by {
@@ -96,7 +101,6 @@ impl Flywheel {
             };
             own - mean
         };
-        let guess = mean * mean * (turn.inertia(turn.start()) + inertia);
         let above = root::zero(lack, guess).ok_or(TableError::NoMean { mean })?;
         Self::of(turn, inertia, least.value + above)
     }

@@ -2,7 +2,7 @@
 
 use super::bridge::Bridge;
 use super::design::{Design, Place, Units};
-use super::state::{Context, State, Status};
+use super::state::{Context, Fault, State, Status};
 use super::track::{Track, nearest};
 use super::walk::{Seed, Start};
 use crate::mechanism::Mechanism;
@@ -165,20 +165,22 @@ impl<'m> Follower<'m> {
         let (mut low, mut high) = (q - reach, q + reach);
         for _ in 0..HALVINGS {
             let third = (high - low) / 3.0;
-            let [a, b] = [low + third, high - third].map(|at| {
-                let solved = self.solve(&[at]).is_ok();
-                if solved { self.misses_flat_by(dyad) } else { f64::INFINITY }
-            });
+            let [a, b] = [low + third, high - third].map(|at| self.misses_flat_by(dyad, at));
             if a < b { high -= third } else { low += third }
         }
         let at = 0.5 * (low + high);
-        self.solve(&[at]).ok()?;
-        let miss = self.misses_flat_by(dyad) * self.design.bound.scale;
-        Some(NearMiss { dyad: name.clone(), miss, q: at })
+        let miss = self.misses_flat_by(dyad, at).abs() * self.design.bound.scale;
+        miss.is_finite().then(|| NearMiss { dyad: name.clone(), miss, q: at })
     }
 
-    fn misses_flat_by(&self, dyad: &Dyad) -> f64 {
-        self.state.misses_flat_by(&self.design.context(self.design.jets), dyad)
+    /// By how much the sides of a dyad's triangle at a coordinate miss those of a flat one, of the
+    /// size; negative where it does not close.
+    fn misses_flat_by(&mut self, dyad: &Dyad, at: f64) -> f64 {
+        let solved = self.solve(&[at]).is_ok();
+        match self.state.fault {
+            Some(Fault::Open { gap, .. }) if !solved => -gap,
+            _ => self.state.misses_flat_by(&self.design.context(self.design.jets), dyad),
+        }
     }
 
     /// Solves at a coordinate (rad or m, of every driver).

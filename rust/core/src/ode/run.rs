@@ -19,6 +19,10 @@ const STRETCH: f64 = 1.01;
 /// So many steps before the end of a stretch are made equal, instead of a narrow one at its end:
 /// as many, and their errors are smaller.
 const EVEN: f64 = 4.0;
+/// Part of the first width that theory proposes. Its step alone decides how large its error seems,
+/// and a narrow feature between the stages deceives it (errors of hundreds of tolerances were seen);
+/// from a narrow step widths grow within a step or two, each checked by the one before.
+const FIRST: f64 = 0.1;
 /// The narrowest steps, in spacings of t: narrower ones have no inner places left for stages.
 const NARROWEST: f64 = 4.0;
 /// The narrowest first step, in spacings of t: it can still be halved a few times.
@@ -184,6 +188,7 @@ impl<'a, S: System> Run<'a, S> {
                 first_width(stages, self.system, &self.scale, start, (most, self.way), new)
                     .map_err(Error::System)?
             };
+            let width = if self.options.first_step.is_some() { width } else { FIRST * width };
             self.h = Some(self.way * width.max(NARROWEST_FIRST * spacing(self.t)));
         }
         while self.t != to {

@@ -18,6 +18,8 @@ use crate::tolerance::{REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
 
 /// A misfit that is nothing but the rounding of coordinates, of the size.
 const EXACT: f64 = 16.0 * UNIT_ROUNDOFF;
+/// The same of a drawing far from its origin, or of many links: less is not asked of it.
+const ROUNDED: f64 = 1024.0 * UNIT_ROUNDOFF;
 /// Length of a step along the motion (rad, or of the size), and steps each way.
 const STEP: f64 = 0.2;
 const STEPS: usize = 16;
@@ -76,7 +78,7 @@ pub fn adjust(
             break;
         }
     }
-    if conditions.misfit() > REDUNDANT_CLOSURE {
+    if conditions.misfit() > ROUNDED {
         return Ok(too_far);
     }
     let by = moved(linkage, &best);

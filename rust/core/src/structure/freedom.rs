@@ -16,7 +16,7 @@ use super::elimination::SparseRows;
 use super::rank::{self, Interrupted, Rank};
 use crate::linkage::{Driver, Linkage};
 use crate::plane::Vector;
-use crate::tolerance::{NEARLY_REDUNDANT, RANK, REGULAR_CLOSURE};
+use crate::tolerance::{NEARLY_DEPENDENT, NEARLY_REDUNDANT, RANK, REGULAR_CLOSURE, TRUNCATED};
 
 /// A displaced linkage: every point, the turn of every free class since the
 /// drawing, the displacement of every slide. Lengths in units of the size.
@@ -262,7 +262,7 @@ impl<'a> Skeleton<'a> {
     ///
     /// [`Interrupted`].
     pub fn nearly_rank(&self, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
-        self.rank_above(NEARLY_REDUNDANT, system, pose)
+        self.rank_above(NEARLY_DEPENDENT, system, pose)
     }
 
     fn rank_above(&self, least: f64, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
@@ -348,7 +348,7 @@ impl<'a> Skeleton<'a> {
             if residual.amax() < REGULAR_CLOSURE {
                 return Ok((total.amax() > 0.25 * step.amax()).then_some(pose));
             }
-            let correction = self.correction(system, &pose, &residual)?;
+            let correction = self.correction(system, &pose, &residual, TRUNCATED)?;
             if !correction.amax().is_finite() || correction.amax() > 1.0 {
                 return Ok(None);
             }
@@ -375,7 +375,7 @@ impl<'a> Skeleton<'a> {
         let mut before = f64::INFINITY;
         for _ in 0..30 {
             let residual = self.residual(system, &pose);
-            let correction = self.correction(system, &pose, &residual)?;
+            let correction = self.correction(system, &pose, &residual, NEARLY_DEPENDENT)?;
             let length = correction.amax();
             if !length.is_finite() || length > 1.0 {
                 return Ok(None);
@@ -401,10 +401,11 @@ impl<'a> Skeleton<'a> {
         system: &System,
         pose: &Pose,
         residual: &DVector<f64>,
+        least: f64,
     ) -> Result<DVector<f64>, Interrupted> {
         self.go_on()?;
         let (jacobian, unknowns) = (self.jacobian(system, pose), system.unknowns.len());
-        Ok(-rank::solve(jacobian, unknowns, residual, || self.go_on().is_err())?)
+        Ok(-rank::solve(jacobian, unknowns, least, residual, || self.go_on().is_err())?)
     }
 
     /// The links that a motion (a vector over the unknowns) moves.

@@ -3,7 +3,6 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::elimination::{Elimination, SparseRows};
-use crate::tolerance::NEARLY_REDUNDANT;
 
 /// A rank with the spaces that belong to it.
 #[derive(Debug, Clone)]
@@ -45,7 +44,8 @@ pub fn rank(
     Ok(Rank { mobility: unknowns - rank, excess: equations - rank, motions, stresses })
 }
 
-/// A solution of `matrix · x = right` in which what nearly depends on others is left out.
+/// A solution of `matrix · x = right` but for equations that depend on others; what is not above
+/// `least` counts as zero.
 ///
 /// # Errors
 ///
@@ -53,11 +53,11 @@ pub fn rank(
 pub fn solve(
     matrix: SparseRows,
     unknowns: usize,
+    least: f64,
     right: &DVector<f64>,
     stop: impl Fn() -> bool,
 ) -> Result<DVector<f64>, Interrupted> {
-    let eliminated =
-        Elimination::of(matrix, unknowns, NEARLY_REDUNDANT, stop).ok_or(Interrupted)?;
+    let eliminated = Elimination::of(matrix, unknowns, least, stop).ok_or(Interrupted)?;
     Ok(eliminated.solve(right))
 }
 

@@ -188,9 +188,10 @@ impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
                 }
             }
             // As long as it gets better, but not beyond what rounding lets it.
-            if step <= SETTLED && (step >= 0.5 * last || step <= 1e-3 * SETTLED) {
-                let met = (period.time - time).abs() <= SETTLED * time.abs()
-                    && (period.speed2 - begin.speed2).abs() <= SETTLED * begin.speed2;
+            let settled = SETTLED.max(self.search.relative);
+            if step <= settled && (step >= 0.5 * last || step <= 1e-3 * settled) {
+                let met = (period.time - time).abs() <= settled * time.abs()
+                    && (period.speed2 - begin.speed2).abs() <= settled * begin.speed2;
                 return if met {
                     Ok((begin, period))
                 } else {
