@@ -5,12 +5,16 @@ use std::sync::atomic::AtomicBool;
 
 use crate::error::{Named, SolveError, StructureError};
 use crate::linkage::{Description, Dimensions, Linkage, nearest};
-use crate::motion::{Motion, Request};
+use crate::motion::{Motion, Request, Status};
 use crate::plan::bind::{Bound, Slots};
-use crate::plan::{Dyad, Form, Plan};
+use crate::plan::{Dyad, Form, Plan, Step};
 use crate::plane::Vector;
 use crate::structure::{Adjusted, Closure, Structure, adjust};
-use crate::tolerance::FLAT_SINE;
+use crate::tolerance::{FLAT_SINE, REDUNDANT_ROUNDING};
+
+/// Places each way at which a drawing with redundant links is looked at: a turn, or the size of the
+/// drawing along a slide.
+const LOOKS: f64 = 31.0;
 
 /// A mechanism: what it is, how it is built, and how it is solved.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,7 +86,7 @@ impl Mechanism {
                 ((linkage.drawing_angle(l) - angle) / TAU).round()
             })
             .collect();
-        Ok(Self {
+        let made = Self {
             linkage,
             structure,
             plan,
@@ -94,7 +98,44 @@ impl Mechanism {
             slots,
             class_angle,
             whole_turns,
-        })
+        };
+        made.refuse_what_fits_here_alone()?;
+        Ok(made)
+    }
+
+    /// Refuses a drawing whose redundant links fit beside it and not along all of its motion, as it
+    /// would be solved: its lengths do not agree well enough to pass a change point.
+    fn refuse_what_fits_here_alone(&self) -> Result<(), StructureError> {
+        let is_slide = self.plan.driven_slide(0).is_some();
+        if self.plan.fits().next().is_none() || self.q0.len() > 1 {
+            return Ok(());
+        }
+        let size = self.linkage.size();
+        let step = if is_slide { size / LOOKS } else { TAU / LOOKS };
+        for way in [step, -step] {
+            let places: Vec<f64> = (0_u32..)
+                .map(f64::from)
+                .take_while(|look| *look <= LOOKS)
+                .map(|look| self.q0[0] + way * look)
+                .collect();
+            let mut residual = 0.0_f64;
+            for found in self.diagnose(&self.drawing, &places, &self.signs).unwrap_or_default() {
+                if matches!(found.status, Status::Ok | Status::NearSingular | Status::Singular) {
+                    residual = residual.max(found.residual);
+                    continue;
+                }
+                // Behind a gap of its own it may go on with another assembly.
+                let steps = &self.plan.steps;
+                let fit = found.step.is_some_and(|step| matches!(steps[step], Step::Fit(_)));
+                if !fit || residual <= REDUNDANT_ROUNDING {
+                    break;
+                }
+                let links = format!("{:?} and others", found.name.unwrap_or_default());
+                let gap = residual * size;
+                return Err(StructureError::AlmostFits { links, gap, part: residual });
+            }
+        }
+        Ok(())
     }
 
     /// The description with names resolved.

@@ -59,6 +59,10 @@ pub const NEARLY_REDUNDANT: f64 = 1.0e-4;
 /// until its redundant links fit. Drawings typed with nine digits are off by less.
 pub const REDUNDANT_CLOSURE: f64 = 2.0e-9;
 
+/// Misfit of redundant links that is the rounding of a drawing, also of one far from its origin or of
+/// ten or twenty links.
+pub const REDUNDANT_ROUNDING: f64 = 1024.0 * UNIT_ROUNDOFF;
+
 /// No redundant link fits with a greater misfit, however bad the condition.
 pub const REDUNDANT_GREATEST: f64 = 1.0e-6;
 

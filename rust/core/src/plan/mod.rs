@@ -371,6 +371,14 @@ impl Plan {
         })
     }
 
+    /// The redundant links and slides, in order.
+    pub fn fits(&self) -> impl Iterator<Item = &Fit> {
+        self.steps.iter().filter_map(|step| match step {
+            Step::Fit(fit) => Some(fit),
+            _ => None,
+        })
+    }
+
     /// The groups above class II, in order.
     pub fn groups(&self) -> impl Iterator<Item = &Group> {
         self.steps.iter().filter_map(|step| match step {

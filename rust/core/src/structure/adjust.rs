@@ -14,12 +14,12 @@ use super::closure::{Closure, LeftOut, list, rotations};
 use super::freedom::{Pose, Skeleton, System};
 use crate::error::StructureError;
 use crate::linkage::Linkage;
-use crate::tolerance::{REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
+use crate::tolerance::{REDUNDANT_CLOSURE, REDUNDANT_ROUNDING, UNIT_ROUNDOFF};
 
 /// A misfit that is nothing but the rounding of coordinates, of the size.
 const EXACT: f64 = 16.0 * UNIT_ROUNDOFF;
-/// The same of a drawing far from its origin, or of many links: less is not asked of it.
-const ROUNDED: f64 = 1024.0 * UNIT_ROUNDOFF;
+/// Where nothing is left to be adjusted: change points are told from near misses by some of these.
+const DONE: f64 = 2.0 * UNIT_ROUNDOFF;
 /// Length of a step along the motion (rad, or of the size), and steps each way.
 const STEP: f64 = 0.2;
 const STEPS: usize = 16;
@@ -74,11 +74,11 @@ pub fn adjust(
             }
             _ => break,
         }
-        if conditions.misfit() <= EXACT {
+        if conditions.misfit() <= DONE {
             break;
         }
     }
-    if conditions.misfit() > ROUNDED {
+    if conditions.misfit() > REDUNDANT_ROUNDING {
         return Ok(too_far);
     }
     let by = moved(linkage, &best);
