@@ -1,14 +1,11 @@
 """Public entries with any arguments: a result or an AssurError, never anything else.
 
-`python tests/python/fuzz_entries.py [options of libFuzzer]` fuzzes them with atheris, where that
-is installed; `test_fuzz_entries.py` draws the same bytes with hypothesis.
+The bytes come from hypothesis in `test_fuzz_entries.py` and from atheris in `fuzz/entries.py`.
 """
 
 from __future__ import annotations
 
-import importlib
 import signal
-import sys
 import warnings
 from typing import TYPE_CHECKING, Any
 
@@ -99,14 +96,3 @@ def one_input(data: bytes) -> None:
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
-
-
-def main() -> None:
-    atheris = importlib.import_module("atheris")  # not among the tools of `make test`
-    atheris.instrument_all()
-    atheris.Setup(sys.argv, one_input)
-    atheris.Fuzz()
-
-
-if __name__ == "__main__":
-    main()
