@@ -55,6 +55,29 @@ impl Row<'_> {
         length * angles.chain(turning).fold(1.0_f64, |m, x| m.max(x.abs()))
     }
 
+    /// How far the position reaches, in the unit of the core's residual: a power of two that is
+    /// not below half the longest dimension of a link.
+    pub fn reach(&self) -> f64 {
+        let linkage = self.mechanism.linkage();
+        let places = (0..linkage.links.len()).map(|l| self.place(l));
+        let from = self.joint_or_place();
+        let far = places.map(|p| distance(p, from));
+        let far = far.chain((0..linkage.joints.len()).map(|j| distance(self.joint(j), from)));
+        let of_link = |d: Dimension| {
+            matches!(
+                d,
+                Dimension::Length { .. } | Dimension::JointX { .. } | Dimension::JointY { .. }
+            )
+        };
+        let lengths = self.mechanism.dimensions().iter().zip(self.dimensions);
+        let lengths = lengths.filter(|((_, d), _)| of_link(*d)).map(|(_, x)| x.abs());
+        far.fold(0.0, f64::max) / (0.5 * lengths.fold(0.0, f64::max))
+    }
+
+    fn joint_or_place(&self) -> Point {
+        if self.mechanism.linkage().joints.is_empty() { self.place(0) } else { self.joint(0) }
+    }
+
     fn joint(&self, joint: usize) -> Point {
         self.motion.joints[joint].point(self.row)
     }

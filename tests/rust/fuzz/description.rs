@@ -3,7 +3,7 @@
 use arbitrary::{Result, Unstructured};
 use assur::{Description, Mechanism};
 
-use super::{check_sentence, structure};
+use super::{Shown, check_sentence, structure};
 
 /// Names that are refused, doubled, reserved, or hard to print.
 const ODD_NAMES: [&str; 16] = [
@@ -34,6 +34,7 @@ pub const ODD_NUMBERS: [f64; 16] = [
 /// Refused with a sentence, or a mechanism whose structure is sound.
 pub fn description(data: &[u8]) {
     let Ok(description) = read(&mut Unstructured::new(data)) else { return };
+    let _shown = Shown(&description);
     match Mechanism::new(&description) {
         Ok(mechanism) => structure::check(&mechanism, &description),
         Err(error) => check_sentence(&error.to_string()),

@@ -19,8 +19,9 @@ enum Part {
     /// Links in a row, or closed to a ring, with as many legs as they have freedoms.
     Chain(usize),
     Ring(usize),
-    /// Two bars beside a link that turns on the ground, with a rod across: one is redundant.
-    ThirdBar,
+    /// One bar, or two, beside a link that turns on the ground, with a rod across: a
+    /// parallelogram, which has change points; of two one is redundant.
+    Parallel(usize),
     /// A link once more between the same joints.
     SecondBar,
     /// A guide once more beside itself.
@@ -49,12 +50,12 @@ const PARTS: [Part; 24] = [
     Part::Ring(4),
     Part::Ring(5),
     Part::Ring(6),
-    Part::ThirdBar,
+    Part::Parallel(2),
     Part::SecondBar,
     Part::SecondGuide,
     Part::Point,
     Part::Point,
-    Part::Dyad("RRR"),
+    Part::Parallel(1),
     Part::Dyad("RRP"),
     Part::Dyad("RPR"),
     Part::Pinned,
@@ -93,7 +94,7 @@ impl Builder<'_> {
             Part::Dyad(kind) => self.dyad(kind),
             Part::Chain(links) => self.group(links, false),
             Part::Ring(links) => self.group(links, true),
-            Part::ThirdBar => self.third_bar(),
+            Part::Parallel(bars) => self.parallel(bars),
             Part::SecondBar => self.second_bar(),
             Part::SecondGuide => self.second_guide(),
             Part::Point => {
@@ -171,8 +172,8 @@ impl Builder<'_> {
         }
     }
 
-    /// A locomotive's: a parallelogram on a link that turns on the ground, and a third bar.
-    fn third_bar(&mut self) {
+    /// A parallelogram on a link that turns on the ground; with two bars a locomotive's.
+    fn parallel(&mut self, bars: usize) {
         let is_pivot = |joint: &usize, ground: &[usize]| ground.contains(joint);
         let ground = self.links[GROUND].clone();
         let cranks: Vec<[usize; 2]> = (1..self.links.len())
@@ -190,7 +191,7 @@ impl Builder<'_> {
         let (angle, length) = (self.angle(), self.leg());
         let [from, to] = [self.joints[pivot], self.joints[pin]];
         let rod = self.link(&[pin]);
-        for part in [1.0, 0.5] {
+        for &part in &[1.0, 0.5][..bars] {
             let foot = beyond(from, part * length, angle);
             let end = [foot[0] + (to[0] - from[0]), foot[1] + (to[1] - from[1])];
             let (foot, end) = (self.joint(foot, &[GROUND]), self.joint(end, &[rod]));

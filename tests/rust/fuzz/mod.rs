@@ -12,6 +12,19 @@ mod request;
 pub mod solve;
 pub mod structure;
 
+use std::fmt::Debug;
+
+/// Shows what the input of a failed check means.
+struct Shown<'a, T: Debug>(&'a T);
+
+impl<T: Debug> Drop for Shown<'_, T> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            eprintln!("{:?}", self.0);
+        }
+    }
+}
+
 /// Longest sentence of an error: one that lists some thirty links twice.
 const LONGEST_SENTENCE: usize = 4000;
 

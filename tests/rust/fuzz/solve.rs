@@ -1,22 +1,25 @@
 //! Mechanisms of the grammar moved: odd designs and coordinates beside sane ones.
 
 use arbitrary::Unstructured;
-use assur::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE};
+use assur::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, SINGULAR_CONDITION};
 use assur::{Coordinates, Mechanism, Motion, Outputs, Request, SolveError, Status, Track};
 
 use super::closures::Row;
 use super::request::Question;
-use super::{check_sentence, grammar};
+use super::{Shown, check_sentence, grammar};
 
 /// Statuses up to this one have a position.
 const LAST_WITH_POSITION: u8 = Status::Singular as u8;
 const LAST: u8 = Status::BadInput as u8;
+/// Dyads whose assemblies are all looked at, at most: each may double their number.
+const MOST_SIGNS: usize = 4;
 
 /// Every position has a status, values that suit it, the bits that it has alone, and closes.
 pub fn solve(data: &[u8]) {
     let (head, tail) = data.split_at(data.len().min(Question::BYTES));
     let Ok(question) = Question::read(&mut Unstructured::new(head)) else { return };
     let Ok(description) = grammar::linkage(&mut Unstructured::new(tail)) else { return };
+    let _shown = Shown(&description);
     let Ok(mechanism) = Mechanism::new(&description) else { return };
     let case = Case {
         dimensions: question.dimensions(&mechanism),
@@ -27,7 +30,9 @@ pub fn solve(data: &[u8]) {
         mechanism: &mechanism,
         question: &question,
     };
-    match mechanism.solve(&case.request()) {
+    let request = case.request();
+    let _asked = Shown(&request);
+    match mechanism.solve(&request) {
         Ok(motion) => case.check(&motion),
         Err(error) => case.check_refusal(&error),
     }
@@ -104,6 +109,7 @@ impl Case<'_> {
         if self.by.is_none() {
             self.check_closed(motion);
         }
+        self.check_assemblies(motion);
     }
 
     fn positions<'a>(&'a self, motion: &Motion) -> impl Iterator<Item = Position<'a>> {
@@ -173,6 +179,27 @@ impl Case<'_> {
         }
     }
 
+    /// Every assembly that exists at a position is solved there.
+    fn check_assemblies(&self, motion: &Motion) {
+        if self.mechanism.plan().signs() > MOST_SIGNS {
+            return;
+        }
+        let row = usize::from(self.question.alone[0]) % motion.status.len();
+        let Some(position) = self.positions(motion).nth(row) else { return };
+        let found = self.mechanism.assemblies(position.dimensions, position.q);
+        let found = match found {
+            Ok(found) => found,
+            Err(error) => return check_sentence(&error.to_string()),
+        };
+        for (place, signs) in found.iter().enumerate() {
+            assert!(!found[..place].contains(signs), "twice {signs:?} at q = {:?}", position.q);
+            let diagnosis = self.mechanism.diagnose(position.dimensions, position.q, signs);
+            let diagnosis = &diagnosis.expect("an assembly of this mechanism")[0];
+            let status = diagnosis.status as u8;
+            assert!(status <= LAST_WITH_POSITION, "{signs:?}: {}", diagnosis.sentence);
+        }
+    }
+
     /// What is given as solved closes, by the core's residual and by the numbers alone; and the
     /// values do not depend on what else is asked for.
     fn check_closed(&self, motion: &Motion) {
@@ -202,20 +229,23 @@ impl Case<'_> {
         let diagnosis = diagnosis.expect("a position of this mechanism");
         check_sentence(&diagnosis.sentence);
         assert_eq!(diagnosis.status as u8, status, "{}", diagnosis.sentence);
-        if status >= LAST_WITH_POSITION {
+        if status > LAST_WITH_POSITION {
             return;
         }
+        // A flat dyad cannot be told from one of this condition.
+        let is_flat = status == Status::Singular as u8;
+        let condition = diagnosis.condition.max(if is_flat { SINGULAR_CONDITION } else { 1.0 });
         // A redundant link of a changed design may miss by more.
         let redundant = if self.has_redundant_parts() { REDUNDANT_CLOSURE } else { 0.0 };
-        let law = redundant.max(CLOSURE_PER_CONDITION * diagnosis.condition);
-        let residual = diagnosis.residual;
-        assert!(residual <= law, "residual {residual:e} > {law:e}: {}", diagnosis.sentence);
+        let law = redundant.max(CLOSURE_PER_CONDITION * condition);
         let row = Row {
             mechanism: self.mechanism,
             dimensions: position.dimensions,
             motion: whole,
             row: position.row,
         };
+        let (residual, allowed) = (diagnosis.residual, law * row.reach().max(1.0));
+        assert!(residual <= allowed, "residual {residual:e} > {allowed:e}: {}", diagnosis.sentence);
         // Two points and the angle between them are each good to the law.
         let (misfit, allowed) = (row.misfit(position.q), 3.0 * law * row.size(position.q));
         assert!(misfit <= allowed, "misfit {misfit:e} m > {allowed:e}: {}", diagnosis.sentence);

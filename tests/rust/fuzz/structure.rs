@@ -5,11 +5,12 @@ use std::collections::HashSet;
 use arbitrary::Unstructured;
 use assur::{Description, Driver, Linkage, Mechanism};
 
-use super::{check_sentence, grammar};
+use super::{Shown, check_sentence, grammar};
 
 /// Refused with a sentence, or a sound structure.
 pub fn structure(data: &[u8]) {
     let Ok(description) = grammar::linkage(&mut Unstructured::new(data)) else { return };
+    let _shown = Shown(&description);
     match Mechanism::new(&description) {
         Ok(mechanism) => check(&mechanism, &description),
         Err(error) => check_sentence(&error.to_string()),
