@@ -21,8 +21,8 @@ MOST_STEPS = 300
 MOST_SECONDS = 1.0
 
 
-def _against(t: float, q: float, speed: float) -> float:
-    return -speed - 0.1 * q + 0.01 * t
+def _against(t: float, q: float | tuple[float, ...], speed: float | tuple[float, ...]) -> float:
+    return float(-np.sum(speed) - 0.1 * np.sum(q) + 0.01 * t)
 
 
 def table(c: Choices) -> Any:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from fuzz_values import Choices
 
-EXAMPLES = 250
+EXAMPLES = 500
 
 
 @pytest.mark.parametrize("entry", fuzz_entries.ENTRIES, ids=lambda entry: entry.__name__)
