@@ -6,6 +6,9 @@
 MAKEFLAGS += --no-builtin-rules
 .NOTPARALLEL:
 
+# How long `make fuzz` runs each target, s.
+SECONDS ?= 60
+
 # Python to make the environment with (default: the first of python3, python3.14 … of 3.10 or
 # later), the environment, extra flags for cargo (`LOCKED=--locked`: Cargo.lock must fit).
 PYTHON ?=
@@ -24,7 +27,7 @@ export PYO3_PYTHON := $(abspath $(PY))
 export PROPTEST_RNG_SEED ?= 1
 export MPLBACKEND ?= Agg
 
-.PHONY: help run test rust-test python-test bench campaign clean rust-tools lint-tools
+.PHONY: help run test rust-test python-test bench campaign fuzz clean rust-tools lint-tools
 .DEFAULT_GOAL := help
 
 help:
@@ -34,6 +37,7 @@ help:
 	@echo "make python-test  the Python half of it"
 	@echo "make bench        benchmarks, beside NumPy and numba"
 	@echo "make campaign     random mechanisms by the hundred thousand (three hours); docs/campaign*.md"
+	@echo "make fuzz         libFuzzer on the core, SECONDS=60 each target (fuzz/README.md)"
 	@echo "make clean        remove everything that was built, the environment too"
 
 run: rust-tools $(EXTENSION)
@@ -67,6 +71,15 @@ campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) tests/python/campaign.py --mixed --count 100000 --out docs/campaign-mixed.md
 	$(PY) tests/python/campaign.py --machines --count 10000 --out docs/campaign-machines.md
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/test_function_of_q.py
+
+# Flags: the targets have no magic numbers to compare with, and one unit takes minutes to compile.
+FUZZ := cargo fuzz run --sanitizer none --no-trace-compares --codegen-units 16
+fuzz: rust-tools
+	@for target in description structure solve; do \
+	  mkdir -p fuzz/found/$$target && \
+	  $(FUZZ) $$target fuzz/found/$$target fuzz/corpus/$$target -- \
+	    -max_total_time=$(SECONDS) -timeout=60 -max_len=600 || exit 1; \
+	done
 
 clean:
 	cargo clean

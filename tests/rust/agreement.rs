@@ -8,9 +8,10 @@ use assur::Mechanism;
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
 
+use crate::assembly::{DRIVERS, Driven};
 use crate::body::Oracle;
 use crate::law::{Worst, compare};
-use crate::random::{Case, DRIVERS, Driven, KINDS, mechanism, sequence};
+use crate::random::{Case, KINDS, mechanism, sequence};
 use crate::series::ORDER;
 
 const CASES: u32 = 200;

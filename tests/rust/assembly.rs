@@ -5,7 +5,26 @@ use std::f64::consts::FRAC_PI_2;
 use assur::Description;
 
 use crate::builder::{Builder, GROUND, beyond, direction, link_name, slide_name};
-use crate::random::Driven;
+
+/// What is driven.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Driven {
+    Crank,
+    Slide,
+    Cylinder,
+    Elbow,
+    Coupler,
+    TwoCranks,
+}
+
+pub const DRIVERS: [Driven; 6] = [
+    Driven::Crank,
+    Driven::Slide,
+    Driven::Cylinder,
+    Driven::Elbow,
+    Driven::Coupler,
+    Driven::TwoCranks,
+];
 
 /// Dyads.
 impl Builder<'_> {

@@ -7,6 +7,7 @@ mod builder;
 mod double_double;
 mod drawing;
 mod found;
+mod fuzz;
 mod law;
 mod linkages;
 mod long;

@@ -6,29 +6,10 @@ use assur::Description;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
+use crate::assembly::Driven;
 use crate::builder::Builder;
 
 pub const KINDS: [&str; 5] = ["RRR", "RRP", "RPR", "PRP", "RPP"];
-
-/// What is driven.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Driven {
-    Crank,
-    Slide,
-    Cylinder,
-    Elbow,
-    Coupler,
-    TwoCranks,
-}
-
-pub const DRIVERS: [Driven; 6] = [
-    Driven::Crank,
-    Driven::Slide,
-    Driven::Cylinder,
-    Driven::Elbow,
-    Driven::Coupler,
-    Driven::TwoCranks,
-];
 
 /// A random mechanism and how far from the drawing it is to be looked at.
 #[derive(Debug, Clone)]

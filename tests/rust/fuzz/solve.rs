@@ -1,0 +1,253 @@
+//! Mechanisms of the grammar moved: odd designs and coordinates beside sane ones.
+
+use arbitrary::Unstructured;
+use assur::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, SINGULAR_CONDITION};
+use assur::{Coordinates, Mechanism, Motion, Outputs, Request, SolveError, Status, Track};
+
+use super::closures::Row;
+use super::request::Question;
+use super::{Shown, check_sentence, grammar};
+
+/// Statuses up to this one have a position.
+const LAST_WITH_POSITION: u8 = Status::Singular as u8;
+const LAST: u8 = Status::BadInput as u8;
+/// Dyads whose assemblies are all looked at, at most: each may double their number.
+const MOST_SIGNS: usize = 4;
+
+/// Every position has a status, values that suit it, the bits that it has alone, and closes.
+pub fn solve(data: &[u8]) {
+    let (head, tail) = data.split_at(data.len().min(Question::BYTES));
+    let Ok(question) = Question::read(&mut Unstructured::new(head)) else { return };
+    let Ok(description) = grammar::linkage(&mut Unstructured::new(tail)) else { return };
+    let _shown = Shown(&description);
+    let Ok(mechanism) = Mechanism::new(&description) else { return };
+    let case = Case {
+        dimensions: question.dimensions(&mechanism),
+        coordinates: question.coordinates(&mechanism),
+        signs: question.signs(&mechanism),
+        by: question.by.map(|by| usize::from(by) % mechanism.drawing().len().max(1)),
+        outputs: question.outputs(&mechanism),
+        mechanism: &mechanism,
+        question: &question,
+    };
+    let request = case.request();
+    let _asked = Shown(&request);
+    match mechanism.solve(&request) {
+        Ok(motion) => case.check(&motion),
+        Err(error) => case.check_refusal(&error),
+    }
+}
+
+struct Case<'a> {
+    mechanism: &'a Mechanism,
+    question: &'a Question,
+    dimensions: Vec<f64>,
+    coordinates: Vec<f64>,
+    signs: Vec<i8>,
+    by: Option<usize>,
+    outputs: Outputs,
+}
+
+/// One position: its design's dimensions, its coordinates, its row in the batch.
+struct Position<'a> {
+    dimensions: &'a [f64],
+    q: &'a [f64],
+    row: usize,
+}
+
+impl Case<'_> {
+    fn request(&self) -> Request<'_> {
+        Request {
+            dimensions: &self.dimensions,
+            coordinates: if self.question.per_design {
+                Coordinates::PerDesign(&self.coordinates)
+            } else {
+                Coordinates::Shared(&self.coordinates)
+            },
+            signs: &self.signs,
+            order: self.question.order,
+            outputs: &self.outputs,
+            by: self.by,
+        }
+    }
+
+    fn has_redundant_parts(&self) -> bool {
+        let redundant = &self.mechanism.structure().redundant;
+        !(redundant.links.is_empty() && redundant.slides.is_empty())
+    }
+
+    /// Only what cannot be asked is refused.
+    fn check_refusal(&self, error: &SolveError) {
+        check_sentence(&error.to_string());
+        let is_meant = match error {
+            SolveError::Order(order) => *order > 3,
+            SolveError::Redundant { .. } => self.by.is_some() && self.has_redundant_parts(),
+            SolveError::Shape(_) => {
+                self.mechanism.drawing().is_empty()
+                    || self.question.per_design && self.dimensions.is_empty()
+            }
+            _ => false,
+        };
+        assert!(is_meant, "{error}");
+    }
+
+    fn check(&self, motion: &Motion) {
+        assert!(self.question.order <= 3, "order {}", self.question.order);
+        assert_eq!(motion.status.len(), motion.designs * motion.positions);
+        for position in self.positions(motion) {
+            self.check_values(motion, &position);
+        }
+        if motion.status.is_empty() {
+            return;
+        }
+        for index in self.question.alone {
+            let row = usize::from(index) % motion.status.len();
+            if let Some(position) = self.positions(motion).nth(row) {
+                self.check_alone(motion, &position);
+            }
+        }
+        if self.by.is_none() {
+            self.check_closed(motion);
+        }
+        self.check_assemblies(motion);
+    }
+
+    fn positions<'a>(&'a self, motion: &Motion) -> impl Iterator<Item = Position<'a>> {
+        let (count, drivers) = (motion.positions, self.mechanism.q0().len());
+        let dimensions = self.mechanism.drawing().len();
+        let per_design = self.question.per_design;
+        (0..motion.designs * count).map(move |row| {
+            let at = if per_design { row } else { row % count };
+            Position {
+                dimensions: &self.dimensions[row / count * dimensions..][..dimensions],
+                q: &self.coordinates[at * drivers..][..drivers],
+                row,
+            }
+        })
+    }
+
+    /// The status is one, fits the input, and says which numbers there are.
+    fn check_values(&self, motion: &Motion, position: &Position<'_>) {
+        let status = motion.status[position.row];
+        assert!(status <= LAST, "status {status}");
+        let is_bad = self.mechanism.dimensions().first_fault(position.dimensions).is_some();
+        assert_eq!(status == Status::BadDimension as u8, is_bad, "{:?}", position.dimensions);
+        if !is_bad && position.q.iter().any(|q| !q.is_finite()) {
+            assert_eq!(status, Status::BadInput as u8, "at q = {:?}", position.q);
+        }
+        let numbers = self.numbers(motion, position.row);
+        if status > LAST_WITH_POSITION {
+            let all = numbers.iter().all(|(_, x)| x.is_nan());
+            assert!(all, "status {status} at q = {:?} has numbers", position.q);
+        } else if self.by.is_none() {
+            let is_given = |order: usize, x: f64| match order {
+                0 => x.is_finite(),
+                // Beyond the range of numbers where a slide is driven.
+                _ => !x.is_nan() || status == Status::Singular as u8,
+            };
+            let all = numbers.iter().all(|&(order, x)| is_given(order, x));
+            assert!(all, "status {status} at q = {:?}: {numbers:?}", position.q);
+        }
+    }
+
+    /// All numbers of a row with their orders.
+    fn numbers(&self, motion: &Motion, row: usize) -> Vec<(usize, f64)> {
+        let rows = motion.status.len();
+        let tracks = [&motion.joints, &motion.places, &motion.slides, &motion.links];
+        let of_track = |track: &Track| {
+            let of_order = |(order, values): (usize, &Vec<f64>)| {
+                let width = values.len() / rows;
+                values[row * width..][..width].iter().map(move |&x| (order, x)).collect::<Vec<_>>()
+            };
+            track.derivatives.iter().enumerate().flat_map(of_order).collect::<Vec<_>>()
+        };
+        tracks.into_iter().flatten().flat_map(of_track).collect()
+    }
+
+    fn check_alone(&self, motion: &Motion, position: &Position<'_>) {
+        let alone = self.mechanism.solve(&Request {
+            dimensions: position.dimensions,
+            coordinates: Coordinates::Shared(position.q),
+            ..self.request()
+        });
+        let alone = alone.expect("what was solved in a batch is solved alone");
+        assert_eq!(alone.status[0], motion.status[position.row], "alone at q = {:?}", position.q);
+        let pairs = self.numbers(motion, position.row).into_iter().zip(self.numbers(&alone, 0));
+        for ((order, batch), (_, alone)) in pairs {
+            let same = batch.to_bits() == alone.to_bits() || batch.is_nan() && alone.is_nan();
+            assert!(same, "{batch:e} of order {order} is {alone:e} alone at q = {:?}", position.q);
+        }
+    }
+
+    /// Every assembly that exists at a position is solved there.
+    fn check_assemblies(&self, motion: &Motion) {
+        if self.mechanism.plan().signs() > MOST_SIGNS {
+            return;
+        }
+        let row = usize::from(self.question.alone[0]) % motion.status.len();
+        let Some(position) = self.positions(motion).nth(row) else { return };
+        let found = self.mechanism.assemblies(position.dimensions, position.q);
+        let found = match found {
+            Ok(found) => found,
+            Err(error) => return check_sentence(&error.to_string()),
+        };
+        for (place, signs) in found.iter().enumerate() {
+            assert!(!found[..place].contains(signs), "twice {signs:?} at q = {:?}", position.q);
+            let diagnosis = self.mechanism.diagnose(position.dimensions, position.q, signs);
+            let diagnosis = &diagnosis.expect("an assembly of this mechanism")[0];
+            let status = diagnosis.status as u8;
+            assert!(status <= LAST_WITH_POSITION, "{signs:?}: {}", diagnosis.sentence);
+        }
+    }
+
+    /// What is given as solved closes, by the core's residual and by the numbers alone; and the
+    /// values do not depend on what else is asked for.
+    fn check_closed(&self, motion: &Motion) {
+        let all = Outputs {
+            places: (0..self.mechanism.linkage().links.len()).collect(),
+            ..Outputs::all(self.mechanism)
+        };
+        let whole = self.mechanism.solve(&Request { order: 0, outputs: &all, ..self.request() });
+        let whole = whole.expect("the same request, to order 0");
+        assert_eq!(whole.status, motion.status, "status of order 0");
+        for track in &motion.joints {
+            let same = track.derivatives[0].iter().zip(&whole.joints[track.index].derivatives[0]);
+            let is_same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || a.is_nan();
+            assert!(same.clone().all(is_same), "joint {}: {same:?}", track.index);
+        }
+        for position in self.positions(motion) {
+            self.check_position(&whole, &position);
+        }
+    }
+
+    fn check_position(&self, whole: &Motion, position: &Position<'_>) {
+        let status = whole.status[position.row];
+        let diagnosis = self
+            .mechanism
+            .diagnose(position.dimensions, position.q, &self.signs)
+            .map(|d| d[0].clone());
+        let diagnosis = diagnosis.expect("a position of this mechanism");
+        check_sentence(&diagnosis.sentence);
+        assert_eq!(diagnosis.status as u8, status, "{}", diagnosis.sentence);
+        if status > LAST_WITH_POSITION {
+            return;
+        }
+        // A flat dyad cannot be told from one of this condition.
+        let is_flat = status == Status::Singular as u8;
+        let condition = diagnosis.condition.max(if is_flat { SINGULAR_CONDITION } else { 1.0 });
+        // A redundant link of a changed design may miss by more.
+        let redundant = if self.has_redundant_parts() { REDUNDANT_CLOSURE } else { 0.0 };
+        let law = redundant.max(CLOSURE_PER_CONDITION * condition);
+        let row = Row {
+            mechanism: self.mechanism,
+            dimensions: position.dimensions,
+            motion: whole,
+            row: position.row,
+        };
+        let (residual, allowed) = (diagnosis.residual, law * row.reach().max(1.0));
+        assert!(residual <= allowed, "residual {residual:e} > {allowed:e}: {}", diagnosis.sentence);
+        // Two points and the angle between them are each good to the law.
+        let (misfit, allowed) = (row.misfit(position.q), 3.0 * law * row.size(position.q));
+        assert!(misfit <= allowed, "misfit {misfit:e} m > {allowed:e}: {}", diagnosis.sentence);
+    }
+}
