@@ -10,7 +10,7 @@ use crate::plan::bind::{Bound, Slots};
 use crate::plan::{Dyad, Form, Plan, Step};
 use crate::plane::Vector;
 use crate::structure::{Adjusted, Closure, Structure, adjust};
-use crate::tolerance::{FLAT_SINE, REDUNDANT_ROUNDING};
+use crate::tolerance::{FLAT_SINE, NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
 
 /// Places each way at which a drawing with redundant links is looked at: a turn, or the size of the
 /// drawing along a slide.
@@ -124,15 +124,15 @@ impl Mechanism {
                     residual = residual.max(found.residual);
                     continue;
                 }
-                // Behind a gap of its own it may go on with another assembly.
                 let steps = &self.plan.steps;
                 let fit = found.step.is_some_and(|step| matches!(steps[step], Step::Fit(_)));
-                if !fit || residual <= REDUNDANT_ROUNDING {
-                    break;
+                // A wide gap is that of another assembly, behind a change point that was missed or
+                // behind a gap of another dyad; what was missed by then shows before.
+                let part = if found.gap < NEARLY_REDUNDANT { found.gap } else { residual };
+                if fit && part > REDUNDANT_ROUNDING {
+                    let links = format!("{:?} and others", found.name.unwrap_or_default());
+                    return Err(StructureError::AlmostFits { links, gap: part * size, part });
                 }
-                let links = format!("{:?} and others", found.name.unwrap_or_default());
-                let gap = residual * size;
-                return Err(StructureError::AlmostFits { links, gap, part: residual });
             }
         }
         Ok(())

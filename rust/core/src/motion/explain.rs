@@ -25,6 +25,8 @@ pub struct Diagnosis {
     /// Product of the conditions along the worst chain of dyads; NaN where there
     /// is no position.
     pub condition: f64,
+    /// By how much a dyad or redundant link does not close, as a part of the size; NaN where all do.
+    pub gap: f64,
     /// The dyad (inner joint or slide), redundant link or dimension concerned.
     pub name: Option<String>,
     /// The step of the plan concerned.
@@ -36,7 +38,9 @@ pub struct Diagnosis {
 impl Diagnosis {
     /// Nothing but a status and a sentence.
     fn bare(status: Status, sentence: String) -> Self {
-        Self { status, residual: f64::NAN, condition: f64::NAN, name: None, step: None, sentence }
+        let nothing = f64::NAN;
+        let (residual, condition, gap) = (nothing, nothing, nothing);
+        Self { status, residual, condition, gap, name: None, step: None, sentence }
     }
 }
 
@@ -102,8 +106,12 @@ impl Mechanism {
             }
             Status::Unreachable | Status::NotConverged => {
                 let (name, sentence) = self.unreachable(state, design.bound.scale, at);
+                let gap = match state.fault {
+                    Some(Fault::Open { gap, .. } | Fault::Misfit { gap, .. }) => gap,
+                    _ => f64::NAN,
+                };
                 let bare = Diagnosis::bare(state.status, sentence);
-                return Diagnosis { name: Some(name), step, ..bare };
+                return Diagnosis { name: Some(name), step, gap, ..bare };
             }
             Status::Singular if analogues => format!(
                 "at q = {at} dyad {dyad:?} is flat: a change point, the smooth motion goes on through it"
@@ -117,7 +125,8 @@ impl Mechanism {
             _ => format!("at q = {at} the position is solved, condition {condition:.1e}"),
         };
         let residual = state.residual(&design.context(jets));
-        Diagnosis { status: state.status, residual, condition, name: named, step, sentence }
+        let gap = f64::NAN;
+        Diagnosis { status: state.status, residual, condition, gap, name: named, step, sentence }
     }
 
     /// Every assembly that exists at `q`, as signs in the order of

@@ -14,11 +14,13 @@ use super::closure::{Closure, LeftOut, list, rotations};
 use super::freedom::{Pose, Skeleton, System};
 use crate::error::StructureError;
 use crate::linkage::Linkage;
-use crate::tolerance::{REDUNDANT_CLOSURE, REDUNDANT_ROUNDING, UNIT_ROUNDOFF};
+use crate::tolerance::{REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
 
 /// A misfit that is nothing but the rounding of coordinates, of the size.
 const EXACT: f64 = 16.0 * UNIT_ROUNDOFF;
-/// Where nothing is left to be adjusted: change points are told from near misses by some of these.
+/// What may be left after an adjustment: change points are missed by more.
+const FITS: f64 = 64.0 * UNIT_ROUNDOFF;
+/// Where nothing is left to be adjusted.
 const DONE: f64 = 2.0 * UNIT_ROUNDOFF;
 /// Length of a step along the motion (rad, or of the size), and steps each way.
 const STEP: f64 = 0.2;
@@ -78,7 +80,7 @@ pub fn adjust(
             break;
         }
     }
-    if conditions.misfit() > REDUNDANT_ROUNDING {
+    if conditions.misfit() > FITS {
         return Ok(too_far);
     }
     let by = moved(linkage, &best);
