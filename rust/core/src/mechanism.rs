@@ -14,7 +14,7 @@ use crate::tolerance::{FLAT_SINE, NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
 
 /// Places each way at which a drawing with redundant links is looked at: a turn, or the size of the
 /// drawing along a slide.
-const LOOKS: f64 = 31.0;
+const LOOKS: u32 = 31;
 
 /// A mechanism: what it is, how it is built, and how it is solved.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,13 +111,10 @@ impl Mechanism {
             return Ok(());
         }
         let size = self.linkage.size();
-        let step = if is_slide { size / LOOKS } else { TAU / LOOKS };
+        let step = if is_slide { size } else { TAU } / f64::from(LOOKS);
         for way in [step, -step] {
-            let places: Vec<f64> = (0_u32..)
-                .map(f64::from)
-                .take_while(|look| *look <= LOOKS)
-                .map(|look| self.q0[0] + way * look)
-                .collect();
+            let looks = (0..=LOOKS).map(f64::from);
+            let places: Vec<f64> = looks.map(|look| self.q0[0] + way * look).collect();
             let mut residual = 0.0_f64;
             for found in self.diagnose(&self.drawing, &places, &self.signs).unwrap_or_default() {
                 if matches!(found.status, Status::Ok | Status::NearSingular | Status::Singular) {

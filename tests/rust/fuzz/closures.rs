@@ -8,7 +8,7 @@ pub struct Row<'a> {
     pub mechanism: &'a Mechanism,
     pub dimensions: &'a [f64],
     pub motion: &'a Motion,
-    pub row: usize,
+    pub index: usize,
 }
 
 type Point = [f64; 2];
@@ -44,7 +44,7 @@ impl Row<'_> {
         let places = (0..linkage.links.len()).map(|l| self.place(l));
         let lengths = self.mechanism.dimensions().iter().zip(self.dimensions);
         let lengths = lengths.filter(|((_, d), _)| d.is_length()).map(|(_, &x)| x);
-        let values = (0..linkage.slides.len()).map(|s| self.motion.slides[s].value(self.row));
+        let values = (0..linkage.slides.len()).map(|s| self.motion.slides[s].value(self.index));
         let length = points.chain(places).flatten().chain(lengths).chain(values);
         let length = length.fold(0.0_f64, |m, x| m.max(x.abs()));
         let angles = (0..linkage.links.len()).map(|l| self.angle(l));
@@ -79,15 +79,15 @@ impl Row<'_> {
     }
 
     fn joint(&self, joint: usize) -> Point {
-        self.motion.joints[joint].point(self.row)
+        self.motion.joints[joint].point(self.index)
     }
 
     fn place(&self, link: usize) -> Point {
-        self.motion.places[link].point(self.row)
+        self.motion.places[link].point(self.index)
     }
 
     fn angle(&self, link: usize) -> f64 {
-        self.motion.links[link].value(self.row)
+        self.motion.links[link].value(self.index)
     }
 
     fn dimension(&self, wanted: Dimension) -> f64 {
@@ -146,7 +146,7 @@ impl Row<'_> {
                 self.point(Dimension::SlideOriginX { slide }, Dimension::SlideOriginY { slide }),
             ),
         };
-        let value = self.motion.slides[slide].value(self.row);
+        let value = self.motion.slides[slide].value(self.index);
         let offset = self.dimension(Dimension::SlideOffset { slide });
         let point = plus(origin, turned([value, offset], along));
         [distance(point, self.place(s.link)), self.turned_by(turn)]
@@ -154,7 +154,7 @@ impl Row<'_> {
 
     fn driver(&self, driver: Driver, q: f64) -> f64 {
         match driver {
-            Driver::Slide(slide) => (self.motion.slides[slide].value(self.row) - q).abs(),
+            Driver::Slide(slide) => (self.motion.slides[slide].value(self.index) - q).abs(),
             Driver::Angle { link, relative_to } => {
                 self.turned_by(self.angle(link) - self.angle(relative_to) - q)
             }

@@ -135,7 +135,7 @@ impl Case<'_> {
         if !is_bad && position.q.iter().any(|q| !q.is_finite()) {
             assert_eq!(status, Status::BadInput as u8, "at q = {:?}", position.q);
         }
-        let numbers = self.numbers(motion, position.row);
+        let numbers = Self::numbers(motion, position.row);
         if status > LAST_WITH_POSITION {
             let all = numbers.iter().all(|(_, x)| x.is_nan());
             assert!(all, "status {status} at q = {:?} has numbers", position.q);
@@ -151,7 +151,7 @@ impl Case<'_> {
     }
 
     /// All numbers of a row with their orders.
-    fn numbers(&self, motion: &Motion, row: usize) -> Vec<(usize, f64)> {
+    fn numbers(motion: &Motion, row: usize) -> Vec<(usize, f64)> {
         let rows = motion.status.len();
         let tracks = [&motion.joints, &motion.places, &motion.slides, &motion.links];
         let of_track = |track: &Track| {
@@ -172,7 +172,7 @@ impl Case<'_> {
         });
         let alone = alone.expect("what was solved in a batch is solved alone");
         assert_eq!(alone.status[0], motion.status[position.row], "alone at q = {:?}", position.q);
-        let pairs = self.numbers(motion, position.row).into_iter().zip(self.numbers(&alone, 0));
+        let pairs = Self::numbers(motion, position.row).into_iter().zip(Self::numbers(&alone, 0));
         for ((order, batch), (_, alone)) in pairs {
             let same = batch.to_bits() == alone.to_bits() || batch.is_nan() && alone.is_nan();
             assert!(same, "{batch:e} of order {order} is {alone:e} alone at q = {:?}", position.q);
@@ -242,7 +242,7 @@ impl Case<'_> {
             mechanism: self.mechanism,
             dimensions: position.dimensions,
             motion: whole,
-            row: position.row,
+            index: position.row,
         };
         let (residual, allowed) = (diagnosis.residual, law * row.reach().max(1.0));
         assert!(residual <= allowed, "residual {residual:e} > {allowed:e}: {}", diagnosis.sentence);

@@ -311,13 +311,13 @@ fn scale(slots: &Slots, values: &[f64], origin: [f64; 2]) -> f64 {
     power_of_two(greatest)
 }
 
-/// The power of two at or below a positive number (1 for 0 or no number);
-/// kept within the normal range, so that it can be divided by.
+/// The power of two at or below a positive number (1 for 0 or no number); kept within 2^-508 to 2^508,
+/// about the range of lengths, so that third analogues by a slide can be divided by its square.
 fn power_of_two(x: f64) -> f64 {
     if !(x.is_finite() && x > 0.0) {
         return 1.0;
     }
-    let exponent = (x.to_bits() >> 52).clamp(24, 2022);
+    let exponent = (x.to_bits() >> 52).clamp(515, 1531);
     f64::from_bits(exponent << 52)
 }
 
