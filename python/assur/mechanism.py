@@ -89,7 +89,8 @@ class Mechanism:
             tuple(_parts.joint(name, at) for name, at in _parts.items(joints, "joints")),
             tuple((name, _parts.members(name, on)) for name, on in _parts.items(links, "links")),
             tuple(
-                (name, _parts.slide(name, s)) for name, s in _parts.items(slides or {}, "slides")
+                (name, _parts.slide(name, s))
+                for name, s in _parts.items({} if slides is None else slides, "slides")
             ),
             _parts.drivers(driver),
             checked_signs(assembly, strict=False),
