@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
-from typing_extensions import Self
 
 from assur import _core
 from assur._arrays import real_array
@@ -16,6 +15,8 @@ from assur.description import Status
 from assur.errors import InputError
 
 if TYPE_CHECKING:
+    from typing_extensions import Self
+
     from assur.mechanism import Mechanism
 
 __all__ = ["Energy", "Happened", "NearChangePoint", "Run", "State", "Statistics"]

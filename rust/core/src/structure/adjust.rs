@@ -14,10 +14,12 @@ use super::closure::{Closure, LeftOut, list, rotations};
 use super::freedom::{Pose, Skeleton, System};
 use crate::error::StructureError;
 use crate::linkage::Linkage;
-use crate::tolerance::{REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
+use crate::tolerance::{NEARLY_REDUNDANT, REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
 
 /// A misfit that is nothing but the rounding of coordinates, of the size.
 const EXACT: f64 = 16.0 * UNIT_ROUNDOFF;
+/// Misfit of a pose that is on another branch, of the size.
+const FAR_OFF: f64 = 100.0 * NEARLY_REDUNDANT;
 /// What may be left after an adjustment: change points are missed by more.
 const FITS: f64 = 64.0 * UNIT_ROUNDOFF;
 /// Where nothing is left to be adjusted.
@@ -170,7 +172,7 @@ impl Conditions {
     }
 }
 
-/// Poses along the motion, both ways from the drawing.
+/// Poses along the motion, both ways from the drawing; none if it does not nearly fit at all of them.
 fn walk(skeleton: &Skeleton<'_>, system: &System) -> Result<Vec<Pose>, StructureError> {
     let start = skeleton.nearly_rank(system, skeleton.drawing())?;
     let mut found = Vec::new();
@@ -185,7 +187,16 @@ fn walk(skeleton: &Skeleton<'_>, system: &System) -> Result<Vec<Pose>, Structure
             let mut along = (&start.motions * &weights).scale(way);
             for _ in 0..STEPS {
                 let step = along.scale(STEP / along.amax().max(f64::MIN_POSITIVE));
-                let Some(next) = skeleton.project_nearly(system, &pose, &step)? else { break };
+                let Some((next, misfit)) = skeleton.project_nearly(system, &pose, &step)? else {
+                    break;
+                };
+                if misfit > FAR_OFF {
+                    // Another branch, where they do not fit at all.
+                    break;
+                }
+                if misfit > NEARLY_REDUNDANT {
+                    return Ok(Vec::new());
+                }
                 let motions = skeleton.nearly_rank(system, &next)?.motions;
                 // The motion there that goes on as before.
                 let Some(gram) = motions.tr_mul(&motions).cholesky() else { break };

@@ -358,8 +358,8 @@ impl<'a> Skeleton<'a> {
         Ok(None)
     }
 
-    /// The same where equations that nearly depend on others are left as they are, as long as they
-    /// miss by little.
+    /// The same where equations that nearly depend on others are left as they are; and by how much
+    /// these miss.
     ///
     /// # Errors
     ///
@@ -369,7 +369,7 @@ impl<'a> Skeleton<'a> {
         system: &System,
         from: &Pose,
         step: &DVector<f64>,
-    ) -> Result<Option<Pose>, Interrupted> {
+    ) -> Result<Option<(Pose, f64)>, Interrupted> {
         let mut pose = from.moved(step, system);
         let mut total = step.clone();
         let mut before = f64::INFINITY;
@@ -388,8 +388,8 @@ impl<'a> Skeleton<'a> {
                 length < REGULAR_CLOSURE || (length < NEARLY_REDUNDANT && length > 0.5 * before);
             before = length;
             if ends {
-                let fits = self.residual(system, &pose).amax() < NEARLY_REDUNDANT;
-                return Ok((fits && total.amax() > 0.25 * step.amax()).then_some(pose));
+                let misfit = self.residual(system, &pose).amax();
+                return Ok((total.amax() > 0.25 * step.amax()).then_some((pose, misfit)));
             }
         }
         Ok(None)
