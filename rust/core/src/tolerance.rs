@@ -52,7 +52,7 @@ pub const TRUNCATED: f64 = 1.0e-6;
 pub const NEARLY_DEPENDENT: f64 = 1.0e-2;
 
 /// So much (of the size) the misfit of such links may be for them to be said to nearly fit.
-pub const NEARLY_REDUNDANT: f64 = 1.0e-5;
+pub const NEARLY_REDUNDANT: f64 = 1.0e-4;
 
 /// A redundant link fits while its misfit is below this part of the size (or below
 /// [`CLOSURE_PER_CONDITION`] times the condition), and joints of a drawing are moved by no more
