@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import Any, TypeAlias
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
@@ -89,6 +93,18 @@ def two_numbers(value: Any, what: str) -> tuple[float, float]:
         message = f"{what} is {short(value)}: two finite numbers (x, y) are needed"
         raise InputError(message)
     return float(array[0]), float(array[1])
+
+
+@contextmanager
+def in_range(what: str) -> Iterator[None]:
+    """Refuse what overflows by name, instead of NumPy's warning and infinite results."""
+    try:
+        # The infinities that a caller gives himself are his: their products may be NaN.
+        with np.errstate(over="raise", invalid="ignore"):
+            yield
+    except FloatingPointError as error:
+        message = f"{what} is beyond the greatest number, {np.finfo(np.float64).max:.3g}"
+        raise InputError(message) from error
 
 
 def short(value: Any) -> str:

@@ -52,7 +52,7 @@ def checked_signs(assembly: Any, strict: bool = True) -> tuple[tuple[str, int], 
     if assembly is None:
         return ()
     if not isinstance(assembly, Mapping):
-        message = f"assembly is {assembly!r}: a mapping of inner joints or slides to +1 or -1"
+        message = f"assembly is {short(assembly)}: a mapping of inner joints or slides to +1 or -1"
         raise InputError(message)
     return tuple(
         (checked_name(name, "assembly"), _sign(name, sign, strict))
@@ -79,7 +79,7 @@ def checked_order(order: Any) -> int:
     except TypeError:
         number = -1
     if isinstance(order, bool) or not 0 <= number <= 3:
-        message = f"order is {order!r}: 0, 1, 2 or 3"
+        message = f"order is {short(order)}: 0, 1, 2 or 3"
         raise InputError(message)
     return number
 
@@ -110,6 +110,6 @@ def checked_threads(threads: Any) -> int | None:
     except TypeError:
         number = 0
     if isinstance(threads, bool) or not 1 <= number <= MOST_THREADS:
-        message = f"threads is {threads!r}: a whole number from 1 to {MOST_THREADS} is needed"
+        message = f"threads is {short(threads)}: a whole number from 1 to {MOST_THREADS} is needed"
         raise InputError(message)
     return number

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import real_array, real_number
+from assur._arrays import real_array, real_number, short
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -52,10 +52,10 @@ def fits(period: float | None, span: float) -> None:
 def listed(value: Any, name: str) -> list[Any]:
     """A sequence as a list, or an error that names it."""
     if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
-        message = f"{name} is {value!r}: a sequence of them is needed"
+        message = f"{name} is {short(value)}: a sequence of them is needed"
         raise InputError(message)
     if getattr(value, "ndim", 1) == 0:
-        message = f"{name} is {value!r}: a sequence of them is needed"
+        message = f"{name} is {short(value)}: a sequence of them is needed"
         raise InputError(message)
     return list(value)
 
@@ -64,7 +64,7 @@ def positive(value: Any, name: str) -> float:
     """A positive number, infinite too."""
     number = real_number(value, name, finite=False)
     if not number > 0.0:
-        message = f"{name} is {value!r}: it must be positive"
+        message = f"{name} is {short(value)}: it must be positive"
         raise InputError(message, value=number)
     return number
 
@@ -73,7 +73,7 @@ def relative(rtol: Any) -> float:
     """A relative tolerance."""
     number = real_number(rtol, "rtol")
     if not LEAST_RTOL <= number < 1.0:
-        message = f"rtol is {rtol!r}: it must be from {LEAST_RTOL} to below 1"
+        message = f"rtol is {short(rtol)}: it must be from {LEAST_RTOL} to below 1"
         raise InputError(message, value=number)
     return number
 
@@ -81,7 +81,7 @@ def relative(rtol: Any) -> float:
 def is_low(method: Any) -> bool:
     """Whether the method is the one of lower order."""
     if not isinstance(method, str) or method not in METHODS:
-        message = f"method is {method!r}: one of {', '.join(map(repr, METHODS))}"
+        message = f"method is {short(method)}: one of {', '.join(map(repr, METHODS))}"
         raise InputError(message)
     return bool(method == "RK45")
 
@@ -92,10 +92,11 @@ def pair(atol: Any) -> list[float] | None:
         return None
     array = real_array(atol, "atol")
     if array.shape not in ((), (2,)):
-        message = f"atol is {atol!r}: a number, or one for the coordinate and one for the speed"
+        wanted = "a number, or one for the coordinate and one for the speed"
+        message = f"atol is {short(atol)}: {wanted}"
         raise InputError(message)
     if not (np.isfinite(array).all() and (array > 0.0).all()):
-        message = f"atol is {atol!r}: positive and finite numbers are needed"
+        message = f"atol is {short(atol)}: positive and finite numbers are needed"
         raise InputError(message)
     both: list[float] = np.broadcast_to(array, (2,)).tolist()
     return both
@@ -105,7 +106,7 @@ def given_breaks(breaks: Any) -> list[float]:
     """Places, ascending."""
     array = real_array(() if breaks is None else breaks, "breaks")
     if not np.isfinite(array).all():
-        message = f"breaks is {breaks!r}: finite numbers are needed"
+        message = f"breaks is {short(breaks)}: finite numbers are needed"
         raise InputError(message)
     ordered: list[float] = sorted(array.ravel().tolist())
     return ordered
@@ -118,7 +119,7 @@ def whole(turns: Any) -> int:
     except TypeError:
         number = 0
     if not 1 <= number <= 1024:
-        message = f"turns is {turns!r}: a whole number from 1 to 1024 is needed"
+        message = f"turns is {short(turns)}: a whole number from 1 to 1024 is needed"
         raise InputError(message)
     return number
 
@@ -130,7 +131,7 @@ def count(steps: Any) -> int:
     except TypeError:
         number = 0
     if not 1 <= number < 2**63:
-        message = f"max_steps is {steps!r}: a whole number above 0 is needed"
+        message = f"max_steps is {short(steps)}: a whole number above 0 is needed"
         raise InputError(message)
     return number
 
@@ -141,6 +142,6 @@ def given_seconds(seconds: Any) -> float | None:
         return None
     number = real_number(seconds, "max_seconds")
     if number < 0.0:
-        message = f"max_seconds is {seconds!r}: 0 or more is needed"
+        message = f"max_seconds is {short(seconds)}: 0 or more is needed"
         raise InputError(message, value=number)
     return min(number, 1e9)

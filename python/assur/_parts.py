@@ -57,7 +57,7 @@ def joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
 
 def slide(name: str, slide: Any) -> Slide:
     if not isinstance(slide, Slide):
-        message = f"slide {name!r} is {slide!r}: an assur.Slide is needed"
+        message = f"slide {name!r} is {short(slide)}: an assur.Slide is needed"
         raise InputError(message, slide=name)
     for what, word in (("link", slide.link), ("on", slide.on), ("origin", slide.origin)):
         if what != "origin" or word is not None:
@@ -98,7 +98,7 @@ def members(name: str, joints: Any) -> tuple[str, ...]:
     try:
         members = tuple(joints)
     except TypeError as error:
-        message = f"link {name!r} is {joints!r}: a list of names of joints is needed"
+        message = f"link {name!r} is {short(joints)}: a list of names of joints is needed"
         raise InputError(message, link=name) from error
     for member in members:
         _checked(member, f"link {name!r}, joints", link=name)

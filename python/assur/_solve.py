@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from assur._arrays import short
 from assur._call import Call
 from assur._checks import checked_order, checked_signs, checked_threads, one_of, real_array
 from assur.description import Status
@@ -59,7 +60,7 @@ def solve(
 def _overwritten(motion: Any, call: Call, wanted: Names) -> Motion:
     """The call's motion in the arrays of another, which becomes it."""
     if not isinstance(motion, Motion):
-        message = f"out is {motion!r}: a motion is needed"
+        message = f"out is {short(motion)}: a motion is needed"
         raise InputError(message)
     held = motion._stored
     names = [list(of) for of in (held.joints, held.links, held.slides)]
@@ -121,7 +122,7 @@ def _outputs(mechanism: Mechanism, names: Iterable[str] | None) -> Names:
     try:
         wanted: list[Any] = list(names)
     except TypeError as error:
-        message = f"outputs is {names!r}: a list of names is needed"
+        message = f"outputs is {short(names)}: a list of names is needed"
         raise InputError(message) from error
     for name in wanted:
         if not isinstance(name, str) or name not in everything:

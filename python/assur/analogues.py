@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import real_array
+from assur._arrays import in_range, real_array
 from assur.errors import InputError
 
 __all__ = ["Analogues"]
@@ -87,20 +87,23 @@ class Analogues:
         (3, 2)
         """
         (w,) = self._speeds(omega=omega)
-        return self._contract(self.d1, w)
+        with in_range("velocity"):
+            return self._contract(self.d1, w)
 
     def acceleration(self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0) -> Float:
         """Acceleration for a driver's speed and acceleration: ``d2 ω² + d1 α``."""
         w, a = self._speeds(omega=omega, alpha=alpha)
-        return self._contract(self.d2, w, w) + self._contract(self.d1, a)
+        with in_range("acceleration"):
+            return self._contract(self.d2, w, w) + self._contract(self.d1, a)
 
     def jerk(
         self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0, beta: npt.ArrayLike = 0.0
     ) -> Float:
         """Jerk: ``d3 ω³ + 3 d2 ω α + d1 β`` with β the driver's jerk."""
         w, a, b = self._speeds(omega=omega, alpha=alpha, beta=beta)
-        mixed = self._contract(self.d2, w, a)
-        return self._contract(self.d3, w, w, w) + 3.0 * mixed + self._contract(self.d1, b)
+        with in_range("jerk"):
+            mixed = self._contract(self.d2, w, a)
+            return self._contract(self.d3, w, w, w) + 3.0 * mixed + self._contract(self.d1, b)
 
     def _speeds(self, **given: npt.ArrayLike) -> list[Float]:
         """Arrays that broadcast together: axes of the motion, of a point, and a last of drivers."""

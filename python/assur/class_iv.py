@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import real_array
+from assur._arrays import real_array, short
 from assur.description import Status
 from assur.errors import DimensionError, InputError
 from assur.mechanism import Mechanism
@@ -164,7 +164,7 @@ def _named(given: Any, names: Iterable[str], what: str) -> None:
     try:
         missing, unknown = [n for n in names if n not in given], set(given) - set(names)
     except TypeError as error:
-        message = f"{what} is {given!r}: a mapping is needed"
+        message = f"{what} is {short(given)}: a mapping is needed"
         raise InputError(message) from error
     if missing or unknown:
         lack = f"{', '.join(map(repr, missing))} missing" if missing else ""

@@ -564,7 +564,8 @@ def _motors(motor: Any, drivers: int, outside: Outside) -> list[motors.MotorPart
         return []
     many = [motor] if drivers == 1 and not isinstance(motor, list | tuple) else motor
     if not isinstance(many, list | tuple) or len(many) != drivers:
-        message = f"motor is {motor!r}: {drivers} drivers need a sequence of as many (None: none)"
+        wanted = f"{drivers} drivers need a sequence of as many (None: none)"
+        message = f"motor is {short(motor)}: {wanted}"
         raise InputError(message)
     pairs = enumerate(many)
     return [motors.parts(one, driver, outside) for driver, one in pairs if one is not None]
@@ -575,7 +576,7 @@ def _check(mechanism: Any, bodies: Any) -> None:
         message = f"{mechanism!r} is no assur.Mechanism"
         raise InputError(message)
     if not isinstance(bodies, Mapping):
-        message = f"bodies is {bodies!r}: a mapping of links to assur.Body is needed"
+        message = f"bodies is {short(bodies)}: a mapping of links to assur.Body is needed"
         raise InputError(message)
 
 
@@ -609,7 +610,7 @@ def _body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Any, float, 
         raise InputError(message)
     checked_name(link, "bodies")
     if not isinstance(body, Body):
-        message = f"bodies[{link!r}] is {body!r}: an assur.Body is needed"
+        message = f"bodies[{link!r}] is {short(body)}: an assur.Body is needed"
         raise InputError(message)
     joints = mechanism.links.get(link, ())
     at: Any = body.at

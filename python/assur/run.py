@@ -267,7 +267,11 @@ class Run:
     def energy(self) -> Energy:
         """Kinetic and potential energy, work and their balance between the steps, J."""
         work, kinetic, potential = self._energies
-        total = kinetic + potential - work
+        with np.errstate(over="ignore", invalid="ignore"):
+            total = kinetic + potential - work
+        if any(np.isinf(energy).any() for energy in (kinetic, potential, work, total)):
+            message = "energies of the run are infinite: its speeds, masses or loads are too great"
+            raise InputError(message)
         return Energy(kinetic, potential, work, total - total[0])
 
     def plot(self, what: str = "speed", ax: Any = None) -> Any:

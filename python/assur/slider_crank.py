@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import real_array
+from assur._arrays import in_range, real_array, real_number
 from assur._checks import one_of
 from assur.analogues import Analogues
 from assur.errors import DimensionError, InputError
@@ -155,7 +155,8 @@ def stroke(
     """
     one_of(method, ("exact", "series", "fraction"), "method")
     angles, cranks, rods = _lengths(phi, crank, rod)
-    flat, ratios, inverse = _flat(angles, cranks / rods, rods / cranks)
+    with in_range("rod / crank"):
+        flat, ratios, inverse = _flat(angles, cranks / rods, rods / cranks)
     if method == "exact":
         found = _core.slider_crank_stroke(flat, ratios)
     elif method == "fraction":
@@ -179,7 +180,8 @@ def coordinate(phi: npt.ArrayLike, crank: npt.ArrayLike, rod: npt.ArrayLike) -> 
     """
     angles, cranks, rods = _lengths(phi, crank, rod)
     found = stroke(angles, cranks, rods)
-    arrays = tuple(map(np.asarray, (cranks + rods - found.value, -found.d1, -found.d2)))
+    with in_range("coordinate"):
+        arrays = tuple(map(np.asarray, (cranks + rods - found.value, -found.d1, -found.d2)))
     return Analogues("coordinate", arrays, 1, point=False)
 
 
@@ -241,9 +243,12 @@ def rod_point(
     for name, array in (("along", a), ("across", b)):
         _finite(array, name)
     angles, cranks, rods, a, b = _together(angles, cranks, rods, a, b)
-    found = _core.slider_crank_rod_point(*_flat(angles, cranks / rods, a / cranks, b / cranks))
+    with in_range("place / crank"):
+        flat = _flat(angles, cranks / rods, a / cranks, b / cranks)
+    found = _core.slider_crank_rod_point(*flat)
     shape = (*cranks.shape, 2)
-    arrays = [part.reshape(shape) * cranks[..., np.newaxis] for part in found]
+    with in_range("rod_point"):
+        arrays = [part.reshape(shape) * cranks[..., np.newaxis] for part in found]
     return Analogues("rod_point", tuple(arrays), 1, point=True)
 
 
@@ -369,11 +374,10 @@ def contour(phi: float, crank: float, rod: float) -> Float:
            [4., 0.],
            [0., 0.]])
     """
-    if real_array(phi, "phi").ndim:
-        message = "contour draws one position: phi must be a number"
-        raise InputError(message)
-    pin = rod_point(phi, crank, rod, along=0.0).value
-    return np.array([[0.0, 0.0], pin, [float(coordinate(phi, crank, rod).value), 0.0], [0.0, 0.0]])
+    at = real_number(phi, "phi (contour draws one position)")
+    lengths = real_number(crank, "crank"), real_number(rod, "rod")
+    pin = rod_point(at, *lengths, along=0.0).value
+    return np.array([[0.0, 0.0], pin, [float(coordinate(at, *lengths).value), 0.0], [0.0, 0.0]])
 
 
 def _finite(array: Float, name: str) -> None:
@@ -429,7 +433,8 @@ def _flat(*arrays: Float) -> tuple[Any, ...]:
 
 
 def _scaled(name: str, lengths: Float, found: Sequence[Float]) -> Analogues:
-    arrays = tuple(np.asarray(part.reshape(lengths.shape) * lengths) for part in found)
+    with in_range(name):
+        arrays = tuple(np.asarray(part.reshape(lengths.shape) * lengths) for part in found)
     return Analogues(name, arrays, 1, point=False)
 
 

@@ -8,9 +8,10 @@ from __future__ import annotations
 import signal
 import warnings
 from typing import TYPE_CHECKING, Any
+from unittest import mock
 
 import assur
-from assur import crank_rocker, slider_crank
+from assur import _even, crank_rocker, slider_crank
 from fuzz_kinematics import assemblies, change, construct, describe, move
 from fuzz_machines import reduce, run, steady, wheel
 from fuzz_values import Choices
@@ -19,8 +20,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from types import FrameType
 
-# No input takes longer, s. Runs have a limit of their own.
+# No input takes longer, s. Runs have a limit of their own, searches for flywheels one of a minute.
 LONGEST = 5.0
+LONGEST_SEARCH = 1.0
 LONGEST_MESSAGE = 4000
 
 
@@ -85,7 +87,8 @@ def one_input(data: bytes) -> None:
     before = signal.signal(signal.SIGALRM, _give_up)
     signal.setitimer(signal.ITIMER_REAL, LONGEST)
     try:
-        with warnings.catch_warnings():
+        limit = mock.patch.dict(_even.SEARCH, max_seconds=LONGEST_SEARCH)
+        with warnings.catch_warnings(), limit:
             warnings.simplefilter("error")
             warnings.simplefilter("ignore", assur.AssurWarning)
             choices.among(ENTRIES)(choices)

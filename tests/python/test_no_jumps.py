@@ -16,6 +16,7 @@ import campaign
 import campaign_cases as cases
 import campaign_checks as checks
 import description
+import mixed_models
 from campaign_geometry import Geometry, Sample
 
 if TYPE_CHECKING:
@@ -38,6 +39,24 @@ def test_campaign(part: int) -> None:
 @pytest.mark.parametrize("seed", [649, 1276, 1636, 5571, 17859, 22685, 66560])
 def test_nothing_jumps_where_it_once_did(seed: int) -> None:
     assert not campaign.run([("random", seed)]).failures
+
+
+def test_a_motion_ends_at_two_folds_that_nearly_meet() -> None:
+    """Some 1e-9 rad behind the fold another branch goes on, its determinant of the same sign."""
+    m = assur.Mechanism(**description.arguments(mixed_models.mixed_case(20118).description))
+    fold = -1.612990846616
+    before, behind = fold + np.geomspace(1e-10, 0.1, 200), fold - np.geomspace(1e-10, 0.1, 200)
+    assert before.max() < m.q0
+    x = m.solve(before, order=1).joint("J15")
+    # Along the branch, with steps that its slopes know.
+    change = np.diff(x.value[:, 0])
+    slopes = x.d1[:, 0]
+    assert (np.abs(slopes[:-1]) >= np.abs(slopes[1:])).all()
+    between = np.sort(
+        np.stack([slopes[:-1] * np.diff(before), slopes[1:] * np.diff(before)]), axis=0
+    )
+    assert ((between[0] <= change) & (change <= between[1])).all()
+    assert (m.solve(behind, on_error="nan").status == assur.Status.LOST).all()
 
 
 # -- the checks themselves: each sees its fault -----------------------------------------------

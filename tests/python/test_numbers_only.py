@@ -79,6 +79,8 @@ ASKS: dict[str, Callable[[Any], object]] = {
     "event speed": lambda x: stopped(assur.events.Speed(x)),
     "event limit": lambda x: stopped(assur.events.TransmissionAngle("A", x)),
     "contour": lambda x: slider_crank.contour(x, 1.0, 3.0),
+    "contour's crank": lambda x: slider_crank.contour(0.5, x, 3.0),
+    "contour's rod": lambda x: slider_crank.contour(0.5, 0.125, x),
     "tolerance": lambda x: crank_rocker.grashof(1, 4.5, 1.5, 4.8, x),
     "margin": lambda x: crank_rocker.ground_range(9.0, 6.0, x),
     "blocked": lambda x: crank_rocker.blocked(x, 9.0, 6.0, 10.0, 0.5),
@@ -150,3 +152,35 @@ def drawn_flat(sign: Any) -> assur.Mechanism:
     joints = {"A": (0, 0), "B": (1, 0), "C": (3, 0), "D": (4, 0)}
     links = {"ground": "AD", "crank": "AB", "coupler": "BC", "rocker": "DC"}
     return assur.Mechanism(joints, links, "crank", assembly={"C": sign})
+
+
+LONG = assur.SliderCrank(100.0, 400.0).solve([0.0, 1.0, 2.0], order=3).joint("B")
+PIN = PRESS.solve([0.0, 1.0, 2.0], order=3).joint("B")
+TOO_GREAT: dict[str, Callable[[], object]] = {
+    "velocity": lambda: LONG.velocity(1e308),
+    "acceleration": lambda: LONG.acceleration(1e200),
+    "jerk": lambda: LONG.jerk(1e120),
+    "rod / crank": lambda: slider_crank.stroke(0.5, 1e-10, [1.0, 1e300]),
+    "place / crank": lambda: slider_crank.rod_point(0.5, 1e-10, 1.0, 1e300),
+    "coordinate": lambda: slider_crank.coordinate(0.0, 1e308, 1.5e308),
+}
+
+
+@pytest.mark.parametrize("name", list(TOO_GREAT))
+@pytest.mark.filterwarnings("error")
+def test_what_overflows_is_refused_by_name(name: str) -> None:
+    with pytest.raises(assur.InputError, match=f"^{name} is beyond the greatest number"):
+        TOO_GREAT[name]()
+
+
+@pytest.mark.filterwarnings("error")
+def test_infinite_speeds_are_the_callers_own() -> None:
+    assert np.isinf(PIN.velocity(np.inf)[..., 0]).sum() == 2  # the first is a dead point: NaN
+
+
+@pytest.mark.filterwarnings("error", "ignore::assur.AssurWarning")
+def test_a_run_of_infinite_energy_is_refused() -> None:
+    linkage = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+    machine = Machine(linkage, {"crank": Body(4.0), "coupler": Body(0.05)})
+    with pytest.raises(assur.InputError, match="energies of the run are infinite"):
+        machine.run(0.2, speed0=1e200, rtol=1e-6, max_steps=300)

@@ -93,6 +93,24 @@ def test_designs_whose_redundant_link_misses_by_more_do_not(off: float) -> None:
     assert '"w2" does not fit: it misses by' in motion.explain(100)
 
 
+@pytest.mark.parametrize("far", [5.0, 1e3, 1e6])
+@pytest.mark.parametrize("crank", ["APB", "ABP", "PAB"])
+def test_a_point_far_away_lets_no_misfit_through(crank: str, far: float) -> None:
+    """What misses is a part of the size of what is paired, wherever other points are."""
+    joints = {"A": (0, 0), "B": (0.75, 1), "C": (3.75, 1), "D": (3, 0), "E": (1.5, 0)}
+    m = assur.Mechanism(
+        {**joints, "F": (2.25, 1), "P": (far, 0)},
+        {"ground": "ADE", "crank": crank, "rod": "BCF", "second": "DC", "third": "EF"},
+        driver="crank",
+    )
+    q = [0.9, 1.2, 2.0]
+    for part in (1e-5, 1e-3, 0.3):
+        other = m.with_dimensions({"third.length": 1.25 * (1 + part)})
+        assert (other.solve(q, on_error="nan").status == Status.UNREACHABLE).all()
+    fits = m.with_dimensions({"third.length": 1.25 * (1 + 1e-10)}).solve(q)
+    assert (fits.status <= Status.NEAR_SINGULAR).all()
+
+
 def test_a_second_guide_typed_with_ten_digits_moves() -> None:
     angle = 0.7
     along, across = (

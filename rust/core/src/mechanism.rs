@@ -76,7 +76,7 @@ impl Mechanism {
         let q0: Vec<f64> = linkage.drivers.iter().map(|&d| linkage.drawing_coordinate(d)).collect();
         let signs = drawing_signs(&linkage, &plan)?;
         let class_angle = class_angles(&linkage, &plan);
-        let slots = Slots::new(&plan, &linkage, &dimensions);
+        let slots = Slots::new(&plan, &linkage, &closure, &dimensions);
         let bound = Bound::new(&plan, &slots, &drawing);
         let whole_turns = (0..linkage.links.len())
             .map(|l| {
@@ -99,19 +99,18 @@ impl Mechanism {
             class_angle,
             whole_turns,
         };
-        made.refuse_what_fits_here_alone()?;
+        made.refuse_what_fits_here_alone(bound.scale)?;
         Ok(made)
     }
 
     /// Refuses a drawing whose redundant links fit beside it and not along all of its motion, as it
     /// would be solved: its lengths do not agree well enough to pass a change point.
-    fn refuse_what_fits_here_alone(&self) -> Result<(), StructureError> {
+    fn refuse_what_fits_here_alone(&self, scale: f64) -> Result<(), StructureError> {
         let is_slide = self.plan.driven_slide(0).is_some();
         if self.plan.fits().next().is_none() || self.q0.len() > 1 {
             return Ok(());
         }
-        let size = self.linkage.size();
-        let step = if is_slide { size } else { TAU } / f64::from(LOOKS);
+        let step = if is_slide { self.linkage.size() } else { TAU } / f64::from(LOOKS);
         for way in [step, -step] {
             let looks = (0..=LOOKS).map(f64::from);
             let places: Vec<f64> = looks.map(|look| self.q0[0] + way * look).collect();
@@ -128,7 +127,7 @@ impl Mechanism {
                 let part = if found.gap < NEARLY_REDUNDANT { found.gap } else { residual };
                 if fit && part > REDUNDANT_ROUNDING {
                     let links = format!("{:?} and others", found.name.unwrap_or_default());
-                    return Err(StructureError::AlmostFits { links, gap: part * size, part });
+                    return Err(StructureError::AlmostFits { links, gap: part * scale, part });
                 }
             }
         }

@@ -9,6 +9,7 @@ use crate::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, REDUNDANT_GREAT
 impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn fit(&mut self, g: usize, cx: &Context<'_>, fit: &Fit, index: usize) {
+        let pair_size = R::splat(cx.bound.pair_size);
         let mut gap = R::ZERO;
         let mut condition2 = R::ONE;
         match &fit.turned {
@@ -29,7 +30,8 @@ impl<R: Real, const G: usize> State<R, G> {
             gap = self.misfit(g, cx, edge).max(gap);
         }
         for &(slide, on) in &fit.parallel {
-            gap = self.angle_misfit(g, cx, slide, on).max(gap);
+            // An angle misses by as much at the size of what is paired.
+            gap = (self.angle_misfit(g, cx, slide, on) * pair_size).max(gap);
         }
         for &e in &fit.touched {
             let edge = &cx.plan.edges[e].edge;
@@ -37,8 +39,8 @@ impl<R: Real, const G: usize> State<R, G> {
             condition2 = ends.max(condition2);
         }
         let allowed = (R::splat(CLOSURE_PER_CONDITION) * condition2.sqrt())
-            .max(R::splat(REDUNDANT_CLOSURE))
-            .min(R::splat(REDUNDANT_GREATEST));
+            .max(R::splat(REDUNDANT_CLOSURE) * pair_size)
+            .min(R::splat(REDUNDANT_GREATEST) * pair_size);
         self.open(g, gap.le(allowed).not(), || Fault::Misfit { step: index, gap: gap.lane(0) });
     }
 

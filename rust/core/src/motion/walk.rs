@@ -3,6 +3,7 @@
 
 use std::f64::consts::TAU;
 
+use super::cell::Cell;
 use super::change::{self, Change, may_touch};
 use super::state::{Context, Fault, State, Status};
 use super::track::nearest;
@@ -39,6 +40,15 @@ const FOLD_HALVINGS: u32 = 52;
 /// at the knot before tells it: other assemblies are farther, except beside a fold, beyond which
 /// the determinant has the other sign.
 pub(crate) const STRAY: f64 = 1.0 / 32.0;
+
+/// Halvings from which on a cell is looked at in its middle. Beside two folds close together an unknown
+/// goes with the cube root of q, which coarser cells do not follow.
+const LEAP_HALVINGS: u32 = 4;
+/// What an unknown in the middle of a cell may be off Hermite's polynomial: as a part of how far the
+/// ends are from each other's Taylor polynomials (half of it, were it a leap) …
+const LEAP: f64 = 1.0 / 64.0;
+/// … and the rounding beside two folds that meet, ∛u and a margin.
+const LEAP_ROUNDING: f64 = 1.0 / 65536.0;
 
 /// How near (rad, or of the size) the unknowns of a group must be to where they began to have
 /// returned: other assemblies are farther.
@@ -284,6 +294,25 @@ impl<'a, 'b> Walker<'a, 'b> {
         from.seeds.iter().zip(&knot.seeds).any(|(a, b)| strays(a, b, cell))
     }
 
+    /// Whether a group leaps from one branch to another between two knots: where two folds nearly
+    /// meet, the branch behind both continues the one before, and the determinant has its old sign.
+    fn leaps(&mut self, from: &Knot, knot: &Knot) -> bool {
+        if self.last_group.is_none() {
+            return false;
+        }
+        let cell = knot.at - from.at;
+        let middle = self.knot(from.at + 0.5 * cell, &from.angles);
+        if middle.bends != from.bends || middle.seeds.len() != from.seeds.len() {
+            return true;
+        }
+        let ends = from.seeds.iter().zip(&knot.seeds);
+        ends.zip(&middle.seeds).any(|((a, b), there)| {
+            let between = Cell::new(a, Some(b), cell, Vector::ONE).at(0.5 * cell);
+            let allowed = (LEAP * apart(a, b, cell)).max(LEAP_ROUNDING);
+            (between - there[0]).abs() > allowed
+        })
+    }
+
     /// Spread of a dyad at the position just visited, and its rate along the path.
     pub(crate) fn spread(&self, dyad: &Dyad) -> (f64, f64) {
         let at = |driver: usize| self.state.spread(0, &self.cx, dyad, driver + 1);
@@ -319,6 +348,8 @@ impl<'a, 'b> Walker<'a, 'b> {
             let strays = self.strays(&from, &knot);
             let coarse =
                 depth < LIFT_HALVINGS && (swings || (!strays && too_far(&from, &knot, depth)));
+            let leaps = depth >= LEAP_HALVINGS && !strays && !coarse && self.leaps(&from, &knot);
+            let strays = strays || leaps;
             if can_halve && (coarse || strays && depth < FOLD_HALVINGS) {
                 // The halves find what was found on the whole again.
                 self.changes.retain(|c| (c.at - from.at) * self.way <= 0.0);
@@ -407,12 +438,18 @@ fn foretell([value, rate, second]: &Seed, step: f64) -> f64 {
     value + step * (rate + 0.5 * step * second)
 }
 
-/// Whether an unknown, a cell further, is not surely where the way leads.
-pub(super) fn strays(a: &Seed, b: &Seed, cell: f64) -> bool {
-    // Each from the other, so that the polynomial between them holds. No number is far.
+/// How far an unknown, a cell further, is from where the way leads: each end from the other, so that
+/// the polynomial between them holds.
+fn apart(a: &Seed, b: &Seed, cell: f64) -> f64 {
     let ahead = (foretell(a, cell) - b[0]).abs();
     let back = (foretell(b, -cell) - a[0]).abs();
-    ahead.is_nan() || back.is_nan() || ahead.max(back) > STRAY
+    // No number is far.
+    if ahead.is_nan() || back.is_nan() { f64::INFINITY } else { ahead.max(back) }
+}
+
+/// Whether an unknown, a cell further, is not surely where the way leads.
+pub(super) fn strays(a: &Seed, b: &Seed, cell: f64) -> bool {
+    apart(a, b, cell) > STRAY
 }
 
 /// Whether an unknown is, some turns on, what it was.

@@ -2,10 +2,11 @@
 
 use super::Plan;
 use super::bars::Spans;
+use super::pair_span::is_pair;
 use crate::lanes::Real;
 use crate::linkage::{Dimension, Dimensions, Linkage};
 use crate::plane::Vector;
-use crate::structure::closure::Span;
+use crate::structure::closure::{Closure, Span};
 
 /// What turns with an unknown rotation of a dyad.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -82,6 +83,9 @@ pub struct Bound {
     pub legs: Vec<[Leg; 2]>,
     /// The vectors of groups of binary links.
     pub spans: Spans,
+    /// What the misfit of redundant links is a part of: 1, or less where a joint far from all pairs
+    /// makes the scale.
+    pub pair_size: f64,
 }
 
 /// Where the dimensions of every edge and slide stand in the list of values; found
@@ -94,8 +98,8 @@ pub struct Slots {
     pub(super) ground: Vec<(usize, [Slot; 2])>,
     /// Coordinates of the origin.
     pub(super) origin: [Slot; 2],
-    /// Lengths that make the scale, and the coordinate of the origin to take off.
-    lengths: Vec<(usize, Option<usize>)>,
+    /// Lengths that make the scale.
+    lengths: Lengths,
 }
 
 /// Place of a value; a linkage that has no such dimension has 0.
@@ -141,7 +145,7 @@ impl SlideSlots {
 impl Slots {
     /// Finds the places.
     #[must_use]
-    pub fn new(plan: &Plan, linkage: &Linkage, dimensions: &Dimensions) -> Self {
+    pub fn new(plan: &Plan, linkage: &Linkage, closure: &Closure, dimensions: &Dimensions) -> Self {
         let find = |wanted: Dimension| dimensions.iter().position(|(_, d)| d == wanted);
         let on_ground =
             |joint| [find(Dimension::GroundX { joint }), find(Dimension::GroundY { joint })];
@@ -179,34 +183,53 @@ impl Slots {
         let ground = joints.iter().map(|&joint| (joint, on_ground(joint))).collect();
         // The first ground joint; without one the drawing's own origin.
         let origin = joints.first().map_or([None, None], |&joint| on_ground(joint));
-        let lengths = lengths(plan, linkage, dimensions);
+        let lengths = Lengths::of(linkage, closure, dimensions);
         Self { edges, slides, ground, origin, lengths }
     }
 }
 
-/// The dimensions that make the size of a design.
-fn lengths(plan: &Plan, linkage: &Linkage, dimensions: &Dimensions) -> Vec<(usize, Option<usize>)> {
-    let paired = |joint: usize| {
-        plan.edges
-            .iter()
-            .any(|e| e.paired && matches!(e.edge.span, Span::Joint { joint: j, .. } if j == joint))
-    };
-    let ground = |slide: usize| linkage.slides[slide].on == linkage.ground;
-    let mut out = Vec::new();
-    for (index, (_, dimension)) in dimensions.iter().enumerate() {
-        match dimension {
-            Dimension::GroundX { .. } => out.push((index, Some(0))),
-            Dimension::GroundY { .. } => out.push((index, Some(1))),
-            Dimension::SlideOriginX { slide } if ground(slide) => out.push((index, Some(0))),
-            Dimension::SlideOriginY { slide } if ground(slide) => out.push((index, Some(1))),
-            // A coupler point far away is no part of the closure.
-            Dimension::JointX { joint, .. } | Dimension::JointY { joint, .. } if !paired(joint) => {
-            }
-            d if d.is_length() => out.push((index, None)),
-            _ => {}
+/// The dimensions that make the size of a design, each with the coordinate of the origin to take off.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Lengths {
+    /// To where there are pairs.
+    paired: Vec<(usize, Option<usize>)>,
+    /// To other points: they are the size only where nothing else is.
+    loose: Vec<(usize, Option<usize>)>,
+}
+
+impl Lengths {
+    fn of(linkage: &Linkage, closure: &Closure, dimensions: &Dimensions) -> Self {
+        let at_pair = |joint: usize| is_pair(linkage, closure, joint);
+        let ground = |slide: usize| linkage.slides[slide].on == linkage.ground;
+        let mut lengths = Self::default();
+        for (index, (_, dimension)) in dimensions.iter().enumerate() {
+            let (paired, axis) = match dimension {
+                Dimension::GroundX { joint } => (at_pair(joint), Some(0)),
+                Dimension::GroundY { joint } => (at_pair(joint), Some(1)),
+                Dimension::SlideOriginX { slide } if ground(slide) => (true, Some(0)),
+                Dimension::SlideOriginY { slide } if ground(slide) => (true, Some(1)),
+                Dimension::JointX { joint, .. } | Dimension::JointY { joint, .. } => {
+                    (at_pair(joint), None)
+                }
+                Dimension::Length { link } => (at_pair(linkage.links[link].joints[1]), None),
+                other if other.is_length() => (true, None),
+                _ => continue,
+            };
+            if paired { &mut lengths.paired } else { &mut lengths.loose }.push((index, axis));
         }
+        lengths
     }
-    out
+
+    /// Power of two at or below the greatest.
+    fn scale(&self, values: &[f64], origin: [f64; 2]) -> f64 {
+        let greatest = |lengths: &[(usize, Option<usize>)]| {
+            let taken_off = |from: Option<usize>| from.map_or(0.0, |axis| origin[axis]);
+            let lengths = lengths.iter().map(|&(index, from)| values[index] - taken_off(from));
+            lengths.fold(0.0_f64, |greatest, length| greatest.max(length.abs()))
+        };
+        let paired = greatest(&self.paired);
+        power_of_two(if paired > 0.0 { paired } else { greatest(&self.loose) })
+    }
 }
 
 impl Bound {
@@ -222,7 +245,7 @@ impl Bound {
     pub fn bind(&mut self, plan: &Plan, slots: &Slots, values: &[f64]) {
         let origin = read_two(values, slots.origin);
         self.origin = [origin.x, origin.y];
-        self.scale = scale(slots, values, self.origin);
+        self.scale = slots.lengths.scale(values, self.origin);
         let unit_of = 1.0 / self.scale;
         self.offset.clear();
         self.turn.clear();
@@ -276,6 +299,12 @@ impl Bound {
         }
         self.measure_legs(plan);
         self.spans.measure(plan, &self.rigid);
+        self.pair_size = 1.0;
+        if plan.fits().next().is_some() {
+            // The scale is more than half of the greatest length.
+            let longest = plan.pairs.longest(&self.rigid, &self.fixed);
+            self.pair_size = if longest > 0.0 { (2.0 * longest).min(1.0) } else { 1.0 };
+        }
     }
 
     fn measure_legs(&mut self, plan: &Plan) {
@@ -299,16 +328,6 @@ impl Bound {
 /// Unit vector at an angle, exact for no turn.
 pub(super) fn unit(angle: f64) -> Vector {
     if angle == 0.0 { Vector::ONE } else { Vector::at_angle(angle) }
-}
-
-/// Power of two at or below the greatest length.
-fn scale(slots: &Slots, values: &[f64], origin: [f64; 2]) -> f64 {
-    let mut greatest = 0.0_f64;
-    for &(index, from) in &slots.lengths {
-        let length = values[index] - from.map_or(0.0, |axis| origin[axis]);
-        greatest = greatest.max(length.abs());
-    }
-    power_of_two(greatest)
 }
 
 /// The power of two at or below a positive number (1 for 0 or no number); kept within 2^-508 to 2^508,

@@ -14,6 +14,7 @@ mod block;
 mod fit;
 pub mod group;
 pub mod jet;
+pub mod pair_span;
 
 use crate::error::StructureError;
 use crate::linkage::{Driver, Linkage};
@@ -24,6 +25,7 @@ use bars::Bars;
 use bind::Bound;
 pub use block::{Dyad, Form, Part, Unknown};
 pub use group::Group;
+use pair_span::PairSpans;
 
 /// Value of a slide on an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -170,6 +172,8 @@ pub struct Plan {
     pub dyad_links: Vec<String>,
     /// The first group without a closed form.
     pub higher: Option<Higher>,
+    /// Where the links have pairs.
+    pub pairs: PairSpans,
 }
 
 /// The drivers that turn something, and how often.
@@ -247,6 +251,7 @@ impl Plan {
             dyad_names: Vec::new(),
             dyad_links: Vec::new(),
             higher: None,
+            pairs: PairSpans::of(linkage, closure),
         };
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
         let placed = block::add_steps(&mut plan, linkage, structure, &kept)?;

@@ -151,14 +151,7 @@ impl Conditions {
 
     /// The drawing with the least change that meets them.
     fn met(&self, linkage: &Linkage) -> Linkage {
-        // Minimum norm: δ = Aᵀ (A Aᵀ)⁺ (−c), by the eigenvalues of A Aᵀ.
-        let eigen = (&self.rows * self.rows.transpose()).symmetric_eigen();
-        let least = TRUNCATED * eigen.eigenvalues.amax();
-        let mut weights = eigen.eigenvectors.tr_mul(&self.misfits);
-        for (weight, &value) in weights.iter_mut().zip(eigen.eigenvalues.iter()) {
-            *weight = if value > least { -*weight / value } else { 0.0 };
-        }
-        let change = self.rows.tr_mul(&(&eigen.eigenvectors * weights));
+        let change = least_norm(&self.rows, &self.misfits);
         let mut next = linkage.clone();
         for (j, joint) in next.joints.iter_mut().enumerate() {
             for (k, at) in joint.at.iter_mut().enumerate() {
@@ -170,6 +163,21 @@ impl Conditions {
         }
         next
     }
+}
+
+/// The shortest `x` with the least `|A x + c|`: `x = −A⁺ c`, by the eigenvalues of the smaller one of
+/// `A Aᵀ` and `Aᵀ A`.
+fn least_norm(a: &DMatrix<f64>, c: &DVector<f64>) -> DVector<f64> {
+    let wide = a.nrows() < a.ncols();
+    let eigen = if wide { a * a.transpose() } else { a.tr_mul(a) }.symmetric_eigen();
+    let least = TRUNCATED * eigen.eigenvalues.amax();
+    let right = if wide { c.clone() } else { a.tr_mul(c) };
+    let mut weights = eigen.eigenvectors.tr_mul(&right);
+    for (weight, &value) in weights.iter_mut().zip(eigen.eigenvalues.iter()) {
+        *weight = if value > least { -*weight / value } else { 0.0 };
+    }
+    let solved = &eigen.eigenvectors * weights;
+    if wide { a.tr_mul(&solved) } else { solved }
 }
 
 /// Poses along the motion, both ways from the drawing; none if it does not nearly fit at all of them.
@@ -207,4 +215,22 @@ fn walk(skeleton: &Skeleton<'_>, system: &System) -> Result<Vec<Pose>, Structure
         }
     }
     Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn least_norm_is_the_pseudo_inverse_of_either_shape() {
+        for (rows, columns) in [(3, 7), (7, 3), (4, 4)] {
+            let mut a = DMatrix::from_fn(rows, columns, |i, j| ((3 * i + 5 * j) % 7) as f64 - 2.5);
+            // One row that depends on others, whatever the shape.
+            let sum = a.row(0) + a.row(1);
+            a.set_row(rows - 1, &sum);
+            let c = DVector::from_fn(rows, |i, _| 1.0 / (1.0 + i as f64));
+            let wanted = -a.clone().pseudo_inverse(1e-9).expect("a tolerance above 0") * &c;
+            assert!((least_norm(&a, &c) - wanted).amax() < 1e-13, "{rows} by {columns}");
+        }
+    }
 }

@@ -1,0 +1,70 @@
+//! The size of what is paired: what the misfit of a redundant link is a part of.
+
+use crate::linkage::Linkage;
+use crate::plane::Vector;
+use crate::structure::closure::{Closure, Span, point_of_joint};
+
+/// Where a link has a pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// At its first joint.
+    First,
+    /// At the far end of an edge.
+    Edge(usize),
+    /// At a point of the ground.
+    Fixed(usize),
+}
+
+/// The places of pairs, by link.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct PairSpans(Vec<Vec<Place>>);
+
+impl PairSpans {
+    /// Those of a linkage.
+    #[must_use]
+    pub fn of(linkage: &Linkage, closure: &Closure) -> Self {
+        let at_pair = |joint: usize| is_pair(linkage, closure, joint);
+        let mut links = vec![Vec::new(); linkage.links.len()];
+        for (index, link) in linkage.links.iter().enumerate() {
+            for (place, &joint) in link.joints.iter().enumerate() {
+                if index == linkage.ground && at_pair(joint) {
+                    links[index].push(Place::Fixed(point_of_joint(joint)));
+                } else if place == 0 && at_pair(joint) {
+                    links[index].push(Place::First);
+                }
+            }
+        }
+        for (index, edge) in closure.edges.iter().enumerate() {
+            match edge.span {
+                Span::Joint { link, joint } if at_pair(joint) => {
+                    links[link].push(Place::Edge(index));
+                }
+                Span::Joint { .. } => {}
+                Span::Guide { .. } => links.push(vec![Place::First, Place::Edge(index)]),
+            }
+        }
+        Self(links)
+    }
+
+    /// The longest distance between two pairs of a link (that from its first one), by the vectors of
+    /// edges and the places of ground joints.
+    #[must_use]
+    pub fn longest(&self, rigid: &[Vector], fixed: &[Vector]) -> f64 {
+        let at = |place: &Place| match *place {
+            Place::First => Vector::ZERO,
+            Place::Edge(edge) => rigid[edge],
+            Place::Fixed(point) => fixed[point],
+        };
+        let spans = self.0.iter().flat_map(|places| {
+            places.first().into_iter().flat_map(|first| places.iter().map(move |p| (first, p)))
+        });
+        spans.map(|(first, place)| (at(place) - at(first)).norm()).fold(0.0, f64::max)
+    }
+}
+
+/// Whether a joint is one of several links, or where a slide begins.
+pub(super) fn is_pair(linkage: &Linkage, closure: &Closure, joint: usize) -> bool {
+    let point = point_of_joint(joint);
+    let mut guides = closure.edges.iter().filter(|e| e.slide().is_some());
+    linkage.links_at(joint).nth(1).is_some() || guides.any(|e| e.from == point || e.to == point)
+}
