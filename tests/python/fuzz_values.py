@@ -30,6 +30,14 @@ ODD_NUMBERS = (
 ODD_STRINGS = ("", " ", "ground", "A", "B", "crank", "1.0", "nan", "a.b", "\ud800", "é", "x" * 300)
 
 
+class Anything:
+    """A class that can be called with any arguments, as a function of a load is: what Python's own
+    raise is theirs, and goes through."""
+
+    def __init__(self, *_: object) -> None:
+        pass
+
+
 def _looped() -> list[Any]:
     looped: list[Any] = []
     looped.append(looped)
@@ -55,8 +63,7 @@ ODD_OBJECTS: tuple[Callable[[], Any], ...] = (
     lambda: {1.0, 2.0},
     lambda: (x for x in (1.0, 2.0)),
     object,
-    lambda: float,
-    lambda: len,
+    lambda: Anything,
     lambda: lambda *_: 1.0,
     lambda: lambda *_: "1",
     lambda: lambda *_: None,

@@ -10,7 +10,7 @@
 use super::walk::{Knot, Walker};
 use crate::lanes::{Mask, Real};
 use crate::plan::Dyad;
-use crate::tolerance::{CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP};
+use crate::tolerance::{CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_ROUNDING};
 
 /// A change point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,11 +92,14 @@ fn locate(
         }
         if value * rate * walker.way < 0.0 { low = middle } else { high = middle }
     }
+    // Redundant links lead through a change point, whatever their lengths miss by as drawn.
+    let redundant = walker.cx.plan.fits().next().is_some();
+    let spread = if redundant { REDUNDANT_ROUNDING } else { CHANGE_SPREAD };
     let mut centre = 0.5 * (low + high);
     for _ in 0..3 {
         let fit = Sides::around(walker, (index, dyad), centre, step)?;
         let zero = fit.zero();
-        let noise = CHANGE_SPREAD * fit.before.min(CHANGE_CONDITION) * fit.shortness;
+        let noise = spread * fit.before.min(CHANGE_CONDITION) * fit.shortness;
         // In a small cell the zero is known no better than the spread there.
         if zero.abs() < NEAR_ENOUGH.max(noise / (fit.slope * step).powi(2)) {
             let allowed = noise + (fit.slope * zero * step).powi(2);

@@ -432,6 +432,18 @@ impl<'a> Skeleton<'a> {
     /// The links and slides whose equations take part in a self-stress, by name.
     #[must_use]
     pub fn stressed(&self, system: &System, stresses: &DMatrix<f64>) -> Vec<String> {
+        let (links, slides) = self.under_stress(system, stresses);
+        let links = links.into_iter().map(|l| self.linkage.links[l].name.clone());
+        links.chain(slides.into_iter().map(|s| self.linkage.slides[s].name.clone())).collect()
+    }
+
+    /// The same by index: moving links, then slides.
+    #[must_use]
+    pub fn under_stress(
+        &self,
+        system: &System,
+        stresses: &DMatrix<f64>,
+    ) -> (Vec<usize>, Vec<usize>) {
         let limit = 1e-6 * stresses.amax().max(f64::MIN_POSITIVE);
         let (mut links, mut slides) = (Vec::new(), Vec::new());
         for (row, &e) in system.edges.iter().enumerate() {
@@ -446,8 +458,7 @@ impl<'a> Skeleton<'a> {
         links.sort_unstable();
         links.dedup();
         links.retain(|&l| l != self.linkage.ground);
-        let links = links.into_iter().map(|l| self.linkage.links[l].name.clone());
-        links.chain(slides.into_iter().map(|s| self.linkage.slides[s].name.clone())).collect()
+        (links, slides)
     }
 }
 
