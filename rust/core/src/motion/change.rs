@@ -10,7 +10,9 @@
 use super::walk::{Knot, Walker};
 use crate::lanes::{Mask, Real};
 use crate::plan::Dyad;
-use crate::tolerance::{CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_ROUNDING};
+use crate::tolerance::{
+    CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,
+};
 
 /// A change point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,11 +40,43 @@ pub(crate) fn pass(walker: &mut Walker<'_, '_>, a: &Knot, b: &Knot) -> bool {
         if !may_touch((from, fall), (to, rise), b.at - a.at) {
             continue;
         }
-        if let Some(at) = locate(walker, (step, dyad), a.at, b.at) {
-            walker.changes.push(Change { at, sign });
+        let Some((at, sure)) = locate(walker, (step, dyad), a.at, b.at) else { continue };
+        walker.changes.push(Change { at, sign });
+        if sure || leads_through(walker, [a.at, b.at]) {
             return true;
         }
     }
+    false
+}
+
+/// How far behind the first of two knots redundant links are looked at, in cells: close to the change
+/// point they fit on both branches.
+const BEHIND: [f64; 3] = [1.0, 4.0, 16.0];
+
+/// Whether redundant links fit behind the last change point and not without it, so that they lead
+/// through; the change point is taken back if not.
+fn leads_through(walker: &mut Walker<'_, '_>, [a, b]: [f64; 2]) -> bool {
+    let Some(change) = walker.changes.last().copied() else { return false };
+    for cells in BEHIND {
+        // Also where something else is open, within a gap of another dyad.
+        let fits = |walker: &mut Walker<'_, '_>| {
+            walker.state.forget(&walker.cx);
+            walker.solve(a + cells * (b - a));
+            walker.state.fits(&walker.cx)
+        };
+        let with = fits(walker);
+        walker.changes.pop();
+        let without = fits(walker);
+        match (with, without) {
+            (Some(false), Some(true)) => return false,
+            (Some(true), Some(false)) => {
+                walker.changes.push(change);
+                return true;
+            }
+            _ => walker.changes.push(change),
+        }
+    }
+    walker.changes.pop();
     false
 }
 
@@ -69,13 +103,14 @@ const GOLDEN: f64 = 0.381_966_011_250_105;
 /// polynomials are then as good as their sixth power.
 const NEAR_ENOUGH: f64 = 1e-6;
 
-/// The change point between `a` and `b`, if there is one.
+/// The change point between `a` and `b`, if there is one, and whether it is one to rounding: where
+/// redundant links miss by what they may, so do the lengths that make a change point.
 fn locate(
     walker: &mut Walker<'_, '_>,
     (index, dyad): (usize, &Dyad),
     a: f64,
     b: f64,
-) -> Option<f64> {
+) -> Option<(f64, bool)> {
     let (mut low, mut high) = (a, b);
     let step = CHANGE_STEP * (b - a);
     // Halving by the golden section keeps clear of the change point itself, which
@@ -92,18 +127,20 @@ fn locate(
         }
         if value * rate * walker.way < 0.0 { low = middle } else { high = middle }
     }
-    // Redundant links lead through a change point, whatever their lengths miss by as drawn.
     let redundant = walker.cx.plan.fits().next().is_some();
-    let spread = if redundant { REDUNDANT_ROUNDING } else { CHANGE_SPREAD };
+    let strict = if redundant { REDUNDANT_ROUNDING } else { CHANGE_SPREAD };
     let mut centre = 0.5 * (low + high);
     for _ in 0..3 {
         let fit = Sides::around(walker, (index, dyad), centre, step)?;
         let zero = fit.zero();
-        let noise = spread * fit.before.min(CHANGE_CONDITION) * fit.shortness;
+        let own = fit.before.min(CHANGE_CONDITION) * fit.shortness;
+        let noise = strict * own;
         // In a small cell the zero is known no better than the spread there.
         if zero.abs() < NEAR_ENOUGH.max(noise / (fit.slope * step).powi(2)) {
-            let allowed = noise + (fit.slope * zero * step).powi(2);
-            return (fit.least.abs() <= allowed).then_some(centre + zero * step);
+            let curved = (fit.slope * zero * step).powi(2);
+            let sure = fit.least.abs() <= noise + curved;
+            let maybe = redundant && fit.least.abs() <= REDUNDANT_CLOSURE * own + curved;
+            return (sure || maybe).then_some((centre + zero * step, sure));
         }
         centre += zero.clamp(-4.0, 4.0) * step;
     }

@@ -9,6 +9,13 @@ use crate::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, REDUNDANT_GREAT
 impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn fit(&mut self, g: usize, cx: &Context<'_>, fit: &Fit, index: usize) {
+        let (gap, allowed) = self.place_redundant(g, cx, fit);
+        self.open(g, gap.le(allowed).not(), || Fault::Misfit { step: index, gap: gap.lane(0) });
+    }
+
+    /// Places what is redundant; returns by how much it misses, and may.
+    #[inline(always)]
+    fn place_redundant(&mut self, g: usize, cx: &Context<'_>, fit: &Fit) -> (R, R) {
         let pair_size = R::splat(cx.bound.pair_size);
         let mut gap = R::ZERO;
         let mut condition2 = R::ONE;
@@ -41,7 +48,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let allowed = (R::splat(CLOSURE_PER_CONDITION) * condition2.sqrt())
             .max(R::splat(REDUNDANT_CLOSURE) * pair_size)
             .min(R::splat(REDUNDANT_GREATEST) * pair_size);
-        self.open(g, gap.le(allowed).not(), || Fault::Misfit { step: index, gap: gap.lane(0) });
+        (gap, allowed)
     }
 
     /// Orientation from two joints that others carry; returns the misfit of
@@ -142,5 +149,44 @@ impl<R: Real, const G: usize> State<R, G> {
             self.orient[cx.plan.link_orientation[link] * self.len][g] * Vector::splat(constant);
         let actual = self.orient[cx.plan.link_orientation[on] * self.len][g];
         (turned - actual).norm()
+    }
+}
+
+impl State {
+    /// Forgets where things are, so that what is not solved at the next position is no number.
+    pub(crate) fn forget(&mut self, cx: &Context<'_>) {
+        let known = |point: usize| cx.plan.fixed[point];
+        for (place, point) in self.points.iter_mut().enumerate() {
+            if !known(place / self.len) {
+                *point = [Vector::splat(Vector::new(f64::NAN, f64::NAN))];
+            }
+        }
+        for (place, orient) in self.orient.iter_mut().enumerate() {
+            if cx.plan.orientations[place / self.len].class != 0 {
+                *orient = [Vector::splat(Vector::new(f64::NAN, f64::NAN))];
+            }
+        }
+    }
+
+    /// Whether all redundant parts fit of which everything is solved; none if there are none.
+    pub(crate) fn fits(&mut self, cx: &Context<'_>) -> Option<bool> {
+        let mut all = None;
+        for fit in cx.plan.fits() {
+            let (gap, allowed) = self.place_redundant(0, cx, fit);
+            if self.is_solved(cx, fit) {
+                all = Some(all.unwrap_or(true) && gap <= allowed);
+            }
+        }
+        all
+    }
+
+    /// Whether everything that must fit is a number.
+    fn is_solved(&self, cx: &Context<'_>, fit: &Fit) -> bool {
+        let known = |vector: &[Vector; 1]| vector[0].norm2().is_finite();
+        let at = |point: usize| known(&self.points[point * self.len]);
+        let mut edges = fit.touched.iter().map(|&e| &cx.plan.edges[e].edge);
+        let mut links = fit.parallel.iter().flat_map(|&(slide, _)| cx.plan.slide_links[slide]);
+        edges.all(|edge| at(edge.from) && at(edge.to))
+            && links.all(|link| known(&self.orient[cx.plan.link_orientation[link] * self.len]))
     }
 }

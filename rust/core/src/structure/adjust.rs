@@ -27,6 +27,8 @@ const DONE: f64 = 2.0 * UNIT_ROUNDOFF;
 /// Length of a step along the motion (rad, or of the size), and steps each way.
 const STEP: f64 = 0.2;
 const STEPS: usize = 16;
+/// Poses that nearly fit before one that does not, for a drawing to be one that should.
+const LEAST_POSES: usize = 4;
 /// Directions that are tried where the drawing does not show which way it moves.
 const DIRECTIONS: usize = 4;
 /// Part of the poses at which a link must be redundant to be so everywhere.
@@ -220,7 +222,7 @@ fn least_norm(a: DMatrix<f64>, c: &DVector<f64>) -> DVector<f64> {
 /// Poses along the motion, both ways from the drawing; none if it does not nearly fit at all of them.
 fn walk(skeleton: &Skeleton<'_>, system: &System) -> Result<Vec<Pose>, StructureError> {
     let start = skeleton.nearly_rank(system, skeleton.drawing())?;
-    let (mut found, mut off) = (Vec::new(), 0_usize);
+    let (mut found, mut ends) = (Vec::new(), false);
     let directions = if start.mobility == 1 { 1 } else { DIRECTIONS };
     for direction in 0..directions {
         // Any mixture; the same one in every run.
@@ -239,22 +241,22 @@ fn walk(skeleton: &Skeleton<'_>, system: &System) -> Result<Vec<Pose>, Structure
                     // Another branch, where they do not fit at all.
                     break;
                 }
+                if misfit > NEARLY_REDUNDANT {
+                    ends = true;
+                    break;
+                }
                 let motions = skeleton.nearly_rank(system, &next)?.motions;
                 // The motion there that goes on as before.
                 let Some(gram) = motions.tr_mul(&motions).cholesky() else { break };
                 along = &motions * gram.solve(&motions.tr_mul(&along));
-                if misfit > NEARLY_REDUNDANT {
-                    off += 1;
-                } else {
-                    found.push(next.clone());
-                }
+                found.push(next.clone());
                 pose = next;
             }
         }
     }
-    // Beside a change point the root of what they miss by shows.
-    let most = (1.0 - MOSTLY) * (found.len() + off) as f64;
-    Ok(if off as f64 > most { Vec::new() } else { found })
+    // Beside a change point the root of what they miss by shows; beside a drawing that is singular by
+    // chance they miss at once.
+    Ok(if ends && found.len() < LEAST_POSES { Vec::new() } else { found })
 }
 
 #[cfg(test)]
