@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import pickle
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -37,7 +38,7 @@ from mixed_models import mixed_case
 from redundant_models import redundant_case
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
     import models
     from campaign_geometry import Array
@@ -189,25 +190,50 @@ def work(count: int, which: str = "class II") -> list[tuple[str, int]]:
     return [(some, i) for i in range(few)] + [(most, i) for i in range(count - few)]
 
 
-def run_all(count: int, processes: int, which: str = "class II") -> Report:
-    """The same on several processes, with progress on stderr."""
-    report, start, todo, done = Report(), time.monotonic(), work(count, which), 0
+def run_all(
+    count: int, processes: int, which: str = "class II", kept: Path | None = None
+) -> Report:
+    """The same on several processes, with progress on stderr.
+
+    What is done is kept in a file (of Python's pickles, one a portion): a campaign that was stopped
+    goes on from there.
+    """
+    report, todo = Report(), work(count, which)
+    portions = {i: todo[i : i + PORTION] for i in range(0, count, PORTION)}
+    for (first, some), one in _read(kept):
+        if some == len(portions.get(first, ())):
+            report.add(one)
+            del portions[first]
+    done = before = count - sum(map(len, portions.values()))
+    start = time.monotonic()
     with ProcessPoolExecutor(processes) as pool:
-        portions = [todo[i : i + PORTION] for i in range(0, count, PORTION)]
-        futures = {pool.submit(run, portion): len(portion) for portion in portions}
+        futures = {pool.submit(run, portion): (i, len(portion)) for i, portion in portions.items()}
         for future in as_completed(futures):
             one = future.result()
+            if kept:
+                with kept.open("ab") as file:
+                    pickle.dump((futures[future], one), file)
             for text in one.failures[: max(0, SHOWN - len(report.failures))]:
                 sys.stderr.write(f"\r{text}\n")
             report.add(one)
-            done, spent = done + futures[future], time.monotonic() - start
-            left = spent / done * (count - done) / 60
+            done, spent = done + futures[future][1], time.monotonic() - start
+            left = spent / (done - before) * (count - done) / 60
             note = f"\r{done} of {count}, {len(report.failures)} failures, {left:.0f} min left "
             sys.stderr.write(note)
             sys.stderr.flush()
     sys.stderr.write("\n")
     report.failures.sort()
     return report
+
+
+def _read(kept: Path | None) -> Iterator[tuple[tuple[int, int], Report]]:
+    """What a campaign has kept: the place and size of each portion, and its report."""
+    if kept is None or not kept.exists():
+        return
+    size = kept.stat().st_size
+    with kept.open("rb") as file:
+        while file.tell() < size:
+            yield pickle.load(file)
 
 
 def main() -> int:
@@ -222,9 +248,10 @@ def main() -> int:
         kinds.add_argument(f"--{which}", dest="which", action="store_const", const=which, help=text)
     parser.add_argument("--processes", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--out", type=Path, help="page to be written")
+    parser.add_argument("--keep", type=Path, help="file from which a stopped campaign goes on")
     given = parser.parse_args()
     which = given.which or "class II"
-    report = run_all(given.count, given.processes, which)
+    report = run_all(given.count, given.processes, which, given.keep)
     text = PAGES[which](report)
     if given.out:
         given.out.write_text(text, encoding="utf-8")

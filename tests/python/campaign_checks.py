@@ -46,6 +46,7 @@ POLE_NEAR = 1e-2
 # next terms go with the root of the step, rounding with its inverse.
 FOLD_STEPS = (1e-6, 1e-7, 1e-8, 1e-9, 1e-5, 1e-10, 1e-4)
 FOLD_RATIO = 0.15
+CROSSING_STEPS = (1e-5, 1e-4)
 # Where two dyads fold together it falls faster, at the very same q as at a change point; but beyond
 # that there would be an assembly beside the last one: as far off as the motion goes in that step.
 BEYOND = 1e-6
@@ -153,6 +154,25 @@ def poles(solve: Solve, edges: Array, size: float, higher: bool) -> Bools:
         distance = POLE_STEP * far[place] / (near[place] - far[place])
     is_near = (distance > 0.0) & (distance < POLE_NEAR)
     return np.asarray((near[place] > POLE_OF_GROUPS * size) & is_near)
+
+
+def crossings(solve: Solve, geometry: HasDeterminants, edges: Array) -> Bools:
+    """Whether two branches cross at ends (bisected).
+
+    The determinant itself falls linearly there, and first analogues stay (at a fold they grow like
+    1/√distance: twofold here).
+    """
+    way = np.sign(edges[:, 0] - edges[:, 1])
+    found = np.zeros(len(edges), dtype=np.bool_)
+    for step in CROSSING_STEPS:
+        sample = solve(np.concatenate([edges[:, 0] + way * reach * step for reach in (1, 4)]))
+        near, far = geometry.determinants(sample.motion).reshape(2, -1)
+        slow, fast = sample.rate.reshape(2, len(edges), -1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            linear = np.abs(far / near / 4.0 - 1.0) <= FOLD_RATIO
+            change = np.abs(slow - fast).max(axis=1) / np.abs(fast).max(axis=1)
+        found |= linear & (change <= FOLD_RATIO)
+    return found
 
 
 def unreal(solve: Solve, geometry: HasDeterminants, edges: Array) -> tuple[list[str], float]:

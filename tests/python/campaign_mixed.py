@@ -183,10 +183,13 @@ class Mixed(Findings):
             self.gap(m, solve, edges[self.rng.integers(len(edges))][np.newaxis], closures)
 
     def gap(self, m: assur.Mechanism, solve: checks.Solve, edge: Array, closures: Closures) -> None:
-        """A motion ends at a dead point, or where a point goes to infinity."""
+        """A motion ends at a dead point, at infinity, or where two branches of a group cross."""
         edge = checks.bisected(solve, edge, 4 if self.path.many else 8)
         if checks.poles(solve, edge, closures.drawn, m.structure.cls > 2).any():
             self.report.counts["infinite"] += 1
+            return
+        if m.structure.cls > 2 and checks.crossings(solve, closures, edge).any():
+            self.report.counts["crossings"] += 1
             return
         self.report.counts["gaps"] += 1
         found, worst = checks.unreal(solve, closures, edge)

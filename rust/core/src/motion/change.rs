@@ -103,6 +103,9 @@ const GOLDEN: f64 = 0.381_966_011_250_105;
 /// polynomials are then as good as their sixth power.
 const NEAR_ENOUGH: f64 = 1e-6;
 
+/// How often the six points are moved there, at most; twice that for what is not one to rounding.
+const CENTRINGS: u32 = 3;
+
 /// The change point between `a` and `b`, if there is one, and whether it is one to rounding: where
 /// redundant links miss by what they may, so do the lengths that make a change point.
 fn locate(
@@ -130,7 +133,7 @@ fn locate(
     let redundant = walker.cx.plan.fits().next().is_some();
     let strict = if redundant { REDUNDANT_ROUNDING } else { CHANGE_SPREAD };
     let mut centre = 0.5 * (low + high);
-    for _ in 0..3 {
+    for _ in 0..if redundant { 2 * CENTRINGS } else { CENTRINGS } {
         let fit = Sides::around(walker, (index, dyad), centre, step)?;
         let zero = fit.zero();
         let own = fit.before.min(CHANGE_CONDITION) * fit.shortness;

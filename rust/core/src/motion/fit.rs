@@ -2,7 +2,7 @@
 
 use super::state::{Context, Fault, State};
 use crate::lanes::{Mask, Real};
-use crate::plan::{Along, Fit, Turned};
+use crate::plan::{Along, Fit, Step, Turned};
 use crate::plane::Vector;
 use crate::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, REDUNDANT_GREATEST};
 
@@ -171,10 +171,17 @@ impl State {
     /// Whether all redundant parts fit of which everything is solved; none if there are none.
     pub(crate) fn fits(&mut self, cx: &Context<'_>) -> Option<bool> {
         let mut all = None;
-        for fit in cx.plan.fits() {
-            let (gap, allowed) = self.place_redundant(0, cx, fit);
-            if self.is_solved(cx, fit) {
-                all = Some(all.unwrap_or(true) && gap <= allowed);
+        for step in &cx.plan.steps {
+            match step {
+                // Where a step is open, those behind it were not done.
+                &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
+                Step::Fit(fit) => {
+                    let (gap, allowed) = self.place_redundant(0, cx, fit);
+                    if self.is_solved(cx, fit) {
+                        all = Some(all.unwrap_or(true) && gap <= allowed);
+                    }
+                }
+                Step::Dyad(_) | Step::Group(_) => {}
             }
         }
         all
