@@ -28,6 +28,12 @@ def test_machines_keep_their_energy(part: int) -> None:
     assert report.counts["machines"] == COUNT // PARTS
 
 
+# Dead points of long chains, places looked at aside, wide first steps: found in longer scans.
+@pytest.mark.parametrize("seed", [23, 29, 38, 67, 92, 231, 273, 483, 664, 710, 876, 987, 1557])
+def test_machines_that_once_lost_energy_keep_it(seed: int) -> None:
+    assert not campaign.run([("machine", seed)]).failures
+
+
 def test_every_load_motor_and_kind_of_place_is_drawn() -> None:
     kinds: Counter[str] = Counter()
     for seed in range(200):

@@ -20,6 +20,7 @@ from assur import (
     Torque,
     TorsionDamper,
     TorsionSpring,
+    _drive,
     events,
 )
 from test_machine import five_bar
@@ -559,3 +560,13 @@ def test_nearly_a_parallelogram_ends_at_its_near_change_point() -> None:
     assert run.end == "near_change_point"
     assert run.events[-1].event.miss == pytest.approx(3e-14, rel=0.2)
     assert run.energy.error < 1e-6
+
+
+def test_a_balance_of_energy_that_is_off_warns(monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = press()
+    machine.run(0.1, speed0=10.0)
+    # Drifting steps are refused, so that a balance as bad as the limit is not to be had.
+    monkeypatch.setattr(_drive, "LEAST_OFF", 1e-16)
+    monkeypatch.setattr(_drive, "OFF", 0.0)
+    with pytest.warns(assur.AssurWarning, match="balance of energy is off by"):
+        machine.run(0.1, speed0=10.0)
