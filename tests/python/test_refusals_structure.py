@@ -161,6 +161,11 @@ REFUSED: dict[str, Refusal] = {
     "diagonal": (link(diagonal="AC"), ("mobility 0", '"diagonal"'), {"value": 0.0}),
     "third rod 1e-3 too long": (
         {"joints": {**LOCOMOTIVE, "E": (1.49925, -0.001)}, "links": RODS},
+        ("lengths agree", "2.2e-4 m off", '"third"'),
+        {},
+    ),
+    "third rod 1e-2 too long": (
+        {"joints": {**LOCOMOTIVE, "E": (1.4925, -0.01)}, "links": RODS},
         ("mobility 0", '"third"'),
         {"value": 0.0},
     ),
