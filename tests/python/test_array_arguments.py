@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import os
 import warnings
 from collections.abc import Mapping
 from typing import Any
@@ -16,6 +17,8 @@ import assur
 from array_entries import ENTRIES, array_parameters, public
 
 pytestmark = pytest.mark.filterwarnings("ignore::assur.AssurWarning")
+
+EXAMPLES = 400 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 10
 
 KINDS = [
     "<f8",
@@ -127,7 +130,7 @@ def outcome(call: Any, value: Any) -> Any:
 
 
 @pytest.mark.parametrize("name", list(ENTRIES))
-@settings(max_examples=40)
+@settings(max_examples=EXAMPLES)
 @given(data=st.data())
 def test_an_array_is_the_numbers_it_holds(name: str, data: st.DataObject) -> None:
     entry = ENTRIES[name]

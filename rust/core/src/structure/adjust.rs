@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::closure::{Closure, LeftOut, list, rotations};
 use super::freedom::{Pose, Skeleton, System};
+use super::least_norm::least_norm;
 use crate::error::StructureError;
 use crate::linkage::Linkage;
 use crate::tolerance::{NEARLY_REDUNDANT, REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
@@ -35,8 +36,6 @@ const DIRECTIONS: usize = 4;
 const MOSTLY: f64 = 0.75;
 /// Rounds, at most: each leaves the square of what the one before left.
 const ROUNDS: usize = 8;
-/// Eigenvalues (squares of singular values) that count, as a part of the greatest.
-const TRUNCATED: f64 = 1.0e-14;
 
 /// A drawing that was looked at.
 #[derive(Debug)]
@@ -187,39 +186,8 @@ impl Conditions {
     }
 }
 
-/// The shortest `x` for which `A x + c` is nothing but rounding, or as small as can be: singular vectors
-/// of `A` count from the greatest value on until the rest of `c` is rounding (Morozov's discrepancy
-/// principle), since those of small values would only raise it.
-fn least_norm(a: DMatrix<f64>, c: &DVector<f64>) -> DVector<f64> {
-    let rounding = UNIT_ROUNDOFF * (c.len() as f64).sqrt();
-    let (a, c) = if a.nrows() > a.ncols() {
-        // The triangle R of A = Q R, and Qᵀ c.
-        let decomposed = a.qr();
-        let mut c = c.clone();
-        decomposed.q_tr_mul(&mut c);
-        (decomposed.unpack_r(), c)
-    } else {
-        (a, c.clone())
-    };
-    let eigen = (&a * a.transpose()).symmetric_eigen();
-    let least = TRUNCATED * eigen.eigenvalues.amax();
-    let parts = eigen.eigenvectors.tr_mul(&c.rows(0, a.nrows()));
-    let mut order: Vec<usize> = (0..parts.len()).collect();
-    order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
-    let mut rest = parts.norm_squared();
-    let mut weights = DVector::zeros(parts.len());
-    for place in order {
-        let value = eigen.eigenvalues[place];
-        if value <= least || rest <= rounding * rounding {
-            break;
-        }
-        weights[place] = -parts[place] / value;
-        rest -= parts[place] * parts[place];
-    }
-    a.tr_mul(&(&eigen.eigenvectors * weights))
-}
-
-/// Poses along the motion, both ways from the drawing; none if it does not nearly fit at all of them.
+/// Poses along the motion, both ways from the drawing, as far as it nearly fits; none if it does not at
+/// more than a few.
 fn walk(skeleton: &Skeleton<'_>, system: &System) -> Result<Vec<Pose>, StructureError> {
     let start = skeleton.nearly_rank(system, skeleton.drawing())?;
     let (mut found, mut ends) = (Vec::new(), false);
@@ -257,22 +225,4 @@ fn walk(skeleton: &Skeleton<'_>, system: &System) -> Result<Vec<Pose>, Structure
     // Beside a change point the root of what they miss by shows; beside a drawing that is singular by
     // chance they miss at once.
     Ok(if ends && found.len() < LEAST_POSES { Vec::new() } else { found })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn least_norm_is_the_pseudo_inverse_of_either_shape() {
-        for (rows, columns) in [(3, 7), (7, 3), (4, 4)] {
-            let mut a = DMatrix::from_fn(rows, columns, |i, j| ((3 * i + 5 * j) % 7) as f64 - 2.5);
-            // One row that depends on others, whatever the shape.
-            let sum = a.row(0) + a.row(1);
-            a.set_row(rows - 1, &sum);
-            let c = DVector::from_fn(rows, |i, _| 1.0 / (1.0 + i as f64));
-            let wanted = -a.clone().pseudo_inverse(1e-9).expect("a tolerance above 0") * &c;
-            assert!((least_norm(a, &c) - wanted).amax() < 1e-13, "{rows} by {columns}");
-        }
-    }
 }

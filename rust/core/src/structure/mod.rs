@@ -6,6 +6,7 @@ pub mod closure;
 mod contour;
 mod elimination;
 pub(crate) mod freedom;
+mod least_norm;
 pub mod matching;
 pub(crate) mod rank;
 mod redundancy;
