@@ -301,12 +301,16 @@ impl<'a, 'b> Walker<'a, 'b> {
             return false;
         }
         let cell = knot.at - from.at;
+        let ends = || from.seeds.iter().zip(&knot.seeds);
+        // A leap shows as half of itself in the middle.
+        if ends().all(|(a, b)| apart(a, b, cell) <= 2.0 * LEAP_ROUNDING) {
+            return false;
+        }
         let middle = self.knot(from.at + 0.5 * cell, &from.angles);
         if middle.bends != from.bends || middle.seeds.len() != from.seeds.len() {
             return true;
         }
-        let ends = from.seeds.iter().zip(&knot.seeds);
-        ends.zip(&middle.seeds).any(|((a, b), there)| {
+        ends().zip(&middle.seeds).any(|((a, b), there)| {
             let between = Cell::new(a, Some(b), cell, Vector::ONE).at(0.5 * cell);
             let allowed = (LEAP * apart(a, b, cell)).max(LEAP_ROUNDING);
             (between - there[0]).abs() > allowed
