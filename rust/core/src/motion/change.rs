@@ -41,8 +41,9 @@ pub(crate) fn pass(walker: &mut Walker<'_, '_>, a: &Knot, b: &Knot) -> bool {
             continue;
         }
         let Some((at, sure)) = locate(walker, (step, dyad), a.at, b.at) else { continue };
-        walker.changes.push(Change { at, sign });
-        if sure || leads_through(walker, [a.at, b.at]) {
+        let change = Change { at, sign };
+        if sure || leads_through(walker, change, [a.at, b.at]) {
+            walker.changes.push(change);
             return true;
         }
     }
@@ -53,30 +54,24 @@ pub(crate) fn pass(walker: &mut Walker<'_, '_>, a: &Knot, b: &Knot) -> bool {
 /// point they fit on both branches.
 const BEHIND: [f64; 3] = [1.0, 4.0, 16.0];
 
-/// Whether redundant links fit behind the last change point and not without it, so that they lead
-/// through; the change point is taken back if not.
-fn leads_through(walker: &mut Walker<'_, '_>, [a, b]: [f64; 2]) -> bool {
-    let Some(change) = walker.changes.last().copied() else { return false };
+/// Whether redundant links fit behind a change point and not without it, so that they lead through.
+fn leads_through(walker: &mut Walker<'_, '_>, change: Change, [a, b]: [f64; 2]) -> bool {
+    let before = walker.changes.len();
     for cells in BEHIND {
-        // Also where something else is open, within a gap of another dyad.
-        let fits = |walker: &mut Walker<'_, '_>| {
+        let [with, without] = [&[change][..], &[]].map(|taken| {
+            walker.changes.extend_from_slice(taken);
+            // Also where something else is open, within a gap of another dyad.
             walker.state.forget(&walker.cx);
             walker.solve(a + cells * (b - a));
+            walker.changes.truncate(before);
             walker.state.fits(&walker.cx)
-        };
-        let with = fits(walker);
-        walker.changes.pop();
-        let without = fits(walker);
-        match (with, without) {
-            (Some(false), Some(true)) => return false,
-            (Some(true), Some(false)) => {
-                walker.changes.push(change);
-                return true;
-            }
-            _ => walker.changes.push(change),
+        });
+        if let (Some(with), Some(without)) = (with, without)
+            && with != without
+        {
+            return with;
         }
     }
-    walker.changes.pop();
     false
 }
 
