@@ -6,7 +6,7 @@ derivatives, and from these kinetic energy, potentials and powers one load after
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -15,11 +15,15 @@ import assur
 from description import GROUND
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Iterator
 
     from numpy.typing import NDArray
 
     from assur import Machine
+
+
+# A force (N,) and the rates (N, n) of what it acts on; whether these are an angle's.
+Acting: TypeAlias = "tuple[Any, Any, bool]"
 
 
 class Moving:
@@ -149,45 +153,60 @@ class Balance:
 
     def conservative(self) -> NDArray[np.float64]:
         """What weights and springs do to the drivers, (parts, N, n)."""
-        parts = [np.zeros((self.count, self.drivers))]
-        for load in self.machine.loads:
-            if isinstance(load, assur.Gravity):
-                pull = complex(*load.acceleration)
-                for link, body in self.machine.bodies.items():
-                    if body.mass:
-                        rates = self.centre(link, body).rates
-                        parts.append(body.mass * np.real(np.conj(pull) * rates))
-            elif isinstance(load, assur.Spring):
-                distance = self.along(load.first, load.second)
-                tension = load.stiffness * (distance.value - load.length) + load.preload
-                parts.append(-tension[:, np.newaxis] * distance.rates)
-            elif isinstance(load, assur.TorsionSpring):
-                angle = self.relative(load)
-                back = load.stiffness * (angle.value - load.angle) + load.preload
-                parts.append(-back[:, np.newaxis] * angle.rates)
-        return np.array(parts)
+        return self.to_drivers(self.stored())
 
     def applied(self) -> NDArray[np.float64]:
         """What all other loads do to the drivers, (parts, N, n)."""
+        return self.to_drivers(self.other())
+
+    def to_drivers(self, acting: Iterable[Acting]) -> NDArray[np.float64]:
         parts = [np.zeros((self.count, self.drivers))]
+        for force, rates, _ in acting:
+            parts.append(np.real(np.conj(force)[:, np.newaxis] * rates))
+        return np.array(parts)
+
+    def strength(self) -> NDArray[np.float64]:
+        """What all forces would do on an arm of the mechanism's size, and all torques, (N,)."""
+        places = np.array(list(self.motion.mechanism.joints.values()))
+        size = float(np.ptp(places, axis=0).max())
+        total = np.zeros(self.count)
+        for force, _, turns in (*self.stored(), *self.other()):
+            total += np.abs(force) * (1.0 if turns else size)
+        return total
+
+    def stored(self) -> Iterator[Acting]:
+        """Weights and springs."""
+        for load in self.machine.loads:
+            if isinstance(load, assur.Gravity):
+                pull = np.full(self.count, complex(*load.acceleration))
+                for link, body in self.machine.bodies.items():
+                    if body.mass:
+                        yield body.mass * pull, self.centre(link, body).rates, False
+            elif isinstance(load, assur.Spring):
+                distance = self.along(load.first, load.second)
+                tension = load.stiffness * (distance.value - load.length) + load.preload
+                yield -tension, distance.rates, False
+            elif isinstance(load, assur.TorsionSpring):
+                angle = self.relative(load)
+                back = load.stiffness * (angle.value - load.angle) + load.preload
+                yield -back, angle.rates, True
+
+    def other(self) -> Iterator[Acting]:
+        """Loads that have no potential."""
         for load in self.machine.loads:
             if isinstance(load, assur.Force):
                 force = self.number(load.force[0]) + 1j * self.number(load.force[1])
                 if load.axes is not None:
                     force = force * self.frame(load.axes).value
-                rates = self.place(load.at).rates
-                parts.append(np.real(np.conj(force)[:, np.newaxis] * rates))
+                yield force, self.place(load.at).rates, False
             elif isinstance(load, assur.Torque):
-                torque = self.number(load.torque)
-                parts.append(torque[:, np.newaxis] * self.relative(load).rates)
-            elif isinstance(load, assur.Damper | assur.TorsionDamper):
-                if isinstance(load, assur.Damper):
-                    what = self.along(load.first, load.second)
-                else:
-                    what = self.relative(load)
-                against = -load.damping * self.velocity(what)
-                parts.append(against[:, np.newaxis] * what.rates)
-        return np.array(parts)
+                yield self.number(load.torque), self.relative(load).rates, True
+            elif isinstance(load, assur.Damper):
+                what = self.along(load.first, load.second)
+                yield -load.damping * self.velocity(what), what.rates, False
+            elif isinstance(load, assur.TorsionDamper):
+                what = self.relative(load)
+                yield -load.damping * self.velocity(what), what.rates, True
 
     def motors(self) -> list[tuple[int, Any]]:
         motor = self.machine.motor
