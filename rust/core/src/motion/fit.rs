@@ -153,7 +153,7 @@ impl<R: Real, const G: usize> State<R, G> {
 }
 
 impl State {
-    /// Forgets where things are, so that what is not solved at the next position is no number.
+    /// Forgets where things are, so that what the next position leaves unsolved is NaN.
     pub(crate) fn forget(&mut self, cx: &Context<'_>) {
         let known = |point: usize| cx.plan.fixed[point];
         for (place, point) in self.points.iter_mut().enumerate() {
@@ -168,7 +168,7 @@ impl State {
         }
     }
 
-    /// Whether all redundant parts fit of which everything is solved; none if there are none.
+    /// Whether all redundant parts fit whose places are solved; `None` if nothing is solved.
     pub(crate) fn fits(&mut self, cx: &Context<'_>) -> Option<bool> {
         let mut all = None;
         for step in &cx.plan.steps {

@@ -2,7 +2,6 @@
 
 use super::Plan;
 use super::bars::Spans;
-use super::pair_span::is_pair;
 use crate::lanes::Real;
 use crate::linkage::{Dimension, Dimensions, Linkage};
 use crate::plane::Vector;
@@ -199,7 +198,7 @@ struct Lengths {
 
 impl Lengths {
     fn of(linkage: &Linkage, closure: &Closure, dimensions: &Dimensions) -> Self {
-        let at_pair = |joint: usize| is_pair(linkage, closure, joint);
+        let at_pair = |joint: usize| closure.is_pair(linkage, joint);
         let ground = |slide: usize| linkage.slides[slide].on == linkage.ground;
         let mut lengths = Self::default();
         for (index, (_, dimension)) in dimensions.iter().enumerate() {
@@ -299,12 +298,9 @@ impl Bound {
         }
         self.measure_legs(plan);
         self.spans.measure(plan, &self.rigid);
-        self.pair_size = 1.0;
-        if plan.fits().next().is_some() {
-            // The scale is more than half of the greatest length.
-            let longest = plan.pairs.longest(&self.rigid, &self.fixed);
-            self.pair_size = if longest > 0.0 { (2.0 * longest).min(1.0) } else { 1.0 };
-        }
+        // The scale is more than half of the greatest length.
+        let longest = plan.pairs.longest(&self.rigid, &self.fixed);
+        self.pair_size = if longest > 0.0 { (2.0 * longest).min(1.0) } else { 1.0 };
     }
 
     fn measure_legs(&mut self, plan: &Plan) {

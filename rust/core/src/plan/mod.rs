@@ -172,7 +172,7 @@ pub struct Plan {
     pub dyad_links: Vec<String>,
     /// The first group without a closed form.
     pub higher: Option<Higher>,
-    /// Where the links have pairs.
+    /// Where the links have pairs; nothing if no link or slide is redundant.
     pub pairs: PairSpans,
 }
 
@@ -251,11 +251,14 @@ impl Plan {
             dyad_names: Vec::new(),
             dyad_links: Vec::new(),
             higher: None,
-            pairs: PairSpans::of(linkage, closure),
+            pairs: PairSpans::default(),
         };
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
         let placed = block::add_steps(&mut plan, linkage, structure, &kept)?;
         fit::add_fits(&mut plan, linkage, closure, structure, placed);
+        if plan.fits().next().is_some() {
+            plan.pairs = PairSpans::of(linkage, closure);
+        }
         plan.mark_legs();
         Ok(plan)
     }

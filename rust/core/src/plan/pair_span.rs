@@ -23,7 +23,7 @@ impl PairSpans {
     /// Those of a linkage.
     #[must_use]
     pub fn of(linkage: &Linkage, closure: &Closure) -> Self {
-        let at_pair = |joint: usize| is_pair(linkage, closure, joint);
+        let at_pair = |joint: usize| closure.is_pair(linkage, joint);
         let mut links = vec![Vec::new(); linkage.links.len()];
         for (index, link) in linkage.links.iter().enumerate() {
             for (place, &joint) in link.joints.iter().enumerate() {
@@ -60,11 +60,4 @@ impl PairSpans {
         });
         spans.map(|(first, place)| (at(place) - at(first)).norm()).fold(0.0, f64::max)
     }
-}
-
-/// Whether a joint is one of several links, or where a slide begins.
-pub(super) fn is_pair(linkage: &Linkage, closure: &Closure, joint: usize) -> bool {
-    let point = point_of_joint(joint);
-    let mut guides = closure.edges.iter().filter(|e| e.slide().is_some());
-    linkage.links_at(joint).nth(1).is_some() || guides.any(|e| e.from == point || e.to == point)
 }

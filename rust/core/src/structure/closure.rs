@@ -154,14 +154,18 @@ impl Closure {
     /// coupler point), the edge says nothing about the motion.
     #[must_use]
     pub fn is_paired(&self, linkage: &Linkage, edge: usize) -> bool {
-        let Span::Joint { joint, .. } = self.edges[edge].span else { return true };
+        match self.edges[edge].span {
+            Span::Joint { joint, .. } => self.is_pair(linkage, joint),
+            Span::Guide { .. } => true,
+        }
+    }
+
+    /// Whether a joint is one of several links, or where a slide begins.
+    #[must_use]
+    pub fn is_pair(&self, linkage: &Linkage, joint: usize) -> bool {
         let point = point_of_joint(joint);
-        let ends = self
-            .edges
-            .iter()
-            .enumerate()
-            .any(|(e, other)| e != edge && (other.from == point || other.to == point));
-        ends || linkage.links_at(joint).nth(1).is_some()
+        let mut guides = self.edges.iter().filter(|e| e.slide().is_some());
+        linkage.links_at(joint).nth(1).is_some() || guides.any(|e| e.from == point || e.to == point)
     }
 
     /// The edges that are not left out.
