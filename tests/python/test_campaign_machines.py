@@ -28,8 +28,11 @@ def test_machines_keep_their_energy(part: int) -> None:
     assert report.counts["machines"] == COUNT // PARTS
 
 
-# Dead points of long chains, places looked at aside, wide first steps: found in longer scans.
-@pytest.mark.parametrize("seed", [23, 29, 38, 67, 92, 231, 483, 710, 987, 1557, 7561, 9039])
+# Dead points of long chains, places looked at aside, steps whose estimate deceives: found in longer
+# scans.
+@pytest.mark.parametrize(
+    "seed", [23, 29, 38, 67, 92, 231, 483, 710, 987, 1557, 6729, 6785, 7561, 9039]
+)
 def test_machines_that_once_lost_energy_keep_it(seed: int) -> None:
     assert not campaign.run([("machine", seed)]).failures
 

@@ -63,6 +63,15 @@ impl Scale {
     }
 }
 
+/// The fine estimate, by the width of its step, that is so many times the one before tells of a
+/// solution that changes within a step. The quotient of two estimates then promises too much: of a
+/// machine, a step with an error of 12 tolerances was taken for one of 0.995.
+const ABRUPT: f64 = 4.0;
+/// The part of the fine estimate that then counts at least. Of thresholds from 2 to 8 and parts from
+/// 0.05 to 0.2 these cost least: of 150 random machines 1 % more evaluations, of a four-bar at 1e-9
+/// 11 % for a ninth of the error.
+const ABRUPT_PART: f64 = 0.05;
+
 /// The stages of a step.
 #[derive(Debug)]
 pub(super) struct Stages {
@@ -75,6 +84,9 @@ pub(super) struct Stages {
     argument: Vec<Block>,
     /// Estimated errors.
     error: Vec<Block>,
+    /// Size of the fine estimate by h⁶, of the step tried and of the one taken before.
+    fine: f64,
+    fine_before: f64,
     /// How often the right-hand side was evaluated.
     pub evaluations: u64,
 }
@@ -89,8 +101,16 @@ impl Stages {
             k: vec![[0.0; LANES]; tableau.all_stages() * blocks],
             argument: vec![[0.0; LANES]; blocks],
             error: vec![[0.0; LANES]; blocks],
+            fine: f64::INFINITY,
+            fine_before: f64::INFINITY,
             evaluations: 0,
         }
+    }
+
+    /// Forgets the steps of another run.
+    pub(super) fn begin(&mut self) {
+        self.evaluations = 0;
+        self.fine_before = f64::INFINITY;
     }
 
     /// Rates of a stage.
@@ -169,7 +189,8 @@ impl Stages {
 
     /// Size of the error of a step: it is good if it is not above one.
     ///
-    /// With two estimates, e = e₅² / √(e₅² + 0.01 e₃²) (Hairer, Nørsett & Wanner I, II.10).
+    /// With two estimates, e = e₅² / √(e₅² + 0.01 e₃²) (Hairer, Nørsett & Wanner I, II.10), which
+    /// takes them for the terms of a series: only while they change little from step to step.
     pub(super) fn error(&mut self, scale: &Scale, y: &[Block], new: &[Block], h: f64) -> f64 {
         let mut size = |row: Row, k: &[Block]| {
             weigh(row, k, &mut self.error);
@@ -181,6 +202,10 @@ impl Stages {
             Some(_) if fine == 0.0 => 0.0,
             Some(coarse) => fine / (fine + 0.01 * size(coarse, &self.k)).sqrt(),
         };
+        let fine = fine.sqrt();
+        self.fine = fine / (h * h * h * h * h).abs();
+        let is_abrupt = self.fine > ABRUPT * self.fine_before;
+        let error = if is_abrupt { error.max(ABRUPT_PART * fine) } else { error };
         // What is too large for a number is just too large.
         if error.is_nan() { f64::INFINITY } else { error * h.abs() }
     }
@@ -200,6 +225,7 @@ impl Stages {
 
     /// Takes the rates at the new state as those at the start of the next step.
     pub(super) fn turn_over(&mut self) {
+        self.fine_before = self.fine;
         let end = self.tableau.stages * self.blocks;
         self.k.copy_within(end..end + self.blocks, 0);
     }
