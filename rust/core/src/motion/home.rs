@@ -13,6 +13,8 @@ use crate::plane::Vector;
 
 /// Parts of the way from the drawing's dimensions, at least.
 const LEAST_PART: f64 = 1.0 / 1_099_511_627_776.0;
+/// And how many are tried: along a fold the least parts would go on for hours.
+const MOST_PARTS: u32 = 10_000;
 
 /// How far (rad, or of the size) the first step of the iteration may go, which follows what
 /// changes to the first order: other assemblies are farther.
@@ -25,7 +27,7 @@ impl Design<'_> {
     ///
     /// # Errors
     ///
-    /// The way to them folds: after that part of it.
+    /// The way to them folds, or goes along a fold: after that part of it.
     pub(crate) fn home(&self, values: &[f64]) -> Result<Vec<Seed>, f64> {
         let (mechanism, plan) = (self.mechanism, self.mechanism.plan());
         let unknowns: Vec<Unknown> = plan.groups().flat_map(|g| g.unknowns.clone()).collect();
@@ -42,7 +44,7 @@ impl Design<'_> {
             })
             .collect();
         let mut sides: Option<Vec<bool>> = None;
-        let (mut done, mut part) = (0.0, 1.0);
+        let (mut done, mut part, mut tried) = (0.0, 1.0, 0);
         let drawing = mechanism.drawing();
         while done < 1.0 {
             let next = if sides.is_some() { f64::min(done + part, 1.0) } else { 0.0 };
@@ -93,9 +95,10 @@ impl Design<'_> {
                 sides = Some(now);
             } else {
                 part *= 0.5;
-                if part < LEAST_PART {
-                    return Err(done);
-                }
+            }
+            tried += 1;
+            if part < LEAST_PART || tried == MOST_PARTS && done < 1.0 {
+                return Err(done);
             }
         }
         let scale = self.bound.scale;
