@@ -40,6 +40,12 @@ def test_mixed_groups_move_as_they_should(part: int) -> None:
 
 
 # Rods with pins in line, gaps of other dyads, few digits: found in longer scans.
+# Two drivers, a link turned by about half a turn across a gap: counted this way and that.
+@pytest.mark.parametrize("seed", [15343, 19549, 22245])
+def test_turns_are_counted_the_same_way_across_a_gap(seed: int) -> None:
+    assert not campaign.run([("mixed", seed)]).failures
+
+
 @pytest.mark.parametrize(
     "seed", [70, 112, 286, 360, 385, 642, 1326, 2806, 2893, 3263, 3268, 4315, 4333, 4699, 4850]
 )

@@ -287,8 +287,8 @@ impl<'a> Design<'a> {
         let angles = &self.mechanism.class_angle;
         let mut state = self.state(&self.first);
         let start = &Start { angles, seeds: &[] };
-        let track = Track::straight(&cx, &mut state, q, &self.q0, start);
-        track.signs(1.0).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
+        let (track, at) = Track::straight(&cx, &mut state, q, &self.q0, start);
+        track.signs(at).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
     }
 
     /// Whether a place (scaled) is too far from the drawing to be followed straight.
@@ -309,13 +309,13 @@ impl<'a> Design<'a> {
             let cx = self.context(&self.first);
             let angles = &self.mechanism.class_angle;
             let mut state = self.state(&self.first);
-            let track = if let Ok(seeds) = &self.home {
+            let (track, at) = if let Ok(seeds) = &self.home {
                 let start = &Start { angles, seeds };
                 Track::straight(&cx, &mut state, &self.q0, q, start)
             } else {
-                Track::nowhere(angles.len(), &self.signs)
+                (Track::nowhere(angles.len(), &self.signs), 0.0)
             };
-            Place { track: Cow::Owned(track), at: 1.0 }
+            Place { track: Cow::Owned(track), at }
         })
     }
 

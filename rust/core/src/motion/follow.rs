@@ -247,8 +247,8 @@ impl Anchor {
         let jets = design.first_jets();
         let cx = Context { signs: &self.signs, ..design.context(jets) };
         let start = &Start { angles: &self.angles, seeds: &self.seeds };
-        let track = Track::straight(&cx, &mut design.state(jets), &self.q, q, start);
-        Place { track: Cow::Owned(track), at: 1.0 }
+        let (track, at) = Track::straight(&cx, &mut design.state(jets), &self.q, q, start);
+        Place { track: Cow::Owned(track), at }
     }
 }
 

@@ -101,7 +101,8 @@ fn whole_part(cells: f64) -> usize {
 }
 
 impl Track {
-    /// A path without a single position: the dimensions cannot be followed from the drawing's.
+    /// A path without a single position: the dimensions cannot be followed from the drawing's, or
+    /// it ends where it begins.
     ///
     /// It has the signs of the drawing all the same: lanes are filled with them before a lane's
     /// coordinate is looked at.
@@ -115,6 +116,9 @@ impl Track {
     pub(crate) fn turning(cx: &Context<'_>, state: &mut State, q0: f64, start: &Start<'_>) -> Self {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
         let mut walker = Walker::new(cx, state, &point, &[1.0], (q0, 1.0), start);
+        if walker.ended {
+            return Self::nowhere(start.angles.len(), cx.signs);
+        }
         let mut turns = 0;
         let mut returned = false;
         while turns < MOST_TURNS && !returned {
@@ -186,6 +190,9 @@ impl Track {
         let mut covered = [f64::NEG_INFINITY, f64::INFINITY];
         for (cells, way) in cells.into_iter().zip([-1.0, 1.0]) {
             let mut walker = Walker::new(cx, state, &point, &[1.0], (q0, way), start);
+            if walker.ended {
+                return Self::nowhere(start.angles.len(), cx.signs);
+            }
             let mut cell = 0.0;
             while cell < cells && !walker.ended {
                 cell += 1.0;
@@ -225,27 +232,36 @@ impl Track {
         }
     }
 
-    /// Straight from the drawing to one point of several coordinates.
+    /// Straight from the drawing to one point of several coordinates; the parameter there.
+    ///
+    /// Cells are as wide on every such way, so that two places on one ray from the drawing have the
+    /// same knots before them, and see or miss the same islands.
     pub(crate) fn straight(
         cx: &Context<'_>,
         state: &mut State,
         q0: &[f64],
         q1: &[f64],
         start: &Start<'_>,
-    ) -> Self {
-        let rates: Vec<f64> = q0.iter().zip(q1).map(|(a, b)| b - a).collect();
+    ) -> (Self, f64) {
+        let way = || q0.iter().zip(q1).map(|(a, b)| b - a);
+        let end = way().fold(0.0_f64, |most, change| most.max(change.abs()));
+        let rates: Vec<f64> =
+            way().map(|change| if end > 0.0 { change / end } else { 0.0 }).collect();
         let point = |at: f64, q: &mut [f64]| {
             for ((x, &a), &rate) in q.iter_mut().zip(q0).zip(&rates) {
                 *x = a + at * rate;
             }
         };
-        let longest = rates.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
-        let cells = (longest * CELLS_A_LENGTH).ceil().clamp(1.0, MOST_CELLS);
+        let width = (end / MOST_CELLS).max(1.0 / CELLS_A_LENGTH);
         let mut walker = Walker::new(cx, state, &point, &rates, (0.0, 1.0), start);
-        let mut cell = 0.0;
-        while cell < cells {
+        if walker.ended {
+            return (Self::nowhere(start.angles.len(), cx.signs), end);
+        }
+        let (mut cell, mut at) = (0.0, 0.0);
+        while at < end {
             cell += 1.0;
-            walker.advance(cell / cells);
+            at = f64::min(cell * width, end);
+            walker.advance(at);
             // Only the end is asked for.
             walker.knots.drain(..walker.knots.len() - 1);
         }
@@ -253,7 +269,7 @@ impl Track {
         let Walker { knots, changes, ended, .. } = walker;
         let gain = vec![0.0; start.angles.len()];
         let covered = ended.then_some([0.0, 0.0]);
-        Self { stretches, changes, gain, covered, ..Self::of(&knots, cx.plan) }
+        (Self { stretches, changes, gain, covered, ..Self::of(&knots, cx.plan) }, end)
     }
 
     /// Keeps what is asked of knots later.

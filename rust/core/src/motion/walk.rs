@@ -362,9 +362,40 @@ impl<'a, 'b> Walker<'a, 'b> {
             } else if strays {
                 self.ended = true;
             } else {
+                let knot = self.lifted(&from, knot);
                 self.knots.push(knot);
             }
         }
+    }
+
+    /// A knot with its angles lifted at the very edge of a gap between the one before and it: of
+    /// several drivers every position has a way and knots of its own, and angles that differ by
+    /// about half a turn across a gap would be lifted now this way, now that.
+    fn lifted(&mut self, from: &Knot, mut knot: Knot) -> Knot {
+        if self.rates.len() == 1 || from.reached == knot.reached {
+            return knot;
+        }
+        let (mut inside, mut outside) =
+            if from.reached { (from.at, knot.at) } else { (knot.at, from.at) };
+        loop {
+            let middle = 0.5 * (inside + outside);
+            if middle == inside || middle == outside {
+                break;
+            }
+            if self.visit(middle) { inside = middle } else { outside = middle }
+        }
+        if !self.visit(inside) {
+            return knot;
+        }
+        let classes = self.state.class.iter().zip(&from.angles);
+        let edge: Vec<f64> = classes.map(|(u, &near)| nearest(u[0].angle(), near)).collect();
+        if knot.reached {
+            let pairs = knot.angles.iter().zip(&edge);
+            knot.angles = pairs.map(|(&angle, &near)| nearest(angle, near)).collect();
+        } else {
+            knot.angles = edge;
+        }
+        knot
     }
 
     /// Whether a link turns fast beside a change point between two parameters: where the
