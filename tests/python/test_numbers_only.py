@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur import Body, Machine, crank_rocker, slider_crank
+from assur import Body, Machine, crank_rocker, flywheel, slider_crank
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -184,3 +184,12 @@ def test_a_run_of_infinite_energy_is_refused() -> None:
     machine = Machine(linkage, {"crank": Body(4.0), "coupler": Body(0.05)})
     with pytest.raises(assur.InputError, match="energies of the run are infinite"):
         machine.run(0.2, speed0=1e200, rtol=1e-6, max_steps=300)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_flywheel_of_infinite_energy_is_refused() -> None:
+    table = np.linspace(0.0, 2.0 * np.pi, 9), np.zeros(9), 0.05
+    with pytest.raises(assur.InputError, match="energy of the turn is infinite"):
+        flywheel.evaluate(*table, flywheel=1.0, speed0=1e200)
+    some = flywheel.evaluate(*table, flywheel=1.0, speed0=[1e200, 2.0], on_error="nan")
+    assert np.isnan(some.delta).tolist() == [True, False]

@@ -75,6 +75,11 @@ pub enum TableError {
         "at speed0 = {speed0} rad/s the energy does not suffice beyond phi = {at} rad: {missing} J are missing"
     )]
     Stalls { speed0: f64, at: f64, missing: f64 },
+    /// Energies beyond the greatest number.
+    #[error(
+        "the energy of the turn is infinite: the inertia, the moments or the speed are too great"
+    )]
+    Infinite,
     /// The search for a mean speed did not end.
     #[error("no speed with mean {mean} rad/s was found: the fluctuation is too great for it")]
     NoMean { mean: f64 },

@@ -124,6 +124,9 @@ impl Flywheel {
 
     fn of(turn: Turn, inertia: f64, constant: f64) -> Result<Self, TableError> {
         check_inertia(&turn, inertia)?;
+        if !constant.is_finite() {
+            return Err(TableError::Infinite);
+        }
         let speed0 = (constant / (turn.inertia(turn.start()) + inertia)).sqrt();
         let [least, greatest] = speeds(&turn, inertia, constant);
         let mut times = vec![0.0];
