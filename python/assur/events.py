@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from assur import transmission
-from assur._arrays import flag, real_number
+from assur._arrays import flag, real_number, short
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -129,7 +129,7 @@ def parts(
     """What the core is told of an event; its function goes to the list."""
     if not isinstance(event, Event):
         message = (
-            f"{event!r} is no event: Rest, Position, Speed, TransmissionAngle or Crossing of "
+            f"{short(event)} is no event: Rest, Position, Speed, TransmissionAngle or Crossing of "
             "assur.events"
         )
         raise InputError(message)

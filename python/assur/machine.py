@@ -573,7 +573,7 @@ def _motors(motor: Any, drivers: int, outside: Outside) -> list[motors.MotorPart
 
 def _check(mechanism: Any, bodies: Any) -> None:
     if not hasattr(mechanism, "q0"):
-        message = f"{mechanism!r} is no assur.Mechanism"
+        message = f"{short(mechanism)} is no assur.Mechanism"
         raise InputError(message)
     if not isinstance(bodies, Mapping):
         message = f"bodies is {short(bodies)}: a mapping of links to assur.Body is needed"

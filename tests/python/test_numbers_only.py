@@ -193,3 +193,18 @@ def test_a_flywheel_of_infinite_energy_is_refused() -> None:
         flywheel.evaluate(*table, flywheel=1.0, speed0=1e200)
     some = flywheel.evaluate(*table, flywheel=1.0, speed0=[1e200, 2.0], on_error="nan")
     assert np.isnan(some.delta).tolist() == [True, False]
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_flywheel_whose_period_is_rounding_is_refused_soon() -> None:
+    # One moment of 1e16 N·m: what is left of the energies elsewhere has no digits.
+    moment = np.r_[-0.75, -0.75, 1e16, np.full(13, 3.8)]
+    table = np.linspace(0.0, 2.0 * np.pi, 16), moment, 1.8
+    with pytest.raises(assur.InputError):
+        flywheel.evaluate(*table, flywheel=1.7, mean_speed=1.8, mean="period", spline="natural")
+
+
+def test_a_message_does_not_repeat_a_long_argument() -> None:
+    with pytest.raises(assur.InputError) as caught:
+        Machine({"crank": "x" * 5000}, {})  # type: ignore[arg-type]
+    assert len(str(caught.value)) < 500

@@ -47,6 +47,9 @@ pub(crate) struct Span {
 }
 
 impl Span {
+    /// Analogues by which the misfit is judged.
+    pub(crate) const JUDGED: usize = 2;
+
     /// Lays it; `solve` gives the state at a distance from the change point. None if there is no
     /// room.
     ///
@@ -70,6 +73,11 @@ impl Span {
             reach *= 0.5;
         }
         best.map(|(_, span)| span)
+    }
+
+    /// Through states of another order.
+    pub(crate) fn again(&self, wide: Bridge, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
+        Self::of(self.reach, wide, solve)
     }
 
     fn of(reach: f64, wide: Bridge, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {

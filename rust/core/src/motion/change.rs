@@ -41,6 +41,9 @@ pub(crate) fn pass(walker: &mut Walker<'_, '_>, a: &Knot, b: &Knot) -> bool {
             continue;
         }
         let Some((at, sure)) = locate(walker, (step, dyad), a.at, b.at) else { continue };
+        // Beside the first knot it may be found on the other side, and would be found again and again.
+        let least = (a.at.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
+        let at = if (at - a.at) * walker.way > 0.0 { at } else { a.at + walker.way * least };
         let change = Change { at, sign };
         if sure || leads_through(walker, change, [a.at, b.at]) {
             walker.changes.push(change);

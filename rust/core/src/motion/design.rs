@@ -357,17 +357,20 @@ impl<'a> Design<'a> {
         let mut spans = self.spans.borrow_mut();
         let known = spans.iter().position(|(at, _)| *at == change.at);
         let known = known.unwrap_or_else(|| {
-            let cx = self.context(self.jets);
-            let solve = |distance: f64| {
+            let solve = |jets: &Jets, distance: f64| {
                 let at = change.at + distance;
                 // Nothing of the position that asks first.
-                let mut trial = self.state(self.jets);
+                let mut trial = self.state(jets);
                 self.guess(0, &mut trial, track, &track.spot(at));
-                trial.solve(&Context { signs: track.signs(at), ..cx }, &[at]);
+                trial.solve(&Context { signs: track.signs(at), ..self.context(jets) }, &[at]);
                 let lost = trial.fault.is_some() || trial.points.iter().any(|p| p[0].x.is_nan());
                 (!lost).then_some(trial)
             };
-            spans.push((change.at, Span::lay(self.bridge, solve)));
+            // Values must not depend on the analogues asked for.
+            let judge = Jets::new(1, Span::JUDGED);
+            let span = Span::lay(self.bridge, |distance| solve(&judge, distance));
+            let span = span.and_then(|span| span.again(self.bridge, |at| solve(self.jets, at)));
+            spans.push((change.at, span));
             spans.len() - 1
         });
         let smooth = spans[known].1.as_ref()?.at(distance, state)?;
