@@ -41,6 +41,9 @@ POLE = 1e6
 POLE_OF_GROUPS = 100.0
 POLE_STEP = 1e-6
 POLE_NEAR = 1e-2
+# A narrow pole: steps from the end, and how many of them behind it infinity is at most.
+POLE_STEPS = (1e-6, 1e-5)
+POLE_BEHIND = 2.0
 # At a fold the squared determinant falls linearly to 0: at four steps it is four times that at
 # one; at a change point 16 times; where nothing is singular once. Steps in q, the best first: the
 # next terms go with the root of the step, rounding with its inverse.
@@ -154,6 +157,26 @@ def poles(solve: Solve, edges: Array, size: float, higher: bool) -> Bools:
         distance = POLE_STEP * far[place] / (near[place] - far[place])
     is_near = (distance > 0.0) & (distance < POLE_NEAR)
     return np.asarray((near[place] > POLE_OF_GROUPS * size) & is_near)
+
+
+def narrow_poles(solve: Solve, edges: Array) -> Bools:
+    """Whether a joint goes to infinity right behind ends (bisected), though it is not far there.
+
+    Its rate grows like the inverse square of the distance from infinity: the inverse root of it
+    falls linearly to zero. (At a fold its fourth power does, at other ends it stays.)
+    """
+    way = np.sign(edges[:, 0] - edges[:, 1])
+    found = np.zeros(len(edges), dtype=np.bool_)
+    for step in POLE_STEPS:
+        sample = solve(np.concatenate([edges[:, 0] + way * reach * step for reach in (1, 4, 10)]))
+        rates = np.abs(sample.rate[:, : sample.lengths]).reshape(3, len(edges), -1)
+        place = rates[0].argmax(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            root = 1.0 / np.sqrt(rates[:, np.arange(len(edges)), place])
+            near, far = (root[1] - root[0]) / 3.0, (root[2] - root[1]) / 6.0
+            linear = np.abs(near / far - 1.0) <= FOLD_RATIO
+            found |= linear & (near > 0.0) & (root[0] / near <= 1.0 + POLE_BEHIND)
+    return found
 
 
 def crossings(solve: Solve, geometry: HasDeterminants, edges: Array) -> Bools:

@@ -185,10 +185,12 @@ class Mixed(Findings):
     def gap(self, m: assur.Mechanism, solve: checks.Solve, edge: Array, closures: Closures) -> None:
         """A motion ends at a dead point, at infinity, or where two branches of a group cross."""
         edge = checks.bisected(solve, edge, 4 if self.path.many else 8)
-        if checks.poles(solve, edge, closures.drawn, m.structure.cls > 2).any():
+        higher = m.structure.cls > 2
+        far = checks.poles(solve, edge, closures.drawn, higher).any()
+        if far or (higher and checks.narrow_poles(solve, edge).any()):
             self.report.counts["infinite"] += 1
             return
-        if m.structure.cls > 2 and checks.crossings(solve, closures, edge).any():
+        if higher and checks.crossings(solve, closures, edge).any():
             self.report.counts["crossings"] += 1
             return
         self.report.counts["gaps"] += 1

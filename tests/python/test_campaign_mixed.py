@@ -40,6 +40,13 @@ def test_mixed_groups_move_as_they_should(part: int) -> None:
 
 
 # Rods with pins in line, gaps of other dyads, few digits: found in longer scans.
+def test_an_end_beside_a_narrow_pole_is_one_at_infinity() -> None:
+    # A slide runs off like 9e-6 m rad over the distance, which is 8e-7 rad at the end.
+    report = campaign.run([("mixed", 33578)])
+    assert not report.failures
+    assert report.counts["infinite"] == 1
+
+
 # Two drivers, a link turned by about half a turn across a gap: counted this way and that.
 @pytest.mark.parametrize("seed", [15343, 19549, 22245])
 def test_turns_are_counted_the_same_way_across_a_gap(seed: int) -> None:

@@ -276,7 +276,7 @@ impl Mechanism {
                     );
                 }
                 format!(
-                    "q = {at} is beyond a dead point (or one where two branches cross): from the drawing the motion of {groups} reaches {reach}; another driver (with_driver) leads on"
+                    "q = {at} is beyond a dead point (or a place where two branches cross or a joint goes to infinity): from the drawing the motion of {groups} reaches {reach}; another driver (with_driver) leads on"
                 )
             }
             _ => format!(
