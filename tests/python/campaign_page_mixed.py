@@ -112,7 +112,8 @@ What is checked of every mechanism:
 - **Every gap is real.** In one mechanism in {of_mixed.GAPS} (of two drivers, in
   {of_mixed.GAPS_OF_TWO}) one end of a motion is bisected to neighbouring numbers: the Jacobian is
   singular there, and its square falls linearly. (Or a point goes to infinity there or right behind;
-  or two branches of a group cross, where the determinant itself falls linearly and first analogues stay.)
+  or two branches of a group cross, where the determinant itself falls linearly and first analogues
+  stay.)
 - **Analogues** are the central differences of positions, at four positions each.
 - **Statuses** fit the values, and `explain` names a joint, link or slide for what has none.
 - **Nothing raises or panics.**
