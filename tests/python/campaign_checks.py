@@ -58,6 +58,9 @@ BESIDE = 1e-4
 DIFFERENCE_STEP = 1e-3
 DIFFERENCE_CONDITION = 50.0
 DIFFERENCE_MARGIN = 4.0  # times the change when the step is halved (their error is 1/15 of it)
+# Part of the change by the halving before, as much as it is of the next term of the error: where the
+# first one passes through zero a single halving promises too much.
+DIFFERENCE_NEXT = 1.0 / 64.0
 DIFFERENCE_KNOWN = 1e-3  # where halving the step changes more (of the value), they tell nothing
 
 
@@ -247,15 +250,18 @@ def differences(
     if not len(fit):
         return [], 0, 0.0
     rows = rng.choice(fit, 4)
-    offsets = np.array([-4, -2, -1, 1, 2, 4]) * (0.5 * DIFFERENCE_STEP)
+    offsets = np.array([-8, -4, -2, -1, 1, 2, 4, 8]) * (0.5 * DIFFERENCE_STEP)
     q = sample.q[rows][:, np.newaxis] + offsets
     x = solve(q.reshape(-1)).value.reshape(*q.shape, -1)
     # As rounded: q is taken from the grid itself.
-    fine = (8 * (x[:, 3] - x[:, 2]) - (x[:, 4] - x[:, 1])) / (6 * DIFFERENCE_STEP)
-    rough = (8 * (x[:, 4] - x[:, 1]) - (x[:, 5] - x[:, 0])) / (12 * DIFFERENCE_STEP)
-    own, scale = sample.rate[rows], np.abs(x).max(axis=(1, 2))[:, np.newaxis]
+    spans = [x[:, 4 + k] - x[:, 3 - k] for k in range(4)]
+    fine, rough, rougher = (
+        (8.0 * spans[k] - spans[k + 1]) / (6.0 * 2.0**k * DIFFERENCE_STEP) for k in range(3)
+    )
+    own, scale = sample.rate[rows], np.abs(x[:, 1:-1]).max(axis=(1, 2))[:, np.newaxis]
     kappa = condition[rows][:, np.newaxis]
-    allowed = DIFFERENCE_MARGIN * np.abs(fine - rough)
+    change, before = np.abs(fine - rough), np.abs(rough - rougher)
+    allowed = DIFFERENCE_MARGIN * np.fmax(change, DIFFERENCE_NEXT * before)
     # Positions are good to 8 u κ of the size, q to its spacing times the rate.
     noise = 3 * POSITION * kappa * scale + 4 * np.spacing(np.abs(q).max()) * np.abs(own)
     allowed += noise / DIFFERENCE_STEP

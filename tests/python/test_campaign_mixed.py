@@ -47,6 +47,10 @@ def test_an_end_beside_a_narrow_pole_is_one_at_infinity() -> None:
     assert report.counts["infinite"] == 1
 
 
+def test_an_error_of_differences_that_passes_through_zero_is_no_failure() -> None:
+    assert not campaign.run([("mixed", 49727)]).failures
+
+
 # Two drivers, a link turned by about half a turn across a gap: counted this way and that.
 @pytest.mark.parametrize("seed", [15343, 19549, 22245])
 def test_turns_are_counted_the_same_way_across_a_gap(seed: int) -> None:
