@@ -58,8 +58,8 @@ BESIDE = 1e-4
 DIFFERENCE_STEP = 1e-3
 DIFFERENCE_CONDITION = 50.0
 DIFFERENCE_MARGIN = 4.0  # times the change when the step is halved (their error is 1/15 of it)
-# Part of the change by the halving before, as much as it is of the next term of the error: where the
-# first one passes through zero a single halving promises too much.
+# Part of the change by the halving before, as much as it is of the next term of the error: where
+# the first one passes through zero a single halving promises too much.
 DIFFERENCE_NEXT = 1.0 / 64.0
 DIFFERENCE_KNOWN = 1e-3  # where halving the step changes more (of the value), they tell nothing
 

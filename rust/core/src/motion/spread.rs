@@ -62,8 +62,11 @@ impl State {
                 let driven = orientation.driven;
                 let turned =
                     if driven { rotation * self.phase[e.orientation][0] } else { rotation } * span;
-                (self.points[e.edge.to * len][0] - self.points[e.edge.from * len][0] - turned)
-                    .norm()
+                let misfit =
+                    self.points[e.edge.to * len][0] - self.points[e.edge.from * len][0] - turned;
+                let norm = misfit.norm();
+                // Its square may be too great for a number.
+                if norm == f64::INFINITY { misfit.x.abs().max(misfit.y.abs()) } else { norm }
             })
             // What is no number stays so.
             .fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
