@@ -47,7 +47,7 @@ POLE_BEHIND = 2.0
 # At a fold the squared determinant falls linearly to 0: at four steps it is four times that at
 # one; at a change point 16 times; where nothing is singular once. Steps in q, the best first: the
 # next terms go with the root of the step, rounding with its inverse.
-FOLD_STEPS = (1e-6, 1e-7, 1e-8, 1e-9, 1e-5, 1e-10, 1e-4)
+FOLD_STEPS = (1e-6, 1e-7, 1e-8, 1e-9, 1e-5, 1e-10, 1e-4, 1e-11, 1e-12)
 FOLD_RATIO = 0.15
 CROSSING_STEPS = (1e-5, 1e-4)
 # Where two dyads fold together it falls faster, at the very same q as at a change point; but beyond

@@ -47,12 +47,18 @@ def test_an_end_beside_a_narrow_pole_is_one_at_infinity() -> None:
     assert report.counts["infinite"] == 1
 
 
+def test_the_fold_of_a_group_beside_that_of_its_dyad_is_one() -> None:
+    # 1e-9 m from each other.
+    assert not campaign.run([("mixed", 68141)]).failures
+
+
 def test_an_error_of_differences_that_passes_through_zero_is_no_failure() -> None:
     assert not campaign.run([("mixed", 49727)]).failures
 
 
-# Two drivers, a link turned by about half a turn across a gap: counted this way and that.
-@pytest.mark.parametrize("seed", [15343, 19549, 22245])
+# Two drivers, a link turned by about half a turn across a gap: counted this way and that. And one
+# driver, between a gap and a joint at infinity.
+@pytest.mark.parametrize("seed", [15343, 19549, 22245, 68526])
 def test_turns_are_counted_the_same_way_across_a_gap(seed: int) -> None:
     assert not campaign.run([("mixed", seed)]).failures
 

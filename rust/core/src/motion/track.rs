@@ -397,7 +397,8 @@ impl Track {
         Some([*self.reached.get(after.checked_sub(1)?)?, *self.reached.get(after)?])
     }
 
-    /// The way along such an island, from its lower end to the parameter.
+    /// The way along such an island, from its middle to the parameter: at an end a joint may be at
+    /// infinity, where angles are rounding.
     pub(crate) fn island(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Self {
         let (place, whole) = self.reduced(at);
         let after = self.at.partition_point(|&k| k <= place);
@@ -412,24 +413,31 @@ impl Track {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
         let mut walker = Walker::new(&cx, state, &point, &[1.0], (place, 1.0), &start);
         let step = (right - left) / ISLAND_STEPS;
-        let (mut inside, mut outside) = (place, left);
-        while inside - step > left {
-            if !walker.visit(inside - step) {
-                outside = inside - step;
-                break;
+        let mut end = |way: f64, limit: f64| {
+            let (mut inside, mut outside) = (place, limit);
+            while (limit - inside) * way > step {
+                if !walker.visit(inside + way * step) {
+                    outside = inside + way * step;
+                    break;
+                }
+                inside += way * step;
             }
-            inside -= step;
-        }
-        loop {
-            let middle = 0.5 * (inside + outside);
-            if middle == inside || middle == outside {
-                break;
+            loop {
+                let middle = 0.5 * (inside + outside);
+                if middle == inside || middle == outside {
+                    return inside;
+                }
+                if walker.visit(middle) { inside = middle } else { outside = middle }
             }
-            if walker.visit(middle) { inside = middle } else { outside = middle }
-        }
-        let mut walker = Walker::new(&cx, state, &point, &[1.0], (inside, 1.0), &start);
+        };
+        let middle = 0.5 * (end(-1.0, left) + end(1.0, right));
+        let way = if place < middle { -1.0 } else { 1.0 };
+        let mut walker = Walker::new(&cx, state, &point, &[1.0], (middle, way), &start);
         walker.advance(place);
         let Walker { mut knots, .. } = walker;
+        if way < 0.0 {
+            knots.reverse();
+        }
         for knot in &mut knots {
             knot.at += at - place;
             for (angle, gain) in knot.angles.iter_mut().zip(&self.gain) {
