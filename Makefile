@@ -57,7 +57,7 @@ python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff format --check
 	$(PY) -m mypy
 	$(PY) -m mypy.stubtest --mypy-config-file pyproject.toml assur._core
-	$(PY) -m pytest -q
+	$(PY) -m pytest -q -n auto
 
 bench: rust-tools $(EXTENSION) $(DEV_STAMP)
 	@$(PY) -m pip install --quiet --group bench
