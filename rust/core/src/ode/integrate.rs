@@ -61,7 +61,7 @@ impl Integrator {
     ) -> Result<Solution, Error<S::Error>> {
         options.check(t, t_end, y, self.n)?;
         self.y.as_flattened_mut()[..self.n].copy_from_slice(y);
-        self.stages.begin();
+        self.stages.evaluations = 0;
         self.watch.reset(options.events);
         Run::new(self, system, (t, t_end), options).go()
     }

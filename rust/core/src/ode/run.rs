@@ -164,6 +164,7 @@ impl<'a, S: System> Run<'a, S> {
         let Integrator { n, stages, watch, y, new, .. } = &mut *self.work;
         let flat = &y.as_flattened()[..*n];
         self.system.enter(self.t, to, flat).map_err(Error::System)?;
+        stages.enter();
         if watch.len() > 0 {
             self.system.events(self.t, flat, watch.start_values()).map_err(Error::System)?;
             if again {
