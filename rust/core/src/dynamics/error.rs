@@ -77,11 +77,11 @@ pub enum TableError {
     Stalls { speed0: f64, at: f64, missing: f64 },
     /// Energies beyond the greatest number.
     #[error(
-        "the energy of the turn is infinite: the inertia, the moments or the speed are too great"
+        "the energy of the turn is infinite at {name} = {} rad/s with a flywheel of {} kg·m²: one of them, an inertia or a moment is too great", short(*speed), short(*flywheel)
     )]
-    Infinite,
+    Infinite { name: &'static str, speed: f64, flywheel: f64 },
     /// The search for a mean speed did not end.
-    #[error("no speed with mean {mean} rad/s was found: the fluctuation is too great for it")]
+    #[error("no speed with mean {} rad/s was found: the fluctuation is too great for it, or the mean itself is", short(*mean))]
     NoMean { mean: f64 },
 }
 

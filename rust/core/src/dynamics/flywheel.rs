@@ -69,7 +69,7 @@ impl Flywheel {
         if let Some([inertia, constant]) = met
             && inertia >= 0.0
         {
-            return Self::of(turn, inertia, constant);
+            return Self::of(turn, inertia, constant, ("mean_speed", mean));
         }
         let without = Self::driven(turn, 0.0, mean, by)?.fluctuation(by);
         Err(TableError::AlreadyMet { without, wanted: fluctuation })
@@ -102,7 +102,7 @@ impl Flywheel {
             own - mean
         };
         let above = root::zero(lack, guess).ok_or(TableError::NoMean { mean })?;
-        Self::of(turn, inertia, least.value + above)
+        Self::of(turn, inertia, least.value + above, ("mean_speed", mean))
     }
 
     /// A given flywheel with a given speed (rad/s) where the turn begins.
@@ -119,13 +119,19 @@ impl Flywheel {
             let missing = 0.5 * (least.value - constant);
             return Err(TableError::Stalls { speed0, at: least.at, missing });
         }
-        Self::of(turn, inertia, constant)
+        Self::of(turn, inertia, constant, ("speed0", speed0))
     }
 
-    fn of(turn: Turn, inertia: f64, constant: f64) -> Result<Self, TableError> {
+    /// At a speed that was asked for by name.
+    fn of(
+        turn: Turn,
+        inertia: f64,
+        constant: f64,
+        (name, speed): (&'static str, f64),
+    ) -> Result<Self, TableError> {
         check_inertia(&turn, inertia)?;
         if !constant.is_finite() {
-            return Err(TableError::Infinite);
+            return Err(TableError::Infinite { name, speed, flywheel: inertia });
         }
         let speed0 = (constant / (turn.inertia(turn.start()) + inertia)).sqrt();
         let [least, greatest] = speeds(&turn, inertia, constant);

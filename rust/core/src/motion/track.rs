@@ -422,13 +422,7 @@ impl Track {
                 }
                 inside += way * step;
             }
-            loop {
-                let middle = 0.5 * (inside + outside);
-                if middle == inside || middle == outside {
-                    return inside;
-                }
-                if walker.visit(middle) { inside = middle } else { outside = middle }
-            }
+            walker.edge([inside, outside])
         };
         let middle = 0.5 * (end(-1.0, left) + end(1.0, right));
         let way = if place < middle { -1.0 } else { 1.0 };

@@ -368,6 +368,17 @@ impl<'a, 'b> Walker<'a, 'b> {
         }
     }
 
+    /// The last parameter that is reached between one that is and one that is not.
+    pub(crate) fn edge(&mut self, [mut inside, mut outside]: [f64; 2]) -> f64 {
+        loop {
+            let middle = 0.5 * (inside + outside);
+            if middle == inside || middle == outside {
+                return inside;
+            }
+            if self.visit(middle) { inside = middle } else { outside = middle }
+        }
+    }
+
     /// A knot with its angles lifted at the very edge of a gap between the one before and it: of
     /// several drivers every position has a way and knots of its own, and angles that differ by
     /// about half a turn across a gap would be lifted now this way, now that.
@@ -375,16 +386,9 @@ impl<'a, 'b> Walker<'a, 'b> {
         if self.rates.len() == 1 || from.reached == knot.reached {
             return knot;
         }
-        let (mut inside, mut outside) =
-            if from.reached { (from.at, knot.at) } else { (knot.at, from.at) };
-        loop {
-            let middle = 0.5 * (inside + outside);
-            if middle == inside || middle == outside {
-                break;
-            }
-            if self.visit(middle) { inside = middle } else { outside = middle }
-        }
-        if !self.visit(inside) {
+        let ends = if from.reached { [from.at, knot.at] } else { [knot.at, from.at] };
+        let edge = self.edge(ends);
+        if !self.visit(edge) {
             return knot;
         }
         let classes = self.state.class.iter().zip(&from.angles);

@@ -63,7 +63,7 @@ impl Scale {
     }
 }
 
-/// A fine estimate, by the width of its step, so many times the greatest before tells of a solution
+/// A fine estimate, by the width of its step, so many times the greatest before shows a solution
 /// that changes within a step. The quotient of two estimates then promises too much: of a machine, a
 /// step with an error of 12 tolerances was taken for one of 0.995.
 const ABRUPT: f64 = 6.0;
@@ -72,7 +72,7 @@ const ABRUPT: f64 = 6.0;
 /// the energy.
 const ABRUPT_PART: f64 = 0.05;
 /// Steps of a stretch before which nothing is known of its solution: of a table's pieces, which have
-/// but a few, the second is no surprise.
+/// but a few, the second says nothing either.
 const FIRST_STEPS: u32 = 2;
 
 /// The stages of a step.
