@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-import os
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from closed_form import blocked
+
+from assur import _core
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -23,7 +24,7 @@ SIZE = f"{DESIGNS} designs x {len(Q)} positions"
 ONE = f"1 design x {len(Q)} positions"
 
 # The level is read once a process: `ASSUR_SIMD=baseline pytest benches/python -k assur`.
-ASSUR = f"assur {os.environ.get('ASSUR_SIMD', 'best')}"
+ASSUR = f"assur {_core.simd_level()}"
 
 
 @dataclass(frozen=True)

@@ -86,6 +86,10 @@ fn batch(c: &mut Criterion, designs_of_each: u32) {
         group.sample_size(10);
         for simd in [Simd::Baseline, Simd::Avx2, Simd::Avx512] {
             if simd > Simd::best() {
+                println!(
+                    "{name}, {}: skipped, this processor has no such instructions",
+                    simd.name()
+                );
                 continue;
             }
             for threads in [1, 2] {

@@ -13,6 +13,7 @@ __all__ = [
     "acute",
     "asin",
     "atan2",
+    "crank_rocker_blocked",
     "crank_rocker_extremes",
     "crank_rocker_grashof",
     "crank_rocker_ground_range",
@@ -23,6 +24,7 @@ __all__ = [
     "curvature",
     "instant_centre",
     "panic_in_chunk",
+    "simd_level",
     "sin_cos",
     "slider_crank_deviation",
     "slider_crank_fourier",
@@ -209,6 +211,7 @@ def slider_crank_deviation(
 def crank_rocker_solve(
     phi1: _Float, lengths: list[_Float], rates: list[_Float], printed: bool
 ) -> _Float: ...
+def crank_rocker_blocked(lengths: list[float], gamma_min: float) -> list[list[float]]: ...
 def crank_rocker_grashof(lengths: list[_Float], tolerance: float) -> list[str]: ...
 def crank_rocker_turns(lengths: list[_Float]) -> tuple[_Float, npt.NDArray[np.bool_]]: ...
 def crank_rocker_ground_range(
@@ -219,4 +222,5 @@ def crank_rocker_least_gamma(friction: list[_Float], rocker: _Float) -> _Float: 
 def crank_rocker_run(
     case: list[float], ground: Callable[[float], float]
 ) -> tuple[_Float, list[tuple[str, bool, list[float]]], tuple[str, float] | None]: ...
+def simd_level() -> str: ...
 def version() -> str: ...

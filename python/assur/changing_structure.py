@@ -19,6 +19,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import real_number
+from assur._trig import sin_cos
 from assur.errors import DimensionError, InputError, PositionError
 
 __all__ = ["Event", "Run", "run"]
@@ -209,9 +210,8 @@ def _event(kind: Any, is_outer: bool, numbers: list[float], case: dict[str, floa
     t, phi1, l4, ground, *speeds = numbers
     side: Literal["outer", "inner"] = "outer" if is_outer else "inner"
     sign = 1.0 if is_outer else -1.0
-    squares = case["l2"] ** 2 + case["l3"] ** 2
-    product = 2.0 * case["l2"] * case["l3"] * math.cos(case["gamma_min"])
-    rod = math.sqrt(squares + sign * product)
+    l2, l3, cosine = case["l2"], case["l3"], sin_cos(case["gamma_min"])[1]
+    rod = math.sqrt(l2 * l2 + l3 * l3 + sign * 2.0 * l2 * l3 * cosine)
     texts = {
         "jam": f"C jams at γ = γ_min ({side}): D slides, BD stays {rod:.9g} m",
         "return": "D is back in its place: the rocker swings",

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import cmath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from assur._arrays import real_array, short
+from assur._trig import sin_cos
 from assur.description import Status
 from assur.errors import DimensionError, InputError
 from assur.mechanism import Mechanism
@@ -130,7 +130,7 @@ class ClassIV(Mechanism):
         """
         at = {name: _complex(motion.joint(name).value) for name in JOINTS}
         turn = {
-            link: np.exp(1j * motion.link(link).value) for link in ("l234", "l365", "l48", "l876")
+            link: _polar(1.0, motion.link(link).value) for link in ("l234", "l365", "l48", "l876")
         }
         d = {name: np.asarray(value)[..., np.newaxis] for name, value in self.dimensions.items()}
         to3 = turn["l234"] * d["l234.length"]
@@ -147,8 +147,17 @@ class ClassIV(Mechanism):
             (two + to4 + to8 + to7 - ten, "l107.length"),
             (two + to3 + to6 - from8to6 + to7 - ten, "l107.length"),
         )
-        misses = [np.abs(route) ** 2 - d[length] ** 2 for route, length in routes]
+        misses = [_squared(route) - d[length] ** 2 for route, length in routes]
         return np.stack(np.broadcast_arrays(*misses), axis=-1).reshape((*motion.shape, 4))
+
+
+def _polar(length: float, angle: npt.ArrayLike) -> Any:
+    sine, cosine = sin_cos(angle)
+    return length * (cosine + 1j * sine)
+
+
+def _squared(z: npt.NDArray[np.complex128]) -> npt.NDArray[np.float64]:
+    return np.asarray(z.real * z.real + z.imag * z.imag)
 
 
 def _complex(points: npt.NDArray[np.float64]) -> npt.NDArray[np.complex128]:
@@ -203,7 +212,7 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
         at[name] = complex(*place)
 
     def leg(name: str, turn: float) -> complex:
-        return cmath.rect(length[name], turn)
+        return complex(_polar(length[name], turn))
 
     at["2"] = at["1"] + leg("1-2", first["1-2"])
     at["3"] = at["2"] + leg("2-3", first["2-4"] + angle["4-2-3"])
@@ -214,9 +223,9 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
     at["7"] = at["8"] + leg("7-8", first["7-8"])
     # In the frames of the links, at the first joint with x toward the second.
     corner = {
-        "l234.4": cmath.rect(length["2-4"], -angle["4-2-3"]),
-        "l365.5": cmath.rect(length["3-5"], angle["6-3-5"]),
-        "l876.6": cmath.rect(length["6-8"], angle["7-8-6"]),
+        "l234.4": _polar(length["2-4"], -angle["4-2-3"]),
+        "l365.5": _polar(length["3-5"], angle["6-3-5"]),
+        "l876.6": _polar(length["6-8"], angle["7-8-6"]),
     }
     dimensions = {"crank.length": length["1-2"], "l234.length": length["2-3"]}
     dimensions |= {"l365.length": length["3-6"], "l48.length": length["4-8"]}

@@ -364,16 +364,8 @@ def blocked(
     if shape:
         message = f"blocked has intervals of one mechanism, not of {shape}"
         raise InputError(message)
-    crank, coupler, rocker, ground = (float(column[0]) for column in flat)
-    squares, product = coupler**2 + rocker**2, 2.0 * coupler * rocker * np.cos(least)
-    found = []
-    # S² = l1² + l4² + 2 l1 l4 cos φ1 at γ23 = π − γ_min and at γ_min.
-    for middle, s2, sign in ((0.0, squares + product, 1.0), (np.pi, squares - product, -1.0)):
-        cosine = (s2 - crank**2 - ground**2) / (2.0 * crank * ground)
-        if sign * cosine < 1.0:
-            half = float(np.arccos(np.clip(sign * cosine, -1.0, 1.0)))
-            found.append((middle - half, middle + half))
-    return found
+    found = _core.crank_rocker_blocked([float(column[0]) for column in flat], least)
+    return [(start, end) for start, end in found]
 
 
 def table1() -> Table:

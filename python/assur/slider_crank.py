@@ -21,6 +21,7 @@ import numpy.typing as npt
 from assur import _core
 from assur._arrays import in_range, real_array, real_number
 from assur._checks import one_of
+from assur._trig import arctan2
 from assur.analogues import Analogues
 from assur.errors import DimensionError, InputError
 
@@ -281,7 +282,7 @@ def greatest_speed(
     _ratio(ratios, "k")
     one_of(method, ("exact", "series", "perpendicular"), "method")
     if method == "perpendicular":
-        at = np.arctan(ratios)
+        at = arctan2(ratios, 1.0)
         return Extreme(at, stroke(at, 1.0, ratios).d1)
     flat = np.ascontiguousarray(ratios).reshape(-1)
     found = _core.slider_crank_greatest_speed(flat, method == "exact")

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from assur import _core
 from assur._arrays import short
 from assur._checks import checked_name
+from assur._trig import sin_cos
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -82,7 +83,8 @@ def _direction(motion: Motion, line: Line) -> Float:
     if motion.shape[len(mechanism.shape) :]:
         own = own[..., np.newaxis]
     direction = motion.link(mechanism.slides[line.start].on).value + own
-    return np.stack([np.cos(direction), np.sin(direction)], axis=-1)
+    sine, cosine = sin_cos(direction)
+    return np.stack([cosine, sine], axis=-1)
 
 
 def _pairs(mechanism: Mechanism, joint: str) -> int:

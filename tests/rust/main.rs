@@ -1,4 +1,5 @@
 //! Integration tests of the core: one binary, one module per subject.
+#![allow(clippy::disallowed_methods, reason = "tests compare with the platform's functions")]
 
 mod agreement;
 mod assembly;
@@ -8,6 +9,7 @@ mod double_double;
 mod drawing;
 mod found;
 mod fuzz;
+mod higher;
 mod law;
 mod linkages;
 mod long;

@@ -39,6 +39,10 @@
 //! assert!((bore.derivatives[1][0] + 0.05).abs() < 1e-15);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "tests compare with the platform's functions")
+)]
 
 pub mod crank_rocker;
 pub mod dynamics;

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::error::{Named, SolveError, StructureError};
 use crate::linkage::{Description, Dimensions, Linkage, nearest};
-use crate::motion::{Motion, Request, Status};
+use crate::motion::{Control, Motion, Request, Status};
 use crate::plan::bind::{Bound, Slots};
 use crate::plan::{Dyad, Form, Plan, Step};
 use crate::plane::Vector;
@@ -187,11 +187,23 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`SolveError`] for what concerns the whole request (a group of higher
-    /// class, shapes, orders); single positions that cannot be had get NaN and a
+    /// [`SolveError`] for what concerns the whole request (shapes, orders); single positions that cannot be had get NaN and a
     /// status.
     pub fn solve(&self, request: &Request<'_>) -> Result<Motion, SolveError> {
-        crate::motion::solve(self, request)
+        self.solve_with(request, &Control::default())
+    }
+
+    /// Solves a request on as many threads and with such vector instructions as `control` says.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::solve`]; [`SolveError::Interrupted`] if `control` was cancelled.
+    pub fn solve_with(
+        &self,
+        request: &Request<'_>,
+        control: &Control<'_>,
+    ) -> Result<Motion, SolveError> {
+        crate::motion::solve(self, request, control)
     }
 
     /// Refuses what cannot be solved yet.

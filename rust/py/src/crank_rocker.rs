@@ -125,6 +125,15 @@ pub(crate) fn crank_rocker_extremes<'py>(
     Ok(PyArray1::from_vec(py, all.into_iter().flatten().collect()))
 }
 
+/// Crank angles of one mechanism at which motion is not passed on, from and to.
+#[pyfunction]
+pub(crate) fn crank_rocker_blocked(
+    lengths: core::Lengths,
+    gamma_min: f64,
+) -> PyResult<Vec<[f64; 2]>> {
+    gate::guard(|| Ok(core::blocked(lengths, gamma_min)))
+}
+
 /// Least transmission angles that friction allows; NaN where nothing is passed on. `friction`:
 /// coefficient and radius at C, at D.
 #[pyfunction]

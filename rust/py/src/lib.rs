@@ -23,8 +23,9 @@ use pyo3::prelude::*;
 mod _core {
     #[pymodule_export]
     use super::crank_rocker::{
-        crank_rocker_extremes, crank_rocker_grashof, crank_rocker_ground_range,
-        crank_rocker_least_gamma, crank_rocker_run, crank_rocker_solve, crank_rocker_turns,
+        crank_rocker_blocked, crank_rocker_extremes, crank_rocker_grashof,
+        crank_rocker_ground_range, crank_rocker_least_gamma, crank_rocker_run, crank_rocker_solve,
+        crank_rocker_turns,
     };
     #[pymodule_export]
     use super::flywheel::Flywheels;
@@ -54,6 +55,12 @@ mod _core {
     fn init(_module: &Bound<'_, PyModule>) -> PyResult<()> {
         gate::keep_places_of_panics();
         Ok(())
+    }
+
+    /// The vector instructions that are used: "baseline", "avx2" or "avx512".
+    #[pyfunction]
+    fn simd_level() -> &'static str {
+        assur::motion::Simd::allowed().name()
     }
 
     /// The version of the compiled core.

@@ -31,5 +31,6 @@ mod zone;
 pub use motion::{Assembly, Lengths, Position, Rates, position};
 pub use run::{Case, Event, Kind, Refused, Row, Side, run};
 pub use zone::{
-    Grashof, crank_turns, grashof, ground_range, least_gamma, margins, transmission_extremes,
+    Grashof, blocked, crank_turns, grashof, ground_range, least_gamma, margins,
+    transmission_extremes,
 };

@@ -6,6 +6,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use libm::{acos, hypot};
+
 use super::motion::{Assembly, position};
 use crate::lanes::trig::sin_cos;
 
@@ -204,7 +206,7 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> Follower<F> {
     /// BD where C jams.
     fn limit(&self, side: Side) -> f64 {
         let [_, l2, l3] = self.case.lengths;
-        let product = 2.0 * l2 * l3 * self.case.gamma_min.cos();
+        let product = 2.0 * l2 * l3 * sin_cos(self.case.gamma_min).1;
         let sign = if side == Side::Outer { 1.0 } else { -1.0 };
         (l2 * l2 + l3 * l3 + sign * product).sqrt()
     }
@@ -214,13 +216,13 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> Follower<F> {
         let l4 = self.ground(t)?;
         let (sine, cosine) = sin_cos(self.phi(t));
         let l1 = self.case.lengths[0];
-        Ok((l4 + l1 * cosine).hypot(l1 * sine))
+        Ok(hypot(l4 + l1 * cosine, l1 * sine))
     }
 
     fn gamma(&self, s: f64) -> f64 {
         let [_, l2, l3] = self.case.lengths;
         let cosine = (l2 * l2 + l3 * l3 - s * s) / (2.0 * l2 * l3);
-        let angle = cosine.clamp(-1.0, 1.0).acos();
+        let angle = acos(cosine.clamp(-1.0, 1.0));
         angle.min(PI - angle)
     }
 
@@ -339,7 +341,8 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> Follower<F> {
         let (phi, l4, moving) = (self.phi(t), self.ground(t)?, self.ground_speed(t)?);
         let (sine, cosine) = sin_cos(phi);
         let ([l1, l2, l3], speed) = (self.case.lengths, self.case.speed);
-        let reach = (self.limit(side).powi(2) - (l1 * sine).powi(2)).sqrt();
+        let (rod, across) = (self.limit(side), l1 * sine);
+        let reach = (rod * rod - across * across).sqrt();
         let sliding = l1 * sine * speed * (1.0 - l1 * cosine / reach);
         let rates = |ground_speed: f64| {
             let found = position(phi, [l1, l2, l3, l4], Assembly::Printed, [speed, ground_speed]);
@@ -372,11 +375,11 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> Follower<F> {
         let (sine, cosine) = sin_cos(self.phi(t));
         let b = [l1 * cosine, l1 * sine];
         let (along, across) = (b[0] + l4, b[1]);
-        let s = mode.map_or_else(|| along.hypot(across), |side| self.limit(side));
+        let s = mode.map_or_else(|| hypot(along, across), |side| self.limit(side));
         // The rocker is turned from DB by φ₃″.
-        let turn = ((s * s + l3 * l3 - l2 * l2) / (2.0 * s * l3)).clamp(-1.0, 1.0).acos();
+        let turn = acos(((s * s + l3 * l3 - l2 * l2) / (2.0 * s * l3)).clamp(-1.0, 1.0));
         let (sine, cosine) = sin_cos(turn);
-        let part = l3 / along.hypot(across);
+        let part = l3 / hypot(along, across);
         let c =
             [part * (along * cosine - across * sine) - l4, part * (along * sine + across * cosine)];
         let gamma = self.gamma(s);

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::motion::Lengths;
-use crate::lanes::trig::atan2;
+use crate::lanes::trig::{asin, atan2, sin_cos};
 
 /// Types of four-bars by Grashof; crank and rocker are l₁ and l₃.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +59,7 @@ pub fn crank_turns([l1, l2, l3, l4]: Lengths) -> bool {
 /// from both ends (6), or such that the transmission angle stays above `gamma_min` (8), (9).
 #[must_use]
 pub fn ground_range(coupler: f64, rocker: f64, margins: [f64; 2], gamma_min: f64) -> [f64; 2] {
-    let cosine = gamma_min.cos();
+    let cosine = sin_cos(gamma_min).1;
     let far = |sign: f64| {
         (coupler * coupler + rocker * rocker + sign * 2.0 * coupler * rocker * cosine).sqrt()
     };
@@ -92,10 +92,29 @@ pub fn transmission_extremes([l1, l2, l3, l4]: Lengths) -> Option<[f64; 2]> {
     Some([acute(near).min(acute(far)), greatest])
 }
 
+/// Crank angles at which the transmission angle is below `gamma_min`, from and to: around 0, from
+/// below it (γ₂₃ near π), and around π (γ₂₃ near 0); nowhere if there is none.
+///
+/// S² = l₁² + l₄² + 2 l₁ l₄ cos φ₁ at γ₂₃ = π − γ and at γ, the least one.
+#[must_use]
+pub fn blocked([l1, l2, l3, l4]: Lengths, gamma_min: f64) -> Vec<[f64; 2]> {
+    let squares = l2 * l2 + l3 * l3;
+    let product = 2.0 * l2 * l3 * sin_cos(gamma_min).1;
+    let mut found = Vec::new();
+    for (middle, s2, sign) in [(0.0, squares + product, 1.0), (PI, squares - product, -1.0)] {
+        let cosine = sign * (s2 - l1 * l1 - l4 * l4) / (2.0 * l1 * l4);
+        if cosine < 1.0 {
+            let half = libm::acos(cosine.max(-1.0));
+            found.push([middle - half, middle + half]);
+        }
+    }
+    found
+}
+
 /// Least transmission angle that friction in the rocker's joints allows: sin γ = (friction over rocker), equation 8; none if
 /// nothing is passed on at any angle.
 #[must_use]
 pub fn least_gamma([f_c, r_c, f_d, r_d]: [f64; 4], rocker: f64) -> Option<f64> {
     let reduced = (f_c * r_c + f_d * r_d) / rocker;
-    (reduced < 1.0).then(|| reduced.asin())
+    (reduced < 1.0).then(|| asin(reduced))
 }

@@ -8,7 +8,7 @@ pub(super) fn short(value: f64) -> String {
         return if value == 0.0 { "0".into() } else { format!("{value:.5e}") };
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 9")]
-    let places = (5.0 - value.abs().log10().floor()).max(0.0) as usize;
+    let places = (5.0 - libm::log10(value.abs()).floor()).max(0.0) as usize;
     let text = format!("{value:.places$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::pose::{Point, Pose};
+use crate::lanes::trig::atan2;
 use crate::plane::Vector;
 
 /// A line.
@@ -33,7 +34,7 @@ impl Angle {
                 place([at.x, at.y]) - place([0.0; 2])
             }
         });
-        let acute = a.cross(b).abs().atan2(a.dot(b).abs());
+        let acute = atan2(a.cross(b).abs(), a.dot(b).abs());
         if self.complement { FRAC_PI_2 - acute } else { acute }
     }
 }

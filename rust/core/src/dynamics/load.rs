@@ -74,7 +74,7 @@ pub enum Load {
 /// there either).
 fn along(pose: &Pose<'_>, ends: [Point; 2]) -> (Vector, f64) {
     let span = pose.point(ends[1], 0) - pose.point(ends[0], 0);
-    let length = span.x.hypot(span.y);
+    let length = libm::hypot(span.x, span.y);
     (span.scale(1.0 / length), length)
 }
 

@@ -2,6 +2,8 @@
 
 use std::sync::LazyLock;
 
+use crate::lanes::trig::sin_cos;
+
 /// Points of a rule.
 const POINTS: usize = 12;
 /// Halvings of an interval, at most, and of all intervals of an integral: a pole or a root at an end
@@ -19,7 +21,7 @@ static RULE: LazyLock<[[f64; 2]; POINTS / 2]> = LazyLock::new(|| std::array::fro
 /// (Abramowitz & Stegun, 25.4.29).
 fn node(i: usize) -> [f64; 2] {
     let n = POINTS as f64;
-    let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5)).cos();
+    let mut x = sin_cos(std::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5)).1;
     let mut slope = 1.0;
     for _ in 0..8 {
         let (mut last, mut own) = (1.0, x);

@@ -2,6 +2,7 @@
 
 use super::{Axis, Linkage, nearest, polar};
 use crate::error::{Named, SolveError};
+use crate::lanes::trig::sin_cos;
 use crate::tolerance::{GREATEST_LENGTH, LEAST_LENGTH};
 
 /// What one dimension measures.
@@ -159,7 +160,7 @@ fn in_frame(linkage: &Linkage, link: usize, point: [f64; 2]) -> [f64; 2] {
         let length = polar(a, b).0;
         ((b[0] - a[0]) / length, (b[1] - a[1]) / length)
     } else {
-        let (sin, cos) = linkage.drawing_angle(link).sin_cos();
+        let (sin, cos) = sin_cos(linkage.drawing_angle(link));
         (cos, sin)
     };
     [x * c + y * s, y * c - x * s]

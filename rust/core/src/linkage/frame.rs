@@ -6,6 +6,7 @@
 //! guides cross that do so most squarely.
 
 use super::{Driver, Linkage};
+use crate::lanes::trig::{atan2, sin_cos};
 use crate::tolerance::PARALLEL;
 
 /// What the x axis of a link's frame follows.
@@ -25,7 +26,7 @@ pub enum Axis {
 #[must_use]
 pub fn polar(a: [f64; 2], b: [f64; 2]) -> (f64, f64) {
     let (x, y) = (b[0] - a[0], b[1] - a[1]);
-    (x.hypot(y), y.atan2(x))
+    (libm::hypot(x, y), atan2(y, x))
 }
 
 /// The same angle in (−π, π].
@@ -33,8 +34,8 @@ fn principal(angle: f64) -> f64 {
     if angle > -std::f64::consts::PI && angle <= std::f64::consts::PI {
         return angle;
     }
-    let (sin, cos) = angle.sin_cos();
-    sin.atan2(cos)
+    let (sin, cos) = sin_cos(angle);
+    atan2(sin, cos)
 }
 
 impl Linkage {
@@ -85,7 +86,7 @@ impl Linkage {
         let mut sine = PARALLEL;
         for i in 0..guides.len() {
             for j in i + 1..guides.len() {
-                let here = (guides[j].1 - guides[i].1).sin().abs();
+                let here = sin_cos(guides[j].1 - guides[i].1).0.abs();
                 if here > 1.01 * sine {
                     (best, sine) = (Some((i, j)), here);
                 }
@@ -93,8 +94,10 @@ impl Linkage {
         }
         let ((p, alpha), (r, beta)) = best.map(|(i, j)| (guides[i], guides[j]))?;
         // p + t (cos α, sin α) on the line through r along β (Cramer).
-        let t = ((r[0] - p[0]) * beta.sin() - (r[1] - p[1]) * beta.cos()) / (beta - alpha).sin();
-        Some([p[0] + t * alpha.cos(), p[1] + t * alpha.sin()])
+        let (sin_alpha, cos_alpha) = sin_cos(alpha);
+        let (sin_beta, cos_beta) = sin_cos(beta);
+        let t = ((r[0] - p[0]) * sin_beta - (r[1] - p[1]) * cos_beta) / sin_cos(beta - alpha).0;
+        Some([p[0] + t * cos_alpha, p[1] + t * sin_alpha])
     }
 
     /// A point of a guide of a link without joints, in the drawing.
@@ -130,7 +133,7 @@ impl Linkage {
     pub fn drawing_slide(&self, slide: usize) -> (f64, f64) {
         let (o, p) = (self.slide_origin(slide), self.sliding_point(slide));
         let (x, y) = (p[0] - o[0], p[1] - o[1]);
-        let (sin, cos) = self.slides[slide].angle.sin_cos();
+        let (sin, cos) = sin_cos(self.slides[slide].angle);
         (x * cos + y * sin, y * cos - x * sin)
     }
 

@@ -51,7 +51,7 @@ impl Linkage {
         for (index, link) in self.links.iter().enumerate() {
             let [first, second, ..] = link.joints[..] else { continue };
             let (a, b) = (&self.joints[first], &self.joints[second]);
-            let span = (b.at[0] - a.at[0]).hypot(b.at[1] - a.at[1]);
+            let span = libm::hypot(b.at[0] - a.at[0], b.at[1] - a.at[1]);
             let size = a.at.iter().chain(&b.at).fold(0.0_f64, |m, x| m.max(x.abs()));
             if index != self.ground && span > ZERO_LENGTH * size && span < LEAST_LENGTH {
                 return Err(StructureError::OutOfRange {

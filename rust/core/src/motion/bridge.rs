@@ -1,6 +1,7 @@
 //! The smooth motion through a change point, where a dyad by itself knows too little.
 
 use super::state::State;
+use crate::lanes::trig::sin_cos;
 use crate::tolerance::CHANGE_REACH;
 
 /// Where the polynomial through a change point is taken.
@@ -155,5 +156,6 @@ impl Misfit {
 /// A place of Chebyshev's angles, in parts of their number: from 1 to -1; and its sine.
 fn place(part: f64, count: u32) -> (f64, f64) {
     let angle = std::f64::consts::PI * part / f64::from(count);
-    (angle.cos(), angle.sin())
+    let (sin, cos) = sin_cos(angle);
+    (cos, sin)
 }

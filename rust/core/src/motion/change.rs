@@ -137,8 +137,9 @@ fn locate(
         let own = fit.before.min(CHANGE_CONDITION) * fit.shortness;
         let noise = strict * own;
         // In a small cell the zero is known no better than the spread there.
-        if zero.abs() < NEAR_ENOUGH.max(noise / (fit.slope * step).powi(2)) {
-            let curved = (fit.slope * zero * step).powi(2);
+        let rise = fit.slope * step;
+        if zero.abs() < NEAR_ENOUGH.max(noise / (rise * rise)) {
+            let curved = (rise * zero) * (rise * zero);
             let sure = fit.least.abs() <= noise + curved;
             let maybe = redundant && fit.least.abs() <= REDUNDANT_CLOSURE * own + curved;
             return (sure || maybe).then_some((centre + zero * step, sure));

@@ -40,6 +40,16 @@ impl Simd {
         Self::Baseline
     }
 
+    /// As `ASSUR_SIMD` names it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Baseline => "baseline",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        }
+    }
+
     /// The best that this machine has and the user allows: `ASSUR_SIMD=baseline` (or
     /// `avx2`; anything else: the best there is), read once.
     #[must_use]

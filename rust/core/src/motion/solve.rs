@@ -120,12 +120,16 @@ impl Request<'_> {
     }
 }
 
-/// Solves a request; see [`Mechanism::solve`].
+/// Solves a request; see [`Mechanism::solve_with`].
 ///
 /// # Errors
 ///
-/// Those of [`Mechanism::solve`].
-pub fn solve(mechanism: &Mechanism, request: &Request<'_>) -> Result<Motion, SolveError> {
+/// Those of [`Mechanism::solve`], and [`SolveError::Interrupted`].
+pub fn solve(
+    mechanism: &Mechanism,
+    request: &Request<'_>,
+    control: &Control<'_>,
+) -> Result<Motion, SolveError> {
     let [designs, positions] = request.shape(mechanism)?;
     let rows = product(designs, positions)?;
     let columns = request.columns(mechanism);
@@ -139,7 +143,7 @@ pub fn solve(mechanism: &Mechanism, request: &Request<'_>) -> Result<Motion, Sol
             status: as_unwritten(&mut status),
         }
     };
-    fill(mechanism, request, arrays, &Control::default())?;
+    fill(mechanism, request, arrays, control)?;
     let mut motion = Motion { designs, positions, status, ..Motion::default() };
     for (column, values) in columns.iter().zip(values) {
         let (list, index) = match column.quantity {

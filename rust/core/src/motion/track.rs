@@ -85,9 +85,11 @@ pub(super) fn nearest<R: Real>(angle: R, near: R) -> R {
 /// An angle less whole turns, to the last bit as long as the turns are below 2^48: 2π in
 /// parts whose products with the two halves of `turns` are exact (Cody & Waite 1980).
 fn less_turns(angle: f64, turns: f64) -> f64 {
+    /// Where the turns are cut in two, 2^22.
+    const CUT: f64 = 4194304.0;
     /// The first 26 bits of 2π, the next 27, and the rest.
     const PARTS: [f64; 3] = [6.283185243606567, 6.357301884918343e-8, 2.4492935982947064e-16];
-    let high = (turns * 2.0_f64.powi(-22)).trunc() * 2.0_f64.powi(22);
+    let high = (turns / CUT).trunc() * CUT;
     let low = turns - high;
     let rest = angle - high * PARTS[0] - high * PARTS[1] - low * PARTS[0] - low * PARTS[1];
     rest - turns * PARTS[2]

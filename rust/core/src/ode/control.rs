@@ -1,5 +1,7 @@
 //! How wide a step is.
 
+use libm::pow;
+
 use super::stages::{Block, Refusal, Scale, Stages};
 use super::system::System;
 use super::tableau::Tableau;
@@ -34,7 +36,7 @@ impl Control {
 
     /// By how much the next step is wider than one that was good.
     pub(super) fn accepted(&mut self, error: f64) -> f64 {
-        let growth = SAFETY * error.powf(-self.power) * self.before.powf(MEMORY);
+        let growth = SAFETY * pow(error, -self.power) * pow(self.before, MEMORY);
         // A step that has just failed is no reason to grow.
         let most = if self.rejected { 1.0 } else { MOST };
         self.before = error.max(LEAST_ERROR);
@@ -45,7 +47,7 @@ impl Control {
     /// By how much a step is to shrink after too large an error.
     pub(super) fn rejected(&mut self, error: f64) -> f64 {
         self.rejected = true;
-        (SAFETY * error.powf(-self.power)).clamp(LEAST, 1.0)
+        (SAFETY * pow(error, -self.power)).clamp(LEAST, 1.0)
     }
 
     /// By how much a step is to shrink that met something not there.
@@ -92,7 +94,7 @@ pub(super) fn first_width<S: System>(
     let own = if largest <= 1e-15 {
         NOTHING.1.max(1e-3 * euler)
     } else {
-        (0.01 / largest).powf(1.0 / order)
+        pow(0.01 / largest, 1.0 / order)
     };
     let width = own.min(100.0 * euler).min(most);
     Ok(if width > 0.0 { width } else { euler })

@@ -17,15 +17,15 @@ pub(super) fn change_of_sign<E>(
     const SLACK: i32 = 1;
     let half = 0.5 * width;
     let kappa = 0.2 / (b - a);
-    let bisections = ((b - a) / width).log2().ceil().max(0.0);
+    let bisections = libm::log2((b - a) / width).ceil().max(0.0);
     // The widest the bracket may be after each step.
-    let mut radius = half * 2.0_f64.powf(bisections + f64::from(SLACK));
+    let mut radius = half * libm::exp2(bisections + f64::from(SLACK));
     while b - a > width {
         let middle = 0.5 * (a + b);
         let chord = (fb * a - fa * b) / (fb - fa);
         let regula = if chord.is_finite() { chord } else { middle };
         let to_middle = middle - regula;
-        let push = kappa * (b - a).powi(2);
+        let push = kappa * ((b - a) * (b - a));
         let truncated =
             if push <= to_middle.abs() { regula + push.copysign(to_middle) } else { middle };
         let reach = (radius - 0.5 * (b - a)).max(0.0);

@@ -276,7 +276,7 @@ impl<'a, S: System> Run<'a, S> {
             .enumerate()
             .map(|(i, most)| (new.as_flattened()[i] - y.as_flattened()[i]).abs() / most);
         // As an error it gives the right width.
-        let too_far = too_far.fold(0.0, f64::max).powi(i32::from(stages.tableau.order));
+        let too_far = libm::pow(too_far.fold(0.0, f64::max), f64::from(stages.tableau.order));
         if too_far > 1.0 {
             return Ok(too_far);
         }

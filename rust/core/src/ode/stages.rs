@@ -225,7 +225,7 @@ impl Stages {
         let rates = scale.square_sum(&self.error, y, new);
         subtract(new, &self.argument, &mut self.error);
         let states = scale.square_sum(&self.error, y, new);
-        states > 0.0 && h * h * rates > self.tableau.stability.powi(2) * states
+        states > 0.0 && h * h * rates > self.tableau.stability * self.tableau.stability * states
     }
 
     /// Takes the rates at the new state as those at the start of the next step.

@@ -1,6 +1,7 @@
 //! The exact motion.
 
 use super::jet::Jet;
+use crate::lanes::trig::asin;
 
 /// cos δ, from sin δ = λ sin φ.
 pub(super) fn rod_cosine(sine: Jet, lambda: f64) -> Jet {
@@ -24,7 +25,7 @@ pub fn rod_angle(phi: f64, lambda: f64) -> Jet {
     let root = rod_cosine(sine, lambda);
     // δ′ = λ cos φ / cos δ.
     let rate = cosine.scale(-lambda) / root;
-    Jet([-(lambda * sine.0[0]).asin(), rate.0[0], rate.0[1]])
+    Jet([-asin(lambda * sine.0[0]), rate.0[0], rate.0[1]])
 }
 
 /// Place of a point of the rod per crank length, and its analogues: `along` the rod from the

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::exact::stroke;
 use super::jet::Jet;
 use super::series::{Series, SlowSeries};
+use crate::lanes::trig::atan2;
 
 /// An extreme value and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +32,7 @@ pub fn greatest_speed(k: f64) -> Greatest {
         if cubic(middle) > 0.0 { low = middle } else { high = middle }
     }
     // Of φ = asin √x, near a right angle by its complement.
-    let at = high.sqrt().atan2((1.0 - high).sqrt());
+    let at = atan2(high.sqrt(), (1.0 - high).sqrt());
     Greatest { at, value: stroke(at, 1.0 / k).0[1] }
 }
 
@@ -43,7 +44,7 @@ pub fn greatest_speed(k: f64) -> Greatest {
 /// None for one term of each coefficient.
 pub fn greatest_speed_by_series(k: f64) -> Result<Greatest, SlowSeries> {
     // As 2 / (k + √(k² + 8)): nothing cancels.
-    let at = (2.0 / (k + (k * k + 8.0).sqrt())).acos();
+    let at = libm::acos(2.0 / (k + (k * k + 8.0).sqrt()));
     Ok(Greatest { at, value: Series::new(k, 2, Some(1))?.stroke(at).0[1] })
 }
 

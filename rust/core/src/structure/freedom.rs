@@ -14,6 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use super::closure::{Closure, LeftOut, Rotation, Span};
 use super::elimination::SparseRows;
 use super::rank::{self, Interrupted, Rank};
+use crate::lanes::trig::sin_cos;
 use crate::linkage::{Driver, Linkage};
 use crate::plane::Vector;
 use crate::tolerance::{NEARLY_DEPENDENT, NEARLY_REDUNDANT, RANK, REGULAR_CLOSURE, TRUNCATED};
@@ -170,7 +171,7 @@ impl<'a> Skeleton<'a> {
         let direction = (closure.edges.iter())
             .map(|e| match e.span {
                 Span::Guide { slide } => {
-                    let (sin, cos) = linkage.slides[slide].angle.sin_cos();
+                    let (sin, cos) = sin_cos(linkage.slides[slide].angle);
                     [cos, sin]
                 }
                 Span::Joint { .. } => [0.0; 2],

@@ -21,7 +21,9 @@ pub fn least_norm(a: DMatrix<f64>, c: &DVector<f64>) -> DVector<f64> {
     } else {
         (a, c.clone())
     };
-    let eigen = (&a * a.transpose()).symmetric_eigen();
+    // Entry by entry: nalgebra's product of two matrices rounds otherwise where the processor has FMA.
+    let squares = DMatrix::from_fn(a.nrows(), a.nrows(), |i, j| a.row(i).dot(&a.row(j)));
+    let eigen = squares.symmetric_eigen();
     let least = TRUNCATED * eigen.eigenvalues.amax();
     let parts = eigen.eigenvectors.tr_mul(&c.rows(0, a.nrows()));
     let mut order: Vec<usize> = (0..parts.len()).collect();

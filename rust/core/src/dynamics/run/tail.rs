@@ -44,7 +44,7 @@ impl Tail {
         let mean = if part.abs() < 1e-4 {
             1.0 - part / 2.0 + part * part / 3.0
         } else {
-            part.ln_1p() / part
+            libm::log1p(part) / part
         };
         2.0 * (self.root - root) / b * mean
     }
@@ -72,7 +72,7 @@ impl Tail {
             Along::Time => {
                 // ṡ = −b(s)/2 is linear in s.
                 let (since, rate) = (x - self.last.t, 0.5 * self.slope);
-                let decay = -(rate * -since).exp_m1();
+                let decay = -libm::expm1(rate * -since);
                 let gone = if rate == 0.0 { since } else { decay / rate };
                 self.root - 0.5 * self.b * gone
             }

@@ -1,0 +1,26 @@
+"""The core's trigonometry, which has the same bits on every platform; NumPy's has not."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur import _core
+
+Float: TypeAlias = npt.NDArray[np.float64]
+
+
+def sin_cos(angle: npt.ArrayLike) -> tuple[Float, Float]:
+    """Return sines and cosines of angles in rad, in the shape of the angles."""
+    angles = np.asarray(angle, float)
+    sine, cosine = _core.sin_cos(np.ascontiguousarray(angles).reshape(-1))
+    return sine.reshape(angles.shape), cosine.reshape(angles.shape)
+
+
+def arctan2(y: npt.ArrayLike, x: npt.ArrayLike) -> Float:
+    """Return the angles of points (x, y) in (−π, π]; the coordinates broadcast."""
+    ys, xs = np.broadcast_arrays(np.asarray(y, float), np.asarray(x, float))
+    flat = (np.ascontiguousarray(part).reshape(-1) for part in (ys, xs))
+    return _core.atan2(*flat).reshape(ys.shape)
