@@ -1,6 +1,6 @@
 """Own sine, cosine, arc tangent and arc sine against 50 digits, over the whole range of doubles.
 
-The bounds are those that rust/core/src/lanes/trig.rs states, in units in the last place of the
+The bounds are those that rust/core/src/math/trig.rs states, in units in the last place of the
 exact value rounded to a double.
 """
 

@@ -9,7 +9,8 @@
 //!
 //! Nothing of the core is used but the reading of a [`Description`].
 
-use assur::{Description, linkage::DriverDescription};
+use assur::Description;
+use assur::linkage::DriverDescription;
 use nalgebra::DMatrix;
 
 use crate::double_double::Dd;

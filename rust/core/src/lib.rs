@@ -47,26 +47,29 @@
 pub mod crank_rocker;
 pub mod dynamics;
 pub mod error;
-pub mod lanes;
 pub mod linkage;
-mod mechanism;
+pub mod math;
+pub(crate) mod mechanism;
 pub mod motion;
 pub mod ode;
 pub mod plan;
-pub mod plane;
 pub mod slider_crank;
 pub mod structure;
-pub mod tolerance;
 
 pub use error::{Named, SolveError, StructureError};
-pub use linkage::{
-    ClassIv, Description, Dimension, Dimensions, Driver, DriverDescription, FourBar, FourBarMode,
-    Linkage, SlideDescription, SliderCrank,
-};
+pub use linkage::class_iv::ClassIv;
+pub use linkage::dimension::{Dimension, Dimensions};
+pub use linkage::four_bar::{FourBar, FourBarMode};
+pub use linkage::slider_crank::SliderCrank;
+pub use linkage::{Description, Driver, DriverDescription, Linkage, SlideDescription};
+pub use math::vector::Vector;
 pub use mechanism::Mechanism;
-pub use motion::{Coordinates, Diagnosis, Motion, Outputs, Request, Status, Track};
-pub use plane::Vector;
-pub use structure::{Group, Structure};
+pub use motion::explain::Diagnosis;
+pub use motion::outputs::Outputs;
+pub use motion::solve::{Coordinates, Motion, Request, Track};
+pub use motion::state::Status;
+pub use structure::Structure;
+pub use structure::assur_group::Group;
 
 /// Version of the crate.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -4,13 +4,20 @@ use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
 use crate::error::{Named, SolveError, StructureError};
-use crate::linkage::{Description, Dimensions, Linkage, nearest};
-use crate::motion::{Control, Motion, Request, Status};
+use crate::linkage::dimension::Dimensions;
+use crate::linkage::names::nearest;
+use crate::linkage::{Description, Linkage};
+use crate::math::tolerance::{FLAT_SINE, NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
+use crate::math::vector::Vector;
+use crate::motion::parallel::Control;
+use crate::motion::solve::{Motion, Request};
+use crate::motion::state::Status;
 use crate::plan::bind::{Bound, Slots};
-use crate::plan::{Dyad, Form, Plan, Step};
-use crate::plane::Vector;
-use crate::structure::{Adjusted, Closure, Structure, adjust};
-use crate::tolerance::{FLAT_SINE, NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
+use crate::plan::block::{Dyad, Form};
+use crate::plan::{Plan, Step};
+use crate::structure::adjust::Adjusted;
+use crate::structure::closure::Closure;
+use crate::structure::{Structure, adjust};
 
 /// Places each way at which a drawing with redundant links is looked at: a turn, or the size of the
 /// drawing along a slide.

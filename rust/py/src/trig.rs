@@ -1,6 +1,7 @@
 //! The lanes' trigonometry over flat arrays: eight at a time, the rest one by one.
 
-use assur::lanes::{LANES, Lanes, Real, trig};
+use assur::math::lanes::{LANES, Lanes, Real};
+use assur::math::trig;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 

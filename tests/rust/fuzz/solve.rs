@@ -1,7 +1,7 @@
 //! Mechanisms of the grammar moved: odd designs and coordinates beside sane ones.
 
 use arbitrary::Unstructured;
-use assur::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, SINGULAR_CONDITION};
+use assur::math::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, SINGULAR_CONDITION};
 use assur::{
     Coordinates, Diagnosis, Mechanism, Motion, Outputs, Request, SolveError, Status, Track,
 };

@@ -24,9 +24,9 @@
 //! assert!(rows.iter().any(|row| row.sliding));
 //! ```
 
-mod motion;
-mod run;
-mod zone;
+pub(crate) mod motion;
+pub(crate) mod run;
+pub(crate) mod zone;
 
 pub use motion::{Assembly, Lengths, Position, Rates, position};
 pub use run::{Case, Event, Kind, Refused, Row, Side, run};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::lanes::trig::{atan2, sin_cos};
+use crate::math::trig::{atan2, sin_cos};
 
 /// Crank, coupler, rocker, ground.
 pub type Lengths = [f64; 4];

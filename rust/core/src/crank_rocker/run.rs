@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 use libm::{acos, hypot};
 
 use super::motion::{Assembly, position};
-use crate::lanes::trig::sin_cos;
+use crate::math::trig::sin_cos;
 
 /// Between two looks at the crank, rad: a jam that begins and ends within that shows by its summit.
 const LOOK: f64 = PI / 360.0;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::motion::Lengths;
-use crate::lanes::trig::{asin, atan2, sin_cos};
+use crate::math::trig::{asin, atan2, sin_cos};
 
 /// Types of four-bars by Grashof; crank and rocker are l₁ and l₃.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,9 +7,9 @@
 //! equations, linear in K and C (the tangents of F. Wittenbauer's diagram, Graphische Dynamik, 1923).
 
 use super::error::TableError;
-use super::quadrature::integral;
-use super::root;
 use super::turn::{Extreme, Turn, within_period};
+use crate::math::quadrature::integral;
+use crate::math::root;
 
 /// Steps toward an extreme of the speed, at most; it takes some five.
 const STEPS: u32 = 64;

@@ -3,8 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::pose::{Point, Pose};
-use crate::lanes::trig::atan2;
-use crate::plane::Vector;
+use crate::math::trig::atan2;
+use crate::math::vector::Vector;
 
 /// A line.
 #[derive(Debug, Clone, Copy, PartialEq)]

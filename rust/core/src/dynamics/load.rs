@@ -5,7 +5,7 @@
 use super::pose::{Point, Pose};
 use super::reduced::Reduced;
 use super::value::{Numbers, Value};
-use crate::plane::Vector;
+use crate::math::vector::Vector;
 
 /// What acts on a mechanism besides its weight.
 #[derive(Debug, Clone, PartialEq)]

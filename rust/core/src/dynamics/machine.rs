@@ -8,11 +8,11 @@ use super::pose::{Point, Pose};
 use super::reduced::Reduced;
 use super::table::Table;
 use super::value::Numbers;
+use crate::math::derivatives::Jets;
+use crate::math::vector::Vector;
 use crate::mechanism::Mechanism;
-use crate::motion::Status;
 use crate::motion::follow::{Asked, Follower};
-use crate::plan::jet::Jets;
-use crate::plane::Vector;
+use crate::motion::state::Status;
 
 /// Mass of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]

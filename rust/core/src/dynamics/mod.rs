@@ -17,22 +17,19 @@
 //! # Ok::<(), assur::dynamics::TableError>(())
 //! ```
 
-mod error;
-mod flywheel;
-mod line;
-mod load;
-mod machine;
-mod motor;
-mod polynomial;
-mod pose;
-mod quadrature;
-mod reduced;
-mod root;
-mod run;
-mod spline;
-mod table;
-mod turn;
-mod value;
+pub(crate) mod error;
+pub(crate) mod flywheel;
+pub(crate) mod line;
+pub(crate) mod load;
+pub(crate) mod machine;
+pub(crate) mod motor;
+pub(crate) mod pose;
+pub(crate) mod reduced;
+pub(crate) mod run;
+pub(crate) mod spline;
+pub(crate) mod table;
+pub(crate) mod turn;
+pub(crate) mod value;
 
 pub use error::TableError;
 pub use flywheel::{Flywheel, Mean};
@@ -41,10 +38,15 @@ pub use load::Load;
 pub use machine::{Body, Machine, Rows};
 pub use motor::{Characteristic, Motor};
 pub use pose::Point;
-pub use run::{
-    Along, Broken, Ending, Happened, Moment, Moments, Nothing, Occasion, Outside, Run, RunError,
-    Search, Sheet, Steady, Task, Unsteady, Wanted, Watch,
-};
+pub use run::broken::Broken;
+pub use run::evened::Wanted;
+pub use run::make::RunError;
+pub use run::outcome::{Ending, Happened, Moment, Moments, Run};
+pub use run::outside::{Nothing, Outside};
+pub use run::source::Sheet;
+pub use run::steady::{Search, Steady};
+pub use run::task::{Along, Occasion, Task, Watch};
+pub use run::unsteady::Unsteady;
 pub use spline::{Ends, Pieces, spline};
 pub use table::Table;
 pub use turn::{Extreme, Turn};

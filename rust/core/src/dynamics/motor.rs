@@ -95,8 +95,8 @@ impl Motor {
 
 #[cfg(test)]
 mod tests {
-    use super::super::spline::Ends;
     use super::*;
+    use crate::dynamics::spline::Ends;
 
     fn motor(characteristic: Characteristic) -> Motor {
         Motor { driver: 0, ratio: 4.0, rotor_inertia: 0.5, characteristic }

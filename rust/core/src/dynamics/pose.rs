@@ -1,9 +1,9 @@
 //! What forces and masses ask of a position: places of points, angles of links, and their
 //! derivatives by the drivers, in metres and radians.
 
+use crate::math::derivatives::Jets;
+use crate::math::vector::Vector;
 use crate::motion::follow::Position;
-use crate::plan::jet::Jets;
-use crate::plane::Vector;
 use crate::structure::closure::point_of_joint;
 
 /// Something that moves with a mechanism.

@@ -2,7 +2,7 @@
 
 use super::machine::Body;
 use super::pose::Pose;
-use crate::plane::Vector;
+use crate::math::vector::Vector;
 
 /// Inertia, forces and energy of a machine, referred to its drivers.
 #[derive(Debug, Clone, Default, PartialEq)]

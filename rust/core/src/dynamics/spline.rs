@@ -139,8 +139,8 @@ fn tridiagonal(rows: &mut [([f64; 3], f64)]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::polynomial::value;
     use super::*;
+    use crate::math::polynomial::value;
 
     const KNOTS: [f64; 7] = [0.0, 0.3, 1.0, 1.4, 2.5, 3.0, 4.0];
     const ALL: [Ends; 4] = [Ends::NotAKnot, Ends::Natural, Ends::Clamped, Ends::Periodic];

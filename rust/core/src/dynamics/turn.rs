@@ -1,8 +1,8 @@
 //! Inertia and energy over one turn of the driver, as pieces of polynomials.
 
 use super::error::TableError;
-use super::polynomial::{value, zeros};
 use super::spline::{Ends, Pieces, spline};
+use crate::math::polynomial::{value, zeros};
 
 /// Part of the greatest value by which the ends of a table may differ: tables are rounded.
 const PERIODIC: f64 = 1.0e-9;

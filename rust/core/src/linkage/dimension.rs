@@ -1,9 +1,11 @@
 //! The numbers that make one design: names, kinds, and values in the drawing.
 
-use super::{Axis, Linkage, nearest, polar};
+use super::Linkage;
+use super::frame::{Axis, polar};
+use super::names::nearest;
 use crate::error::{Named, SolveError};
-use crate::lanes::trig::sin_cos;
-use crate::tolerance::{GREATEST_LENGTH, LEAST_LENGTH};
+use crate::math::tolerance::{GREATEST_LENGTH, LEAST_LENGTH};
+use crate::math::trig::sin_cos;
 
 /// What one dimension measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

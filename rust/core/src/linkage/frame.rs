@@ -6,8 +6,8 @@
 //! guides cross that do so most squarely.
 
 use super::{Driver, Linkage};
-use crate::lanes::trig::{atan2, sin_cos};
-use crate::tolerance::PARALLEL;
+use crate::math::tolerance::PARALLEL;
+use crate::math::trig::{atan2, sin_cos};
 
 /// What the x axis of a link's frame follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

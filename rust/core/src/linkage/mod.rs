@@ -4,13 +4,13 @@
 //! name resolved and every simple mistake refused. The drawing's coordinates
 //! give the dimensions and the assembly.
 
-mod class_iv;
-mod dimension;
-mod four_bar;
-mod frame;
-mod names;
-mod slider_crank;
-mod validate;
+pub(crate) mod class_iv;
+pub(crate) mod dimension;
+pub(crate) mod four_bar;
+pub(crate) mod frame;
+pub(crate) mod names;
+pub(crate) mod slider_crank;
+pub(crate) mod validate;
 
 pub use class_iv::ClassIv;
 pub use dimension::{Dimension, Dimensions};

@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::{Description, Driver, DriverDescription, Joint, Link, Linkage, Slide, nearest};
+use super::names::nearest;
+use super::{Description, Driver, DriverDescription, Joint, Link, Linkage, Slide};
 use crate::error::{Named, StructureError};
-use crate::tolerance::{GREATEST_LENGTH, LEAST_LENGTH, ZERO_LENGTH};
+use crate::math::tolerance::{GREATEST_LENGTH, LEAST_LENGTH, ZERO_LENGTH};
 
 impl Linkage {
     /// Resolves every name of a description.

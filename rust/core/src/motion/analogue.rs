@@ -7,9 +7,10 @@
 //! dyads, all orders, any number of drivers.
 
 use super::state::{Context, State};
-use crate::lanes::Real;
-use crate::plan::{Along, Dyad, Part, Unknown};
-use crate::plane::Vector;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
+use crate::plan::Along;
+use crate::plan::block::{Dyad, Part, Unknown};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Value and analogues of an orientation that the drivers alone give:

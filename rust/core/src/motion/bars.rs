@@ -6,13 +6,13 @@
 
 use super::group::{Work, turned};
 use super::state::{Context, Fault, State, Status};
-use crate::lanes::invert::invert;
-use crate::lanes::{Mask, Real};
+use crate::math::derivatives::ONE_DRIVER;
+use crate::math::inverse::invert;
+use crate::math::lanes::{Mask, Real};
+use crate::math::tolerance::{NEWTON_LONGEST, NEWTON_ROUNDS};
+use crate::math::vector::Vector;
 use crate::plan::bars::{Bars, Links, MOST};
 use crate::plan::group::Group;
-use crate::plan::jet::ONE_DRIVER;
-use crate::plane::Vector;
-use crate::tolerance::{NEWTON_LONGEST, NEWTON_ROUNDS};
 
 /// Entries of a jet, at most.
 const ENTRIES: usize = ONE_DRIVER.len();

@@ -6,10 +6,10 @@
 
 use super::forms::two_circles;
 use super::state::{Context, FLAT2, Fault, State, Status};
-use crate::lanes::{Mask, Real};
-use crate::plan::Dyad;
-use crate::plan::jet::{ONE_DRIVER, Term};
-use crate::plane::Vector;
+use crate::math::derivatives::{ONE_DRIVER, Term};
+use crate::math::lanes::{Mask, Real};
+use crate::math::vector::Vector;
+use crate::plan::block::Dyad;
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves the dyad (step `index`) whose two legs turn with these classes.

@@ -1,9 +1,9 @@
 //! What is told of an unknown of a group between two knots of the way.
 
 use super::walk::Seed;
-use crate::lanes::Real;
-use crate::plan::Unknown;
-use crate::plane::Vector;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
+use crate::plan::block::Unknown;
 
 /// A polynomial in the distance from a knot, of the fifth degree.
 #[derive(Debug, Clone, Copy)]

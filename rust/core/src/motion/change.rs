@@ -8,11 +8,11 @@
 //! a near miss (positive) and from a gap between two dead points (negative).
 
 use super::walk::{Knot, Walker};
-use crate::lanes::{Mask, Real};
-use crate::plan::Dyad;
-use crate::tolerance::{
+use crate::math::lanes::{Mask, Real};
+use crate::math::tolerance::{
     CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,
 };
+use crate::plan::block::Dyad;
 
 /// A change point.
 #[derive(Debug, Clone, Copy, PartialEq)]

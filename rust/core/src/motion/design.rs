@@ -6,19 +6,21 @@ use std::cell::RefCell;
 
 use super::bridge::{Bridge, Span};
 use super::change::Change;
-use super::quick::{Quick, Template};
+use super::quick::Quick;
 use super::simd::Level;
 use super::state::{Context, Fault, State, Status};
+use super::template::Template;
 use super::track::{Spot, Track};
 use super::walk::{Seed, Start};
-use crate::lanes::Real;
+use crate::math::derivatives::Jets;
+use crate::math::lanes::Real;
+use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
+use crate::math::vector::Vector;
 use crate::mechanism::Mechanism;
+use crate::plan::Step;
 use crate::plan::bind::Bound;
 use crate::plan::bind_rate::BoundRate;
-use crate::plan::jet::Jets;
-use crate::plan::{Step, Unknown};
-use crate::plane::Vector;
-use crate::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
+use crate::plan::block::Unknown;
 
 /// Powers of two between the design's own unit of length and the metre.
 #[derive(Debug, Default)]

@@ -2,10 +2,11 @@
 
 use super::forms::{Solved, circle_and_line, turning_guide, two_circles, two_lines};
 use super::state::{Context, State};
-use crate::lanes::Real;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
+use crate::plan::Along;
 use crate::plan::bind::Leg;
-use crate::plan::{Along, Dyad, Form, Unknown};
-use crate::plane::Vector;
+use crate::plan::block::{Dyad, Form, Unknown};
 
 /// The dyad's equation, sorted: `a u₁ + b u₂ = k` with slides put in for the
 /// terms that are missing.

@@ -3,12 +3,14 @@
 use super::bridge::Bridge;
 use super::design::{Design, Place, Units};
 use super::state::{Context, Fault, State, Status};
-use super::track::{Track, nearest};
+use super::track::Track;
 use super::walk::{Seed, Start};
+use crate::math::angle::nearest;
+use crate::math::derivatives::Jets;
 use crate::mechanism::Mechanism;
 use crate::plan::bind::Bound;
-use crate::plan::jet::Jets;
-use crate::plan::{Dyad, Plan, Step, Unknown};
+use crate::plan::block::{Dyad, Unknown};
+use crate::plan::{Plan, Step};
 use std::borrow::Cow;
 
 /// Which positions will be asked for.

@@ -1,10 +1,10 @@
 //! The closed forms: one vector equation with two unknowns, by square roots and
 //! divisions only.
 
-use crate::lanes::{Mask, Real};
+use crate::math::lanes::{Mask, Real};
+use crate::math::tolerance::FLAT_CLOSURE;
+use crate::math::vector::Vector;
 use crate::plan::bind::Leg;
-use crate::plane::Vector;
-use crate::tolerance::FLAT_CLOSURE;
 
 /// How a dyad came out.
 #[derive(Debug, Clone, Copy)]

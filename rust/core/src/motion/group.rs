@@ -8,12 +8,15 @@
 //! own steps end.
 
 use super::state::{Context, FLAT2, Fault, State, Status};
-use crate::lanes::invert::invert;
-use crate::lanes::{Mask, Real};
+use crate::math::inverse::invert;
+use crate::math::lanes::{Mask, Real};
+use crate::math::tolerance::{
+    NEWTON_BENT2, NEWTON_DONE, NEWTON_LEFT, NEWTON_LONGEST, NEWTON_ROUNDS,
+};
+use crate::math::vector::Vector;
+use crate::plan::Along;
+use crate::plan::block::Unknown;
 use crate::plan::group::{Chord, Group, Loop};
-use crate::plan::{Along, Unknown};
-use crate::plane::Vector;
-use crate::tolerance::{NEWTON_BENT2, NEWTON_DONE, NEWTON_LEFT, NEWTON_LONGEST, NEWTON_ROUNDS};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves the group (step `index`) from where its unknowns are; not where `care` knows that

@@ -1,10 +1,11 @@
 //! Analogues of groups above class II, and what their chords took with them.
 
 use super::state::{Context, State};
-use crate::lanes::Real;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
+use crate::plan::Along;
+use crate::plan::block::Unknown;
 use crate::plan::group::{Chord, Group, Loop};
-use crate::plan::{Along, Unknown};
-use crate::plane::Vector;
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Analogues of the unknowns: at every order the same matrix (inverted), as right-hand side

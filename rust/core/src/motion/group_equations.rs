@@ -4,10 +4,10 @@
 //! coordinate (analogues) stand beside the equations themselves.
 
 use super::state::{Context, State};
-use crate::lanes::Real;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
 use crate::plan::Along;
 use crate::plan::group::{Chord, Group};
-use crate::plane::Vector;
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Entry `k` of the edges, guides and chords.

@@ -7,9 +7,10 @@ use super::design::Design;
 use super::state::{Fault, Status};
 use super::walk::{STRAY, Seed};
 use crate::linkage::Driver;
+use crate::math::vector::Vector;
+use crate::plan::Step;
 use crate::plan::bind::Bound;
-use crate::plan::{Step, Unknown};
-use crate::plane::Vector;
+use crate::plan::block::Unknown;
 
 /// Parts of the way from the drawing's dimensions, at least.
 const LEAST_PART: f64 = 1.0 / 1_099_511_627_776.0;
@@ -82,7 +83,9 @@ impl Design<'_> {
                 .iter()
                 .zip(&here)
                 .map(|(&unknown, &from)| match unknown {
-                    Unknown::Class(c) => super::track::nearest(state.class[c][0].angle(), from),
+                    Unknown::Class(c) => {
+                        crate::math::angle::nearest(state.class[c][0].angle(), from)
+                    }
                     Unknown::Slide(s) => state.slides[s * state.len][0] * bound.scale,
                 })
                 .collect();

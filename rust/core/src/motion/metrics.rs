@@ -1,8 +1,8 @@
 //! What is read off a motion with one driver: curvature, instant centres,
 //! transmission angles.
 
-use crate::lanes::trig;
-use crate::plane::Vector;
+use crate::math::trig;
+use crate::math::vector::Vector;
 
 /// Signed curvature of a path, 1/m: positive where it turns left as q grows.
 ///

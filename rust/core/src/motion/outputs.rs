@@ -5,12 +5,12 @@ use std::mem::MaybeUninit;
 use super::design::Units;
 use super::state::State;
 use super::stream;
-use crate::lanes::Real;
+use crate::math::derivatives::Jets;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
 use crate::mechanism::Mechanism;
 use crate::plan::bind::Bound;
 use crate::plan::bind_rate::offsets;
-use crate::plan::jet::Jets;
-use crate::plane::Vector;
 use crate::structure::closure::point_of_joint;
 
 /// What is kept: indices of joints, links and slides.

@@ -5,7 +5,9 @@
 //! and shows no single dyad that is about to fold.
 
 use super::state::{Context, State};
-use crate::plan::{Along, Dyad, Form, Group, Step, Unknown};
+use crate::plan::block::{Dyad, Form, Unknown};
+use crate::plan::group::Group;
+use crate::plan::{Along, Step};
 
 impl State {
     /// The step with the greatest condition by itself, and that condition; none without groups.

@@ -8,9 +8,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
 use super::outputs::{Column, Rows};
-use super::simd::Simd;
 use super::solve::Arrays;
 use crate::error::SolveError;
+use crate::math::simd::Simd;
 
 /// Positions in a chunk: some hundred microseconds, so that its way from the drawing
 /// and the taking of it cost little.

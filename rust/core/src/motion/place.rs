@@ -1,9 +1,9 @@
 //! Points along edges, from one end to the other.
 
 use super::state::{Context, State};
-use crate::lanes::Real;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
 use crate::plan::Along;
-use crate::plane::Vector;
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Places one end of an edge from the other, in all groups.

@@ -9,13 +9,15 @@ use super::change::may_touch;
 use super::simd::Level;
 use super::state::{Context, State};
 pub(crate) use super::template::Template;
-use super::track::{CELLS_A_TURN, Track, turns_between};
+use super::track::{CELLS_A_TURN, Track};
 use super::walk::{Seed, Stretch};
-use crate::lanes::{LANES, Lanes, Mask, Real};
-use crate::plan::jet::Jets;
-use crate::plan::{Form, Plan};
-use crate::plane::Vector;
-use crate::tolerance::LIFT_TURN;
+use crate::math::angle::turns_between;
+use crate::math::derivatives::Jets;
+use crate::math::lanes::{LANES, Lanes, Mask, Real};
+use crate::math::tolerance::LIFT_TURN;
+use crate::math::vector::Vector;
+use crate::plan::Plan;
+use crate::plan::block::Form;
 
 /// Knots of a turn, its end included.
 pub(super) const KNOTS: usize = CELLS_A_TURN as usize + 1;

@@ -9,15 +9,18 @@ use super::outputs::{Column, Rows, Writer};
 use super::parallel::Control;
 use super::quick::Quick;
 use super::sensitivity::Sensitivity;
-use super::simd::{self, Level, Simd};
+use super::simd;
+use super::simd::Level;
 use super::solve::Request;
 use super::state::{State, Status};
 use super::stream;
-use super::track::{Spot, nearest};
-use crate::lanes::{LANES, Lanes, Mask, Real};
+use super::track::Spot;
+use crate::math::angle::nearest;
+use crate::math::derivatives::Jets;
+use crate::math::lanes::{LANES, Lanes, Mask, Real};
+use crate::math::simd::Simd;
+use crate::math::vector::Vector;
 use crate::mechanism::Mechanism;
-use crate::plan::jet::Jets;
-use crate::plane::Vector;
 
 /// Groups of positions worked on at once: as many as stay in the nearest cache.
 const GROUPS: usize = 4;

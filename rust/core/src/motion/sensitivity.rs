@@ -8,11 +8,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::state::{Context, State};
+use crate::math::derivatives::Jets;
+use crate::math::vector::Vector;
 use crate::plan::bind_rate::BoundRate;
+use crate::plan::block::{Dyad, Unknown};
 use crate::plan::group::Group;
-use crate::plan::jet::Jets;
-use crate::plan::{Along, Dyad, Plan, Step, Unknown};
-use crate::plane::Vector;
+use crate::plan::{Along, Plan, Step};
 
 /// A closed path: `P_plus − P_minus + Σ ±edges = 0`.
 #[derive(Debug)]

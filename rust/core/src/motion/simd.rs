@@ -1,76 +1,11 @@
 //! One compiled copy of the executor for each set of vector instructions, chosen when
 //! it runs. All give the same bits: each operation is rounded by itself.
 
-use std::sync::LazyLock;
-
 use super::rows::{Job, Worker};
 use super::state::{Context, State};
-use crate::lanes::Lanes;
+use crate::math::lanes::Lanes;
+use crate::math::simd::Simd;
 use crate::plan::group::Group;
-
-/// A set of vector instructions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Simd {
-    /// What every machine of the kind has.
-    Baseline,
-    /// x86-64 with AVX2: four numbers an instruction.
-    Avx2,
-    /// x86-64 with AVX-512 F, VL and DQ: eight.
-    Avx512,
-}
-
-impl Simd {
-    /// The best that this machine has.
-    #[must_use]
-    pub fn best() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            let wide = is_x86_feature_detected!("avx2")
-                && is_x86_feature_detected!("fma")
-                && is_x86_feature_detected!("avx512f")
-                && is_x86_feature_detected!("avx512vl")
-                && is_x86_feature_detected!("avx512dq");
-            if wide {
-                return Self::Avx512;
-            }
-            if is_x86_feature_detected!("avx2") {
-                return Self::Avx2;
-            }
-        }
-        Self::Baseline
-    }
-
-    /// As `ASSUR_SIMD` names it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Baseline => "baseline",
-            Self::Avx2 => "avx2",
-            Self::Avx512 => "avx512",
-        }
-    }
-
-    /// The best that this machine has and the user allows: `ASSUR_SIMD=baseline` (or
-    /// `avx2`; anything else: the best there is), read once.
-    #[must_use]
-    pub fn allowed() -> Self {
-        static ALLOWED: LazyLock<Simd> = LazyLock::new(|| {
-            let most = match std::env::var("ASSUR_SIMD").as_deref() {
-                Ok("baseline") => Simd::Baseline,
-                Ok("avx2") => Simd::Avx2,
-                _ => Simd::Avx512,
-            };
-            Simd::best().min(most)
-        });
-        *ALLOWED
-    }
-}
-
-impl Default for Simd {
-    fn default() -> Self {
-        Self::allowed()
-    }
-}
 
 /// The executor compiled for a set of instructions.
 ///

@@ -7,9 +7,9 @@ use super::parallel::{Chunks, Control};
 use super::rows::{Job, Worker};
 use super::stream;
 use crate::error::SolveError;
+use crate::math::derivatives::Jets;
 use crate::mechanism::Mechanism;
 use crate::plan::Step;
-use crate::plan::jet::Jets;
 
 /// Where the coordinates are taken from; `drivers` numbers a position.
 #[derive(Debug, Clone, Copy)]
@@ -75,7 +75,7 @@ pub struct Motion {
     pub places: Vec<Track>,
     /// Slides' values, m.
     pub slides: Vec<Track>,
-    /// One [`crate::Status`] code a position.
+    /// One [`super::state::Status`] code a position.
     pub status: Vec<u8>,
 }
 
@@ -84,7 +84,7 @@ pub struct Motion {
 pub struct Arrays<'a> {
     /// One array a column, of designs × positions × width numbers.
     pub columns: Vec<&'a mut [MaybeUninit<f64>]>,
-    /// One [`crate::Status`] code a position.
+    /// One [`super::state::Status`] code a position.
     pub status: &'a mut [MaybeUninit<u8>],
 }
 

@@ -2,10 +2,11 @@
 //! change points are found and passed with.
 
 use super::state::{Context, State};
-use crate::lanes::Real;
-use crate::plan::{Along, Dyad, Form};
-use crate::plane::Vector;
-use crate::tolerance::CHANGE_MISFIT;
+use crate::math::lanes::Real;
+use crate::math::tolerance::CHANGE_MISFIT;
+use crate::math::vector::Vector;
+use crate::plan::Along;
+use crate::plan::block::{Dyad, Form};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// How far a dyad is from flat, with the sign of its assembly, and the rate of

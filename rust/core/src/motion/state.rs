@@ -2,13 +2,14 @@
 //! analogues.
 
 use super::bars::Loops;
-use crate::lanes::{Mask, Real};
+use crate::math::derivatives::Jets;
+use crate::math::lanes::{Mask, Real};
+use crate::math::tolerance::{NEAR_SINGULAR_CONDITION, SINGULAR_CONDITION};
+use crate::math::vector::Vector;
 use crate::plan::bind::Bound;
+use crate::plan::block::{Dyad, Unknown};
 use crate::plan::group::Group;
-use crate::plan::jet::Jets;
-use crate::plan::{Along, Dyad, Plan, Step, Unknown};
-use crate::plane::Vector;
-use crate::tolerance::{NEAR_SINGULAR_CONDITION, SINGULAR_CONDITION};
+use crate::plan::{Along, Plan, Step};
 
 /// Square of the sine of a dyad that cannot be told from a flat one.
 pub(super) const FLAT2: f64 = 1.0 / (SINGULAR_CONDITION * SINGULAR_CONDITION);

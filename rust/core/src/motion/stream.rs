@@ -3,8 +3,8 @@
 
 use std::mem::MaybeUninit;
 
-use crate::lanes::Real;
-use crate::plane::Vector;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
 
 /// Numbers from which on they are stored so: 32 MiB, about what the last cache of a machine holds.
 pub(super) const LEAST: usize = 4 << 20;

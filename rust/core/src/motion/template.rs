@@ -12,9 +12,10 @@ use super::quick::{CELL, GROUPS, KNOTS, Quick, knots_at};
 use super::state::Context;
 use super::track::Track;
 use super::walk::{returns, strays};
-use crate::lanes::{LANES, Lanes, Real};
-use crate::plan::{Plan, Unknown};
-use crate::plane::Vector;
+use crate::math::lanes::{LANES, Lanes, Real};
+use crate::math::vector::Vector;
+use crate::plan::Plan;
+use crate::plan::block::Unknown;
 
 /// Unknowns of groups at the knots of the drawing's way.
 #[derive(Debug)]

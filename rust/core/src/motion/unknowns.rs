@@ -4,8 +4,8 @@ use super::cell::small_turn;
 use super::state::{Context, State};
 use super::track::{Spot, Track};
 use super::walk::{Knot, Seed, Start, Walker};
-use crate::lanes::{LANES, Mask, Real};
-use crate::plane::Vector;
+use crate::math::lanes::{LANES, Mask, Real};
+use crate::math::vector::Vector;
 
 impl Track {
     /// Whether the groups of a state are on this way's side of their folds.

@@ -4,12 +4,14 @@
 use std::f64::consts::TAU;
 
 use super::cell::Cell;
-use super::change::{self, Change, may_touch};
+use super::change;
+use super::change::{Change, may_touch};
 use super::state::{Context, Fault, State, Status};
-use super::track::nearest;
-use crate::plan::{Dyad, Form, Step, Unknown};
-use crate::plane::Vector;
-use crate::tolerance::{LIFT_HALVINGS, LIFT_TURN};
+use crate::math::angle::nearest;
+use crate::math::tolerance::{LIFT_HALVINGS, LIFT_TURN};
+use crate::math::vector::Vector;
+use crate::plan::Step;
+use crate::plan::block::{Dyad, Form, Unknown};
 
 /// Halvings where a stretch that can be reached begins or ends: what is left of
 /// the turn there goes with the square root of the cell.

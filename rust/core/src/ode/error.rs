@@ -79,7 +79,7 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
                 "tolerances {relative:e} (relative) and {absolute:e} (absolute) of component \
                  {component}: the relative one must be from {:.1e} to below 1, or zero with an \
                  absolute one above zero",
-                super::LEAST_RELATIVE
+                super::options::LEAST_RELATIVE
             ),
             Self::Width { value } => write!(f, "width {value:e} of a step is not positive"),
             Self::Breaks { index } => write!(f, "breaks do not ascend at entry {index}"),

@@ -1,7 +1,7 @@
 //! The integrator: a method and its work space.
 
-use super::Error;
 use super::dense::Interpolant;
+use super::error::Error;
 use super::event::Watch;
 use super::options::{Method, Options};
 use super::run::Run;

@@ -47,21 +47,21 @@
 //! # Ok::<(), assur::ode::Error<std::convert::Infallible>>(())
 //! ```
 
-mod control;
-mod dense;
-mod dop853;
-mod error;
-mod event;
-mod integrate;
-mod locate;
-mod options;
-mod record;
-mod root;
-mod run;
-mod solution;
-mod stages;
-mod system;
-mod tableau;
+pub(crate) mod control;
+pub(crate) mod dense;
+pub(crate) mod dop853;
+pub(crate) mod error;
+pub(crate) mod event;
+pub(crate) mod integrate;
+pub(crate) mod locate;
+pub(crate) mod options;
+pub(crate) mod record;
+pub(crate) mod root;
+pub(crate) mod run;
+pub(crate) mod solution;
+pub(crate) mod stages;
+pub(crate) mod system;
+pub(crate) mod tableau;
 #[cfg(test)]
 mod tests;
 

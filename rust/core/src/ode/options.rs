@@ -1,7 +1,7 @@
 //! What is asked of a run.
 
-use super::Error;
 use super::dop853::DORMAND_PRINCE_853;
+use super::error::Error;
 use super::system::Crossing;
 use super::tableau::{DORMAND_PRINCE_54, Tableau};
 

@@ -1,7 +1,7 @@
 //! A run: step after step, from break to break.
 
-use super::Error;
 use super::control::{Control, first_width};
+use super::error::Error;
 use super::integrate::Integrator;
 use super::locate::{Cut, Step};
 use super::options::Options;

@@ -111,9 +111,9 @@ pub(super) static DORMAND_PRINCE_54: Tableau = Tableau {
 
 #[cfg(test)]
 mod tests {
-    use super::super::dop853::DORMAND_PRINCE_853;
-    use super::super::tests::trees::{Tree, trees};
     use super::*;
+    use crate::ode::dop853::DORMAND_PRINCE_853;
+    use crate::ode::tests::trees::{Tree, trees};
 
     const BOTH: [&Tableau; 2] = [&DORMAND_PRINCE_54, &DORMAND_PRINCE_853];
 

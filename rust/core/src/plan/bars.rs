@@ -5,9 +5,10 @@
 //! the vector of a loop's chord is a known one and a sum of spans, each turned by its unknown.
 
 use super::bind::Leg;
+use super::block::Unknown;
 use super::group::{Chord, Group};
-use super::{Along, Plan, Unknown};
-use crate::plane::Vector;
+use super::{Along, Plan};
+use crate::math::vector::Vector;
 
 /// Unknowns (and loops), at most: more are left to the general machinery.
 pub const MOST: usize = 3;

@@ -2,9 +2,10 @@
 
 use super::Plan;
 use super::bars::Spans;
-use crate::lanes::Real;
-use crate::linkage::{Dimension, Dimensions, Linkage};
-use crate::plane::Vector;
+use crate::linkage::Linkage;
+use crate::linkage::dimension::{Dimension, Dimensions};
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
 use crate::structure::closure::{Closure, Span};
 
 /// What turns with an unknown rotation of a dyad.

@@ -2,7 +2,7 @@
 
 use super::Plan;
 use super::bind::{Bound, Slots, Source, read, read_two, unit};
-use crate::plane::Vector;
+use crate::math::vector::Vector;
 
 /// Derivatives of what [`Bound`] holds by one dimension (m or rad), its scale kept.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -63,7 +63,7 @@ impl BoundRate {
 /// Derivatives of the links' constant angles by the dimension that is 1 in `by`.
 pub fn offsets(plan: &Plan, slots: &Slots, by: &[f64]) -> Vec<f64> {
     let step = |slide: usize| slots.slides[slide].step(by);
-    let offset = |r: &crate::structure::Rotation| {
+    let offset = |r: &crate::structure::closure::Rotation| {
         r.slides.iter().map(|&(slide, sign)| f64::from(sign) * step(slide)).sum()
     };
     plan.rotation.iter().map(offset).collect()

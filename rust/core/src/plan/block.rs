@@ -2,12 +2,14 @@
 
 use std::collections::VecDeque;
 
-use super::{Along, Group, Higher, Plan, Step};
+use super::group::Group;
+use super::{Along, Higher, Plan, Step};
 use crate::error::StructureError;
 use crate::linkage::Linkage;
+use crate::structure::Structure;
+use crate::structure::assur_group::roman;
 use crate::structure::closure::list;
 use crate::structure::matching::Pattern;
-use crate::structure::{Structure, roman};
 
 /// An unknown of a dyad: rotation of a class, or value of a slide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,22 +10,22 @@
 pub mod bars;
 pub mod bind;
 pub mod bind_rate;
-mod block;
-mod fit;
+pub(crate) mod block;
+pub(crate) mod fit;
 pub mod group;
-pub mod jet;
 pub mod pair_span;
 
+use self::bars::Bars;
+use self::bind::Bound;
+use self::pair_span::PairSpans;
 use crate::error::StructureError;
 use crate::linkage::{Driver, Linkage};
-use crate::plane::Vector;
+use crate::math::vector::Vector;
+use crate::structure::Structure;
+use crate::structure::closure::{Closure, Rotation};
 use crate::structure::closure::{Edge, Span, rotations};
-use crate::structure::{Closure, Rotation, Structure};
-use bars::Bars;
-use bind::Bound;
 pub use block::{Dyad, Form, Part, Unknown};
 pub use group::Group;
-use pair_span::PairSpans;
 
 /// Value of a slide on an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The size of what is paired: what the misfit of a redundant link is a part of.
 
 use crate::linkage::Linkage;
-use crate::plane::Vector;
+use crate::math::vector::Vector;
 use crate::structure::closure::{Closure, Span, point_of_joint};
 
 /// Where a link has a pair.

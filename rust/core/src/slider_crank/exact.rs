@@ -1,7 +1,7 @@
 //! The exact motion.
 
 use super::jet::Jet;
-use crate::lanes::trig::asin;
+use crate::math::trig::asin;
 
 /// cos δ, from sin δ = λ sin φ.
 pub(super) fn rod_cosine(sine: Jet, lambda: f64) -> Jet {

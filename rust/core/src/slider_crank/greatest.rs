@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::exact::stroke;
 use super::jet::Jet;
 use super::series::{Series, SlowSeries};
-use crate::lanes::trig::atan2;
+use crate::math::trig::atan2;
 
 /// An extreme value and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
-use crate::lanes::trig::sin_cos;
+use crate::math::trig::sin_cos;
 
 /// Value, first and second derivative.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -19,13 +19,13 @@
 //! assert!((100.0 * relative.value - 0.013217).abs() < 1e-6);
 //! ```
 
-mod deviation;
-mod exact;
-mod fraction;
-mod greatest;
-mod jet;
-mod series;
-mod twofold;
+pub(crate) mod deviation;
+pub(crate) mod exact;
+pub(crate) mod fraction;
+pub(crate) mod greatest;
+pub(crate) mod jet;
+pub(crate) mod series;
+pub(crate) mod twofold;
 
 pub use deviation::{Deviation, Quantity, deviation};
 pub use exact::{rod_angle, rod_point, stroke};

@@ -2,7 +2,7 @@
 
 use super::jet::Jet;
 use super::twofold::Twofold;
-use crate::lanes::trig::sin_cos;
+use crate::math::trig::sin_cos;
 
 /// Terms of one coefficient, at most: for k − 1 of 1e-6 some ten millions are needed.
 const MOST_TERMS: usize = 100_000_000;

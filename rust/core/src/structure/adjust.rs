@@ -15,7 +15,7 @@ use super::freedom::{Pose, Skeleton, System};
 use super::least_norm::least_norm;
 use crate::error::StructureError;
 use crate::linkage::Linkage;
-use crate::tolerance::{NEARLY_REDUNDANT, REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
+use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
 
 /// A misfit that is nothing but the rounding of coordinates, of the size.
 const EXACT: f64 = 16.0 * UNIT_ROUNDOFF;

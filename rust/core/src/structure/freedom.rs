@@ -13,11 +13,14 @@ use nalgebra::{DMatrix, DVector};
 
 use super::closure::{Closure, LeftOut, Rotation, Span};
 use super::elimination::SparseRows;
-use super::rank::{self, Interrupted, Rank};
-use crate::lanes::trig::sin_cos;
+use super::rank;
+use super::rank::{Interrupted, Rank};
 use crate::linkage::{Driver, Linkage};
-use crate::plane::Vector;
-use crate::tolerance::{NEARLY_DEPENDENT, NEARLY_REDUNDANT, RANK, REGULAR_CLOSURE, TRUNCATED};
+use crate::math::tolerance::{
+    NEARLY_DEPENDENT, NEARLY_REDUNDANT, RANK, REGULAR_CLOSURE, TRUNCATED,
+};
+use crate::math::trig::sin_cos;
+use crate::math::vector::Vector;
 
 /// A displaced linkage: every point, the turn of every free class since the
 /// drawing, the displacement of every slide. Lengths in units of the size.

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::tolerance::UNIT_ROUNDOFF;
+use crate::math::tolerance::UNIT_ROUNDOFF;
 
 /// Eigenvalues (squares of singular values) that count, as a part of the greatest.
 const TRUNCATED: f64 = 1.0e-14;

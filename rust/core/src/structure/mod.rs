@@ -1,27 +1,27 @@
 //! What kind of mechanism it is: mobility, redundant links, Assur groups.
 
-mod adjust;
+pub(crate) mod adjust;
 pub mod assur_group;
 pub mod closure;
-mod contour;
-mod elimination;
+pub(crate) mod contour;
+pub(crate) mod elimination;
 pub(crate) mod freedom;
-mod least_norm;
+pub(crate) mod least_norm;
 pub mod matching;
 pub(crate) mod rank;
-mod redundancy;
+pub(crate) mod redundancy;
 
-pub(crate) use adjust::{Adjusted, adjust};
+pub(crate) use adjust::adjust;
 pub use assur_group::{Group, roman};
 pub use closure::{Closure, LeftOut, Rotation};
 
 use std::fmt::Write as _;
 
+use self::closure::{list, rotations};
+use self::freedom::{Pose, Skeleton, System};
+use self::rank::Rank;
 use crate::error::StructureError;
 use crate::linkage::{Driver, Linkage};
-use closure::{list, rotations};
-use freedom::{Pose, Skeleton, System};
-use rank::Rank;
 use std::sync::atomic::AtomicBool;
 
 /// The structure of a mechanism with its drivers.

@@ -78,7 +78,7 @@ fn scale_columns(matrix: &mut SparseRows, unknowns: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tolerance::RANK;
+    use crate::math::tolerance::RANK;
 
     /// A sparse matrix with entries of size 1, some rows and columns sums of others; the same
     /// numbers for the same seed.

@@ -8,10 +8,10 @@ use super::steady::{NOISE, Search, Shooting, Steady};
 use super::unsteady::Unsteady;
 use crate::dynamics::flywheel::Mean;
 use crate::dynamics::machine::Machine;
-use crate::dynamics::root;
 use crate::dynamics::turn::Extreme;
+use crate::math::derivatives::Jets;
+use crate::math::root;
 use crate::mechanism::Mechanism;
-use crate::plan::jet::Jets;
 
 /// Part of the flywheel to which it is found: the motions themselves are known no better.
 const FOUND: f64 = 1.0e-12;

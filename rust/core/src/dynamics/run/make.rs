@@ -12,11 +12,15 @@ use super::tolerances::tolerances;
 use super::way::{Ended, Way};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::table::Table;
+use crate::math::derivatives::Jets;
 use crate::mechanism::Mechanism;
-use crate::motion::Status;
 use crate::motion::follow::NearMiss;
-use crate::ode::{End, Error, Integrator, Keep, Options, Solution, System};
-use crate::plan::jet::Jets;
+use crate::motion::state::Status;
+use crate::ode::error::Error;
+use crate::ode::integrate::Integrator;
+use crate::ode::options::{Keep, Options};
+use crate::ode::solution::{End, Solution};
+use crate::ode::system::System;
 
 /// What a run cannot be made for.
 pub type RunError<E> = Error<Broken<E>>;
@@ -184,7 +188,7 @@ fn finish<S: Source, O: Outside>(
     let Solution { end, events, event_states, path, statistics, y: y_end, .. } = solution;
     let (along, sign, len) = (way.along, way.sign, way.len());
     let read = |x: f64, y: &[f64]| moment(along, sign, x, y, &vec![f64::NAN; len]);
-    let happened = |(event, y): (&crate::ode::Event, &[f64])| {
+    let happened = |(event, y): (&crate::ode::solution::Event, &[f64])| {
         let watch = way.watch(event.index)?;
         let own = read(event.t, y);
         Some(Happened { watch, t: own.t, q: own.q, speed: own.speed })

@@ -26,7 +26,7 @@ impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
     /// Finds the periodic motion, from a guess (speed² and moment) if there is one.
     pub(super) fn find(&mut self, guess: Option<Begin>) -> Found<O::Error> {
         let motors = self.equation.motors;
-        let idle = motors.iter().find_map(crate::dynamics::Motor::idle_speed);
+        let idle = motors.iter().find_map(crate::dynamics::motor::Motor::idle_speed);
         let speed = self.search.speed.or(idle).ok_or(Unsteady::NeedsSpeed)?;
         let begin = guess.unwrap_or(Begin { speed2: speed * speed, moment: 0.0, t: 0.0 });
         if motors.is_empty() {
@@ -79,7 +79,7 @@ impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
     /// between a speed at which it falls and one at which it grows, by Newton's steps.
     fn self_found(&mut self, begin: Begin, first: Period) -> Found<O::Error> {
         let from = begin.speed2.sqrt();
-        let idle = self.equation.motors.iter().find_map(crate::dynamics::Motor::idle_speed);
+        let idle = self.equation.motors.iter().find_map(crate::dynamics::motor::Motor::idle_speed);
         let idle2 = idle.map_or(0.0, |idle| idle * idle);
         let (mut begin, mut period) = (begin, first);
         // Where it falls from on, and where it grows or the machine stops.

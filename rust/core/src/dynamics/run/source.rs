@@ -7,11 +7,11 @@ use crate::dynamics::pose::Pose;
 use crate::dynamics::reduced::Reduced;
 use crate::dynamics::table::Table;
 use crate::dynamics::value::Numbers;
+use crate::math::derivatives::Jets;
+use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
 use crate::mechanism::Mechanism;
-use crate::motion::Status;
 use crate::motion::follow::{Asked, Follower, NearMiss};
-use crate::plan::jet::Jets;
-use crate::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
+use crate::motion::state::Status;
 
 /// A machine, place after place.
 pub(super) trait Source {

@@ -12,7 +12,9 @@ use super::source::Source;
 use super::task::{Along, Occasion, Task, Watch};
 use super::unsteady::Unsteady;
 use crate::dynamics::flywheel::Mean;
-use crate::ode::{Crossing, Integrator, Method};
+use crate::ode::integrate::Integrator;
+use crate::ode::options::Method;
+use crate::ode::system::Crossing;
 
 /// Errors of a period, as multiples of the tolerance.
 pub(super) const NOISE: f64 = 100.0;
@@ -193,7 +195,7 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         };
         self.equation.slopes = false;
         let run = run(self.equation, &task, &[1.0]).map_err(|error| match error {
-            crate::ode::Error::System(broken) => Unsteady::Broken(broken),
+            crate::ode::error::Error::System(broken) => Unsteady::Broken(broken),
             other => Unsteady::Other(other.to_string()),
         })?;
         match run.ending {

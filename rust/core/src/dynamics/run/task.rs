@@ -5,7 +5,8 @@ use std::time::Instant;
 use super::broken::{Broken, counted};
 use crate::dynamics::line::Angle;
 use crate::dynamics::motor::Motor;
-use crate::ode::{Crossing, Method};
+use crate::ode::options::Method;
+use crate::ode::system::Crossing;
 
 /// What a run goes along.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

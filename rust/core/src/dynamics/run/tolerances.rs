@@ -5,7 +5,7 @@ use super::outside::Outside;
 use super::source::Source;
 use super::task::{Along, Task};
 use super::way::Way;
-use crate::ode::Fault;
+use crate::ode::system::Fault;
 
 /// Relative and absolute tolerances of the state.
 pub(super) fn tolerances<S: Source, O: Outside>(

@@ -1,13 +1,13 @@
 //! Tests of whole runs, and what the tests of the parts share.
 
-mod breaks;
-mod events;
-mod limits;
-mod orders;
-mod problems;
+pub(crate) mod breaks;
+pub(crate) mod events;
+pub(crate) mod limits;
+pub(crate) mod orders;
+pub(crate) mod problems;
 pub(crate) mod trees;
 
-use super::*;
+use crate::ode::*;
 use std::convert::Infallible;
 
 pub(crate) const BOTH: [Method; 2] = [Method::DormandPrince54, Method::DormandPrince853];

@@ -1,6 +1,6 @@
 //! Small matrices, inverted with pivots of each lane's own.
 
-use super::{Mask, Real};
+use super::lanes::{Mask, Real};
 
 /// Inverts the first `n` columns of `n` rows of `2 n` numbers into the other `n`, in `G` groups
 /// at once. What happens to a lane depends on its own numbers alone; a singular matrix leaves
@@ -101,7 +101,7 @@ fn by_pivots<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -> [R; G]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{LANES, Lanes};
+    use crate::math::lanes::{LANES, Lanes};
     use nalgebra::DMatrix;
 
     /// A matrix of numbers that look random, the same for a seed.

@@ -5,10 +5,6 @@
 //! no library function but exact ones), so a lane has the bits that the scalar would have, on every
 //! machine and whatever its neighbours are.
 
-pub mod invert;
-pub mod trig;
-mod two_over_pi;
-
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 

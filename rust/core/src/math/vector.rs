@@ -2,9 +2,10 @@
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
-use crate::lanes::{Real, trig};
+use super::lanes::Real;
+use super::trig;
 
-/// A vector (or a unit vector standing for an orientation); over [`crate::lanes::Lanes`]
+/// A vector (or a unit vector standing for an orientation); over [`super::lanes::Lanes`]
 /// eight of them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Vector<R = f64> {

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use crate::lanes::trig::sin_cos;
+use super::trig::sin_cos;
 
 /// Points of a rule.
 const POINTS: usize = 12;

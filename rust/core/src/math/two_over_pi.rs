@@ -2,7 +2,7 @@
 
 /// Bits of 2/π after the point, the first most significant, after a word of zeros. The largest
 /// doubles take bits 970 to 1161. From mpmath.
-pub(super) const FRAC_2_PI_BITS: [u64; 20] = [
+pub(crate) const FRAC_2_PI_BITS: [u64; 20] = [
     0x0000000000000000,
     0xa2f9836e4e441529,
     0xfc2757d1f534ddc0,

@@ -10,8 +10,8 @@
 //! digits, with mpmath); coefficients were rounded to doubles one after another from the
 //! lowest, what is above fitted again after each.
 
+use super::lanes::{LANES, Mask, Real};
 use super::two_over_pi::FRAC_2_PI_BITS;
-use super::{LANES, Mask, Real};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
 /// (sin r − r) / r³ in r², |r| ≤ π/4; relative error of sin r 2^-57.9.
@@ -267,7 +267,7 @@ fn add<R: Real>(high: R, low: R, t: R, correction: R) -> R {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::Lanes;
+    use crate::math::lanes::Lanes;
     use std::f64::consts::FRAC_PI_4;
 
     const TINY: f64 = 5e-324;
