@@ -45,9 +45,8 @@
 )]
 
 pub mod crank_rocker;
+pub mod description;
 pub mod dynamics;
-pub mod error;
-pub mod linkage;
 pub mod math;
 pub(crate) mod mechanism;
 pub mod motion;
@@ -56,12 +55,12 @@ pub mod plan;
 pub mod slider_crank;
 pub mod structure;
 
-pub use error::{Named, SolveError, StructureError};
-pub use linkage::class_iv::ClassIv;
-pub use linkage::dimension::{Dimension, Dimensions};
-pub use linkage::four_bar::{FourBar, FourBarMode};
-pub use linkage::slider_crank::SliderCrank;
-pub use linkage::{Description, Driver, DriverDescription, Linkage, SlideDescription};
+pub use description::class_iv::ClassIv;
+pub use description::dimension::{Dimension, Dimensions};
+pub use description::error::{Named, SolveError, StructureError};
+pub use description::four_bar::{FourBar, FourBarMode};
+pub use description::slider_crank::SliderCrank;
+pub use description::{Description, Driver, DriverDescription, Linkage, SlideDescription};
 pub use math::vector::Vector;
 pub use mechanism::Mechanism;
 pub use motion::explain::Diagnosis;

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
-use crate::error::{Named, SolveError, StructureError};
-use crate::linkage::dimension::Dimensions;
-use crate::linkage::names::nearest;
-use crate::linkage::{Description, Linkage};
+use crate::description::dimension::Dimensions;
+use crate::description::error::{Named, SolveError, StructureError};
+use crate::description::names::nearest;
+use crate::description::{Description, Linkage};
 use crate::math::tolerance::{FLAT_SINE, NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
 use crate::math::vector::Vector;
 use crate::motion::parallel::Control;

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::design::Design;
 use super::state::{Context, Fault, State, Status};
-use crate::error::{SolveError, number};
+use crate::description::error::{SolveError, number};
 use crate::math::derivatives::Jets;
 use crate::mechanism::Mechanism;
 use crate::plan::{Along, Plan, Step};

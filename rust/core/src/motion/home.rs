@@ -6,7 +6,7 @@
 use super::design::Design;
 use super::state::{Fault, Status};
 use super::walk::{STRAY, Seed};
-use crate::linkage::Driver;
+use crate::description::Driver;
 use crate::math::vector::Vector;
 use crate::plan::Step;
 use crate::plan::bind::Bound;

@@ -9,7 +9,7 @@ use std::thread;
 
 use super::outputs::{Column, Rows};
 use super::solve::Arrays;
-use crate::error::SolveError;
+use crate::description::error::SolveError;
 use crate::math::simd::Simd;
 
 /// Positions in a chunk: some hundred microseconds, so that its way from the drawing

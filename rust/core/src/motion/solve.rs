@@ -6,7 +6,7 @@ use super::outputs::{Column, Outputs, Quantity, Writer, columns};
 use super::parallel::{Chunks, Control};
 use super::rows::{Job, Worker};
 use super::stream;
-use crate::error::SolveError;
+use crate::description::error::SolveError;
 use crate::math::derivatives::Jets;
 use crate::mechanism::Mechanism;
 use crate::plan::Step;

@@ -2,8 +2,8 @@
 
 use super::Plan;
 use super::bars::Spans;
-use crate::linkage::Linkage;
-use crate::linkage::dimension::{Dimension, Dimensions};
+use crate::description::Linkage;
+use crate::description::dimension::{Dimension, Dimensions};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::structure::closure::{Closure, Span};

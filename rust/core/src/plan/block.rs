@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use super::group::Group;
 use super::{Along, Higher, Plan, Step};
-use crate::error::StructureError;
-use crate::linkage::Linkage;
+use crate::description::Linkage;
+use crate::description::error::StructureError;
 use crate::structure::Structure;
 use crate::structure::assur_group::roman;
 use crate::structure::closure::list;

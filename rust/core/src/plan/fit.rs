@@ -1,7 +1,7 @@
 //! Redundant links: how each is placed and what must then close.
 
 use super::{Fit, Plan, Step, Turned};
-use crate::linkage::Linkage;
+use crate::description::Linkage;
 use crate::structure::Structure;
 use crate::structure::closure::{Closure, Span, point_of_joint};
 

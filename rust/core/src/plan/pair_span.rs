@@ -1,6 +1,6 @@
 //! The size of what is paired: what the misfit of a redundant link is a part of.
 
-use crate::linkage::Linkage;
+use crate::description::Linkage;
 use crate::math::vector::Vector;
 use crate::structure::closure::{Closure, Span, point_of_joint};
 

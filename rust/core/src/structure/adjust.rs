@@ -13,8 +13,8 @@ use nalgebra::{DMatrix, DVector};
 use super::closure::{Closure, LeftOut, list, rotations};
 use super::freedom::{Pose, Skeleton, System};
 use super::least_norm::least_norm;
-use crate::error::StructureError;
-use crate::linkage::Linkage;
+use crate::description::Linkage;
+use crate::description::error::StructureError;
 use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
 
 /// A misfit that is nothing but the rounding of coordinates, of the size.

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use super::closure::LeftOut;
 use super::contour::minimum_cycle_basis;
 use super::matching::{Block, Pattern};
-use crate::linkage::{Driver, Linkage};
+use crate::description::{Driver, Linkage};
 
 /// One Assur group.
 #[derive(Debug, Clone, PartialEq, Eq)]

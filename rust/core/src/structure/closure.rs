@@ -13,8 +13,8 @@
 //! relative to each other (sliding pairs) share one unknown rotation, their
 //! *class*; a driven angle puts two links into one class with a known offset.
 
-use crate::error::StructureError;
-use crate::linkage::{Driver, Linkage};
+use crate::description::error::StructureError;
+use crate::description::{Driver, Linkage};
 
 /// Index of the ground's origin among the points.
 pub const GROUND_POINT: usize = 0;

@@ -15,7 +15,7 @@ use super::closure::{Closure, LeftOut, Rotation, Span};
 use super::elimination::SparseRows;
 use super::rank;
 use super::rank::{Interrupted, Rank};
-use crate::linkage::{Driver, Linkage};
+use crate::description::{Driver, Linkage};
 use crate::math::tolerance::{
     NEARLY_DEPENDENT, NEARLY_REDUNDANT, RANK, REGULAR_CLOSURE, TRUNCATED,
 };

@@ -20,8 +20,8 @@ use std::fmt::Write as _;
 use self::closure::{list, rotations};
 use self::freedom::{Pose, Skeleton, System};
 use self::rank::Rank;
-use crate::error::StructureError;
-use crate::linkage::{Driver, Linkage};
+use crate::description::error::StructureError;
+use crate::description::{Driver, Linkage};
 use std::sync::atomic::AtomicBool;
 
 /// The structure of a mechanism with its drivers.

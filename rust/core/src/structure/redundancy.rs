@@ -3,8 +3,8 @@
 use super::closure::{Closure, LeftOut, rotations};
 use super::freedom::{Pose, Skeleton, System};
 use super::rank::Rank;
-use crate::error::StructureError;
-use crate::linkage::{Driver, Linkage};
+use crate::description::error::StructureError;
+use crate::description::{Driver, Linkage};
 
 /// Leaves out links (the last listed first), then slides, until no equation is
 /// dependent any more. Leaving one out must free nothing.

@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
+use super::error::{Named, StructureError};
 use super::names::nearest;
 use super::{Description, Driver, DriverDescription, Joint, Link, Linkage, Slide};
-use crate::error::{Named, StructureError};
 use crate::math::tolerance::{GREATEST_LENGTH, LEAST_LENGTH, ZERO_LENGTH};
 
 impl Linkage {

@@ -6,6 +6,7 @@
 
 pub(crate) mod class_iv;
 pub(crate) mod dimension;
+pub mod error;
 pub(crate) mod four_bar;
 pub(crate) mod frame;
 pub(crate) mod names;

@@ -1,9 +1,9 @@
 //! The numbers that make one design: names, kinds, and values in the drawing.
 
 use super::Linkage;
+use super::error::{Named, SolveError};
 use super::frame::{Axis, polar};
 use super::names::nearest;
-use crate::error::{Named, SolveError};
 use crate::math::tolerance::{GREATEST_LENGTH, LEAST_LENGTH};
 use crate::math::trig::sin_cos;
 
