@@ -64,7 +64,7 @@ impl FourBar {
     /// The dimensions in the order of the mechanism made from
     /// [`FourBar::description`].
     #[must_use]
-    pub fn dimensions(&self, mechanism: &crate::mechanism::Mechanism) -> Vec<f64> {
+    pub fn dimensions(&self, mechanism: &crate::plan::mechanism::Mechanism) -> Vec<f64> {
         mechanism
             .dimensions()
             .iter()

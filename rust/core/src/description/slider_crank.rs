@@ -33,7 +33,7 @@ impl SliderCrank {
     /// The dimensions in the order of the mechanism made from
     /// [`SliderCrank::description`].
     #[must_use]
-    pub fn dimensions(&self, mechanism: &crate::mechanism::Mechanism) -> Vec<f64> {
+    pub fn dimensions(&self, mechanism: &crate::plan::mechanism::Mechanism) -> Vec<f64> {
         mechanism
             .dimensions()
             .iter()

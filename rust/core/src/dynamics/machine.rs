@@ -10,9 +10,9 @@ use super::table::Table;
 use super::value::Numbers;
 use crate::math::derivatives::Jets;
 use crate::math::vector::Vector;
-use crate::mechanism::Mechanism;
 use crate::motion::follow::{Asked, Follower};
 use crate::motion::state::Status;
+use crate::plan::mechanism::Mechanism;
 
 /// Mass of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]

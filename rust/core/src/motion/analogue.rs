@@ -10,7 +10,7 @@ use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::Along;
-use crate::plan::block::{Dyad, Part, Unknown};
+use crate::plan::compile::{Dyad, Part, Unknown};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Value and analogues of an orientation that the drivers alone give:

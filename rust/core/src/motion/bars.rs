@@ -1,4 +1,4 @@
-//! Groups above class II of rigid links and turning pairs (see [`crate::plan::bars`]).
+//! Groups above class II of rigid links and turning pairs (see [`crate::plan::binary_links`]).
 //!
 //! The same equations, the same iteration and the same ends of it as of every group (see
 //! `group`), with one driver; eight positions after eight, so that all of it stays in a small
@@ -11,8 +11,8 @@ use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{NEWTON_LONGEST, NEWTON_ROUNDS};
 use crate::math::vector::Vector;
-use crate::plan::bars::{Bars, Links, MOST};
-use crate::plan::group::Group;
+use crate::plan::binary_links::{Bars, Links, MOST};
+use crate::plan::group_loops::Group;
 
 /// Entries of a jet, at most.
 const ENTRIES: usize = ONE_DRIVER.len();

@@ -9,7 +9,7 @@ use super::state::{Context, FLAT2, Fault, State, Status};
 use crate::math::derivatives::{ONE_DRIVER, Term};
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
-use crate::plan::block::Dyad;
+use crate::plan::compile::Dyad;
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves the dyad (step `index`) whose two legs turn with these classes.

@@ -16,11 +16,11 @@ use crate::math::derivatives::Jets;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
 use crate::math::vector::Vector;
-use crate::mechanism::Mechanism;
 use crate::plan::Step;
-use crate::plan::bind::Bound;
-use crate::plan::bind_rate::BoundRate;
-use crate::plan::block::Unknown;
+use crate::plan::compile::Unknown;
+use crate::plan::constants::Bound;
+use crate::plan::constants_rate::BoundRate;
+use crate::plan::mechanism::Mechanism;
 
 /// Powers of two between the design's own unit of length and the metre.
 #[derive(Debug, Default)]

@@ -5,8 +5,8 @@ use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::Along;
-use crate::plan::bind::Leg;
-use crate::plan::block::{Dyad, Form, Unknown};
+use crate::plan::compile::{Dyad, Form, Unknown};
+use crate::plan::leg::Leg;
 
 /// The dyad's equation, sorted: `a u₁ + b u₂ = k` with slides put in for the
 /// terms that are missing.

@@ -6,7 +6,7 @@ use super::design::Design;
 use super::state::{Context, Fault, State, Status};
 use crate::description::error::{SolveError, number};
 use crate::math::derivatives::Jets;
-use crate::mechanism::Mechanism;
+use crate::plan::mechanism::Mechanism;
 use crate::plan::{Along, Plan, Step};
 
 /// How far (in sizes) a joint is where a way has ended not for a dead point but for that: the
@@ -317,7 +317,7 @@ impl Mechanism {
     }
 }
 
-fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::block::Dyad) -> String {
+fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::compile::Dyad) -> String {
     let slides: Vec<&str> = dyad
         .path
         .iter()

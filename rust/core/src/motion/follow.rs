@@ -7,9 +7,9 @@ use super::track::Track;
 use super::walk::{Seed, Start};
 use crate::math::angle::nearest;
 use crate::math::derivatives::Jets;
-use crate::mechanism::Mechanism;
-use crate::plan::bind::Bound;
-use crate::plan::block::{Dyad, Unknown};
+use crate::plan::compile::{Dyad, Unknown};
+use crate::plan::constants::Bound;
+use crate::plan::mechanism::Mechanism;
 use crate::plan::{Plan, Step};
 use std::borrow::Cow;
 

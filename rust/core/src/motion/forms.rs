@@ -4,7 +4,7 @@
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::FLAT_CLOSURE;
 use crate::math::vector::Vector;
-use crate::plan::bind::Leg;
+use crate::plan::leg::Leg;
 
 /// How a dyad came out.
 #[derive(Debug, Clone, Copy)]

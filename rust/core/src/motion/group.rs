@@ -15,8 +15,8 @@ use crate::math::tolerance::{
 };
 use crate::math::vector::Vector;
 use crate::plan::Along;
-use crate::plan::block::Unknown;
-use crate::plan::group::{Chord, Group, Loop};
+use crate::plan::compile::Unknown;
+use crate::plan::group_loops::{Chord, Group, Loop};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves the group (step `index`) from where its unknowns are; not where `care` knows that

@@ -4,8 +4,8 @@ use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::Along;
-use crate::plan::block::Unknown;
-use crate::plan::group::{Chord, Group, Loop};
+use crate::plan::compile::Unknown;
+use crate::plan::group_loops::{Chord, Group, Loop};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Analogues of the unknowns: at every order the same matrix (inverted), as right-hand side

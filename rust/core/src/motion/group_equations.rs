@@ -7,7 +7,7 @@ use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::Along;
-use crate::plan::group::{Chord, Group};
+use crate::plan::group_loops::{Chord, Group};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Entry `k` of the edges, guides and chords.

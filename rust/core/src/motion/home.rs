@@ -9,8 +9,8 @@ use super::walk::{STRAY, Seed};
 use crate::description::Driver;
 use crate::math::vector::Vector;
 use crate::plan::Step;
-use crate::plan::bind::Bound;
-use crate::plan::block::Unknown;
+use crate::plan::compile::Unknown;
+use crate::plan::constants::Bound;
 
 /// Parts of the way from the drawing's dimensions, at least.
 const LEAST_PART: f64 = 1.0 / 1_099_511_627_776.0;

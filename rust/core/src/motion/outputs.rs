@@ -8,9 +8,9 @@ use super::stream;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::mechanism::Mechanism;
-use crate::plan::bind::Bound;
-use crate::plan::bind_rate::offsets;
+use crate::plan::constants::Bound;
+use crate::plan::constants_rate::offsets;
+use crate::plan::mechanism::Mechanism;
 use crate::structure::closure::point_of_joint;
 
 /// What is kept: indices of joints, links and slides.

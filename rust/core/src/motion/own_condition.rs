@@ -5,8 +5,8 @@
 //! and shows no single dyad that is about to fold.
 
 use super::state::{Context, State};
-use crate::plan::block::{Dyad, Form, Unknown};
-use crate::plan::group::Group;
+use crate::plan::compile::{Dyad, Form, Unknown};
+use crate::plan::group_loops::Group;
 use crate::plan::{Along, Step};
 
 impl State {

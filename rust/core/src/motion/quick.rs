@@ -17,7 +17,7 @@ use crate::math::lanes::{LANES, Lanes, Mask, Real};
 use crate::math::tolerance::LIFT_TURN;
 use crate::math::vector::Vector;
 use crate::plan::Plan;
-use crate::plan::block::Form;
+use crate::plan::compile::Form;
 
 /// Knots of a turn, its end included.
 pub(super) const KNOTS: usize = CELLS_A_TURN as usize + 1;

@@ -20,7 +20,7 @@ use crate::math::derivatives::Jets;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};
 use crate::math::simd::Simd;
 use crate::math::vector::Vector;
-use crate::mechanism::Mechanism;
+use crate::plan::mechanism::Mechanism;
 
 /// Groups of positions worked on at once: as many as stay in the nearest cache.
 const GROUPS: usize = 4;

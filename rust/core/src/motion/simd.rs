@@ -5,7 +5,7 @@ use super::rows::{Job, Worker};
 use super::state::{Context, State};
 use crate::math::lanes::Lanes;
 use crate::math::simd::Simd;
-use crate::plan::group::Group;
+use crate::plan::group_loops::Group;
 
 /// The executor compiled for a set of instructions.
 ///

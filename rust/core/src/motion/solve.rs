@@ -8,8 +8,8 @@ use super::rows::{Job, Worker};
 use super::stream;
 use crate::description::error::SolveError;
 use crate::math::derivatives::Jets;
-use crate::mechanism::Mechanism;
 use crate::plan::Step;
+use crate::plan::mechanism::Mechanism;
 
 /// Where the coordinates are taken from; `drivers` numbers a position.
 #[derive(Debug, Clone, Copy)]

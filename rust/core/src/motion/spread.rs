@@ -6,7 +6,7 @@ use crate::math::lanes::Real;
 use crate::math::tolerance::CHANGE_MISFIT;
 use crate::math::vector::Vector;
 use crate::plan::Along;
-use crate::plan::block::{Dyad, Form};
+use crate::plan::compile::{Dyad, Form};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// How far a dyad is from flat, with the sign of its assembly, and the rate of

@@ -6,9 +6,9 @@ use crate::math::derivatives::Jets;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{NEAR_SINGULAR_CONDITION, SINGULAR_CONDITION};
 use crate::math::vector::Vector;
-use crate::plan::bind::Bound;
-use crate::plan::block::{Dyad, Unknown};
-use crate::plan::group::Group;
+use crate::plan::compile::{Dyad, Unknown};
+use crate::plan::constants::Bound;
+use crate::plan::group_loops::Group;
 use crate::plan::{Along, Plan, Step};
 
 /// Square of the sine of a dyad that cannot be told from a flat one.

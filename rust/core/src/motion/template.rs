@@ -15,7 +15,7 @@ use super::walk::{returns, strays};
 use crate::math::lanes::{LANES, Lanes, Real};
 use crate::math::vector::Vector;
 use crate::plan::Plan;
-use crate::plan::block::Unknown;
+use crate::plan::compile::Unknown;
 
 /// Unknowns of groups at the knots of the drawing's way.
 #[derive(Debug)]

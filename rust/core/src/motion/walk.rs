@@ -11,7 +11,7 @@ use crate::math::angle::nearest;
 use crate::math::tolerance::{LIFT_HALVINGS, LIFT_TURN};
 use crate::math::vector::Vector;
 use crate::plan::Step;
-use crate::plan::block::{Dyad, Form, Unknown};
+use crate::plan::compile::{Dyad, Form, Unknown};
 
 /// Halvings where a stretch that can be reached begins or ends: what is left of
 /// the turn there goes with the square root of the cell.

@@ -7,16 +7,18 @@
 //! points. A driver appears nowhere as a step: a driven angle makes the
 //! orientation of two links differ by q, a driven slide is a known length.
 
-pub mod bars;
-pub mod bind;
-pub mod bind_rate;
-pub(crate) mod block;
-pub(crate) mod fit;
-pub mod group;
+pub mod binary_links;
+pub(crate) mod compile;
+pub mod constants;
+pub mod constants_rate;
+pub mod group_loops;
+pub mod leg;
+pub(crate) mod mechanism;
 pub mod pair_span;
+pub(crate) mod redundant;
 
-use self::bars::Bars;
-use self::bind::Bound;
+use self::binary_links::Bars;
+use self::constants::Bound;
 use self::pair_span::PairSpans;
 use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
@@ -24,8 +26,8 @@ use crate::math::vector::Vector;
 use crate::structure::Structure;
 use crate::structure::closure::{Closure, Rotation};
 use crate::structure::closure::{Edge, Span, rotations};
-pub use block::{Dyad, Form, Part, Unknown};
-pub use group::Group;
+pub use compile::{Dyad, Form, Part, Unknown};
+pub use group_loops::Group;
 
 /// Value of a slide on an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -254,8 +256,8 @@ impl Plan {
             pairs: PairSpans::default(),
         };
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
-        let placed = block::add_steps(&mut plan, linkage, structure, &kept)?;
-        fit::add_fits(&mut plan, linkage, closure, structure, placed);
+        let placed = compile::add_steps(&mut plan, linkage, structure, &kept)?;
+        redundant::add_fits(&mut plan, linkage, closure, structure, placed);
         if plan.fits().next().is_some() {
             plan.pairs = PairSpans::of(linkage, closure);
         }

@@ -11,7 +11,7 @@ use crate::dynamics::machine::Machine;
 use crate::dynamics::turn::Extreme;
 use crate::math::derivatives::Jets;
 use crate::math::root;
-use crate::mechanism::Mechanism;
+use crate::plan::mechanism::Mechanism;
 
 /// Part of the flywheel to which it is found: the motions themselves are known no better.
 const FOUND: f64 = 1.0e-12;

@@ -13,7 +13,6 @@ use super::way::{Ended, Way};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::table::Table;
 use crate::math::derivatives::Jets;
-use crate::mechanism::Mechanism;
 use crate::motion::follow::NearMiss;
 use crate::motion::state::Status;
 use crate::ode::error::Error;
@@ -21,6 +20,7 @@ use crate::ode::integrate::Integrator;
 use crate::ode::options::{Keep, Options};
 use crate::ode::solution::{End, Solution};
 use crate::ode::system::System;
+use crate::plan::mechanism::Mechanism;
 
 /// What a run cannot be made for.
 pub type RunError<E> = Error<Broken<E>>;

@@ -9,9 +9,9 @@ use crate::dynamics::table::Table;
 use crate::dynamics::value::Numbers;
 use crate::math::derivatives::Jets;
 use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
-use crate::mechanism::Mechanism;
 use crate::motion::follow::{Asked, Follower, NearMiss};
 use crate::motion::state::Status;
+use crate::plan::mechanism::Mechanism;
 
 /// A machine, place after place.
 pub(super) trait Source {

@@ -1,7 +1,7 @@
 //! How the fixed vectors of a design change with one of its dimensions.
 
 use super::Plan;
-use super::bind::{Bound, Slots, Source, read, read_two, unit};
+use super::constants::{Bound, Slots, Source, read, read_two, unit};
 use crate::math::vector::Vector;
 
 /// Derivatives of what [`Bound`] holds by one dimension (m or rad), its scale kept.

@@ -5,8 +5,8 @@
 //! the one that says how long it is; a chord along a guide leaves the one that says how far from
 //! the guide its end is; either takes an unknown with it. So the tree takes other edges first.
 
-use super::bars::Bars;
-use super::block::Unknown;
+use super::binary_links::Bars;
+use super::compile::Unknown;
 use super::{Along, Plan};
 
 /// What the chord of a loop leaves of its vector equation.
@@ -104,7 +104,7 @@ pub struct Group {
 
 impl Group {
     /// Finds the loops of a block; returns their chords, which place no point.
-    pub(super) fn new(
+    pub(crate) fn new(
         plan: &Plan,
         edges: &[usize],
         unknowns: &[Unknown],

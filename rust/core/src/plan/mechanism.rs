@@ -3,6 +3,9 @@
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
+use super::compile::{Dyad, Form};
+use super::constants::{Bound, Slots};
+use super::{Plan, Step};
 use crate::description::dimension::Dimensions;
 use crate::description::error::{Named, SolveError, StructureError};
 use crate::description::names::nearest;
@@ -12,9 +15,6 @@ use crate::math::vector::Vector;
 use crate::motion::parallel::Control;
 use crate::motion::solve::{Motion, Request};
 use crate::motion::state::Status;
-use crate::plan::bind::{Bound, Slots};
-use crate::plan::block::{Dyad, Form};
-use crate::plan::{Plan, Step};
 use crate::structure::adjust::Adjusted;
 use crate::structure::closure::Closure;
 use crate::structure::{Structure, adjust};

@@ -1,59 +1,13 @@
 //! A plan with the numbers of one design.
 
 use super::Plan;
-use super::bars::Spans;
+use super::binary_links::Spans;
+use super::leg::Leg;
 use crate::description::Linkage;
 use crate::description::dimension::{Dimension, Dimensions};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::structure::closure::{Closure, Span};
-
-/// What turns with an unknown rotation of a dyad.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Leg<R = f64> {
-    /// In the frame of the class.
-    pub vector: Vector<R>,
-    /// Its length.
-    pub norm: R,
-    /// The square of that.
-    pub norm2: R,
-    /// 1/length².
-    pub per: R,
-}
-
-impl<R: Real> Leg<R> {
-    /// Measures a vector.
-    #[inline(always)]
-    pub fn of(vector: Vector<R>) -> Self {
-        let norm2 = vector.norm2();
-        Self { vector, norm: norm2.sqrt(), norm2, per: R::ONE / norm2 }
-    }
-
-    /// 1/length.
-    #[inline(always)]
-    pub fn per_norm(&self) -> R {
-        self.norm * self.per
-    }
-
-    /// The rotation that brings it to a place.
-    #[inline(always)]
-    pub fn turn_to(&self, place: Vector<R>) -> Vector<R> {
-        (place * self.vector.conj()).scale(self.per)
-    }
-}
-
-impl Leg {
-    /// The same on every lane.
-    #[inline(always)]
-    pub fn on_lanes<R: Real>(&self) -> Leg<R> {
-        Leg {
-            vector: Vector::splat(self.vector),
-            norm: R::splat(self.norm),
-            norm2: R::splat(self.norm2),
-            per: R::splat(self.per),
-        }
-    }
-}
 
 /// The fixed vectors of one design, in units of its scale.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -92,21 +46,21 @@ pub struct Bound {
 /// once for a mechanism.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slots {
-    pub(super) edges: Vec<Source>,
-    pub(super) slides: Vec<SlideSlots>,
+    pub(crate) edges: Vec<Source>,
+    pub(crate) slides: Vec<SlideSlots>,
     /// Ground joints with their coordinates.
-    pub(super) ground: Vec<(usize, [Slot; 2])>,
+    pub(crate) ground: Vec<(usize, [Slot; 2])>,
     /// Coordinates of the origin.
-    pub(super) origin: [Slot; 2],
+    pub(crate) origin: [Slot; 2],
     /// Lengths that make the scale.
     lengths: Lengths,
 }
 
 /// Place of a value; a linkage that has no such dimension has 0.
-pub(super) type Slot = Option<usize>;
+pub(crate) type Slot = Option<usize>;
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Source {
+pub(crate) enum Source {
     /// From the first joint of a link to another: its place in the link's frame.
     Joint([Slot; 2]),
     /// Along a guide.
@@ -114,30 +68,30 @@ pub(super) enum Source {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct SlideSlots {
+pub(crate) struct SlideSlots {
     angle: Slot,
     link_angle: Slot,
-    pub(super) offset: Slot,
-    pub(super) origin: [Slot; 2],
+    pub(crate) offset: Slot,
+    pub(crate) origin: [Slot; 2],
     /// Whether its origin is a place in the drawing.
-    pub(super) drawn: bool,
+    pub(crate) drawn: bool,
 }
 
-pub(super) fn read(values: &[f64], slot: Slot) -> f64 {
+pub(crate) fn read(values: &[f64], slot: Slot) -> f64 {
     slot.map_or(0.0, |i| values[i])
 }
 
-pub(super) fn read_two(values: &[f64], slots: [Slot; 2]) -> Vector {
+pub(crate) fn read_two(values: &[f64], slots: [Slot; 2]) -> Vector {
     Vector::new(read(values, slots[0]), read(values, slots[1]))
 }
 
 impl SlideSlots {
-    pub(super) fn angle(&self, values: &[f64]) -> f64 {
+    pub(crate) fn angle(&self, values: &[f64]) -> f64 {
         read(values, self.angle)
     }
 
     /// Turn from the carrying to the sliding link.
-    pub(super) fn step(&self, values: &[f64]) -> f64 {
+    pub(crate) fn step(&self, values: &[f64]) -> f64 {
         read(values, self.angle) - read(values, self.link_angle)
     }
 }
@@ -323,7 +277,7 @@ impl Bound {
 }
 
 /// Unit vector at an angle, exact for no turn.
-pub(super) fn unit(angle: f64) -> Vector {
+pub(crate) fn unit(angle: f64) -> Vector {
     if angle == 0.0 { Vector::ONE } else { Vector::at_angle(angle) }
 }
 

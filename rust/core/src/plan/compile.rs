@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::group::Group;
+use super::group_loops::Group;
 use super::{Along, Higher, Plan, Step};
 use crate::description::Linkage;
 use crate::description::error::StructureError;

@@ -4,9 +4,9 @@
 //! What turns with one unknown in one loop is one vector (a span), the same at all positions; so
 //! the vector of a loop's chord is a known one and a sum of spans, each turned by its unknown.
 
-use super::bind::Leg;
-use super::block::Unknown;
-use super::group::{Chord, Group};
+use super::compile::Unknown;
+use super::group_loops::{Chord, Group};
+use super::leg::Leg;
 use super::{Along, Plan};
 use crate::math::vector::Vector;
 
@@ -41,7 +41,7 @@ pub struct Bars {
 
 impl Bars {
     /// Of a group that is so, behind others.
-    pub(super) fn new<'b>(
+    pub(crate) fn new<'b>(
         plan: &Plan,
         group: &Group,
         before: impl Iterator<Item = &'b Self>,
@@ -116,7 +116,7 @@ pub struct Spans {
 
 impl Spans {
     /// Measures them on the rigid edges.
-    pub(super) fn measure(&mut self, plan: &Plan, rigid: &[Vector]) {
+    pub(crate) fn measure(&mut self, plan: &Plan, rigid: &[Vector]) {
         self.spans.clear();
         self.bars.clear();
         for group in plan.groups().filter(|group| group.bars.is_some()) {
