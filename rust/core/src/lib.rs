@@ -52,6 +52,7 @@ pub mod motion;
 pub mod ode;
 pub mod plan;
 pub mod slider_crank;
+pub(crate) mod state;
 pub mod structure;
 
 pub use description::class_iv::ClassIv;
@@ -64,8 +65,8 @@ pub use math::vector::Vector;
 pub use motion::explain::Diagnosis;
 pub use motion::outputs::Outputs;
 pub use motion::solve::{Coordinates, Motion, Request, Track};
-pub use motion::state::Status;
 pub use plan::mechanism::Mechanism;
+pub use state::state::Status;
 pub use structure::Structure;
 pub use structure::assur_group::Group;
 

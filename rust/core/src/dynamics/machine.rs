@@ -11,8 +11,8 @@ use super::value::Numbers;
 use crate::math::derivatives::Jets;
 use crate::math::vector::Vector;
 use crate::motion::follow::{Asked, Follower};
-use crate::motion::state::Status;
 use crate::plan::mechanism::Mechanism;
+use crate::state::state::Status;
 
 /// Mass of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]

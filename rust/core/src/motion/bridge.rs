@@ -1,8 +1,8 @@
 //! The smooth motion through a change point, where a dyad by itself knows too little.
 
-use super::state::State;
 use crate::math::tolerance::CHANGE_REACH;
 use crate::math::trig::sin_cos;
+use crate::state::state::State;
 
 /// Where the polynomial through a change point is taken.
 #[derive(Debug, Clone, Copy)]

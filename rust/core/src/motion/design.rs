@@ -8,7 +8,6 @@ use super::bridge::{Bridge, Span};
 use super::change::Change;
 use super::quick::Quick;
 use super::simd::Level;
-use super::state::{Context, Fault, State, Status};
 use super::template::Template;
 use super::track::{Spot, Track};
 use super::walk::{Seed, Start};
@@ -21,6 +20,7 @@ use crate::plan::compile::Unknown;
 use crate::plan::constants::Bound;
 use crate::plan::constants_rate::BoundRate;
 use crate::plan::mechanism::Mechanism;
+use crate::state::state::{Context, Fault, State, Status};
 
 /// Powers of two between the design's own unit of length and the metre.
 #[derive(Debug, Default)]

@@ -3,11 +3,11 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::design::Design;
-use super::state::{Context, Fault, State, Status};
 use crate::description::error::{SolveError, number};
 use crate::math::derivatives::Jets;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::{Along, Plan, Step};
+use crate::state::state::{Context, Fault, State, Status};
 
 /// How far (in sizes) a joint is where a way has ended not for a dead point but for that: the
 /// condition of a group grows with the square of it, so the way to a pole is not followed to its

@@ -2,7 +2,6 @@
 
 use super::bridge::Bridge;
 use super::design::{Design, Place, Units};
-use super::state::{Context, Fault, State, Status};
 use super::track::Track;
 use super::walk::{Seed, Start};
 use crate::math::angle::nearest;
@@ -11,6 +10,7 @@ use crate::plan::compile::{Dyad, Unknown};
 use crate::plan::constants::Bound;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::{Plan, Step};
+use crate::state::state::{Context, Fault, State, Status};
 use std::borrow::Cow;
 
 /// Which positions will be asked for.

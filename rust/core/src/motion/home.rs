@@ -4,13 +4,13 @@
 //! the design's.
 
 use super::design::Design;
-use super::state::{Fault, Status};
 use super::walk::{STRAY, Seed};
 use crate::description::Driver;
 use crate::math::vector::Vector;
 use crate::plan::Step;
 use crate::plan::compile::Unknown;
 use crate::plan::constants::Bound;
+use crate::state::state::{Fault, Status};
 
 /// Parts of the way from the drawing's dimensions, at least.
 const LEAST_PART: f64 = 1.0 / 1_099_511_627_776.0;
@@ -61,7 +61,8 @@ impl Design<'_> {
                     mechanism.q0()[d] / unit
                 })
                 .collect();
-            let cx = super::state::Context { bound: &bound, ..self.context(self.first_jets()) };
+            let cx =
+                crate::state::state::Context { bound: &bound, ..self.context(self.first_jets()) };
             let mut state = self.state(self.first_jets());
             state.prepare(plan, &bound, cx.jets);
             for (&unknown, &value) in unknowns.iter().zip(&here) {

@@ -3,7 +3,6 @@
 use std::mem::MaybeUninit;
 
 use super::design::Units;
-use super::state::State;
 use super::stream;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::Real;
@@ -11,6 +10,7 @@ use crate::math::vector::Vector;
 use crate::plan::constants::Bound;
 use crate::plan::constants_rate::offsets;
 use crate::plan::mechanism::Mechanism;
+use crate::state::state::State;
 use crate::structure::closure::point_of_joint;
 
 /// What is kept: indices of joints, links and slides.

@@ -7,7 +7,6 @@ use std::f64::consts::TAU;
 
 use super::change::may_touch;
 use super::simd::Level;
-use super::state::{Context, State};
 pub(crate) use super::template::Template;
 use super::track::{CELLS_A_TURN, Track};
 use super::walk::{Seed, Stretch};
@@ -18,6 +17,7 @@ use crate::math::tolerance::LIFT_TURN;
 use crate::math::vector::Vector;
 use crate::plan::Plan;
 use crate::plan::compile::Form;
+use crate::state::state::{Context, State};
 
 /// Knots of a turn, its end included.
 pub(super) const KNOTS: usize = CELLS_A_TURN as usize + 1;

@@ -8,11 +8,9 @@ use super::design::Design;
 use super::outputs::{Column, Rows, Writer};
 use super::parallel::Control;
 use super::quick::Quick;
-use super::sensitivity::Sensitivity;
 use super::simd;
 use super::simd::Level;
 use super::solve::Request;
-use super::state::{State, Status};
 use super::stream;
 use super::track::Spot;
 use crate::math::angle::nearest;
@@ -21,6 +19,8 @@ use crate::math::lanes::{LANES, Lanes, Mask, Real};
 use crate::math::simd::Simd;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
+use crate::state::sensitivity::Sensitivity;
+use crate::state::state::{State, Status};
 
 /// Groups of positions worked on at once: as many as stay in the nearest cache.
 const GROUPS: usize = 4;

@@ -2,10 +2,10 @@
 //! it runs. All give the same bits: each operation is rounded by itself.
 
 use super::rows::{Job, Worker};
-use super::state::{Context, State};
 use crate::math::lanes::Lanes;
 use crate::math::simd::Simd;
 use crate::plan::group_loops::Group;
+use crate::state::state::{Context, State};
 
 /// The executor compiled for a set of instructions.
 ///

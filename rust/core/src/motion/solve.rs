@@ -75,7 +75,7 @@ pub struct Motion {
     pub places: Vec<Track>,
     /// Slides' values, m.
     pub slides: Vec<Track>,
-    /// One [`super::state::Status`] code a position.
+    /// One [`crate::state::state::Status`] code a position.
     pub status: Vec<u8>,
 }
 
@@ -84,7 +84,7 @@ pub struct Motion {
 pub struct Arrays<'a> {
     /// One array a column, of designs × positions × width numbers.
     pub columns: Vec<&'a mut [MaybeUninit<f64>]>,
-    /// One [`super::state::Status`] code a position.
+    /// One [`crate::state::state::Status`] code a position.
     pub status: &'a mut [MaybeUninit<u8>],
 }
 

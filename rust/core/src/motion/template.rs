@@ -9,13 +9,13 @@ use std::f64::consts::TAU;
 use super::cell::Cell;
 use super::home::{FIRST_STEP, LATER_STEPS};
 use super::quick::{CELL, GROUPS, KNOTS, Quick, knots_at};
-use super::state::Context;
 use super::track::Track;
 use super::walk::{returns, strays};
 use crate::math::lanes::{LANES, Lanes, Real};
 use crate::math::vector::Vector;
 use crate::plan::Plan;
 use crate::plan::compile::Unknown;
+use crate::state::state::Context;
 
 /// Unknowns of groups at the knots of the drawing's way.
 #[derive(Debug)]

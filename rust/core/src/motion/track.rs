@@ -11,11 +11,11 @@ use std::f64::consts::TAU;
 
 use super::cell::Cell;
 use super::change::Change;
-use super::state::{Context, State};
 use super::walk::{Knot, Start, Stretch, Walker};
 use crate::math::angle::{less_turns, whole_part};
 use crate::math::lanes::{LANES, Real};
 use crate::plan::Plan;
+use crate::state::state::{Context, State};
 
 /// Cells in a turn of a driven angle: knots fill the lanes of four groups, and an odd
 /// number keeps them off the places half a turn from the drawing.

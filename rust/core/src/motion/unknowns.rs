@@ -1,11 +1,11 @@
 //! The unknowns of groups along a way: where the iteration for a position begins.
 
 use super::cell::small_turn;
-use super::state::{Context, State};
 use super::track::{Spot, Track};
 use super::walk::{Knot, Seed, Start, Walker};
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::math::vector::Vector;
+use crate::state::state::{Context, State};
 
 impl Track {
     /// Whether the groups of a state are on this way's side of their folds.

@@ -6,12 +6,12 @@ use std::f64::consts::TAU;
 use super::cell::Cell;
 use super::change;
 use super::change::{Change, may_touch};
-use super::state::{Context, Fault, State, Status};
 use crate::math::angle::nearest;
 use crate::math::tolerance::{LIFT_HALVINGS, LIFT_TURN};
 use crate::math::vector::Vector;
 use crate::plan::Step;
 use crate::plan::compile::{Dyad, Form, Unknown};
+use crate::state::state::{Context, Fault, State, Status};
 
 /// Halvings where a stretch that can be reached begins or ends: what is left of
 /// the turn there goes with the square root of the cell.

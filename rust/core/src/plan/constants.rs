@@ -5,7 +5,6 @@ use super::binary_links::Spans;
 use super::leg::Leg;
 use crate::description::Linkage;
 use crate::description::dimension::{Dimension, Dimensions};
-use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::structure::closure::{Closure, Span};
 

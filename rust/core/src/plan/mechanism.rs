@@ -14,7 +14,7 @@ use crate::math::tolerance::{FLAT_SINE, NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
 use crate::math::vector::Vector;
 use crate::motion::parallel::Control;
 use crate::motion::solve::{Motion, Request};
-use crate::motion::state::Status;
+use crate::state::state::Status;
 use crate::structure::adjust::Adjusted;
 use crate::structure::closure::Closure;
 use crate::structure::{Structure, adjust};

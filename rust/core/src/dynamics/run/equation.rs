@@ -11,8 +11,8 @@ use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
 use crate::dynamics::table::{Cell, Table};
 use crate::dynamics::value::Numbers;
-use crate::motion::state::Status;
 use crate::ode::system::Fault;
+use crate::state::state::Status;
 
 /// Part of the speed by which functions from outside are varied to find their slopes: the cube root
 /// of the unit roundoff, where rounding and curvature are equal.

@@ -14,13 +14,13 @@ use crate::dynamics::machine::Machine;
 use crate::dynamics::table::Table;
 use crate::math::derivatives::Jets;
 use crate::motion::follow::NearMiss;
-use crate::motion::state::Status;
 use crate::ode::error::Error;
 use crate::ode::integrate::Integrator;
 use crate::ode::options::{Keep, Options};
 use crate::ode::solution::{End, Solution};
 use crate::ode::system::System;
 use crate::plan::mechanism::Mechanism;
+use crate::state::state::Status;
 
 /// What a run cannot be made for.
 pub type RunError<E> = Error<Broken<E>>;

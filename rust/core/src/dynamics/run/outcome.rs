@@ -2,9 +2,9 @@
 
 use super::tail::Tail;
 use super::task::Along;
-use crate::motion::state::Status;
 use crate::ode::dense::Path;
 use crate::ode::solution::Statistics;
+use crate::state::state::Status;
 
 /// How a run ended.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

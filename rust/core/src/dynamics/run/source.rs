@@ -10,8 +10,8 @@ use crate::dynamics::value::Numbers;
 use crate::math::derivatives::Jets;
 use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
 use crate::motion::follow::{Asked, Follower, NearMiss};
-use crate::motion::state::Status;
 use crate::plan::mechanism::Mechanism;
+use crate::state::state::Status;
 
 /// A machine, place after place.
 pub(super) trait Source {

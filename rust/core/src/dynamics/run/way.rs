@@ -7,8 +7,8 @@ use super::equation::{Equation, within};
 use super::outside::Outside;
 use super::source::Source;
 use super::task::{Along, Occasion, Task, Watch};
-use crate::motion::state::Status;
 use crate::ode::system::{Action, Crossing, Fault, System};
+use crate::state::state::Status;
 
 /// What ended a run of itself.
 #[derive(Debug, Clone, Copy, PartialEq)]

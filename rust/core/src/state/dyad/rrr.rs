@@ -4,12 +4,12 @@
 //! with one driver they are compiled for each order by itself, so that jets are arrays of
 //! known length and the tables are constants.
 
-use super::forms::two_circles;
-use super::state::{Context, FLAT2, Fault, State, Status};
+use super::closed_form::two_circles;
 use crate::math::derivatives::{ONE_DRIVER, Term};
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 use crate::plan::compile::Dyad;
+use crate::state::state::{Context, FLAT2, Fault, State, Status};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves the dyad (step `index`) whose two legs turn with these classes.
@@ -123,7 +123,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// An orientation that turns with a leg, where something else asks for it.
     #[inline(always)]
-    pub(super) fn turn_other(&mut self, g: usize, cx: &Context<'_>, o: usize, class: usize) {
+    pub(crate) fn turn_other(&mut self, g: usize, cx: &Context<'_>, o: usize, class: usize) {
         let len = self.len;
         let rotation = self.class[class][g];
         self.orient[o * len][g] =

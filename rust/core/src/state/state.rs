@@ -1,7 +1,7 @@
 //! One position of one design, or eight: every point, orientation and slide with its
 //! analogues.
 
-use super::bars::Loops;
+use super::group::binary_links::Loops;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{NEAR_SINGULAR_CONDITION, SINGULAR_CONDITION};
@@ -12,7 +12,7 @@ use crate::plan::group_loops::Group;
 use crate::plan::{Along, Plan, Step};
 
 /// Square of the sine of a dyad that cannot be told from a flat one.
-pub(super) const FLAT2: f64 = 1.0 / (SINGULAR_CONDITION * SINGULAR_CONDITION);
+pub(crate) const FLAT2: f64 = 1.0 / (SINGULAR_CONDITION * SINGULAR_CONDITION);
 
 /// How a position came out; the codes are those of the arrays.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -119,7 +119,7 @@ pub struct State<R: Real = f64, const G: usize = 1> {
     /// Classes of binary links whose rotation is asked for (where nothing else needs it).
     pub(crate) asked: Vec<bool>,
     /// Work space for groups of binary links.
-    pub(super) loops: Loops<R>,
+    pub(crate) loops: Loops<R>,
     /// Determinant of every group's matrix (with analogues only).
     pub(crate) determinants: Vec<[R; G]>,
     /// The same of its last round's.
@@ -257,7 +257,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Whether nothing is left to be computed.
     #[inline(always)]
-    pub(super) fn is_over(&self) -> bool {
+    pub(crate) fn is_over(&self) -> bool {
         matches!(self.status, Status::Unreachable | Status::BadInput | Status::NotConverged)
     }
 

@@ -4,8 +4,7 @@
 //! `group`), with one driver; eight positions after eight, so that all of it stays in a small
 //! work space.
 
-use super::group::{Work, turned};
-use super::state::{Context, Fault, State, Status};
+use super::newton::{Work, turned};
 use crate::math::derivatives::ONE_DRIVER;
 use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
@@ -13,6 +12,7 @@ use crate::math::tolerance::{NEWTON_LONGEST, NEWTON_ROUNDS};
 use crate::math::vector::Vector;
 use crate::plan::binary_links::{Bars, Links, MOST};
 use crate::plan::group_loops::Group;
+use crate::state::state::{Context, Fault, State, Status};
 
 /// Entries of a jet, at most.
 const ENTRIES: usize = ONE_DRIVER.len();
@@ -21,7 +21,7 @@ type Jet<R> = [Vector<R>; ENTRIES];
 
 /// Work space for eight positions (or one).
 #[derive(Debug, Clone)]
-pub(super) struct Loops<R: Real> {
+pub(crate) struct Loops<R: Real> {
     /// The unknown rotations.
     units: [Vector<R>; MOST],
     /// What the loops have from before the group.
@@ -56,7 +56,7 @@ impl<R: Real> Default for Loops<R> {
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves a group (step `index`).
     #[inline(always)]
-    pub(super) fn solve_bars(
+    pub(crate) fn solve_bars(
         &mut self,
         cx: &Context<'_>,
         group: &Group,

@@ -1,17 +1,17 @@
 //! Analogues of groups above class II, and what their chords took with them.
 
-use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::Along;
 use crate::plan::compile::Unknown;
 use crate::plan::group_loops::{Chord, Group, Loop};
+use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Analogues of the unknowns: at every order the same matrix (inverted), as right-hand side
     /// what is known of that order; and what the chords took with them.
     #[inline(always)]
-    pub(super) fn group_analogues(
+    pub(crate) fn group_analogues(
         &mut self,
         cx: &Context<'_>,
         group: &Group,
@@ -92,7 +92,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Entry `k` of what the chords took with them.
     #[inline(always)]
-    pub(super) fn take_all(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
+    pub(crate) fn take_all(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
         for (place, l) in group.loops.iter().enumerate() {
             match l.chord {
                 Chord::Whole => {}

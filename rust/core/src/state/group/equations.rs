@@ -3,16 +3,16 @@
 //! Polynomials in unit vectors and slides; so derivatives are exact, and those of the loops by the
 //! coordinate (analogues) stand beside the equations themselves.
 
-use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::Along;
 use crate::plan::group_loops::{Chord, Group};
+use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Entry `k` of the edges, guides and chords.
     #[inline(always)]
-    pub(super) fn measure(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
+    pub(crate) fn measure(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
         let len = self.len;
         for (place, edge) in group.edges.iter().enumerate() {
             if edge.is_bar {
@@ -83,7 +83,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Entry `k` of the chords, from the edges.
     #[inline(always)]
-    pub(super) fn close_loops(&mut self, group: &Group, k: usize) {
+    pub(crate) fn close_loops(&mut self, group: &Group, k: usize) {
         let len = self.len;
         for (place, l) in group.loops.iter().enumerate() {
             let (start, end) = (&self.points[l.start * len + k], &self.points[l.end * len + k]);
@@ -109,7 +109,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Entry `k` of the vector in a chord's own frame, whose length it has.
     #[inline(always)]
-    pub(super) fn local(&self, g: usize, cx: &Context<'_>, e: usize, k: usize) -> Vector<R> {
+    pub(crate) fn local(&self, g: usize, cx: &Context<'_>, e: usize, k: usize) -> Vector<R> {
         let mut local = Vector::ZERO;
         if k == 0 {
             local = Vector::splat(cx.bound.rigid[e]);
@@ -123,7 +123,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// What the equations miss at order `k`.
     #[inline(always)]
-    pub(super) fn miss(&self, cx: &Context<'_>, group: &Group, k: usize, missing: &mut [[R; G]]) {
+    pub(crate) fn miss(&self, cx: &Context<'_>, group: &Group, k: usize, missing: &mut [[R; G]]) {
         let len = self.len;
         let mut row = 0;
         for (place, l) in group.loops.iter().enumerate() {
@@ -179,7 +179,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// The matrix of the equations and, behind it, what they miss.
     #[inline(always)]
-    pub(super) fn linearise(&self, cx: &Context<'_>, group: &Group, matrix: &mut [[R; G]]) {
+    pub(crate) fn linearise(&self, cx: &Context<'_>, group: &Group, matrix: &mut [[R; G]]) {
         let (len, n) = (self.len, group.rows);
         self.miss(cx, group, 0, &mut matrix[2 * n * n..]);
         let mut row = 0;
@@ -226,7 +226,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// The orientations of a class from its rotation.
     #[inline(always)]
-    pub(super) fn spread_rotation(
+    pub(crate) fn spread_rotation(
         &mut self,
         cx: &Context<'_>,
         orientations: &[usize],

@@ -6,11 +6,11 @@
 //! & Shigley 2017, chapters 3 and 4, by complex algebra). One function for all
 //! dyads, all orders, any number of drivers.
 
-use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::Along;
 use crate::plan::compile::{Dyad, Part, Unknown};
+use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Value and analogues of an orientation that the drivers alone give:
@@ -37,7 +37,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// What the drivers add to analogue `k` of an orientation's angle.
     #[inline(always)]
-    pub(super) fn driven(cx: &Context<'_>, o: usize, k: usize) -> R {
+    pub(crate) fn driven(cx: &Context<'_>, o: usize, k: usize) -> R {
         let turns = &cx.plan.orientations[o].turns;
         R::splat(if let Some(driver) = cx.jets.driver_of[k] {
             f64::from(turns[driver])

@@ -1,12 +1,12 @@
 //! How far a dyad is from flat, and polynomials through several states: what
 //! change points are found and passed with.
 
-use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::tolerance::CHANGE_MISFIT;
 use crate::math::vector::Vector;
 use crate::plan::Along;
 use crate::plan::compile::{Dyad, Form};
+use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// How far a dyad is from flat, with the sign of its assembly, and the rate of

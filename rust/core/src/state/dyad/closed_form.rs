@@ -58,7 +58,7 @@ impl<R: Real> Factor<R> {
 /// `a u₁ + b u₂ = k` for unit vectors u₁, u₂: the intersection of two circles. Gives the legs
 /// `a u₁` and `b u₂` (see [`Leg::turn_to`]). `sign` > 0: `a u₁` points to the left of `k`.
 #[inline(always)]
-pub(super) fn two_circles<R: Real>(
+pub(crate) fn two_circles<R: Real>(
     a: &Leg<R>,
     b: &Leg<R>,
     k: Vector<R>,
@@ -98,7 +98,7 @@ pub(super) fn two_circles<R: Real>(
 /// circle and a line. `sign` > 0: the slide is ahead of the foot of the
 /// perpendicular from the circle's centre.
 #[inline(always)]
-pub(super) fn circle_and_line<R: Real>(
+pub(crate) fn circle_and_line<R: Real>(
     a: &Leg<R>,
     b: Vector<R>,
     k: Vector<R>,
@@ -125,7 +125,7 @@ pub(super) fn circle_and_line<R: Real>(
 /// that turns with it. `sign` > 0: the slide is above the value at which it is
 /// nearest to the far joint. Third: 1/|k|².
 #[inline(always)]
-pub(super) fn turning_guide<R: Real>(
+pub(crate) fn turning_guide<R: Real>(
     a: Vector<R>,
     b: Vector<R>,
     k: Vector<R>,
@@ -154,7 +154,7 @@ pub(super) fn turning_guide<R: Real>(
 
 /// `s a + t b = k` for two slides along unit vectors (Cramer).
 #[inline(always)]
-pub(super) fn two_lines<R: Real>(a: Vector<R>, b: Vector<R>, k: Vector<R>) -> (R, R, Solved<R>) {
+pub(crate) fn two_lines<R: Real>(a: Vector<R>, b: Vector<R>, k: Vector<R>) -> (R, R, Solved<R>) {
     let determinant = a.cross(b);
     let (s, t) = (k.cross(b) / determinant, a.cross(k) / determinant);
     let solved = Solved {

@@ -7,7 +7,6 @@
 //! Processes, 1984). Work goes on in all groups of positions at once; each lane stops where its
 //! own steps end.
 
-use super::state::{Context, FLAT2, Fault, State, Status};
 use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{
@@ -17,6 +16,7 @@ use crate::math::vector::Vector;
 use crate::plan::Along;
 use crate::plan::compile::Unknown;
 use crate::plan::group_loops::{Chord, Group, Loop};
+use crate::state::state::{Context, FLAT2, Fault, State, Status};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves the group (step `index`) from where its unknowns are; not where `care` knows that
@@ -146,7 +146,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Condition of the group, whose inverse has this size, and of all that hangs on it.
     #[inline(always)]
-    pub(super) fn judge(
+    pub(crate) fn judge(
         &mut self,
         g: usize,
         cx: &Context<'_>,
@@ -197,7 +197,7 @@ impl<R: Real, const G: usize> State<R, G> {
 }
 
 /// How far the iteration is.
-pub(super) struct Work<R: Real, const G: usize> {
+pub(crate) struct Work<R: Real, const G: usize> {
     /// Lanes that need no more steps.
     pub done: [R::Mask; G],
     /// Square of the size of the last inverse.
@@ -210,7 +210,7 @@ pub(super) struct Work<R: Real, const G: usize> {
 
 impl<R: Real, const G: usize> Work<R, G> {
     #[inline(always)]
-    pub(super) fn new(done: [R::Mask; G]) -> Self {
+    pub(crate) fn new(done: [R::Mask; G]) -> Self {
         Self { done, size2: [R::ONE; G], first: [R::ZERO; G], rest: [R::ZERO; G] }
     }
 
@@ -239,7 +239,7 @@ impl<R: Real, const G: usize> Work<R, G> {
 
     /// Takes the size of the inverse.
     #[inline(always)]
-    pub(super) fn take_size(&mut self, size2: [R; G]) {
+    pub(crate) fn take_size(&mut self, size2: [R; G]) {
         for g in 0..G {
             self.size2[g] = R::select(self.done[g], self.size2[g], size2[g]);
         }
@@ -249,7 +249,7 @@ impl<R: Real, const G: usize> Work<R, G> {
     /// step, and where that was so long that the matrix is not that of the solution (beside a fold
     /// such a step leads to the other assembly).
     #[inline(always)]
-    pub(super) fn waits(&self, first: [R; G]) -> [R::Mask; G] {
+    pub(crate) fn waits(&self, first: [R; G]) -> [R::Mask; G] {
         let mut waits = self.done;
         for g in 0..G {
             let turned2 = first[g] * first[g] * self.size2[g];
@@ -269,7 +269,7 @@ impl<R: Real, const G: usize> Work<R, G> {
 
     /// Counts the two steps of a round.
     #[inline(always)]
-    pub(super) fn count(
+    pub(crate) fn count(
         &mut self,
         first: [R; G],
         second: [R; G],
@@ -296,7 +296,7 @@ impl<R: Real, const G: usize> Work<R, G> {
 /// A unit vector turned by a small angle, and a unit vector again: by Taylor's polynomials of the
 /// third degree, then one step of Newton's for 1/√.
 #[inline(always)]
-pub(super) fn turned<R: Real>(unit: Vector<R>, angle: R) -> Vector<R> {
+pub(crate) fn turned<R: Real>(unit: Vector<R>, angle: R) -> Vector<R> {
     let half2 = angle * angle * R::splat(0.5);
     let turn = Vector::new(R::ONE - half2, angle * (R::ONE - half2 * R::splat(1.0 / 3.0)));
     let new = unit * turn;

@@ -1,0 +1,9 @@
+//! One position at q: poses of all links, their analogues, and how they came out.
+
+pub(crate) mod dyad;
+pub(crate) mod group;
+pub(crate) mod own_condition;
+pub(crate) mod points;
+pub(crate) mod redundant;
+pub(crate) mod sensitivity;
+pub(crate) mod state;
