@@ -44,6 +44,8 @@
     allow(clippy::disallowed_methods, reason = "tests compare with the platform's functions")
 )]
 
+pub(crate) mod batch;
+pub(crate) mod branch;
 pub mod crank_rocker;
 pub mod description;
 pub mod dynamics;
@@ -51,6 +53,7 @@ pub mod math;
 pub mod motion;
 pub mod ode;
 pub mod plan;
+pub(crate) mod query;
 pub mod slider_crank;
 pub(crate) mod state;
 pub mod structure;

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::design::Design;
+use crate::branch::design::Design;
 use crate::description::error::{SolveError, number};
 use crate::math::derivatives::Jets;
 use crate::plan::mechanism::Mechanism;

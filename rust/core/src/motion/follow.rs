@@ -1,9 +1,9 @@
 //! One design, one position after another: what a motion in time asks for.
 
-use super::bridge::Bridge;
-use super::design::{Design, Place, Units};
-use super::track::Track;
-use super::walk::{Seed, Start};
+use crate::branch::branch::Track;
+use crate::branch::change_interpolant::Bridge;
+use crate::branch::design::{Design, Place, Units};
+use crate::branch::tracer::{Seed, Start};
 use crate::math::angle::nearest;
 use crate::math::derivatives::Jets;
 use crate::plan::compile::{Dyad, Unknown};

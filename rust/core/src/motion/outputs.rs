@@ -2,8 +2,8 @@
 
 use std::mem::MaybeUninit;
 
-use super::design::Units;
 use super::stream;
+use crate::branch::design::Units;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;

@@ -4,15 +4,15 @@
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::design::Design;
 use super::outputs::{Column, Rows, Writer};
 use super::parallel::Control;
-use super::quick::Quick;
 use super::simd;
 use super::simd::Level;
 use super::solve::Request;
 use super::stream;
-use super::track::Spot;
+use crate::branch::branch::Spot;
+use crate::branch::design::Design;
+use crate::branch::uniform::Quick;
 use crate::math::angle::nearest;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};

@@ -5,32 +5,32 @@
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
 
-use super::change::may_touch;
-use super::simd::Level;
-pub(crate) use super::template::Template;
-use super::track::{CELLS_A_TURN, Track};
-use super::walk::{Seed, Stretch};
+use super::branch::{CELLS_A_TURN, Track};
+use super::change_point::may_touch;
+pub(crate) use super::reference::Template;
+use super::tracer::{Seed, Stretch};
 use crate::math::angle::turns_between;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};
 use crate::math::tolerance::LIFT_TURN;
 use crate::math::vector::Vector;
+use crate::motion::simd::Level;
 use crate::plan::Plan;
 use crate::plan::compile::Form;
 use crate::state::state::{Context, State};
 
 /// Knots of a turn, its end included.
-pub(super) const KNOTS: usize = CELLS_A_TURN as usize + 1;
+pub(crate) const KNOTS: usize = CELLS_A_TURN as usize + 1;
 /// Groups of them.
-pub(super) const GROUPS: usize = KNOTS / LANES;
+pub(crate) const GROUPS: usize = KNOTS / LANES;
 /// One cell.
-pub(super) const CELL: f64 = TAU / CELLS_A_TURN as f64;
+pub(crate) const CELL: f64 = TAU / CELLS_A_TURN as f64;
 
 /// Work space: for every knot what the walk asks of it.
 #[derive(Debug)]
 pub(crate) struct Quick {
     /// All knots.
-    pub(super) state: State<Lanes, GROUPS>,
+    pub(crate) state: State<Lanes, GROUPS>,
     /// Drawing's angle that the knots below are for, the same for all designs.
     q0: f64,
     /// Angles of the driver, eight a group, and their unit vectors.
@@ -38,14 +38,14 @@ pub(crate) struct Quick {
     /// Spread and rate of every dyad with a sign at the last knot.
     spread: Vec<(f64, f64)>,
     /// Angle of every class at the last knot, and its whole turns until there.
-    pub(super) last: Vec<(f64, f64)>,
+    pub(crate) last: Vec<(f64, f64)>,
     /// On which side of parallel the guides of every dyad of two known directions are, at
     /// the knots before.
     sides: Vec<bool>,
     /// Unknowns of groups at the knots of the drawing's way; asked for once.
-    pub(super) template: OnceCell<Option<Template>>,
+    pub(crate) template: OnceCell<Option<Template>>,
     /// Unknowns of groups at the knots, one after another.
-    pub(super) seeds: Vec<Seed>,
+    pub(crate) seeds: Vec<Seed>,
 }
 
 impl Quick {
@@ -202,7 +202,7 @@ impl Quick {
 
 /// Eight knots of the way from `q0`, from one on.
 #[inline(always)]
-pub(super) fn knots_at(q0: f64, first: usize) -> Lanes {
+pub(crate) fn knots_at(q0: f64, first: usize) -> Lanes {
     Lanes::from_lanes(|lane| {
         let turned = ((first + lane) as f64) / f64::from(CELLS_A_TURN);
         q0 + TAU * turned

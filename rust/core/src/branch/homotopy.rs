@@ -4,7 +4,7 @@
 //! the design's.
 
 use super::design::Design;
-use super::walk::{STRAY, Seed};
+use super::tracer::{STRAY, Seed};
 use crate::description::Driver;
 use crate::math::vector::Vector;
 use crate::plan::Step;
@@ -19,9 +19,9 @@ const MOST_PARTS: u32 = 10_000;
 
 /// How far (rad, or of the size) the first step of the iteration may go, which follows what
 /// changes to the first order: other assemblies are farther.
-pub(super) const FIRST_STEP: f64 = 0.25;
+pub(crate) const FIRST_STEP: f64 = 0.25;
 /// And all others together.
-pub(super) const LATER_STEPS: f64 = STRAY;
+pub(crate) const LATER_STEPS: f64 = STRAY;
 
 impl Design<'_> {
     /// Unknowns of the groups at the drawing's coordinate, for dimensions `values` that are bound.

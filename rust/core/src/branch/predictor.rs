@@ -1,8 +1,8 @@
 //! The unknowns of groups along a way: where the iteration for a position begins.
 
-use super::cell::small_turn;
-use super::track::{Spot, Track};
-use super::walk::{Knot, Seed, Start, Walker};
+use super::branch::{Spot, Track};
+use super::hermite::small_turn;
+use super::tracer::{Knot, Seed, Start, Walker};
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::math::vector::Vector;
 use crate::state::state::{Context, State};
@@ -47,7 +47,7 @@ impl Track {
     }
 
     /// The unknowns of groups at a place in the cell after a knot.
-    pub(super) fn seeds(&self, knot: usize, place: f64) -> Vec<Seed> {
+    pub(crate) fn seeds(&self, knot: usize, place: f64) -> Vec<Seed> {
         let count = self.cells.len() / self.at.len().max(1);
         let step = place - self.at[knot];
         self.cells[knot * count..][..count].iter().map(|cell| [cell.at(step), 0.0, 0.0]).collect()

@@ -4,17 +4,17 @@
 use std::borrow::Cow;
 use std::cell::RefCell;
 
-use super::bridge::{Bridge, Span};
-use super::change::Change;
-use super::quick::Quick;
-use super::simd::Level;
-use super::template::Template;
-use super::track::{Spot, Track};
-use super::walk::{Seed, Start};
+use super::branch::{Spot, Track};
+use super::change_interpolant::{Bridge, Span};
+use super::change_point::Change;
+use super::reference::Template;
+use super::tracer::{Seed, Start};
+use super::uniform::Quick;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
 use crate::math::vector::Vector;
+use crate::motion::simd::Level;
 use crate::plan::Step;
 use crate::plan::compile::Unknown;
 use crate::plan::constants::Bound;

@@ -1,13 +1,13 @@
 //! What is told of an unknown of a group between two knots of the way.
 
-use super::walk::Seed;
+use super::tracer::Seed;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::compile::Unknown;
 
 /// A polynomial in the distance from a knot, of the fifth degree.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cell {
+pub(crate) struct Cell {
     /// From the constant on.
     pub coefficients: [f64; 6],
     /// Unit vector at the knot's angle.
@@ -18,7 +18,7 @@ impl Cell {
     /// Through values and two derivatives at both ends of a cell of width `h` (Hermite's); of the
     /// second degree if nothing is beyond.
     #[inline(always)]
-    pub(super) fn new(a: &Seed, b: Option<&Seed>, h: f64, unit: Vector) -> Self {
+    pub(crate) fn new(a: &Seed, b: Option<&Seed>, h: f64, unit: Vector) -> Self {
         let &[value, rate, second] = a;
         let coefficients = [value, rate, 0.5 * second, 0.0, 0.0, 0.0];
         let Some(&[end, end_rate, end_second]) = b else { return Self { coefficients, unit } };
@@ -36,7 +36,7 @@ impl Cell {
     }
 
     /// Of an unknown between two knots of a walk.
-    pub(super) fn of(unknown: Unknown, a: &Seed, b: Option<&Seed>, h: f64) -> Self {
+    pub(crate) fn of(unknown: Unknown, a: &Seed, b: Option<&Seed>, h: f64) -> Self {
         let unit = match unknown {
             Unknown::Class(_) => Vector::at_angle(a[0]),
             Unknown::Slide(_) => Vector::ONE,
@@ -45,7 +45,7 @@ impl Cell {
     }
 
     /// The unknown at a distance from the knot.
-    pub(super) fn at(&self, step: f64) -> f64 {
+    pub(crate) fn at(&self, step: f64) -> f64 {
         self.coefficients.iter().rev().fold(0.0, |sum, c| sum * step + c)
     }
 }
@@ -54,7 +54,7 @@ impl Cell {
 /// (Taylor's polynomials), its length to the last bit (a step of Newton's for 1/√). The iteration
 /// mends directions by the second order, but a wrong length only by the first.
 #[inline(always)]
-pub(super) fn small_turn<R: Real>(angle: R) -> Vector<R> {
+pub(crate) fn small_turn<R: Real>(angle: R) -> Vector<R> {
     let x2 = angle * angle;
     let (mut cosine, mut sine) = (R::splat(COSINE[0]), R::splat(SINE[0]));
     for (c, s) in COSINE[1..].iter().zip(&SINE[1..]) {

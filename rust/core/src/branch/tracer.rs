@@ -3,9 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use super::cell::Cell;
-use super::change;
-use super::change::{Change, may_touch};
+use super::change_point as change;
+use super::change_point::{Change, may_touch};
+use super::hermite::Cell;
 use crate::math::angle::nearest;
 use crate::math::tolerance::{LIFT_HALVINGS, LIFT_TURN};
 use crate::math::vector::Vector;
@@ -489,12 +489,12 @@ fn apart(a: &Seed, b: &Seed, cell: f64) -> f64 {
 }
 
 /// Whether an unknown, a cell further, is not surely where the way leads.
-pub(super) fn strays(a: &Seed, b: &Seed, cell: f64) -> bool {
+pub(crate) fn strays(a: &Seed, b: &Seed, cell: f64) -> bool {
     apart(a, b, cell) > STRAY
 }
 
 /// Whether an unknown is, some turns on, what it was.
-pub(super) fn returns(unknown: Unknown, a: &Seed, b: &Seed) -> bool {
+pub(crate) fn returns(unknown: Unknown, a: &Seed, b: &Seed) -> bool {
     let apart = match unknown {
         Unknown::Class(_) => (b[0] - a[0]) - TAU * ((b[0] - a[0]) / TAU).round(),
         Unknown::Slide(_) => b[0] - a[0],

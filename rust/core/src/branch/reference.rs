@@ -6,11 +6,11 @@
 
 use std::f64::consts::TAU;
 
-use super::cell::Cell;
-use super::home::{FIRST_STEP, LATER_STEPS};
-use super::quick::{CELL, GROUPS, KNOTS, Quick, knots_at};
-use super::track::Track;
-use super::walk::{returns, strays};
+use super::branch::Track;
+use super::hermite::Cell;
+use super::homotopy::{FIRST_STEP, LATER_STEPS};
+use super::tracer::{returns, strays};
+use super::uniform::{CELL, GROUPS, KNOTS, Quick, knots_at};
 use crate::math::lanes::{LANES, Lanes, Real};
 use crate::math::vector::Vector;
 use crate::plan::Plan;
@@ -28,7 +28,7 @@ pub(crate) struct Template {
 
 impl Template {
     /// From a way from `q0` that returns after one turn, of a design of this scale.
-    pub(super) fn of(plan: &Plan, track: &Track, q0: f64, scale: f64) -> Option<Self> {
+    pub(crate) fn of(plan: &Plan, track: &Track, q0: f64, scale: f64) -> Option<Self> {
         if track.period != Some(TAU) {
             return None;
         }
@@ -53,7 +53,7 @@ impl Template {
 impl Quick {
     /// The unknowns of groups where the drawing has them, as the iteration's first guess.
     #[inline(always)]
-    pub(super) fn guess(&mut self, cx: &Context<'_>) {
+    pub(crate) fn guess(&mut self, cx: &Context<'_>) {
         let Some(Some(template)) = self.template.get() else { return };
         let per = Lanes::splat(1.0 / cx.bound.scale);
         let unknowns = cx.plan.groups().flat_map(|group| &group.unknowns);
@@ -70,7 +70,7 @@ impl Quick {
     /// Lays the polynomials of the groups' unknowns; false if one is not surely the same
     /// assembly as at the knot before, or as in the drawing.
     #[inline(always)]
-    pub(super) fn lay_cells(&mut self, cx: &Context<'_>, track: &mut Track) -> bool {
+    pub(crate) fn lay_cells(&mut self, cx: &Context<'_>, track: &mut Track) -> bool {
         track.cells.clear();
         let Some(Some(template)) = self.template.get() else { return true };
         let state = &self.state;

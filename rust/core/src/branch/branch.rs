@@ -9,9 +9,9 @@
 
 use std::f64::consts::TAU;
 
-use super::cell::Cell;
-use super::change::Change;
-use super::walk::{Knot, Start, Stretch, Walker};
+use super::change_point::Change;
+use super::hermite::Cell;
+use super::tracer::{Knot, Start, Stretch, Walker};
 use crate::math::angle::{less_turns, whole_part};
 use crate::math::lanes::{LANES, Real};
 use crate::plan::Plan;
@@ -19,7 +19,7 @@ use crate::state::state::{Context, State};
 
 /// Cells in a turn of a driven angle: knots fill the lanes of four groups, and an odd
 /// number keeps them off the places half a turn from the drawing.
-pub(super) const CELLS_A_TURN: u32 = 31;
+pub(crate) const CELLS_A_TURN: u32 = 31;
 /// Cells in a unit (of the scale, or rad) of a driven slide's way and of a straight one.
 const CELLS_A_LENGTH: f64 = 16.0;
 /// Steps of a cell in which an island that no knot has seen is measured.
@@ -33,38 +33,38 @@ const MOST_TURNS: u32 = 64;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Track {
     /// Parameters of the knots.
-    pub(super) at: Vec<f64>,
+    pub(crate) at: Vec<f64>,
     /// Whether they can be reached.
-    pub(super) reached: Vec<bool>,
+    pub(crate) reached: Vec<bool>,
     /// Lifted angle of every class at every knot (where not reached: at the last that was).
-    pub(super) angles: Vec<f64>,
-    pub(super) stretches: Vec<Stretch>,
-    pub(super) changes: Vec<Change>,
+    pub(crate) angles: Vec<f64>,
+    pub(crate) stretches: Vec<Stretch>,
+    pub(crate) changes: Vec<Change>,
     /// Gain of every class over a period.
-    pub(super) gain: Vec<f64>,
-    pub(super) period: Option<f64>,
+    pub(crate) gain: Vec<f64>,
+    pub(crate) period: Option<f64>,
     /// Where the way is known; none: everywhere.
-    pub(super) covered: Option<[f64; 2]>,
+    pub(crate) covered: Option<[f64; 2]>,
     /// Of every cell after a knot, the groups' unknowns.
-    pub(super) cells: Vec<Cell>,
+    pub(crate) cells: Vec<Cell>,
     /// Signs of the groups' determinants where the way begins.
-    pub(super) bends: Vec<bool>,
+    pub(crate) bends: Vec<bool>,
     /// Knots a unit of the parameter, if all are reached and equally spaced.
-    pub(super) even: Option<f64>,
+    pub(crate) even: Option<f64>,
 }
 
 /// Places on a track, one a lane.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Spot<R = f64> {
     /// The parameter within the first period.
-    pub(super) place: R,
+    pub(crate) place: R,
     /// Whole periods before it.
     whole: R,
     /// The knot that tells the angles.
-    pub(super) knot: [usize; LANES],
+    pub(crate) knot: [usize; LANES],
     /// The first and the last of these, if there are no others; and 1 where it is the last.
-    pub(super) pair: Option<[usize; 2]>,
-    pub(super) is_last: R,
+    pub(crate) pair: Option<[usize; 2]>,
+    pub(crate) is_last: R,
 }
 
 impl Track {
@@ -263,7 +263,7 @@ impl Track {
 
     /// The parameter within the first period, and whole periods before it.
     #[inline(always)]
-    pub(super) fn reduced<R: Real>(&self, at: R) -> (R, R) {
+    pub(crate) fn reduced<R: Real>(&self, at: R) -> (R, R) {
         let (Some(&first), Some(period)) = (self.at.first(), self.period) else {
             return (at, R::ZERO);
         };

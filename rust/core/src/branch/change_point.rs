@@ -7,7 +7,7 @@
 //! distance where nothing is singular, tells a change point (0, to rounding) from
 //! a near miss (positive) and from a gap between two dead points (negative).
 
-use super::walk::{Knot, Walker};
+use super::tracer::{Knot, Walker};
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{
     CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,

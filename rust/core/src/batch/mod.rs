@@ -1,0 +1,1 @@
+//! Designs × positions: a request solved into arrays, in blocks, on all cores.

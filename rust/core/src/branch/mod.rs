@@ -1,0 +1,12 @@
+//! The assembly, continued along q from the drawing: which sign a dyad has and where a group is.
+
+pub(crate) mod branch;
+pub(crate) mod change_interpolant;
+pub(crate) mod change_point;
+pub(crate) mod design;
+pub(crate) mod hermite;
+pub(crate) mod homotopy;
+pub(crate) mod predictor;
+pub(crate) mod reference;
+pub(crate) mod tracer;
+pub(crate) mod uniform;
