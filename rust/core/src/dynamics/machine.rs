@@ -10,8 +10,8 @@ use super::table::Table;
 use super::value::Numbers;
 use crate::math::derivatives::Jets;
 use crate::math::vector::Vector;
-use crate::motion::follow::{Asked, Follower};
 use crate::plan::mechanism::Mechanism;
+use crate::query::evaluator::{Asked, Follower};
 use crate::state::state::Status;
 
 /// Mass of a link.

@@ -3,7 +3,7 @@
 
 use crate::math::derivatives::Jets;
 use crate::math::vector::Vector;
-use crate::motion::follow::Position;
+use crate::query::evaluator::Position;
 use crate::structure::closure::point_of_joint;
 
 /// Something that moves with a mechanism.

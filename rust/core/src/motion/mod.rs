@@ -1,8 +1,5 @@
 //! Motions: designs × positions, with analogues.
 
-pub(crate) mod explain;
-pub(crate) mod follow;
-pub mod metrics;
 pub(crate) mod outputs;
 pub(crate) mod parallel;
 pub(crate) mod rows;
@@ -13,8 +10,8 @@ pub(crate) mod stream;
 pub mod test_hooks;
 
 pub use crate::math::simd::Simd;
+pub use crate::query::diagnosis::Diagnosis;
 pub use crate::state::state::{Fault, Status};
-pub use explain::Diagnosis;
 pub use outputs::{Column, Outputs, Quantity};
 pub use parallel::Control;
 pub use solve::{Arrays, Coordinates, Motion, Request, Track, fill, solve};

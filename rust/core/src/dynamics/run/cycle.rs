@@ -11,12 +11,12 @@ use super::outside::Outside;
 use super::source::Source;
 use super::steady::Search;
 use super::unsteady::Unsteady;
-use crate::motion::follow::NearMiss;
 use crate::ode::error::Error;
 use crate::ode::integrate::Integrator;
 use crate::ode::options::{Keep, Options};
 use crate::ode::solution::{End, Solution};
 use crate::ode::system::{Action, Crossing, Fault, System};
+use crate::query::evaluator::NearMiss;
 
 /// Where a period begins.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -13,13 +13,13 @@ use super::way::{Ended, Way};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::table::Table;
 use crate::math::derivatives::Jets;
-use crate::motion::follow::NearMiss;
 use crate::ode::error::Error;
 use crate::ode::integrate::Integrator;
 use crate::ode::options::{Keep, Options};
 use crate::ode::solution::{End, Solution};
 use crate::ode::system::System;
 use crate::plan::mechanism::Mechanism;
+use crate::query::evaluator::NearMiss;
 use crate::state::state::Status;
 
 /// What a run cannot be made for.

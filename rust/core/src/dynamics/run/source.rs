@@ -9,8 +9,8 @@ use crate::dynamics::table::Table;
 use crate::dynamics::value::Numbers;
 use crate::math::derivatives::Jets;
 use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
-use crate::motion::follow::{Asked, Follower, NearMiss};
 use crate::plan::mechanism::Mechanism;
+use crate::query::evaluator::{Asked, Follower, NearMiss};
 use crate::state::state::Status;
 
 /// A machine, place after place.
