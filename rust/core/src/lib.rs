@@ -44,7 +44,7 @@
     allow(clippy::disallowed_methods, reason = "tests compare with the platform's functions")
 )]
 
-pub(crate) mod batch;
+pub mod batch;
 pub(crate) mod branch;
 pub mod crank_rocker;
 pub mod description;
@@ -53,11 +53,13 @@ pub mod math;
 pub mod motion;
 pub mod ode;
 pub mod plan;
-pub(crate) mod query;
+pub mod query;
 pub mod slider_crank;
 pub(crate) mod state;
 pub mod structure;
 
+pub use batch::outputs::Outputs;
+pub use batch::solve::{Coordinates, Motion, Request, Track};
 pub use description::class_iv::ClassIv;
 pub use description::dimension::{Dimension, Dimensions};
 pub use description::error::{Named, SolveError, StructureError};
@@ -65,8 +67,6 @@ pub use description::four_bar::{FourBar, FourBarMode};
 pub use description::slider_crank::SliderCrank;
 pub use description::{Description, Driver, DriverDescription, Linkage, SlideDescription};
 pub use math::vector::Vector;
-pub use motion::outputs::Outputs;
-pub use motion::solve::{Coordinates, Motion, Request, Track};
 pub use plan::mechanism::Mechanism;
 pub use query::diagnosis::Diagnosis;
 pub use state::state::Status;

@@ -12,8 +12,6 @@ use crate::description::names::nearest;
 use crate::description::{Description, Linkage};
 use crate::math::tolerance::{FLAT_SINE, NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
 use crate::math::vector::Vector;
-use crate::motion::parallel::Control;
-use crate::motion::solve::{Motion, Request};
 use crate::state::state::Status;
 use crate::structure::adjust::Adjusted;
 use crate::structure::closure::Closure;
@@ -188,29 +186,6 @@ impl Mechanism {
     #[must_use]
     pub fn signs(&self) -> &[i8] {
         &self.signs
-    }
-
-    /// Solves designs at positions.
-    ///
-    /// # Errors
-    ///
-    /// [`SolveError`] for what concerns the whole request (shapes, orders); single positions that cannot be had get NaN and a
-    /// status.
-    pub fn solve(&self, request: &Request<'_>) -> Result<Motion, SolveError> {
-        self.solve_with(request, &Control::default())
-    }
-
-    /// Solves a request on as many threads and with such vector instructions as `control` says.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Mechanism::solve`]; [`SolveError::Interrupted`] if `control` was cancelled.
-    pub fn solve_with(
-        &self,
-        request: &Request<'_>,
-        control: &Control<'_>,
-    ) -> Result<Motion, SolveError> {
-        crate::motion::solve(self, request, control)
     }
 
     /// Refuses what cannot be solved yet.

@@ -7,7 +7,7 @@ use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
 /// Numbers from which on they are stored so: 32 MiB, about what the last cache of a machine holds.
-pub(super) const LEAST: usize = 4 << 20;
+pub(crate) const LEAST: usize = 4 << 20;
 
 /// Whether points may be stored so here.
 #[inline(always)]
@@ -19,7 +19,7 @@ fn is_aligned(out: &[MaybeUninit<f64>]) -> bool {
 /// not even this thread; where it is not aligned these are plain stores.
 #[inline(always)]
 #[allow(unsafe_code, reason = "only the instruction itself stores so")]
-pub(super) fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
+pub(crate) fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
     let out = &mut out[..2 * R::LANES];
     if is_aligned(out) {
         for (lane, pair) in out.as_chunks_mut::<2>().0.iter_mut().enumerate() {
@@ -56,7 +56,7 @@ unsafe fn store_pair(pair: &mut [MaybeUninit<f64>; 2], numbers: [f64; 2]) {
 
 /// After this such stores are seen by other threads, and this one may store there again.
 #[allow(unsafe_code, reason = "only the instruction itself waits for them")]
-pub(super) fn fence() {
+pub(crate) fn fence() {
     #[cfg(target_arch = "x86_64")]
     // SAFETY: every x86-64 has SSE.
     unsafe {

@@ -4,12 +4,12 @@
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::dispatch as simd;
+use super::dispatch::Level;
 use super::outputs::{Column, Rows, Writer};
-use super::parallel::Control;
-use super::simd;
-use super::simd::Level;
+use super::schedule::Control;
 use super::solve::Request;
-use super::stream;
+use super::streaming_store as stream;
 use crate::branch::branch::Spot;
 use crate::branch::design::Design;
 use crate::branch::uniform::Quick;

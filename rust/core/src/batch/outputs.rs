@@ -2,7 +2,7 @@
 
 use std::mem::MaybeUninit;
 
-use super::stream;
+use super::streaming_store as stream;
 use crate::branch::design::Units;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::Real;
@@ -67,7 +67,7 @@ pub struct Column {
 }
 
 /// The arrays that a request fills, in order.
-pub(super) fn columns(outputs: &Outputs, drivers: usize, order: usize) -> Vec<Column> {
+pub(crate) fn columns(outputs: &Outputs, drivers: usize, order: usize) -> Vec<Column> {
     let joints = outputs.joints.iter().map(|&i| (Quantity::Joint(i), 2));
     let places = outputs.places.iter().map(|&i| (Quantity::Place(i), 2));
     let slides = outputs.slides.iter().map(|&i| (Quantity::Slide(i), 1));

@@ -11,7 +11,7 @@ pub fn panic_in_chunk(number: usize) {
     CHUNKS.store(number, Ordering::SeqCst);
 }
 
-pub(super) fn before_chunk() {
+pub(crate) fn before_chunk() {
     let less = |left: usize| left.checked_sub(1);
     let before = CHUNKS.fetch_update(Ordering::SeqCst, Ordering::SeqCst, less);
     assert!(before != Ok(1), "a panic on purpose");

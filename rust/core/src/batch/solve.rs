@@ -3,9 +3,9 @@
 use std::mem::MaybeUninit;
 
 use super::outputs::{Column, Outputs, Quantity, Writer, columns};
-use super::parallel::{Chunks, Control};
-use super::rows::{Job, Worker};
-use super::stream;
+use super::schedule::{Chunks, Control};
+use super::streaming_store as stream;
+use super::worker::{Job, Worker};
 use crate::description::error::SolveError;
 use crate::math::derivatives::Jets;
 use crate::plan::Step;
@@ -117,6 +117,32 @@ impl Request<'_> {
     ) -> Result<(), SolveError> {
         let [designs, positions] = self.shape(mechanism)?;
         check_arrays(&self.columns(mechanism), arrays, product(designs, positions)?)
+    }
+}
+
+impl Mechanism {
+    /// Solves designs at positions.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError`] for what concerns the whole request (shapes, orders). Single positions that
+    /// cannot be had are NaN and have a
+    /// status of their own.
+    pub fn solve(&self, request: &Request<'_>) -> Result<Motion, SolveError> {
+        self.solve_with(request, &Control::default())
+    }
+
+    /// Solves a request on as many threads and with such vector instructions as `control` says.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::solve`]; [`SolveError::Interrupted`] if `control` was cancelled.
+    pub fn solve_with(
+        &self,
+        request: &Request<'_>,
+        control: &Control<'_>,
+    ) -> Result<Motion, SolveError> {
+        solve(self, request, control)
     }
 }
 

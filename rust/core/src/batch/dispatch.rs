@@ -1,7 +1,7 @@
 //! One compiled copy of the executor for each set of vector instructions, chosen when
 //! it runs. All give the same bits: each operation is rounded by itself.
 
-use super::rows::{Job, Worker};
+use super::worker::{Job, Worker};
 use crate::math::lanes::Lanes;
 use crate::math::simd::Simd;
 use crate::plan::group_loops::Group;
@@ -40,7 +40,7 @@ pub(crate) fn solve(simd: Simd, worker: &mut Worker<'_>, job: &mut Job<'_, '_>) 
 mod baseline {
     use super::{Context, Group, Job, Lanes, Level, State, Worker};
 
-    pub(super) struct Baseline;
+    pub(crate) struct Baseline;
 
     impl Level for Baseline {
         #[inline(never)]
@@ -71,7 +71,7 @@ macro_rules! level {
         mod $module {
             use super::{Context, Group, Job, Lanes, Level, State, Worker};
 
-            pub(super) struct $level;
+            pub(crate) struct $level;
 
             impl Level for $level {
                 #[inline(always)]
