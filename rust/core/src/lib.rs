@@ -52,6 +52,7 @@ pub mod dynamics;
 pub mod math;
 pub mod motion;
 pub mod ode;
+pub mod papers;
 pub mod plan;
 pub mod query;
 pub mod slider_crank;

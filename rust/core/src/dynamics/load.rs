@@ -2,7 +2,7 @@
 //! product with the derivatives of what it acts on (I. M. Matsyuk & E. M. Shlyakhov, equation 1; Uicker,
 //! Pennock & Shigley 2017, chapter 12).
 
-use super::pose::{Point, Pose};
+use super::kinematics::{Point, Pose};
 use super::reduced::Reduced;
 use super::value::{Numbers, Value};
 use crate::math::vector::Vector;
@@ -80,7 +80,7 @@ fn along(pose: &Pose<'_>, ends: [Point; 2]) -> (Vector, f64) {
 
 impl Load {
     /// Adds the force of a spring, which its energy tells, and that energy.
-    pub(super) fn store(&self, pose: &Pose<'_>, out: &mut Reduced) {
+    pub(crate) fn store(&self, pose: &Pose<'_>, out: &mut Reduced) {
         match self {
             Self::Spring { ends, stiffness, length, preload } => {
                 let (unit, now) = along(pose, *ends);
@@ -107,7 +107,7 @@ impl Load {
     }
 
     /// Adds what anything but a spring does to every driver at speeds.
-    pub(super) fn apply(
+    pub(crate) fn apply(
         &self,
         pose: &Pose<'_>,
         speed: &[f64],

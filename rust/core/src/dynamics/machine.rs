@@ -2,11 +2,11 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::kinematics::{Point, Pose};
 use super::load::Load;
 use super::motor::Motor;
-use super::pose::{Point, Pose};
 use super::reduced::Reduced;
-use super::table::Table;
+use super::tables::table::Table;
 use super::value::Numbers;
 use crate::math::derivatives::Jets;
 use crate::math::vector::Vector;
@@ -107,12 +107,12 @@ impl Machine {
     }
 
     /// Whether a load asks for angles themselves.
-    pub(super) fn has_torsion(&self) -> bool {
+    pub(crate) fn has_torsion(&self) -> bool {
         self.loads.iter().any(|load| matches!(load, Load::TorsionSpring { .. }))
     }
 
     /// Inertia, weights and springs at a position.
-    pub(super) fn place(&self, pose: &Pose<'_>, out: &mut Reduced) {
+    pub(crate) fn place(&self, pose: &Pose<'_>, out: &mut Reduced) {
         out.clear();
         let n = out.stored.len();
         for motor in &self.motors {
@@ -128,7 +128,7 @@ impl Machine {
     }
 
     /// All other loads there, at speeds.
-    pub(super) fn load(
+    pub(crate) fn load(
         &self,
         pose: &Pose<'_>,
         speed: &[f64],

@@ -17,37 +17,35 @@
 //! # Ok::<(), assur::dynamics::TableError>(())
 //! ```
 
-pub(crate) mod error;
+pub(crate) mod angle_between;
 pub(crate) mod flywheel;
-pub(crate) mod line;
+pub(crate) mod kinematics;
 pub(crate) mod load;
 pub(crate) mod machine;
 pub(crate) mod motor;
-pub(crate) mod pose;
 pub(crate) mod reduced;
 pub(crate) mod run;
-pub(crate) mod spline;
-pub(crate) mod table;
-pub(crate) mod turn;
+pub(crate) mod steady;
+pub(crate) mod tables;
 pub(crate) mod value;
 
-pub use error::TableError;
-pub use flywheel::{Flywheel, Mean};
-pub use line::{Angle, Line};
+pub use angle_between::{Angle, Line};
+pub use flywheel::cycle::{Extreme, Turn};
+pub use flywheel::flywheel::{Flywheel, Mean};
+pub use kinematics::Point;
 pub use load::Load;
 pub use machine::{Body, Machine, Rows};
 pub use motor::{Characteristic, Motor};
-pub use pose::Point;
-pub use run::broken::Broken;
-pub use run::evened::Wanted;
-pub use run::make::RunError;
-pub use run::outcome::{Ending, Happened, Moment, Moments, Run};
-pub use run::outside::{Nothing, Outside};
-pub use run::source::Sheet;
-pub use run::steady::{Search, Steady};
-pub use run::task::{Along, Occasion, Task, Watch};
-pub use run::unsteady::Unsteady;
-pub use spline::{Ends, Pieces, spline};
-pub use table::Table;
-pub use turn::{Extreme, Turn};
+pub use run::callbacks::{Nothing, Outside};
+pub use run::error::Broken;
+pub use run::integrate::RunError;
+pub use run::model::Sheet;
+pub use run::options::{Along, Occasion, Task, Watch};
+pub use run::trajectory::{Ending, Happened, Moment, Moments, Run};
+pub use steady::error::Unsteady;
+pub use steady::flywheel_sizing::Wanted;
+pub use steady::steady::{Search, Steady};
+pub use tables::error::TableError;
+pub use tables::spline::{Ends, Pieces, spline};
+pub use tables::table::Table;
 pub use value::Value;

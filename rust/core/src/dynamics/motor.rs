@@ -1,6 +1,6 @@
 //! Motors: torque over speed.
 
-use super::table::{Cell, Table};
+use super::tables::table::{Cell, Table};
 use super::value::{Numbers, Value};
 
 /// A motor that turns (or moves) a driver through a gear.
@@ -44,7 +44,7 @@ pub enum Characteristic {
 impl Motor {
     /// Moment on the driver and its derivative by the driver's speed; a table is read in `cell`.
     #[inline]
-    pub(super) fn moment(&self, speed: f64, cell: Cell, numbers: Numbers<'_>) -> [f64; 2] {
+    pub(crate) fn moment(&self, speed: f64, cell: Cell, numbers: Numbers<'_>) -> [f64; 2] {
         let own = self.ratio * speed;
         let [torque, slope] = match &self.characteristic {
             Characteristic::Value(value) => {
@@ -73,7 +73,7 @@ impl Motor {
     }
 
     /// Its table over its own speed.
-    pub(super) fn table(&self) -> Option<&Table> {
+    pub(crate) fn table(&self) -> Option<&Table> {
         match &self.characteristic {
             Characteristic::Table(table) => Some(table),
             _ => None,
@@ -96,7 +96,7 @@ impl Motor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::spline::Ends;
+    use crate::dynamics::tables::spline::Ends;
 
     fn motor(characteristic: Characteristic) -> Motor {
         Motor { driver: 0, ratio: 4.0, rotor_inertia: 0.5, characteristic }

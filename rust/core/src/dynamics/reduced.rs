@@ -1,7 +1,7 @@
 //! A machine referred to its drivers at one place.
 
+use super::kinematics::Pose;
 use super::machine::Body;
-use super::pose::Pose;
 use crate::math::vector::Vector;
 
 /// Inertia, forces and energy of a machine, referred to its drivers.
@@ -68,7 +68,7 @@ impl Reduced {
     }
 
     /// Begins a place.
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.inertia.fill(0.0);
         self.rates.fill(0.0);
         self.stored.fill(0.0);
@@ -77,7 +77,7 @@ impl Reduced {
 
     /// Adds a body: Σ m ∂S·∂S + I ∂Θ ∂Θ (I. M. Matsyuk & E. M. Shlyakhov, equation 2), its
     /// derivatives from second analogues, and its weight.
-    pub(super) fn add(&mut self, pose: &Pose<'_>, body: &Body, gravity: Vector) {
+    pub(crate) fn add(&mut self, pose: &Pose<'_>, body: &Body, gravity: Vector) {
         let n = self.stored.len();
         let first = |a: usize| {
             let k = Pose::first(a);

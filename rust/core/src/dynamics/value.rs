@@ -13,7 +13,7 @@ pub enum Value {
 
 /// What is read at a place.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Numbers<'a> {
+pub(crate) struct Numbers<'a> {
     /// Value of every table, and its slope.
     pub tables: &'a [[f64; 2]],
     /// Numbers from outside, and their slopes by the speed.
@@ -21,7 +21,7 @@ pub(super) struct Numbers<'a> {
 }
 
 impl Value {
-    pub(super) fn at(self, numbers: Numbers<'_>) -> f64 {
+    pub(crate) fn at(self, numbers: Numbers<'_>) -> f64 {
         let of = |list: &[[f64; 2]], which: usize| list.get(which).map_or(f64::NAN, |pair| pair[0]);
         match self {
             Self::Number(number) => number,
@@ -31,7 +31,7 @@ impl Value {
     }
 
     /// Its derivative by the driver's speed.
-    pub(super) fn by_speed(self, numbers: Numbers<'_>) -> f64 {
+    pub(crate) fn by_speed(self, numbers: Numbers<'_>) -> f64 {
         match self {
             Self::Given(which) => numbers.given.get(which).map_or(f64::NAN, |pair| pair[1]),
             Self::Number(_) | Self::Table(_) => 0.0,

@@ -3,13 +3,13 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::broken::{Broken, beyond};
-use super::outside::Outside;
-use super::reader::Reader;
-use super::source::Source;
+use super::callbacks::Outside;
+use super::error::{Broken, beyond};
+use super::model::Source;
+use super::table_cursor::Reader;
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
-use crate::dynamics::table::{Cell, Table};
+use crate::dynamics::tables::table::{Cell, Table};
 use crate::dynamics::value::Numbers;
 use crate::ode::system::Fault;
 use crate::state::state::Status;
@@ -21,13 +21,13 @@ const VARIED: f64 = 6.0e-6;
 type Stop<E> = Fault<Broken<E>>;
 
 /// The numbers just within two others, ascending.
-pub(super) fn within(from: f64, to: f64) -> [f64; 2] {
+pub(crate) fn within(from: f64, to: f64) -> [f64; 2] {
     let (low, high) = (from.min(to).next_up(), from.max(to).next_down());
     [low.min(high), high.max(low)]
 }
 
 /// The machine with everything that is read at a place.
-pub(super) struct Equation<'a, S, O> {
+pub(crate) struct Equation<'a, S, O> {
     pub source: S,
     pub outside: O,
     pub tables: &'a [Table],
@@ -58,7 +58,7 @@ pub(super) struct Equation<'a, S, O> {
 }
 
 impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
-    pub(super) fn new(
+    pub(crate) fn new(
         source: S,
         outside: O,
         tables: &'a [Table],
@@ -90,7 +90,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
     }
 
     /// Looks tables up where a motion begins.
-    pub(super) fn begin(&mut self, q: f64, speed: &[f64]) -> Result<(), Broken<O::Error>> {
+    pub(crate) fn begin(&mut self, q: f64, speed: &[f64]) -> Result<(), Broken<O::Error>> {
         self.look_up(q)?;
         for (motor, cell) in self.motors.iter().zip(&mut self.cells) {
             if let Some(table) = motor.table() {
@@ -104,13 +104,13 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
     }
 
     /// The motors that have tables over their speed.
-    pub(super) fn tabled(&self) -> impl Iterator<Item = usize> + use<'a, S, O> {
+    pub(crate) fn tabled(&self) -> impl Iterator<Item = usize> + use<'a, S, O> {
         let motors = self.motors;
         (0..motors.len()).filter(move |&motor| motors[motor].table().is_some())
     }
 
     /// How far these are from the ends of their pieces, two numbers each.
-    pub(super) fn motor_borders(&self, speed: &[f64], values: &mut [f64]) {
+    pub(crate) fn motor_borders(&self, speed: &[f64], values: &mut [f64]) {
         for (pair, which) in values.chunks_exact_mut(2).zip(self.tabled()) {
             let motor = &self.motors[which];
             let ends = motor.table().map(|table| table.ends(self.cells[which]));
@@ -122,7 +122,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
 
     /// A motor goes on to the next piece of its table: the driver and its speed there, inside that
     /// piece; none if the table ends.
-    pub(super) fn pass_motor(&mut self, which: usize, up: bool) -> Option<(usize, f64)> {
+    pub(crate) fn pass_motor(&mut self, which: usize, up: bool) -> Option<(usize, f64)> {
         let motor = &self.motors[which];
         let table = motor.table()?;
         let cell = &mut self.cells[which];
@@ -141,7 +141,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
     }
 
     /// Looks tables up in the middle of a stretch between knots.
-    pub(super) fn enter(&mut self, from: f64, to: f64) -> Result<(), Broken<O::Error>> {
+    pub(crate) fn enter(&mut self, from: f64, to: f64) -> Result<(), Broken<O::Error>> {
         self.coordinates = within(from, to);
         self.look_up(0.5 * (from + to))
     }
@@ -153,19 +153,19 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
 
     /// Looks tables up at a coordinate, unless they are in their pieces there; whether they are
     /// there.
-    pub(super) fn find(&mut self, q: f64) -> bool {
+    pub(crate) fn find(&mut self, q: f64) -> bool {
         (self.reader.low..=self.reader.high).contains(&q)
             || self.reader.place(self.tables, q).is_ok()
     }
 
     /// Whether the last place that was refused is beside a near miss of a change point.
-    pub(super) fn is_near_miss(&self) -> bool {
+    pub(crate) fn is_near_miss(&self) -> bool {
         matches!(self.refused, Some((Status::NearSingular, _)))
     }
 
     /// Inertia, weights and springs at coordinates.
     #[inline]
-    pub(super) fn place(&mut self, q: &[f64]) -> Result<(), Stop<O::Error>> {
+    pub(crate) fn place(&mut self, q: &[f64]) -> Result<(), Stop<O::Error>> {
         self.reader.read(self.tables, q[0], &mut self.readings);
         let numbers = Numbers { tables: &self.readings, given: &[] };
         if let Err(status) = self.source.place(q, numbers, &mut self.reduced) {
@@ -178,7 +178,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
 
     /// All other loads and motors there, at speeds.
     #[inline]
-    pub(super) fn load(&mut self, t: f64, q: &[f64], speed: &[f64]) -> Result<(), Stop<O::Error>> {
+    pub(crate) fn load(&mut self, t: f64, q: &[f64], speed: &[f64]) -> Result<(), Stop<O::Error>> {
         if !self.numbers.is_empty() {
             self.call(t, q, speed).map_err(|error| Fault::Error(Broken::Outside(error)))?;
         }
@@ -217,12 +217,12 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
     }
 
     /// Moment of all that acts on a driver, motors among it.
-    pub(super) fn moment(&self, driver: usize) -> f64 {
+    pub(crate) fn moment(&self, driver: usize) -> f64 {
         self.reduced.moment(driver) + self.drive[driver]
     }
 
     /// Power of all that is not told by the potential energy, W.
-    pub(super) fn power(&self, speed: &[f64]) -> f64 {
+    pub(crate) fn power(&self, speed: &[f64]) -> f64 {
         let of =
             |(driver, v): (usize, &f64)| (self.reduced.applied[driver] + self.drive[driver]) * v;
         speed.iter().enumerate().map(of).sum()
@@ -230,14 +230,14 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
 
     /// The reduced inertia of the one driver.
     #[inline]
-    pub(super) fn inertia(&self, q: f64) -> Result<f64, Stop<O::Error>> {
+    pub(crate) fn inertia(&self, q: f64) -> Result<f64, Stop<O::Error>> {
         let value = self.reduced.inertia[0];
         // NaN as well is none.
         if value > 0.0 { Ok(value) } else { Err(Fault::Error(Broken::NoInertia { q, value })) }
     }
 
     /// Accelerations of the drivers there.
-    pub(super) fn accelerations(
+    pub(crate) fn accelerations(
         &self,
         q: &[f64],
         speed: &[f64],

@@ -1,18 +1,13 @@
 //! Motion of machines under their loads and motors.
 
-pub(crate) mod broken;
-pub(crate) mod cycle;
+pub(crate) mod callbacks;
+pub(crate) mod dead_point;
 pub(crate) mod equation;
-pub(crate) mod evened;
-pub(crate) mod make;
-pub(crate) mod outcome;
-pub(crate) mod outside;
-pub(crate) mod reader;
-pub(crate) mod shooting;
-pub(crate) mod source;
-pub(crate) mod steady;
-pub(crate) mod tail;
-pub(crate) mod task;
+pub(crate) mod error;
+pub(crate) mod integrate;
+pub(crate) mod model;
+pub(crate) mod options;
+pub(crate) mod system;
+pub(crate) mod table_cursor;
 pub(crate) mod tolerances;
-pub(crate) mod unsteady;
-pub(crate) mod way;
+pub(crate) mod trajectory;

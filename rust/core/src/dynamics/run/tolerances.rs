@@ -1,14 +1,14 @@
 //! How accurate a run is.
 
-use super::broken::Broken;
-use super::outside::Outside;
-use super::source::Source;
-use super::task::{Along, Task};
-use super::way::Way;
+use super::callbacks::Outside;
+use super::error::Broken;
+use super::model::Source;
+use super::options::{Along, Task};
+use super::system::Way;
 use crate::ode::system::Fault;
 
 /// Relative and absolute tolerances of the state.
-pub(super) fn tolerances<S: Source, O: Outside>(
+pub(crate) fn tolerances<S: Source, O: Outside>(
     way: &mut Way<'_, S, O>,
     task: &Task<'_>,
     sizes: &[f64],

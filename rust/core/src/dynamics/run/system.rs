@@ -2,17 +2,17 @@
 
 use std::time::Instant;
 
-use super::broken::Broken;
+use super::callbacks::Outside;
 use super::equation::{Equation, within};
-use super::outside::Outside;
-use super::source::Source;
-use super::task::{Along, Occasion, Task, Watch};
+use super::error::Broken;
+use super::model::Source;
+use super::options::{Along, Occasion, Task, Watch};
 use crate::ode::system::{Action, Crossing, Fault, System};
 use crate::state::state::Status;
 
 /// What ended a run of itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Ended {
+pub(crate) enum Ended {
     /// A table over the coordinate.
     Table(usize),
     /// The table of a motor.
@@ -26,7 +26,7 @@ pub(super) enum Ended {
 /// A machine on its way. Along the time its state is q, q̇ and the work done by all that is not
 /// told by the potential energy; along the coordinate q̇², the time and that work:
 /// d(q̇²)/dq = (2 M − J′ q̇²)/J.
-pub(super) struct Way<'a, S, O> {
+pub(crate) struct Way<'a, S, O> {
     pub equation: Equation<'a, S, O>,
     pub along: Along,
     pub watches: &'a [Watch],
@@ -63,7 +63,7 @@ const FAR: f64 = 0.05;
 const LOOK: f64 = 1.0e-6;
 
 impl<'a, S: Source, O: Outside> Way<'a, S, O> {
-    pub(super) fn new(equation: Equation<'a, S, O>, task: &Task<'a>) -> Self {
+    pub(crate) fn new(equation: Equation<'a, S, O>, task: &Task<'a>) -> Self {
         Self {
             equation,
             along: task.along,
@@ -81,7 +81,7 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
     }
 
     /// Takes the energy at the beginning, from which what is kinetic is told later.
-    pub(super) fn begin(&mut self, task: &Task<'_>) -> Result<(), Broken<O::Error>> {
+    pub(crate) fn begin(&mut self, task: &Task<'_>) -> Result<(), Broken<O::Error>> {
         match self.equation.place(task.q) {
             Ok(()) => {}
             Err(Fault::Error(error)) => return Err(error),
@@ -118,7 +118,7 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
     /// Whether a driver that rests at coordinates after some work is at a dead point: there is one
     /// as near as the coordinates are known, and by the balance kinetic energy is left, as the
     /// mechanism does not rest.
-    pub(super) fn is_dead(&mut self, q: &[f64], work: f64) -> bool {
+    pub(crate) fn is_dead(&mut self, q: &[f64], work: f64) -> bool {
         if !self.equation.source.is_beside_fold(q, self.near) {
             return false;
         }
@@ -132,12 +132,12 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
     }
 
     /// How many numbers the state has.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         2 * self.drivers + 1
     }
 
     /// The state at the beginning.
-    pub(super) fn start(task: &Task<'_>) -> Vec<f64> {
+    pub(crate) fn start(task: &Task<'_>) -> Vec<f64> {
         match task.along {
             Along::Time => [task.q, task.speed, &[0.0]].concat(),
             Along::Coordinate => vec![task.speed[0] * task.speed[0], task.t, 0.0],
@@ -157,7 +157,7 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
     }
 
     /// What makes each event function an event.
-    pub(super) fn crossings(&self) -> Vec<Crossing> {
+    pub(crate) fn crossings(&self) -> Vec<Crossing> {
         let tables = usize::from(self.has_table_borders()) + self.equation.tabled().count();
         let turning = if self.drivers == 1 { Crossing::Either } else { Crossing::Rising };
         let own = self.watches.iter().map(|watch| watch.crossing);
@@ -195,7 +195,7 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
     }
 
     /// Which watch an event is.
-    pub(super) fn watch(&self, event: usize) -> Option<usize> {
+    pub(crate) fn watch(&self, event: usize) -> Option<usize> {
         event.checked_sub(self.crossings().len() - self.watches.len())
     }
 

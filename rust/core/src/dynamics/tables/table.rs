@@ -2,7 +2,7 @@
 
 use super::error::TableError;
 use super::spline::{Ends, Pieces, spline};
-use super::turn::within_period;
+use crate::dynamics::flywheel::cycle::within_period;
 
 /// A table with a curve through its rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,7 +17,7 @@ const SLACK: f64 = 1.0e-12;
 
 /// A piece of a table, whole periods on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Cell {
+pub(crate) struct Cell {
     piece: usize,
     whole: f64,
     /// Its first knot, whole periods on.
@@ -36,7 +36,7 @@ impl Table {
         ends: Ends,
         periodic: bool,
     ) -> Result<Self, TableError> {
-        super::turn::check_columns(knots, &[("value", values)], periodic)?;
+        crate::dynamics::flywheel::cycle::check_columns(knots, &[("value", values)], periodic)?;
         Ok(Self { knots: knots.to_vec(), pieces: spline(knots, values, ends)?, periodic })
     }
 
@@ -47,7 +47,7 @@ impl Table {
     }
 
     /// Value and slope at a place; none beyond a table that is not periodic.
-    pub(super) fn value_and_slope(&self, x: f64) -> Option<[f64; 2]> {
+    pub(crate) fn value_and_slope(&self, x: f64) -> Option<[f64; 2]> {
         let within = if self.periodic && x.is_finite() {
             within_period(x, self.knots[0], self.width())[0]
         } else {
@@ -74,7 +74,7 @@ impl Table {
     }
 
     /// The piece that a place is in; at a knot the one behind it.
-    pub(super) fn cell(&self, x: f64) -> Option<Cell> {
+    pub(crate) fn cell(&self, x: f64) -> Option<Cell> {
         let [first, last] = self.range();
         // A last digit beyond its end is at it.
         let slack = SLACK * (last - first).max(first.abs()).max(last.abs());
@@ -93,13 +93,13 @@ impl Table {
     }
 
     /// The knots around a piece: where it ends the next one begins, to the last bit.
-    pub(super) fn ends(&self, cell: Cell) -> [f64; 2] {
+    pub(crate) fn ends(&self, cell: Cell) -> [f64; 2] {
         let end = self.next(cell, true).map(|next| next.start);
         [cell.start, end.unwrap_or(self.range()[1])]
     }
 
     /// The piece behind (`up`) or before another.
-    pub(super) fn next(&self, cell: Cell, up: bool) -> Option<Cell> {
+    pub(crate) fn next(&self, cell: Cell, up: bool) -> Option<Cell> {
         let last = self.pieces.len() - 1;
         let Cell { piece, whole, .. } = cell;
         match up {
@@ -112,20 +112,20 @@ impl Table {
 
     /// Value and slope of a piece, also a little beyond it.
     #[inline]
-    pub(super) fn read(&self, cell: Cell, x: f64) -> [f64; 2] {
+    pub(crate) fn read(&self, cell: Cell, x: f64) -> [f64; 2] {
         let [a, b, c, d] = self.pieces[cell.piece];
         let x = x - cell.start;
         [a + x * (b + x * (c + x * d)), b + x * (2.0 * c + x * (3.0 * d))]
     }
 
     /// About how many knots there are on a way of this length.
-    pub(super) fn knots_in(&self, length: f64) -> f64 {
+    pub(crate) fn knots_in(&self, length: f64) -> f64 {
         let own = self.knots.len() as f64;
         if self.periodic { own * (1.0 + length / self.width()) } else { own }
     }
 
     /// Where it is not smooth within an interval, ascending.
-    pub(super) fn knots_within(&self, [low, high]: [f64; 2]) -> Vec<f64> {
+    pub(crate) fn knots_within(&self, [low, high]: [f64; 2]) -> Vec<f64> {
         let mut found = Vec::new();
         let [first, last] = self.range();
         let mut cell = self.cell(if self.periodic { low } else { low.clamp(first, last) });

@@ -1,11 +1,11 @@
 //! The search for a periodic motion: the speed at the beginning of a period with which it is the same
 //! at the end.
 
-use super::cycle::{Begin, Passage, Period};
-use super::outside::Outside;
-use super::source::Source;
+use super::error::Unsteady;
+use super::period::{Begin, Passage, Period};
 use super::steady::{NOISE, Shooting};
-use super::unsteady::Unsteady;
+use crate::dynamics::run::callbacks::Outside;
+use crate::dynamics::run::model::Source;
 
 /// Steps toward the periodic motion, at most; it takes some five.
 const STEPS: u32 = 60;
@@ -24,7 +24,7 @@ type Found<E> = Result<(Begin, Period), Unsteady<E>>;
 
 impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
     /// Finds the periodic motion, from a guess (speed² and moment) if there is one.
-    pub(super) fn find(&mut self, guess: Option<Begin>) -> Found<O::Error> {
+    pub(crate) fn find(&mut self, guess: Option<Begin>) -> Found<O::Error> {
         let motors = self.equation.motors;
         let idle = motors.iter().find_map(crate::dynamics::motor::Motor::idle_speed);
         let speed = self.search.speed.or(idle).ok_or(Unsteady::NeedsSpeed)?;

@@ -6,8 +6,8 @@
 //! C ≤ p² K + min(p² I − 2 W), ω ≥ r means C ≥ r² K + max(r² I − 2 W), and both are reached: two
 //! equations, linear in K and C (the tangents of F. Wittenbauer's diagram, Graphische Dynamik, 1923).
 
-use super::error::TableError;
-use super::turn::{Extreme, Turn, within_period};
+use super::cycle::{Extreme, Turn, within_period};
+use crate::dynamics::tables::error::TableError;
 use crate::math::quadrature::integral;
 use crate::math::root;
 

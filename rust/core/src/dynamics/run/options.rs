@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use super::broken::{Broken, counted};
-use crate::dynamics::line::Angle;
+use super::error::{Broken, counted};
+use crate::dynamics::angle_between::Angle;
 use crate::dynamics::motor::Motor;
 use crate::ode::options::Method;
 use crate::ode::system::Crossing;
@@ -90,7 +90,7 @@ pub struct Task<'a> {
 
 impl Task<'_> {
     /// Refuses what is no task of a machine with so many drivers.
-    pub(super) fn check<E>(&self, drivers: usize, motors: &[Motor]) -> Result<(), Broken<E>> {
+    pub(crate) fn check<E>(&self, drivers: usize, motors: &[Motor]) -> Result<(), Broken<E>> {
         counted(&[("coordinates", drivers, self.q.len()), ("speeds", drivers, self.speed.len())])?;
         if self.along == Along::Coordinate {
             counted(&[("drivers of a motion along the coordinate", 1, drivers)])?;

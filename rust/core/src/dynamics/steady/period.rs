@@ -5,12 +5,12 @@
 //! what they make of the time t′ = 1/q̇ is integrated along. So the matrix of the period is exact to
 //! the tolerance (E. Hairer, S. P. Nørsett, G. Wanner I, I.14).
 
-use super::broken::Broken;
-use super::equation::Equation;
-use super::outside::Outside;
-use super::source::Source;
+use super::error::Unsteady;
 use super::steady::Search;
-use super::unsteady::Unsteady;
+use crate::dynamics::run::callbacks::Outside;
+use crate::dynamics::run::equation::Equation;
+use crate::dynamics::run::error::Broken;
+use crate::dynamics::run::model::Source;
 use crate::ode::error::Error;
 use crate::ode::integrate::Integrator;
 use crate::ode::options::{Keep, Options};
@@ -20,7 +20,7 @@ use crate::query::evaluator::NearMiss;
 
 /// Where a period begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Begin {
+pub(crate) struct Begin {
     /// q̇².
     pub speed2: f64,
     /// A constant moment on the driver besides its motors.
@@ -31,7 +31,7 @@ pub(super) struct Begin {
 
 /// What a period comes to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Period {
+pub(crate) struct Period {
     /// q̇² at its end.
     pub speed2: f64,
     /// Its time.
@@ -49,7 +49,7 @@ pub(super) struct Period {
 
 /// How a period came out.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Passage {
+pub(crate) enum Passage {
     Whole(Period),
     /// The machine stops on the way.
     Stops {
@@ -136,7 +136,7 @@ impl<S: Source, O: Outside> System for Cycle<'_, '_, S, O> {
 }
 
 /// Goes through one period.
-pub(super) fn period<S: Source, O: Outside>(
+pub(crate) fn period<S: Source, O: Outside>(
     equation: &mut Equation<'_, S, O>,
     integrator: &mut Option<Integrator>,
     search: &Search<'_>,

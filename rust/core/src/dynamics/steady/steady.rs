@@ -2,22 +2,22 @@
 
 use std::time::Instant;
 
-use super::broken::Broken;
-use super::cycle::{Begin, Passage, Period, period};
-use super::equation::Equation;
-use super::make::{breaks_of, run};
-use super::outcome::{Ending, Run};
-use super::outside::Outside;
-use super::source::Source;
-use super::task::{Along, Occasion, Task, Watch};
-use super::unsteady::Unsteady;
-use crate::dynamics::flywheel::Mean;
+use super::error::Unsteady;
+use super::period::{Begin, Passage, Period, period};
+use crate::dynamics::flywheel::flywheel::Mean;
+use crate::dynamics::run::callbacks::Outside;
+use crate::dynamics::run::equation::Equation;
+use crate::dynamics::run::error::Broken;
+use crate::dynamics::run::integrate::{breaks_of, run};
+use crate::dynamics::run::model::Source;
+use crate::dynamics::run::options::{Along, Occasion, Task, Watch};
+use crate::dynamics::run::trajectory::{Ending, Run};
 use crate::ode::integrate::Integrator;
 use crate::ode::options::Method;
 use crate::ode::system::Crossing;
 
 /// Errors of a period, as multiples of the tolerance.
-pub(super) const NOISE: f64 = 100.0;
+pub(crate) const NOISE: f64 = 100.0;
 /// Part of the work of a period that may be lost in them.
 const UNKNOWN: f64 = 0.05;
 /// Part of the work of a period to which it is in balance.
@@ -73,14 +73,14 @@ pub struct Steady {
 
 impl Steady {
     /// What a search near it begins with.
-    pub(super) fn begin(&self) -> Begin {
+    pub(crate) fn begin(&self) -> Begin {
         let speed = self.run.moments.speed.first().copied().unwrap_or(f64::NAN);
         Begin { speed2: speed * speed, moment: self.moment, t: 0.0 }
     }
 }
 
 /// A search and its work space.
-pub(super) struct Shooting<'s, 'a, S, O> {
+pub(crate) struct Shooting<'s, 'a, S, O> {
     pub equation: Equation<'a, S, O>,
     pub search: Search<'s>,
     /// Whether the motion has the mean speed of the search.
@@ -92,7 +92,7 @@ pub(super) struct Shooting<'s, 'a, S, O> {
 }
 
 impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
-    pub(super) fn new(
+    pub(crate) fn new(
         mut equation: Equation<'a, S, O>,
         search: Search<'s>,
     ) -> Result<Self, Unsteady<O::Error>> {
@@ -151,13 +151,13 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         Ok(())
     }
 
-    pub(super) fn pass(&mut self, begin: Begin) -> Result<Passage, Unsteady<O::Error>> {
+    pub(crate) fn pass(&mut self, begin: Begin) -> Result<Passage, Unsteady<O::Error>> {
         let Self { equation, integrator, search, from, breaks, .. } = self;
         period(equation, integrator, search, (*from, breaks), begin)
     }
 
     /// The motion found, with all its moments.
-    pub(super) fn run(
+    pub(crate) fn run(
         mut self,
         begin: Begin,
         period: &Period,

@@ -5,13 +5,13 @@
 //! dead point at a speed of its own, grows like s). So ṡ = −b/2; with b straight over the last 1e-4
 //! or so of s, whose slope the acceleration tells, its square is all that is left out.
 
-use super::outcome::Moment;
-use super::task::Along;
+use super::options::Along;
+use super::trajectory::Moment;
 
 /// From the last moment that was integrated to the dead point.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Tail {
+pub(crate) struct Tail {
     last: Moment,
     fold: f64,
     sign: f64,
@@ -22,7 +22,7 @@ pub(super) struct Tail {
 
 impl Tail {
     /// None if the coordinate is at the dead point already, or does not go to it.
-    pub(super) fn of(last: &Moment, fold: f64) -> Option<Self> {
+    pub(crate) fn of(last: &Moment, fold: f64) -> Option<Self> {
         let (left, sign) = (fold - last.q[0], last.speed[0].signum());
         let root = (left * sign).sqrt();
         let b = last.speed[0].abs() / root;
@@ -61,12 +61,12 @@ impl Tail {
     }
 
     /// The dead point.
-    pub(super) fn end(&self) -> Moment {
+    pub(crate) fn end(&self) -> Moment {
         self.moment(0.0)
     }
 
     /// The motion at a time or a coordinate of this bit.
-    pub(super) fn at(&self, along: Along, x: f64) -> Option<Moment> {
+    pub(crate) fn at(&self, along: Along, x: f64) -> Option<Moment> {
         let root = match along {
             Along::Coordinate => ((self.fold - x) * self.sign).sqrt(),
             Along::Time => {

@@ -1,7 +1,7 @@
 //! Inertia and energy over one turn of the driver, as pieces of polynomials.
 
-use super::error::TableError;
-use super::spline::{Ends, Pieces, spline};
+use crate::dynamics::tables::error::TableError;
+use crate::dynamics::tables::spline::{Ends, Pieces, spline};
 use crate::math::polynomial::{value, zeros};
 
 /// Part of the greatest value by which the ends of a table may differ: tables are rounded.
@@ -128,7 +128,7 @@ impl Turn {
     }
 
     /// The piece that a coordinate is in, how far from its knot, and whole periods before it.
-    pub(super) fn place(&self, phi: f64) -> (usize, f64, f64) {
+    pub(crate) fn place(&self, phi: f64) -> (usize, f64, f64) {
         let [within, whole] = within_period(phi, self.start(), self.period());
         let after = self.knots.partition_point(|&knot| knot <= within);
         let piece = after.clamp(1, self.knots.len() - 1) - 1;
@@ -157,17 +157,17 @@ impl Turn {
     }
 
     /// Inertia and work in a piece, at a distance from its knot.
-    pub(super) fn within(&self, piece: usize, x: f64) -> [f64; 2] {
+    pub(crate) fn within(&self, piece: usize, x: f64) -> [f64; 2] {
         [value(&self.inertia[piece], x), value(&self.work[piece], x)]
     }
 
-    pub(super) fn least_inertia(&self) -> Extreme {
+    pub(crate) fn least_inertia(&self) -> Extreme {
         self.extremes(1.0, 0.0)[0]
     }
 
     /// Least and greatest value of `speed2 · I − work · W` over the turn: its derivative is a cubic
     /// in every piece.
-    pub(super) fn extremes(&self, speed2: f64, work: f64) -> [Extreme; 2] {
+    pub(crate) fn extremes(&self, speed2: f64, work: f64) -> [Extreme; 2] {
         let of = |piece: usize, x: f64| {
             let [inertia, done] = self.within(piece, x);
             speed2 * inertia - work * done
@@ -202,7 +202,7 @@ impl Turn {
 
 /// A place less whole periods, from `start` on, and how many these are. The remainder of a division
 /// is exact, so a place of any size is found.
-pub(super) fn within_period(x: f64, start: f64, period: f64) -> [f64; 2] {
+pub(crate) fn within_period(x: f64, start: f64, period: f64) -> [f64; 2] {
     if (start..start + period).contains(&x) {
         return [x, 0.0];
     }
@@ -221,7 +221,7 @@ fn check(knots: &[f64], columns: [(&'static str, &[f64]); 2]) -> Result<(), Tabl
 }
 
 /// Refuses columns over coordinates that do not grow, or whose ends differ where they must agree.
-pub(super) fn check_columns(
+pub(crate) fn check_columns(
     knots: &[f64],
     columns: &[(&'static str, &[f64])],
     periodic: bool,

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::dynamics::table::Table;
+use crate::dynamics::tables::table::Table;
 
 /// Why a motion could not go on, other than by an end of its own.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -61,13 +61,13 @@ pub enum Broken<E> {
 }
 
 /// A table does not go so far.
-pub(super) fn beyond<E>(what: &'static str, table: &Table, q: f64) -> Broken<E> {
+pub(crate) fn beyond<E>(what: &'static str, table: &Table, q: f64) -> Broken<E> {
     let [from, to] = table.range();
     Broken::TableEnds { what, from, to, q }
 }
 
 /// Refuses what has not as many numbers as needed.
-pub(super) fn counted<E>(counts: &[(&'static str, usize, usize)]) -> Result<(), Broken<E>> {
+pub(crate) fn counted<E>(counts: &[(&'static str, usize, usize)]) -> Result<(), Broken<E>> {
     match counts.iter().find(|(_, needed, given)| needed != given) {
         Some(&(what, needed, given)) => Err(Broken::Malformed { what, needed, given }),
         None => Ok(()),

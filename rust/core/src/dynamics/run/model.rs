@@ -1,11 +1,11 @@
 //! Where inertia and loads of a machine come from: a mechanism, or tables.
 
-use crate::dynamics::line::Angle;
+use crate::dynamics::angle_between::Angle;
+use crate::dynamics::kinematics::Pose;
 use crate::dynamics::machine::{Machine, Rows};
 use crate::dynamics::motor::Motor;
-use crate::dynamics::pose::Pose;
 use crate::dynamics::reduced::Reduced;
-use crate::dynamics::table::Table;
+use crate::dynamics::tables::table::Table;
 use crate::dynamics::value::Numbers;
 use crate::math::derivatives::Jets;
 use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
@@ -14,7 +14,7 @@ use crate::query::evaluator::{Asked, Follower, NearMiss};
 use crate::state::state::Status;
 
 /// A machine, place after place.
-pub(super) trait Source {
+pub(crate) trait Source {
     /// Finds inertia, weights and springs at coordinates.
     ///
     /// # Errors
@@ -52,7 +52,7 @@ pub(super) trait Source {
 }
 
 /// A machine with its mechanism.
-pub(super) struct Moving<'m> {
+pub(crate) struct Moving<'m> {
     machine: &'m Machine,
     jets: &'m Jets,
     follower: Follower<'m>,
@@ -108,7 +108,7 @@ impl<'m> Moving<'m> {
         Ok(())
     }
 
-    pub(super) fn new(
+    pub(crate) fn new(
         machine: &'m Machine,
         mechanism: &'m Mechanism,
         dimensions: &[f64],

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// A number in six digits, for a sentence.
-pub(super) fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     if value == 0.0 || !(1e-4..1e6).contains(&value.abs()) {
         return if value == 0.0 { "0".into() } else { format!("{value:.5e}") };
     }

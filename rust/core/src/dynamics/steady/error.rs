@@ -2,9 +2,9 @@
 
 use thiserror::Error;
 
-use super::broken::Broken;
-use crate::dynamics::error::short;
-use crate::dynamics::flywheel::Mean;
+use crate::dynamics::flywheel::flywheel::Mean;
+use crate::dynamics::run::error::Broken;
+use crate::dynamics::tables::error::short;
 
 /// A mean as it is named in Python, and what it is.
 fn mean_named(mean: Mean) -> &'static str {

@@ -1,17 +1,17 @@
 //! Makes a run.
 
-use super::broken::{Broken, counted};
+use super::callbacks::Outside;
+use super::dead_point::Tail;
 use super::equation::Equation;
-use super::outcome::{Ending, Happened, Moments, Run, moment};
-use super::outside::Outside;
-use super::reader::TOGETHER;
-use super::source::{Moving, Sheet, Source};
-use super::tail::Tail;
-use super::task::{Along, Occasion, Task};
+use super::error::{Broken, counted};
+use super::model::{Moving, Sheet, Source};
+use super::options::{Along, Occasion, Task};
+use super::system::{Ended, Way};
+use super::table_cursor::TOGETHER;
 use super::tolerances::tolerances;
-use super::way::{Ended, Way};
+use super::trajectory::{Ending, Happened, Moments, Run, moment};
 use crate::dynamics::machine::Machine;
-use crate::dynamics::table::Table;
+use crate::dynamics::tables::table::Table;
 use crate::math::derivatives::Jets;
 use crate::ode::error::Error;
 use crate::ode::integrate::Integrator;
@@ -63,13 +63,13 @@ impl Sheet {
     }
 
     /// Inertia and moment are its first two tables.
-    pub(super) fn check<E>(&self) -> Result<(), Broken<E>> {
+    pub(crate) fn check<E>(&self) -> Result<(), Broken<E>> {
         counted(&[("tables of inertia and moment", 2, self.tables.len().min(2))])
     }
 }
 
 /// Makes it; `sizes`: what a coordinate's tolerance is a part of.
-pub(super) fn run<S: Source, O: Outside>(
+pub(crate) fn run<S: Source, O: Outside>(
     mut equation: Equation<'_, S, O>,
     task: &Task<'_>,
     sizes: &[f64],
@@ -148,7 +148,7 @@ const FARTHEST: f64 = 1.0e9;
 
 /// Knots of tables between two coordinates, with breaks that are given; knots of several tables at
 /// one place are one.
-pub(super) fn breaks_of<E>(
+pub(crate) fn breaks_of<E>(
     tables: &[Table],
     given: &[f64],
     [from, to]: [f64; 2],

@@ -1,22 +1,22 @@
 //! Tables over the coordinate, read piece by piece: between two knots the equation of motion is
 //! smooth, and steps end at them.
 
-use crate::dynamics::table::{Cell, Table};
+use crate::dynamics::tables::table::{Cell, Table};
 
 /// Knots nearer than this part of their size (or of 1) are one: coordinates that count turns are
 /// not better known.
-pub(super) const TOGETHER: f64 = 1.0e-12;
+pub(crate) const TOGETHER: f64 = 1.0e-12;
 
 /// The pieces that tables are in, and the interval that has no knot inside.
 #[derive(Debug, Clone)]
-pub(super) struct Reader {
+pub(crate) struct Reader {
     cells: Vec<Cell>,
     pub low: f64,
     pub high: f64,
 }
 
 impl Reader {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         // Nowhere yet.
         Self { cells: Vec::new(), low: f64::INFINITY, high: f64::NEG_INFINITY }
     }
@@ -26,7 +26,7 @@ impl Reader {
     /// # Errors
     ///
     /// The table that has nothing there.
-    pub(super) fn place(&mut self, tables: &[Table], x: f64) -> Result<(), usize> {
+    pub(crate) fn place(&mut self, tables: &[Table], x: f64) -> Result<(), usize> {
         self.cells.clear();
         // Of a place that is in no pieces nothing is read.
         (self.low, self.high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -43,7 +43,7 @@ impl Reader {
     /// # Errors
     ///
     /// The table that has nothing beyond.
-    pub(super) fn pass(&mut self, tables: &[Table], up: bool) -> Result<f64, usize> {
+    pub(crate) fn pass(&mut self, tables: &[Table], up: bool) -> Result<f64, usize> {
         let border = if up { self.high } else { self.low };
         let near = TOGETHER * border.abs().max(1.0);
         for (which, (table, cell)) in tables.iter().zip(&mut self.cells).enumerate() {
@@ -67,7 +67,7 @@ impl Reader {
 
     /// Value and slope of every table.
     #[inline]
-    pub(super) fn read(&self, tables: &[Table], x: f64, readings: &mut [[f64; 2]]) {
+    pub(crate) fn read(&self, tables: &[Table], x: f64, readings: &mut [[f64; 2]]) {
         for ((reading, table), &cell) in readings.iter_mut().zip(tables).zip(&self.cells) {
             *reading = table.read(cell, x);
         }

@@ -1,14 +1,14 @@
 //! Periodic motions of machines and of tables, and the flywheel that evens them.
 
-use super::broken::{Broken, counted};
-use super::equation::Equation;
-use super::outside::Outside;
-use super::source::{Moving, Sheet, Source};
+use super::error::Unsteady;
 use super::steady::{NOISE, Search, Shooting, Steady};
-use super::unsteady::Unsteady;
-use crate::dynamics::flywheel::Mean;
+use crate::dynamics::flywheel::cycle::Extreme;
+use crate::dynamics::flywheel::flywheel::Mean;
 use crate::dynamics::machine::Machine;
-use crate::dynamics::turn::Extreme;
+use crate::dynamics::run::callbacks::Outside;
+use crate::dynamics::run::equation::Equation;
+use crate::dynamics::run::error::{Broken, counted};
+use crate::dynamics::run::model::{Moving, Sheet, Source};
 use crate::math::derivatives::Jets;
 use crate::math::root;
 use crate::plan::mechanism::Mechanism;

@@ -1,7 +1,7 @@
 //! What comes out of a run.
 
-use super::tail::Tail;
-use super::task::Along;
+use super::dead_point::Tail;
+use super::options::Along;
 use crate::ode::dense::Path;
 use crate::ode::solution::Statistics;
 use crate::state::state::Status;
@@ -108,7 +108,7 @@ impl Moments {
     }
 
     /// Coordinates and speeds of one.
-    pub(super) fn state(&self, index: usize) -> (&[f64], &[f64]) {
+    pub(crate) fn state(&self, index: usize) -> (&[f64], &[f64]) {
         let own = index * self.drivers()..(index + 1) * self.drivers();
         (&self.q[own.clone()], &self.speed[own])
     }
@@ -143,7 +143,7 @@ impl Moments {
     }
 
     /// Adds what a state and its rates tell.
-    pub(super) fn read(&mut self, along: Along, sign: f64, x: f64, y: &[f64], rates: &[f64]) {
+    pub(crate) fn read(&mut self, along: Along, sign: f64, x: f64, y: &[f64], rates: &[f64]) {
         let n = y.len() / 2;
         match along {
             Along::Time => {
@@ -178,11 +178,11 @@ pub struct Run {
     pub ending: Ending,
     /// What it cost.
     pub statistics: Statistics,
-    pub(super) along: Along,
-    pub(super) sign: f64,
-    pub(super) path: Path,
+    pub(crate) along: Along,
+    pub(crate) sign: f64,
+    pub(crate) path: Path,
     /// The rest of the way to a dead point.
-    pub(super) tail: Option<Tail>,
+    pub(crate) tail: Option<Tail>,
 }
 
 impl Run {
@@ -206,7 +206,7 @@ impl Run {
 }
 
 /// Reads a state and its rates.
-pub(super) fn moment(along: Along, sign: f64, x: f64, y: &[f64], rates: &[f64]) -> Moment {
+pub(crate) fn moment(along: Along, sign: f64, x: f64, y: &[f64], rates: &[f64]) -> Moment {
     let mut one = Moments::default();
     one.read(along, sign, x, y, rates);
     one.last().unwrap_or_default()

@@ -1,0 +1,5 @@
+//! Functions of the driver's coordinate or speed, given by points.
+
+pub(crate) mod error;
+pub(crate) mod spline;
+pub(crate) mod table;

@@ -1,0 +1,1 @@
+//! The theory of two papers that has formulas of its own.
