@@ -46,16 +46,15 @@
 
 pub mod batch;
 pub(crate) mod branch;
-pub mod crank_rocker;
 pub mod description;
 pub mod dynamics;
 pub mod math;
 pub mod motion;
 pub mod ode;
 pub mod papers;
+
 pub mod plan;
 pub mod query;
-pub mod slider_crank;
 pub(crate) mod state;
 pub mod structure;
 

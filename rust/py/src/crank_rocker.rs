@@ -1,6 +1,6 @@
 //! The crank-rocker with friction over flat arrays; Python checks, broadcasts and reshapes.
 
-use assur::crank_rocker as core;
+use assur::papers::crank_rocker as core;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 

@@ -2,8 +2,8 @@
 
 use std::sync::atomic::Ordering;
 
-use assur::slider_crank as core;
-use assur::slider_crank::{Jet, Quantity, Series, SlowSeries};
+use assur::papers::slider_crank as core;
+use assur::papers::slider_crank::{Jet, Quantity, Series, SlowSeries};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 

@@ -24,7 +24,7 @@ pub fn stroke_by_fraction(phi: f64, lambda: f64, n: u32) -> Jet {
 /// What the approximation lacks to the exact stroke, with derivatives, without cancellation: with
 /// c = cos²(δ/2), t = tan²(δ/2) the fraction's u is c (1 − tⁿ⁺¹)/(1 − tⁿ), so it lacks
 /// λ sin²φ tⁿ (1 − t) / (2 c (1 − tⁿ⁺¹)).
-pub(super) fn lack(phi: f64, lambda: f64, n: u32) -> Jet {
+pub(crate) fn lack(phi: f64, lambda: f64, n: u32) -> Jet {
     let (sine, _) = Jet::sin_cos(phi);
     let one = Jet::constant(1.0);
     let root = super::exact::rod_cosine(sine, lambda);

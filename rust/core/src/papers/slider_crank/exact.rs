@@ -4,7 +4,7 @@ use super::jet::Jet;
 use crate::math::trig::asin;
 
 /// cos δ, from sin δ = λ sin φ.
-pub(super) fn rod_cosine(sine: Jet, lambda: f64) -> Jet {
+pub(crate) fn rod_cosine(sine: Jet, lambda: f64) -> Jet {
     let tilt = sine.scale(lambda);
     (Jet::constant(1.0) - tilt * tilt).sqrt()
 }

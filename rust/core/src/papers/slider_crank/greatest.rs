@@ -62,7 +62,7 @@ pub fn greatest_acceleration(k: f64) -> Greatest {
 
 /// The greatest value of a function that rises and then falls, by the golden section, then by a
 /// parabola through three places around it.
-pub(super) fn maximum(low: f64, high: f64, of: &impl Fn(f64) -> f64) -> (f64, f64) {
+pub(crate) fn maximum(low: f64, high: f64, of: &impl Fn(f64) -> f64) -> (f64, f64) {
     /// (√5 − 1)/2.
     const PART: f64 = 0.618_033_988_749_894_8;
     /// Below this width values no longer differ.

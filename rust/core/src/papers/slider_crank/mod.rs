@@ -12,7 +12,7 @@
 //! 0.013 % for a rod of three cranks.
 //!
 //! ```
-//! use assur::slider_crank::{Quantity, deviation, stroke};
+//! use assur::papers::slider_crank::{Quantity, deviation, stroke};
 //!
 //! assert!((stroke(std::f64::consts::PI, 1.0 / 3.0).0[0] - 2.0).abs() < 1e-15);
 //! let relative = deviation(1.0 / 3.0, 2, Quantity::Stroke).relative.expect("of the stroke");

@@ -9,7 +9,7 @@
 //! The paper's figure 8: a jam before the crank points away from the rocker, a return after it.
 //!
 //! ```
-//! use assur::crank_rocker::{Case, Kind, run};
+//! use assur::papers::crank_rocker::{Case, Kind, run};
 //!
 //! let case = Case {
 //!     lengths: [1.0, 4.5, 1.5],

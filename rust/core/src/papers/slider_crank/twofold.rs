@@ -8,14 +8,14 @@ use std::ops::{Add, Div, Mul};
 /// J.-M. Muller and V. Popescu, *ACM Transactions on Mathematical Software* 44(2) (2017), 15, where
 /// each algorithm's error is bounded: u = 2^-53.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Twofold {
+pub(crate) struct Twofold {
     high: f64,
     low: f64,
 }
 
 impl Twofold {
     /// Rounded to one number.
-    pub(super) fn high(self) -> f64 {
+    pub(crate) fn high(self) -> f64 {
         self.high
     }
 
@@ -37,7 +37,7 @@ impl Twofold {
     ///
     /// The fused multiply-add gives the same bits where the processor has none, and does not
     /// overflow as Dekker's halves do.
-    pub(super) fn product(a: f64, b: f64) -> Self {
+    pub(crate) fn product(a: f64, b: f64) -> Self {
         let high = a * b;
         Self { high, low: a.mul_add(b, -high) }
     }
