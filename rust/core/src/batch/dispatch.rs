@@ -4,7 +4,7 @@
 use super::worker::{Job, Worker};
 use crate::math::lanes::Lanes;
 use crate::math::simd::Simd;
-use crate::plan::group_loops::Group;
+use crate::plan::group::Group;
 use crate::state::state::{Context, State};
 
 /// The executor compiled for a set of instructions.

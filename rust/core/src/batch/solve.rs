@@ -8,8 +8,8 @@ use super::streaming_store as stream;
 use super::worker::{Job, Worker};
 use crate::description::error::SolveError;
 use crate::math::derivatives::Jets;
-use crate::plan::Step;
 use crate::plan::mechanism::Mechanism;
+use crate::plan::plan::Step;
 
 /// Where the coordinates are taken from; `drivers` numbers a position.
 #[derive(Debug, Clone, Copy)]

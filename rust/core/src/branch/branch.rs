@@ -14,7 +14,7 @@ use super::hermite::Cell;
 use super::tracer::{Knot, Start, Stretch, Walker};
 use crate::math::angle::{less_turns, whole_part};
 use crate::math::lanes::{LANES, Real};
-use crate::plan::Plan;
+use crate::plan::plan::Plan;
 use crate::state::state::{Context, State};
 
 /// Cells in a turn of a driven angle: knots fill the lanes of four groups, and an odd

@@ -12,7 +12,7 @@ use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{
     CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,
 };
-use crate::plan::compile::Dyad;
+use crate::plan::dyad::Dyad;
 
 /// A change point.
 #[derive(Debug, Clone, Copy, PartialEq)]

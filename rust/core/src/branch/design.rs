@@ -15,11 +15,11 @@ use crate::math::derivatives::Jets;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
 use crate::math::vector::Vector;
-use crate::plan::Step;
-use crate::plan::compile::Unknown;
 use crate::plan::constants::Bound;
 use crate::plan::constants_rate::BoundRate;
+use crate::plan::dyad::Unknown;
 use crate::plan::mechanism::Mechanism;
+use crate::plan::plan::Step;
 use crate::state::state::{Context, Fault, State, Status};
 
 /// Powers of two between the design's own unit of length and the metre.

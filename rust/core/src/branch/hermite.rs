@@ -3,7 +3,7 @@
 use super::tracer::Seed;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::compile::Unknown;
+use crate::plan::dyad::Unknown;
 
 /// A polynomial in the distance from a knot, of the fifth degree.
 #[derive(Debug, Clone, Copy)]

@@ -7,9 +7,9 @@ use super::design::Design;
 use super::tracer::{STRAY, Seed};
 use crate::description::Driver;
 use crate::math::vector::Vector;
-use crate::plan::Step;
-use crate::plan::compile::Unknown;
 use crate::plan::constants::Bound;
+use crate::plan::dyad::Unknown;
+use crate::plan::plan::Step;
 use crate::state::state::{Fault, Status};
 
 /// Parts of the way from the drawing's dimensions, at least.

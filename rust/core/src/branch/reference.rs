@@ -13,8 +13,8 @@ use super::tracer::{returns, strays};
 use super::uniform::{CELL, GROUPS, KNOTS, Quick, knots_at};
 use crate::math::lanes::{LANES, Lanes, Real};
 use crate::math::vector::Vector;
-use crate::plan::Plan;
-use crate::plan::compile::Unknown;
+use crate::plan::dyad::Unknown;
+use crate::plan::plan::Plan;
 use crate::state::state::Context;
 
 /// Unknowns of groups at the knots of the drawing's way.

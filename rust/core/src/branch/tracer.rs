@@ -9,8 +9,8 @@ use super::hermite::Cell;
 use crate::math::angle::nearest;
 use crate::math::tolerance::{LIFT_HALVINGS, LIFT_TURN};
 use crate::math::vector::Vector;
-use crate::plan::Step;
-use crate::plan::compile::{Dyad, Form, Unknown};
+use crate::plan::dyad::{Dyad, Form, Unknown};
+use crate::plan::plan::Step;
 use crate::state::state::{Context, Fault, State, Status};
 
 /// Halvings where a stretch that can be reached begins or ends: what is left of

@@ -15,8 +15,8 @@ use crate::math::derivatives::Jets;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};
 use crate::math::tolerance::LIFT_TURN;
 use crate::math::vector::Vector;
-use crate::plan::Plan;
-use crate::plan::compile::Form;
+use crate::plan::dyad::Form;
+use crate::plan::plan::Plan;
 use crate::state::state::{Context, State};
 
 /// Knots of a turn, its end included.

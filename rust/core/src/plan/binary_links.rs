@@ -4,40 +4,14 @@
 //! What turns with one unknown in one loop is one vector (a span), the same at all positions; so
 //! the vector of a loop's chord is a known one and a sum of spans, each turned by its unknown.
 
-use super::compile::Unknown;
-use super::group_loops::{Chord, Group};
+use super::dyad::Unknown;
+use super::group::{Arm, Bars, Chord, Group};
 use super::leg::Leg;
-use super::{Along, Plan};
+use super::plan::{Along, Plan};
 use crate::math::vector::Vector;
 
 /// Unknowns (and loops), at most: more are left to the general machinery.
 pub const MOST: usize = 3;
-
-/// A rigid edge that turns with an unknown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Arm {
-    /// The edge.
-    pub edge: usize,
-    /// Place among the legs.
-    pub leg: usize,
-    /// The unknown.
-    pub unknown: usize,
-}
-
-/// What such a group consists of.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Bars {
-    /// Place of its first span in [`Spans::spans`].
-    first_span: usize,
-    /// Place of its first binary link in [`Spans::bars`].
-    first_bar: usize,
-    /// The class of every unknown.
-    pub classes: Vec<usize>,
-    /// The class of every loop's binary link.
-    pub taken: Vec<usize>,
-    /// The edges that place its points.
-    pub arms: Vec<Arm>,
-}
 
 impl Bars {
     /// Of a group that is so, behind others.

@@ -1,8 +1,8 @@
 //! A plan with the numbers of one design.
 
-use super::Plan;
 use super::binary_links::Spans;
 use super::leg::Leg;
+use super::plan::Plan;
 use crate::description::Linkage;
 use crate::description::dimension::{Dimension, Dimensions};
 use crate::math::vector::Vector;
@@ -186,6 +186,16 @@ impl Lengths {
 }
 
 impl Bound {
+    /// The link on the other side of a slide, and the constant turn from its
+    /// orientation to that of `link`.
+    #[must_use]
+    pub fn across_slide(&self, plan: &Plan, link: usize, slide: usize) -> (usize, Vector) {
+        let [sliding, carrying] = plan.slide_links[slide];
+        let turn = self.slide_turn[slide];
+        let (other, turn) = if link == sliding { (carrying, turn) } else { (sliding, turn.conj()) };
+        (other, self.turn[other] * turn * self.turn[link].conj())
+    }
+
     /// Binds a plan to dimensions (in the order of [`Dimensions`]).
     #[must_use]
     pub fn new(plan: &Plan, slots: &Slots, values: &[f64]) -> Self {

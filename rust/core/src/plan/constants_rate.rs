@@ -1,7 +1,7 @@
 //! How the fixed vectors of a design change with one of its dimensions.
 
-use super::Plan;
 use super::constants::{Bound, Slots, Source, read, read_two, unit};
+use super::plan::Plan;
 use crate::math::vector::Vector;
 
 /// Derivatives of what [`Bound`] holds by one dimension (m or rad), its scale kept.

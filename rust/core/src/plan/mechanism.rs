@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
-use super::compile::{Dyad, Form};
 use super::constants::{Bound, Slots};
-use super::{Plan, Step};
+use super::dyad::{Dyad, Form};
+use super::plan::{Plan, Step};
 use crate::description::dimension::Dimensions;
 use crate::description::error::{Named, SolveError, StructureError};
 use crate::description::names::nearest;

@@ -1,6 +1,6 @@
 //! Redundant links: how each is placed and what must then close.
 
-use super::{Fit, Plan, Step, Turned};
+use super::plan::{Fit, Plan, Step, Turned};
 use crate::description::Linkage;
 use crate::structure::Structure;
 use crate::structure::closure::{Closure, Span, point_of_joint};

@@ -6,7 +6,7 @@ use crate::branch::design::Design;
 use crate::description::error::{SolveError, number};
 use crate::math::derivatives::Jets;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::{Along, Plan, Step};
+use crate::plan::plan::{Along, Plan, Step};
 use crate::state::state::{Context, Fault, State, Status};
 
 /// How far (in sizes) a joint is where a way has ended not for a dead point but for that: the
@@ -130,7 +130,7 @@ impl Mechanism {
     }
 
     /// Every assembly that exists at `q`, as signs in the order of
-    /// [`crate::plan::Plan::dyad_names`], each as it is at the drawing (on the way
+    /// [`crate::plan::plan::Plan::dyad_names`], each as it is at the drawing (on the way
     /// from there a sign may change at change points).
     ///
     /// # Errors
@@ -317,7 +317,7 @@ impl Mechanism {
     }
 }
 
-fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::compile::Dyad) -> String {
+fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::dyad::Dyad) -> String {
     let slides: Vec<&str> = dyad
         .path
         .iter()

@@ -6,10 +6,10 @@ use crate::branch::design::{Design, Place, Units};
 use crate::branch::tracer::{Seed, Start};
 use crate::math::angle::nearest;
 use crate::math::derivatives::Jets;
-use crate::plan::compile::{Dyad, Unknown};
 use crate::plan::constants::Bound;
+use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::mechanism::Mechanism;
-use crate::plan::{Plan, Step};
+use crate::plan::plan::{Plan, Step};
 use crate::state::state::{Context, Fault, State, Status};
 use std::borrow::Cow;
 

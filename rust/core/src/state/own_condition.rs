@@ -5,9 +5,9 @@
 //! and shows no single dyad that is about to fold.
 
 use super::state::{Context, State};
-use crate::plan::compile::{Dyad, Form, Unknown};
-use crate::plan::group_loops::Group;
-use crate::plan::{Along, Step};
+use crate::plan::dyad::{Dyad, Form, Unknown};
+use crate::plan::group::Group;
+use crate::plan::plan::{Along, Step};
 
 impl State {
     /// The step with the greatest condition by itself, and that condition; none without groups.

@@ -3,7 +3,7 @@
 use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::Along;
+use crate::plan::plan::Along;
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Places one end of an edge from the other, in all groups.

@@ -4,7 +4,7 @@ use super::state::{Context, Fault, State};
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, REDUNDANT_GREATEST};
 use crate::math::vector::Vector;
-use crate::plan::{Along, Fit, Step, Turned};
+use crate::plan::plan::{Along, Fit, Step, Turned};
 
 impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
@@ -89,7 +89,7 @@ impl<R: Real, const G: usize> State<R, G> {
     fn turn_by_slide(&mut self, g: usize, cx: &Context<'_>, link: usize, slide: usize) {
         let len = self.len;
         let o = cx.plan.link_orientation[link];
-        let (other, constant) = cx.plan.across_slide(cx.bound, link, slide);
+        let (other, constant) = cx.bound.across_slide(cx.plan, link, slide);
         let from = cx.plan.link_orientation[other];
         let value = self.orient[from * len][g] * Vector::splat(constant);
         self.set_orientation(g, cx, o, value);
@@ -144,7 +144,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// How far two links miss their angle at a slide (a half turn: by 2); `on` carries it.
     #[inline(always)]
     fn angle_misfit(&self, g: usize, cx: &Context<'_>, slide: usize, on: usize) -> R {
-        let (link, constant) = cx.plan.across_slide(cx.bound, on, slide);
+        let (link, constant) = cx.bound.across_slide(cx.plan, on, slide);
         let turned =
             self.orient[cx.plan.link_orientation[link] * self.len][g] * Vector::splat(constant);
         let actual = self.orient[cx.plan.link_orientation[on] * self.len][g];

@@ -10,10 +10,10 @@ use nalgebra::{DMatrix, DVector};
 use super::state::{Context, State};
 use crate::math::derivatives::Jets;
 use crate::math::vector::Vector;
-use crate::plan::compile::{Dyad, Unknown};
 use crate::plan::constants_rate::BoundRate;
-use crate::plan::group_loops::Group;
-use crate::plan::{Along, Plan, Step};
+use crate::plan::dyad::{Dyad, Unknown};
+use crate::plan::group::Group;
+use crate::plan::plan::{Along, Plan, Step};
 
 /// A closed path: `P_plus − P_minus + Σ ±edges = 0`.
 #[derive(Debug)]

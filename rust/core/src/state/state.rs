@@ -6,10 +6,10 @@ use crate::math::derivatives::Jets;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{NEAR_SINGULAR_CONDITION, SINGULAR_CONDITION};
 use crate::math::vector::Vector;
-use crate::plan::compile::{Dyad, Unknown};
 use crate::plan::constants::Bound;
-use crate::plan::group_loops::Group;
-use crate::plan::{Along, Plan, Step};
+use crate::plan::dyad::{Dyad, Unknown};
+use crate::plan::group::Group;
+use crate::plan::plan::{Along, Plan, Step};
 
 /// Square of the sine of a dyad that cannot be told from a flat one.
 pub(crate) const FLAT2: f64 = 1.0 / (SINGULAR_CONDITION * SINGULAR_CONDITION);

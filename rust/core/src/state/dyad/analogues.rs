@@ -8,8 +8,8 @@
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::Along;
-use crate::plan::compile::{Dyad, Part, Unknown};
+use crate::plan::dyad::{Dyad, Part, Unknown};
+use crate::plan::plan::Along;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {

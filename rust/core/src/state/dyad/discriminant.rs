@@ -4,8 +4,8 @@
 use crate::math::lanes::Real;
 use crate::math::tolerance::CHANGE_MISFIT;
 use crate::math::vector::Vector;
-use crate::plan::Along;
-use crate::plan::compile::{Dyad, Form};
+use crate::plan::dyad::{Dyad, Form};
+use crate::plan::plan::Along;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {

@@ -8,7 +8,7 @@ use super::closed_form::two_circles;
 use crate::math::derivatives::{ONE_DRIVER, Term};
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
-use crate::plan::compile::Dyad;
+use crate::plan::dyad::Dyad;
 use crate::state::state::{Context, FLAT2, Fault, State, Status};
 
 impl<R: Real, const G: usize> State<R, G> {

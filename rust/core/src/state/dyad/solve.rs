@@ -3,9 +3,9 @@
 use super::closed_form::{Solved, circle_and_line, turning_guide, two_circles, two_lines};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::Along;
-use crate::plan::compile::{Dyad, Form, Unknown};
+use crate::plan::dyad::{Dyad, Form, Unknown};
 use crate::plan::leg::Leg;
+use crate::plan::plan::Along;
 use crate::state::state::{Context, State};
 
 /// The dyad's equation, sorted: `a u₁ + b u₂ = k` with slides put in for the

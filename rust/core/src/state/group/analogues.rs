@@ -2,9 +2,9 @@
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::Along;
-use crate::plan::compile::Unknown;
-use crate::plan::group_loops::{Chord, Group, Loop};
+use crate::plan::dyad::Unknown;
+use crate::plan::group::{Chord, Group, Loop};
+use crate::plan::plan::Along;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {

@@ -10,8 +10,9 @@ use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{NEWTON_LONGEST, NEWTON_ROUNDS};
 use crate::math::vector::Vector;
-use crate::plan::binary_links::{Bars, Links, MOST};
-use crate::plan::group_loops::Group;
+use crate::plan::binary_links::{Links, MOST};
+use crate::plan::group::Bars;
+use crate::plan::group::Group;
 use crate::state::state::{Context, Fault, State, Status};
 
 /// Entries of a jet, at most.

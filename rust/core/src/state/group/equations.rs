@@ -5,8 +5,8 @@
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::Along;
-use crate::plan::group_loops::{Chord, Group};
+use crate::plan::group::{Chord, Group};
+use crate::plan::plan::Along;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
@@ -19,7 +19,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 continue;
             }
             let leg = (group.first_leg + place) * len;
-            if group.is_arm(cx.plan, place) {
+            if cx.plan.is_arm(group, place) {
                 self.measure_arm(cx, edge.edge, leg, k);
                 continue;
             }

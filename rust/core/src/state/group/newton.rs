@@ -13,9 +13,9 @@ use crate::math::tolerance::{
     NEWTON_BENT2, NEWTON_DONE, NEWTON_LEFT, NEWTON_LONGEST, NEWTON_ROUNDS,
 };
 use crate::math::vector::Vector;
-use crate::plan::Along;
-use crate::plan::compile::Unknown;
-use crate::plan::group_loops::{Chord, Group, Loop};
+use crate::plan::dyad::Unknown;
+use crate::plan::group::{Chord, Group, Loop};
+use crate::plan::plan::Along;
 use crate::state::state::{Context, FLAT2, Fault, State, Status};
 
 impl<R: Real, const G: usize> State<R, G> {

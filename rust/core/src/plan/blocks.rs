@@ -1,0 +1,353 @@
+//! From blocks of closure equations to steps.
+
+use std::collections::VecDeque;
+
+use super::dyad::{Dyad, Form, Part, Unknown};
+use super::group::Group;
+use super::plan::{Along, Higher, Plan, PlanEdge, Step};
+use crate::description::Linkage;
+use crate::description::error::StructureError;
+use crate::structure::Structure;
+use crate::structure::assur_group::roman;
+use crate::structure::closure::list;
+use crate::structure::matching::Pattern;
+
+/// Adds the steps of all blocks; returns which points they place.
+pub(crate) fn add_steps(
+    plan: &mut Plan,
+    linkage: &Linkage,
+    structure: &Structure,
+    kept: &[usize],
+) -> Result<Vec<bool>, StructureError> {
+    let nodes = Nodes::new(plan, linkage, structure, kept);
+    let blocks = nodes.pattern.blocks().ok_or_else(|| StructureError::OverConstrained {
+        excess: 1,
+        links: list(linkage.links.iter().map(|l| l.name.as_str())),
+    })?;
+    let mut known = plan.fixed.clone();
+    for block in &blocks {
+        let mut edges: Vec<usize> = block.equations.iter().map(|&e| kept[e]).collect();
+        let mut unknowns: Vec<Unknown> =
+            block.unknowns.iter().filter_map(|&u| nodes.unknown(u)).collect();
+        match unknowns.len() {
+            0 => {}
+            2 => {
+                let dyad = dyad(plan, linkage, &mut edges, &mut unknowns, &known);
+                plan.steps.push(Step::Dyad(dyad));
+            }
+            _ => {
+                let links = plan_links(linkage, &plan.edges, &edges);
+                let higher = higher(links, linkage, structure);
+                let name = format!("{}({})", higher.class, higher.links);
+                let (group, chords) = Group::new(plan, &edges, &unknowns, &known, name);
+                edges.retain(|edge| !chords.contains(edge));
+                plan.steps.push(Step::Group(group));
+                plan.higher.get_or_insert(higher);
+            }
+        }
+        place(plan, &mut known, edges);
+    }
+    Ok(known)
+}
+
+fn plan_links(linkage: &Linkage, edges: &[PlanEdge], of: &[usize]) -> Vec<usize> {
+    let mut links: Vec<usize> = of.iter().map(|&e| edges[e].edge.link).collect();
+    links.extend(of.iter().filter_map(|&e| edges[e].edge.slide()).map(|s| linkage.slides[s].link));
+    links.sort_unstable();
+    links.dedup();
+    links.retain(|&l| l != linkage.ground);
+    links
+}
+
+fn higher(links: Vec<usize>, linkage: &Linkage, structure: &Structure) -> Higher {
+    let group = structure.groups.iter().find(|g| g.links.iter().any(|l| links.contains(l)));
+    let links = group.map_or(links, |g| g.links.clone());
+    Higher {
+        links: links.iter().map(|&l| linkage.links[l].name.as_str()).collect::<Vec<_>>().join(", "),
+        class: roman(group.map_or(3, |g| g.class.max(3))),
+    }
+}
+
+/// The counting pattern of the kept edges and what its unknowns stand for.
+struct Nodes {
+    pattern: Pattern,
+    unknowns: Vec<Option<Unknown>>,
+}
+
+impl Nodes {
+    fn new(plan: &Plan, linkage: &Linkage, structure: &Structure, kept: &[usize]) -> Self {
+        let mut nodes = Self { pattern: Pattern::default(), unknowns: Vec::new() };
+        let mut point = vec![None; plan.points];
+        let mut class = vec![None; plan.classes];
+        for &e in kept {
+            for p in [plan.edges[e].edge.from, plan.edges[e].edge.to] {
+                if !plan.fixed[p] && point[p].is_none() {
+                    point[p] = Some(nodes.add(2, None));
+                }
+            }
+        }
+        for (l, &orientation) in plan.link_orientation.iter().enumerate() {
+            let c = plan.orientations[orientation].class;
+            let is_kept = !structure.redundant.links.contains(&l) && l != linkage.ground;
+            if c != 0 && is_kept && class[c].is_none() {
+                class[c] = Some(nodes.add(1, Some(Unknown::Class(c))));
+            }
+        }
+        for &e in kept {
+            let edge = &plan.edges[e];
+            let mut touches: Vec<usize> =
+                [point[edge.edge.from], point[edge.edge.to]].into_iter().flatten().collect();
+            touches.extend(class[plan.class_of(e)]);
+            if let Along::Slide(s) = edge.along {
+                touches.push(nodes.add(1, Some(Unknown::Slide(s))));
+            }
+            nodes.pattern.equation(2, touches);
+        }
+        nodes
+    }
+
+    fn add(&mut self, size: usize, unknown: Option<Unknown>) -> usize {
+        self.unknowns.push(unknown);
+        self.pattern.unknown(size)
+    }
+
+    fn unknown(&self, node: usize) -> Option<Unknown> {
+        self.unknowns[node]
+    }
+}
+
+/// Places points along edges as far as known points reach.
+fn place(plan: &mut Plan, known: &mut [bool], mut edges: Vec<usize>) {
+    loop {
+        let before = edges.len();
+        edges.retain(|&edge| {
+            let e = &plan.edges[edge].edge;
+            match (known[e.from], known[e.to]) {
+                (true, false) => {
+                    known[e.to] = true;
+                    plan.steps.push(Step::Place { edge, backward: false });
+                    false
+                }
+                (false, true) => {
+                    known[e.from] = true;
+                    plan.steps.push(Step::Place { edge, backward: true });
+                    false
+                }
+                _ => true,
+            }
+        });
+        if edges.len() == before {
+            return;
+        }
+    }
+}
+
+/// Finds the loop of a block; the edge that closes it is taken out of `edges`
+/// (the others place the points).
+fn dyad(
+    plan: &mut Plan,
+    linkage: &Linkage,
+    edges: &mut Vec<usize>,
+    unknowns: &mut [Unknown],
+    known: &[bool],
+) -> Dyad {
+    // Paths from known points, breadth first; the edge left over closes the loop.
+    let mut path: Vec<Option<Vec<(usize, bool)>>> =
+        known.iter().map(|&k| k.then(Vec::new)).collect();
+    let mut queue: VecDeque<usize> = (0..known.len()).filter(|&p| known[p]).collect();
+    let mut closing = None;
+    let mut used = vec![false; edges.len()];
+    while let Some(here) = queue.pop_front() {
+        for (i, &edge) in edges.iter().enumerate() {
+            let e = &plan.edges[edge].edge;
+            let (next, backward) = match here {
+                h if h == e.from => (e.to, false),
+                h if h == e.to => (e.from, true),
+                _ => continue,
+            };
+            if used[i] {
+                continue;
+            }
+            used[i] = true;
+            let mut longer = path[here].clone().unwrap_or_default();
+            longer.push((edge, backward));
+            match &path[next] {
+                None => {
+                    path[next] = Some(longer);
+                    queue.push_back(next);
+                }
+                Some(other) => closing = Some((i, longer, other.clone())),
+            }
+        }
+    }
+    let (index, ahead, back) = closing.unwrap_or_default();
+    // The common beginning of the two paths is no part of the loop.
+    let common = ahead.iter().zip(&back).take_while(|(a, b)| a == b).count();
+    let mut loop_path: Vec<(usize, bool)> = ahead[common..].to_vec();
+    loop_path.extend(back[common..].iter().rev().map(|&(e, b)| (e, !b)));
+    if index < edges.len() {
+        edges.remove(index);
+    }
+    let tip = |(e, backward): (usize, bool)| {
+        let edge = &plan.edges[e].edge;
+        if backward { edge.from } else { edge.to }
+    };
+    let tail = |(e, backward): (usize, bool)| tip((e, !backward));
+    order_unknowns(plan, &loop_path, unknowns);
+    let unknowns = [unknowns[0], unknowns[1]];
+    let form = form(plan, unknowns);
+    let start = loop_path.first().map_or(0, |&x| tail(x));
+    let end = loop_path.last().map_or(0, |&x| tip(x));
+    let (start, end) = if start == end {
+        rotate_to_first(plan, &mut loop_path, unknowns[0]);
+        // A closed loop hangs on no point; it may even pass through none that is known
+        // yet. It is counted from the origin.
+        (0, 0)
+    } else {
+        (start, end)
+    };
+    let sign = (form != Form::TwoLines).then(|| {
+        let name = inner_pair(plan, linkage, &loop_path, form, unknowns, &tip, &tail);
+        let links =
+            plan_links(linkage, &plan.edges, &loop_path.iter().map(|x| x.0).collect::<Vec<_>>());
+        let moving: Vec<&str> = links
+            .iter()
+            .filter(|&&l| plan.rotation[l].class != 0 || linkage.slides.iter().any(|s| s.link == l))
+            .map(|&l| linkage.links[l].name.as_str())
+            .collect();
+        (name, moving.join("-"))
+    });
+    let sign = sign.map(|(name, links)| {
+        // Loops through links with driven angles may share their inner joint.
+        let name = if plan.dyad_names.contains(&name) { links.clone() } else { name };
+        plan.dyad_names.push(name);
+        plan.dyad_links.push(links);
+        plan.dyad_names.len() - 1
+    });
+    let turned = unknowns.map(|unknown| {
+        let with = |o: &usize| unknown == Unknown::Class(plan.orientations[*o].class);
+        (0..plan.orientations.len()).filter(with).collect()
+    });
+    let (path, leg) = parts(plan, loop_path, unknowns);
+    let others =
+        path.iter().copied().filter(|part| !part.in_leg || part.slides.is_some()).collect();
+    let index = plan.dyads().count();
+    let binary = match unknowns {
+        [Unknown::Class(a), Unknown::Class(b)] if path.iter().all(|part| part.in_leg) => {
+            Some([a, b])
+        }
+        _ => None,
+    };
+    Dyad { form, unknowns, turned, path, others, leg, binary, index, start, end, sign }
+}
+
+/// What the edges of a loop add to its equation, and the orientations of its legs.
+fn parts(
+    plan: &Plan,
+    loop_path: Vec<(usize, bool)>,
+    unknowns: [Unknown; 2],
+) -> (Vec<Part>, [bool; 2]) {
+    let place = |unknown| unknowns.iter().position(|&u| u == unknown);
+    let mut path: Vec<Part> = loop_path
+        .into_iter()
+        .map(|(edge, backward)| {
+            let turns = place(Unknown::Class(plan.class_of(edge)));
+            let slides = match plan.edges[edge].along {
+                Along::Slide(s) => place(Unknown::Slide(s)),
+                _ => None,
+            };
+            Part { edge, backward, turns, slides, in_leg: false }
+        })
+        .collect();
+    let leg = [0, 1].map(|place| {
+        let mut turning = path.iter().filter(|part| part.turns == Some(place)).peekable();
+        turning.peek().is_some()
+            && turning.all(|part| {
+                let edge = &plan.edges[part.edge];
+                let own = edge.along == Along::Nothing || part.slides.is_some();
+                own && !plan.orientations[edge.orientation].driven
+            })
+    });
+    for part in &mut path {
+        part.in_leg = part.turns.is_some_and(|place| leg[place]);
+    }
+    (path, leg)
+}
+
+/// A closed loop may start anywhere on it: at the run of edges of its first unknown
+/// (of which then one end is the inner pair).
+fn rotate_to_first(plan: &Plan, path: &mut [(usize, bool)], first: Unknown) {
+    let carries = |e: usize| match first {
+        Unknown::Class(c) => plan.class_of(e) == c,
+        Unknown::Slide(s) => plan.edges[e].along == Along::Slide(s),
+    };
+    let n = path.len();
+    let begin = (0..n).find(|&i| carries(path[i].0) && !carries(path[(i + n - 1) % n].0));
+    path.rotate_left(begin.unwrap_or(0));
+}
+
+/// Rotations before slides; of two rotations, that of the link listed first.
+fn order_unknowns(plan: &Plan, path: &[(usize, bool)], unknowns: &mut [Unknown]) {
+    unknowns.sort_by_key(|u| match *u {
+        Unknown::Class(c) => {
+            let first = path
+                .iter()
+                .filter(|(e, _)| plan.class_of(*e) == c)
+                .map(|(e, _)| plan.edges[*e].edge.link);
+            (0, first.min().unwrap_or(usize::MAX))
+        }
+        Unknown::Slide(s) => (1, s),
+    });
+}
+
+fn form(plan: &Plan, unknowns: [Unknown; 2]) -> Form {
+    match unknowns {
+        [Unknown::Class(_), Unknown::Class(_)] => Form::TwoCircles,
+        [Unknown::Slide(_), _] => Form::TwoLines,
+        [Unknown::Class(c), Unknown::Slide(s)] => {
+            let edge = plan.edges.iter().position(|e| e.along == Along::Slide(s));
+            if edge.is_some_and(|e| plan.class_of(e) == c) {
+                Form::TurningGuide
+            } else {
+                Form::CircleAndLine
+            }
+        }
+    }
+}
+
+/// Name of the dyad's inner pair: the slide of a turning guide, else the joint
+/// at which the first unknown's run of edges ends on the side of the second's.
+fn inner_pair(
+    plan: &Plan,
+    linkage: &Linkage,
+    path: &[(usize, bool)],
+    form: Form,
+    unknowns: [Unknown; 2],
+    tip: &impl Fn((usize, bool)) -> usize,
+    tail: &impl Fn((usize, bool)) -> usize,
+) -> String {
+    let carries = |e: usize, unknown: Unknown| match unknown {
+        Unknown::Class(c) => plan.class_of(e) == c,
+        Unknown::Slide(s) => plan.edges[e].along == Along::Slide(s),
+    };
+    let slide_name = |unknown: Unknown| match unknown {
+        Unknown::Slide(s) => Some(linkage.slides[s].name.clone()),
+        Unknown::Class(_) => None,
+    };
+    if form == Form::TurningGuide {
+        return slide_name(unknowns[1]).unwrap_or_default();
+    }
+    let ranks = |u| path.iter().enumerate().filter(move |(_, x)| carries(x.0, u)).map(|(i, _)| i);
+    let (first, second) =
+        (ranks(unknowns[0]).collect::<Vec<_>>(), ranks(unknowns[1]).collect::<Vec<_>>());
+    let point = match (first.last(), second.first()) {
+        (Some(&a), Some(&b)) if a < b => tip(path[a]),
+        _ => first.first().map_or(0, |&a| tail(path[a])),
+    };
+    match point.checked_sub(1).and_then(|j| linkage.joints.get(j)) {
+        Some(joint) => joint.name.clone(),
+        None => {
+            slide_name(unknowns[1]).unwrap_or_else(|| format!("dyad{}", plan.dyad_names.len() + 1))
+        }
+    }
+}
