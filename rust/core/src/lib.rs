@@ -59,7 +59,7 @@ pub(crate) mod state;
 pub mod structure;
 
 pub use batch::outputs::Outputs;
-pub use batch::solve::{Coordinates, Motion, Request, Track};
+pub use batch::request::{Coordinates, Motion, Request, Track};
 pub use description::class_iv::ClassIv;
 pub use description::dimension::{Dimension, Dimensions};
 pub use description::error::{Named, SolveError, StructureError};
@@ -69,7 +69,7 @@ pub use description::{Description, Driver, DriverDescription, Linkage, SlideDesc
 pub use math::vector::Vector;
 pub use plan::mechanism::Mechanism;
 pub use query::diagnosis::Diagnosis;
-pub use state::state::Status;
+pub use state::status::Status;
 pub use structure::Structure;
 pub use structure::assur_group::Group;
 

@@ -1,9 +1,11 @@
 //! Designs × positions: a request solved into arrays, in blocks, on all cores.
 pub(crate) mod dispatch;
 pub(crate) mod outputs;
+pub(crate) mod request;
 pub(crate) mod schedule;
 pub(crate) mod solve;
 pub(crate) mod streaming_store;
 #[cfg(feature = "test-hooks")]
 pub mod test_hooks;
 pub(crate) mod worker;
+pub(crate) mod writer;

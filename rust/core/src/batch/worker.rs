@@ -4,23 +4,23 @@
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::dispatch as simd;
-use super::dispatch::Level;
-use super::outputs::{Column, Rows, Writer};
+use super::outputs::Column;
 use super::schedule::Control;
-use super::solve::Request;
 use super::streaming_store as stream;
+use crate::batch::request::Request;
+use crate::batch::writer::{Rows, Writer};
 use crate::branch::branch::Spot;
 use crate::branch::design::Design;
 use crate::branch::uniform::Quick;
 use crate::math::angle::nearest;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};
-use crate::math::simd::Simd;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
+use crate::state::kernel::Level;
 use crate::state::sensitivity::Sensitivity;
-use crate::state::state::{State, Status};
+use crate::state::state::State;
+use crate::state::status::Status;
 
 /// Groups of positions worked on at once: as many as stay in the nearest cache.
 const GROUPS: usize = 4;
@@ -30,7 +30,6 @@ pub(crate) struct Worker<'a> {
     design: Design<'a>,
     writer: &'a Writer<'a>,
     columns: &'a [Column],
-    simd: Simd,
     quick: Quick,
     one: State,
     /// The dimension by which all is differentiated, and work space for that.
@@ -93,7 +92,6 @@ impl<'a> Worker<'a> {
             design,
             writer,
             columns,
-            simd: control.simd,
             cancel: control.cancel,
         }
     }
@@ -103,20 +101,21 @@ impl<'a> Worker<'a> {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
-    /// Solves positions of the design with these dimensions.
-    pub(crate) fn solve(&mut self, values: &[f64], mut job: Job<'_, '_>) {
+    /// Takes the design with these dimensions; whether they are good. If not, the job is done: its
+    /// rows are left out.
+    pub(crate) fn bind(&mut self, values: &[f64], job: &mut Job<'_, '_>) -> bool {
         let mechanism = self.design.mechanism;
         if mechanism.dimensions().first_fault(values).is_some() {
             let count = job.q.len() / mechanism.q0().len();
             let status = Status::BadDimension as u8;
             job.rows.leave_out(self.columns, job.first, count, status);
-            return;
+            return false;
         }
         self.design.bind(values);
-        simd::solve(self.simd, self, &mut job);
+        true
     }
 
-    /// What [`simd`] dispatches.
+    /// Solves positions of the design; called by `dispatch` alone.
     #[inline(always)]
     pub(crate) fn run<L: Level>(&mut self, job: &mut Job<'_, '_>) {
         if !self.design.lay_quick::<L>(&mut self.quick) {

@@ -10,7 +10,6 @@ use super::change_point::Change;
 use super::reference::Template;
 use super::tracer::{Seed, Start};
 use super::uniform::Quick;
-use crate::batch::dispatch::Level;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
@@ -20,7 +19,9 @@ use crate::plan::constants_rate::BoundRate;
 use crate::plan::dyad::Unknown;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
-use crate::state::state::{Context, Fault, State, Status};
+use crate::state::kernel::Level;
+use crate::state::state::{Context, State};
+use crate::state::status::{Fault, Status};
 
 /// Powers of two between the design's own unit of length and the metre.
 #[derive(Debug, Default)]

@@ -10,7 +10,7 @@ use crate::math::vector::Vector;
 use crate::plan::constants::Bound;
 use crate::plan::dyad::Unknown;
 use crate::plan::plan::Step;
-use crate::state::state::{Fault, Status};
+use crate::state::status::{Fault, Status};
 
 /// Parts of the way from the drawing's dimensions, at least.
 const LEAST_PART: f64 = 1.0 / 1_099_511_627_776.0;

@@ -11,7 +11,8 @@ use crate::math::tolerance::{LIFT_HALVINGS, LIFT_TURN};
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Dyad, Form, Unknown};
 use crate::plan::plan::Step;
-use crate::state::state::{Context, Fault, State, Status};
+use crate::state::state::{Context, State};
+use crate::state::status::{Fault, Status};
 
 /// Halvings where a stretch that can be reached begins or ends: what is left of
 /// the turn there goes with the square root of the cell.

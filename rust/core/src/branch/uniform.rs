@@ -9,7 +9,6 @@ use super::branch::{CELLS_A_TURN, Track};
 use super::change_point::may_touch;
 pub(crate) use super::reference::Template;
 use super::tracer::{Seed, Stretch};
-use crate::batch::dispatch::Level;
 use crate::math::angle::turns_between;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};
@@ -17,6 +16,7 @@ use crate::math::tolerance::LIFT_TURN;
 use crate::math::vector::Vector;
 use crate::plan::dyad::Form;
 use crate::plan::plan::Plan;
+use crate::state::kernel::Level;
 use crate::state::state::{Context, State};
 
 /// Knots of a turn, its end included.

@@ -12,7 +12,7 @@ use crate::math::derivatives::Jets;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Asked, Follower};
-use crate::state::state::Status;
+use crate::state::status::Status;
 
 /// Mass of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]

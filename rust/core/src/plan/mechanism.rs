@@ -12,7 +12,7 @@ use crate::description::names::nearest;
 use crate::description::{Description, Linkage};
 use crate::math::tolerance::{FLAT_SINE, NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
 use crate::math::vector::Vector;
-use crate::state::state::Status;
+use crate::state::status::Status;
 use crate::structure::adjust::Adjusted;
 use crate::structure::closure::Closure;
 use crate::structure::{Structure, adjust};

@@ -7,7 +7,8 @@ use crate::description::error::{SolveError, number};
 use crate::math::derivatives::Jets;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::{Along, Plan, Step};
-use crate::state::state::{Context, Fault, State, Status};
+use crate::state::state::{Context, State};
+use crate::state::status::{Fault, Status};
 
 /// How far (in sizes) a joint is where a way has ended not for a dead point but for that: the
 /// condition of a group grows with the square of it, so the way to a pole is not followed to its

@@ -10,7 +10,8 @@ use crate::plan::constants::Bound;
 use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::{Plan, Step};
-use crate::state::state::{Context, Fault, State, Status};
+use crate::state::state::{Context, State};
+use crate::state::status::{Fault, Status};
 use std::borrow::Cow;
 
 /// Which positions will be asked for.

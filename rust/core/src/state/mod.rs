@@ -2,8 +2,10 @@
 
 pub(crate) mod dyad;
 pub(crate) mod group;
+pub(crate) mod kernel;
 pub(crate) mod own_condition;
 pub(crate) mod points;
 pub(crate) mod redundant;
 pub(crate) mod sensitivity;
 pub(crate) mod state;
+pub(crate) mod status;

@@ -12,7 +12,7 @@ use crate::dynamics::reduced::Reduced;
 use crate::dynamics::tables::table::{Cell, Table};
 use crate::dynamics::value::Numbers;
 use crate::ode::system::Fault;
-use crate::state::state::Status;
+use crate::state::status::Status;
 
 /// Part of the speed by which functions from outside are varied to find their slopes: the cube root
 /// of the unit roundoff, where rounding and curvature are equal.

@@ -20,7 +20,7 @@ use crate::ode::solution::{End, Solution};
 use crate::ode::system::System;
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::NearMiss;
-use crate::state::state::Status;
+use crate::state::status::Status;
 
 /// What a run cannot be made for.
 pub type RunError<E> = Error<Broken<E>>;

@@ -11,7 +11,7 @@ use crate::math::derivatives::Jets;
 use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Asked, Follower, NearMiss};
-use crate::state::state::Status;
+use crate::state::status::Status;
 
 /// A machine, place after place.
 pub(crate) trait Source {

@@ -8,7 +8,7 @@ use super::error::Broken;
 use super::model::Source;
 use super::options::{Along, Occasion, Task, Watch};
 use crate::ode::system::{Action, Crossing, Fault, System};
-use crate::state::state::Status;
+use crate::state::status::Status;
 
 /// What ended a run of itself.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,7 +4,7 @@ use super::dead_point::Tail;
 use super::options::Along;
 use crate::ode::dense::Path;
 use crate::ode::solution::Statistics;
-use crate::state::state::Status;
+use crate::state::status::Status;
 
 /// How a run ended.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

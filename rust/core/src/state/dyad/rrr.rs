@@ -9,7 +9,8 @@ use crate::math::derivatives::{ONE_DRIVER, Term};
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 use crate::plan::dyad::Dyad;
-use crate::state::state::{Context, FLAT2, Fault, State, Status};
+use crate::state::state::{Context, State};
+use crate::state::status::{FLAT2, Fault, Status};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves the dyad (step `index`) whose two legs turn with these classes.

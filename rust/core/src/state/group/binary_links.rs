@@ -4,7 +4,9 @@
 //! `group`), with one driver; eight positions after eight, so that all of it stays in a small
 //! work space.
 
-use super::newton::{Work, turned};
+use super::newton::Work;
+use super::turn::turned;
+use super::workspace::{ENTRIES, Jet, Loops};
 use crate::math::derivatives::ONE_DRIVER;
 use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
@@ -13,46 +15,8 @@ use crate::math::vector::Vector;
 use crate::plan::binary_links::{Links, MOST};
 use crate::plan::group::Bars;
 use crate::plan::group::Group;
-use crate::state::state::{Context, Fault, State, Status};
-
-/// Entries of a jet, at most.
-const ENTRIES: usize = ONE_DRIVER.len();
-/// Jet of a vector.
-type Jet<R> = [Vector<R>; ENTRIES];
-
-/// Work space for eight positions (or one).
-#[derive(Debug, Clone)]
-pub(crate) struct Loops<R: Real> {
-    /// The unknown rotations.
-    units: [Vector<R>; MOST],
-    /// What the loops have from before the group.
-    known: [Jet<R>; MOST],
-    /// The spans, turned: of every loop and unknown.
-    spans: [[Jet<R>; MOST]; MOST],
-    /// The vectors of the loops' chords.
-    chords: [Jet<R>; MOST],
-    /// Analogues of the unknowns, and of the binary links.
-    rates: [[R; ENTRIES]; MOST],
-    taken: [[R; ENTRIES]; MOST],
-    /// The matrix, with its inverse beside it, and what the lengths miss.
-    matrix: [[R; 1]; 2 * MOST * MOST],
-    missing: [R; MOST],
-}
-
-impl<R: Real> Default for Loops<R> {
-    fn default() -> Self {
-        Self {
-            units: [Vector::ONE; MOST],
-            known: [[Vector::ZERO; ENTRIES]; MOST],
-            spans: [[[Vector::ZERO; ENTRIES]; MOST]; MOST],
-            chords: [[Vector::ZERO; ENTRIES]; MOST],
-            rates: [[R::ZERO; ENTRIES]; MOST],
-            taken: [[R::ZERO; ENTRIES]; MOST],
-            matrix: [[R::ZERO; 1]; 2 * MOST * MOST],
-            missing: [R::ZERO; MOST],
-        }
-    }
-}
+use crate::state::state::{Context, State};
+use crate::state::status::{Fault, Status};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves a group (step `index`).

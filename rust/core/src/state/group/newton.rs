@@ -7,6 +7,7 @@
 //! Processes, 1984). Work goes on in all groups of positions at once; each lane stops where its
 //! own steps end.
 
+use super::turn::turned;
 use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{
@@ -16,7 +17,8 @@ use crate::math::vector::Vector;
 use crate::plan::dyad::Unknown;
 use crate::plan::group::{Chord, Group, Loop};
 use crate::plan::plan::Along;
-use crate::state::state::{Context, FLAT2, Fault, State, Status};
+use crate::state::state::{Context, State};
+use crate::state::status::{FLAT2, Fault, Status};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves the group (step `index`) from where its unknowns are; not where `care` knows that
@@ -291,14 +293,4 @@ impl<R: Real, const G: usize> Work<R, G> {
             self.done[g] = done.or(settled).or(is_short);
         }
     }
-}
-
-/// A unit vector turned by a small angle, and a unit vector again: by Taylor's polynomials of the
-/// third degree, then one step of Newton's for 1/√.
-#[inline(always)]
-pub(crate) fn turned<R: Real>(unit: Vector<R>, angle: R) -> Vector<R> {
-    let half2 = angle * angle * R::splat(0.5);
-    let turn = Vector::new(R::ONE - half2, angle * (R::ONE - half2 * R::splat(1.0 / 3.0)));
-    let new = unit * turn;
-    new.scale(R::splat(1.5) - R::splat(0.5) * new.norm2())
 }

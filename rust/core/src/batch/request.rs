@@ -1,0 +1,185 @@
+//! What to solve, and what comes of it.
+
+use super::outputs::{Column, Outputs, columns};
+use crate::batch::outputs::Arrays;
+use crate::description::error::SolveError;
+use crate::plan::mechanism::Mechanism;
+use crate::plan::plan::Step;
+
+/// Where the coordinates are taken from; `drivers` numbers a position.
+#[derive(Debug, Clone, Copy)]
+pub enum Coordinates<'a> {
+    /// The same positions for every design.
+    Shared(&'a [f64]),
+    /// Positions of every design, one design after another.
+    PerDesign(&'a [f64]),
+}
+
+impl<'a> Coordinates<'a> {
+    /// The `count` numbers of one design.
+    pub(crate) fn of(self, design: usize, count: usize) -> &'a [f64] {
+        match self {
+            Self::Shared(q) => q,
+            Self::PerDesign(q) => &q[design * count..][..count],
+        }
+    }
+}
+
+/// What to solve.
+#[derive(Debug, Clone)]
+pub struct Request<'a> {
+    /// Dimensions, one design after another.
+    pub dimensions: &'a [f64],
+    /// Coordinates, rad or m.
+    pub coordinates: Coordinates<'a>,
+    /// Assembly signs, +1 or −1 for every dyad with two solutions.
+    pub signs: &'a [i8],
+    /// Highest order of the analogues, 0 to 3.
+    pub order: usize,
+    /// What to keep.
+    pub outputs: &'a Outputs,
+    /// The dimension by which all of it is differentiated, in the order of
+    /// [`Mechanism::dimensions`]; none: the motion itself.
+    pub by: Option<usize>,
+}
+
+/// Value and analogues of one quantity over all designs and positions.
+///
+/// `derivatives[k]` is of order k (0: the value). Entries run over designs,
+/// positions, components (2 for a point) and k driver indices, last fastest.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Track {
+    /// Index of the joint, link or slide.
+    pub index: usize,
+    /// Arrays by order.
+    pub derivatives: Vec<Vec<f64>>,
+}
+
+/// The motion of a batch of designs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Motion {
+    /// Number of designs.
+    pub designs: usize,
+    /// Positions of each design.
+    pub positions: usize,
+    /// Joints' places, m.
+    pub joints: Vec<Track>,
+    /// Links' angles, rad.
+    pub links: Vec<Track>,
+    /// Places of the links' reference points (first joint), m.
+    pub places: Vec<Track>,
+    /// Slides' values, m.
+    pub slides: Vec<Track>,
+    /// One [`crate::state::status::Status`] code a position.
+    pub status: Vec<u8>,
+}
+
+impl Request<'_> {
+    /// The arrays that this request fills.
+    #[must_use]
+    pub fn columns(&self, mechanism: &Mechanism) -> Vec<Column> {
+        columns(self.outputs, mechanism.q0().len(), self.order)
+    }
+
+    /// Designs and positions of each.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::solve`].
+    pub fn shape(&self, mechanism: &Mechanism) -> Result<[usize; 2], SolveError> {
+        let shape = Shape::of(mechanism, self)?;
+        Ok([shape.designs, shape.positions])
+    }
+
+    /// Refuses arrays of other sizes than this request fills.
+    ///
+    /// # Errors
+    ///
+    /// That, and those of [`Mechanism::solve`].
+    pub fn check_arrays(
+        &self,
+        mechanism: &Mechanism,
+        arrays: &Arrays<'_>,
+    ) -> Result<(), SolveError> {
+        let [designs, positions] = self.shape(mechanism)?;
+        check_arrays(&self.columns(mechanism), arrays, product(designs, positions)?)
+    }
+}
+
+pub(crate) fn product(designs: usize, positions: usize) -> Result<usize, SolveError> {
+    let wrong = || SolveError::Shape(format!("{designs} × {positions} positions are too many"));
+    designs.checked_mul(positions).ok_or_else(wrong)
+}
+
+pub(crate) fn check_arrays(
+    columns: &[Column],
+    arrays: &Arrays<'_>,
+    rows: usize,
+) -> Result<(), SolveError> {
+    let fits = columns.len() == arrays.columns.len()
+        && columns.iter().zip(&arrays.columns).all(|(c, a)| a.len() == rows * c.width)
+        && arrays.status.len() == rows;
+    if fits { Ok(()) } else { Err(SolveError::Shape("the arrays do not fit the request".into())) }
+}
+
+pub(crate) struct Shape {
+    pub designs: usize,
+    pub positions: usize,
+    pub drivers: usize,
+    pub dimensions: usize,
+}
+
+impl Shape {
+    pub(crate) fn of(mechanism: &Mechanism, request: &Request<'_>) -> Result<Self, SolveError> {
+        if request.order > 3 {
+            return Err(SolveError::Order(request.order));
+        }
+        let (dimensions, drivers) = (mechanism.dimensions().len(), mechanism.q0().len());
+        if let Some(index) = request.by {
+            if index >= dimensions {
+                return Err(SolveError::Shape(format!("there is no dimension number {index}")));
+            }
+            let redundant = mechanism.plan().steps.iter().find_map(|step| match step {
+                Step::Fit(fit) => Some(fit.name.clone()),
+                _ => None,
+            });
+            if let Some(name) = redundant {
+                return Err(SolveError::Redundant { name });
+            }
+        }
+        let linkage = mechanism.linkage();
+        let within = |wanted: &[usize], have: usize| wanted.iter().all(|&i| i < have);
+        let held = request.outputs;
+        if !(within(&held.joints, linkage.joints.len())
+            && within(&held.links, linkage.links.len())
+            && within(&held.slides, linkage.slides.len()))
+        {
+            return Err(SolveError::Shape("an output's index is beyond what there is".into()));
+        }
+        let wrong = |what: String| Err(SolveError::Shape(what));
+        if request.signs.len() != mechanism.plan().signs() {
+            return wrong(format!(
+                "{} assembly signs were given, this mechanism has {} dyads with two solutions",
+                request.signs.len(),
+                mechanism.plan().signs()
+            ));
+        }
+        let designs = request.dimensions.len().checked_div(dimensions).unwrap_or(1);
+        if designs * dimensions != request.dimensions.len() {
+            return wrong(format!(
+                "{} numbers are not a whole number of designs of {dimensions} dimensions",
+                request.dimensions.len()
+            ));
+        }
+        let (count, per) = match request.coordinates {
+            Coordinates::Shared(q) => (q.len(), drivers),
+            Coordinates::PerDesign(q) => (q.len(), drivers * designs),
+        };
+        if per == 0 || count % per != 0 {
+            return wrong(format!(
+                "{count} coordinates do not divide into positions of {drivers} drivers"
+            ));
+        }
+        Ok(Self { designs, positions: count / per, drivers, dimensions })
+    }
+}

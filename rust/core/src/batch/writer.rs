@@ -1,0 +1,282 @@
+//! Numbers of a position written to their columns.
+
+use std::mem::MaybeUninit;
+
+use super::outputs::{Column, Quantity};
+use super::streaming_store as stream;
+use crate::branch::design::Units;
+use crate::math::derivatives::Jets;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
+use crate::plan::constants::Bound;
+use crate::plan::constants_rate::offsets;
+use crate::plan::mechanism::Mechanism;
+use crate::state::state::State;
+use crate::structure::closure::point_of_joint;
+
+/// The rows of some positions in every array, not yet written.
+#[derive(Debug)]
+pub(crate) struct Rows<'a> {
+    pub columns: Vec<&'a mut [MaybeUninit<f64>]>,
+    pub status: &'a mut [MaybeUninit<u8>],
+}
+
+/// One number (or point) of a row: where it goes.
+#[derive(Debug, Clone, Copy)]
+struct Entry {
+    column: usize,
+    width: usize,
+    /// Place in the row (of x, for a point).
+    place: usize,
+    /// Place of y behind x.
+    y: usize,
+    /// Entry of the jets.
+    k: usize,
+    /// Where it comes from: the point's, slide's or class's entry, or the link.
+    from: usize,
+    /// What the drivers add to an angle's derivative.
+    driven: f64,
+}
+
+/// Writes positions into their rows.
+pub(crate) struct Writer<'a> {
+    mechanism: &'a Mechanism,
+    points: Vec<Entry>,
+    slides: Vec<Entry>,
+    /// Angles of links.
+    angles: Vec<Entry>,
+    /// Derivatives of them.
+    rates: Vec<Entry>,
+    /// Classes whose angle is asked for.
+    pub classes: Vec<usize>,
+    /// Whether a class's rotation is asked for, or derivatives of its angle.
+    pub asked: Vec<bool>,
+    /// Whether values of points begin at the frame's origin.
+    shifted: bool,
+    /// Whether points are stored past the caches.
+    pub streams: bool,
+}
+
+impl<'a> Writer<'a> {
+    pub(crate) fn new(mechanism: &'a Mechanism, jets: &Jets, columns: &[Column]) -> Self {
+        let plan = mechanism.plan();
+        let mut classes: Vec<usize> = columns
+            .iter()
+            .filter_map(|column| match column.quantity {
+                Quantity::Angle(link) => Some(plan.rotation[link].class),
+                _ => None,
+            })
+            .collect();
+        classes.sort_unstable();
+        classes.dedup();
+        classes.retain(|&class| class != 0);
+        let mut asked = vec![false; plan.classes];
+        for &class in &classes {
+            asked[class] = true;
+        }
+        let [mut points, mut slides, mut angles, mut rates] = [const { Vec::new() }; 4];
+        for (index, column) in columns.iter().enumerate() {
+            let tensor = jets.tensor(column.order);
+            for (place, &k) in tensor.iter().enumerate() {
+                let (list, from, driven) = match column.quantity {
+                    Quantity::Joint(joint) => (&mut points, point_of_joint(joint), 0),
+                    Quantity::Place(link) => (&mut points, plan.reference[link], 0),
+                    Quantity::Slide(slide) => (&mut slides, slide, 0),
+                    Quantity::Angle(link) if k == 0 => (&mut angles, link, 0),
+                    Quantity::Angle(link) => {
+                        let rotation = &plan.rotation[link];
+                        let turns = jets.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
+                        (&mut rates, rotation.class, turns)
+                    }
+                };
+                let from = match column.quantity {
+                    Quantity::Angle(_) if k == 0 => from,
+                    _ => from * jets.len() + k,
+                };
+                let (width, y) = (column.width, tensor.len());
+                list.push(Entry { column: index, width, place, y, k, from, driven: driven.into() });
+            }
+        }
+        Self {
+            mechanism,
+            points,
+            slides,
+            angles,
+            rates,
+            classes,
+            asked,
+            shifted: true,
+            streams: false,
+        }
+    }
+
+    /// The same for derivatives by a dimension: angles are numbers as their analogues are, and
+    /// nothing is added to what the state holds.
+    pub(crate) fn of_rates(
+        mechanism: &'a Mechanism,
+        jets: &Jets,
+        columns: &[Column],
+        index: usize,
+    ) -> Self {
+        let mut writer = Self::new(mechanism, jets, columns);
+        let plan = mechanism.plan();
+        let mut by = vec![0.0; mechanism.dimensions().len()];
+        by[index] = 1.0;
+        let offsets = offsets(plan, &mechanism.slots, &by);
+        for entry in &mut writer.rates {
+            entry.driven = 0.0;
+        }
+        for entry in writer.angles.drain(..) {
+            let class = plan.rotation[entry.from].class;
+            let driven = offsets[entry.from];
+            writer.rates.push(Entry { from: class * jets.len(), driven, ..entry });
+        }
+        Self { shifted: false, classes: Vec::new(), ..writer }
+    }
+
+    /// Writes `count` positions, lane after lane of a state, into the rows from `row` on.
+    /// `lifted`: angles of the classes.
+    #[inline(always)]
+    pub(crate) fn write<R: Real, const G: usize>(
+        &self,
+        rows: &mut Rows<'_>,
+        (row, count): (usize, usize),
+        (bound, unit): (&Bound, &Units),
+        state: &State<R, G>,
+        lifted: &[[R; G]],
+    ) {
+        let origin = Vector::splat(Vector::new(bound.origin[0], bound.origin[1]));
+        for entry in &self.points {
+            let scale = R::splat(unit.length[entry.k]);
+            let shift = if entry.k == 0 && self.shifted { Some(origin) } else { None };
+            let points = &state.points[entry.from];
+            let out = rows.of(entry, row, count);
+            let place = |point: Vector<R>| {
+                let scaled = point.scale(scale);
+                if let Some(shift) = shift { scaled + shift } else { scaled }
+            };
+            if entry.width == 2 && count == G * R::LANES {
+                // A position by itself is written again where it has no analogues.
+                let streams = self.streams && R::LANES > 1;
+                for g in 0..G {
+                    let out = &mut out[2 * R::LANES * g..][..2 * R::LANES];
+                    if streams {
+                        stream::store_pairs(out, place(points[g]));
+                    } else {
+                        store_pairs(out, place(points[g]));
+                    }
+                }
+                continue;
+            }
+            for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
+                let p = place(points[g]);
+                store_some(out, entry.width, entry.place, p.x);
+                store_some(out, entry.width, entry.place + entry.y, p.y);
+            }
+        }
+        for entry in &self.slides {
+            let scale = R::splat(unit.length[entry.k]);
+            let slides = &state.slides[entry.from];
+            entry.store(rows.of(entry, row, count), |g| slides[g] * scale);
+        }
+        for entry in &self.angles {
+            let rotation = &self.mechanism.plan().rotation[entry.from];
+            let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.from];
+            let offset = R::splat(bound.offset[entry.from] + whole);
+            let lifted = &lifted[rotation.class];
+            entry.store(rows.of(entry, row, count), |g| {
+                // Of the class, plus what turns the link against it.
+                let mut angle = lifted[g];
+                for (&turns, q) in rotation.turns.iter().zip(&state.q) {
+                    if turns != 0 {
+                        angle += R::splat(f64::from(turns)) * q[g];
+                    }
+                }
+                angle + offset
+            });
+        }
+        for entry in &self.rates {
+            let (driven, scale) = (R::splat(entry.driven), R::splat(unit.angle[entry.k]));
+            let beyond = unit.angle[entry.k].is_infinite();
+            let rates = &state.theta[entry.from];
+            entry.store(rows.of(entry, row, count), |g| {
+                let rate = rates[g] + driven;
+                let scaled = rate * scale;
+                if beyond {
+                    // Beyond the range of numbers, but for what does not turn.
+                    R::select(rate.abs().le(R::ZERO), rate, scaled)
+                } else {
+                    scaled
+                }
+            });
+        }
+    }
+}
+
+impl Entry {
+    /// Writes a number for each lane of each group, as far as there are rows.
+    #[inline(always)]
+    fn store<R: Real>(&self, out: &mut [MaybeUninit<f64>], of: impl Fn(usize) -> R) {
+        if self.width == 1 {
+            let mut groups = out.chunks_exact_mut(R::LANES);
+            let mut g = 0;
+            for group in &mut groups {
+                let x = of(g);
+                for lane in 0..R::LANES {
+                    group[lane] = MaybeUninit::new(x.lane(lane));
+                }
+                g += 1;
+            }
+            let rest = groups.into_remainder();
+            if !rest.is_empty() {
+                store_some(rest, 1, 0, of(g));
+            }
+            return;
+        }
+        for (g, group) in out.chunks_mut(self.width * R::LANES).enumerate() {
+            store_some(group, self.width, self.place, of(g));
+        }
+    }
+}
+
+impl Rows<'_> {
+    /// An entry's rows.
+    #[inline(always)]
+    fn of(&mut self, entry: &Entry, row: usize, count: usize) -> &mut [MaybeUninit<f64>] {
+        &mut self.columns[entry.column][row * entry.width..(row + count) * entry.width]
+    }
+
+    /// Nothing but a status, for `count` rows from `row` on.
+    pub(crate) fn leave_out(&mut self, columns: &[Column], row: usize, count: usize, status: u8) {
+        self.blank(columns, 0, row, count);
+        self.status[row..row + count].fill(MaybeUninit::new(status));
+    }
+
+    /// No number from some order on.
+    pub(crate) fn blank(&mut self, columns: &[Column], order: usize, row: usize, count: usize) {
+        for (column, out) in columns.iter().zip(&mut self.columns) {
+            if column.order >= order {
+                let rows = row * column.width..(row + count) * column.width;
+                out[rows].fill(MaybeUninit::new(f64::NAN));
+            }
+        }
+    }
+}
+
+/// The lanes of a point, x and y side by side.
+#[inline(always)]
+fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
+    let out = &mut out[..2 * R::LANES];
+    for lane in 0..R::LANES {
+        out[2 * lane] = MaybeUninit::new(p.x.lane(lane));
+        out[2 * lane + 1] = MaybeUninit::new(p.y.lane(lane));
+    }
+}
+
+/// One entry of every row: of the first few lanes.
+#[inline(always)]
+fn store_some<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, place: usize, x: R) {
+    for (lane, row) in out.chunks_exact_mut(width).enumerate() {
+        row[place] = MaybeUninit::new(x.lane(lane));
+    }
+}
