@@ -153,8 +153,12 @@ pub enum StructureError {
     BadSign { name: String, value: i64 },
 }
 
-impl From<crate::structure::rank::Interrupted> for StructureError {
-    fn from(_: crate::structure::rank::Interrupted) -> Self {
+/// The work was called off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Interrupted;
+
+impl From<Interrupted> for StructureError {
+    fn from(_: Interrupted) -> Self {
         Self::Interrupted
     }
 }

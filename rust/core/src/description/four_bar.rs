@@ -60,22 +60,4 @@ impl FourBar {
             .link("rocker", ["D", "C"])
             .driver("crank")
     }
-
-    /// The dimensions in the order of the mechanism made from
-    /// [`FourBar::description`].
-    #[must_use]
-    pub fn dimensions(&self, mechanism: &crate::plan::mechanism::Mechanism) -> Vec<f64> {
-        mechanism
-            .dimensions()
-            .iter()
-            .zip(mechanism.drawing())
-            .map(|((name, _), &drawn)| match name {
-                "crank.length" => self.crank,
-                "coupler.length" => self.coupler,
-                "rocker.length" => self.rocker,
-                "ground.D.x" => self.ground,
-                _ => drawn,
-            })
-            .collect()
-    }
 }

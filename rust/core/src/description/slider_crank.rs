@@ -29,21 +29,4 @@ impl SliderCrank {
             .slide("bore", "piston", "ground", 0.0, Some("O"))
             .driver("crank")
     }
-
-    /// The dimensions in the order of the mechanism made from
-    /// [`SliderCrank::description`].
-    #[must_use]
-    pub fn dimensions(&self, mechanism: &crate::plan::mechanism::Mechanism) -> Vec<f64> {
-        mechanism
-            .dimensions()
-            .iter()
-            .zip(mechanism.drawing())
-            .map(|((name, _), &drawn)| match name {
-                "crank.length" => self.crank,
-                "rod.length" => self.rod,
-                "bore.offset" => self.offset,
-                _ => drawn,
-            })
-            .collect()
-    }
 }

@@ -5,21 +5,16 @@ use std::sync::atomic::AtomicBool;
 
 use super::constants::{Bound, Slots};
 use super::dyad::{Dyad, Form};
-use super::plan::{Plan, Step};
+use super::plan::Plan;
 use crate::description::dimension::Dimensions;
 use crate::description::error::{Named, SolveError, StructureError};
 use crate::description::names::nearest;
 use crate::description::{Description, Linkage};
-use crate::math::tolerance::{FLAT_SINE, NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
+use crate::math::tolerance::FLAT_SINE;
 use crate::math::vector::Vector;
-use crate::state::status::Status;
 use crate::structure::adjust::Adjusted;
 use crate::structure::closure::Closure;
 use crate::structure::{Structure, adjust};
-
-/// Places each way at which a drawing with redundant links is looked at: a turn, or the size of the
-/// drawing along a slide.
-const LOOKS: u32 = 31;
 
 /// A mechanism: what it is, how it is built, and how it is solved.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,22 +36,12 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
-    /// Analyses and compiles a description.
-    ///
-    /// # Errors
-    ///
-    /// [`StructureError`]: whatever keeps the description from being a mechanism
-    /// with as many drivers as freedoms and a definite assembly.
-    pub fn new(description: &Description) -> Result<Self, StructureError> {
-        Self::new_unless(description, None)
-    }
-
-    /// The same, which stops once `cancel` is true: thousands of links take seconds.
+    /// Analyses and compiles a description, unless `cancel` becomes true.
     ///
     /// # Errors
     ///
     /// Those of [`Mechanism::new`], and [`StructureError::Interrupted`].
-    pub fn new_unless(
+    pub(crate) fn compile(
         description: &Description,
         cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
@@ -91,7 +76,7 @@ impl Mechanism {
                 ((linkage.drawing_angle(l) - angle) / TAU).round()
             })
             .collect();
-        let made = Self {
+        Ok(Self {
             linkage,
             structure,
             plan,
@@ -103,40 +88,7 @@ impl Mechanism {
             slots,
             class_angle,
             whole_turns,
-        };
-        made.refuse_what_fits_here_alone(bound.scale)?;
-        Ok(made)
-    }
-
-    /// Refuses a drawing whose redundant links fit beside it and not along all of its motion, as it
-    /// would be solved: its lengths do not agree well enough to pass a change point.
-    fn refuse_what_fits_here_alone(&self, scale: f64) -> Result<(), StructureError> {
-        let is_slide = self.plan.driven_slide(0).is_some();
-        if self.plan.fits().next().is_none() || self.q0.len() > 1 {
-            return Ok(());
-        }
-        let step = if is_slide { self.linkage.size() } else { TAU } / f64::from(LOOKS);
-        for way in [step, -step] {
-            let looks = (0..=LOOKS).map(f64::from);
-            let places: Vec<f64> = looks.map(|look| self.q0[0] + way * look).collect();
-            let mut residual = 0.0_f64;
-            for found in self.diagnose(&self.drawing, &places, &self.signs).unwrap_or_default() {
-                if matches!(found.status, Status::Ok | Status::NearSingular | Status::Singular) {
-                    residual = residual.max(found.residual);
-                    continue;
-                }
-                let steps = &self.plan.steps;
-                let fit = found.step.is_some_and(|step| matches!(steps[step], Step::Fit(_)));
-                // A wide gap is that of another assembly, behind a change point that was missed or
-                // behind a gap of another dyad; what was missed by then shows before.
-                let part = if found.gap < NEARLY_REDUNDANT { found.gap } else { residual };
-                if fit && part > REDUNDANT_ROUNDING {
-                    let links = format!("{:?} and others", found.name.unwrap_or_default());
-                    return Err(StructureError::AlmostFits { links, gap: part * scale, part });
-                }
-            }
-        }
-        Ok(())
+        })
     }
 
     /// The description with names resolved.

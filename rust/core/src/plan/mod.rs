@@ -17,6 +17,7 @@ pub mod group;
 pub mod group_loops;
 pub mod leg;
 pub(crate) mod mechanism;
+pub(crate) mod named;
 pub mod pair_span;
 pub mod plan;
 pub(crate) mod redundant;

@@ -14,7 +14,8 @@ use nalgebra::{DMatrix, DVector};
 use super::closure::{Closure, LeftOut, Rotation, Span};
 use super::elimination::SparseRows;
 use super::rank;
-use super::rank::{Interrupted, Rank};
+use super::rank::Rank;
+use crate::description::error::Interrupted;
 use crate::description::{Driver, Linkage};
 use crate::math::tolerance::{
     NEARLY_DEPENDENT, NEARLY_REDUNDANT, RANK, REGULAR_CLOSURE, TRUNCATED,

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::elimination::{Elimination, SparseRows};
+use crate::description::error::Interrupted;
 
 /// A rank with the spaces that belong to it.
 #[derive(Debug, Clone)]
@@ -16,10 +17,6 @@ pub struct Rank {
     /// Columns that span the self-stresses, the dependent equations (rows: equations).
     pub stresses: DMatrix<f64>,
 }
-
-/// The work was called off.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Interrupted;
 
 /// Rank of a matrix, its columns scaled to length 1; what is not above `least` counts as zero.
 ///

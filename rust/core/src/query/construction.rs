@@ -1,0 +1,75 @@
+//! A mechanism from its description. A drawing with redundant links is looked at along its motion,
+//! for which it has to be solved: that is why this is not done where it is compiled.
+
+use std::f64::consts::TAU;
+use std::sync::atomic::AtomicBool;
+
+use crate::description::Description;
+use crate::description::error::StructureError;
+use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
+use crate::plan::constants::Bound;
+use crate::plan::mechanism::Mechanism;
+use crate::plan::plan::Step;
+use crate::state::status::Status;
+
+/// Places each way at which a drawing with redundant links is looked at: a turn, or the size of the
+/// drawing along a slide.
+const LOOKS: u32 = 31;
+
+impl Mechanism {
+    /// Analyses and compiles a description.
+    ///
+    /// # Errors
+    ///
+    /// [`StructureError`]: whatever keeps the description from being a mechanism
+    /// with as many drivers as freedoms and a definite assembly.
+    pub fn new(description: &Description) -> Result<Self, StructureError> {
+        Self::new_unless(description, None)
+    }
+
+    /// The same, which stops once `cancel` is true: thousands of links take seconds.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::new`], and [`StructureError::Interrupted`].
+    pub fn new_unless(
+        description: &Description,
+        cancel: Option<&AtomicBool>,
+    ) -> Result<Self, StructureError> {
+        let made = Self::compile(description, cancel)?;
+        let bound = Bound::new(made.plan(), &made.slots, made.drawing());
+        made.refuse_what_fits_here_alone(bound.scale)?;
+        Ok(made)
+    }
+
+    /// Refuses a drawing whose redundant links fit beside it and not along all of its motion, as it
+    /// would be solved: its lengths do not agree well enough to pass a change point.
+    fn refuse_what_fits_here_alone(&self, scale: f64) -> Result<(), StructureError> {
+        let is_slide = self.plan().driven_slide(0).is_some();
+        if self.plan().fits().next().is_none() || self.q0().len() > 1 {
+            return Ok(());
+        }
+        let step = if is_slide { self.linkage().size() } else { TAU } / f64::from(LOOKS);
+        for way in [step, -step] {
+            let looks = (0..=LOOKS).map(f64::from);
+            let places: Vec<f64> = looks.map(|look| self.q0()[0] + way * look).collect();
+            let mut residual = 0.0_f64;
+            for found in self.diagnose(self.drawing(), &places, self.signs()).unwrap_or_default() {
+                if matches!(found.status, Status::Ok | Status::NearSingular | Status::Singular) {
+                    residual = residual.max(found.residual);
+                    continue;
+                }
+                let steps = &self.plan().steps;
+                let fit = found.step.is_some_and(|step| matches!(steps[step], Step::Fit(_)));
+                // A wide gap is that of another assembly, behind a change point that was missed or
+                // behind a gap of another dyad; what was missed by then shows before.
+                let part = if found.gap < NEARLY_REDUNDANT { found.gap } else { residual };
+                if fit && part > REDUNDANT_ROUNDING {
+                    let links = format!("{:?} and others", found.name.unwrap_or_default());
+                    return Err(StructureError::AlmostFits { links, gap: part * scale, part });
+                }
+            }
+        }
+        Ok(())
+    }
+}
