@@ -9,9 +9,10 @@
 
 use std::f64::consts::TAU;
 
-use super::change_point::Change;
 use super::hermite::Cell;
-use super::tracer::{Knot, Start, Stretch, Walker};
+use super::tracer::Walker;
+use super::knot::Change;
+use super::knot::{Knot, Start, Stretch};
 use crate::math::angle::{less_turns, whole_part};
 use crate::math::lanes::{LANES, Real};
 use crate::plan::plan::Plan;

@@ -7,50 +7,45 @@
 //! distance where nothing is singular, tells a change point (0, to rounding) from
 //! a near miss (positive) and from a gap between two dead points (negative).
 
-use super::tracer::{Knot, Walker};
+use super::knot::{Change, Knot, may_touch};
+use super::tracer::Walker;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{
     CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,
 };
 use crate::plan::dyad::Dyad;
 
-/// A change point.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Change {
-    /// Parameter.
-    pub at: f64,
-    /// The sign that changes.
-    pub sign: usize,
-}
-
-/// Looks for the first change point between two knots and records it; the caller
-/// solves the second knot again with the new sign and asks once more.
-pub(crate) fn pass(walker: &mut Walker<'_, '_>, a: &Knot, b: &Knot) -> bool {
-    for (place, (step, dyad)) in walker.dyads().enumerate() {
-        let Some(sign) = dyad.sign else { continue };
-        // A dyad beyond may close only with the sign that is yet to be found.
-        if step >= a.solved.min(b.solved) {
-            continue;
+impl Walker<'_, '_> {
+    /// Looks for the first change point between two knots and records it; the caller
+    /// solves the second knot again with the new sign and asks once more.
+    pub(crate) fn pass(&mut self, a: &Knot, b: &Knot) -> bool {
+        let walker = self;
+        for (place, (step, dyad)) in walker.dyads().enumerate() {
+            let Some(sign) = dyad.sign else { continue };
+            // A dyad beyond may close only with the sign that is yet to be found.
+            if step >= a.solved.min(b.solved) {
+                continue;
+            }
+            let here = |c: &Change| c.sign == sign && (c.at - a.at) * walker.way > 0.0;
+            if walker.changes.iter().any(here) {
+                continue;
+            }
+            let ((from, fall), (to, rise)) = (a.spread[place], b.spread[place]);
+            if !may_touch((from, fall), (to, rise), b.at - a.at) {
+                continue;
+            }
+            let Some((at, sure)) = locate(walker, (step, dyad), a.at, b.at) else { continue };
+            // Beside the first knot it may be found on the other side, and would be found again and again.
+            let least = (a.at.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
+            let at = if (at - a.at) * walker.way > 0.0 { at } else { a.at + walker.way * least };
+            let change = Change { at, sign };
+            if sure || leads_through(walker, change, [a.at, b.at]) {
+                walker.changes.push(change);
+                return true;
+            }
         }
-        let here = |c: &Change| c.sign == sign && (c.at - a.at) * walker.way > 0.0;
-        if walker.changes.iter().any(here) {
-            continue;
-        }
-        let ((from, fall), (to, rise)) = (a.spread[place], b.spread[place]);
-        if !may_touch((from, fall), (to, rise), b.at - a.at) {
-            continue;
-        }
-        let Some((at, sure)) = locate(walker, (step, dyad), a.at, b.at) else { continue };
-        // Beside the first knot it may be found on the other side, and would be found again and again.
-        let least = (a.at.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
-        let at = if (at - a.at) * walker.way > 0.0 { at } else { a.at + walker.way * least };
-        let change = Change { at, sign };
-        if sure || leads_through(walker, change, [a.at, b.at]) {
-            walker.changes.push(change);
-            return true;
-        }
+        false
     }
-    false
 }
 
 /// How far behind the first of two knots redundant links are looked at, in cells: close to the change
@@ -76,23 +71,6 @@ fn leads_through(walker: &mut Walker<'_, '_>, change: Change, [a, b]: [f64; 2]) 
         }
     }
     false
-}
-
-/// How many times the fall over a whole cell the spread at its ends may be, and the
-/// cell still be searched: at a change point within the cell it is at most once, as
-/// long as the spread is about straight.
-const FALLS: f64 = 4.0;
-
-/// Whether a spread may touch 0 between two knots, given it and its rate there (`cell`:
-/// the step, negative down the parameter).
-#[inline(always)]
-pub(crate) fn may_touch<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell: R) -> R::Mask {
-    // |N| falls at the one end and rises at the other, and fast enough.
-    let fall = -(R::ONE.copysign(from) * fall * cell);
-    let rise = R::ONE.copysign(to) * rise * cell;
-    let same_side = R::ZERO.lt(from * to);
-    let fast = |size: R, rate: R| size.abs().lt(R::splat(FALLS) * rate);
-    R::ZERO.lt(fall).and(R::ZERO.lt(rise)).and(same_side).and(fast(from, fall)).and(fast(to, rise))
 }
 
 /// The smaller part of the golden section.

@@ -6,10 +6,10 @@ use std::cell::RefCell;
 
 use super::branch::{Spot, Track};
 use super::change_interpolant::{Bridge, Span};
-use super::change_point::Change;
-use super::reference::Template;
-use super::tracer::{Seed, Start};
 use super::uniform::Quick;
+use super::knot::Change;
+use super::knot::{Seed, Start};
+use crate::branch::uniform::Template;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};

@@ -1,6 +1,6 @@
 //! What is told of an unknown of a group between two knots of the way.
 
-use super::tracer::Seed;
+use super::knot::Seed;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::dyad::Unknown;

@@ -4,7 +4,7 @@
 //! the design's.
 
 use super::design::Design;
-use super::tracer::{STRAY, Seed};
+use super::knot::{FIRST_STEP, LATER_STEPS, Seed};
 use crate::description::Driver;
 use crate::math::vector::Vector;
 use crate::plan::constants::Bound;
@@ -16,12 +16,6 @@ use crate::state::status::{Fault, Status};
 const LEAST_PART: f64 = 1.0 / 1_099_511_627_776.0;
 /// And how many are tried: along a fold the least parts would go on for hours.
 const MOST_PARTS: u32 = 10_000;
-
-/// How far (rad, or of the size) the first step of the iteration may go, which follows what
-/// changes to the first order: other assemblies are farther.
-pub(crate) const FIRST_STEP: f64 = 0.25;
-/// And all others together.
-pub(crate) const LATER_STEPS: f64 = STRAY;
 
 impl Design<'_> {
     /// Unknowns of the groups at the drawing's coordinate, for dimensions `values` that are bound.

@@ -6,7 +6,7 @@ pub(crate) mod change_point;
 pub(crate) mod design;
 pub(crate) mod hermite;
 pub(crate) mod homotopy;
+pub(crate) mod knot;
 pub(crate) mod predictor;
-pub(crate) mod reference;
 pub(crate) mod tracer;
 pub(crate) mod uniform;

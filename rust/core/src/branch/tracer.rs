@@ -1,11 +1,11 @@
 //! Walking from the drawing: knots close enough together to see every change point
 //! and to tell every angle.
 
-use std::f64::consts::TAU;
 
-use super::change_point as change;
-use super::change_point::{Change, may_touch};
 use super::hermite::Cell;
+use super::knot::{
+    Change, Knot, Seed, Start, Stretch, apart, foretell, may_touch, returns, strays,
+};
 use crate::math::angle::nearest;
 use crate::math::tolerance::{LIFT_HALVINGS, LIFT_TURN};
 use crate::math::vector::Vector;
@@ -39,11 +39,6 @@ const PROBES: [f64; 3] = [1.0 / 128.0, 1.0 / 16384.0, 1.0 / 1048576.0];
 
 /// Halvings toward the place where a group folds: down to the spacing of q.
 const FOLD_HALVINGS: u32 = 52;
-/// How far (rad, or of the size) an unknown of a group may be from where its Taylor polynomial
-/// at the knot before tells it: other assemblies are farther, except beside a fold, beyond which
-/// the determinant has the other sign.
-pub(crate) const STRAY: f64 = 1.0 / 32.0;
-
 /// Halvings from which on a cell is looked at in its middle. Beside two folds close together an unknown
 /// goes with the cube root of q, which coarser cells do not follow.
 const LEAP_HALVINGS: u32 = 4;
@@ -52,61 +47,6 @@ const LEAP_HALVINGS: u32 = 4;
 const LEAP: f64 = 1.0 / 64.0;
 /// … and the rounding beside two folds that meet, ∛u and a margin.
 const LEAP_ROUNDING: f64 = 1.0 / 65536.0;
-
-/// How near (rad, or of the size) the unknowns of a group must be to where they began to have
-/// returned: other assemblies are farther.
-const RETURNED: f64 = 1.0e-6;
-
-/// Where a way begins.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Start<'a> {
-    /// Angles of the classes.
-    pub angles: &'a [f64],
-    /// Unknowns of the groups.
-    pub seeds: &'a [Seed],
-}
-
-/// One point of the path.
-#[derive(Debug, Clone)]
-pub(crate) struct Knot {
-    pub at: f64,
-    pub reached: bool,
-    /// Lifted angle of every class; where not reached, that of the last knot that was.
-    pub angles: Vec<f64>,
-    /// Rate of every class along the path.
-    rates: Vec<f64>,
-    /// Spread of every dyad with a sign, and its rate along the path.
-    pub spread: Vec<(f64, f64)>,
-    /// On which side of parallel the guides of every dyad of two known directions are;
-    /// between the sides its point passes through infinity.
-    sides: Vec<bool>,
-    /// Where not reached: the step that does not close, and by how much.
-    open: Option<(usize, f64)>,
-    /// Steps of the plan that could be solved.
-    pub solved: usize,
-    /// Unknowns of the groups above class II, from which those of the next are told.
-    pub seeds: Vec<Seed>,
-    /// Signs of the groups' determinants.
-    pub bends: Vec<bool>,
-}
-
-/// An unknown of a group and its first two derivatives along the path (angles are lifted).
-pub(crate) type Seed = [f64; 3];
-
-impl Knot {
-    /// Whether a dyad is flat here, or its outer joints coincide.
-    fn is_flat(&self) -> bool {
-        let loose = self.open.is_some_and(|(_, gap)| gap == 0.0);
-        loose || self.spread.iter().any(|(_, rate)| rate.is_nan())
-    }
-}
-
-/// Signs on one stretch of the path, from its beginning on.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Stretch {
-    pub from: f64,
-    pub signs: Vec<f64>,
-}
 
 /// Walks along a path and lays knots.
 pub(crate) struct Walker<'a, 'b> {
@@ -345,7 +285,7 @@ impl<'a, 'b> Walker<'a, 'b> {
                 end += NUDGE * (end - from.at);
                 knot = self.knot(end, &from.angles);
             }
-            while change::pass(self, &from, &knot) {
+            while self.pass(&from, &knot) {
                 knot = self.knot(end, &from.angles);
             }
             let swings = self.swings(from.at, end);
@@ -473,32 +413,4 @@ fn may_hide_island(a: &Knot, b: &Knot, cell: f64, depth: u32) -> bool {
         }
         _ => depth < UNLIKE_HALVINGS,
     }
-}
-
-/// Taylor's polynomial.
-fn foretell([value, rate, second]: &Seed, step: f64) -> f64 {
-    value + step * (rate + 0.5 * step * second)
-}
-
-/// How far an unknown, a cell further, is from where the way leads: each end from the other, so that
-/// the polynomial between them holds.
-fn apart(a: &Seed, b: &Seed, cell: f64) -> f64 {
-    let ahead = (foretell(a, cell) - b[0]).abs();
-    let back = (foretell(b, -cell) - a[0]).abs();
-    // No number is far.
-    if ahead.is_nan() || back.is_nan() { f64::INFINITY } else { ahead.max(back) }
-}
-
-/// Whether an unknown, a cell further, is not surely where the way leads.
-pub(crate) fn strays(a: &Seed, b: &Seed, cell: f64) -> bool {
-    apart(a, b, cell) > STRAY
-}
-
-/// Whether an unknown is, some turns on, what it was.
-pub(crate) fn returns(unknown: Unknown, a: &Seed, b: &Seed) -> bool {
-    let apart = match unknown {
-        Unknown::Class(_) => (b[0] - a[0]) - TAU * ((b[0] - a[0]) / TAU).round(),
-        Unknown::Slide(_) => b[0] - a[0],
-    };
-    apart.abs() <= RETURNED
 }

@@ -2,7 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::kinematics::{Point, Pose};
+use super::body::Body;
+use super::kinematics::Pose;
 use super::load::Load;
 use super::motor::Motor;
 use super::reduced::Reduced;
@@ -13,19 +14,6 @@ use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Asked, Follower};
 use crate::state::status::Status;
-
-/// Mass of a link.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Body {
-    /// The link.
-    pub link: usize,
-    /// Its centre of mass.
-    pub at: Point,
-    /// Mass, kg.
-    pub mass: f64,
-    /// Moment of inertia about that centre, kg·m².
-    pub inertia: f64,
-}
 
 /// What a mechanism carries and what acts on it.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -18,6 +18,7 @@
 //! ```
 
 pub(crate) mod angle_between;
+pub(crate) mod body;
 pub(crate) mod flywheel;
 pub(crate) mod kinematics;
 pub(crate) mod load;
@@ -30,21 +31,24 @@ pub(crate) mod tables;
 pub(crate) mod value;
 
 pub use angle_between::{Angle, Line};
+pub use body::Body;
 pub use flywheel::cycle::{Extreme, Turn};
 pub use flywheel::flywheel::{Flywheel, Mean};
 pub use kinematics::Point;
 pub use load::Load;
-pub use machine::{Body, Machine, Rows};
+pub use machine::{Machine, Rows};
 pub use motor::{Characteristic, Motor};
 pub use run::callbacks::{Nothing, Outside};
 pub use run::error::Broken;
 pub use run::integrate::RunError;
 pub use run::model::Sheet;
 pub use run::options::{Along, Occasion, Task, Watch};
-pub use run::trajectory::{Ending, Happened, Moment, Moments, Run};
+pub use run::sample::{Moment, Moments};
+pub use run::trajectory::{Ending, Happened, Run};
 pub use steady::error::Unsteady;
 pub use steady::flywheel_sizing::Wanted;
-pub use steady::steady::{Search, Steady};
+pub use steady::options::Search;
+pub use steady::steady::Steady;
 pub use tables::error::TableError;
 pub use tables::spline::{Ends, Pieces, spline};
 pub use tables::table::Table;

@@ -3,7 +3,7 @@
 use crate::branch::branch::Track;
 use crate::branch::change_interpolant::Bridge;
 use crate::branch::design::{Design, Place, Units};
-use crate::branch::tracer::{Seed, Start};
+use crate::branch::knot::{Seed, Start};
 use crate::math::angle::nearest;
 use crate::math::derivatives::Jets;
 use crate::plan::constants::Bound;

@@ -1,10 +1,9 @@
 //! The periodic motion of a machine: what is asked, and what is made of the beginning that was found.
 
-use std::time::Instant;
 
 use super::error::Unsteady;
+use super::options::Search;
 use super::period::{Begin, Passage, Period, period};
-use crate::dynamics::flywheel::flywheel::Mean;
 use crate::dynamics::run::callbacks::Outside;
 use crate::dynamics::run::equation::Equation;
 use crate::dynamics::run::error::Broken;
@@ -13,7 +12,6 @@ use crate::dynamics::run::model::Source;
 use crate::dynamics::run::options::{Along, Occasion, Task, Watch};
 use crate::dynamics::run::trajectory::{Ending, Run};
 use crate::ode::integrate::Integrator;
-use crate::ode::options::Method;
 use crate::ode::system::Crossing;
 
 /// Errors of a period, as multiples of the tolerance.
@@ -28,31 +26,6 @@ const LOOKS: u32 = 5;
 const NO_INERTIA: f64 = 64.0 * f64::EPSILON;
 /// How far two periods, one after the other, may differ.
 const SAME: f64 = 1.0e-7;
-
-/// What is asked for.
-#[derive(Debug, Clone, Copy)]
-pub struct Search<'a> {
-    /// Where the period begins.
-    pub q: f64,
-    /// Its length, negative if the driver turns backward.
-    pub span: f64,
-    /// The mean speed, where motors and loads tell none; else a first guess.
-    pub speed: Option<f64>,
-    /// What that mean is.
-    pub mean: Mean,
-    /// The pair of formulas.
-    pub method: Method,
-    /// Relative tolerance.
-    pub relative: f64,
-    /// How many steps a period may have.
-    pub max_steps: u64,
-    /// When it must be over.
-    pub deadline: Option<Instant>,
-    /// Where functions from outside are not smooth, ascending.
-    pub breaks: &'a [f64],
-    /// Inertia added to the driver's.
-    pub flywheel: f64,
-}
 
 /// A periodic motion.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,0 +1,126 @@
+//! Knots of a way: what is known at them, and how one follows from another.
+
+use std::f64::consts::TAU;
+
+use crate::math::lanes::{Mask, Real};
+use crate::plan::dyad::Unknown;
+
+/// How far (rad, or of the size) an unknown of a group may be from where its Taylor polynomial
+/// at the knot before tells it: other assemblies are farther, except beside a fold, beyond which
+/// the determinant has the other sign.
+pub(crate) const STRAY: f64 = 1.0 / 32.0;
+
+/// How far (rad, or of the size) the first step of the iteration may go, which follows what
+/// changes to the first order: other assemblies are farther.
+pub(crate) const FIRST_STEP: f64 = 0.25;
+/// And all others together.
+pub(crate) const LATER_STEPS: f64 = STRAY;
+
+/// How near (rad, or of the size) the unknowns of a group must be to where they began to have
+/// returned: other assemblies are farther.
+const RETURNED: f64 = 1.0e-6;
+
+/// Where a way begins.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Start<'a> {
+    /// Angles of the classes.
+    pub angles: &'a [f64],
+    /// Unknowns of the groups.
+    pub seeds: &'a [Seed],
+}
+
+/// One point of the path.
+#[derive(Debug, Clone)]
+pub(crate) struct Knot {
+    pub at: f64,
+    pub reached: bool,
+    /// Lifted angle of every class; where not reached, that of the last knot that was.
+    pub angles: Vec<f64>,
+    /// Rate of every class along the path.
+    pub rates: Vec<f64>,
+    /// Spread of every dyad with a sign, and its rate along the path.
+    pub spread: Vec<(f64, f64)>,
+    /// On which side of parallel the guides of every dyad of two known directions are;
+    /// between the sides its point passes through infinity.
+    pub sides: Vec<bool>,
+    /// Where not reached: the step that does not close, and by how much.
+    pub open: Option<(usize, f64)>,
+    /// Steps of the plan that could be solved.
+    pub solved: usize,
+    /// Unknowns of the groups above class II, from which those of the next are told.
+    pub seeds: Vec<Seed>,
+    /// Signs of the groups' determinants.
+    pub bends: Vec<bool>,
+}
+
+/// An unknown of a group and its first two derivatives along the path (angles are lifted).
+pub(crate) type Seed = [f64; 3];
+
+impl Knot {
+    /// Whether a dyad is flat here, or its outer joints coincide.
+    pub(crate) fn is_flat(&self) -> bool {
+        let loose = self.open.is_some_and(|(_, gap)| gap == 0.0);
+        loose || self.spread.iter().any(|(_, rate)| rate.is_nan())
+    }
+}
+
+/// Signs on one stretch of the path, from its beginning on.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Stretch {
+    pub from: f64,
+    pub signs: Vec<f64>,
+}
+
+/// A change point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Change {
+    /// Parameter.
+    pub at: f64,
+    /// The sign that changes.
+    pub sign: usize,
+}
+
+/// How many times the fall over a whole cell the spread at its ends may be, and the
+/// cell still be searched: at a change point within the cell it is at most once, as
+/// long as the spread is about straight.
+const FALLS: f64 = 4.0;
+
+/// Whether a spread may touch 0 between two knots, given it and its rate there (`cell`:
+/// the step, negative down the parameter).
+#[inline(always)]
+pub(crate) fn may_touch<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell: R) -> R::Mask {
+    // |N| falls at the one end and rises at the other, and fast enough.
+    let fall = -(R::ONE.copysign(from) * fall * cell);
+    let rise = R::ONE.copysign(to) * rise * cell;
+    let same_side = R::ZERO.lt(from * to);
+    let fast = |size: R, rate: R| size.abs().lt(R::splat(FALLS) * rate);
+    R::ZERO.lt(fall).and(R::ZERO.lt(rise)).and(same_side).and(fast(from, fall)).and(fast(to, rise))
+}
+
+/// Taylor's polynomial.
+pub(crate) fn foretell([value, rate, second]: &Seed, step: f64) -> f64 {
+    value + step * (rate + 0.5 * step * second)
+}
+
+/// How far an unknown, a cell further, is from where the way leads: each end from the other, so that
+/// the polynomial between them holds.
+pub(crate) fn apart(a: &Seed, b: &Seed, cell: f64) -> f64 {
+    let ahead = (foretell(a, cell) - b[0]).abs();
+    let back = (foretell(b, -cell) - a[0]).abs();
+    // No number is far.
+    if ahead.is_nan() || back.is_nan() { f64::INFINITY } else { ahead.max(back) }
+}
+
+/// Whether an unknown, a cell further, is not surely where the way leads.
+pub(crate) fn strays(a: &Seed, b: &Seed, cell: f64) -> bool {
+    apart(a, b, cell) > STRAY
+}
+
+/// Whether an unknown is, some turns on, what it was.
+pub(crate) fn returns(unknown: Unknown, a: &Seed, b: &Seed) -> bool {
+    let apart = match unknown {
+        Unknown::Class(_) => (b[0] - a[0]) - TAU * ((b[0] - a[0]) / TAU).round(),
+        Unknown::Slide(_) => b[0] - a[0],
+    };
+    apart.abs() <= RETURNED
+}
