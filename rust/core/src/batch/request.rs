@@ -1,7 +1,7 @@
 //! What to solve, and what comes of it.
 
+use super::outputs::Arrays;
 use super::outputs::{Column, Outputs, columns};
-use crate::batch::outputs::Arrays;
 use crate::description::error::SolveError;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;

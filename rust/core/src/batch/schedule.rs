@@ -7,9 +7,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
+use super::outputs::Arrays;
 use super::outputs::Column;
 use super::writer::Rows;
-use crate::batch::outputs::Arrays;
 use crate::description::error::SolveError;
 use crate::math::simd::Simd;
 

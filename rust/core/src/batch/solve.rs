@@ -3,13 +3,13 @@
 use std::mem::MaybeUninit;
 
 use super::dispatch;
+use super::outputs::Arrays;
 use super::outputs::Quantity;
 use super::request::{Coordinates, Motion, Request, Shape, Track, check_arrays, product};
 use super::schedule::{Chunks, Control};
 use super::streaming_store as stream;
 use super::worker::{Job, Worker};
 use super::writer::Writer;
-use crate::batch::outputs::Arrays;
 use crate::description::error::SolveError;
 use crate::math::derivatives::Jets;
 use crate::plan::mechanism::Mechanism;

@@ -5,10 +5,10 @@ use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::outputs::Column;
+use super::request::Request;
 use super::schedule::Control;
 use super::streaming_store as stream;
-use crate::batch::request::Request;
-use crate::batch::writer::{Rows, Writer};
+use super::writer::{Rows, Writer};
 use crate::branch::branch::Spot;
 use crate::branch::design::Design;
 use crate::branch::uniform::Quick;

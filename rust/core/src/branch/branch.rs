@@ -10,9 +10,9 @@
 use std::f64::consts::TAU;
 
 use super::hermite::Cell;
-use super::tracer::Walker;
 use super::knot::Change;
 use super::knot::{Knot, Start, Stretch};
+use super::tracer::Walker;
 use crate::math::angle::{less_turns, whole_part};
 use crate::math::lanes::{LANES, Real};
 use crate::plan::plan::Plan;

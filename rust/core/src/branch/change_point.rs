@@ -9,7 +9,6 @@
 
 use super::knot::{Change, Knot, may_touch};
 use super::tracer::Walker;
-use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{
     CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,
 };

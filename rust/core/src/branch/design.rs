@@ -6,10 +6,10 @@ use std::cell::RefCell;
 
 use super::branch::{Spot, Track};
 use super::change_interpolant::{Bridge, Span};
-use super::uniform::Quick;
 use super::knot::Change;
 use super::knot::{Seed, Start};
-use crate::branch::uniform::Template;
+use super::uniform::Quick;
+use super::uniform::Template;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};

@@ -2,8 +2,8 @@
 
 use super::branch::{Spot, Track};
 use super::hermite::small_turn;
-use super::tracer::Walker;
 use super::knot::{Knot, Seed, Start};
+use super::tracer::Walker;
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::math::vector::Vector;
 use crate::state::state::{Context, State};

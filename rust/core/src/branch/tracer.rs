@@ -1,7 +1,6 @@
 //! Walking from the drawing: knots close enough together to see every change point
 //! and to tell every angle.
 
-
 use super::hermite::Cell;
 use super::knot::{
     Change, Knot, Seed, Start, Stretch, apart, foretell, may_touch, returns, strays,

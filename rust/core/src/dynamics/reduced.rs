@@ -1,7 +1,7 @@
 //! A machine referred to its drivers at one place.
 
+use super::body::Body;
 use super::kinematics::Pose;
-use crate::dynamics::body::Body;
 use crate::math::vector::Vector;
 
 /// Inertia, forces and energy of a machine, referred to its drivers.

@@ -47,13 +47,14 @@
 //! # Ok::<(), assur::ode::Error<std::convert::Infallible>>(())
 //! ```
 
+pub(crate) mod check;
 pub(crate) mod control;
 pub(crate) mod dense;
 pub(crate) mod dop853;
 pub(crate) mod error;
 pub(crate) mod event;
-pub(crate) mod integrate;
-pub(crate) mod locate;
+pub(crate) mod event_location;
+pub(crate) mod integrator;
 pub(crate) mod options;
 pub(crate) mod record;
 pub(crate) mod root;
@@ -67,7 +68,7 @@ mod tests;
 
 pub use dense::Path;
 pub use error::Error;
-pub use integrate::Integrator;
+pub use integrator::Integrator;
 pub use options::{Keep, LEAST_RELATIVE, Method, Options};
 pub use solution::{End, Event, Solution, Statistics};
 pub use system::{Action, Crossing, Fault, Rates, System};

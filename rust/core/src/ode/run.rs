@@ -2,8 +2,8 @@
 
 use super::control::{Control, first_width};
 use super::error::Error;
-use super::integrate::Integrator;
-use super::locate::{Cut, Step};
+use super::event_location::{Cut, Step};
+use super::integrator::Integrator;
 use super::options::Options;
 use super::record::Record;
 use super::solution::{End, Solution, Statistics};
@@ -56,6 +56,30 @@ enum Next {
     Step,
     Restart,
     End(End),
+}
+
+impl Integrator {
+    /// Integrates from `t` with state `y` to `t_end`, which may be before `t`.
+    ///
+    /// How a run ended that was made but did not come to `t_end` is told by [`Solution::end`].
+    ///
+    /// # Errors
+    ///
+    /// [`Error`], if it cannot be begun, if rates are NaN or infinite, or if the system says so.
+    pub fn run<S: System>(
+        &mut self,
+        system: &mut S,
+        t: f64,
+        y: &[f64],
+        t_end: f64,
+        options: &Options,
+    ) -> Result<Solution, Error<S::Error>> {
+        options.check(t, t_end, y, self.n)?;
+        self.y.as_flattened_mut()[..self.n].copy_from_slice(y);
+        self.stages.evaluations = 0;
+        self.watch.reset(options.events);
+        Run::new(self, system, (t, t_end), options).go()
+    }
 }
 
 /// A run that is being made. The integrator has its first state.

@@ -1,11 +1,11 @@
 //! Redundant links and slides: placed by what the others give, then checked.
 
 use super::state::{Context, State};
+use super::status::Fault;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, REDUNDANT_GREATEST};
 use crate::math::vector::Vector;
 use crate::plan::plan::{Along, Fit, Step, Turned};
-use crate::state::status::Fault;
 
 impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]

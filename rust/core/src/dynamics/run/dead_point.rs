@@ -6,7 +6,7 @@
 //! or so of s, whose slope the acceleration tells, its square is all that is left out.
 
 use super::options::Along;
-use crate::dynamics::run::sample::Moment;
+use super::sample::Moment;
 
 /// From the last moment that was integrated to the dead point.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -1,6 +1,7 @@
 //! Periodic motions of machines and of tables, and the flywheel that evens them.
 
 use super::error::Unsteady;
+use super::options::Search;
 use super::steady::{NOISE, Shooting, Steady};
 use crate::dynamics::flywheel::cycle::Extreme;
 use crate::dynamics::flywheel::flywheel::Mean;
@@ -9,7 +10,6 @@ use crate::dynamics::run::callbacks::Outside;
 use crate::dynamics::run::equation::Equation;
 use crate::dynamics::run::error::{Broken, counted};
 use crate::dynamics::run::model::{Moving, Sheet, Source};
-use crate::dynamics::steady::options::Search;
 use crate::math::derivatives::Jets;
 use crate::math::root;
 use crate::plan::mechanism::Mechanism;

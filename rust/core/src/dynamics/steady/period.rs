@@ -6,13 +6,13 @@
 //! the tolerance (E. Hairer, S. P. Nørsett, G. Wanner I, I.14).
 
 use super::error::Unsteady;
+use super::options::Search;
 use crate::dynamics::run::callbacks::Outside;
 use crate::dynamics::run::equation::Equation;
 use crate::dynamics::run::error::Broken;
 use crate::dynamics::run::model::Source;
-use crate::dynamics::steady::options::Search;
 use crate::ode::error::Error;
-use crate::ode::integrate::Integrator;
+use crate::ode::integrator::Integrator;
 use crate::ode::options::{Keep, Options};
 use crate::ode::solution::{End, Solution};
 use crate::ode::system::{Action, Crossing, Fault, System};

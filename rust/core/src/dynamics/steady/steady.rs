@@ -1,6 +1,5 @@
 //! The periodic motion of a machine: what is asked, and what is made of the beginning that was found.
 
-
 use super::error::Unsteady;
 use super::options::Search;
 use super::period::{Begin, Passage, Period, period};
@@ -11,7 +10,7 @@ use crate::dynamics::run::integrate::{breaks_of, run};
 use crate::dynamics::run::model::Source;
 use crate::dynamics::run::options::{Along, Occasion, Task, Watch};
 use crate::dynamics::run::trajectory::{Ending, Run};
-use crate::ode::integrate::Integrator;
+use crate::ode::integrator::Integrator;
 use crate::ode::system::Crossing;
 
 /// Errors of a period, as multiples of the tolerance.
