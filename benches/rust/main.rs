@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::mem::MaybeUninit;
 use std::num::NonZeroUsize;
 
-use assur::motion::{Arrays, Column, Control, Simd, fill};
+use assur::{Arrays, Column, Control, Simd, fill};
 use assur::{Coordinates, Mechanism, Outputs, Request};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 

@@ -10,7 +10,7 @@
 //! Nothing of the core is used but the reading of a [`Description`].
 
 use assur::Description;
-use assur::description::DriverDescription;
+use assur::DriverDescription;
 use nalgebra::DMatrix;
 
 use crate::double_double::Dd;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use assur::motion::{Control, Simd};
+use assur::{Control, Simd};
 use assur::{Coordinates, Description, Mechanism, Motion, Outputs, Request, Status};
 
 use crate::linkages::{class_iv, triad};

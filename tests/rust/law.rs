@@ -9,7 +9,7 @@
 //!   vanishes altogether (translations) the products of the errors of the first
 //!   order remain, k of them for order k.
 
-use assur::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, CLOSURE_PER_CONDITION};
+use assur::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, CLOSURE_PER_CONDITION};
 use assur::{Coordinates, Mechanism, Motion, Outputs, Request, Status, Track};
 
 use crate::body::{Oracle, Position};

@@ -39,39 +39,54 @@
 //! assert!((bore.derivatives[1][0] + 0.05).abs() < 1e-15);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! Machines that move under loads are in [`dynamics`], the integrator they move by in [`ode`].
+#![warn(unreachable_pub)] // the face of the crate is what is listed here
 #![cfg_attr(
     test,
     allow(clippy::disallowed_methods, reason = "tests compare with the platform's functions")
 )]
 
-pub mod batch;
-pub(crate) mod branch;
-pub mod description;
+// The floors, from the ground up: math, ode, description, structure, plan, state, branch, query,
+// batch, dynamics, papers. Each knows only those below it (`tools/check_order`).
+mod batch;
+mod branch;
+mod description;
 pub mod dynamics;
-pub mod math;
-pub mod motion;
+mod math;
 pub mod ode;
 pub mod papers;
+mod plan;
+mod query;
+mod state;
+mod structure;
 
-pub mod plan;
-pub mod query;
-pub(crate) mod state;
-pub mod structure;
-
-pub use batch::outputs::Outputs;
+pub use batch::outputs::{Arrays, Column, Outputs, Quantity};
 pub use batch::request::{Coordinates, Motion, Request, Track};
+pub use batch::schedule::Control;
+pub use batch::solve::fill;
+#[cfg(feature = "test-hooks")]
+#[doc(hidden)]
+pub use batch::test_hooks;
 pub use description::class_iv::ClassIv;
 pub use description::dimension::{Dimension, Dimensions};
 pub use description::error::{Named, SolveError, StructureError};
 pub use description::four_bar::{FourBar, FourBarMode};
+pub use description::frame::Axis;
 pub use description::slider_crank::SliderCrank;
-pub use description::{Description, Driver, DriverDescription, Linkage, SlideDescription};
+pub use description::{
+    Description, Driver, DriverDescription, Joint, Link, Linkage, Slide, SlideDescription,
+};
+pub use math::simd::Simd;
 pub use math::vector::Vector;
+pub use math::{lanes, tolerance, trig};
 pub use plan::mechanism::Mechanism;
 pub use query::diagnosis::Diagnosis;
+pub use query::metrics;
 pub use state::status::Status;
 pub use structure::Structure;
 pub use structure::assur_group::Group;
+pub use structure::closure::LeftOut;
 
 /// Version of the crate.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -60,7 +60,7 @@ mod _core {
     /// The vector instructions that are used: "baseline", "avx2" or "avx512".
     #[pyfunction]
     fn simd_level() -> &'static str {
-        assur::motion::Simd::allowed().name()
+        assur::Simd::allowed().name()
     }
 
     /// The version of the compiled core.

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::sync::atomic::Ordering;
 
-use assur::motion::{Arrays, Control, Quantity, fill};
+use assur::{Arrays, Control, Quantity, fill};
 use assur::{
     Coordinates, Description, DriverDescription, Outputs, Request, SlideDescription, SolveError,
     Status,
@@ -106,7 +106,7 @@ impl Mechanism {
     /// Inner pairs of the dyads with two solutions, with the drawing's signs.
     #[getter]
     fn assembly(&self) -> Vec<(String, i8)> {
-        let names = self.inner.plan().dyad_names.iter().cloned();
+        let names = self.inner.dyad_names().iter().cloned();
         names.zip(self.inner.signs().iter().copied()).collect()
     }
 
@@ -149,7 +149,7 @@ impl Mechanism {
     #[getter]
     fn groups(&self) -> PyResult<Vec<GroupParts>> {
         let linkage = self.inner.linkage();
-        let parts = |g: &assur::structure::Group| {
+        let parts = |g: &assur::Group| {
             (
                 g.class,
                 g.order,
@@ -337,7 +337,7 @@ impl Mechanism {
         dimensions: Vec<f64>,
         q: Vec<f64>,
     ) -> PyResult<Vec<Vec<i8>>> {
-        let small = self.inner.plan().signs() < FEW_SIGNS;
+        let small = self.inner.signs().len() < FEW_SIGNS;
         let found = gate::run(py, small, |cancel| {
             self.inner.assemblies_unless(&dimensions, &q, Some(cancel))
         })?;

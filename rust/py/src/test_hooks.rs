@@ -1,6 +1,6 @@
 //! A panic on purpose, for the tests alone.
 
-use assur::batch::test_hooks;
+use assur::test_hooks;
 use pyo3::prelude::*;
 
 /// Makes the `number`-th chunk of work from now on panic (0: none does).

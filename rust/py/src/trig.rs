@@ -1,7 +1,7 @@
 //! The lanes' trigonometry over flat arrays: eight at a time, the rest one by one.
 
-use assur::math::lanes::{LANES, Lanes, Real};
-use assur::math::trig;
+use assur::lanes::{LANES, Lanes, Real};
+use assur::trig;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 

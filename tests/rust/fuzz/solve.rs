@@ -1,7 +1,7 @@
 //! Mechanisms of the grammar moved: odd designs and coordinates beside sane ones.
 
 use arbitrary::Unstructured;
-use assur::math::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, SINGULAR_CONDITION};
+use assur::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, SINGULAR_CONDITION};
 use assur::{
     Coordinates, Diagnosis, Mechanism, Motion, Outputs, Request, SolveError, Status, Track,
 };
@@ -183,7 +183,7 @@ impl Case<'_> {
 
     /// Every assembly that exists at a position is solved there.
     fn check_assemblies(&self, motion: &Motion) {
-        if self.mechanism.plan().signs() > MOST_SIGNS {
+        if self.mechanism.signs().len() > MOST_SIGNS {
             return;
         }
         let row = usize::from(self.question.alone[0]) % motion.status.len();

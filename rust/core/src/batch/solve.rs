@@ -45,7 +45,7 @@ impl Mechanism {
 /// # Errors
 ///
 /// Those of [`Mechanism::solve`], and [`SolveError::Interrupted`].
-pub fn solve(
+pub(crate) fn solve(
     mechanism: &Mechanism,
     request: &Request<'_>,
     control: &Control<'_>,

@@ -72,7 +72,7 @@ pub(crate) struct Walker<'a, 'b> {
 }
 
 impl<'a, 'b> Walker<'a, 'b> {
-    pub fn new(
+    pub(crate) fn new(
         cx: &Context<'b>,
         state: &'a mut State,
         point: &'a dyn Fn(f64, &mut [f64]),
@@ -267,7 +267,7 @@ impl<'a, 'b> Walker<'a, 'b> {
 
     /// Lays knots from the last one to `to`, close enough to tell the angles and
     /// to see every change point.
-    pub fn advance(&mut self, to: f64) {
+    pub(crate) fn advance(&mut self, to: f64) {
         let mut ends = vec![(to, 0_u32)];
         while let Some((end, depth)) = ends.pop() {
             if self.ended {
@@ -375,7 +375,7 @@ impl<'a, 'b> Walker<'a, 'b> {
     }
 
     /// Signs between the changes, in the direction of growing parameter.
-    pub fn stretches(&self) -> Vec<Stretch> {
+    pub(crate) fn stretches(&self) -> Vec<Stretch> {
         let mut signs = self.start_signs.clone();
         let mut stretches = vec![Stretch { from: f64::NEG_INFINITY, signs: signs.clone() }];
         for change in &self.changes {

@@ -165,7 +165,7 @@ impl From<Interrupted> for StructureError {
 
 /// A number as short as it can be read again: no rows of zeros.
 #[must_use]
-pub fn number(x: f64) -> String {
+pub(crate) fn number(x: f64) -> String {
     match x.abs() {
         0.0 | 1e-4..1e7 => format!("{x}"),
         _ => format!("{x:e}"),

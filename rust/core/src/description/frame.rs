@@ -24,7 +24,7 @@ pub enum Axis {
 
 /// Length and angle of the vector from `a` to `b`.
 #[must_use]
-pub fn polar(a: [f64; 2], b: [f64; 2]) -> (f64, f64) {
+pub(crate) fn polar(a: [f64; 2], b: [f64; 2]) -> (f64, f64) {
     let (x, y) = (b[0] - a[0], b[1] - a[1]);
     (libm::hypot(x, y), atan2(y, x))
 }

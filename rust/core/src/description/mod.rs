@@ -6,19 +6,12 @@
 
 pub(crate) mod class_iv;
 pub(crate) mod dimension;
-pub mod error;
+pub(crate) mod error;
 pub(crate) mod four_bar;
 pub(crate) mod frame;
 pub(crate) mod names;
 pub(crate) mod slider_crank;
 pub(crate) mod validate;
-
-pub use class_iv::ClassIv;
-pub use dimension::{Dimension, Dimensions};
-pub use four_bar::{FourBar, FourBarMode};
-pub use frame::{Axis, polar};
-pub use names::nearest;
-pub use slider_crank::SliderCrank;
 
 /// A point of the drawing where links turn about each other.
 #[derive(Debug, Clone, PartialEq)]

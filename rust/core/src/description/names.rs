@@ -3,7 +3,7 @@
 /// `; did you mean …?` with the (at most three) nearest of `known`, or the
 /// whole list if it is short, or nothing.
 #[must_use]
-pub fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let mut ranked: Vec<(usize, &str)> = known.map(|k| (distance(name, k), k)).collect();
     ranked.sort_unstable();
     if ranked.is_empty() {

@@ -6,7 +6,7 @@ use crate::math::vector::Vector;
 
 /// Inertia, forces and energy of a machine, referred to its drivers.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Reduced {
+pub(crate) struct Reduced {
     /// The mass matrix, row after row: of one driver the reduced inertia.
     pub inertia: Vec<f64>,
     /// Its derivatives: by every driver one matrix.
@@ -24,7 +24,7 @@ pub struct Reduced {
 impl Reduced {
     /// For a number of drivers.
     #[must_use]
-    pub fn new(drivers: usize) -> Self {
+    pub(crate) fn new(drivers: usize) -> Self {
         Self {
             inertia: vec![0.0; drivers * drivers],
             rates: vec![0.0; drivers * drivers * drivers],
@@ -36,13 +36,13 @@ impl Reduced {
 
     /// Reduced force or moment of all loads on a driver.
     #[must_use]
-    pub fn moment(&self, driver: usize) -> f64 {
+    pub(crate) fn moment(&self, driver: usize) -> f64 {
         self.stored[driver] + self.applied[driver]
     }
 
     /// Kinetic energy at speeds, J.
     #[must_use]
-    pub fn kinetic(&self, speed: &[f64]) -> f64 {
+    pub(crate) fn kinetic(&self, speed: &[f64]) -> f64 {
         let n = speed.len();
         let row = |a: usize| -> f64 { (0..n).map(|b| self.inertia[a * n + b] * speed[b]).sum() };
         0.5 * (0..n).map(|a| speed[a] * row(a)).sum::<f64>()
@@ -51,7 +51,7 @@ impl Reduced {
     /// What the inertia itself asks of a driver at speeds: Σ (∂Mₐᵦ/∂γ − ½ ∂Mᵦᵧ/∂α) vᵦ vᵧ (the
     /// terms of Lagrange's equations without accelerations; of one driver ½ J′ v²).
     #[must_use]
-    pub fn centrifugal(&self, driver: usize, speed: &[f64]) -> f64 {
+    pub(crate) fn centrifugal(&self, driver: usize, speed: &[f64]) -> f64 {
         if let &[speed] = speed {
             return 0.5 * self.rates[0] * speed * speed;
         }

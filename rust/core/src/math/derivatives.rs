@@ -6,7 +6,7 @@
 
 /// One term `factor · a[left] · b[right]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Term {
+pub(crate) struct Term {
     /// Product of binomial coefficients.
     pub factor: f64,
     /// Entry of the first jet.
@@ -16,7 +16,7 @@ pub struct Term {
 }
 
 /// [`Jets::rotation`] of one driver to order 3, as a constant.
-pub const ONE_DRIVER: [&[Term]; 4] = [
+pub(crate) const ONE_DRIVER: [&[Term]; 4] = [
     &[],
     &[],
     &[Term { factor: 1.0, left: 1, right: 1 }],
@@ -25,7 +25,7 @@ pub const ONE_DRIVER: [&[Term]; 4] = [
 
 /// Index tables for jets of a given order in a given number of drivers.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Jets {
+pub(crate) struct Jets {
     /// Number of drivers.
     pub drivers: usize,
     /// Highest order.
@@ -46,7 +46,7 @@ pub struct Jets {
 impl Jets {
     /// Tables to the given order.
     #[must_use]
-    pub fn new(drivers: usize, order: usize) -> Self {
+    pub(crate) fn new(drivers: usize, order: usize) -> Self {
         let mut powers = vec![vec![0; drivers]];
         let mut layer = powers.clone();
         for _ in 0..order {
@@ -103,19 +103,12 @@ impl Jets {
 
     /// Entries in a jet.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.powers.len()
     }
-
-    /// Never: a jet has at least its value.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.powers.is_empty()
-    }
-
     /// Entries of the full symmetric tensor of one order, last driver fastest.
     #[must_use]
-    pub fn tensor(&self, order: usize) -> Vec<usize> {
+    pub(crate) fn tensor(&self, order: usize) -> Vec<usize> {
         let mut entries = Vec::new();
         for mut code in 0..self.drivers.pow(u32::try_from(order).unwrap_or(0)) {
             let mut power = vec![0; self.drivers];

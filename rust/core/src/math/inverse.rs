@@ -6,7 +6,7 @@ use super::lanes::{Mask, Real};
 /// at once. What happens to a lane depends on its own numbers alone; a singular matrix leaves
 /// infinities or no numbers. Gives the determinants.
 #[inline(always)]
-pub fn invert<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -> [R; G] {
+pub(crate) fn invert<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -> [R; G] {
     if n == 3 { by_minors(matrix) } else { by_pivots(matrix, n) }
 }
 

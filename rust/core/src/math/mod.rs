@@ -1,14 +1,14 @@
 //! Numbers, functions and matrices: nothing here knows what a mechanism is.
 
 pub(crate) mod angle;
-pub mod derivatives;
-pub mod inverse;
+pub(crate) mod derivatives;
+pub(crate) mod inverse;
 pub mod lanes;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;
 pub(crate) mod root;
-pub mod simd;
+pub(crate) mod simd;
 pub mod tolerance;
 pub mod trig;
 mod two_over_pi;
-pub mod vector;
+pub(crate) mod vector;

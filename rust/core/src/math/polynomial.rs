@@ -5,13 +5,13 @@ const STEPS: u32 = 80;
 
 /// A polynomial in powers, from the constant on, at a place.
 #[must_use]
-pub fn value(coefficients: &[f64], x: f64) -> f64 {
+pub(crate) fn value(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
 /// Tells the zeros of a cubic within [0, `width`] to `found`: between its own extremes, where it is
 /// monotone, a change of sign shows them (a double one is an extreme and counts only by luck).
-pub fn zeros(cubic: &[f64; 4], width: f64, mut found: impl FnMut(f64)) {
+pub(crate) fn zeros(cubic: &[f64; 4], width: f64, mut found: impl FnMut(f64)) {
     let [_, c1, c2, c3] = *cubic;
     let mut places = [0.0, width, width, width];
     // Zeros of c1 + 2 c2 x + 3 c3 x², without cancellation.

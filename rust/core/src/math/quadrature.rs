@@ -37,7 +37,7 @@ fn node(i: usize) -> [f64; 2] {
 
 /// The integral from `a` to `b`; halves where halves differ from the whole. NaN if they do so nearly
 /// everywhere.
-pub fn integral(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
+pub(crate) fn integral(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     let whole = rule(f, a, b);
     let mut left = MOST_HALVED;
     refined(f, [a, b], whole, (AGREE * whole.abs(), &mut left), HALVINGS)

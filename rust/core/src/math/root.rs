@@ -9,12 +9,12 @@ const STEPS: u32 = 120;
 
 /// Where a growing function of a positive number is 0, from a first guess; none if it is so
 /// nowhere that could be found, or is no number there.
-pub fn zero(f: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
+pub(crate) fn zero(f: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
     zero_to(f, guess, 0.0)
 }
 
 /// The same, to a part of it.
-pub fn zero_to(mut f: impl FnMut(f64) -> f64, guess: f64, part: f64) -> Option<f64> {
+pub(crate) fn zero_to(mut f: impl FnMut(f64) -> f64, guess: f64, part: f64) -> Option<f64> {
     let at_guess = f(guess);
     if at_guess == 0.0 {
         return Some(guess);

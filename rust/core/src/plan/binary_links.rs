@@ -11,7 +11,7 @@ use super::plan::{Along, Plan};
 use crate::math::vector::Vector;
 
 /// Unknowns (and loops), at most: more are left to the general machinery.
-pub const MOST: usize = 3;
+pub(crate) const MOST: usize = 3;
 
 impl Bars {
     /// Of a group that is so, behind others.
@@ -49,7 +49,7 @@ impl Bars {
     /// Those of one design.
     #[inline(always)]
     #[must_use]
-    pub fn links<'b>(&self, bound: &'b Spans) -> Links<'b> {
+    pub(crate) fn links<'b>(&self, bound: &'b Spans) -> Links<'b> {
         let count = self.taken.len();
         let spans = &bound.spans[self.first_span..][..count * count];
         Links { count, spans, bars: &bound.bars[self.first_bar..][..count] }
@@ -58,7 +58,7 @@ impl Bars {
 
 /// Spans and binary links of a group, of one design.
 #[derive(Debug, Clone, Copy)]
-pub struct Links<'b> {
+pub(crate) struct Links<'b> {
     /// Loops, and unknowns.
     pub count: usize,
     /// Loop after loop, of every unknown.
@@ -83,7 +83,7 @@ fn taken(chord: &Chord) -> Option<usize> {
 
 /// The vectors of such groups, of one design.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Spans {
+pub(crate) struct Spans {
     spans: Vec<Vector>,
     bars: Vec<Leg>,
 }

@@ -21,7 +21,7 @@ impl Plan {
     /// # Errors
     ///
     /// Only for what [`Structure::of`] would have refused before.
-    pub fn new(
+    pub(crate) fn new(
         linkage: &Linkage,
         closure: &Closure,
         structure: &Structure,

@@ -10,7 +10,7 @@ use crate::structure::closure::{Closure, Span};
 
 /// The fixed vectors of one design, in units of its scale.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Bound {
+pub(crate) struct Bound {
     /// Power of two near the greatest length; results are multiplied by it.
     pub scale: f64,
     /// Place of the frame's origin in the drawing, m: the first ground joint.
@@ -44,7 +44,7 @@ pub struct Bound {
 /// Where the dimensions of every edge and slide stand in the list of values; found
 /// once for a mechanism.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Slots {
+pub(crate) struct Slots {
     pub(crate) edges: Vec<Source>,
     pub(crate) slides: Vec<SlideSlots>,
     /// Ground joints with their coordinates.
@@ -98,7 +98,12 @@ impl SlideSlots {
 impl Slots {
     /// Finds the places.
     #[must_use]
-    pub fn new(plan: &Plan, linkage: &Linkage, closure: &Closure, dimensions: &Dimensions) -> Self {
+    pub(crate) fn new(
+        plan: &Plan,
+        linkage: &Linkage,
+        closure: &Closure,
+        dimensions: &Dimensions,
+    ) -> Self {
         let find = |wanted: Dimension| dimensions.iter().position(|(_, d)| d == wanted);
         let on_ground =
             |joint| [find(Dimension::GroundX { joint }), find(Dimension::GroundY { joint })];
@@ -189,7 +194,7 @@ impl Bound {
     /// The link on the other side of a slide, and the constant turn from its
     /// orientation to that of `link`.
     #[must_use]
-    pub fn across_slide(&self, plan: &Plan, link: usize, slide: usize) -> (usize, Vector) {
+    pub(crate) fn across_slide(&self, plan: &Plan, link: usize, slide: usize) -> (usize, Vector) {
         let [sliding, carrying] = plan.slide_links[slide];
         let turn = self.slide_turn[slide];
         let (other, turn) = if link == sliding { (carrying, turn) } else { (sliding, turn.conj()) };
@@ -198,14 +203,14 @@ impl Bound {
 
     /// Binds a plan to dimensions (in the order of [`Dimensions`]).
     #[must_use]
-    pub fn new(plan: &Plan, slots: &Slots, values: &[f64]) -> Self {
+    pub(crate) fn new(plan: &Plan, slots: &Slots, values: &[f64]) -> Self {
         let mut bound = Self::default();
         bound.bind(plan, slots, values);
         bound
     }
 
     /// Takes the dimensions of another design.
-    pub fn bind(&mut self, plan: &Plan, slots: &Slots, values: &[f64]) {
+    pub(crate) fn bind(&mut self, plan: &Plan, slots: &Slots, values: &[f64]) {
         let origin = read_two(values, slots.origin);
         self.origin = [origin.x, origin.y];
         self.scale = slots.lengths.scale(values, self.origin);

@@ -6,7 +6,7 @@ use crate::math::vector::Vector;
 
 /// Derivatives of what [`Bound`] holds by one dimension (m or rad), its scale kept.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct BoundRate {
+pub(crate) struct BoundRate {
     /// Of the frame's origin, m.
     pub origin: Vector,
     /// Of the constant part of every edge.
@@ -22,7 +22,13 @@ pub struct BoundRate {
 impl BoundRate {
     /// For a design (`values`, `bound`) and the dimension of this index.
     #[must_use]
-    pub fn new(plan: &Plan, slots: &Slots, bound: &Bound, values: &[f64], index: usize) -> Self {
+    pub(crate) fn new(
+        plan: &Plan,
+        slots: &Slots,
+        bound: &Bound,
+        values: &[f64],
+        index: usize,
+    ) -> Self {
         // Dimensions enter linearly, but for angles.
         let mut by = vec![0.0; values.len()];
         by[index] = 1.0;
@@ -61,7 +67,7 @@ impl BoundRate {
 }
 
 /// Derivatives of the links' constant angles by the dimension that is 1 in `by`.
-pub fn offsets(plan: &Plan, slots: &Slots, by: &[f64]) -> Vec<f64> {
+pub(crate) fn offsets(plan: &Plan, slots: &Slots, by: &[f64]) -> Vec<f64> {
     let step = |slide: usize| slots.slides[slide].step(by);
     let offset = |r: &crate::structure::closure::Rotation| {
         r.slides.iter().map(|&(slide, sign)| f64::from(sign) * step(slide)).sum()

@@ -2,7 +2,7 @@
 
 /// An unknown of a dyad: rotation of a class, or value of a slide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unknown {
+pub(crate) enum Unknown {
     /// Rotation of this class.
     Class(usize),
     /// Value of this slide.
@@ -11,7 +11,7 @@ pub enum Unknown {
 
 /// The closed forms: every dyad is one of four.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
+pub(crate) enum Form {
     /// Two rotations (RRR): two circles.
     TwoCircles,
     /// A rotation and a slide along a known direction (RRP): circle and line.
@@ -24,7 +24,7 @@ pub enum Form {
 
 /// What an edge of a dyad's loop adds to its equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Part {
+pub(crate) struct Part {
     /// The edge.
     pub edge: usize,
     /// Run from `to` to `from`.
@@ -40,7 +40,7 @@ pub struct Part {
 /// One vector equation with two unknowns:
 /// `P_start + Σ ±edge vectors = P_end`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Dyad {
+pub(crate) struct Dyad {
     /// Its closed form.
     pub form: Form,
     /// The unknowns; a rotation comes before a slide, and the rotation of the

@@ -4,7 +4,7 @@ use super::dyad::Unknown;
 
 /// What the chord of a loop leaves of its vector equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Chord {
+pub(crate) enum Chord {
     /// Its length: the rotation of this class is found afterwards.
     Length {
         /// The class.
@@ -21,7 +21,7 @@ pub enum Chord {
 
 /// An edge on the path of a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Piece {
+pub(crate) struct Piece {
     /// Place among the group's edges.
     pub place: usize,
     /// Run from `to` to `from`.
@@ -30,7 +30,7 @@ pub struct Piece {
 
 /// An edge of a group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct GroupEdge {
+pub(crate) struct GroupEdge {
     /// The edge.
     pub edge: usize,
     /// The unknown that turns it.
@@ -43,7 +43,7 @@ pub struct GroupEdge {
 
 /// One independent loop: its chord's vector is `P_end − P_start + Σ path`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Loop {
+pub(crate) struct Loop {
     /// The edge that closes it, from its `from` to its `to`: place among the group's edges.
     pub edge: usize,
     /// What it leaves.
@@ -62,7 +62,7 @@ pub struct Loop {
 
 /// What an unknown does to a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Influence {
+pub(crate) struct Influence {
     /// The edge that it turns, or slides along: place among the group's edges. None: the chord,
     /// against the guide that turns.
     pub place: Option<usize>,
@@ -74,7 +74,7 @@ pub struct Influence {
 
 /// A group without a closed form.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Group {
+pub(crate) struct Group {
     /// What is iterated for.
     pub unknowns: Vec<Unknown>,
     /// The orientations that turn with each (none with a slide).
@@ -98,13 +98,13 @@ pub struct Group {
 impl Group {
     /// Whether an edge closes a loop (and places no point).
     #[must_use]
-    pub fn is_chord(&self, place: usize) -> bool {
+    pub(crate) fn is_chord(&self, place: usize) -> bool {
         self.loops.iter().any(|l| l.edge == place)
     }
 
     /// All that is found: the unknowns, and what the chords take along.
     #[inline(always)]
-    pub fn found(&self) -> impl Iterator<Item = Unknown> + '_ {
+    pub(crate) fn found(&self) -> impl Iterator<Item = Unknown> + '_ {
         let taken = self.loops.iter().filter_map(|l| match l.chord {
             Chord::Length { class } => Some(Unknown::Class(class)),
             Chord::Guide { slide } => Some(Unknown::Slide(slide)),
@@ -116,7 +116,7 @@ impl Group {
 
 /// A rigid edge that turns with an unknown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Arm {
+pub(crate) struct Arm {
     /// The edge.
     pub edge: usize,
     /// Place among the legs.
@@ -127,7 +127,7 @@ pub struct Arm {
 
 /// What a group of rigid links and turning pairs consists of, if it is small.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Bars {
+pub(crate) struct Bars {
     /// Place of its first span in the design's spans.
     pub(crate) first_span: usize,
     /// Place of its first binary link in the design's binary links.

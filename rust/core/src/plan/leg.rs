@@ -5,7 +5,7 @@ use crate::math::vector::Vector;
 
 /// What turns with an unknown rotation of a dyad.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Leg<R = f64> {
+pub(crate) struct Leg<R = f64> {
     /// In the frame of the class.
     pub vector: Vector<R>,
     /// Its length.
@@ -19,20 +19,20 @@ pub struct Leg<R = f64> {
 impl<R: Real> Leg<R> {
     /// Measures a vector.
     #[inline(always)]
-    pub fn of(vector: Vector<R>) -> Self {
+    pub(crate) fn of(vector: Vector<R>) -> Self {
         let norm2 = vector.norm2();
         Self { vector, norm: norm2.sqrt(), norm2, per: R::ONE / norm2 }
     }
 
     /// 1/length.
     #[inline(always)]
-    pub fn per_norm(&self) -> R {
+    pub(crate) fn per_norm(&self) -> R {
         self.norm * self.per
     }
 
     /// The rotation that brings it to a place.
     #[inline(always)]
-    pub fn turn_to(&self, place: Vector<R>) -> Vector<R> {
+    pub(crate) fn turn_to(&self, place: Vector<R>) -> Vector<R> {
         (place * self.vector.conj()).scale(self.per)
     }
 }
@@ -40,7 +40,7 @@ impl<R: Real> Leg<R> {
 impl Leg {
     /// The same on every lane.
     #[inline(always)]
-    pub fn on_lanes<R: Real>(&self) -> Leg<R> {
+    pub(crate) fn on_lanes<R: Real>(&self) -> Leg<R> {
         Leg {
             vector: Vector::splat(self.vector),
             norm: R::splat(self.norm),

@@ -105,7 +105,7 @@ impl Mechanism {
 
     /// The compiled steps.
     #[must_use]
-    pub fn plan(&self) -> &Plan {
+    pub(crate) fn plan(&self) -> &Plan {
         &self.plan
     }
 
@@ -132,6 +132,12 @@ impl Mechanism {
     #[must_use]
     pub fn q0(&self) -> &[f64] {
         &self.q0
+    }
+
+    /// Inner joint or slide of every dyad that has two solutions, in the order of the signs.
+    #[must_use]
+    pub fn dyad_names(&self) -> &[String] {
+        &self.plan.dyad_names
     }
 
     /// Assembly of the drawing: +1 or −1 for every dyad that has two solutions.

@@ -7,17 +7,17 @@
 //! points. A driver appears nowhere as a step: a driven angle makes the
 //! orientation of two links differ by q, a driven slide is a known length.
 
-pub mod binary_links;
+pub(crate) mod binary_links;
 pub(crate) mod blocks;
 pub(crate) mod compile;
-pub mod constants;
-pub mod constants_rate;
-pub mod dyad;
-pub mod group;
-pub mod group_loops;
-pub mod leg;
+pub(crate) mod constants;
+pub(crate) mod constants_rate;
+pub(crate) mod dyad;
+pub(crate) mod group;
+pub(crate) mod group_loops;
+pub(crate) mod leg;
 pub(crate) mod mechanism;
 pub(crate) mod named;
-pub mod pair_span;
-pub mod plan;
+pub(crate) mod pair_span;
+pub(crate) mod plan;
 pub(crate) mod redundant;

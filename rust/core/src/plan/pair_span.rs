@@ -17,12 +17,12 @@ enum Place {
 
 /// The places of pairs, by link.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct PairSpans(Vec<Vec<Place>>);
+pub(crate) struct PairSpans(Vec<Vec<Place>>);
 
 impl PairSpans {
     /// Those of a linkage.
     #[must_use]
-    pub fn of(linkage: &Linkage, closure: &Closure) -> Self {
+    pub(crate) fn of(linkage: &Linkage, closure: &Closure) -> Self {
         let at_pair = |joint: usize| closure.is_pair(linkage, joint);
         let mut links = vec![Vec::new(); linkage.links.len()];
         for (index, link) in linkage.links.iter().enumerate() {
@@ -49,7 +49,7 @@ impl PairSpans {
     /// The longest distance between two pairs of a link (that from its first one), by the vectors of
     /// edges and the places of ground joints.
     #[must_use]
-    pub fn longest(&self, rigid: &[Vector], fixed: &[Vector]) -> f64 {
+    pub(crate) fn longest(&self, rigid: &[Vector], fixed: &[Vector]) -> f64 {
         let at = |place: &Place| match *place {
             Place::First => Vector::ZERO,
             Place::Edge(edge) => rigid[edge],

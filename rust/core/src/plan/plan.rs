@@ -8,8 +8,7 @@ use crate::structure::closure::{Edge, Rotation};
 
 /// Value of a slide on an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the fields are indices of what their names say")]
-pub enum Along {
+pub(crate) enum Along {
     /// A rigid edge.
     Nothing,
     /// The slide's value is unknown until its dyad is solved.
@@ -20,7 +19,7 @@ pub enum Along {
 
 /// An edge with the orientation that turns it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct PlanEdge {
+pub(crate) struct PlanEdge {
     /// Its points, link and span.
     pub edge: Edge,
     /// Index of its link's orientation.
@@ -39,7 +38,7 @@ impl PlanEdge {
     /// Its points: where it is run from and where to.
     #[must_use]
     #[inline(always)]
-    pub fn ends(&self, backward: bool) -> [usize; 2] {
+    pub(crate) fn ends(&self, backward: bool) -> [usize; 2] {
         let (from, to) = (self.edge.from, self.edge.to);
         if backward { [to, from] } else { [from, to] }
     }
@@ -47,7 +46,7 @@ impl PlanEdge {
 
 /// An edge that is a leg of a dyad.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct LegEdge {
+pub(crate) struct LegEdge {
     /// Place among the legs, two a dyad.
     pub index: usize,
     /// Run from `to` to `from`.
@@ -56,7 +55,7 @@ pub struct LegEdge {
 
 /// An orientation: rotation of a class plus multiples of driven angles.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Orientation {
+pub(crate) struct Orientation {
     /// The class.
     pub class: usize,
     /// Multiples of the drivers.
@@ -69,8 +68,7 @@ pub struct Orientation {
 
 /// One thing to do at every position.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(missing_docs, reason = "the fields are indices of what their names say")]
-pub enum Step {
+pub(crate) enum Step {
     /// Solve a dyad.
     Dyad(Dyad),
     /// Solve a group above class II.
@@ -83,7 +81,7 @@ pub enum Step {
 
 /// A redundant link (or slide): what places it, and what must then fit.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fit {
+pub(crate) struct Fit {
     /// Name used when it does not fit.
     pub name: String,
     /// How its orientation is found; none for a slide alone.
@@ -100,8 +98,7 @@ pub struct Fit {
 
 /// How a redundant link's orientation is found.
 #[derive(Debug, Clone, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the fields are indices of what their names say")]
-pub enum Turned {
+pub(crate) enum Turned {
     /// By two joints that other links carry: edges from the link's first joint
     /// (none: the first joint itself).
     Joints { link: usize, first: Option<usize>, second: Option<usize>, points: [usize; 2] },
@@ -111,7 +108,7 @@ pub enum Turned {
 
 /// A group that has no closed form.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Higher {
+pub(crate) struct Higher {
     /// Its links.
     pub links: String,
     /// Its class in Roman numerals.
@@ -120,7 +117,7 @@ pub struct Higher {
 
 /// The compiled mechanism.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Plan {
+pub(crate) struct Plan {
     /// The drivers, in the order of q.
     pub drivers: Vec<Driver>,
     /// The two links of every slide: sliding, carrying.
@@ -158,13 +155,13 @@ pub struct Plan {
 impl Plan {
     /// Class of an edge's rotation.
     #[must_use]
-    pub fn class_of(&self, edge: usize) -> usize {
+    pub(crate) fn class_of(&self, edge: usize) -> usize {
         self.edges[edge].class
     }
 
     /// The slide that is driver number `driver`, if it is one.
     #[must_use]
-    pub fn driven_slide(&self, driver: usize) -> Option<usize> {
+    pub(crate) fn driven_slide(&self, driver: usize) -> Option<usize> {
         match self.drivers[driver] {
             Driver::Slide(slide) => Some(slide),
             Driver::Angle { .. } => None,
@@ -172,7 +169,7 @@ impl Plan {
     }
 
     /// The dyads, in order.
-    pub fn dyads(&self) -> impl Iterator<Item = &Dyad> {
+    pub(crate) fn dyads(&self) -> impl Iterator<Item = &Dyad> {
         self.steps.iter().filter_map(|step| match step {
             Step::Dyad(dyad) => Some(dyad),
             _ => None,
@@ -180,7 +177,7 @@ impl Plan {
     }
 
     /// The redundant links and slides, in order.
-    pub fn fits(&self) -> impl Iterator<Item = &Fit> {
+    pub(crate) fn fits(&self) -> impl Iterator<Item = &Fit> {
         self.steps.iter().filter_map(|step| match step {
             Step::Fit(fit) => Some(fit),
             _ => None,
@@ -188,7 +185,7 @@ impl Plan {
     }
 
     /// The groups above class II, in order.
-    pub fn groups(&self) -> impl Iterator<Item = &Group> {
+    pub(crate) fn groups(&self) -> impl Iterator<Item = &Group> {
         self.steps.iter().filter_map(|step| match step {
             Step::Group(group) => Some(group),
             _ => None,
@@ -197,27 +194,27 @@ impl Plan {
 
     /// Numbers that the matrix of any group needs, with its inverse and a right-hand side.
     #[must_use]
-    pub fn matrix_size(&self) -> usize {
+    pub(crate) fn matrix_size(&self) -> usize {
         self.groups().map(|group| (2 * group.rows + 1) * group.rows).max().unwrap_or(0)
     }
 
     /// Number of legs: two a dyad, and the edges of groups.
     #[must_use]
-    pub fn legs(&self) -> usize {
+    pub(crate) fn legs(&self) -> usize {
         let edges: usize = self.groups().map(|group| group.edges.len()).sum();
         2 * self.dyads().count() + edges
     }
 
     /// Number of dyads with two solutions.
     #[must_use]
-    pub fn signs(&self) -> usize {
+    pub(crate) fn signs(&self) -> usize {
         self.dyad_names.len()
     }
 
     /// Whether an edge of a group is a rigid one that turns with an unknown: its jets follow from its own.
     #[must_use]
     #[inline(always)]
-    pub fn is_arm(&self, group: &Group, place: usize) -> bool {
+    pub(crate) fn is_arm(&self, group: &Group, place: usize) -> bool {
         let edge = &group.edges[place];
         edge.turns.is_some() && self.edges[edge.edge].along == Along::Nothing
     }

@@ -6,7 +6,7 @@ use crate::structure::Structure;
 use crate::structure::closure::{Closure, Span, point_of_joint};
 
 /// Adds the placing and checking of redundant links and slides.
-pub fn add_fits(
+pub(crate) fn add_fits(
     plan: &mut Plan,
     linkage: &Linkage,
     closure: &Closure,

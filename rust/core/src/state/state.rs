@@ -18,7 +18,7 @@ use crate::plan::plan::{Along, Plan, Step};
 /// Groups are the innermost index: what a step looks up serves all of them, and they do not wait
 /// for each other.
 #[derive(Debug, Clone)]
-pub struct State<R: Real = f64, const G: usize = 1> {
+pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     /// Entries of a jet.
     pub(crate) len: usize,
     /// Groups in use.
@@ -87,7 +87,7 @@ pub struct State<R: Real = f64, const G: usize = 1> {
 
 /// What is the same for all positions of a design.
 #[derive(Debug, Clone, Copy)]
-pub struct Context<'a> {
+pub(crate) struct Context<'a> {
     /// The compiled mechanism.
     pub plan: &'a Plan,
     /// One design.
@@ -101,7 +101,7 @@ pub struct Context<'a> {
 impl<R: Real, const G: usize> State<R, G> {
     /// Work space for a plan.
     #[must_use]
-    pub fn new(plan: &Plan, jets: &Jets) -> Self {
+    pub(crate) fn new(plan: &Plan, jets: &Jets) -> Self {
         let (len, slides) = (jets.len(), plan.slide_links.len());
         let edges = plan.groups().map(|group| group.edges.len()).max().unwrap_or(0);
         let loops = plan.groups().map(|group| group.loops.len()).max().unwrap_or(0);
@@ -142,7 +142,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Takes what is the same at all positions of a design; before the first of each.
     #[inline(always)]
-    pub fn prepare(&mut self, plan: &Plan, bound: &Bound, jets: &Jets) {
+    pub(crate) fn prepare(&mut self, plan: &Plan, bound: &Bound, jets: &Jets) {
         let len = self.len;
         for (point, (&fixed, jet)) in
             bound.fixed.iter().zip(self.points.chunks_exact_mut(len)).enumerate()
@@ -329,7 +329,7 @@ impl State {
 
     /// Computes one position at `q` (rad; slide drivers in units of the scale).
     #[inline(never)]
-    pub fn solve(&mut self, cx: &Context<'_>, q: &[f64]) {
+    pub(crate) fn solve(&mut self, cx: &Context<'_>, q: &[f64]) {
         for (own, &sign) in self.signs.iter_mut().zip(cx.signs) {
             own[0] = sign;
         }

@@ -31,8 +31,7 @@ pub enum Status {
 
 /// Where and why a position failed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the fields are indices of what their names say")]
-pub enum Fault {
+pub(crate) enum Fault {
     /// Dyad (step) whose triangle does not close, by this part of the size.
     Open { step: usize, gap: f64 },
     /// Redundant link (step) that does not fit, by this part of the size.
@@ -46,7 +45,7 @@ pub enum Fault {
 impl Fault {
     /// Index of the step of the plan that failed.
     #[must_use]
-    pub fn step(self) -> usize {
+    pub(crate) fn step(self) -> usize {
         match self {
             Self::Open { step, .. }
             | Self::Misfit { step, .. }

@@ -39,7 +39,7 @@ const ROUNDS: usize = 8;
 
 /// A drawing that was looked at.
 #[derive(Debug)]
-pub enum Adjusted {
+pub(crate) enum Adjusted {
     /// It fits, or nothing is redundant.
     AsDrawn,
     /// Another drawing that fits, and how far its joints were moved at most, m.
@@ -54,7 +54,7 @@ pub enum Adjusted {
 /// # Errors
 ///
 /// [`StructureError::Interrupted`], and those of [`rotations`].
-pub fn adjust(
+pub(crate) fn adjust(
     linkage: &Linkage,
     closure: &Closure,
     cancel: Option<&AtomicBool>,

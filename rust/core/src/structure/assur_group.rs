@@ -39,7 +39,7 @@ impl Group {
 
 /// Roman numeral of a class (small numbers only).
 #[must_use]
-pub fn roman(mut number: usize) -> String {
+pub(crate) fn roman(mut number: usize) -> String {
     let mut text = String::new();
     for (value, letters) in
         [(50, "L"), (40, "XL"), (10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I")]
@@ -98,7 +98,7 @@ enum Node {
 /// The groups of a linkage without its redundant links; None if the count does
 /// not come out (the caller has checked the ranks before).
 #[must_use]
-pub fn groups(linkage: &Linkage, left_out: &LeftOut) -> Option<Vec<Group>> {
+pub(crate) fn groups(linkage: &Linkage, left_out: &LeftOut) -> Option<Vec<Group>> {
     let bodies = Bodies::new(linkage);
     let kept: Vec<usize> =
         (0..linkage.links.len()).filter(|l| !left_out.links.contains(l)).collect();

@@ -17,11 +17,10 @@ use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
 
 /// Index of the ground's origin among the points.
-pub const GROUND_POINT: usize = 0;
+pub(crate) const GROUND_POINT: usize = 0;
 
 /// What an edge spans in its link's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the fields are indices of what their names say")]
 pub enum Span {
     /// From the link's first joint to another of its joints.
     Joint { link: usize, joint: usize },
@@ -57,7 +56,7 @@ impl Edge {
 /// How a link's orientation follows from the rotation of its class:
 /// `θ = θ_class + Σ ±(angle − link_angle of slides) + Σ ±q`.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Rotation {
+pub(crate) struct Rotation {
     /// The class; 0 is the ground's.
     pub class: usize,
     /// Slides passed on the way from the class's first link, with sign.
@@ -99,7 +98,7 @@ pub struct Closure {
 
 /// Index of a joint among the points.
 #[must_use]
-pub fn point_of_joint(joint: usize) -> usize {
+pub(crate) fn point_of_joint(joint: usize) -> usize {
     joint + 1
 }
 
@@ -187,7 +186,7 @@ impl Closure {
 ///
 /// A closed chain of sliding pairs, or a driven angle between two links that
 /// cannot turn relative to each other.
-pub fn rotations(
+pub(crate) fn rotations(
     linkage: &Linkage,
     left_out: &LeftOut,
     locked: bool,
@@ -287,6 +286,6 @@ fn check_slide_cycle(
 }
 
 /// Names in quotes, separated by commas.
-pub fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.map(|n| format!("{n:?}")).collect::<Vec<_>>().join(", ")
 }

@@ -8,7 +8,7 @@ use std::collections::{HashSet, VecDeque};
 /// paths from the vertex; a greedy choice of independent ones (over GF(2)) is a
 /// minimum basis.
 #[must_use]
-pub fn minimum_cycle_basis(vertices: usize, edges: &[(usize, usize)]) -> Vec<usize> {
+pub(crate) fn minimum_cycle_basis(vertices: usize, edges: &[(usize, usize)]) -> Vec<usize> {
     let mut candidates: Vec<HashSet<usize>> = Vec::new();
     for root in 0..vertices {
         let paths = shortest_paths(vertices, edges, root);

@@ -17,7 +17,7 @@ const RELATIVE: f64 = 0.125;
 const ABSOLUTE: f64 = 1.0e-3;
 
 /// A sparse matrix by rows: column and value of every entry.
-pub type SparseRows = Vec<Vec<(usize, f64)>>;
+pub(crate) type SparseRows = Vec<Vec<(usize, f64)>>;
 
 /// One step of the elimination.
 #[derive(Debug)]
@@ -33,7 +33,7 @@ struct Pivot {
 
 /// A matrix after elimination.
 #[derive(Debug)]
-pub struct Elimination {
+pub(crate) struct Elimination {
     shape: (usize, usize),
     pivots: Vec<Pivot>,
 }
@@ -149,7 +149,7 @@ fn subtracted(
 impl Elimination {
     /// Eliminates until no entry is above `least`; `stop` is asked before each pivot, None if it
     /// says so.
-    pub fn of(
+    pub(crate) fn of(
         rows: SparseRows,
         columns: usize,
         least: f64,
@@ -168,12 +168,12 @@ impl Elimination {
     }
 
     /// The rank.
-    pub fn rank(&self) -> usize {
+    pub(crate) fn rank(&self) -> usize {
         self.pivots.len()
     }
 
     /// Columns that span what the matrix maps to zero, with greatest entry 1.
-    pub fn null_space(&self) -> DMatrix<f64> {
+    pub(crate) fn null_space(&self) -> DMatrix<f64> {
         let free = without(self.pivots.iter().map(|pivot| pivot.column), self.shape.1);
         let mut all = DMatrix::zeros(self.shape.1, free.len());
         let zero = DVector::zeros(self.pivots.len());
@@ -186,7 +186,7 @@ impl Elimination {
     }
 
     /// Columns that span what maps the matrix to zero from the left, with greatest entry 1.
-    pub fn left_null_space(&self) -> DMatrix<f64> {
+    pub(crate) fn left_null_space(&self) -> DMatrix<f64> {
         let free = without(self.pivots.iter().map(|pivot| pivot.row), self.shape.0);
         let mut all = DMatrix::zeros(self.shape.0, free.len());
         for (mut vector, free) in all.column_iter_mut().zip(free) {
@@ -202,7 +202,7 @@ impl Elimination {
 
     /// A solution for a right-hand side, with zero for the unknowns that are free; equations that
     /// depend on others are left unmet.
-    pub fn solve(&self, right: &DVector<f64>) -> DVector<f64> {
+    pub(crate) fn solve(&self, right: &DVector<f64>) -> DVector<f64> {
         let mut right = right.clone();
         for pivot in &self.pivots {
             for &(row, multiplier) in &pivot.multipliers {

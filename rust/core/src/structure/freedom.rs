@@ -26,7 +26,7 @@ use crate::math::vector::Vector;
 /// A displaced linkage: every point, the turn of every free class since the
 /// drawing, the displacement of every slide. Lengths in units of the size.
 #[derive(Debug, Clone)]
-pub struct Pose {
+pub(crate) struct Pose {
     points: Vec<[f64; 2]>,
     turn: Vec<f64>,
     slide: Vec<f64>,
@@ -49,7 +49,7 @@ impl Pose {
 
 /// One unknown of the closure equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unknown {
+pub(crate) enum Unknown {
     /// x (0) or y (1) of a point.
     Point { point: usize, axis: usize },
     /// Rotation of a class.
@@ -60,7 +60,7 @@ pub enum Unknown {
 
 /// The closure equations of the kept part, with their unknowns.
 #[derive(Debug, Clone)]
-pub struct System {
+pub(crate) struct System {
     /// Kept edges, two rows each.
     pub edges: Vec<usize>,
     /// Columns.
@@ -76,7 +76,7 @@ pub struct System {
 impl System {
     /// Sets up the equations; `locked` takes the driven slides as known.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         linkage: &Linkage,
         closure: &Closure,
         left_out: &LeftOut,
@@ -126,14 +126,14 @@ impl System {
 
     /// Number of scalar equations.
     #[must_use]
-    pub fn rows(&self) -> usize {
+    pub(crate) fn rows(&self) -> usize {
         2 * self.edges.len()
     }
 }
 
 /// The geometry of the drawing, ready to be displaced.
 #[derive(Debug)]
-pub struct Skeleton<'a> {
+pub(crate) struct Skeleton<'a> {
     linkage: &'a Linkage,
     closure: &'a Closure,
     free: &'a [Rotation],
@@ -149,7 +149,7 @@ pub struct Skeleton<'a> {
 impl<'a> Skeleton<'a> {
     /// Takes the drawing; `free` are the rotations with no driver locked.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         linkage: &'a Linkage,
         closure: &'a Closure,
         free: &'a [Rotation],
@@ -188,13 +188,13 @@ impl<'a> Skeleton<'a> {
 
     /// The drawing itself.
     #[must_use]
-    pub fn drawing(&self) -> &Pose {
+    pub(crate) fn drawing(&self) -> &Pose {
         &self.start
     }
 
     /// Unit of all lengths here, m.
     #[must_use]
-    pub fn size(&self) -> f64 {
+    pub(crate) fn size(&self) -> f64 {
         self.size
     }
 
@@ -217,7 +217,7 @@ impl<'a> Skeleton<'a> {
 
     /// How far every equation of a system is from being met in a pose.
     #[must_use]
-    pub fn residual(&self, system: &System, pose: &Pose) -> DVector<f64> {
+    pub(crate) fn residual(&self, system: &System, pose: &Pose) -> DVector<f64> {
         let mut rows = Vec::with_capacity(system.rows());
         for &e in &system.edges {
             let edge = &self.closure.edges[e];
@@ -257,7 +257,7 @@ impl<'a> Skeleton<'a> {
     /// # Errors
     ///
     /// [`Interrupted`].
-    pub fn rank(&self, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
+    pub(crate) fn rank(&self, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
         self.rank_above(RANK, system, pose)
     }
 
@@ -266,7 +266,7 @@ impl<'a> Skeleton<'a> {
     /// # Errors
     ///
     /// [`Interrupted`].
-    pub fn nearly_rank(&self, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
+    pub(crate) fn nearly_rank(&self, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
         self.rank_above(NEARLY_DEPENDENT, system, pose)
     }
 
@@ -279,7 +279,12 @@ impl<'a> Skeleton<'a> {
     /// Derivatives of a weighted sum of the closure equations by the drawing: the coordinates of
     /// all joints (of the size), then the angles of all guides.
     #[must_use]
-    pub fn by_drawing(&self, system: &System, pose: &Pose, weights: &DVector<f64>) -> Vec<f64> {
+    pub(crate) fn by_drawing(
+        &self,
+        system: &System,
+        pose: &Pose,
+        weights: &DVector<f64>,
+    ) -> Vec<f64> {
         let joints = self.linkage.joints.len();
         let mut all = vec![0.0; 2 * joints + self.linkage.slides.len()];
         for (row, &e) in system.edges.iter().enumerate() {
@@ -314,7 +319,7 @@ impl<'a> Skeleton<'a> {
     /// # Errors
     ///
     /// [`Interrupted`].
-    pub fn displaced(&self, system: &System) -> Result<Vec<(Pose, Rank)>, Interrupted> {
+    pub(crate) fn displaced(&self, system: &System) -> Result<Vec<(Pose, Rank)>, Interrupted> {
         let here = self.rank(system, &self.start)?;
         if here.mobility == 0 {
             return Ok(Vec::new());
@@ -369,7 +374,7 @@ impl<'a> Skeleton<'a> {
     /// # Errors
     ///
     /// [`Interrupted`].
-    pub fn project_nearly(
+    pub(crate) fn project_nearly(
         &self,
         system: &System,
         from: &Pose,
@@ -415,7 +420,7 @@ impl<'a> Skeleton<'a> {
 
     /// The links that a motion (a vector over the unknowns) moves.
     #[must_use]
-    pub fn moving_links(&self, system: &System, motions: &DMatrix<f64>) -> Vec<usize> {
+    pub(crate) fn moving_links(&self, system: &System, motions: &DMatrix<f64>) -> Vec<usize> {
         let moves = |wanted: &dyn Fn(Unknown) -> bool| {
             let rows = system.unknowns.iter().enumerate().filter(|(_, u)| wanted(**u));
             rows.map(|(row, _)| motions.row(row).amax()).fold(0.0, f64::max)
@@ -436,7 +441,7 @@ impl<'a> Skeleton<'a> {
 
     /// The links and slides whose equations take part in a self-stress, by name.
     #[must_use]
-    pub fn stressed(&self, system: &System, stresses: &DMatrix<f64>) -> Vec<String> {
+    pub(crate) fn stressed(&self, system: &System, stresses: &DMatrix<f64>) -> Vec<String> {
         let (links, slides) = self.under_stress(system, stresses);
         let links = links.into_iter().map(|l| self.linkage.links[l].name.clone());
         links.chain(slides.into_iter().map(|s| self.linkage.slides[s].name.clone())).collect()
@@ -444,7 +449,7 @@ impl<'a> Skeleton<'a> {
 
     /// The same by index: moving links, then slides.
     #[must_use]
-    pub fn under_stress(
+    pub(crate) fn under_stress(
         &self,
         system: &System,
         stresses: &DMatrix<f64>,

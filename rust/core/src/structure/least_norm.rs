@@ -10,7 +10,7 @@ const TRUNCATED: f64 = 1.0e-14;
 /// The shortest `x` for which `A x + c` is nothing but rounding, or as small as can be: singular vectors
 /// of `A` count from the greatest value on until the rest of `c` is rounding (Morozov's discrepancy
 /// principle), since those of small values would only raise it.
-pub fn least_norm(a: DMatrix<f64>, c: &DVector<f64>) -> DVector<f64> {
+pub(crate) fn least_norm(a: DMatrix<f64>, c: &DVector<f64>) -> DVector<f64> {
     let rounding = UNIT_ROUNDOFF * (c.len() as f64).sqrt();
     let (a, c) = if a.nrows() > a.ncols() {
         // The triangle R of A = Q R, and Qᵀ c.

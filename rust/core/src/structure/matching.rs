@@ -4,7 +4,7 @@
 
 /// A set of unknowns that is solved together, from a set of equations.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Block {
+pub(crate) struct Block {
     /// Indices of unknowns.
     pub unknowns: Vec<usize>,
     /// Indices of equations.
@@ -13,7 +13,7 @@ pub struct Block {
 
 /// A system of equations: `touches[e]` are the unknowns in equation `e`.
 #[derive(Debug, Clone, Default)]
-pub struct Pattern {
+pub(crate) struct Pattern {
     /// Scalars in every unknown.
     pub unknown_size: Vec<usize>,
     /// Scalars in every equation.
@@ -24,13 +24,13 @@ pub struct Pattern {
 
 impl Pattern {
     /// Adds an unknown of `size` scalars.
-    pub fn unknown(&mut self, size: usize) -> usize {
+    pub(crate) fn unknown(&mut self, size: usize) -> usize {
         self.unknown_size.push(size);
         self.unknown_size.len() - 1
     }
 
     /// Adds an equation of `size` scalars.
-    pub fn equation(&mut self, size: usize, touches: Vec<usize>) -> usize {
+    pub(crate) fn equation(&mut self, size: usize, touches: Vec<usize>) -> usize {
         self.equation_size.push(size);
         self.touches.push(touches);
         self.touches.len() - 1
@@ -39,7 +39,7 @@ impl Pattern {
     /// Blocks in solving order; None if the system is not structurally square
     /// and regular.
     #[must_use]
-    pub fn blocks(&self) -> Option<Vec<Block>> {
+    pub(crate) fn blocks(&self) -> Option<Vec<Block>> {
         let matched = self.matching()?;
         let components = self.components(&matched);
         let count = components.iter().max().map_or(0, |m| m + 1);

@@ -1,19 +1,19 @@
 //! What kind of mechanism it is: mobility, redundant links, Assur groups.
 
 pub(crate) mod adjust;
-pub mod assur_group;
-pub mod closure;
+pub(crate) mod assur_group;
+pub(crate) mod closure;
 pub(crate) mod contour;
 pub(crate) mod elimination;
 pub(crate) mod freedom;
 pub(crate) mod least_norm;
-pub mod matching;
+pub(crate) mod matching;
 pub(crate) mod rank;
 pub(crate) mod redundancy;
 
 pub(crate) use adjust::adjust;
-pub use assur_group::{Group, roman};
-pub use closure::{Closure, LeftOut, Rotation};
+pub(crate) use assur_group::{Group, roman};
+pub(crate) use closure::{Closure, LeftOut};
 
 use std::fmt::Write as _;
 

@@ -7,7 +7,7 @@ use crate::description::error::Interrupted;
 
 /// A rank with the spaces that belong to it.
 #[derive(Debug, Clone)]
-pub struct Rank {
+pub(crate) struct Rank {
     /// Unknowns minus rank.
     pub mobility: usize,
     /// Equations minus rank.
@@ -23,7 +23,7 @@ pub struct Rank {
 /// # Errors
 ///
 /// [`Interrupted`] when `stop` says so.
-pub fn rank(
+pub(crate) fn rank(
     mut matrix: SparseRows,
     unknowns: usize,
     least: f64,
@@ -47,7 +47,7 @@ pub fn rank(
 /// # Errors
 ///
 /// [`Interrupted`] when `stop` says so.
-pub fn solve(
+pub(crate) fn solve(
     matrix: SparseRows,
     unknowns: usize,
     least: f64,

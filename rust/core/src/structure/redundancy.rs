@@ -14,7 +14,7 @@ use crate::description::{Driver, Linkage};
 /// # Errors
 ///
 /// None of its own; those of [`rotations`].
-pub fn leave_out(
+pub(crate) fn leave_out(
     linkage: &Linkage,
     closure: &Closure,
     skeleton: &Skeleton<'_>,

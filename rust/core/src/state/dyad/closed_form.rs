@@ -26,7 +26,7 @@ pub(crate) struct Solved<R: Real> {
 impl<R: Real> Solved<R> {
     /// With the levers of the legs.
     #[inline(always)]
-    pub fn with(self, arm2: R) -> Self {
+    pub(crate) fn with(self, arm2: R) -> Self {
         Self { arm2: arm2.max(R::ONE), ..self }
     }
 }
