@@ -9,8 +9,7 @@ use std::hint::black_box;
 use std::mem::MaybeUninit;
 use std::num::NonZeroUsize;
 
-use assur::{Arrays, Column, Control, Simd, fill};
-use assur::{Coordinates, Mechanism, Outputs, Request};
+use assur::{Arrays, Column, Control, Coordinates, Mechanism, Outputs, Request, Simd, fill};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const POSITIONS: u32 = 360;

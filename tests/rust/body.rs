@@ -9,8 +9,7 @@
 //!
 //! Nothing of the core is used but the reading of a [`Description`].
 
-use assur::Description;
-use assur::DriverDescription;
+use assur::{Description, DriverDescription};
 use nalgebra::DMatrix;
 
 use crate::double_double::Dd;

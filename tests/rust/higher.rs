@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use assur::{Control, Simd};
-use assur::{Coordinates, Description, Mechanism, Motion, Outputs, Request, Status};
+use assur::{Control, Coordinates, Description, Mechanism, Motion, Outputs, Request, Simd, Status};
 
 use crate::linkages::{class_iv, triad};
 

@@ -5,10 +5,9 @@ use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::sync::atomic::Ordering;
 
-use assur::{Arrays, Control, Quantity, fill};
 use assur::{
-    Coordinates, Description, DriverDescription, Outputs, Request, SlideDescription, SolveError,
-    Status,
+    Arrays, Control, Coordinates, Description, DriverDescription, Outputs, Quantity, Request,
+    SlideDescription, SolveError, Status, fill,
 };
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyMemoryError, PyRuntimeError};

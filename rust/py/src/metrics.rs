@@ -1,7 +1,6 @@
 //! Point-wise metrics over flat arrays; Python reshapes.
 
-use assur::Vector;
-use assur::metrics;
+use assur::{Vector, metrics};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

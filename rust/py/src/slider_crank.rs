@@ -7,9 +7,8 @@ use assur::papers::slider_crank::{Jet, Quantity, Series, SlowSeries};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::error;
-use crate::gate;
 use crate::metrics::same;
+use crate::{error, gate};
 
 /// Numbers below which a series is summed sooner than a person can interrupt it.
 const SMALL: usize = 4096;

@@ -1,7 +1,6 @@
 //! Joints and slides against the dimensions, from the numbers returned and nothing else.
 
-use assur::Axis;
-use assur::{Dimension, Driver, Mechanism, Motion, Track};
+use assur::{Axis, Dimension, Driver, Mechanism, Motion, Track};
 
 /// Row of a motion that holds every joint, link, place and slide of a mechanism.
 pub struct Row<'a> {

@@ -73,7 +73,7 @@ pub(crate) fn columns(outputs: &Outputs, drivers: usize, order: usize) -> Vec<Co
     .collect()
 }
 
-/// Arrays to be filled, in the order of [`Request::columns`]; see [`fill`].
+/// Arrays to be filled, in the order of [`crate::Request::columns`]; see [`crate::fill`].
 #[derive(Debug)]
 pub struct Arrays<'a> {
     /// One array a column, of designs × positions × width numbers.

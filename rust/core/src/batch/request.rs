@@ -1,7 +1,6 @@
 //! What to solve, and what comes of it.
 
-use super::outputs::Arrays;
-use super::outputs::{Column, Outputs, columns};
+use super::outputs::{Arrays, Column, Outputs, columns};
 use crate::description::error::SolveError;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;

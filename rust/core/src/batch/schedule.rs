@@ -7,8 +7,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
-use super::outputs::Arrays;
-use super::outputs::Column;
+use super::outputs::{Arrays, Column};
 use super::writer::Rows;
 use crate::description::error::SolveError;
 use crate::math::simd::Simd;

@@ -3,8 +3,7 @@
 use std::mem::MaybeUninit;
 
 use super::dispatch;
-use super::outputs::Arrays;
-use super::outputs::Quantity;
+use super::outputs::{Arrays, Quantity};
 use super::request::{Coordinates, Motion, Request, Shape, Track, check_arrays, product};
 use super::schedule::{Chunks, Control};
 use super::streaming_store as stream;

@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::outputs::{Column, Quantity};
 use super::streaming_store as stream;
-use crate::branch::design::Units;
+use crate::branch::units::Units;
 use crate::math::derivatives::Jets;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;

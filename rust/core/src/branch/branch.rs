@@ -10,8 +10,7 @@
 use std::f64::consts::TAU;
 
 use super::hermite::Cell;
-use super::knot::Change;
-use super::knot::{Knot, Start, Stretch};
+use super::knot::{Change, Knot, Start, Stretch};
 use super::tracer::Walker;
 use crate::math::angle::{less_turns, whole_part};
 use crate::math::lanes::{LANES, Real};

@@ -10,3 +10,4 @@ pub(crate) mod knot;
 pub(crate) mod predictor;
 pub(crate) mod tracer;
 pub(crate) mod uniform;
+pub(crate) mod units;

@@ -8,6 +8,9 @@
 //! once, where the drawing is. What it comes to is held to what the walk holds its knots to: from
 //! each knot the next is foretold, and the first is told from the drawing.
 
+use std::cell::OnceCell;
+use std::f64::consts::TAU;
+
 use super::branch::{CELLS_A_TURN, Track};
 use super::hermite::Cell;
 use super::knot::{FIRST_STEP, LATER_STEPS, Seed, Stretch, may_touch, returns, strays};
@@ -20,8 +23,6 @@ use crate::plan::dyad::{Form, Unknown};
 use crate::plan::plan::Plan;
 use crate::state::kernel::Level;
 use crate::state::state::{Context, State};
-use std::cell::OnceCell;
-use std::f64::consts::TAU;
 
 /// Knots of a turn, its end included.
 pub(crate) const KNOTS: usize = CELLS_A_TURN as usize + 1;

@@ -10,9 +10,10 @@
 //! digits, with mpmath); coefficients were rounded to doubles one after another from the
 //! lowest, what is above fitted again after each.
 
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+
 use super::lanes::{LANES, Mask, Real};
 use super::two_over_pi::FRAC_2_PI_BITS;
-use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
 /// (sin r − r) / r³ in r², |r| ≤ π/4; relative error of sin r 2^-57.9.
 const SIN: [f64; 6] = [

@@ -1,7 +1,8 @@
 //! What comes out of a run.
 
-use super::dense::Path;
 use std::fmt;
+
+use super::dense::Path;
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,13 +1,11 @@
 //! Why a position is what it is: status, residual, condition, a sentence.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use crate::branch::design::Design;
 use crate::description::error::{SolveError, number};
 use crate::math::derivatives::Jets;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::{Along, Plan, Step};
-use crate::state::state::{Context, State};
+use crate::state::state::State;
 use crate::state::status::{Fault, Status};
 
 /// How far (in sizes) a joint is where a way has ended not for a dead point but for that: the
@@ -130,94 +128,13 @@ impl Mechanism {
         Diagnosis { status: state.status, residual, condition, gap, name: named, step, sentence }
     }
 
-    /// Every assembly that exists at `q`, as signs in the order of
-    /// [`crate::plan::plan::Plan::dyad_names`], each as it is at the drawing (on the way
-    /// from there a sign may change at change points).
-    ///
-    /// # Errors
-    ///
-    /// A group of higher class, or slices of the wrong length.
-    pub fn assemblies(&self, dimensions: &[f64], q: &[f64]) -> Result<Vec<Vec<i8>>, SolveError> {
-        self.assemblies_unless(dimensions, q, None)
-    }
-
-    /// The same, which stops once `cancel` is true: each dyad may double their number.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Mechanism::assemblies`], and [`SolveError::Interrupted`].
-    pub fn assemblies_unless(
+    /// Refuses slices that do not fit this mechanism.
+    pub(super) fn check(
         &self,
         dimensions: &[f64],
         q: &[f64],
-        cancel: Option<&AtomicBool>,
-    ) -> Result<Vec<Vec<i8>>, SolveError> {
-        let is_cancelled = || cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
-        self.require_closed_form()?;
-        let count = self.plan().signs();
-        self.check(dimensions, q, &vec![1; count])?;
-        if self.dimensions().first_fault(dimensions).is_some() || q.len() != self.q0().len() {
-            return Ok(Vec::new());
-        }
-        let jets = Jets::new(q.len(), 1);
-        let mut design = Design::new(self, &vec![1; count], &jets);
-        design.bind(dimensions);
-        let scaled = design.scaled(q);
-        if design.is_too_far(&scaled) {
-            return Err(SolveError::Shape(format!(
-                "q = {} is too far from the drawing to be followed: take off whole turns (at most 1000, or a slide 3000 times the size)",
-                place_of(q)
-            )));
-        }
-        let mut state = design.state(&jets);
-        let mut found: Vec<Vec<f64>> = vec![Vec::new()];
-        // Sign by sign: a choice that already fails needs no completion.
-        for place in 0..count.max(1) {
-            let choices: &[f64] = if count == 0 { &[] } else { &[1.0, -1.0] };
-            let mut longer = Vec::new();
-            for head in &found {
-                if is_cancelled() {
-                    return Err(SolveError::Interrupted);
-                }
-                longer.extend(choices.iter().map(|&sign| [&head[..], &[sign]].concat()));
-                if choices.is_empty() {
-                    longer.push(Vec::new());
-                }
-            }
-            longer.retain(|signs| {
-                if is_cancelled() {
-                    return false;
-                }
-                let mut trial = signs.clone();
-                trial.resize(count, 1.0);
-                state.solve(&Context { signs: &trial, ..design.context(&jets) }, &scaled);
-                match (state.status, state.fault) {
-                    (Status::Unreachable, Some(fault)) => {
-                        place + 1 < count && self.is_beyond(fault.step(), place)
-                    }
-                    (Status::Unreachable | Status::BadInput, _) => false,
-                    _ => true,
-                }
-            });
-            found = longer;
-        }
-        let at_drawing = |signs: &Vec<f64>| {
-            let goes_on = !is_cancelled();
-            goes_on.then(|| design.at_drawing(signs, &scaled)).ok_or(SolveError::Interrupted)
-        };
-        found.iter().map(at_drawing).collect()
-    }
-
-    /// Whether a step comes after the dyad with sign number `place`.
-    fn is_beyond(&self, step: usize, place: usize) -> bool {
-        match &self.plan().steps[step] {
-            Step::Dyad(dyad) => dyad.sign.is_none_or(|s| s > place),
-            _ => true,
-        }
-    }
-
-    /// Refuses slices that do not fit this mechanism.
-    fn check(&self, dimensions: &[f64], q: &[f64], signs: &[i8]) -> Result<(), SolveError> {
+        signs: &[i8],
+    ) -> Result<(), SolveError> {
         let fits = dimensions.len() == self.dimensions().len()
             && q.len().is_multiple_of(self.q0().len())
             && signs.len() == self.plan().signs();
@@ -330,7 +247,7 @@ fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::dyad::
     slides.join("-")
 }
 
-fn place_of(q: &[f64]) -> String {
+pub(super) fn place_of(q: &[f64]) -> String {
     match q {
         [one] => number(*one),
         many => format!("({})", many.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", ")),

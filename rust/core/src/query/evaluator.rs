@@ -1,9 +1,12 @@
 //! One design, one position after another: what a motion in time asks for.
 
+use std::borrow::Cow;
+
 use crate::branch::branch::Track;
 use crate::branch::change_interpolant::Bridge;
-use crate::branch::design::{Design, Place, Units};
+use crate::branch::design::{Design, Place};
 use crate::branch::knot::{Seed, Start};
+use crate::branch::units::Units;
 use crate::math::angle::nearest;
 use crate::math::derivatives::Jets;
 use crate::plan::constants::Bound;
@@ -12,7 +15,6 @@ use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::{Plan, Step};
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
-use std::borrow::Cow;
 
 /// Which positions will be asked for.
 #[derive(Debug, Clone, Copy)]

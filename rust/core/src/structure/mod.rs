@@ -16,13 +16,13 @@ pub(crate) use assur_group::{Group, roman};
 pub(crate) use closure::{Closure, LeftOut};
 
 use std::fmt::Write as _;
+use std::sync::atomic::AtomicBool;
 
 use self::closure::{list, rotations};
 use self::freedom::{Pose, Skeleton, System};
 use self::rank::Rank;
 use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
-use std::sync::atomic::AtomicBool;
 
 /// The structure of a mechanism with its drivers.
 #[derive(Debug, Clone, PartialEq)]

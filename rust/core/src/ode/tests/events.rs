@@ -1,7 +1,8 @@
 //! Events against what is known of them.
 
-use super::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::*;
 
 /// A smooth system with event functions, and what to do at each event (by its number and how many
 /// there were).

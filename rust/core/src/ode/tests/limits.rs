@@ -1,7 +1,8 @@
 //! Runs that cannot go on, or should not begin.
 
-use super::*;
 use std::f64::consts::TAU;
+
+use super::*;
 
 fn run<S: System>(
     method: Method,

@@ -7,8 +7,9 @@ pub(crate) mod orders;
 pub(crate) mod problems;
 pub(crate) mod trees;
 
-use crate::ode::*;
 use std::convert::Infallible;
+
+use crate::ode::*;
 
 pub(crate) const BOTH: [Method; 2] = [Method::DormandPrince54, Method::DormandPrince853];
 

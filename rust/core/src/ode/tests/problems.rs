@@ -1,7 +1,8 @@
 //! Problems with known solutions.
 
-use super::*;
 use std::f64::consts::{PI, TAU};
+
+use super::*;
 
 /// Errors follow tolerances down to 1e-13, to the left as to the right.
 #[test]

@@ -13,8 +13,7 @@ use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{NEWTON_LONGEST, NEWTON_ROUNDS};
 use crate::math::vector::Vector;
 use crate::plan::binary_links::{Links, MOST};
-use crate::plan::group::Bars;
-use crate::plan::group::Group;
+use crate::plan::group::{Bars, Group};
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 

@@ -1,0 +1,40 @@
+//! Units of length of a design.
+
+use crate::math::derivatives::Jets;
+use crate::plan::mechanism::Mechanism;
+
+/// Powers of two between the design's own unit of length and the metre.
+#[derive(Debug, Default)]
+pub(crate) struct Units {
+    /// Factor of every coordinate, into the design's unit.
+    pub coordinate: Vec<f64>,
+    /// Factor of every jet entry of a length, into metres.
+    pub length: Vec<f64>,
+    /// Factor of every jet entry of an angle.
+    pub angle: Vec<f64>,
+}
+
+impl Units {
+    pub(super) fn set(&mut self, mechanism: &Mechanism, scale: f64, jets: &Jets) {
+        let per = 1.0 / scale;
+        let slides = |d: usize| mechanism.plan().driven_slide(d).is_some();
+        self.coordinate.clear();
+        self.coordinate
+            .extend((0..mechanism.q0().len()).map(|d| if slides(d) { per } else { 1.0 }));
+        self.angle.clear();
+        self.length.clear();
+        for power in &jets.powers {
+            // One factor after another: a length's third analogue stays within the range
+            // where the cube of the unit does not.
+            let (mut angle, mut length) = (1.0, scale);
+            for (&power, &unit) in power.iter().zip(&self.coordinate) {
+                for _ in 0..power {
+                    angle *= unit;
+                    length *= unit;
+                }
+            }
+            self.angle.push(angle);
+            self.length.push(length);
+        }
+    }
+}
