@@ -1,19 +1,10 @@
 """Kinematics and dynamics of planar linkages, solved one Assur group after another."""
 
-from assur import crank_rocker, events, flywheel, slider_crank
+from assur import events, flywheel
 from assur._core import version
-from assur.analogues import Analogues
-from assur.class_iv import ClassIV
-from assur.description import Assembly, Drive, Slide, Status
-from assur.errors import (
-    AssurError,
-    AssurWarning,
-    DimensionError,
-    InputError,
-    PositionError,
-    StructureError,
-)
-from assur.loads import (
+from assur.description.structure import Group, Structure
+from assur.description.words import Assembly, Drive, Slide, Status
+from assur.dynamics.loads import (
     Body,
     Damper,
     Force,
@@ -24,15 +15,25 @@ from assur.loads import (
     TorsionDamper,
     TorsionSpring,
 )
-from assur.machine import Machine
-from assur.mechanism import Mechanism
-from assur.motion import Motion
-from assur.motors import ConstantTorque, InductionMotor, LinearMotor
-from assur.named import FourBar, SliderCrank
-from assur.run import Run
-from assur.sensitivity import Sensitivity
-from assur.steady import SteadyState
-from assur.structure import Group, Structure
+from assur.dynamics.machine import Machine
+from assur.dynamics.motors import ConstantTorque, InductionMotor, LinearMotor
+from assur.dynamics.run import Run
+from assur.dynamics.steady import SteadyState
+from assur.errors import (
+    AssurError,
+    AssurWarning,
+    DimensionError,
+    InputError,
+    PositionError,
+    StructureError,
+)
+from assur.kinematics.mechanism import Mechanism
+from assur.kinematics.motion import Motion
+from assur.kinematics.quantity import Analogues
+from assur.kinematics.sensitivity import Sensitivity
+from assur.mechanisms.class_iv import ClassIV
+from assur.mechanisms.named import FourBar, SliderCrank
+from assur.papers import crank_rocker, slider_crank
 
 __all__ = [
     "Analogues",

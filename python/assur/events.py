@@ -6,13 +6,13 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from assur import transmission
 from assur._arrays import flag, real_number, short
 from assur.errors import InputError
+from assur.kinematics import transmission
 
 if TYPE_CHECKING:
-    from assur.mechanism import Mechanism
-    from assur.values import Function
+    from assur.dynamics.callbacks import Function
+    from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Crossing", "Position", "Rest", "Speed", "TransmissionAngle"]
 

@@ -23,7 +23,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import real_array, short
-from assur._checks import checked_index, checked_threads, one_of
+from assur._validate import checked_index, checked_threads, one_of
 from assur.errors import AssurWarning, InputError
 
 if TYPE_CHECKING:

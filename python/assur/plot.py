@@ -9,11 +9,11 @@ import numpy as np
 from assur.errors import InputError
 
 if TYPE_CHECKING:
+    from assur.dynamics.run import Run
+    from assur.dynamics.steady import SteadyState
     from assur.flywheel import Flywheel
-    from assur.mechanism import Mechanism
-    from assur.motion import Motion
-    from assur.run import Run
-    from assur.steady import SteadyState
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
 
 # Okabe and Ito's colours (2008): told apart in print and by colour-blind eyes.
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 from unittest import mock
 
 import assur
-from assur import _even, crank_rocker, slider_crank
+from assur import crank_rocker, slider_crank
+from assur.dynamics import size_flywheel as _even
 from fuzz_kinematics import assemblies, change, construct, describe, move
 from fuzz_machines import reduce, run, steady, wheel
 from fuzz_values import Choices

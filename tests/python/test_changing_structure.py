@@ -12,7 +12,7 @@ import assur
 from assur import crank_rocker as cr
 
 if TYPE_CHECKING:
-    from assur.crank_rocker import Run
+    from assur.papers.crank_rocker import Run
 
 LENGTHS = (1.0, 4.5, 1.5)
 

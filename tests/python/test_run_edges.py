@@ -20,9 +20,9 @@ from assur import (
     Torque,
     TorsionDamper,
     TorsionSpring,
-    _drive,
     events,
 )
+from assur.dynamics import integrate as _drive
 from test_machine import five_bar
 from test_run import pendulum
 from test_steady import press

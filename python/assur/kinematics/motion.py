@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur import _core, transmission
-from assur._checks import checked_index, checked_name
-from assur.analogues import Analogues
+from assur import _core
+from assur._validate import checked_index, checked_name
 from assur.errors import InputError
-from assur.sensitivity import Sensitivity
+from assur.kinematics import transmission
+from assur.kinematics.quantity import Analogues
+from assur.kinematics.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
-    from assur._call import Call, Tracks
+    from assur.kinematics.request import Call, Tracks
 
 __all__ = ["Motion"]
 
@@ -297,7 +298,7 @@ class Motion:
         such as ``C.x``, ``C.x.d1``, ``coupler``, ``coupler.d1``. A link or slide called
         as one of the first columns has its own under ``link q``, ``slide status``.
         """
-        from assur.table import dataframe
+        from assur.kinematics.dataframe import dataframe
 
         return dataframe(self)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from assur.motion import Motion
+    from assur.kinematics.motion import Motion
 
 
 def dataframe(motion: Motion) -> Any:

@@ -9,13 +9,13 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import short
-from assur._checks import checked_name
 from assur._trig import sin_cos
+from assur._validate import checked_name
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.mechanism import Mechanism
-    from assur.motion import Motion
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
 
 Float: TypeAlias = npt.NDArray[np.float64]
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from assur._arrays import real_array
-from assur._checks import one_of
-from assur.description import Slide
+from assur._validate import one_of
+from assur.description.words import Slide
 from assur.errors import DimensionError
-from assur.mechanism import Mechanism
+from assur.kinematics.mechanism import Mechanism
 
 if TYPE_CHECKING:
     import numpy.typing as npt

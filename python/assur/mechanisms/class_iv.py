@@ -8,16 +8,16 @@ import numpy as np
 
 from assur._arrays import real_array, short
 from assur._trig import sin_cos
-from assur.description import Status
+from assur.description.words import Status
 from assur.errors import DimensionError, InputError
-from assur.mechanism import Mechanism
+from assur.kinematics.mechanism import Mechanism
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     import numpy.typing as npt
 
-    from assur.motion import Motion
+    from assur.kinematics.motion import Motion
 
 __all__ = ["ClassIV"]
 

@@ -20,10 +20,10 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import in_range, real_array, real_number
-from assur._checks import one_of
 from assur._trig import arctan2
-from assur.analogues import Analogues
+from assur._validate import one_of
 from assur.errors import DimensionError, InputError
+from assur.kinematics.quantity import Analogues
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

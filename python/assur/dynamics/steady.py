@@ -9,15 +9,15 @@ import numpy as np
 
 from assur import _core
 from assur._arrays import real_array
+from assur.dynamics.run import Run
 from assur.errors import InputError
 from assur.flywheel import Place
-from assur.run import Run
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from assur.mechanism import Mechanism
-    from assur.run import State
+    from assur.dynamics.run import State
+    from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["SteadyState"]
 

@@ -11,7 +11,7 @@ from assur._arrays import real_array, real_number, short
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.machine import Machine
+    from assur.dynamics.machine import Machine
 
 METHODS = ("DOP853", "RK45")
 # Errors below cannot be told from rounding (`assur::ode`).

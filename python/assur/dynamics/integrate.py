@@ -11,8 +11,8 @@ import numpy as np
 from assur import events as known_events
 from assur import flywheel as flywheels
 from assur._arrays import real_array, real_number
-from assur._checks import one_of
-from assur._options import (
+from assur._validate import one_of
+from assur.dynamics.options import (
     count,
     fits,
     given_breaks,
@@ -26,15 +26,15 @@ from assur._options import (
     turning,
     whole,
 )
+from assur.dynamics.run import Run
+from assur.dynamics.steady import SteadyState
 from assur.errors import AssurWarning, InputError, PositionError
-from assur.run import Run
-from assur.steady import SteadyState
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from assur.machine import Machine
-    from assur.values import Function
+    from assur.dynamics.callbacks import Function
+    from assur.dynamics.machine import Machine
 
 # A period that is less accurate tells no speed.
 LOOSEST = 1e-4

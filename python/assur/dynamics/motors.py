@@ -6,17 +6,9 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from assur._arrays import not_negative, real_number, short
+from assur.dynamics.callbacks import Encoded, Outside, Value, checked
+from assur.dynamics.table import Rows, Table, checked_ratio, replace_fields
 from assur.errors import InputError
-from assur.values import (
-    Encoded,
-    Outside,
-    Rows,
-    Table,
-    Value,
-    checked,
-    checked_ratio,
-    replace_fields,
-)
 
 __all__ = ["ConstantTorque", "InductionMotor", "LinearMotor"]
 

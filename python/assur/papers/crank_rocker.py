@@ -20,9 +20,9 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import real_array, real_number
-from assur._checks import one_of
-from assur.changing_structure import Event, Run, run
+from assur._validate import one_of
 from assur.errors import DimensionError, InputError
+from assur.papers.jamming import Event, Run, run
 
 __all__ = [
     "Event",

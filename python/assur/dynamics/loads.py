@@ -8,9 +8,10 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from assur._arrays import not_negative, real_array, real_number, short, two_numbers
-from assur._checks import checked_name
+from assur._validate import checked_name
+from assur.dynamics.callbacks import Encoded, Outside, Value, checked
+from assur.dynamics.table import Table, replace_fields
 from assur.errors import InputError
-from assur.values import Encoded, Outside, Table, Value, checked, replace_fields
 
 __all__ = [
     "Body",

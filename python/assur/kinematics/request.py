@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
-    from assur.mechanism import Mechanism
+    from assur.kinematics.mechanism import Mechanism
 
 Float: TypeAlias = npt.NDArray[np.float64]
 Held: TypeAlias = dict[str, tuple[Float, ...]]
@@ -63,6 +63,7 @@ class Call:
 
     @property
     def shape(self) -> tuple[int, ...]:
+        """Designs and positions, S + (N,)."""
         return (*self.mechanism.shape, *self.positions)
 
     def arrays(

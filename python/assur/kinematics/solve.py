@@ -9,16 +9,16 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import short
-from assur._call import Call
-from assur._checks import checked_order, checked_signs, checked_threads, one_of, real_array
-from assur.description import Status
+from assur._validate import checked_order, checked_signs, checked_threads, one_of, real_array
+from assur.description.words import Status
 from assur.errors import AssurError, DimensionError, InputError, PositionError
-from assur.motion import Motion
+from assur.kinematics.motion import Motion
+from assur.kinematics.request import Call
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from assur.mechanism import Mechanism
+    from assur.kinematics.mechanism import Mechanism
 
 Float: TypeAlias = npt.NDArray[np.float64]
 # Names and indices of joints, links, slides.

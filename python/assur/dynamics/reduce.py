@@ -8,11 +8,11 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import real_array
-from assur._checks import one_of
+from assur._validate import one_of
 from assur.errors import InputError, PositionError
 
 if TYPE_CHECKING:
-    from assur.machine import Machine
+    from assur.dynamics.machine import Machine
 
 Float: TypeAlias = npt.NDArray[np.float64]
 

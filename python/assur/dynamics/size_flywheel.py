@@ -11,17 +11,17 @@ import numpy as np
 
 from assur import flywheel as flywheels
 from assur._arrays import real_array, real_number
-from assur._checks import one_of
-from assur._drive import steady_state
-from assur._options import FITS, fits, turning
+from assur._validate import one_of
+from assur.dynamics.integrate import steady_state
+from assur.dynamics.motors import ConstantTorque
+from assur.dynamics.options import FITS, fits, turning
+from assur.dynamics.table import Table
 from assur.errors import AssurWarning, InputError
-from assur.motors import ConstantTorque
-from assur.values import Table
 
 if TYPE_CHECKING:
+    from assur.dynamics.machine import Machine
+    from assur.dynamics.steady import SteadyState
     from assur.flywheel import Flywheel
-    from assur.machine import Machine
-    from assur.steady import SteadyState
 
 # How the motor's own motion is searched for: as `Machine.steady_state` does it.
 SEARCH: dict[str, Any] = {

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from assur._checks import checked_name
-from assur.analogues import Analogues
+from assur._validate import checked_name
 from assur.errors import InputError
+from assur.kinematics.quantity import Analogues
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from assur._call import Held
-    from assur.motion import Motion
+    from assur.kinematics.motion import Motion
+    from assur.kinematics.request import Held
 
 __all__ = ["Sensitivity"]
 

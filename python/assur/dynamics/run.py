@@ -10,14 +10,14 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import real_array
-from assur._checks import one_of
-from assur.description import Status
+from assur._validate import one_of
+from assur.description.words import Status
 from assur.errors import InputError
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-    from assur.mechanism import Mechanism
+    from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Energy", "Happened", "NearChangePoint", "Run", "State", "Statistics"]
 

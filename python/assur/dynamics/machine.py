@@ -10,25 +10,29 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 import numpy as np
 import numpy.typing as npt
 
-from assur import _core, _drive, _even, _reduce, motors
+from assur import _core
 from assur._arrays import real_array, short
-from assur._checks import checked_name, one_of
-from assur._options import listed
+from assur._validate import checked_name, one_of
+from assur.dynamics import integrate as _drive
+from assur.dynamics import motors
+from assur.dynamics import reduce as _reduce
+from assur.dynamics import size_flywheel as _even
+from assur.dynamics.callbacks import Outside
+from assur.dynamics.loads import Body, Gravity
+from assur.dynamics.options import listed
 from assur.errors import InputError
 from assur.flywheel import SPLINES, doubt
-from assur.loads import Body, Gravity
-from assur.values import Outside
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from assur.dynamics.loads import Load
+    from assur.dynamics.motors import Motor
+    from assur.dynamics.run import Run
+    from assur.dynamics.steady import SteadyState
     from assur.events import Event
     from assur.flywheel import Flywheel, Mean, Spline
-    from assur.loads import Load
-    from assur.mechanism import Mechanism
-    from assur.motors import Motor
-    from assur.run import Run
-    from assur.steady import SteadyState
+    from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Machine", "Reduced"]
 

@@ -8,9 +8,9 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from assur._arrays import real_array, short
-from assur._checks import checked_name
 from assur._core import Mechanism as Core
-from assur.description import Drive, Slide
+from assur._validate import checked_name
+from assur.description.words import Drive, Slide
 from assur.errors import InputError
 
 DriverLike: TypeAlias = str | Drive
@@ -24,6 +24,7 @@ Parts: TypeAlias = tuple[
 
 
 def core_of(parts: Parts) -> Core:
+    """Return the compiled core of a description."""
     joints, links, slides, drivers, assembly = parts
     return Core(
         joints=list(joints),
@@ -35,6 +36,7 @@ def core_of(parts: Parts) -> Core:
 
 
 def items(mapping: Any, what: str) -> list[tuple[str, Any]]:
+    """Return the items of a mapping whose keys are names."""
     if not isinstance(mapping, Mapping):
         message = f"{what} must be a mapping of names, not {type(mapping).__name__}"
         raise InputError(message)
@@ -44,6 +46,7 @@ def items(mapping: Any, what: str) -> list[tuple[str, Any]]:
 
 
 def joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
+    """Return a joint as the core takes it: its name and its place."""
     try:
         place = real_array(at, f"joint {name!r}")
     except InputError as error:
@@ -56,6 +59,7 @@ def joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
 
 
 def slide(name: str, slide: Any) -> Slide:
+    """Return a slide whose link, guide and origin are names."""
     if not isinstance(slide, Slide):
         message = f"slide {name!r} is {short(slide)}: an assur.Slide is needed"
         raise InputError(message, slide=name)
@@ -81,6 +85,7 @@ def _checked(word: Any, what: str, **field: str) -> None:
 
 
 def drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]:
+    """Return the drivers as a tuple."""
     drivers: tuple[Any, ...] = tuple(driver) if isinstance(driver, list | tuple) else (driver,)
     for d in drivers:
         words: tuple[Any, ...] = (d.link, d.relative_to) if isinstance(d, Drive) else (d,)
@@ -95,6 +100,7 @@ def drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]
 
 
 def members(name: str, joints: Any) -> tuple[str, ...]:
+    """Return the joints of a link."""
     try:
         members = tuple(joints)
     except TypeError as error:

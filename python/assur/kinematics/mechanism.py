@@ -9,19 +9,20 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur import _parts, _solve
 from assur._arrays import short
-from assur._checks import checked_index, checked_name, checked_signs, real_array
-from assur.description import Assembly, Slide
+from assur._validate import checked_index, checked_name, checked_signs, real_array
+from assur.description import encode as _parts
+from assur.description.structure import Group, Structure
+from assur.description.words import Assembly, Slide
 from assur.errors import InputError
-from assur.structure import Group, Structure
+from assur.kinematics import solve as _solve
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from assur._core import Mechanism as Core
-    from assur._parts import DriverLike, Parts
-    from assur.motion import Motion
+    from assur.description.encode import DriverLike, Parts
+    from assur.kinematics.motion import Motion
 
 __all__ = ["Mechanism"]
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 
-from assur._checks import checked_signs
+from assur._validate import checked_signs
 
 __all__ = ["Assembly", "Drive", "Slide", "Status"]
 

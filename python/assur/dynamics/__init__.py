@@ -1,0 +1,1 @@
+"""Machines: bodies, loads and motors, and how they move."""

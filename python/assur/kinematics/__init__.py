@@ -1,0 +1,1 @@
+"""Positions and analogues of mechanisms."""

@@ -1,0 +1,1 @@
+"""The theory that papers have of their own."""
