@@ -81,7 +81,8 @@ def public() -> Iterator[tuple[str, Callable[..., Any]]]:
         for name in module.__all__:
             thing = getattr(module, name)
             if isinstance(thing, types.FunctionType):
-                yield f"{module.__name__}.{name}", thing
+                # As users type it: the papers' modules are at the top.
+                yield f"{module.__name__.replace('assur.papers', 'assur')}.{name}", thing
             elif inspect.isclass(thing):
                 for key, member in inspect.getmembers(thing, inspect.isroutine):
                     is_own = (getattr(member, "__module__", None) or "").startswith("assur")
