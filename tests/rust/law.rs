@@ -10,7 +10,7 @@
 //!   order remain, k of them for order k.
 
 use assur::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, CLOSURE_PER_CONDITION};
-use assur::{Coordinates, Mechanism, Motion, Outputs, Request, Status, Track};
+use assur::{Coordinates, Mechanism, Motion, Outputs, Request, Series, Status};
 
 use crate::body::{Oracle, Position};
 use crate::double_double::Dd;
@@ -48,7 +48,7 @@ impl Comparison<'_> {
     /// the size; `series` gives a component's coefficient.
     fn track(
         &self,
-        track: &Track,
+        track: &Series,
         order: usize,
         length: bool,
         components: usize,

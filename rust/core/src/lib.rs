@@ -62,7 +62,7 @@ mod state;
 mod structure;
 
 pub use batch::outputs::{Arrays, Column, Outputs, Quantity};
-pub use batch::request::{Coordinates, Motion, Request, Track};
+pub use batch::request::{Coordinates, Motion, Request, Series};
 pub use batch::schedule::Control;
 pub use batch::solve::fill;
 #[cfg(feature = "test-hooks")]

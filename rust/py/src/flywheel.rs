@@ -1,6 +1,6 @@
 //! Flywheels of many tables; Python checks, broadcasts and reshapes.
 
-use assur::dynamics::{Ends, Flywheel, Mean, TableError, Turn};
+use assur::dynamics::{Cycle, EndCondition, Flywheel, Mean, TableError};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -37,7 +37,7 @@ impl Task {
         })
     }
 
-    fn solve(self, turn: Turn, [first, second]: [f64; 2]) -> One {
+    fn solve(self, turn: Cycle, [first, second]: [f64; 2]) -> One {
         match self {
             Self::Sized(mean) => Flywheel::sized(turn, first, second, mean),
             Self::Driven(mean) => Flywheel::driven(turn, first, second, mean),
@@ -46,13 +46,13 @@ impl Task {
     }
 }
 
-pub(crate) fn ends(name: &str) -> PyResult<Ends> {
+pub(crate) fn ends(name: &str) -> PyResult<EndCondition> {
     Ok(match name {
-        "not-a-knot" => Ends::NotAKnot,
-        "natural" => Ends::Natural,
-        "clamped" => Ends::Clamped,
-        "periodic" => Ends::Periodic,
-        "linear" => Ends::Linear,
+        "not-a-knot" => EndCondition::NotAKnot,
+        "natural" => EndCondition::Natural,
+        "clamped" => EndCondition::Clamped,
+        "periodic" => EndCondition::Periodic,
+        "linear" => EndCondition::Linear,
         _ => return Err(error::input(format!("no such spline: {name:?}"), None)),
     })
 }
@@ -91,7 +91,7 @@ impl Flywheels {
         let corners = corners.unwrap_or_default();
         let one = |i: usize| {
             let of = |all: &[f64]| all[i * rows..(i + 1) * rows].to_vec();
-            Turn::with_corners(&phi, &of(&moment), &of(&inertia), ends, &corners)
+            Cycle::with_corners(&phi, &of(&moment), &of(&inertia), ends, &corners)
                 .and_then(|turn| task.solve(turn, [first[i], second[i]]))
         };
         gate::run(py, count <= TOGETHER, |cancel| spread(count, TOGETHER, threads, cancel, &one))

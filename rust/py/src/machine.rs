@@ -3,7 +3,9 @@
 use std::time::{Duration, Instant};
 
 use assur::SolveError;
-use assur::dynamics::{Along, Mean, Rows, Search, Sheet, Task, Wanted};
+use assur::dynamics::{
+    FluctuationTarget, Mean, ReducedTable, RunOptions, SteadyOptions, TabulatedMachine, Variable,
+};
 use assur::ode::Method;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -26,7 +28,7 @@ const SMALL: usize = 20_000;
 /// Where a machine's inertia and loads come from.
 enum Inner {
     Mechanism(Py<Mechanism>, assur::dynamics::Machine),
-    Sheet(Sheet),
+    Tables(TabulatedMachine),
 }
 
 /// A mechanism with bodies and loads, or tables of inertia and moment; and motors.
@@ -49,7 +51,7 @@ impl Machine {
         let tables = guard(|| tables.into_iter().map(parts::table).collect::<PyResult<_>>())?;
         let motors = guard(|| motors.into_iter().map(parts::motor).collect::<PyResult<_>>())?;
         let Some(mechanism) = mechanism else {
-            return Ok(Self(Inner::Sheet(Sheet { tables, motors })));
+            return Ok(Self(Inner::Tables(TabulatedMachine { tables, motors })));
         };
         let own = &mechanism.bind(py).get().inner;
         let inner = guard(|| {
@@ -75,7 +77,7 @@ impl Machine {
     ) -> PyResult<Arrays<'py>> {
         let (mechanism, machine) = match &self.0 {
             Inner::Mechanism(mechanism, machine) => (mechanism, machine),
-            Inner::Sheet(sheet) => {
+            Inner::Tables(sheet) => {
                 let q = q.as_slice()?;
                 return guard(|| Ok(arrays(py, &[sheet.reduce(q)])));
             }
@@ -129,14 +131,14 @@ impl Machine {
     ) -> PyResult<Run> {
         let own = match &self.0 {
             Inner::Mechanism(mechanism, _) => Some(&mechanism.get().inner),
-            Inner::Sheet(_) => None,
+            Inner::Tables(_) => None,
         };
         let watches =
             watches.into_iter().map(|one| parts::watch(own, one)).collect::<PyResult<Vec<_>>>()?;
         let (t, q, speed) = start;
         let (max_step, max_steps, seconds) = limits;
-        let task = Task {
-            along: if along_q { Along::Coordinate } else { Along::Time },
+        let task = RunOptions {
+            along: if along_q { Variable::Coordinate } else { Variable::Time },
             t,
             q: &q,
             speed: &speed,
@@ -155,7 +157,7 @@ impl Machine {
             Inner::Mechanism(mechanism, machine) => {
                 machine.run(&mechanism.get().inner, &dimensions, &task, calls)
             }
-            Inner::Sheet(sheet) => sheet.run(&task, calls),
+            Inner::Tables(sheet) => sheet.run(&task, calls),
         })?;
         made.map(Run::new).map_err(broken)
     }
@@ -181,7 +183,7 @@ impl Machine {
     ) -> PyResult<(Run, Vec<f64>)> {
         let [q, span] = places;
         let mean = if mean == "period" { Mean::Period } else { Mean::Extremes };
-        let search = Search {
+        let search = SteadyOptions {
             q,
             span,
             speed,
@@ -193,12 +195,12 @@ impl Machine {
             breaks: &breaks,
             flywheel,
         };
-        let wanted = wanted.map(|fluctuation| Wanted { fluctuation, mean });
+        let wanted = wanted.map(|fluctuation| FluctuationTarget { fluctuation, mean });
         let made = called(py, (functions, Vec::new()), |calls| match &self.0 {
             Inner::Mechanism(mechanism, machine) => {
                 machine.steady(&mechanism.get().inner, &dimensions, &search, wanted, calls)
             }
-            Inner::Sheet(sheet) => sheet.steady(&search, wanted, calls),
+            Inner::Tables(sheet) => sheet.steady(&search, wanted, calls),
         })?;
         let steady = made.map_err(unsteady)?;
         let [least, greatest] = steady.extremes();
@@ -238,8 +240,8 @@ fn deadline(seconds: Option<f64>) -> Option<Instant> {
     Instant::now().checked_add(wait)
 }
 
-fn arrays<'py>(py: Python<'py>, all: &[Rows]) -> Arrays<'py> {
-    let array = |of: fn(&Rows) -> &[f64]| {
+fn arrays<'py>(py: Python<'py>, all: &[ReducedTable]) -> Arrays<'py> {
+    let array = |of: fn(&ReducedTable) -> &[f64]| {
         PyArray1::from_vec(py, all.iter().flat_map(|rows| of(rows).iter().copied()).collect())
     };
     let statuses = all.iter().flat_map(|rows| rows.status.iter().map(|&one| one as u8));

@@ -2,7 +2,7 @@
 
 use assur::Mechanism;
 use assur::dynamics::{
-    Angle, Body, Characteristic, Line, Load, Motor, Occasion, Point, Table, Value, Watch,
+    Angle, Body, Characteristic, EventKind, EventSpec, Line, Load, Motor, Point, Table, Value,
 };
 use assur::ode::Crossing;
 use pyo3::prelude::*;
@@ -46,7 +46,7 @@ impl Told {
         match self {
             Self::Number(number) => Value::Number(number),
             Self::Listed((kind, which)) if kind == "table" => Value::Table(which),
-            Self::Listed((_, which)) => Value::Given(which),
+            Self::Listed((_, which)) => Value::External(which),
         }
     }
 }
@@ -121,17 +121,17 @@ fn line(own: &Mechanism, parts: LineParts) -> PyResult<Line> {
     })
 }
 
-pub(crate) fn watch(own: Option<&Mechanism>, parts: WatchParts) -> PyResult<Watch> {
+pub(crate) fn watch(own: Option<&Mechanism>, parts: WatchParts) -> PyResult<EventSpec> {
     let (kind, which, value, lines, complement, direction, stops) = parts;
     let occasion = match (kind.as_str(), own) {
-        ("coordinate", _) => Occasion::Coordinate { driver: which, value },
-        ("speed", _) => Occasion::Speed { driver: which, value },
-        ("function", _) => Occasion::Outside(which),
+        ("coordinate", _) => EventKind::Coordinate { driver: which, value },
+        ("speed", _) => EventKind::Speed { driver: which, value },
+        ("function", _) => EventKind::Outside(which),
         ("angle", Some(own)) => {
             let lines = lines.into_iter().map(|l| line(own, l)).collect::<PyResult<Vec<_>>>()?;
             let lines = <[Line; 2]>::try_from(lines)
                 .map_err(|_| error::input("an angle is between two lines".into(), None))?;
-            Occasion::Angle(Angle { lines, complement }, value)
+            EventKind::Angle(Angle { lines, complement }, value)
         }
         _ => return Err(error::input(format!("no such event: {kind:?}"), None)),
     };
@@ -140,5 +140,5 @@ pub(crate) fn watch(own: Option<&Mechanism>, parts: WatchParts) -> PyResult<Watc
         1.. => Crossing::Rising,
         _ => Crossing::Falling,
     };
-    Ok(Watch { occasion, crossing, stops })
+    Ok(EventSpec { occasion, crossing, stops })
 }

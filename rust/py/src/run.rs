@@ -2,7 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use assur::dynamics::{Broken, Ending, Happened, Moment, Moments, Outside, RunError, Unsteady};
+use assur::dynamics::{
+    Callbacks, EventRecord, IntegrationError, RunError, Sample, Samples, SteadyError, StopReason,
+};
 use assur::ode::Error;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -74,7 +76,7 @@ fn call(
     }
 }
 
-impl Outside for Calls {
+impl Callbacks for Calls {
     type Error = PyErr;
 
     fn count(&self) -> usize {
@@ -122,10 +124,10 @@ impl Outside for Calls {
 }
 
 /// What a run could not be made for, as Python's.
-pub(crate) fn broken(error: RunError<PyErr>) -> PyErr {
+pub(crate) fn broken(error: IntegrationError<PyErr>) -> PyErr {
     match error {
-        Error::System(Broken::Outside(error)) => error,
-        Error::System(nothing @ Broken::NothingThere { .. }) => {
+        Error::System(RunError::Outside(error)) => error,
+        Error::System(nothing @ RunError::NothingThere { .. }) => {
             error::position(nothing.to_string())
         }
         Error::System(other) => error::input(other.to_string(), None),
@@ -134,10 +136,10 @@ pub(crate) fn broken(error: RunError<PyErr>) -> PyErr {
 }
 
 /// Why there is no periodic motion, as Python's.
-pub(crate) fn unsteady(error: Unsteady<PyErr>) -> PyErr {
+pub(crate) fn unsteady(error: SteadyError<PyErr>) -> PyErr {
     match error {
-        Unsteady::Broken(Broken::Outside(error)) => error,
-        Unsteady::Broken(nothing @ Broken::NothingThere { .. }) => {
+        SteadyError::Run(RunError::Outside(error)) => error,
+        SteadyError::Run(nothing @ RunError::NothingThere { .. }) => {
             error::position(nothing.to_string())
         }
         other => error::input(other.to_string(), None),
@@ -171,7 +173,7 @@ impl Run {
     fn at<'py>(&self, py: Python<'py>, places: Vec<f64>) -> PyResult<Vec<Array<'py>>> {
         let own = &self.0.moments;
         let nan = vec![f64::NAN; own.q.len() / own.len().max(1)];
-        let nothing = Moment {
+        let nothing = Sample {
             t: f64::NAN,
             q: nan.clone(),
             speed: nan.clone(),
@@ -179,7 +181,7 @@ impl Run {
             work: f64::NAN,
         };
         let found = gate::each(py, places.len(), |i| self.0.at(places[i]))?;
-        let mut all = Moments::default();
+        let mut all = Samples::default();
         for one in &found {
             all.push(one.as_ref().unwrap_or(&nothing));
         }
@@ -211,7 +213,7 @@ impl Run {
     /// What happened on the way.
     #[getter]
     fn events(&self) -> Vec<EventParts> {
-        let of = |one: &Happened| (one.watch, one.t, one.q.clone(), one.speed.clone());
+        let of = |one: &EventRecord| (one.watch, one.t, one.q.clone(), one.speed.clone());
         self.0.events.iter().map(of).collect()
     }
 
@@ -220,7 +222,7 @@ impl Run {
     #[getter]
     fn near_change_point(&self) -> Option<(String, f64, f64)> {
         match &self.0.ending {
-            Ending::NearChangePoint { dyad, miss, q } => Some((dyad.clone(), *miss, *q)),
+            StopReason::NearChangePoint { dyad, miss, q } => Some((dyad.clone(), *miss, *q)),
             _ => None,
         }
     }
@@ -230,16 +232,16 @@ impl Run {
     fn ending(&self) -> (&'static str, usize, Vec<f64>) {
         let plain = |kind| (kind, 0, Vec::new());
         match &self.0.ending {
-            Ending::Reached => plain("reached"),
-            Ending::Event(which) => ("event", *which, Vec::new()),
-            Ending::Rest => plain("rest"),
-            Ending::Edge(status, q) => ("edge", *status as usize, q.clone()),
-            Ending::NearChangePoint { .. } => plain("near_change_point"),
-            Ending::TableEnds(which) => ("table ends", *which, Vec::new()),
-            Ending::MotorTableEnds(which) => ("motor table ends", *which, Vec::new()),
-            Ending::StepLimit(stiff) => ("step limit", usize::from(*stiff), Vec::new()),
-            Ending::Late => plain("time limit"),
-            Ending::Cancelled => plain("cancelled"),
+            StopReason::Reached => plain("reached"),
+            StopReason::Event(which) => ("event", *which, Vec::new()),
+            StopReason::Rest => plain("rest"),
+            StopReason::Edge(status, q) => ("edge", *status as usize, q.clone()),
+            StopReason::NearChangePoint { .. } => plain("near_change_point"),
+            StopReason::TableEnds(which) => ("table ends", *which, Vec::new()),
+            StopReason::MotorTableEnds(which) => ("motor table ends", *which, Vec::new()),
+            StopReason::StepLimit(stiff) => ("step limit", usize::from(*stiff), Vec::new()),
+            StopReason::Late => plain("time limit"),
+            StopReason::Cancelled => plain("cancelled"),
             _ => plain("stalled"),
         }
     }
@@ -259,7 +261,7 @@ impl Run {
     }
 }
 
-fn arrays(py: Python<'_>, moments: Moments) -> Vec<Array<'_>> {
-    let Moments { t, q, speed, acceleration, work } = moments;
+fn arrays(py: Python<'_>, moments: Samples) -> Vec<Array<'_>> {
+    let Samples { t, q, speed, acceleration, work } = moments;
     [t, q, speed, acceleration, work].map(|list| PyArray1::from_vec(py, list)).into()
 }

@@ -1,6 +1,6 @@
 //! Joints and slides against the dimensions, from the numbers returned and nothing else.
 
-use assur::{Axis, Dimension, Driver, Mechanism, Motion, Track};
+use assur::{Axis, Dimension, Driver, Mechanism, Motion, Series};
 
 /// Row of a motion that holds every joint, link, place and slide of a mechanism.
 pub struct Row<'a> {
@@ -172,7 +172,7 @@ trait Values {
     fn point(&self, row: usize) -> Point;
 }
 
-impl Values for Track {
+impl Values for Series {
     fn value(&self, row: usize) -> f64 {
         self.derivatives[0][row]
     }

@@ -3,7 +3,7 @@
 use arbitrary::Unstructured;
 use assur::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, SINGULAR_CONDITION};
 use assur::{
-    Coordinates, Diagnosis, Mechanism, Motion, Outputs, Request, SolveError, Status, Track,
+    Coordinates, Diagnosis, Mechanism, Motion, Outputs, Request, Series, SolveError, Status,
 };
 
 use super::closures::Row;
@@ -156,7 +156,7 @@ impl Case<'_> {
     fn numbers(motion: &Motion, row: usize) -> Vec<(usize, f64)> {
         let rows = motion.status.len();
         let tracks = [&motion.joints, &motion.places, &motion.slides, &motion.links];
-        let of_track = |track: &Track| {
+        let of_track = |track: &Series| {
             let of_order = |(order, values): (usize, &Vec<f64>)| {
                 let width = values.len() / rows;
                 values[row * width..][..width].iter().map(move |&x| (order, x)).collect::<Vec<_>>()

@@ -47,7 +47,7 @@ pub struct Request<'a> {
 /// `derivatives[k]` is of order k (0: the value). Entries run over designs,
 /// positions, components (2 for a point) and k driver indices, last fastest.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Track {
+pub struct Series {
     /// Index of the joint, link or slide.
     pub index: usize,
     /// Arrays by order.
@@ -62,13 +62,13 @@ pub struct Motion {
     /// Positions of each design.
     pub positions: usize,
     /// Joints' places, m.
-    pub joints: Vec<Track>,
+    pub joints: Vec<Series>,
     /// Links' angles, rad.
-    pub links: Vec<Track>,
+    pub links: Vec<Series>,
     /// Places of the links' reference points (first joint), m.
-    pub places: Vec<Track>,
+    pub places: Vec<Series>,
     /// Slides' values, m.
-    pub slides: Vec<Track>,
+    pub slides: Vec<Series>,
     /// One [`crate::state::status::Status`] code a position.
     pub status: Vec<u8>,
 }
@@ -139,7 +139,7 @@ impl Shape {
                 return Err(SolveError::Shape(format!("there is no dimension number {index}")));
             }
             let redundant = mechanism.plan().steps.iter().find_map(|step| match step {
-                Step::Fit(fit) => Some(fit.name.clone()),
+                Step::Redundant(fit) => Some(fit.name.clone()),
                 _ => None,
             });
             if let Some(name) = redundant {

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
 use super::outputs::{Arrays, Column};
-use super::writer::Rows;
+use super::writer::RowSlices;
 use crate::description::error::SolveError;
 use crate::math::simd::Simd;
 
@@ -77,7 +77,7 @@ impl<'a> Chunks<'a> {
         (self.size / self.positions).min(CHUNK_OF_DESIGNS)
     }
 
-    fn take(&mut self) -> Option<(Chunk, Rows<'a>)> {
+    fn take(&mut self) -> Option<(Chunk, RowSlices<'a>)> {
         let (design, position) = self.next;
         if design == self.designs || self.positions == 0 {
             return None;
@@ -95,9 +95,9 @@ impl<'a> Chunks<'a> {
         Some((chunk, rows))
     }
 
-    fn split(&mut self, rows: usize) -> Rows<'a> {
+    fn split(&mut self, rows: usize) -> RowSlices<'a> {
         let columns = self.rest.columns.iter_mut().zip(self.columns);
-        Rows {
+        RowSlices {
             columns: columns.map(|(all, column)| front(all, rows * column.width)).collect(),
             status: front(&mut self.rest.status, rows),
         }
@@ -137,7 +137,7 @@ impl Control<'_> {
         &self,
         chunks: Chunks<'_>,
         worker: impl Fn() -> W + Sync,
-        work: impl Fn(&mut W, &Chunk, Rows<'_>) + Sync,
+        work: impl Fn(&mut W, &Chunk, RowSlices<'_>) + Sync,
     ) -> Result<(), SolveError> {
         let count = chunks.count();
         let threads = match self.threads {

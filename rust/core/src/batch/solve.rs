@@ -4,13 +4,13 @@ use std::mem::MaybeUninit;
 
 use super::dispatch;
 use super::outputs::{Arrays, Quantity};
-use super::request::{Coordinates, Motion, Request, Shape, Track, check_arrays, product};
+use super::request::{Coordinates, Motion, Request, Series, Shape, check_arrays, product};
 use super::schedule::{Chunks, Control};
 use super::streaming_store as stream;
 use super::worker::{Job, Worker};
 use super::writer::Writer;
 use crate::description::error::SolveError;
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
 
 impl Mechanism {
@@ -72,7 +72,7 @@ pub(crate) fn solve(
             Quantity::Angle(index) => (&mut motion.links, index),
         };
         if column.order == 0 {
-            list.push(Track { index, derivatives: Vec::new() });
+            list.push(Series { index, derivatives: Vec::new() });
         }
         if let Some(track) = list.last_mut() {
             track.derivatives.push(values);
@@ -105,7 +105,7 @@ pub fn fill(
     control: &Control<'_>,
 ) -> Result<(), SolveError> {
     let shape = Shape::of(mechanism, request)?;
-    let jets = Jets::new(shape.drivers, request.order);
+    let jets = DerivativeTables::new(shape.drivers, request.order);
     let columns = request.columns(mechanism);
     check_arrays(&columns, &arrays, product(shape.designs, shape.positions)?)?;
     let numbers = arrays.columns.iter().map(|column| column.len()).sum::<usize>();

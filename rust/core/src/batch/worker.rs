@@ -8,12 +8,12 @@ use super::outputs::Column;
 use super::request::Request;
 use super::schedule::Control;
 use super::streaming_store as stream;
-use super::writer::{Rows, Writer};
-use crate::branch::branch::Spot;
+use super::writer::{RowSlices, Writer};
+use crate::branch::branch::BranchLocation;
 use crate::branch::design::Design;
-use crate::branch::uniform::Quick;
+use crate::branch::uniform::UniformTracer;
 use crate::math::angle::nearest;
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
@@ -30,7 +30,7 @@ pub(crate) struct Worker<'a> {
     design: Design<'a>,
     writer: &'a Writer<'a>,
     columns: &'a [Column],
-    quick: Quick,
+    quick: UniformTracer,
     one: State,
     /// The dimension by which all is differentiated, and work space for that.
     by: Option<(usize, Sensitivity)>,
@@ -38,10 +38,10 @@ pub(crate) struct Worker<'a> {
     /// Angles of its classes.
     lifted: Vec<[Lanes; GROUPS]>,
     /// Positions of the last job, in groups, and which they were.
-    turned: Vec<Turned>,
+    turned: Vec<DriverLanes>,
     shared: Option<usize>,
     /// Their places on the way.
-    spots: Vec<Spot<Lanes>>,
+    spots: Vec<BranchLocation<Lanes>>,
     /// Whether that was a quick one.
     spots_even: bool,
     /// When true, work stops after the block at hand.
@@ -52,7 +52,7 @@ pub(crate) struct Worker<'a> {
 pub(crate) struct Job<'j, 'r> {
     /// Coordinates, drivers fastest, rad or m.
     pub q: &'j [f64],
-    pub rows: &'j mut Rows<'r>,
+    pub rows: &'j mut RowSlices<'r>,
     /// Row of the first position.
     pub first: usize,
     /// Which coordinates these are, if other designs have the same.
@@ -61,7 +61,7 @@ pub(crate) struct Job<'j, 'r> {
 
 /// Eight positions of a driven angle: what does not depend on the design.
 #[derive(Debug, Clone, Copy)]
-struct Turned {
+struct DriverLanes {
     q: Lanes,
     unit: Vector<Lanes>,
 }
@@ -70,7 +70,7 @@ impl<'a> Worker<'a> {
     pub(crate) fn new(
         mechanism: &'a Mechanism,
         request: &Request<'_>,
-        jets: &'a Jets,
+        jets: &'a DerivativeTables,
         writer: &'a Writer<'a>,
         columns: &'a [Column],
         control: &Control<'a>,
@@ -161,7 +161,7 @@ impl<'a> Worker<'a> {
             for eight in job.q.chunks(LANES) {
                 let q = Lanes::from_lanes(|i| eight[i.min(eight.len() - 1)] * scale);
                 let unit = if is_angle { Vector::at_angle(q) } else { Vector::ONE };
-                self.turned.push(Turned { q, unit });
+                self.turned.push(DriverLanes { q, unit });
             }
         }
         // The knots of a quick way are the same for all designs.
@@ -178,7 +178,7 @@ impl<'a> Worker<'a> {
 
     /// Lanes of a group that must be done by themselves, whatever comes out.
     #[inline(always)]
-    fn strange(&self, q: Lanes, spot: &Spot<Lanes>) -> <Lanes as Real>::Mask {
+    fn strange(&self, q: Lanes, spot: &BranchLocation<Lanes>) -> <Lanes as Real>::Mask {
         let track = &self.design.track;
         let strange = |i: usize| {
             let at = q.lane(i);
@@ -195,7 +195,7 @@ impl<'a> Worker<'a> {
         let (first, groups) = (row / LANES, count.div_ceil(LANES));
         let mut care = [<Lanes as Real>::Mask::NONE; GROUPS];
         for group in 0..groups {
-            let Turned { q, unit } = self.turned[first + group];
+            let DriverLanes { q, unit } = self.turned[first + group];
             let spot = &self.spots[first + group];
             if self.design.track.even.is_none() {
                 care[group] = self.strange(q, spot);

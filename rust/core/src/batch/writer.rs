@@ -5,10 +5,10 @@ use std::mem::MaybeUninit;
 use super::outputs::{Column, Quantity};
 use super::streaming_store as stream;
 use crate::branch::units::Units;
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::constants::Bound;
+use crate::plan::constants::DesignConstants;
 use crate::plan::constants_rate::offsets;
 use crate::plan::mechanism::Mechanism;
 use crate::state::state::State;
@@ -16,7 +16,7 @@ use crate::structure::closure::point_of_joint;
 
 /// The rows of some positions in every array, not yet written.
 #[derive(Debug)]
-pub(crate) struct Rows<'a> {
+pub(crate) struct RowSlices<'a> {
     pub columns: Vec<&'a mut [MaybeUninit<f64>]>,
     pub status: &'a mut [MaybeUninit<u8>],
 }
@@ -58,7 +58,11 @@ pub(crate) struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    pub(crate) fn new(mechanism: &'a Mechanism, jets: &Jets, columns: &[Column]) -> Self {
+    pub(crate) fn new(
+        mechanism: &'a Mechanism,
+        jets: &DerivativeTables,
+        columns: &[Column],
+    ) -> Self {
         let plan = mechanism.plan();
         let mut classes: Vec<usize> = columns
             .iter()
@@ -114,7 +118,7 @@ impl<'a> Writer<'a> {
     /// nothing is added to what the state holds.
     pub(crate) fn of_rates(
         mechanism: &'a Mechanism,
-        jets: &Jets,
+        jets: &DerivativeTables,
         columns: &[Column],
         index: usize,
     ) -> Self {
@@ -139,9 +143,9 @@ impl<'a> Writer<'a> {
     #[inline(always)]
     pub(crate) fn write<R: Real, const G: usize>(
         &self,
-        rows: &mut Rows<'_>,
+        rows: &mut RowSlices<'_>,
         (row, count): (usize, usize),
-        (bound, unit): (&Bound, &Units),
+        (bound, unit): (&DesignConstants, &Units),
         state: &State<R, G>,
         lifted: &[[R; G]],
     ) {
@@ -239,7 +243,7 @@ impl Entry {
     }
 }
 
-impl Rows<'_> {
+impl RowSlices<'_> {
     /// An entry's rows.
     #[inline(always)]
     fn of(&mut self, entry: &Entry, row: usize, count: usize) -> &mut [MaybeUninit<f64>] {

@@ -9,9 +9,9 @@
 
 use std::f64::consts::TAU;
 
-use super::hermite::Cell;
-use super::knot::{Change, Knot, Start, Stretch};
-use super::tracer::Walker;
+use super::hermite::HermiteCell;
+use super::knot::{ChangePoint, InitialGuess, Knot, SignInterval};
+use super::tracer::BranchTracer;
 use crate::math::angle::{less_turns, whole_part};
 use crate::math::lanes::{LANES, Real};
 use crate::plan::plan::Plan;
@@ -31,22 +31,22 @@ const MOST_TURNS: u32 = 64;
 
 /// Angles and signs along one path.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Track {
+pub(crate) struct Branch {
     /// Parameters of the knots.
     pub(crate) at: Vec<f64>,
     /// Whether they can be reached.
     pub(crate) reached: Vec<bool>,
     /// Lifted angle of every class at every knot (where not reached: at the last that was).
     pub(crate) angles: Vec<f64>,
-    pub(crate) stretches: Vec<Stretch>,
-    pub(crate) changes: Vec<Change>,
+    pub(crate) stretches: Vec<SignInterval>,
+    pub(crate) changes: Vec<ChangePoint>,
     /// Gain of every class over a period.
     pub(crate) gain: Vec<f64>,
     pub(crate) period: Option<f64>,
     /// Where the way is known; none: everywhere.
     pub(crate) covered: Option<[f64; 2]>,
     /// Of every cell after a knot, the groups' unknowns.
-    pub(crate) cells: Vec<Cell>,
+    pub(crate) cells: Vec<HermiteCell>,
     /// Signs of the groups' determinants where the way begins.
     pub(crate) bends: Vec<bool>,
     /// Knots a unit of the parameter, if all are reached and equally spaced.
@@ -55,7 +55,7 @@ pub(crate) struct Track {
 
 /// Places on a track, one a lane.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Spot<R = f64> {
+pub(crate) struct BranchLocation<R = f64> {
     /// The parameter within the first period.
     pub(crate) place: R,
     /// Whole periods before it.
@@ -67,7 +67,7 @@ pub(crate) struct Spot<R = f64> {
     pub(crate) is_last: R,
 }
 
-impl Track {
+impl Branch {
     /// A path without a single position: the dimensions cannot be followed from the drawing's, or
     /// it ends where it begins.
     ///
@@ -75,14 +75,19 @@ impl Track {
     /// coordinate is looked at.
     pub(crate) fn nowhere(classes: usize, signs: &[f64]) -> Self {
         let covered = Some([f64::INFINITY, f64::NEG_INFINITY]);
-        let stretches = vec![Stretch { from: f64::NEG_INFINITY, signs: signs.to_vec() }];
+        let stretches = vec![SignInterval { from: f64::NEG_INFINITY, signs: signs.to_vec() }];
         Self { gain: vec![0.0; classes], stretches, covered, ..Self::default() }
     }
 
     /// Along one driven angle, from `q0` on, for ever.
-    pub(crate) fn turning(cx: &Context<'_>, state: &mut State, q0: f64, start: &Start<'_>) -> Self {
+    pub(crate) fn turning(
+        cx: &Context<'_>,
+        state: &mut State,
+        q0: f64,
+        start: &InitialGuess<'_>,
+    ) -> Self {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
-        let mut walker = Walker::new(cx, state, &point, &[1.0], (q0, 1.0), start);
+        let mut walker = BranchTracer::new(cx, state, &point, &[1.0], (q0, 1.0), start);
         if walker.ended {
             return Self::nowhere(start.angles.len(), cx.signs);
         }
@@ -100,7 +105,7 @@ impl Track {
             returned = walker.has_returned();
         }
         let stretches = walker.stretches();
-        let Walker { knots, changes, ended, .. } = walker;
+        let BranchTracer { knots, changes, ended, .. } = walker;
         if ended {
             // A group folds; the other way as well then.
             let most = f64::from(MOST_TURNS * CELLS_A_TURN);
@@ -137,7 +142,7 @@ impl Track {
         q0: f64,
         [low, high]: [f64; 2],
         reach: f64,
-        start: &Start<'_>,
+        start: &InitialGuess<'_>,
     ) -> Self {
         let cells = [q0 - low, high - q0].map(|way| (way.min(reach) * CELLS_A_LENGTH).ceil());
         Self::both_ways(cx, state, q0, (cells, 1.0 / CELLS_A_LENGTH), start)
@@ -149,14 +154,14 @@ impl Track {
         state: &mut State,
         q0: f64,
         (cells, width): ([f64; 2], f64),
-        start: &Start<'_>,
+        start: &InitialGuess<'_>,
     ) -> Self {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
         let mut all: Vec<Knot> = Vec::new();
         let mut track = Self { gain: vec![0.0; start.angles.len()], ..Self::default() };
         let mut covered = [f64::NEG_INFINITY, f64::INFINITY];
         for (cells, way) in cells.into_iter().zip([-1.0, 1.0]) {
-            let mut walker = Walker::new(cx, state, &point, &[1.0], (q0, way), start);
+            let mut walker = BranchTracer::new(cx, state, &point, &[1.0], (q0, way), start);
             if walker.ended {
                 return Self::nowhere(start.angles.len(), cx.signs);
             }
@@ -166,7 +171,7 @@ impl Track {
                 walker.advance(q0 + way * cell * width);
             }
             let mut stretches = walker.stretches();
-            let Walker { mut knots, mut changes, ended, .. } = walker;
+            let BranchTracer { mut knots, mut changes, ended, .. } = walker;
             if ended && let Some(last) = knots.last() {
                 covered[usize::from(way > 0.0)] = last.at;
             }
@@ -208,7 +213,7 @@ impl Track {
         state: &mut State,
         q0: &[f64],
         q1: &[f64],
-        start: &Start<'_>,
+        start: &InitialGuess<'_>,
     ) -> (Self, f64) {
         let way = || q0.iter().zip(q1).map(|(a, b)| b - a);
         let end = way().fold(0.0_f64, |most, change| most.max(change.abs()));
@@ -220,7 +225,7 @@ impl Track {
             }
         };
         let width = (end / MOST_CELLS).max(1.0 / CELLS_A_LENGTH);
-        let mut walker = Walker::new(cx, state, &point, &rates, (0.0, 1.0), start);
+        let mut walker = BranchTracer::new(cx, state, &point, &rates, (0.0, 1.0), start);
         if walker.ended {
             return (Self::nowhere(start.angles.len(), cx.signs), end);
         }
@@ -233,7 +238,7 @@ impl Track {
             walker.knots.drain(..walker.knots.len() - 1);
         }
         let stretches = walker.stretches();
-        let Walker { knots, changes, ended, .. } = walker;
+        let BranchTracer { knots, changes, ended, .. } = walker;
         let gain = vec![0.0; start.angles.len()];
         let covered = ended.then_some([0.0, 0.0]);
         (Self { stretches, changes, gain, covered, ..Self::of(&knots, cx.plan) }, end)
@@ -248,7 +253,7 @@ impl Track {
             let unknowns = plan.groups().flat_map(|group| &group.unknowns);
             for (place, (&unknown, seed)) in unknowns.zip(&a.seeds).enumerate() {
                 let end = b.and_then(|b| b.seeds.get(place));
-                cells.push(Cell::of(unknown, seed, end, width));
+                cells.push(HermiteCell::of(unknown, seed, end, width));
             }
         }
         Self {
@@ -284,12 +289,12 @@ impl Track {
 
     /// Finds a place; with no knots nothing is to be found.
     #[inline(always)]
-    pub(crate) fn spot<R: Real>(&self, at: R) -> Spot<R> {
+    pub(crate) fn spot<R: Real>(&self, at: R) -> BranchLocation<R> {
         let (place, whole) = self.reduced(at);
         let mut knot = [0; LANES];
         let last = self.at.len().saturating_sub(1);
         if self.at.is_empty() {
-            return Spot { place, whole, knot, ..Spot::default() };
+            return BranchLocation { place, whole, knot, ..BranchLocation::default() };
         }
         if let Some(per) = self.even {
             let cells = (place - R::splat(self.at[0])) * R::splat(per);
@@ -306,7 +311,7 @@ impl Track {
         let pair = [knot[0], knot[R::LANES - 1]];
         let is_pair = knot[..R::LANES].iter().all(|knot| pair.contains(knot));
         let is_last = R::from_lanes(|lane| if knot[lane] == pair[1] { 1.0 } else { 0.0 });
-        Spot { place, whole, knot, pair: is_pair.then_some(pair), is_last }
+        BranchLocation { place, whole, knot, pair: is_pair.then_some(pair), is_last }
     }
 
     /// The nearest knot before a place that can be reached, or the next one if only
@@ -320,7 +325,7 @@ impl Track {
 
     /// The assembly signs at a place.
     #[inline(always)]
-    pub(crate) fn signs_at<R: Real>(&self, spot: &Spot<R>, lane: usize) -> &[f64] {
+    pub(crate) fn signs_at<R: Real>(&self, spot: &BranchLocation<R>, lane: usize) -> &[f64] {
         let after = match self.stretches.len() {
             1 => 1,
             _ => self.stretches.partition_point(|s| s.from <= spot.place.lane(lane)),
@@ -341,19 +346,19 @@ impl Track {
 
     /// The change point (of the first period) that a parameter is beside, if there is one, and how
     /// far from it.
-    pub(crate) fn change_near(&self, at: f64, reach: f64) -> Option<(Change, f64)> {
+    pub(crate) fn change_near(&self, at: f64, reach: f64) -> Option<(ChangePoint, f64)> {
         if self.changes.is_empty() {
             return None;
         }
         let (place, _) = self.reduced(at);
         let period = self.period.unwrap_or(0.0);
-        let images = |c: &Change| [0.0, -period, period].map(|by| (*c, place - (c.at + by)));
+        let images = |c: &ChangePoint| [0.0, -period, period].map(|by| (*c, place - (c.at + by)));
         self.changes.iter().flat_map(images).find(|(_, distance)| distance.abs() <= reach)
     }
 
     /// Whether a place lies on an island that no knot has seen.
     #[inline(always)]
-    pub(crate) fn hides<R: Real>(&self, spot: &Spot<R>, lane: usize) -> bool {
+    pub(crate) fn hides<R: Real>(&self, spot: &BranchLocation<R>, lane: usize) -> bool {
         let around = || self.around(spot.place.lane(lane));
         self.even.is_none() && around().is_some_and(|[a, b]| !a && !b)
     }
@@ -374,11 +379,11 @@ impl Track {
         };
         let angles = &self.angles[left * self.gain.len()..][..self.gain.len()];
         let seeds = self.seeds(left, place);
-        let start = Start { angles, seeds: &seeds };
+        let start = InitialGuess { angles, seeds: &seeds };
         let (left, right) = (self.at[left], self.at[after]);
         let cx = Context { signs: self.signs(at), ..*cx };
         let point = |at: f64, q: &mut [f64]| q[0] = at;
-        let mut walker = Walker::new(&cx, state, &point, &[1.0], (place, 1.0), &start);
+        let mut walker = BranchTracer::new(&cx, state, &point, &[1.0], (place, 1.0), &start);
         let step = (right - left) / ISLAND_STEPS;
         let mut end = |way: f64, limit: f64| {
             let (mut inside, mut outside) = (place, limit);
@@ -393,9 +398,9 @@ impl Track {
         };
         let middle = 0.5 * (end(-1.0, left) + end(1.0, right));
         let way = if place < middle { -1.0 } else { 1.0 };
-        let mut walker = Walker::new(&cx, state, &point, &[1.0], (middle, way), &start);
+        let mut walker = BranchTracer::new(&cx, state, &point, &[1.0], (middle, way), &start);
         walker.advance(place);
-        let Walker { mut knots, .. } = walker;
+        let BranchTracer { mut knots, .. } = walker;
         if way < 0.0 {
             knots.reverse();
         }
@@ -410,7 +415,7 @@ impl Track {
 
     /// The angle of a class at the knots of places.
     #[inline(always)]
-    pub(crate) fn near<R: Real>(&self, spot: &Spot<R>, class: usize) -> R {
+    pub(crate) fn near<R: Real>(&self, spot: &BranchLocation<R>, class: usize) -> R {
         let classes = self.gain.len();
         if self.at.is_empty() {
             return R::ZERO;

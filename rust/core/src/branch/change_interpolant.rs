@@ -6,7 +6,7 @@ use crate::state::state::State;
 
 /// Where the polynomial through a change point is taken.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Bridge {
+pub(crate) struct ChangeWindow {
     /// How near to the change point (rad, or units of the scale).
     pub reach: f64,
     /// How far around it the polynomial is laid at first.
@@ -18,7 +18,7 @@ pub(crate) struct Bridge {
     is_known: bool,
 }
 
-impl Bridge {
+impl ChangeWindow {
     /// Of positions by themselves: where too few digits remain.
     pub(crate) const SHORT: Self =
         Self { reach: CHANGE_REACH, widest: 0.1, nodes: 16, is_known: false };
@@ -38,7 +38,7 @@ const INNER: f64 = 0.5;
 
 /// The polynomial through states around a change point, as far around as it is the motion.
 #[derive(Debug, Clone)]
-pub(crate) struct Span {
+pub(crate) struct ChangeInterpolant {
     reach: f64,
     /// Places, from the change point, with their weights.
     nodes: Vec<(f64, f64)>,
@@ -47,7 +47,7 @@ pub(crate) struct Span {
     condition2: Option<f64>,
 }
 
-impl Span {
+impl ChangeInterpolant {
     /// Analogues by which the misfit is judged.
     pub(crate) const JUDGED: usize = 2;
 
@@ -56,7 +56,7 @@ impl Span {
     ///
     /// As long as the polynomial is truncated, half as far around it fits far better; once it is
     /// the motion only rounding grows. That is told without knowing how large the rounding is.
-    pub(crate) fn lay(wide: Bridge, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
+    pub(crate) fn lay(wide: ChangeWindow, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
         let mut best: Option<(Misfit, Self)> = None;
         let mut reach = wide.widest;
         while reach > NARROWEST {
@@ -77,11 +77,15 @@ impl Span {
     }
 
     /// Through states of another order.
-    pub(crate) fn again(&self, wide: Bridge, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
+    pub(crate) fn again(
+        &self,
+        wide: ChangeWindow,
+        solve: impl Fn(f64) -> Option<State>,
+    ) -> Option<Self> {
         Self::of(self.reach, wide, solve)
     }
 
-    fn of(reach: f64, wide: Bridge, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
+    fn of(reach: f64, wide: ChangeWindow, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
         // Weights of Chebyshev's nodes of the first kind (Berrut & Trefethen 2004, 5.3).
         let nodes: Vec<_> = (0..wide.nodes)
             .map(|node| {

@@ -7,14 +7,14 @@
 //! distance where nothing is singular, tells a change point (0, to rounding) from
 //! a near miss (positive) and from a gap between two dead points (negative).
 
-use super::knot::{Change, Knot, may_touch};
-use super::tracer::Walker;
+use super::knot::{ChangePoint, Knot, may_touch};
+use super::tracer::BranchTracer;
 use crate::math::tolerance::{
     CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,
 };
 use crate::plan::dyad::Dyad;
 
-impl Walker<'_, '_> {
+impl BranchTracer<'_, '_> {
     /// Looks for the first change point between two knots and records it; the caller
     /// solves the second knot again with the new sign and asks once more.
     pub(crate) fn pass(&mut self, a: &Knot, b: &Knot) -> bool {
@@ -25,7 +25,7 @@ impl Walker<'_, '_> {
             if step >= a.solved.min(b.solved) {
                 continue;
             }
-            let here = |c: &Change| c.sign == sign && (c.at - a.at) * walker.way > 0.0;
+            let here = |c: &ChangePoint| c.sign == sign && (c.at - a.at) * walker.way > 0.0;
             if walker.changes.iter().any(here) {
                 continue;
             }
@@ -37,7 +37,7 @@ impl Walker<'_, '_> {
             // Beside the first knot it may be found on the other side, and would be found again and again.
             let least = (a.at.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
             let at = if (at - a.at) * walker.way > 0.0 { at } else { a.at + walker.way * least };
-            let change = Change { at, sign };
+            let change = ChangePoint { at, sign };
             if sure || leads_through(walker, change, [a.at, b.at]) {
                 walker.changes.push(change);
                 return true;
@@ -52,7 +52,7 @@ impl Walker<'_, '_> {
 const BEHIND: [f64; 3] = [1.0, 4.0, 16.0];
 
 /// Whether redundant links fit behind a change point and not without it, so that they lead through.
-fn leads_through(walker: &mut Walker<'_, '_>, change: Change, [a, b]: [f64; 2]) -> bool {
+fn leads_through(walker: &mut BranchTracer<'_, '_>, change: ChangePoint, [a, b]: [f64; 2]) -> bool {
     let before = walker.changes.len();
     for cells in BEHIND {
         let [with, without] = [&[change][..], &[]].map(|taken| {
@@ -84,7 +84,7 @@ const CENTRINGS: u32 = 3;
 /// The change point between `a` and `b`, if there is one, and whether it is one to rounding: where
 /// redundant links miss by what they may, so do the lengths that make a change point.
 fn locate(
-    walker: &mut Walker<'_, '_>,
+    walker: &mut BranchTracer<'_, '_>,
     (index, dyad): (usize, &Dyad),
     a: f64,
     b: f64,
@@ -109,7 +109,7 @@ fn locate(
     let strict = if redundant { REDUNDANT_ROUNDING } else { CHANGE_SPREAD };
     let mut centre = 0.5 * (low + high);
     for _ in 0..if redundant { 2 * CENTRINGS } else { CENTRINGS } {
-        let fit = Sides::around(walker, (index, dyad), centre, step)?;
+        let fit = LocalFit::around(walker, (index, dyad), centre, step)?;
         let zero = fit.zero();
         let own = fit.before.min(CHANGE_CONDITION) * fit.shortness;
         let noise = strict * own;
@@ -127,7 +127,7 @@ fn locate(
 }
 
 /// The spread on both sides of a point, as if it were a change point.
-struct Sides {
+struct LocalFit {
     /// N at the centre, by an even polynomial through six points.
     value: f64,
     /// Its rate by the parameter.
@@ -141,9 +141,9 @@ struct Sides {
     step: f64,
 }
 
-impl Sides {
+impl LocalFit {
     fn around(
-        walker: &mut Walker<'_, '_>,
+        walker: &mut BranchTracer<'_, '_>,
         (index, dyad): (usize, &Dyad),
         centre: f64,
         step: f64,

@@ -4,16 +4,16 @@
 use std::borrow::Cow;
 use std::cell::RefCell;
 
-use super::branch::{Spot, Track};
-use super::change_interpolant::{Bridge, Span};
-use super::knot::{Change, Seed, Start};
-use super::uniform::{Quick, Template};
+use super::branch::{Branch, BranchLocation};
+use super::change_interpolant::{ChangeInterpolant, ChangeWindow};
+use super::knot::{ChangePoint, InitialGuess, Taylor2};
+use super::uniform::{ReferenceBranch, UniformTracer};
 use super::units::Units;
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
 use crate::math::vector::Vector;
-use crate::plan::constants::Bound;
+use crate::plan::constants::DesignConstants;
 use crate::plan::constants_rate::BoundRate;
 use crate::plan::dyad::Unknown;
 use crate::plan::mechanism::Mechanism;
@@ -23,9 +23,9 @@ use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
 /// A place on a way from the drawing.
-pub(crate) struct Place<'a> {
+pub(crate) struct BranchPoint<'a> {
     /// The way.
-    pub track: Cow<'a, Track>,
+    pub track: Cow<'a, Branch>,
     /// Its parameter there.
     pub at: f64,
 }
@@ -37,45 +37,45 @@ const FARTHEST: f64 = 1000.0 * std::f64::consts::TAU;
 /// One design after another, with the assembly asked for.
 pub(crate) struct Design<'a> {
     pub mechanism: &'a Mechanism,
-    pub bound: Bound,
+    pub bound: DesignConstants,
     pub unit: Units,
     /// Tables of the order asked for.
-    pub jets: &'a Jets,
+    pub jets: &'a DerivativeTables,
     /// Tables of the first order (with groups above class II: the second), for the way.
-    first: Jets,
+    first: DerivativeTables,
     /// Dimensions at hand.
     values: Vec<f64>,
     /// Unknowns of the groups at the drawing's coordinate; or after which part of the way of the
     /// dimensions from the drawing that folds.
-    pub(crate) home: Result<Vec<Seed>, f64>,
+    pub(crate) home: Result<Vec<Taylor2>, f64>,
     signs: Vec<f64>,
     /// Scaled coordinates of the drawing.
     q0: Vec<f64>,
     /// The way from the drawing, if one serves all positions.
-    pub track: Track,
+    pub track: Branch,
     /// Where the way through a change point is a polynomial.
-    pub bridge: Bridge,
+    pub bridge: ChangeWindow,
     /// Those that were asked for, by the place of their change point.
-    spans: RefCell<Vec<(f64, Option<Span>)>>,
+    spans: RefCell<Vec<(f64, Option<ChangeInterpolant>)>>,
 }
 
 impl<'a> Design<'a> {
     /// A design still without numbers.
-    pub(crate) fn new(mechanism: &'a Mechanism, signs: &[i8], jets: &'a Jets) -> Self {
+    pub(crate) fn new(mechanism: &'a Mechanism, signs: &[i8], jets: &'a DerivativeTables) -> Self {
         // Groups are foretold with second derivatives.
         let order = if mechanism.plan().groups().next().is_some() { 2 } else { 1 };
         Self {
             mechanism,
-            bound: Bound::default(),
+            bound: DesignConstants::default(),
             unit: Units::default(),
             jets,
-            first: Jets::new(mechanism.q0().len(), order),
+            first: DerivativeTables::new(mechanism.q0().len(), order),
             values: Vec::new(),
             home: Ok(Vec::new()),
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
             q0: Vec::new(),
-            track: Track::default(),
-            bridge: Bridge::SHORT,
+            track: Branch::default(),
+            bridge: ChangeWindow::SHORT,
             spans: RefCell::default(),
         }
     }
@@ -99,12 +99,12 @@ impl<'a> Design<'a> {
     }
 
     /// What a position is solved with; the signs are those at the drawing.
-    pub(crate) fn context<'b>(&'b self, jets: &'b Jets) -> Context<'b> {
+    pub(crate) fn context<'b>(&'b self, jets: &'b DerivativeTables) -> Context<'b> {
         Context { plan: self.mechanism.plan(), bound: &self.bound, jets, signs: &self.signs }
     }
 
     /// Tables for the way.
-    pub(crate) fn first_jets(&self) -> &Jets {
+    pub(crate) fn first_jets(&self) -> &DerivativeTables {
         &self.first
     }
 
@@ -115,15 +115,15 @@ impl<'a> Design<'a> {
     }
 
     /// Work space of some order.
-    pub(crate) fn state(&self, jets: &Jets) -> State {
+    pub(crate) fn state(&self, jets: &DerivativeTables) -> State {
         let mut state = State::new(self.mechanism.plan(), jets);
         state.prepare(self.mechanism.plan(), &self.bound, jets);
         state
     }
 
     /// Work space for [`Design::lay_quick`].
-    pub(crate) fn quick(&self) -> Quick {
-        Quick::new(self.mechanism.plan(), &self.first)
+    pub(crate) fn quick(&self) -> UniformTracer {
+        UniformTracer::new(self.mechanism.plan(), &self.first)
     }
 
     /// Whether one way serves all positions and is that of an angle.
@@ -137,8 +137,8 @@ impl<'a> Design<'a> {
         &self,
         g: usize,
         state: &mut State<R, G>,
-        track: &Track,
-        spot: &Spot<R>,
+        track: &Branch,
+        spot: &BranchLocation<R>,
     ) {
         let plan = self.mechanism.plan();
         let count = plan.groups().map(|group| group.unknowns.len()).sum();
@@ -155,7 +155,7 @@ impl<'a> Design<'a> {
 
     /// Solves a position again that came out on the other side of a fold, or did not come out.
     #[cold]
-    fn solve_again(&self, state: &mut State, q: &[f64], (track, at): (&Track, f64)) {
+    fn solve_again(&self, state: &mut State, q: &[f64], (track, at): (&Branch, f64)) {
         let first = self.context(&self.first);
         if let [_] = *q {
             let Some(seeds) = track.approach(&first, &mut self.state(&self.first), at) else {
@@ -180,14 +180,14 @@ impl<'a> Design<'a> {
         } else if other {
             let steps = &self.mechanism.plan().steps;
             let last = steps.iter().rposition(|step| matches!(step, Step::Group(_)));
-            state.fault = last.map(|step| Fault::Astray { step });
+            state.fault = last.map(|step| Fault::NotConverged { step });
             state.status = Status::NotConverged;
         }
     }
 
     /// The quick way, where there is one.
     #[inline(always)]
-    pub(crate) fn lay_quick<L: Level>(&mut self, quick: &mut Quick) -> bool {
+    pub(crate) fn lay_quick<L: Level>(&mut self, quick: &mut UniformTracer) -> bool {
         if !self.is_turning() {
             return false;
         }
@@ -204,13 +204,18 @@ impl<'a> Design<'a> {
     /// The drawing's own way, from which those of other designs are told.
     #[cold]
     #[inline(never)]
-    fn template(&self) -> Option<Template> {
-        let jets = Jets::new(1, 0);
+    fn template(&self) -> Option<ReferenceBranch> {
+        let jets = DerivativeTables::new(1, 0);
         let mut drawing = Design::new(self.mechanism, &[], &jets);
         drawing.signs.clone_from(&self.signs);
         drawing.bind(self.mechanism.drawing());
         drawing.lay_way(&[]);
-        Template::of(self.mechanism.plan(), &drawing.track, drawing.q0[0], drawing.bound.scale)
+        ReferenceBranch::of(
+            self.mechanism.plan(),
+            &drawing.track,
+            drawing.q0[0],
+            drawing.bound.scale,
+        )
     }
 
     fn has_groups(&self) -> bool {
@@ -229,12 +234,12 @@ impl<'a> Design<'a> {
         let cx = self.context(&self.first);
         let angles = &self.mechanism.class_angle;
         let Ok(seeds) = &self.home else {
-            self.track = Track::nowhere(angles.len(), &self.signs);
+            self.track = Branch::nowhere(angles.len(), &self.signs);
             return;
         };
-        let from = &Start { angles, seeds };
+        let from = &InitialGuess { angles, seeds };
         self.track = if self.is_turning() {
-            Track::turning(&cx, &mut state, start, from)
+            Branch::turning(&cx, &mut state, start, from)
         } else {
             let scaled = || q.iter().map(|q| q * self.unit.coordinate[0]).filter(|q| q.is_finite());
             let range = [scaled().fold(start, f64::min), scaled().fold(start, f64::max)];
@@ -242,7 +247,7 @@ impl<'a> Design<'a> {
             let paired = cx.plan.edges.iter().zip(&cx.bound.rigid).filter(|(e, _)| e.paired);
             let lengths = paired.map(|(_, w)| w).chain(&cx.bound.fixed).map(|w| w.norm());
             let reach = 2.0 * lengths.sum::<f64>() + 1.0;
-            Track::sliding(&cx, &mut state, start, range, reach, from)
+            Branch::sliding(&cx, &mut state, start, range, reach, from)
         };
     }
 
@@ -252,8 +257,8 @@ impl<'a> Design<'a> {
         let cx = Context { signs, ..self.context(&self.first) };
         let angles = &self.mechanism.class_angle;
         let mut state = self.state(&self.first);
-        let start = &Start { angles, seeds: &[] };
-        let (track, at) = Track::straight(&cx, &mut state, q, &self.q0, start);
+        let start = &InitialGuess { angles, seeds: &[] };
+        let (track, at) = Branch::straight(&cx, &mut state, q, &self.q0, start);
         track.signs(at).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
     }
 
@@ -264,31 +269,31 @@ impl<'a> Design<'a> {
 
     /// The way to one position (scaled coordinates); none if it is no number or too
     /// far to be followed.
-    pub(crate) fn way(&self, q: &[f64]) -> Option<Place<'_>> {
+    pub(crate) fn way(&self, q: &[f64]) -> Option<BranchPoint<'_>> {
         if q.iter().any(|x| !x.is_finite()) {
             return None;
         }
         if let [at] = *q {
-            return Some(Place { track: Cow::Borrowed(&self.track), at });
+            return Some(BranchPoint { track: Cow::Borrowed(&self.track), at });
         }
         (!self.is_too_far(q)).then(|| {
             let cx = self.context(&self.first);
             let angles = &self.mechanism.class_angle;
             let mut state = self.state(&self.first);
             let (track, at) = if let Ok(seeds) = &self.home {
-                let start = &Start { angles, seeds };
-                Track::straight(&cx, &mut state, &self.q0, q, start)
+                let start = &InitialGuess { angles, seeds };
+                Branch::straight(&cx, &mut state, &self.q0, q, start)
             } else {
-                (Track::nowhere(angles.len(), &self.signs), 0.0)
+                (Branch::nowhere(angles.len(), &self.signs), 0.0)
             };
-            Place { track: Cow::Owned(track), at }
+            BranchPoint { track: Cow::Owned(track), at }
         })
     }
 
     /// How far (in sizes) the farthest joint is at a place of the way (0 if it cannot be solved).
     pub(crate) fn farthest(&self, at: f64) -> f64 {
         let mut state = self.state(self.jets);
-        let place = Place { track: Cow::Borrowed(&self.track), at };
+        let place = BranchPoint { track: Cow::Borrowed(&self.track), at };
         self.solve(&mut state, &[at], Some(&place));
         if state.is_over() {
             return 0.0;
@@ -298,7 +303,7 @@ impl<'a> Design<'a> {
     }
 
     /// Angles of classes near those at a place, by which whole turns are told.
-    pub(crate) fn near(&self, place: &Place<'_>, classes: usize) -> Vec<f64> {
+    pub(crate) fn near(&self, place: &BranchPoint<'_>, classes: usize) -> Vec<f64> {
         let spot = place.track.spot(place.at);
         if place.track.hides(&spot, 0) {
             // An island that the way has not seen.
@@ -316,14 +321,14 @@ impl<'a> Design<'a> {
     fn smooth(
         &self,
         state: &State,
-        track: &Track,
-        change: &Change,
+        track: &Branch,
+        change: &ChangePoint,
         distance: f64,
     ) -> Option<State> {
         let mut spans = self.spans.borrow_mut();
         let known = spans.iter().position(|(at, _)| *at == change.at);
         let known = known.unwrap_or_else(|| {
-            let solve = |jets: &Jets, distance: f64| {
+            let solve = |jets: &DerivativeTables, distance: f64| {
                 let at = change.at + distance;
                 // Nothing of the position that asks first.
                 let mut trial = self.state(jets);
@@ -333,8 +338,8 @@ impl<'a> Design<'a> {
                 (!lost).then_some(trial)
             };
             // Values must not depend on the analogues asked for.
-            let judge = Jets::new(1, Span::JUDGED);
-            let span = Span::lay(self.bridge, |distance| solve(&judge, distance));
+            let judge = DerivativeTables::new(1, ChangeInterpolant::JUDGED);
+            let span = ChangeInterpolant::lay(self.bridge, |distance| solve(&judge, distance));
             let span = span.and_then(|span| span.again(self.bridge, |at| solve(self.jets, at)));
             spans.push((change.at, span));
             spans.len() - 1
@@ -345,8 +350,13 @@ impl<'a> Design<'a> {
 
     /// Solves one position with the signs of its place on the way; true if the
     /// analogues exist.
-    pub(crate) fn solve(&self, state: &mut State, q: &[f64], place: Option<&Place<'_>>) -> bool {
-        let Some(Place { track, at }) = place else {
+    pub(crate) fn solve(
+        &self,
+        state: &mut State,
+        q: &[f64],
+        place: Option<&BranchPoint<'_>>,
+    ) -> bool {
+        let Some(BranchPoint { track, at }) = place else {
             state.refuse();
             return false;
         };
@@ -380,7 +390,7 @@ impl<'a> Design<'a> {
                 let flat = cx.plan.steps.iter().position(
                     |step| matches!(step, Step::Dyad(dyad) if dyad.sign == Some(change.sign)),
                 );
-                state.fault = flat.map(|step| Fault::Flat { step });
+                state.fault = flat.map(|step| Fault::Singular { step });
             }
             return true;
         }

@@ -1,24 +1,24 @@
 //! What is told of an unknown of a group between two knots of the way.
 
-use super::knot::Seed;
+use super::knot::Taylor2;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::dyad::Unknown;
 
 /// A polynomial in the distance from a knot, of the fifth degree.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Cell {
+pub(crate) struct HermiteCell {
     /// From the constant on.
     pub coefficients: [f64; 6],
     /// Unit vector at the knot's angle.
     pub unit: Vector,
 }
 
-impl Cell {
+impl HermiteCell {
     /// Through values and two derivatives at both ends of a cell of width `h` (Hermite's); of the
     /// second degree if nothing is beyond.
     #[inline(always)]
-    pub(crate) fn new(a: &Seed, b: Option<&Seed>, h: f64, unit: Vector) -> Self {
+    pub(crate) fn new(a: &Taylor2, b: Option<&Taylor2>, h: f64, unit: Vector) -> Self {
         let &[value, rate, second] = a;
         let coefficients = [value, rate, 0.5 * second, 0.0, 0.0, 0.0];
         let Some(&[end, end_rate, end_second]) = b else { return Self { coefficients, unit } };
@@ -36,7 +36,7 @@ impl Cell {
     }
 
     /// Of an unknown between two knots of a walk.
-    pub(crate) fn of(unknown: Unknown, a: &Seed, b: Option<&Seed>, h: f64) -> Self {
+    pub(crate) fn of(unknown: Unknown, a: &Taylor2, b: Option<&Taylor2>, h: f64) -> Self {
         let unit = match unknown {
             Unknown::Class(_) => Vector::at_angle(a[0]),
             Unknown::Slide(_) => Vector::ONE,
@@ -79,7 +79,7 @@ mod tests {
     fn a_cell_meets_both_ends() {
         // sin and its derivatives at 0.3 and 0.5.
         let seed = |x: f64| [x.sin(), x.cos(), -x.sin()];
-        let cell = Cell::new(&seed(0.3), Some(&seed(0.5)), 0.2, Vector::ONE);
+        let cell = HermiteCell::new(&seed(0.3), Some(&seed(0.5)), 0.2, Vector::ONE);
         for part in [0.0, 0.05, 0.1, 0.2] {
             assert!((cell.at(part) - (0.3_f64 + part).sin()).abs() < 2e-9, "{part}");
         }

@@ -4,10 +4,10 @@
 //! the design's.
 
 use super::design::Design;
-use super::knot::{FIRST_STEP, LATER_STEPS, Seed};
+use super::knot::{FIRST_STEP, LATER_STEPS, Taylor2};
 use crate::description::Driver;
 use crate::math::vector::Vector;
-use crate::plan::constants::Bound;
+use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::Unknown;
 use crate::plan::plan::Step;
 use crate::state::status::{Fault, Status};
@@ -23,7 +23,7 @@ impl Design<'_> {
     /// # Errors
     ///
     /// The way to them folds, or goes along a fold: after that part of it.
-    pub(crate) fn home(&self, values: &[f64]) -> Result<Vec<Seed>, f64> {
+    pub(crate) fn home(&self, values: &[f64]) -> Result<Vec<Taylor2>, f64> {
         let (mechanism, plan) = (self.mechanism, self.mechanism.plan());
         let unknowns: Vec<Unknown> = plan.groups().flat_map(|g| g.unknowns.clone()).collect();
         let last = plan.steps.iter().rposition(|step| matches!(step, Step::Group(_)));
@@ -48,7 +48,7 @@ impl Design<'_> {
             } else {
                 values.to_vec()
             };
-            let bound = Bound::new(plan, &mechanism.slots, &between);
+            let bound = DesignConstants::new(plan, &mechanism.slots, &between);
             let q: Vec<f64> = (0..plan.drivers.len())
                 .map(|d| {
                     let unit = if plan.driven_slide(d).is_some() { bound.scale } else { 1.0 };
@@ -70,7 +70,7 @@ impl Design<'_> {
                 (Status::BadInput, _) => false,
                 (
                     Status::Unreachable | Status::NotConverged,
-                    Some(Fault::Open { step, .. } | Fault::Astray { step }),
+                    Some(Fault::NotClosed { step, .. } | Fault::NotConverged { step }),
                 ) => step > last,
                 _ => true,
             };

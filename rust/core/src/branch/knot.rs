@@ -22,11 +22,11 @@ const RETURNED: f64 = 1.0e-6;
 
 /// Where a way begins.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Start<'a> {
+pub(crate) struct InitialGuess<'a> {
     /// Angles of the classes.
     pub angles: &'a [f64],
     /// Unknowns of the groups.
-    pub seeds: &'a [Seed],
+    pub seeds: &'a [Taylor2],
 }
 
 /// One point of the path.
@@ -48,13 +48,13 @@ pub(crate) struct Knot {
     /// Steps of the plan that could be solved.
     pub solved: usize,
     /// Unknowns of the groups above class II, from which those of the next are told.
-    pub seeds: Vec<Seed>,
+    pub seeds: Vec<Taylor2>,
     /// Signs of the groups' determinants.
     pub bends: Vec<bool>,
 }
 
 /// An unknown of a group and its first two derivatives along the path (angles are lifted).
-pub(crate) type Seed = [f64; 3];
+pub(crate) type Taylor2 = [f64; 3];
 
 impl Knot {
     /// Whether a dyad is flat here, or its outer joints coincide.
@@ -66,14 +66,14 @@ impl Knot {
 
 /// Signs on one stretch of the path, from its beginning on.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Stretch {
+pub(crate) struct SignInterval {
     pub from: f64,
     pub signs: Vec<f64>,
 }
 
 /// A change point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Change {
+pub(crate) struct ChangePoint {
     /// Parameter.
     pub at: f64,
     /// The sign that changes.
@@ -98,13 +98,13 @@ pub(crate) fn may_touch<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell:
 }
 
 /// Taylor's polynomial.
-pub(crate) fn foretell([value, rate, second]: &Seed, step: f64) -> f64 {
+pub(crate) fn foretell([value, rate, second]: &Taylor2, step: f64) -> f64 {
     value + step * (rate + 0.5 * step * second)
 }
 
 /// How far an unknown, a cell further, is from where the way leads: each end from the other, so that
 /// the polynomial between them holds.
-pub(crate) fn apart(a: &Seed, b: &Seed, cell: f64) -> f64 {
+pub(crate) fn apart(a: &Taylor2, b: &Taylor2, cell: f64) -> f64 {
     let ahead = (foretell(a, cell) - b[0]).abs();
     let back = (foretell(b, -cell) - a[0]).abs();
     // No number is far.
@@ -112,12 +112,12 @@ pub(crate) fn apart(a: &Seed, b: &Seed, cell: f64) -> f64 {
 }
 
 /// Whether an unknown, a cell further, is not surely where the way leads.
-pub(crate) fn strays(a: &Seed, b: &Seed, cell: f64) -> bool {
+pub(crate) fn strays(a: &Taylor2, b: &Taylor2, cell: f64) -> bool {
     apart(a, b, cell) > STRAY
 }
 
 /// Whether an unknown is, some turns on, what it was.
-pub(crate) fn returns(unknown: Unknown, a: &Seed, b: &Seed) -> bool {
+pub(crate) fn returns(unknown: Unknown, a: &Taylor2, b: &Taylor2) -> bool {
     let apart = match unknown {
         Unknown::Class(_) => (b[0] - a[0]) - TAU * ((b[0] - a[0]) / TAU).round(),
         Unknown::Slide(_) => b[0] - a[0],

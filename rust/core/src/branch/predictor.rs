@@ -1,14 +1,14 @@
 //! The unknowns of groups along a way: where the iteration for a position begins.
 
-use super::branch::{Spot, Track};
+use super::branch::{Branch, BranchLocation};
 use super::hermite::small_turn;
-use super::knot::{Knot, Seed, Start};
-use super::tracer::Walker;
+use super::knot::{InitialGuess, Knot, Taylor2};
+use super::tracer::BranchTracer;
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::math::vector::Vector;
 use crate::state::state::{Context, State};
 
-impl Track {
+impl Branch {
     /// Whether the groups of a state are on this way's side of their folds.
     #[inline(always)]
     pub(crate) fn bends_as<R: Real, const G: usize>(
@@ -37,10 +37,11 @@ impl Track {
         let left = self.at.partition_point(|&k| k <= place).checked_sub(1)?;
         let angles = &self.angles[left * self.gain.len()..][..self.gain.len()];
         let seeds = self.seeds(left, self.at[left]);
-        let start = Start { angles, seeds: &seeds };
+        let start = InitialGuess { angles, seeds: &seeds };
         let cx = Context { signs: self.signs(at), ..*cx };
         let point = |at: f64, q: &mut [f64]| q[0] = at;
-        let mut walker = Walker::new(&cx, state, &point, &[1.0], (self.at[left], 1.0), &start);
+        let mut walker =
+            BranchTracer::new(&cx, state, &point, &[1.0], (self.at[left], 1.0), &start);
         walker.advance(place);
         let there = |knot: &&Knot| knot.at >= place && !knot.seeds.is_empty();
         let last = walker.knots.last().filter(there)?;
@@ -48,7 +49,7 @@ impl Track {
     }
 
     /// The unknowns of groups at a place in the cell after a knot.
-    pub(crate) fn seeds(&self, knot: usize, place: f64) -> Vec<Seed> {
+    pub(crate) fn seeds(&self, knot: usize, place: f64) -> Vec<Taylor2> {
         let count = self.cells.len() / self.at.len().max(1);
         let step = place - self.at[knot];
         self.cells[knot * count..][..count].iter().map(|cell| [cell.at(step), 0.0, 0.0]).collect()
@@ -57,7 +58,7 @@ impl Track {
     /// An unknown slide of the groups (of so many unknowns) at places; 0 where the way does not
     /// even begin (nothing on it is covered).
     #[inline(always)]
-    pub(crate) fn slide<R: Real>(&self, spot: &Spot<R>, place: usize, count: usize) -> R {
+    pub(crate) fn slide<R: Real>(&self, spot: &BranchLocation<R>, place: usize, count: usize) -> R {
         let Some(cell) = self.cell(spot, place, count) else { return R::ZERO };
         cell.coefficients[0] + cell.change(spot.place)
     }
@@ -66,7 +67,7 @@ impl Track {
     #[inline(always)]
     pub(crate) fn rotation<R: Real>(
         &self,
-        spot: &Spot<R>,
+        spot: &BranchLocation<R>,
         place: usize,
         count: usize,
     ) -> Vector<R> {
@@ -76,7 +77,12 @@ impl Track {
 
     /// The cell of each lane; neighbouring positions are mostly in one cell or two.
     #[inline(always)]
-    fn cell<R: Real>(&self, spot: &Spot<R>, place: usize, count: usize) -> Option<CellAt<R>> {
+    fn cell<R: Real>(
+        &self,
+        spot: &BranchLocation<R>,
+        place: usize,
+        count: usize,
+    ) -> Option<CellAt<R>> {
         if self.cells.len() < self.at.len() * count {
             return None;
         }

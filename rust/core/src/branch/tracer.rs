@@ -1,9 +1,10 @@
 //! Walking from the drawing: knots close enough together to see every change point
 //! and to tell every angle.
 
-use super::hermite::Cell;
+use super::hermite::HermiteCell;
 use super::knot::{
-    Change, Knot, Seed, Start, Stretch, apart, foretell, may_touch, returns, strays,
+    ChangePoint, InitialGuess, Knot, SignInterval, Taylor2, apart, foretell, may_touch, returns,
+    strays,
 };
 use crate::math::angle::nearest;
 use crate::math::tolerance::{LIFT_HALVINGS, LIFT_TURN};
@@ -48,7 +49,7 @@ const LEAP: f64 = 1.0 / 64.0;
 const LEAP_ROUNDING: f64 = 1.0 / 65536.0;
 
 /// Walks along a path and lays knots.
-pub(crate) struct Walker<'a, 'b> {
+pub(crate) struct BranchTracer<'a, 'b> {
     pub cx: Context<'b>,
     pub state: &'a mut State,
     /// Writes q at a parameter.
@@ -60,25 +61,25 @@ pub(crate) struct Walker<'a, 'b> {
     q: Vec<f64>,
     pub knots: Vec<Knot>,
     /// Change points passed, in the order of passing.
-    pub changes: Vec<Change>,
+    pub changes: Vec<ChangePoint>,
     pub start_signs: Vec<f64>,
     /// Unknowns of the groups, in order, and the step of the last group.
     unknowns: Vec<Unknown>,
     last_group: Option<usize>,
     /// Their values where the way begins.
-    first: Vec<Seed>,
+    first: Vec<Taylor2>,
     /// Whether the way has ended: beyond is a fold of a group, or what it hangs on is open.
     pub ended: bool,
 }
 
-impl<'a, 'b> Walker<'a, 'b> {
+impl<'a, 'b> BranchTracer<'a, 'b> {
     pub(crate) fn new(
         cx: &Context<'b>,
         state: &'a mut State,
         point: &'a dyn Fn(f64, &mut [f64]),
         rates: &'a [f64],
         (at, way): (f64, f64),
-        start: &Start<'_>,
+        start: &InitialGuess<'_>,
     ) -> Self {
         let mut walker = Self {
             cx: *cx,
@@ -137,8 +138,8 @@ impl<'a, 'b> Walker<'a, 'b> {
         self.state.solve(&Context { signs: &signs, ..self.cx }, &self.q);
         match (self.state.status, self.state.fault) {
             (Status::BadInput, _) => 0,
-            (Status::Unreachable, Some(Fault::Open { step, .. }))
-            | (Status::NotConverged, Some(Fault::Astray { step })) => step,
+            (Status::Unreachable, Some(Fault::NotClosed { step, .. }))
+            | (Status::NotConverged, Some(Fault::NotConverged { step })) => step,
             // A redundant link that does not fit is no matter of the way: beyond a change
             // point it fits only with the sign that is yet to be found.
             _ => usize::MAX,
@@ -162,7 +163,7 @@ impl<'a, 'b> Walker<'a, 'b> {
         if !reached {
             let rates = vec![0.0; from.len()];
             let open = match self.state.fault {
-                Some(Fault::Open { step, gap }) => Some((step, gap)),
+                Some(Fault::NotClosed { step, gap }) => Some((step, gap)),
                 _ => None,
             };
             let (angles, sides) = (from.to_vec(), Vec::new());
@@ -196,9 +197,9 @@ impl<'a, 'b> Walker<'a, 'b> {
 
     /// Unknowns of the groups at the position just visited, and signs of the determinants; nothing
     /// where a group cannot be told from a folded one.
-    fn seeds(&self, at: f64, solved: usize) -> (Vec<Seed>, Vec<bool>) {
+    fn seeds(&self, at: f64, solved: usize) -> (Vec<Taylor2>, Vec<bool>) {
         let is_group = |step: usize| matches!(self.cx.plan.steps[step], Step::Group(_));
-        let folded = matches!(self.state.fault, Some(Fault::Flat { step }) if is_group(step));
+        let folded = matches!(self.state.fault, Some(Fault::Singular { step }) if is_group(step));
         if folded || self.last_group.is_none_or(|step| solved <= step) {
             return (Vec::new(), Vec::new());
         }
@@ -253,7 +254,7 @@ impl<'a, 'b> Walker<'a, 'b> {
             return true;
         }
         ends().zip(&middle.seeds).any(|((a, b), there)| {
-            let between = Cell::new(a, Some(b), cell, Vector::ONE).at(0.5 * cell);
+            let between = HermiteCell::new(a, Some(b), cell, Vector::ONE).at(0.5 * cell);
             let allowed = (LEAP * apart(a, b, cell)).max(LEAP_ROUNDING);
             (between - there[0]).abs() > allowed
         })
@@ -348,7 +349,8 @@ impl<'a, 'b> Walker<'a, 'b> {
     /// outer joints of a dyad nearly coincide it may swing round within much less than
     /// the cell, and stand as before at both ends.
     fn swings(&mut self, from: f64, end: f64) -> bool {
-        let within = |c: &&Change| (c.at - from) * self.way > 0.0 && (end - c.at) * self.way > 0.0;
+        let within =
+            |c: &&ChangePoint| (c.at - from) * self.way > 0.0 && (end - c.at) * self.way > 0.0;
         let changes: Vec<f64> = self.changes.iter().filter(within).map(|c| c.at).collect();
         changes.into_iter().any(|change| {
             let reaches = PROBES.iter().map(|part| part * (end - from).abs());
@@ -375,12 +377,12 @@ impl<'a, 'b> Walker<'a, 'b> {
     }
 
     /// Signs between the changes, in the direction of growing parameter.
-    pub(crate) fn stretches(&self) -> Vec<Stretch> {
+    pub(crate) fn stretches(&self) -> Vec<SignInterval> {
         let mut signs = self.start_signs.clone();
-        let mut stretches = vec![Stretch { from: f64::NEG_INFINITY, signs: signs.clone() }];
+        let mut stretches = vec![SignInterval { from: f64::NEG_INFINITY, signs: signs.clone() }];
         for change in &self.changes {
             signs[change.sign] = -signs[change.sign];
-            stretches.push(Stretch { from: change.at, signs: signs.clone() });
+            stretches.push(SignInterval { from: change.at, signs: signs.clone() });
         }
         stretches
     }

@@ -11,11 +11,11 @@
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
 
-use super::branch::{CELLS_A_TURN, Track};
-use super::hermite::Cell;
-use super::knot::{FIRST_STEP, LATER_STEPS, Seed, Stretch, may_touch, returns, strays};
+use super::branch::{Branch, CELLS_A_TURN};
+use super::hermite::HermiteCell;
+use super::knot::{FIRST_STEP, LATER_STEPS, SignInterval, Taylor2, may_touch, returns, strays};
 use crate::math::angle::turns_between;
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};
 use crate::math::tolerance::LIFT_TURN;
 use crate::math::vector::Vector;
@@ -33,7 +33,7 @@ pub(crate) const CELL: f64 = TAU / CELLS_A_TURN as f64;
 
 /// Work space: for every knot what the walk asks of it.
 #[derive(Debug)]
-pub(crate) struct Quick {
+pub(crate) struct UniformTracer {
     /// All knots.
     pub(crate) state: State<Lanes, GROUPS>,
     /// Drawing's angle that the knots below are for, the same for all designs.
@@ -48,14 +48,14 @@ pub(crate) struct Quick {
     /// the knots before.
     sides: Vec<bool>,
     /// Unknowns of groups at the knots of the drawing's way; asked for once.
-    pub(crate) template: OnceCell<Option<Template>>,
+    pub(crate) template: OnceCell<Option<ReferenceBranch>>,
     /// Unknowns of groups at the knots, one after another.
-    pub(crate) seeds: Vec<Seed>,
+    pub(crate) seeds: Vec<Taylor2>,
 }
 
-impl Quick {
+impl UniformTracer {
     /// Work space for a plan; `jets` are of order 1 in one driver.
-    pub(crate) fn new(plan: &Plan, jets: &Jets) -> Self {
+    pub(crate) fn new(plan: &Plan, jets: &DerivativeTables) -> Self {
         Self {
             state: State::new(plan, jets),
             q0: f64::NAN,
@@ -69,7 +69,7 @@ impl Quick {
     }
 
     /// Whether the drawing has a way from which others are told.
-    pub(crate) fn has_template(&self, make: impl FnOnce() -> Option<Template>) -> bool {
+    pub(crate) fn has_template(&self, make: impl FnOnce() -> Option<ReferenceBranch>) -> bool {
         self.template.get_or_init(make).is_some()
     }
 
@@ -81,7 +81,7 @@ impl Quick {
         cx: &Context<'_>,
         q0: f64,
         start: &[f64],
-        track: &mut Track,
+        track: &mut Branch,
     ) -> bool {
         self.sides.clear();
         track.at.clear();
@@ -123,7 +123,7 @@ impl Quick {
         track.reached.clear();
         track.reached.resize(KNOTS, true);
         track.changes.clear();
-        track.stretches.resize_with(1, Stretch::default);
+        track.stretches.resize_with(1, SignInterval::default);
         track.stretches[0].from = f64::NEG_INFINITY;
         track.stretches[0].signs.clear();
         track.stretches[0].signs.extend_from_slice(cx.signs);
@@ -222,16 +222,16 @@ fn after(last: f64, lanes: Lanes) -> Lanes {
 
 /// Unknowns of groups at the knots of the drawing's way.
 #[derive(Debug)]
-pub(crate) struct Template {
+pub(crate) struct ReferenceBranch {
     /// Rotations, or slides (m) in the place of their x.
     unknowns: Vec<[Vector<Lanes>; GROUPS]>,
     /// Signs of the groups' determinants.
     bends: Vec<bool>,
 }
 
-impl Template {
+impl ReferenceBranch {
     /// From a way from `q0` that returns after one turn, of a design of this scale.
-    pub(crate) fn of(plan: &Plan, track: &Track, q0: f64, scale: f64) -> Option<Self> {
+    pub(crate) fn of(plan: &Plan, track: &Branch, q0: f64, scale: f64) -> Option<Self> {
         if track.period != Some(TAU) {
             return None;
         }
@@ -253,7 +253,7 @@ impl Template {
     }
 }
 
-impl Quick {
+impl UniformTracer {
     /// The unknowns of groups where the drawing has them, as the iteration's first guess.
     #[inline(always)]
     pub(crate) fn guess(&mut self, cx: &Context<'_>) {
@@ -273,7 +273,7 @@ impl Quick {
     /// Lays the polynomials of the groups' unknowns; false if one is not surely the same
     /// assembly as at the knot before, or as in the drawing.
     #[inline(always)]
-    pub(crate) fn lay_cells(&mut self, cx: &Context<'_>, track: &mut Track) -> bool {
+    pub(crate) fn lay_cells(&mut self, cx: &Context<'_>, track: &mut Branch) -> bool {
         track.cells.clear();
         let Some(Some(template)) = self.template.get() else { return true };
         let state = &self.state;
@@ -321,7 +321,7 @@ impl Quick {
                     }
                     Unknown::Slide(_) => Vector::ONE,
                 };
-                track.cells.push(Cell::new(a, b, CELL, unit));
+                track.cells.push(HermiteCell::new(a, b, CELL, unit));
             }
         }
         let (first, last) = (&self.seeds[..count], &self.seeds[(KNOTS - 1) * count..]);

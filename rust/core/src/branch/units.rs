@@ -1,6 +1,6 @@
 //! Units of length of a design.
 
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
 
 /// Powers of two between the design's own unit of length and the metre.
@@ -15,7 +15,7 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    pub(super) fn set(&mut self, mechanism: &Mechanism, scale: f64, jets: &Jets) {
+    pub(super) fn set(&mut self, mechanism: &Mechanism, scale: f64, jets: &DerivativeTables) {
         let per = 1.0 / scale;
         let slides = |d: usize| mechanism.plan().driven_slide(d).is_some();
         self.coordinate.clear();

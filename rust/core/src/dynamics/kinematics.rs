@@ -1,7 +1,7 @@
 //! What forces and masses ask of a position: places of points, angles of links, and their
 //! derivatives by the drivers, in metres and radians.
 
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::math::vector::Vector;
 use crate::query::evaluator::Position;
 use crate::structure::closure::point_of_joint;
@@ -24,11 +24,11 @@ pub enum Point {
 /// A solved position.
 pub(crate) struct Pose<'p> {
     position: Position<'p>,
-    jets: &'p Jets,
+    jets: &'p DerivativeTables,
 }
 
 impl<'p> Pose<'p> {
-    pub(crate) fn new(position: Position<'p>, jets: &'p Jets) -> Self {
+    pub(crate) fn new(position: Position<'p>, jets: &'p DerivativeTables) -> Self {
         Self { position, jets }
     }
 

@@ -9,10 +9,10 @@ use super::motor::Motor;
 use super::reduced::Reduced;
 use super::tables::table::Table;
 use super::value::Numbers;
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
-use crate::query::evaluator::{Asked, Follower};
+use crate::query::evaluator::{Asked, Evaluator};
 use crate::state::status::Status;
 
 /// What a mechanism carries and what acts on it.
@@ -33,7 +33,7 @@ pub struct Machine {
 /// A machine referred to its drivers at many positions, one after another; NaN where there is
 /// nothing.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Rows {
+pub struct ReducedTable {
     /// Mass matrices.
     pub inertia: Vec<f64>,
     /// Their derivatives.
@@ -58,13 +58,13 @@ impl Machine {
         speed: &[f64],
         given: &[f64],
         cancel: &AtomicBool,
-    ) -> Rows {
+    ) -> ReducedTable {
         let drivers = mechanism.q0().len();
-        let jets = Jets::new(drivers, 2);
+        let jets = DerivativeTables::new(drivers, 2);
         let asked = Asked::These(q);
-        let mut follower = Follower::new(mechanism, dimensions, &jets, asked, self.has_torsion());
+        let mut follower = Evaluator::new(mechanism, dimensions, &jets, asked, self.has_torsion());
         let each = given.len().checked_div(q.len() / drivers).unwrap_or(0);
-        let mut rows = Rows::default();
+        let mut rows = ReducedTable::default();
         let mut reduced = Reduced::new(drivers);
         let (mut tables, mut numbers) = (Vec::new(), Vec::new());
         for (row, (q, speed)) in
@@ -131,7 +131,7 @@ impl Machine {
     }
 }
 
-impl Rows {
+impl ReducedTable {
     fn push(&mut self, one: Option<&Reduced>, drivers: usize, status: Status) {
         self.status.push(status);
         let Some(one) = one else {

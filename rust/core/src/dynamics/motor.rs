@@ -96,7 +96,7 @@ impl Motor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::tables::spline::Ends;
+    use crate::dynamics::tables::spline::EndCondition;
 
     fn motor(characteristic: Characteristic) -> Motor {
         Motor { driver: 0, ratio: 4.0, rotor_inertia: 0.5, characteristic }
@@ -127,8 +127,12 @@ mod tests {
             motor(Characteristic::Induction { breakdown: 40.0, slip: 0.2, synchronous: 100.0 });
         // Breakdown at a slip of 0.2, nothing at none, 2 · 40 / (5 + 1/5) at rest.
         check(&induction, &[(20.0, 40.0), (25.0, 0.0), (0.0, 80.0 / 5.2), (30.0, -40.0)]);
-        let table =
-            Table::new(&[-10.0, 0.0, 90.0, 110.0], &[9.0, 8.0, 6.0, 0.0], Ends::Linear, false);
+        let table = Table::new(
+            &[-10.0, 0.0, 90.0, 110.0],
+            &[9.0, 8.0, 6.0, 0.0],
+            EndCondition::Linear,
+            false,
+        );
         let table = motor(Characteristic::Table(table.expect("a table")));
         check(&table, &[(1.0, 8.0 - 8.0 / 90.0), (25.0, 3.0)]);
     }

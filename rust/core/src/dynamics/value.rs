@@ -8,7 +8,7 @@ pub enum Value {
     /// Over the first driver's coordinate: which of the machine's tables.
     Table(usize),
     /// Given from outside at every place: which of the numbers.
-    Given(usize),
+    External(usize),
 }
 
 /// What is read at a place.
@@ -26,14 +26,14 @@ impl Value {
         match self {
             Self::Number(number) => number,
             Self::Table(which) => of(numbers.tables, which),
-            Self::Given(which) => of(numbers.given, which),
+            Self::External(which) => of(numbers.given, which),
         }
     }
 
     /// Its derivative by the driver's speed.
     pub(crate) fn by_speed(self, numbers: Numbers<'_>) -> f64 {
         match self {
-            Self::Given(which) => numbers.given.get(which).map_or(f64::NAN, |pair| pair[1]),
+            Self::External(which) => numbers.given.get(which).map_or(f64::NAN, |pair| pair[1]),
             Self::Number(_) | Self::Table(_) => 0.0,
         }
     }

@@ -15,7 +15,7 @@ pub(crate) struct Term {
     pub right: usize,
 }
 
-/// [`Jets::rotation`] of one driver to order 3, as a constant.
+/// [`DerivativeTables::rotation`] of one driver to order 3, as a constant.
 pub(crate) const ONE_DRIVER: [&[Term]; 4] = [
     &[],
     &[],
@@ -25,7 +25,7 @@ pub(crate) const ONE_DRIVER: [&[Term]; 4] = [
 
 /// Index tables for jets of a given order in a given number of drivers.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Jets {
+pub(crate) struct DerivativeTables {
     /// Number of drivers.
     pub drivers: usize,
     /// Highest order.
@@ -43,7 +43,7 @@ pub(crate) struct Jets {
     pub rotation: Vec<Vec<Term>>,
 }
 
-impl Jets {
+impl DerivativeTables {
     /// Tables to the given order.
     #[must_use]
     pub(crate) fn new(drivers: usize, order: usize) -> Self {
@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn one_driver_has_the_binomial_rows() {
-        let jets = Jets::new(1, 3);
+        let jets = DerivativeTables::new(1, 3);
         assert_eq!(jets.len(), 4);
         let third: Vec<f64> = jets.product[3].iter().map(|t| t.factor).collect();
         assert_eq!(third, [1.0, 3.0, 3.0, 1.0]);
@@ -167,13 +167,13 @@ mod tests {
     #[test]
     fn counts_are_binomials() {
         for (drivers, order, count) in [(2, 3, 10), (3, 3, 20), (3, 2, 10), (1, 0, 1)] {
-            assert_eq!(Jets::new(drivers, order).len(), count);
+            assert_eq!(DerivativeTables::new(drivers, order).len(), count);
         }
     }
 
     #[test]
     fn the_tensor_is_symmetric() {
-        let jets = Jets::new(2, 2);
+        let jets = DerivativeTables::new(2, 2);
         let t = jets.tensor(2);
         assert_eq!(t.len(), 4);
         assert_eq!(t[1], t[2]);

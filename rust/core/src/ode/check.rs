@@ -1,7 +1,7 @@
 //! What a run refuses before it begins.
 
 use super::error::Error;
-use super::options::{Keep, LEAST_RELATIVE, Options};
+use super::options::{LEAST_RELATIVE, Options, Output};
 
 impl Options<'_> {
     /// Refuses what makes no sense, naming it.
@@ -44,7 +44,7 @@ impl Options<'_> {
         if let Some(index) = disorder(self.breaks, 1.0) {
             return Err(Error::Breaks { index });
         }
-        let Keep::At(places) = self.keep else { return Ok(()) };
+        let Output::At(places) = self.keep else { return Ok(()) };
         let way = if t_end < t { -1.0 } else { 1.0 };
         let inside = |&at: &f64| (at - t) * way >= 0.0 && (t_end - at) * way >= 0.0;
         let outside = places.iter().position(|at| !inside(at));

@@ -102,7 +102,7 @@ fn evaluate(rows: &[f64], n: usize, theta: f64, y: &mut [f64]) {
 /// The steps of a run: the state at any t of it.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Path {
+pub struct DenseOutput {
     n: usize,
     /// Numbers of a step.
     stride: usize,
@@ -113,7 +113,7 @@ pub struct Path {
     rows: Vec<f64>,
 }
 
-impl Path {
+impl DenseOutput {
     pub(super) fn push(&mut self, interpolant: &Interpolant, start: f64, width: f64, end: f64) {
         self.n = interpolant.n;
         self.stride = interpolant.rows.len();
@@ -128,8 +128,8 @@ impl Path {
         &self.ends
     }
 
-    /// Writes state and rates at the end of every step, one after another: what [`Path::at`] and
-    /// [`Path::slope`] give there.
+    /// Writes state and rates at the end of every step, one after another: what [`DenseOutput::at`] and
+    /// [`DenseOutput::slope`] give there.
     pub fn each_end(&self, mut tell: impl FnMut(f64, &[f64], &[f64])) {
         let (mut y, mut rates) = (vec![0.0; self.n], vec![0.0; self.n]);
         let steps = self.starts.iter().zip(&self.widths).zip(&self.ends);

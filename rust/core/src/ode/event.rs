@@ -16,7 +16,7 @@ const SEEN: f64 = 1e-8;
 
 /// Signs of event functions, as far as a run has come.
 #[derive(Debug, Default)]
-pub(super) struct Watch {
+pub(super) struct EventTracker {
     crossings: Vec<Crossing>,
     /// Sign of each function behind the last place looked at; 0 where it has none yet.
     signs: Vec<i8>,
@@ -41,7 +41,7 @@ fn sign(value: f64) -> Option<i8> {
     }
 }
 
-impl Watch {
+impl EventTracker {
     /// For a new run.
     pub(super) fn reset(&mut self, crossings: &[Crossing]) {
         let count = crossings.len();

@@ -1,7 +1,7 @@
 //! Events of a step: where exactly they are, and what they lead to.
 
 use super::dense::Interpolant;
-use super::event::Watch;
+use super::event::EventTracker;
 use super::stages::{Block, Refusal, Stages};
 use super::system::{Action, System};
 
@@ -134,7 +134,7 @@ impl<S: System> Step<'_, S> {
     /// `record` is told of each: its number, where it is, and the state there.
     pub(super) fn watch(
         &mut self,
-        watch: &mut Watch,
+        watch: &mut EventTracker,
         mut record: impl FnMut(usize, f64, &[f64]),
     ) -> Result<Option<Cut>, S::Error> {
         watch.survey(|theta, values| self.output(theta, values))?;
@@ -163,7 +163,7 @@ impl<S: System> Step<'_, S> {
         &mut self,
         found: &[(f64, usize)],
         together: f64,
-        watch: &mut Watch,
+        watch: &mut EventTracker,
         record: &mut impl FnMut(usize, f64, &[f64]),
     ) -> Result<Option<Cut>, S::Error> {
         for (i, &(theta, j)) in found.iter().enumerate() {

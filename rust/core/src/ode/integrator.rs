@@ -1,7 +1,7 @@
 //! The integrator: a method and its work space.
 
 use super::dense::Interpolant;
-use super::event::Watch;
+use super::event::EventTracker;
 use super::options::Method;
 use super::stages::{Block, Stages, blocks};
 
@@ -12,7 +12,7 @@ pub struct Integrator {
     pub(super) n: usize,
     pub(super) stages: Stages,
     pub(super) interpolant: Interpolant,
-    pub(super) watch: Watch,
+    pub(super) watch: EventTracker,
     /// The state of the run.
     pub(super) y: Vec<Block>,
     /// The state at the end of the step tried.
@@ -32,7 +32,7 @@ impl Integrator {
             n,
             stages,
             interpolant,
-            watch: Watch::default(),
+            watch: EventTracker::default(),
             y: zero.clone(),
             new: zero.clone(),
             state: zero.clone(),

@@ -1,10 +1,10 @@
 //! Ordinary differential equations y' = f(t, y) that are not stiff, by explicit Runge-Kutta pairs.
 //!
 //! A [`System`] is the right-hand side with its events and hooks; an [`Integrator`] makes runs of
-//! it: with control of the error of each step, continuous output ([`Keep`]), steps that end at
+//! it: with control of the error of each step, continuous output ([`Output`]), steps that end at
 //! breaks of the right-hand side in t ([`Options::breaks`]), and restarts at its breaks in the
 //! state, which are events ([`Crossing::Boundary`], [`Action::Restart`]). A run ends by itself at
-//! the edge of what is there ([`Fault::NotThere`], [`End::Edge`]), and always by its limits.
+//! the edge of what is there ([`Fault::OutOfDomain`], [`End::DomainBoundary`]), and always by its limits.
 //!
 //! Sources: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993,
 //! II.4 (control, first step), II.5 and II.10 (pairs), II.6 (continuous output).
@@ -66,9 +66,9 @@ pub(crate) mod tableau;
 #[cfg(test)]
 mod tests;
 
-pub use dense::Path;
+pub use dense::DenseOutput;
 pub use error::Error;
 pub use integrator::Integrator;
-pub use options::{Keep, LEAST_RELATIVE, Method, Options};
+pub use options::{LEAST_RELATIVE, Method, Options, Output};
 pub use solution::{End, Event, Solution, Statistics};
 pub use system::{Action, Crossing, Fault, Rates, System};

@@ -26,7 +26,7 @@ impl Method {
 
 /// What is kept of a run beside its last state and its events.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Keep<'a> {
+pub enum Output<'a> {
     /// Nothing.
     #[default]
     End,
@@ -59,7 +59,7 @@ pub struct Options<'a> {
     /// When each event function makes an event.
     pub events: &'a [Crossing],
     /// What is kept.
-    pub keep: Keep<'a>,
+    pub keep: Output<'a>,
 }
 
 impl Default for Options<'_> {
@@ -73,7 +73,7 @@ impl Default for Options<'_> {
             max_steps: 1_000_000,
             breaks: &[],
             events: &[],
-            keep: Keep::End,
+            keep: Output::End,
         }
     }
 }

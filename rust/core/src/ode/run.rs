@@ -197,7 +197,7 @@ impl<'a, S: System> Run<'a, S> {
         }
         if let Err(refusal) = stages.evaluate(self.system, 0, self.t, y) {
             return match refusal {
-                Refusal::NotThere => Ok(Next::End(End::Edge { t: self.t })),
+                Refusal::NotThere => Ok(Next::End(End::DomainBoundary { t: self.t })),
                 Refusal::NotFinite { t, component } => Err(Error::NotFinite { t, component }),
                 Refusal::System(error) => Err(Error::System(error)),
             };
@@ -246,12 +246,12 @@ impl<'a, S: System> Run<'a, S> {
             (h, self.t + h)
         };
         if self.refusals > MOST_REFUSALS {
-            return Ok(Next::End(End::Edge { t: self.t }));
+            return Ok(Next::End(End::DomainBoundary { t: self.t }));
         }
         if !last && h.abs() < NARROWEST * spacing(self.t) {
             return match self.obstacle {
                 None => Ok(Next::End(End::Stalled { t: self.t })),
-                Some(Obstacle::Edge) => Ok(Next::End(End::Edge { t: self.t })),
+                Some(Obstacle::Edge) => Ok(Next::End(End::DomainBoundary { t: self.t })),
                 Some(Obstacle::NotFinite { t, component }) => {
                     Err(Error::NotFinite { t, component })
                 }

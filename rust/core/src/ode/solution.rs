@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::dense::Path;
+use super::dense::DenseOutput;
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +18,7 @@ pub enum End {
         t: f64,
     },
     /// There is nothing beyond this t, to the spacing of t: a dead point.
-    Edge {
+    DomainBoundary {
         /// The last t that was there.
         t: f64,
     },
@@ -48,7 +48,7 @@ impl fmt::Display for End {
         match self {
             Self::Reached => f.write_str("the end was reached"),
             Self::Event { index, t } => write!(f, "event {index} ended the run at t = {t:e}"),
-            Self::Edge { t } => write!(f, "nothing is there beyond t = {t:e}"),
+            Self::DomainBoundary { t } => write!(f, "nothing is there beyond t = {t:e}"),
             Self::Stalled { t } => {
                 write!(f, "the tolerance cannot be met beyond t = {t:e} with any step")
             }
@@ -120,7 +120,7 @@ pub struct Solution {
     /// The states at the places asked for, as far as the run came, one after another.
     pub samples: Vec<f64>,
     /// All steps, if asked for.
-    pub path: Path,
+    pub path: DenseOutput,
     /// What it cost.
     pub statistics: Statistics,
 }

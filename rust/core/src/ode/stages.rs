@@ -137,7 +137,7 @@ impl Stages {
         let rates = &mut self.k[range].as_flattened_mut()[..self.n];
         match system.rates(t, &y.as_flattened()[..self.n], rates) {
             Ok(()) => {}
-            Err(Fault::NotThere) => return Err(Refusal::NotThere),
+            Err(Fault::OutOfDomain) => return Err(Refusal::NotThere),
             Err(Fault::Error(error)) => return Err(Refusal::System(error)),
         }
         match rates.iter().position(|rate| !rate.is_finite()) {

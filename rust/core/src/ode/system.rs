@@ -5,7 +5,7 @@
 pub enum Fault<E> {
     /// There is no state here, as beyond the range of a mechanism. A smaller step is tried; the run
     /// ends at the edge of what is there.
-    NotThere,
+    OutOfDomain,
     /// The run must end, and this is why.
     Error(E),
 }

@@ -5,15 +5,15 @@
 //! the vector of a loop's chord is a known one and a sum of spans, each turned by its unknown.
 
 use super::dyad::Unknown;
-use super::group::{Arm, Bars, Chord, Group};
+use super::group::{Arm, BinaryLoops, Chord, Group};
 use super::leg::Leg;
-use super::plan::{Along, Plan};
+use super::plan::{EdgeSlide, Plan};
 use crate::math::vector::Vector;
 
 /// Unknowns (and loops), at most: more are left to the general machinery.
 pub(crate) const MOST: usize = 3;
 
-impl Bars {
+impl BinaryLoops {
     /// Of a group that is so, behind others.
     pub(crate) fn new<'b>(
         plan: &Plan,
@@ -26,7 +26,7 @@ impl Bars {
         let mut arms = Vec::new();
         for (place, edge) in group.edges.iter().enumerate() {
             let own = &plan.edges[edge.edge];
-            if own.along != Along::Nothing || plan.orientations[own.orientation].driven {
+            if own.along != EdgeSlide::Nothing || plan.orientations[own.orientation].driven {
                 return None;
             }
             match edge.turns {
@@ -49,7 +49,7 @@ impl Bars {
     /// Those of one design.
     #[inline(always)]
     #[must_use]
-    pub(crate) fn links<'b>(&self, bound: &'b Spans) -> Links<'b> {
+    pub(crate) fn links<'b>(&self, bound: &'b LoopVectors) -> Links<'b> {
         let count = self.taken.len();
         let spans = &bound.spans[self.first_span..][..count * count];
         Links { count, spans, bars: &bound.bars[self.first_bar..][..count] }
@@ -83,12 +83,12 @@ fn taken(chord: &Chord) -> Option<usize> {
 
 /// The vectors of such groups, of one design.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Spans {
+pub(crate) struct LoopVectors {
     spans: Vec<Vector>,
     bars: Vec<Leg>,
 }
 
-impl Spans {
+impl LoopVectors {
     /// Measures them on the rigid edges.
     pub(crate) fn measure(&mut self, plan: &Plan, rigid: &[Vector]) {
         self.spans.clear();

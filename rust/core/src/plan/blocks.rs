@@ -2,9 +2,9 @@
 
 use std::collections::VecDeque;
 
-use super::dyad::{Dyad, Form, Part, Unknown};
+use super::dyad::{Dyad, Form, LoopTerm, Unknown};
 use super::group::Group;
-use super::plan::{Along, Higher, Plan, PlanEdge, Step};
+use super::plan::{EdgeSlide, Higher, Plan, PlanEdge, Step};
 use crate::description::Linkage;
 use crate::description::error::StructureError;
 use crate::structure::Structure;
@@ -98,7 +98,7 @@ impl Nodes {
             let mut touches: Vec<usize> =
                 [point[edge.edge.from], point[edge.edge.to]].into_iter().flatten().collect();
             touches.extend(class[plan.class_of(e)]);
-            if let Along::Slide(s) = edge.along {
+            if let EdgeSlide::Slide(s) = edge.along {
                 touches.push(nodes.add(1, Some(Unknown::Slide(s))));
             }
             nodes.pattern.equation(2, touches);
@@ -246,17 +246,17 @@ fn parts(
     plan: &Plan,
     loop_path: Vec<(usize, bool)>,
     unknowns: [Unknown; 2],
-) -> (Vec<Part>, [bool; 2]) {
+) -> (Vec<LoopTerm>, [bool; 2]) {
     let place = |unknown| unknowns.iter().position(|&u| u == unknown);
-    let mut path: Vec<Part> = loop_path
+    let mut path: Vec<LoopTerm> = loop_path
         .into_iter()
         .map(|(edge, backward)| {
             let turns = place(Unknown::Class(plan.class_of(edge)));
             let slides = match plan.edges[edge].along {
-                Along::Slide(s) => place(Unknown::Slide(s)),
+                EdgeSlide::Slide(s) => place(Unknown::Slide(s)),
                 _ => None,
             };
-            Part { edge, backward, turns, slides, in_leg: false }
+            LoopTerm { edge, backward, turns, slides, in_leg: false }
         })
         .collect();
     let leg = [0, 1].map(|place| {
@@ -264,7 +264,7 @@ fn parts(
         turning.peek().is_some()
             && turning.all(|part| {
                 let edge = &plan.edges[part.edge];
-                let own = edge.along == Along::Nothing || part.slides.is_some();
+                let own = edge.along == EdgeSlide::Nothing || part.slides.is_some();
                 own && !plan.orientations[edge.orientation].driven
             })
     });
@@ -279,7 +279,7 @@ fn parts(
 fn rotate_to_first(plan: &Plan, path: &mut [(usize, bool)], first: Unknown) {
     let carries = |e: usize| match first {
         Unknown::Class(c) => plan.class_of(e) == c,
-        Unknown::Slide(s) => plan.edges[e].along == Along::Slide(s),
+        Unknown::Slide(s) => plan.edges[e].along == EdgeSlide::Slide(s),
     };
     let n = path.len();
     let begin = (0..n).find(|&i| carries(path[i].0) && !carries(path[(i + n - 1) % n].0));
@@ -305,7 +305,7 @@ fn form(plan: &Plan, unknowns: [Unknown; 2]) -> Form {
         [Unknown::Class(_), Unknown::Class(_)] => Form::TwoCircles,
         [Unknown::Slide(_), _] => Form::TwoLines,
         [Unknown::Class(c), Unknown::Slide(s)] => {
-            let edge = plan.edges.iter().position(|e| e.along == Along::Slide(s));
+            let edge = plan.edges.iter().position(|e| e.along == EdgeSlide::Slide(s));
             if edge.is_some_and(|e| plan.class_of(e) == c) {
                 Form::TurningGuide
             } else {
@@ -328,7 +328,7 @@ fn inner_pair(
 ) -> String {
     let carries = |e: usize, unknown: Unknown| match unknown {
         Unknown::Class(c) => plan.class_of(e) == c,
-        Unknown::Slide(s) => plan.edges[e].along == Along::Slide(s),
+        Unknown::Slide(s) => plan.edges[e].along == EdgeSlide::Slide(s),
     };
     let slide_name = |unknown: Unknown| match unknown {
         Unknown::Slide(s) => Some(linkage.slides[s].name.clone()),

@@ -1,9 +1,9 @@
 //! From a linkage and its structure to a plan.
 
 use super::blocks::add_steps;
-use super::group::{Bars, Group};
+use super::group::{BinaryLoops, Group};
 use super::pair_span::PairSpans;
-use super::plan::{Along, LegEdge, Orientation, Plan, PlanEdge, Step};
+use super::plan::{EdgeSlide, LegEdge, Orientation, Plan, PlanEdge, Step};
 use super::redundant;
 use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
@@ -49,12 +49,12 @@ impl Plan {
             .enumerate()
             .map(|(index, &edge)| {
                 let along = match edge.span {
-                    Span::Joint { .. } => Along::Nothing,
+                    Span::Joint { .. } => EdgeSlide::Nothing,
                     Span::Guide { slide } => {
                         if linkage.drivers.contains(&Driver::Slide(slide)) {
-                            Along::Driver { slide }
+                            EdgeSlide::Driver { slide }
                         } else {
-                            Along::Slide(slide)
+                            EdgeSlide::Slide(slide)
                         }
                     }
                 };
@@ -120,9 +120,9 @@ impl Plan {
             group.first_leg = first;
             first += group.edges.len();
         }
-        let mut of_bars: Vec<Option<Bars>> = Vec::new();
+        let mut of_bars: Vec<Option<BinaryLoops>> = Vec::new();
         for group in self.groups() {
-            let bars = Bars::new(self, group, of_bars.iter().flatten());
+            let bars = BinaryLoops::new(self, group, of_bars.iter().flatten());
             of_bars.push(bars);
         }
         let mut of_bars = of_bars.into_iter();

@@ -1,6 +1,6 @@
 //! A plan with the numbers of one design.
 
-use super::binary_links::Spans;
+use super::binary_links::LoopVectors;
 use super::leg::Leg;
 use super::plan::Plan;
 use crate::description::Linkage;
@@ -10,7 +10,7 @@ use crate::structure::closure::{Closure, Span};
 
 /// The fixed vectors of one design, in units of its scale.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Bound {
+pub(crate) struct DesignConstants {
     /// Power of two near the greatest length; results are multiplied by it.
     pub scale: f64,
     /// Place of the frame's origin in the drawing, m: the first ground joint.
@@ -35,7 +35,7 @@ pub(crate) struct Bound {
     /// The legs of every dyad, where they are the same at all positions.
     pub legs: Vec<[Leg; 2]>,
     /// The vectors of groups of binary links.
-    pub spans: Spans,
+    pub spans: LoopVectors,
     /// What the misfit of redundant links is a part of: 1, or less where a joint far from all pairs
     /// makes the scale.
     pub pair_size: f64,
@@ -44,8 +44,8 @@ pub(crate) struct Bound {
 /// Where the dimensions of every edge and slide stand in the list of values; found
 /// once for a mechanism.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Slots {
-    pub(crate) edges: Vec<Source>,
+pub(crate) struct DimensionMap {
+    pub(crate) edges: Vec<EdgeSource>,
     pub(crate) slides: Vec<SlideSlots>,
     /// Ground joints with their coordinates.
     pub(crate) ground: Vec<(usize, [Slot; 2])>,
@@ -59,7 +59,7 @@ pub(crate) struct Slots {
 pub(crate) type Slot = Option<usize>;
 
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Source {
+pub(crate) enum EdgeSource {
     /// From the first joint of a link to another: its place in the link's frame.
     Joint([Slot; 2]),
     /// Along a guide.
@@ -95,7 +95,7 @@ impl SlideSlots {
     }
 }
 
-impl Slots {
+impl DimensionMap {
     /// Finds the places.
     #[must_use]
     pub(crate) fn new(
@@ -120,8 +120,8 @@ impl Slots {
             .edges
             .iter()
             .map(|e| match e.edge.span {
-                Span::Joint { link, joint } => Source::Joint(in_link(link, joint)),
-                Span::Guide { slide } => Source::Guide(slide),
+                Span::Joint { link, joint } => EdgeSource::Joint(in_link(link, joint)),
+                Span::Guide { slide } => EdgeSource::Guide(slide),
             })
             .collect();
         let slides = (0..linkage.slides.len())
@@ -190,7 +190,7 @@ impl Lengths {
     }
 }
 
-impl Bound {
+impl DesignConstants {
     /// The link on the other side of a slide, and the constant turn from its
     /// orientation to that of `link`.
     #[must_use]
@@ -203,14 +203,14 @@ impl Bound {
 
     /// Binds a plan to dimensions (in the order of [`Dimensions`]).
     #[must_use]
-    pub(crate) fn new(plan: &Plan, slots: &Slots, values: &[f64]) -> Self {
+    pub(crate) fn new(plan: &Plan, slots: &DimensionMap, values: &[f64]) -> Self {
         let mut bound = Self::default();
         bound.bind(plan, slots, values);
         bound
     }
 
     /// Takes the dimensions of another design.
-    pub(crate) fn bind(&mut self, plan: &Plan, slots: &Slots, values: &[f64]) {
+    pub(crate) fn bind(&mut self, plan: &Plan, slots: &DimensionMap, values: &[f64]) {
         let origin = read_two(values, slots.origin);
         self.origin = [origin.x, origin.y];
         self.scale = slots.lengths.scale(values, self.origin);
@@ -233,8 +233,8 @@ impl Bound {
         self.arm2.clear();
         for (e, source) in plan.edges.iter().zip(&slots.edges) {
             let (w, d) = match *source {
-                Source::Joint(place) => (read_two(values, place), Vector::ZERO),
-                Source::Guide(slide) => {
+                EdgeSource::Joint(place) => (read_two(values, place), Vector::ZERO),
+                EdgeSource::Guide(slide) => {
                     let slide = &slots.slides[slide];
                     let direction = unit(slide.angle(values));
                     let mut start = read_two(values, slide.origin);

@@ -1,10 +1,10 @@
 //! How the fixed vectors of a design change with one of its dimensions.
 
-use super::constants::{Bound, Slots, Source, read, read_two, unit};
+use super::constants::{DesignConstants, DimensionMap, EdgeSource, read, read_two, unit};
 use super::plan::Plan;
 use crate::math::vector::Vector;
 
-/// Derivatives of what [`Bound`] holds by one dimension (m or rad), its scale kept.
+/// Derivatives of what [`DesignConstants`] holds by one dimension (m or rad), its scale kept.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct BoundRate {
     /// Of the frame's origin, m.
@@ -24,8 +24,8 @@ impl BoundRate {
     #[must_use]
     pub(crate) fn new(
         plan: &Plan,
-        slots: &Slots,
-        bound: &Bound,
+        slots: &DimensionMap,
+        bound: &DesignConstants,
         values: &[f64],
         index: usize,
     ) -> Self {
@@ -38,8 +38,8 @@ impl BoundRate {
         let mut rate = Self { origin, offset, ..Self::default() };
         for ((e, source), rigid) in plan.edges.iter().zip(&slots.edges).zip(&bound.rigid) {
             let (w, d) = match *source {
-                Source::Joint(place) => (read_two(&by, place), Vector::ZERO),
-                Source::Guide(slide) => {
+                EdgeSource::Joint(place) => (read_two(&by, place), Vector::ZERO),
+                EdgeSource::Guide(slide) => {
                     let slide = &slots.slides[slide];
                     let direction = unit(slide.angle(values));
                     let turned = direction.left().scale(slide.angle(&by));
@@ -67,7 +67,7 @@ impl BoundRate {
 }
 
 /// Derivatives of the links' constant angles by the dimension that is 1 in `by`.
-pub(crate) fn offsets(plan: &Plan, slots: &Slots, by: &[f64]) -> Vec<f64> {
+pub(crate) fn offsets(plan: &Plan, slots: &DimensionMap, by: &[f64]) -> Vec<f64> {
     let step = |slide: usize| slots.slides[slide].step(by);
     let offset = |r: &crate::structure::closure::Rotation| {
         r.slides.iter().map(|&(slide, sign)| f64::from(sign) * step(slide)).sum()

@@ -24,7 +24,7 @@ pub(crate) enum Form {
 
 /// What an edge of a dyad's loop adds to its equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Part {
+pub(crate) struct LoopTerm {
     /// The edge.
     pub edge: usize,
     /// Run from `to` to `from`.
@@ -50,9 +50,9 @@ pub(crate) struct Dyad {
     /// something else than its legs asks for.
     pub turned: [Vec<usize>; 2],
     /// The loop, edge by edge.
-    pub path: Vec<Part>,
+    pub path: Vec<LoopTerm>,
     /// What of the loop is not wholly in a leg.
-    pub others: Vec<Part>,
+    pub others: Vec<LoopTerm>,
     /// Whether what turns with each unknown is a leg: constant parts only, but for its slide.
     pub leg: [bool; 2],
     /// The classes of its two legs, if there is nothing else.

@@ -21,7 +21,7 @@ pub(crate) enum Chord {
 
 /// An edge on the path of a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Piece {
+pub(crate) struct LoopEdge {
     /// Place among the group's edges.
     pub place: usize,
     /// Run from `to` to `from`.
@@ -53,16 +53,16 @@ pub(crate) struct Loop {
     /// Known point from which `to` is reached.
     pub end: usize,
     /// Edges from `start` to `from`, run backward, and from `end` to `to`.
-    pub path: Vec<Piece>,
+    pub path: Vec<LoopEdge>,
     /// The orientations that turn with the rotation it takes along.
     pub turned: Vec<usize>,
     /// Of every unknown, what changes the chord's vector.
-    pub columns: Vec<Vec<Influence>>,
+    pub columns: Vec<Vec<ColumnTerm>>,
 }
 
 /// What an unknown does to a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Influence {
+pub(crate) struct ColumnTerm {
     /// The edge that it turns, or slides along: place among the group's edges. None: the chord,
     /// against the guide that turns.
     pub place: Option<usize>,
@@ -92,7 +92,7 @@ pub(crate) struct Group {
     /// Place among the legs of its first edge; the others follow.
     pub first_leg: usize,
     /// What it consists of, if it is of rigid links and turning pairs alone, and small.
-    pub bars: Option<Bars>,
+    pub bars: Option<BinaryLoops>,
 }
 
 impl Group {
@@ -127,7 +127,7 @@ pub(crate) struct Arm {
 
 /// What a group of rigid links and turning pairs consists of, if it is small.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Bars {
+pub(crate) struct BinaryLoops {
     /// Place of its first span in the design's spans.
     pub(crate) first_span: usize,
     /// Place of its first binary link in the design's binary links.

@@ -6,8 +6,8 @@
 //! the guide its end is; either takes an unknown with it. So the tree takes other edges first.
 
 use super::dyad::Unknown;
-use super::group::{Chord, Group, GroupEdge, Influence, Loop, Piece};
-use super::plan::{Along, Plan};
+use super::group::{Chord, ColumnTerm, Group, GroupEdge, Loop, LoopEdge};
+use super::plan::{EdgeSlide, Plan};
 
 impl Group {
     /// Finds the loops of a block; returns their chords, which place no point.
@@ -42,12 +42,12 @@ impl Group {
                 edge,
                 turns: place(Unknown::Class(plan.class_of(edge))),
                 slides: match plan.edges[edge].along {
-                    Along::Slide(slide) => place(Unknown::Slide(slide)),
+                    EdgeSlide::Slide(slide) => place(Unknown::Slide(slide)),
                     _ => None,
                 },
                 is_bar: matches!(chord(edge), Chord::Length { .. })
                     && chords.contains(&edge)
-                    && plan.edges[edge].along == Along::Nothing,
+                    && plan.edges[edge].along == EdgeSlide::Nothing,
             })
             .collect();
         for l in &mut loops {
@@ -64,13 +64,13 @@ impl Group {
 }
 
 /// What an unknown does to a loop.
-fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<Influence> {
+fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<ColumnTerm> {
     let mut column = Vec::new();
     let mut add = |place: usize, backward: bool| {
         let edge = &edges[place];
         for (own, turns) in [(edge.turns, true), (edge.slides, false)] {
             if own == Some(unknown) {
-                column.push(Influence { place: Some(place), turns, backward });
+                column.push(ColumnTerm { place: Some(place), turns, backward });
             }
         }
     };
@@ -81,7 +81,7 @@ fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<Influence> {
         Chord::Whole => add(l.edge, true),
         Chord::Guide { .. } if edges[l.edge].turns == Some(unknown) => {
             // The guide turns, which is as if the chord turned back.
-            column.push(Influence { place: None, turns: true, backward: true });
+            column.push(ColumnTerm { place: None, turns: true, backward: true });
         }
         _ => {}
     }
@@ -99,7 +99,9 @@ fn chord_of(plan: &Plan, edges: &[usize], unknowns: &[Unknown], edge: usize) -> 
     let class = plan.class_of(edge);
     let alone = edges.iter().filter(|&&e| plan.class_of(e) == class).count() == 1;
     match plan.edges[edge].along {
-        Along::Slide(slide) if unknowns.contains(&Unknown::Slide(slide)) => Chord::Guide { slide },
+        EdgeSlide::Slide(slide) if unknowns.contains(&Unknown::Slide(slide)) => {
+            Chord::Guide { slide }
+        }
         _ if alone && unknowns.contains(&Unknown::Class(class)) => Chord::Length { class },
         _ => Chord::Whole,
     }
@@ -175,7 +177,7 @@ fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usize]) -
     }
     let (start, end) = if start == end { (0, 0) } else { (start, end) };
     let place = |edge: usize| edges.iter().position(|&e| e == edge).unwrap_or(0);
-    let piece = |(edge, backward)| Piece { place: place(edge), backward };
+    let piece = |(edge, backward)| LoopEdge { place: place(edge), backward };
     let back = back.into_iter().map(|(edge, backward)| (edge, !backward));
     let path = back.chain(ahead.into_iter().rev()).map(piece).collect();
     let turned = match chord {

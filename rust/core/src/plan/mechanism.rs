@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
-use super::constants::{Bound, Slots};
+use super::constants::{DesignConstants, DimensionMap};
 use super::dyad::{Dyad, Form};
 use super::plan::Plan;
 use crate::description::dimension::Dimensions;
@@ -28,7 +28,7 @@ pub struct Mechanism {
     q0: Vec<f64>,
     signs: Vec<i8>,
     /// Where the dimensions of edges and slides stand.
-    pub(crate) slots: Slots,
+    pub(crate) slots: DimensionMap,
     /// Angle of every class in the drawing.
     pub(crate) class_angle: Vec<f64>,
     /// Whole turns between a link's drawing angle and that of its class plus offsets.
@@ -66,8 +66,8 @@ impl Mechanism {
         let q0: Vec<f64> = linkage.drivers.iter().map(|&d| linkage.drawing_coordinate(d)).collect();
         let signs = drawing_signs(&linkage, &plan)?;
         let class_angle = class_angles(&linkage, &plan);
-        let slots = Slots::new(&plan, &linkage, &closure, &dimensions);
-        let bound = Bound::new(&plan, &slots, &drawing);
+        let slots = DimensionMap::new(&plan, &linkage, &closure, &dimensions);
+        let bound = DesignConstants::new(&plan, &slots, &drawing);
         let whole_turns = (0..linkage.links.len())
             .map(|l| {
                 let r = &plan.rotation[l];

@@ -8,7 +8,7 @@ use crate::structure::closure::{Edge, Rotation};
 
 /// Value of a slide on an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Along {
+pub(crate) enum EdgeSlide {
     /// A rigid edge.
     Nothing,
     /// The slide's value is unknown until its dyad is solved.
@@ -27,7 +27,7 @@ pub(crate) struct PlanEdge {
     /// Class of that.
     pub class: usize,
     /// The slide along it.
-    pub along: Along,
+    pub along: EdgeSlide,
     /// Whether the motion depends on it (not on that of a coupler point).
     pub paired: bool,
     /// The leg that it is by itself.
@@ -76,16 +76,16 @@ pub(crate) enum Step {
     /// Place one end of an edge from the other.
     Place { edge: usize, backward: bool },
     /// Place a redundant link and check that it fits.
-    Fit(Fit),
+    Redundant(RedundantLink),
 }
 
 /// A redundant link (or slide): what places it, and what must then fit.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Fit {
+pub(crate) struct RedundantLink {
     /// Name used when it does not fit.
     pub name: String,
     /// How its orientation is found; none for a slide alone.
-    pub turned: Option<Turned>,
+    pub turned: Option<AngleFrom>,
     /// Edges whose far point is not placed by anything else, with direction.
     pub places: Vec<(usize, bool)>,
     /// Edges that must close (a slide along them takes the value that fits best).
@@ -98,7 +98,7 @@ pub(crate) struct Fit {
 
 /// How a redundant link's orientation is found.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Turned {
+pub(crate) enum AngleFrom {
     /// By two joints that other links carry: edges from the link's first joint
     /// (none: the first joint itself).
     Joints { link: usize, first: Option<usize>, second: Option<usize>, points: [usize; 2] },
@@ -177,9 +177,9 @@ impl Plan {
     }
 
     /// The redundant links and slides, in order.
-    pub(crate) fn fits(&self) -> impl Iterator<Item = &Fit> {
+    pub(crate) fn fits(&self) -> impl Iterator<Item = &RedundantLink> {
         self.steps.iter().filter_map(|step| match step {
-            Step::Fit(fit) => Some(fit),
+            Step::Redundant(fit) => Some(fit),
             _ => None,
         })
     }
@@ -216,6 +216,6 @@ impl Plan {
     #[inline(always)]
     pub(crate) fn is_arm(&self, group: &Group, place: usize) -> bool {
         let edge = &group.edges[place];
-        edge.turns.is_some() && self.edges[edge.edge].along == Along::Nothing
+        edge.turns.is_some() && self.edges[edge.edge].along == EdgeSlide::Nothing
     }
 }

@@ -1,6 +1,6 @@
 //! Redundant links: how each is placed and what must then close.
 
-use super::plan::{Fit, Plan, Step, Turned};
+use super::plan::{AngleFrom, Plan, RedundantLink, Step};
 use crate::description::Linkage;
 use crate::structure::Structure;
 use crate::structure::closure::{Closure, Span, point_of_joint};
@@ -24,7 +24,7 @@ pub(crate) fn add_fits(
             let fit = fit_link(plan, linkage, closure, link, &placed_links, &mut known);
             let Some(fit) = fit else { return true };
             checked.extend(fit.parallel.iter().map(|&(slide, _)| slide));
-            plan.steps.push(Step::Fit(fit));
+            plan.steps.push(Step::Redundant(fit));
             placed_links.push(link);
             false
         });
@@ -36,7 +36,7 @@ pub(crate) fn add_fits(
         if !checked.contains(&slide) {
             let checks: Vec<usize> = slide_edge(closure, slide).into_iter().collect();
             let name = linkage.slides[slide].name.clone();
-            plan.steps.push(Step::Fit(Fit {
+            plan.steps.push(Step::Redundant(RedundantLink {
                 name,
                 turned: None,
                 places: vec![],
@@ -59,7 +59,7 @@ fn fit_link(
     link: usize,
     placed_links: &[usize],
     known: &mut [bool],
-) -> Option<Fit> {
+) -> Option<RedundantLink> {
     let joints = &linkage.links[link].joints;
     let edge_to =
         |joint: usize| closure.edges.iter().position(|e| e.span == Span::Joint { link, joint });
@@ -73,13 +73,13 @@ fn fit_link(
         })
         .collect();
     let turned = match (&carried[..], &slides[..]) {
-        (&[a, b, ..], _) => Turned::Joints {
+        (&[a, b, ..], _) => AngleFrom::Joints {
             link,
             first: edge_to(a),
             second: edge_to(b),
             points: [point_of_joint(a), point_of_joint(b)],
         },
-        (&[_], &[slide, ..]) => Turned::Slide { link, slide },
+        (&[_], &[slide, ..]) => AngleFrom::Slide { link, slide },
         _ => return None,
     };
     let (mut places, mut checks) = (Vec::new(), Vec::new());
@@ -104,7 +104,7 @@ fn fit_link(
     }
     checks.extend(slides.iter().filter_map(|&s| slide_edge(closure, s)));
     let touched = checks.iter().copied().chain(places.iter().map(|&(e, _)| e)).collect();
-    Some(Fit {
+    Some(RedundantLink {
         name: linkage.links[link].name.clone(),
         turned: Some(turned),
         places,

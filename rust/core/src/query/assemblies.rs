@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::diagnosis::place_of;
 use crate::branch::design::Design;
 use crate::description::error::SolveError;
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
 use crate::state::state::Context;
@@ -41,7 +41,7 @@ impl Mechanism {
         if self.dimensions().first_fault(dimensions).is_some() || q.len() != self.q0().len() {
             return Ok(Vec::new());
         }
-        let jets = Jets::new(q.len(), 1);
+        let jets = DerivativeTables::new(q.len(), 1);
         let mut design = Design::new(self, &vec![1; count], &jets);
         design.bind(dimensions);
         let scaled = design.scaled(q);

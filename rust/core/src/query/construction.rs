@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use crate::description::Description;
 use crate::description::error::StructureError;
 use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
-use crate::plan::constants::Bound;
+use crate::plan::constants::DesignConstants;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
 use crate::state::status::Status;
@@ -37,7 +37,7 @@ impl Mechanism {
         cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
         let made = Self::compile(description, cancel)?;
-        let bound = Bound::new(made.plan(), &made.slots, made.drawing());
+        let bound = DesignConstants::new(made.plan(), &made.slots, made.drawing());
         made.refuse_what_fits_here_alone(bound.scale)?;
         Ok(made)
     }
@@ -60,7 +60,7 @@ impl Mechanism {
                     continue;
                 }
                 let steps = &self.plan().steps;
-                let fit = found.step.is_some_and(|step| matches!(steps[step], Step::Fit(_)));
+                let fit = found.step.is_some_and(|step| matches!(steps[step], Step::Redundant(_)));
                 // A wide gap is that of another assembly, behind a change point that was missed or
                 // behind a gap of another dyad; what was missed by then shows before.
                 let part = if found.gap < NEARLY_REDUNDANT { found.gap } else { residual };

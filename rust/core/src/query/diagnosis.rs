@@ -2,9 +2,9 @@
 
 use crate::branch::design::Design;
 use crate::description::error::{SolveError, number};
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::plan::{Along, Plan, Step};
+use crate::plan::plan::{EdgeSlide, Plan, Step};
 use crate::state::state::State;
 use crate::state::status::{Fault, Status};
 
@@ -66,7 +66,7 @@ impl Mechanism {
                 Diagnosis { name, ..Diagnosis::bare(Status::BadDimension, fault.to_string()) };
             return Ok(vec![one; q.len() / drivers]);
         }
-        let jets = Jets::new(drivers, 0);
+        let jets = DerivativeTables::new(drivers, 0);
         let mut design = Design::new(self, signs, &jets);
         design.bind(dimensions);
         design.lay_way(q);
@@ -82,7 +82,7 @@ impl Mechanism {
         &self,
         design: &Design<'_>,
         state: &State,
-        jets: &Jets,
+        jets: &DerivativeTables,
         q: &[f64],
         analogues: bool,
     ) -> Diagnosis {
@@ -106,7 +106,7 @@ impl Mechanism {
             Status::Unreachable | Status::NotConverged => {
                 let (name, sentence) = self.unreachable(state, design.bound.scale, at);
                 let gap = match state.fault {
-                    Some(Fault::Open { gap, .. } | Fault::Misfit { gap, .. }) => gap,
+                    Some(Fault::NotClosed { gap, .. } | Fault::RedundantMisfit { gap, .. }) => gap,
                     _ => f64::NAN,
                 };
                 let bare = Diagnosis::bare(state.status, sentence);
@@ -159,7 +159,7 @@ impl Mechanism {
                 None => two_lines_name(self.plan(), self, dyad),
             },
             Step::Group(group) => group.name.clone(),
-            Step::Fit(fit) => fit.name.clone(),
+            Step::Redundant(fit) => fit.name.clone(),
             Step::Place { .. } => String::new(),
         }
     }
@@ -209,25 +209,25 @@ impl Mechanism {
         };
         let name = self.step_name(fault);
         let sentence = match fault {
-            Fault::Misfit { gap, .. } => format!(
+            Fault::RedundantMisfit { gap, .. } => format!(
                 "at q = {at} the redundant {name:?} does not fit: it misses by {:.3e} m",
                 gap * scale
             ),
-            Fault::Open { gap: 0.0, .. } => format!(
+            Fault::NotClosed { gap: 0.0, .. } => format!(
                 "at q = {at} dyad {name:?} has coinciding outer joints, or a leg of no length: its links may stand in any direction"
             ),
-            Fault::Open { gap, step } if !gap.is_finite() => match &self.plan().steps[step] {
+            Fault::NotClosed { gap, step } if !gap.is_finite() => match &self.plan().steps[step] {
                 Step::Dyad(dyad) if dyad.sign.is_none() => {
                     format!("at q = {at} the guides {name:?} are parallel")
                 }
                 _ => format!("at q = {at} dyad {name:?} does not close, by far"),
             },
-            Fault::Open { gap, .. } => format!(
+            Fault::NotClosed { gap, .. } => format!(
                 "at q = {at} dyad {name:?} does not close: {:.3e} m are missing",
                 gap * scale
             ),
-            Fault::Flat { .. } => format!("at q = {at} dyad {name:?} is flat"),
-            Fault::Astray { .. } => {
+            Fault::Singular { .. } => format!("at q = {at} dyad {name:?} is flat"),
+            Fault::NotConverged { .. } => {
                 format!("at q = {at} the iteration of the group {name:?} did not end")
             }
         };
@@ -240,7 +240,7 @@ fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::dyad::
         .path
         .iter()
         .filter_map(|part| match plan.edges[part.edge].along {
-            Along::Slide(s) => Some(mechanism.linkage().slides[s].name.as_str()),
+            EdgeSlide::Slide(s) => Some(mechanism.linkage().slides[s].name.as_str()),
             _ => None,
         })
         .collect();

@@ -2,14 +2,14 @@
 
 use std::borrow::Cow;
 
-use crate::branch::branch::Track;
-use crate::branch::change_interpolant::Bridge;
-use crate::branch::design::{Design, Place};
-use crate::branch::knot::{Seed, Start};
+use crate::branch::branch::Branch;
+use crate::branch::change_interpolant::ChangeWindow;
+use crate::branch::design::{BranchPoint, Design};
+use crate::branch::knot::{InitialGuess, Taylor2};
 use crate::branch::units::Units;
 use crate::math::angle::nearest;
-use crate::math::derivatives::Jets;
-use crate::plan::constants::Bound;
+use crate::math::derivatives::DerivativeTables;
+use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::{Plan, Step};
@@ -33,7 +33,7 @@ const FAR: f64 = 1.0e9;
 const FAR_STEP: f64 = 50.0;
 
 /// A mechanism of one design with its way laid, and work space for a position.
-pub(crate) struct Follower<'m> {
+pub(crate) struct Evaluator<'m> {
     design: Design<'m>,
     state: State,
     q: Vec<f64>,
@@ -41,7 +41,7 @@ pub(crate) struct Follower<'m> {
     near: Vec<f64>,
     lifted: bool,
     /// Where the last position was, if the next one is reached from there.
-    last: Option<Anchor>,
+    last: Option<LastPosition>,
     roams: bool,
 }
 
@@ -63,11 +63,11 @@ const HALVINGS: u32 = 60;
 
 /// A position from which another is reached straight.
 #[derive(Clone)]
-struct Anchor {
+struct LastPosition {
     q: Vec<f64>,
     signs: Vec<f64>,
     angles: Vec<f64>,
-    seeds: Vec<Seed>,
+    seeds: Vec<Taylor2>,
 }
 
 /// A position just solved.
@@ -75,24 +75,24 @@ struct Anchor {
 pub(crate) struct Position<'p> {
     pub state: &'p State,
     pub plan: &'p Plan,
-    pub bound: &'p Bound,
+    pub bound: &'p DesignConstants,
     pub units: &'p Units,
     q: &'p [f64],
     near: &'p [f64],
     whole: &'p [f64],
 }
 
-impl<'m> Follower<'m> {
+impl<'m> Evaluator<'m> {
     /// Binds dimensions and lays the way; `lifted`: whether angles themselves will be asked for.
     pub(crate) fn new(
         mechanism: &'m Mechanism,
         dimensions: &[f64],
-        jets: &'m Jets,
+        jets: &'m DerivativeTables,
         asked: Asked<'_>,
         lifted: bool,
     ) -> Self {
         let mut design = Design::new(mechanism, mechanism.signs(), jets);
-        design.bridge = Bridge::LONG;
+        design.bridge = ChangeWindow::LONG;
         design.bind(dimensions);
         let far = FAR * design.bound.scale;
         match asked {
@@ -148,7 +148,7 @@ impl<'m> Follower<'m> {
     ///
     /// # Errors
     ///
-    /// Those of [`Follower::solve`].
+    /// Those of [`Evaluator::solve`].
     pub(crate) fn solve_aside(&mut self, q: &[f64]) -> Result<(), Status> {
         let last = self.last.clone();
         let solved = self.solve(q);
@@ -183,7 +183,7 @@ impl<'m> Follower<'m> {
     fn misses_flat_by(&mut self, dyad: &Dyad, at: f64) -> f64 {
         let solved = self.solve(&[at]).is_ok();
         match self.state.fault {
-            Some(Fault::Open { gap, .. }) if !solved => -gap,
+            Some(Fault::NotClosed { gap, .. }) if !solved => -gap,
             _ => self.state.misses_flat_by(&self.design.context(self.design.jets), dyad),
         }
     }
@@ -211,7 +211,7 @@ impl<'m> Follower<'m> {
             self.near = self.design.near(&place, self.state.class.len());
         }
         if self.roams {
-            let anchor = Anchor::of(&place, &self.design, &self.state, &self.q, &self.near);
+            let anchor = LastPosition::of(&place, &self.design, &self.state, &self.q, &self.near);
             self.last = Some(anchor);
         }
         Ok(())
@@ -231,8 +231,14 @@ impl<'m> Follower<'m> {
     }
 }
 
-impl Anchor {
-    fn of(place: &Place<'_>, design: &Design<'_>, state: &State, q: &[f64], near: &[f64]) -> Self {
+impl LastPosition {
+    fn of(
+        place: &BranchPoint<'_>,
+        design: &Design<'_>,
+        state: &State,
+        q: &[f64],
+        near: &[f64],
+    ) -> Self {
         let angle = |class: usize| nearest(state.class[class][0].angle(), near[class]);
         let seed = |&unknown: &Unknown| match unknown {
             Unknown::Class(class) => [angle(class), 0.0, 0.0],
@@ -248,12 +254,12 @@ impl Anchor {
     }
 
     /// The straight way from here.
-    fn way(&self, design: &Design<'_>, q: &[f64]) -> Place<'static> {
+    fn way(&self, design: &Design<'_>, q: &[f64]) -> BranchPoint<'static> {
         let jets = design.first_jets();
         let cx = Context { signs: &self.signs, ..design.context(jets) };
-        let start = &Start { angles: &self.angles, seeds: &self.seeds };
-        let (track, at) = Track::straight(&cx, &mut design.state(jets), &self.q, q, start);
-        Place { track: Cow::Owned(track), at }
+        let start = &InitialGuess { angles: &self.angles, seeds: &self.seeds };
+        let (track, at) = Branch::straight(&cx, &mut design.state(jets), &self.q, q, start);
+        BranchPoint { track: Cow::Owned(track), at }
     }
 }
 

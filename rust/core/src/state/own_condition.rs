@@ -7,7 +7,7 @@
 use super::state::{Context, State};
 use crate::plan::dyad::{Dyad, Form, Unknown};
 use crate::plan::group::Group;
-use crate::plan::plan::{Along, Step};
+use crate::plan::plan::{EdgeSlide, Step};
 
 impl State {
     /// The step with the greatest condition by itself, and that condition; none without groups.
@@ -42,7 +42,7 @@ impl State {
             let class = cx.plan.class_of(part.edge);
             let turned = if part.turns.is_none() { self.class_condition[class][0] } else { 1.0 };
             match (cx.plan.edges[part.edge].along, part.slides) {
-                (Along::Slide(slide), None) => turned.max(self.slide_condition[slide][0]),
+                (EdgeSlide::Slide(slide), None) => turned.max(self.slide_condition[slide][0]),
                 _ => turned,
             }
         });

@@ -3,14 +3,14 @@
 use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::plan::Along;
+use crate::plan::plan::EdgeSlide;
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Places one end of an edge from the other, in all groups.
     #[inline(always)]
     pub(crate) fn place_all(&mut self, cx: &Context<'_>, e: usize, backward: bool) {
         // Jets of known length are arrays.
-        match (cx.plan.edges[e].along == Along::Nothing, self.len) {
+        match (cx.plan.edges[e].along == EdgeSlide::Nothing, self.len) {
             (true, 1) => self.place_rigid(cx, e, backward, 1),
             (true, 2) => self.place_rigid(cx, e, backward, 2),
             (true, 3) => self.place_rigid(cx, e, backward, 3),
@@ -83,12 +83,12 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         let (start, end) = (self.points[from * self.len][g], self.points[to * self.len][g]);
         let arm = match edge.along {
-            Along::Nothing => R::splat(cx.bound.arm2[e]),
+            EdgeSlide::Nothing => R::splat(cx.bound.arm2[e]),
             _ => (end - start).norm2(),
         };
         self.grain[to][g] = self.grain[from][g].max(arm).max(end.norm2());
         let mut condition = self.point_condition[from][g].max(self.class_condition[edge.class][g]);
-        if let Along::Slide(slide) = edge.along {
+        if let EdgeSlide::Slide(slide) = edge.along {
             condition = condition.max(self.slide_condition[slide][g]);
         }
         self.point_condition[to][g] = condition;

@@ -5,31 +5,34 @@ use super::status::Fault;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, REDUNDANT_GREATEST};
 use crate::math::vector::Vector;
-use crate::plan::plan::{Along, Fit, Step, Turned};
+use crate::plan::plan::{AngleFrom, EdgeSlide, RedundantLink, Step};
 
 impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
-    pub(crate) fn fit(&mut self, g: usize, cx: &Context<'_>, fit: &Fit, index: usize) {
+    pub(crate) fn fit(&mut self, g: usize, cx: &Context<'_>, fit: &RedundantLink, index: usize) {
         let (gap, allowed) = self.place_redundant(g, cx, fit);
-        self.open(g, gap.le(allowed).not(), || Fault::Misfit { step: index, gap: gap.lane(0) });
+        self.open(g, gap.le(allowed).not(), || Fault::RedundantMisfit {
+            step: index,
+            gap: gap.lane(0),
+        });
     }
 
     /// Places what is redundant; returns by how much it misses, and may.
     #[inline(always)]
-    fn place_redundant(&mut self, g: usize, cx: &Context<'_>, fit: &Fit) -> (R, R) {
+    fn place_redundant(&mut self, g: usize, cx: &Context<'_>, fit: &RedundantLink) -> (R, R) {
         let pair_size = R::splat(cx.bound.pair_size);
         let mut gap = R::ZERO;
         let mut condition2 = R::ONE;
         match &fit.turned {
             None => {}
-            Some(Turned::Joints { link, first, second, points }) => {
+            Some(AngleFrom::Joints { link, first, second, points }) => {
                 let rigid = |edge: &Option<usize>| edge.map_or(Vector::ZERO, |e| cx.bound.rigid[e]);
                 gap = self.turn_by_joints(g, cx, *link, rigid(second) - rigid(first), *points);
                 for &point in points {
                     condition2 = self.point_condition[point][g].max(condition2);
                 }
             }
-            Some(Turned::Slide { link, slide }) => self.turn_by_slide(g, cx, *link, *slide),
+            Some(AngleFrom::Slide { link, slide }) => self.turn_by_slide(g, cx, *link, *slide),
         }
         for &(edge, backward) in &fit.places {
             self.place(g, cx, edge, backward);
@@ -124,7 +127,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let len = self.len;
         let edge = cx.plan.edges[e];
         let (from, to, o) = (edge.edge.from * len, edge.edge.to * len, edge.orientation * len);
-        if let Along::Slide(slide) = edge.along {
+        if let EdgeSlide::Slide(slide) = edge.along {
             for k in 0..len {
                 // The span seen from the guide's link: conj(U) · ΔP, by Leibniz.
                 let mut local = Vector::ZERO;
@@ -176,7 +179,7 @@ impl State {
             match step {
                 // Where a step is open, those behind it were not done.
                 &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
-                Step::Fit(fit) => {
+                Step::Redundant(fit) => {
                     let (gap, allowed) = self.place_redundant(0, cx, fit);
                     if self.is_solved(cx, fit) {
                         all = Some(all.unwrap_or(true) && gap <= allowed);
@@ -189,7 +192,7 @@ impl State {
     }
 
     /// Whether everything that must fit is a number.
-    fn is_solved(&self, cx: &Context<'_>, fit: &Fit) -> bool {
+    fn is_solved(&self, cx: &Context<'_>, fit: &RedundantLink) -> bool {
         let known = |vector: &[Vector; 1]| vector[0].norm2().is_finite();
         let at = |point: usize| known(&self.points[point * self.len]);
         let mut edges = fit.touched.iter().map(|&e| &cx.plan.edges[e].edge);

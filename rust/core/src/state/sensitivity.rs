@@ -8,12 +8,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::state::{Context, State};
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::math::vector::Vector;
 use crate::plan::constants_rate::BoundRate;
 use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::group::Group;
-use crate::plan::plan::{Along, Plan, Step};
+use crate::plan::plan::{EdgeSlide, Plan, Step};
 
 /// A closed path: `P_plus − P_minus + Σ ±edges = 0`.
 #[derive(Debug)]
@@ -63,11 +63,11 @@ pub(crate) struct Sensitivity {
 }
 
 impl Sensitivity {
-    pub(crate) fn new(plan: &Plan, jets: &Jets) -> Self {
+    pub(crate) fn new(plan: &Plan, jets: &DerivativeTables) -> Self {
         let closures = |step: &Step| match step {
             Step::Dyad(dyad) => Some(Closures::of_dyad(dyad)),
             Step::Group(group) => Some(Closures::of_group(group)),
-            Step::Place { .. } | Step::Fit(_) => None,
+            Step::Place { .. } | Step::Redundant(_) => None,
         };
         Self {
             steps: plan.steps.iter().map(closures).collect(),
@@ -97,7 +97,7 @@ impl Sensitivity {
                         self.rates.points[to * len + k][0] = start + v;
                     }
                 }
-                Step::Fit(_) => return false,
+                Step::Redundant(_) => return false,
                 Step::Dyad(_) | Step::Group(_) => {
                     let Some(closures) = self.steps[index].take() else { return false };
                     let solved = self.close(&at, &closures);
@@ -146,7 +146,7 @@ impl Sensitivity {
         let o = edge.orientation;
         let mut sum =
             self.unit_rate(at, o, k) * bound.rigid[e] + self.units[o * len + k] * at.by.rigid[e];
-        if let Along::Slide(slide) | Along::Driver { slide } = edge.along {
+        if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
             for term in &at.cx.jets.product[k] {
                 let unit = self.units[o * len + term.left];
                 let value = at.state.slides[slide * len + term.right][0];
@@ -196,13 +196,13 @@ impl Sensitivity {
                 let unit = self.units[edge.orientation * at.len].scale(sign);
                 let guide = unit * at.cx.bound.guide[e];
                 let mut vector = unit * at.cx.bound.rigid[e];
-                if let Along::Slide(slide) | Along::Driver { slide } = edge.along {
+                if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
                     vector += guide.scale(at.state.slides[slide * at.len][0]);
                 }
                 for (column, &unknown) in closures.unknowns.iter().enumerate() {
                     let v = match (unknown, edge.along) {
                         (Unknown::Class(class), _) if class == edge.class => vector.left(),
-                        (Unknown::Slide(slide), Along::Slide(own)) if slide == own => guide,
+                        (Unknown::Slide(slide), EdgeSlide::Slide(own)) if slide == own => guide,
                         _ => continue,
                     };
                     matrix[(2 * place, column)] += v.x;

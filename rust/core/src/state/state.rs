@@ -1,16 +1,16 @@
 //! One position of one design, or eight: every point, orientation and slide with its
 //! analogues.
 
-use super::group::workspace::Loops;
+use super::group::workspace::GroupWorkspace;
 use super::status::{FLAT2, Fault, Status};
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
 use crate::math::vector::Vector;
-use crate::plan::constants::Bound;
+use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::group::Group;
-use crate::plan::plan::{Along, Plan, Step};
+use crate::plan::plan::{EdgeSlide, Plan, Step};
 
 /// Work space for one position, or for `G` groups of as many as `R` has lanes; made once,
 /// used for all.
@@ -66,7 +66,7 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     /// Classes of binary links whose rotation is asked for (where nothing else needs it).
     pub(crate) asked: Vec<bool>,
     /// Work space for groups of binary links.
-    pub(crate) loops: Loops<R>,
+    pub(crate) loops: GroupWorkspace<R>,
     /// Determinant of every group's matrix (with analogues only).
     pub(crate) determinants: Vec<[R; G]>,
     /// The same of its last round's.
@@ -91,9 +91,9 @@ pub(crate) struct Context<'a> {
     /// The compiled mechanism.
     pub plan: &'a Plan,
     /// One design.
-    pub bound: &'a Bound,
+    pub bound: &'a DesignConstants,
     /// Index tables of the analogues.
-    pub jets: &'a Jets,
+    pub jets: &'a DerivativeTables,
     /// Assembly signs, +1 or −1, of positions by themselves.
     pub signs: &'a [f64],
 }
@@ -101,7 +101,7 @@ pub(crate) struct Context<'a> {
 impl<R: Real, const G: usize> State<R, G> {
     /// Work space for a plan.
     #[must_use]
-    pub(crate) fn new(plan: &Plan, jets: &Jets) -> Self {
+    pub(crate) fn new(plan: &Plan, jets: &DerivativeTables) -> Self {
         let (len, slides) = (jets.len(), plan.slide_links.len());
         let edges = plan.groups().map(|group| group.edges.len()).max().unwrap_or(0);
         let loops = plan.groups().map(|group| group.loops.len()).max().unwrap_or(0);
@@ -128,7 +128,7 @@ impl<R: Real, const G: usize> State<R, G> {
             chords: vec![[Vector::ZERO; G]; loops * len],
             per: vec![[R::ONE; G]; loops],
             asked: vec![true; plan.classes],
-            loops: Loops::default(),
+            loops: GroupWorkspace::default(),
             determinants: vec![[R::ZERO; G]; plan.groups().count()],
             bends: vec![[R::ZERO; G]; plan.groups().count()],
             first_step: [R::ZERO; G],
@@ -142,7 +142,12 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Takes what is the same at all positions of a design; before the first of each.
     #[inline(always)]
-    pub(crate) fn prepare(&mut self, plan: &Plan, bound: &Bound, jets: &Jets) {
+    pub(crate) fn prepare(
+        &mut self,
+        plan: &Plan,
+        bound: &DesignConstants,
+        jets: &DerivativeTables,
+    ) {
         let len = self.len;
         for (point, (&fixed, jet)) in
             bound.fixed.iter().zip(self.points.chunks_exact_mut(len)).enumerate()
@@ -193,7 +198,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 },
                 &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
                 Step::Group(higher) => group(self, cx, higher, index),
-                Step::Fit(fit) => {
+                Step::Redundant(fit) => {
                     for g in 0..self.groups.min(G) {
                         self.fit(g, cx, fit, index);
                     }
@@ -289,7 +294,7 @@ impl<R: Real, const G: usize> State<R, G> {
             if part.turns.is_none() {
                 before = before.max(self.class_condition[cx.plan.class_of(part.edge)][g]);
             }
-            if let (Along::Slide(slide), None) = (cx.plan.edges[part.edge].along, part.slides) {
+            if let (EdgeSlide::Slide(slide), None) = (cx.plan.edges[part.edge].along, part.slides) {
                 before = before.max(self.slide_condition[slide][g]);
             }
         }
@@ -297,7 +302,7 @@ impl<R: Real, const G: usize> State<R, G> {
             self.before[sign][g] = before;
         }
         let solved = self.close(g, cx, dyad);
-        self.open(g, solved.open, || Fault::Open { step: index, gap: solved.gap.lane(0) });
+        self.open(g, solved.open, || Fault::NotClosed { step: index, gap: solved.gap.lane(0) });
         if self.status == Status::Unreachable {
             return;
         }
@@ -312,7 +317,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));
         self.care[g] = self.care[g].or(flat);
         if R::LANES == 1 && flat.any() {
-            self.fault.get_or_insert(Fault::Flat { step: index });
+            self.fault.get_or_insert(Fault::Singular { step: index });
             self.status = Status::Singular;
             self.no_analogues(g, dyad);
             return;

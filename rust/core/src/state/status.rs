@@ -33,13 +33,13 @@ pub enum Status {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Fault {
     /// Dyad (step) whose triangle does not close, by this part of the size.
-    Open { step: usize, gap: f64 },
+    NotClosed { step: usize, gap: f64 },
     /// Redundant link (step) that does not fit, by this part of the size.
-    Misfit { step: usize, gap: f64 },
+    RedundantMisfit { step: usize, gap: f64 },
     /// Dyad or group (step) that is flat.
-    Flat { step: usize },
+    Singular { step: usize },
     /// Group (step) whose iteration did not end.
-    Astray { step: usize },
+    NotConverged { step: usize },
 }
 
 impl Fault {
@@ -47,10 +47,10 @@ impl Fault {
     #[must_use]
     pub(crate) fn step(self) -> usize {
         match self {
-            Self::Open { step, .. }
-            | Self::Misfit { step, .. }
-            | Self::Flat { step }
-            | Self::Astray { step } => step,
+            Self::NotClosed { step, .. }
+            | Self::RedundantMisfit { step, .. }
+            | Self::Singular { step }
+            | Self::NotConverged { step } => step,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Inertia and energy over one turn of the driver, as pieces of polynomials.
 
 use crate::dynamics::tables::error::TableError;
-use crate::dynamics::tables::spline::{Ends, Pieces, spline};
+use crate::dynamics::tables::spline::{EndCondition, Pieces, spline};
 use crate::math::polynomial::{value, zeros};
 
 /// Part of the greatest value by which the ends of a table may differ: tables are rounded.
@@ -23,7 +23,7 @@ pub struct Extreme {
 
 /// Reduced inertia and work over one turn, a constant motor among the moments.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Turn {
+pub struct Cycle {
     knots: Vec<f64>,
     moment: Pieces,
     inertia: Pieces,
@@ -33,7 +33,7 @@ pub struct Turn {
     pub motor: f64,
 }
 
-impl Turn {
+impl Cycle {
     /// From a table over one period: coordinates, reduced moment without the motor (N·m), reduced
     /// inertia (kg·m²).
     ///
@@ -44,7 +44,7 @@ impl Turn {
         knots: &[f64],
         moment: &[f64],
         inertia: &[f64],
-        ends: Ends,
+        ends: EndCondition,
     ) -> Result<Self, TableError> {
         Self::with_corners(knots, moment, inertia, ends, &[])
     }
@@ -54,12 +54,12 @@ impl Turn {
     ///
     /// # Errors
     ///
-    /// As of [`Turn::new`].
+    /// As of [`Cycle::new`].
     pub fn with_corners(
         knots: &[f64],
         moment: &[f64],
         inertia: &[f64],
-        ends: Ends,
+        ends: EndCondition,
         corners: &[usize],
     ) -> Result<Self, TableError> {
         check(knots, [("moment", moment), ("inertia", inertia)])?;

@@ -6,7 +6,7 @@
 //! C ≤ p² K + min(p² I − 2 W), ω ≥ r means C ≥ r² K + max(r² I − 2 W), and both are reached: two
 //! equations, linear in K and C (the tangents of F. Wittenbauer's diagram, Graphische Dynamik, 1923).
 
-use super::cycle::{Extreme, Turn, within_period};
+use super::cycle::{Cycle, Extreme, within_period};
 use crate::dynamics::tables::error::TableError;
 use crate::math::quadrature::integral;
 use crate::math::root;
@@ -28,7 +28,7 @@ pub enum Mean {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flywheel {
     /// One turn without it.
-    pub turn: Turn,
+    pub turn: Cycle,
     /// Its moment of inertia, kg·m².
     pub inertia: f64,
     /// Speed where the turn begins, rad/s.
@@ -49,7 +49,7 @@ impl Flywheel {
     /// # Errors
     ///
     /// A fluctuation or mean that cannot be, or one that needs no flywheel.
-    pub fn sized(turn: Turn, fluctuation: f64, mean: f64, by: Mean) -> Result<Self, TableError> {
+    pub fn sized(turn: Cycle, fluctuation: f64, mean: f64, by: Mean) -> Result<Self, TableError> {
         if !(fluctuation > 0.0 && fluctuation < 2.0) {
             return Err(TableError::BadFluctuation { value: fluctuation });
         }
@@ -80,7 +80,7 @@ impl Flywheel {
     /// # Errors
     ///
     /// A flywheel or mean that cannot be, or a mean at which the machine would stop.
-    pub fn driven(turn: Turn, inertia: f64, mean: f64, by: Mean) -> Result<Self, TableError> {
+    pub fn driven(turn: Cycle, inertia: f64, mean: f64, by: Mean) -> Result<Self, TableError> {
         check_inertia(&turn, inertia)?;
         check_speed("mean_speed", mean)?;
         // Below, the speed would not be real everywhere.
@@ -110,7 +110,7 @@ impl Flywheel {
     /// # Errors
     ///
     /// A flywheel or speed that cannot be, or with which the machine stops on the way.
-    pub fn given(turn: Turn, inertia: f64, speed0: f64) -> Result<Self, TableError> {
+    pub fn given(turn: Cycle, inertia: f64, speed0: f64) -> Result<Self, TableError> {
         check_inertia(&turn, inertia)?;
         check_speed("speed0", speed0)?;
         let constant = (turn.inertia(turn.start()) + inertia) * speed0 * speed0;
@@ -124,7 +124,7 @@ impl Flywheel {
 
     /// At a speed that was asked for by name.
     fn of(
-        turn: Turn,
+        turn: Cycle,
         inertia: f64,
         constant: f64,
         (name, speed): (&'static str, f64),
@@ -213,7 +213,7 @@ fn check_speed(name: &'static str, value: f64) -> Result<(), TableError> {
 }
 
 /// Refuses a flywheel that is none, or with which a machine has no inertia somewhere.
-fn check_inertia(turn: &Turn, flywheel: f64) -> Result<(), TableError> {
+fn check_inertia(turn: &Cycle, flywheel: f64) -> Result<(), TableError> {
     if !(flywheel >= 0.0 && flywheel.is_finite()) {
         return Err(TableError::BadInertia { value: flywheel });
     }
@@ -223,7 +223,7 @@ fn check_inertia(turn: &Turn, flywheel: f64) -> Result<(), TableError> {
 }
 
 /// Flywheel and C for which these are the extreme speeds.
-fn tangents(turn: &Turn, [least, greatest]: [f64; 2]) -> [f64; 2] {
+fn tangents(turn: &Cycle, [least, greatest]: [f64; 2]) -> [f64; 2] {
     let [low, high] = [least * least, greatest * greatest];
     let [above, _] = turn.extremes(high, 2.0);
     let [_, below] = turn.extremes(low, 2.0);
@@ -234,7 +234,7 @@ fn tangents(turn: &Turn, [least, greatest]: [f64; 2]) -> [f64; 2] {
 /// Least and greatest speed: a quotient of two functions is greatest where their difference is with
 /// that quotient as a factor, and steps toward it end there (W. Dinkelbach, On nonlinear fractional
 /// programming, 1967).
-fn speeds(turn: &Turn, inertia: f64, constant: f64) -> [Extreme; 2] {
+fn speeds(turn: &Cycle, inertia: f64, constant: f64) -> [Extreme; 2] {
     [0, 1].map(|which| {
         let mut best = Extreme::default();
         let mut speed2 = constant / (turn.inertia(turn.start()) + inertia);
@@ -254,18 +254,18 @@ fn speeds(turn: &Turn, inertia: f64, constant: f64) -> [Extreme; 2] {
     })
 }
 
-fn speed_within(turn: &Turn, [flywheel, constant]: [f64; 2], piece: usize, x: f64) -> f64 {
+fn speed_within(turn: &Cycle, [flywheel, constant]: [f64; 2], piece: usize, x: f64) -> f64 {
     let [inertia, work] = turn.within(piece, x);
     ((2.0 * work + constant) / (inertia + flywheel)).sqrt()
 }
 
 /// Time from a knot to a place in the piece behind it.
-fn time_within(turn: &Turn, state: [f64; 2], piece: usize, x: f64) -> f64 {
+fn time_within(turn: &Cycle, state: [f64; 2], piece: usize, x: f64) -> f64 {
     integral(&|x| 1.0 / speed_within(turn, state, piece, x), 0.0, x)
 }
 
 /// Time of a turn.
-fn duration(turn: &Turn, inertia: f64, constant: f64) -> f64 {
+fn duration(turn: &Cycle, inertia: f64, constant: f64) -> f64 {
     let pieces = turn.knots().windows(2).enumerate();
     pieces.map(|(i, ends)| time_within(turn, [inertia, constant], i, ends[1] - ends[0])).sum()
 }

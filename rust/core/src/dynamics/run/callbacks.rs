@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 /// Functions of the time, the coordinates and the speeds, called on the thread of the run.
-pub trait Outside {
+pub trait Callbacks {
     /// What can go wrong in them.
     type Error: std::fmt::Display;
 
@@ -37,7 +37,7 @@ pub trait Outside {
     }
 }
 
-impl<O: Outside> Outside for &mut O {
+impl<O: Callbacks> Callbacks for &mut O {
     type Error = O::Error;
 
     fn count(&self) -> usize {
@@ -65,9 +65,9 @@ impl<O: Outside> Outside for &mut O {
 
 /// Nothing comes from outside.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Nothing;
+pub struct NoCallbacks;
 
-impl Outside for Nothing {
+impl Callbacks for NoCallbacks {
     type Error = Infallible;
 
     fn count(&self) -> usize {

@@ -5,14 +5,14 @@
 //! dead point at a speed of its own, grows like s). So ṡ = −b/2; with b straight over the last 1e-4
 //! or so of s, whose slope the acceleration tells, its square is all that is left out.
 
-use super::options::Along;
-use super::sample::Moment;
+use super::options::Variable;
+use super::sample::Sample;
 
 /// From the last moment that was integrated to the dead point.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tail {
-    last: Moment,
+    last: Sample,
     fold: f64,
     sign: f64,
     root: f64,
@@ -22,7 +22,7 @@ pub(crate) struct Tail {
 
 impl Tail {
     /// None if the coordinate is at the dead point already, or does not go to it.
-    pub(crate) fn of(last: &Moment, fold: f64) -> Option<Self> {
+    pub(crate) fn of(last: &Sample, fold: f64) -> Option<Self> {
         let (left, sign) = (fold - last.q[0], last.speed[0].signum());
         let root = (left * sign).sqrt();
         let b = last.speed[0].abs() / root;
@@ -49,9 +49,9 @@ impl Tail {
         2.0 * (self.root - root) / b * mean
     }
 
-    fn moment(&self, root: f64) -> Moment {
+    fn moment(&self, root: f64) -> Sample {
         let b = self.b(root);
-        Moment {
+        Sample {
             t: self.last.t + self.time(root),
             q: vec![self.fold - self.sign * root * root],
             speed: vec![self.sign * root * b],
@@ -61,15 +61,15 @@ impl Tail {
     }
 
     /// The dead point.
-    pub(crate) fn end(&self) -> Moment {
+    pub(crate) fn end(&self) -> Sample {
         self.moment(0.0)
     }
 
     /// The motion at a time or a coordinate of this bit.
-    pub(crate) fn at(&self, along: Along, x: f64) -> Option<Moment> {
+    pub(crate) fn at(&self, along: Variable, x: f64) -> Option<Sample> {
         let root = match along {
-            Along::Coordinate => ((self.fold - x) * self.sign).sqrt(),
-            Along::Time => {
+            Variable::Coordinate => ((self.fold - x) * self.sign).sqrt(),
+            Variable::Time => {
                 // ṡ = −b(s)/2 is linear in s.
                 let (since, rate) = (x - self.last.t, 0.5 * self.slope);
                 let decay = -libm::expm1(rate * -since);
@@ -80,7 +80,7 @@ impl Tail {
         let slack = -1e-9 * self.root;
         (root >= slack && root <= self.root).then(|| {
             let mut moment = self.moment(root.max(0.0));
-            if along == Along::Time {
+            if along == Variable::Time {
                 moment.t = x;
             }
             moment
@@ -93,9 +93,9 @@ mod tests {
     use super::*;
 
     /// q = 1 − (ψ² + ψ³) with ψ = 2 (1e-4 − t): a dead point at the time 1e-4.
-    fn motion(t: f64) -> Moment {
+    fn motion(t: f64) -> Sample {
         let p = 2.0 * (1e-4 - t);
-        Moment {
+        Sample {
             t,
             q: vec![1.0 - p * p - p * p * p],
             speed: vec![4.0 * p + 6.0 * p * p],
@@ -109,11 +109,11 @@ mod tests {
         let tail = Tail::of(&motion(0.0), 1.0).expect("a way");
         assert!((tail.end().t - 1e-4).abs() < 1e-11, "{}", tail.end().t);
         assert_eq!((tail.end().q[0], tail.end().speed[0]), (1.0, 0.0));
-        let (own, exact) = (tail.at(Along::Time, 3e-5).expect("on the way"), motion(3e-5));
+        let (own, exact) = (tail.at(Variable::Time, 3e-5).expect("on the way"), motion(3e-5));
         assert!((own.q[0] - exact.q[0]).abs() < 1e-14);
         assert!((own.speed[0] - exact.speed[0]).abs() < 1e-10);
         assert!((own.acceleration[0] - exact.acceleration[0]).abs() < 1e-5);
-        assert!(tail.at(Along::Time, 1.1e-4).is_none());
+        assert!(tail.at(Variable::Time, 1.1e-4).is_none());
         assert!(Tail::of(&motion(0.0), 0.9).is_none());
     }
 }

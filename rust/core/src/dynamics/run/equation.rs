@@ -3,9 +3,9 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::callbacks::Outside;
-use super::error::{Broken, beyond};
-use super::model::Source;
+use super::callbacks::Callbacks;
+use super::error::{RunError, beyond};
+use super::model::ReducedModel;
 use super::table_cursor::Reader;
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
@@ -18,7 +18,7 @@ use crate::state::status::Status;
 /// of the unit roundoff, where rounding and curvature are equal.
 const VARIED: f64 = 6.0e-6;
 
-type Stop<E> = Fault<Broken<E>>;
+type Stop<E> = Fault<RunError<E>>;
 
 /// The numbers just within two others, ascending.
 pub(crate) fn within(from: f64, to: f64) -> [f64; 2] {
@@ -57,7 +57,7 @@ pub(crate) struct Equation<'a, S, O> {
     varied: Vec<f64>,
 }
 
-impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
+impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     pub(crate) fn new(
         source: S,
         outside: O,
@@ -90,7 +90,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
     }
 
     /// Looks tables up where a motion begins.
-    pub(crate) fn begin(&mut self, q: f64, speed: &[f64]) -> Result<(), Broken<O::Error>> {
+    pub(crate) fn begin(&mut self, q: f64, speed: &[f64]) -> Result<(), RunError<O::Error>> {
         self.look_up(q)?;
         for (motor, cell) in self.motors.iter().zip(&mut self.cells) {
             if let Some(table) = motor.table() {
@@ -141,12 +141,12 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
     }
 
     /// Looks tables up in the middle of a stretch between knots.
-    pub(crate) fn enter(&mut self, from: f64, to: f64) -> Result<(), Broken<O::Error>> {
+    pub(crate) fn enter(&mut self, from: f64, to: f64) -> Result<(), RunError<O::Error>> {
         self.coordinates = within(from, to);
         self.look_up(0.5 * (from + to))
     }
 
-    fn look_up(&mut self, q: f64) -> Result<(), Broken<O::Error>> {
+    fn look_up(&mut self, q: f64) -> Result<(), RunError<O::Error>> {
         let tables = self.tables;
         self.reader.place(tables, q).map_err(|which| beyond("table over q", &tables[which], q))
     }
@@ -170,7 +170,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
         let numbers = Numbers { tables: &self.readings, given: &[] };
         if let Err(status) = self.source.place(q, numbers, &mut self.reduced) {
             self.refused = Some((status, q.to_vec()));
-            return Err(Fault::NotThere);
+            return Err(Fault::OutOfDomain);
         }
         self.reduced.inertia[0] += self.flywheel;
         Ok(())
@@ -180,7 +180,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
     #[inline]
     pub(crate) fn load(&mut self, t: f64, q: &[f64], speed: &[f64]) -> Result<(), Stop<O::Error>> {
         if !self.numbers.is_empty() {
-            self.call(t, q, speed).map_err(|error| Fault::Error(Broken::Outside(error)))?;
+            self.call(t, q, speed).map_err(|error| Fault::Error(RunError::Outside(error)))?;
         }
         let numbers = Numbers { tables: &self.readings, given: &self.given };
         self.source.load(speed, numbers, &mut self.reduced);
@@ -233,7 +233,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
     pub(crate) fn inertia(&self, q: f64) -> Result<f64, Stop<O::Error>> {
         let value = self.reduced.inertia[0];
         // NaN as well is none.
-        if value > 0.0 { Ok(value) } else { Err(Fault::Error(Broken::NoInertia { q, value })) }
+        if value > 0.0 { Ok(value) } else { Err(Fault::Error(RunError::NoInertia { q, value })) }
     }
 
     /// Accelerations of the drivers there.
@@ -252,7 +252,7 @@ impl<'a, S: Source, O: Outside> Equation<'a, S, O> {
         let matrix = DMatrix::from_row_slice(n, n, &self.reduced.inertia);
         let least = matrix.diagonal().min();
         let Some(factors) = Cholesky::new(matrix) else {
-            return Err(Fault::Error(Broken::NoInertia { q: q[0], value: least.min(0.0) }));
+            return Err(Fault::Error(RunError::NoInertia { q: q[0], value: least.min(0.0) }));
         };
         let solved = factors.solve(&DVector::from_fn(n, |driver, _| net(driver)));
         out.copy_from_slice(solved.as_slice());

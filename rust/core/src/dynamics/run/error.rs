@@ -6,7 +6,7 @@ use crate::dynamics::tables::table::Table;
 
 /// Why a motion could not go on, other than by an end of its own.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub enum Broken<E> {
+pub enum RunError<E> {
     /// What a function from outside said.
     #[error("{0}")]
     Outside(E),
@@ -61,15 +61,15 @@ pub enum Broken<E> {
 }
 
 /// A table does not go so far.
-pub(crate) fn beyond<E>(what: &'static str, table: &Table, q: f64) -> Broken<E> {
+pub(crate) fn beyond<E>(what: &'static str, table: &Table, q: f64) -> RunError<E> {
     let [from, to] = table.range();
-    Broken::TableEnds { what, from, to, q }
+    RunError::TableEnds { what, from, to, q }
 }
 
 /// Refuses what has not as many numbers as needed.
-pub(crate) fn counted<E>(counts: &[(&'static str, usize, usize)]) -> Result<(), Broken<E>> {
+pub(crate) fn counted<E>(counts: &[(&'static str, usize, usize)]) -> Result<(), RunError<E>> {
     match counts.iter().find(|(_, needed, given)| needed != given) {
-        Some(&(what, needed, given)) => Err(Broken::Malformed { what, needed, given }),
+        Some(&(what, needed, given)) => Err(RunError::Malformed { what, needed, given }),
         None => Ok(()),
     }
 }

@@ -2,19 +2,19 @@
 
 use crate::dynamics::angle_between::Angle;
 use crate::dynamics::kinematics::Pose;
-use crate::dynamics::machine::{Machine, Rows};
+use crate::dynamics::machine::{Machine, ReducedTable};
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
 use crate::dynamics::tables::table::Table;
 use crate::dynamics::value::Numbers;
-use crate::math::derivatives::Jets;
+use crate::math::derivatives::DerivativeTables;
 use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
 use crate::plan::mechanism::Mechanism;
-use crate::query::evaluator::{Asked, Follower, NearMiss};
+use crate::query::evaluator::{Asked, Evaluator, NearMiss};
 use crate::state::status::Status;
 
 /// A machine, place after place.
-pub(crate) trait Source {
+pub(crate) trait ReducedModel {
     /// Finds inertia, weights and springs at coordinates.
     ///
     /// # Errors
@@ -52,10 +52,10 @@ pub(crate) trait Source {
 }
 
 /// A machine with its mechanism.
-pub(crate) struct Moving<'m> {
+pub(crate) struct MechanismModel<'m> {
     machine: &'m Machine,
-    jets: &'m Jets,
-    follower: Follower<'m>,
+    jets: &'m DerivativeTables,
+    follower: Evaluator<'m>,
 }
 
 /// Beyond this condition of a dyad or group too few digits of the analogues are left to be
@@ -67,7 +67,7 @@ const FOLD_WITHIN: f64 = 1.0e3;
 /// Halvings on the way to it.
 const HALVINGS: u32 = 80;
 
-impl<'m> Moving<'m> {
+impl<'m> MechanismModel<'m> {
     /// How far from here a dead point may be, in the coordinate's unit; not farther than `most` of
     /// it.
     fn reach(&self, driver: usize, most: f64) -> f64 {
@@ -112,15 +112,15 @@ impl<'m> Moving<'m> {
         machine: &'m Machine,
         mechanism: &'m Mechanism,
         dimensions: &[f64],
-        jets: &'m Jets,
+        jets: &'m DerivativeTables,
     ) -> Self {
         let lifted = machine.has_torsion();
-        let follower = Follower::new(mechanism, dimensions, jets, Asked::Any, lifted);
+        let follower = Evaluator::new(mechanism, dimensions, jets, Asked::Any, lifted);
         Self { machine, jets, follower }
     }
 }
 
-impl Source for Moving<'_> {
+impl ReducedModel for MechanismModel<'_> {
     fn place(&mut self, q: &[f64], _: Numbers<'_>, out: &mut Reduced) -> Result<(), Status> {
         self.follower.solve(q)?;
         // No dyad has more by itself than the whole position.
@@ -191,18 +191,18 @@ impl Source for Moving<'_> {
 
 /// A machine given by tables of its reduced inertia and moment over the driver's coordinate.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sheet {
+pub struct TabulatedMachine {
     /// Inertia and moment first, then those of motors.
     pub tables: Vec<Table>,
     /// Its motors.
     pub motors: Vec<Motor>,
 }
 
-impl Sheet {
+impl TabulatedMachine {
     /// Refers to the driver at coordinates; nothing is beyond tables that are not periodic.
     #[must_use]
-    pub fn reduce(&self, q: &[f64]) -> Rows {
-        let mut rows = Rows::default();
+    pub fn reduce(&self, q: &[f64]) -> ReducedTable {
+        let mut rows = ReducedTable::default();
         for &q in q {
             let [inertia, moment] = [0, 1].map(|which| {
                 let table = self.tables.get(which);
@@ -219,7 +219,7 @@ impl Sheet {
     }
 }
 
-impl Source for &Sheet {
+impl ReducedModel for &TabulatedMachine {
     fn place(&mut self, _: &[f64], numbers: Numbers<'_>, out: &mut Reduced) -> Result<(), Status> {
         let [inertia, rate] = numbers.tables[0];
         out.inertia[0] = inertia + self.motors.iter().map(Motor::inertia).sum::<f64>();

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::error::{Broken, counted};
+use super::error::{RunError, counted};
 use crate::dynamics::angle_between::Angle;
 use crate::dynamics::motor::Motor;
 use crate::ode::options::Method;
@@ -11,7 +11,7 @@ use crate::ode::system::Crossing;
 /// What a run goes along.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Along {
+pub enum Variable {
     /// The time.
     Time,
     /// The coordinate of the one driver.
@@ -20,7 +20,7 @@ pub enum Along {
 
 /// Something to be looked for on the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Occasion {
+pub enum EventKind {
     /// A driver's coordinate has a value.
     Coordinate {
         /// Which driver.
@@ -45,9 +45,9 @@ pub enum Occasion {
 
 /// An event.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Watch {
+pub struct EventSpec {
     /// What is looked for.
-    pub occasion: Occasion,
+    pub occasion: EventKind,
     /// Which way.
     pub crossing: Crossing,
     /// Whether the run ends there.
@@ -56,9 +56,9 @@ pub struct Watch {
 
 /// A run.
 #[derive(Debug, Clone, Copy)]
-pub struct Task<'a> {
+pub struct RunOptions<'a> {
     /// What it goes along.
-    pub along: Along,
+    pub along: Variable,
     /// Time at the beginning, s.
     pub t: f64,
     /// Coordinates there.
@@ -83,26 +83,26 @@ pub struct Task<'a> {
     /// Where functions from outside are not smooth (times or coordinates), ascending.
     pub breaks: &'a [f64],
     /// Events.
-    pub watches: &'a [Watch],
+    pub watches: &'a [EventSpec],
     /// Inertia added to the first driver's.
     pub flywheel: f64,
 }
 
-impl Task<'_> {
+impl RunOptions<'_> {
     /// Refuses what is no task of a machine with so many drivers.
-    pub(crate) fn check<E>(&self, drivers: usize, motors: &[Motor]) -> Result<(), Broken<E>> {
+    pub(crate) fn check<E>(&self, drivers: usize, motors: &[Motor]) -> Result<(), RunError<E>> {
         counted(&[("coordinates", drivers, self.q.len()), ("speeds", drivers, self.speed.len())])?;
-        if self.along == Along::Coordinate {
+        if self.along == Variable::Coordinate {
             counted(&[("drivers of a motion along the coordinate", 1, drivers)])?;
         }
-        let own = |watch: &Watch| match watch.occasion {
-            Occasion::Coordinate { driver, .. } | Occasion::Speed { driver, .. } => driver,
+        let own = |watch: &EventSpec| match watch.occasion {
+            EventKind::Coordinate { driver, .. } | EventKind::Speed { driver, .. } => driver,
             _ => 0,
         };
         let watched = self.watches.iter().map(own).chain(motors.iter().map(|motor| motor.driver));
         match watched.max().filter(|driver| *driver >= drivers) {
             Some(driver) => {
-                Err(Broken::Malformed { what: "drivers", needed: driver + 1, given: drivers })
+                Err(RunError::Malformed { what: "drivers", needed: driver + 1, given: drivers })
             }
             None => Ok(()),
         }

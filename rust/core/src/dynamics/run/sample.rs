@@ -1,10 +1,10 @@
 //! A motion at one time, and at many.
 
-use super::options::Along;
+use super::options::Variable;
 /// One moment of a motion.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Moment {
+pub struct Sample {
     /// Time, s.
     pub t: f64,
     /// Coordinates.
@@ -20,7 +20,7 @@ pub struct Moment {
 /// Many of them, one after another (of several drivers the drivers fastest).
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Moments {
+pub struct Samples {
     /// Times, s.
     pub t: Vec<f64>,
     /// Coordinates.
@@ -33,7 +33,7 @@ pub struct Moments {
     pub work: Vec<f64>,
 }
 
-impl Moments {
+impl Samples {
     /// How many there are.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -59,10 +59,10 @@ impl Moments {
 
     /// One of them.
     #[must_use]
-    pub fn get(&self, index: usize) -> Option<Moment> {
+    pub fn get(&self, index: usize) -> Option<Sample> {
         let n = self.drivers();
         let own = |all: &[f64]| all.get(index * n..(index + 1) * n).map(<[f64]>::to_vec);
-        Some(Moment {
+        Some(Sample {
             t: *self.t.get(index)?,
             q: own(&self.q)?,
             speed: own(&self.speed)?,
@@ -73,12 +73,12 @@ impl Moments {
 
     /// The last of them.
     #[must_use]
-    pub fn last(&self) -> Option<Moment> {
+    pub fn last(&self) -> Option<Sample> {
         self.get(self.len().checked_sub(1)?)
     }
 
     /// Adds one.
-    pub fn push(&mut self, moment: &Moment) {
+    pub fn push(&mut self, moment: &Sample) {
         self.t.push(moment.t);
         self.q.extend_from_slice(&moment.q);
         self.speed.extend_from_slice(&moment.speed);
@@ -87,17 +87,17 @@ impl Moments {
     }
 
     /// Adds what a state and its rates tell.
-    pub(crate) fn read(&mut self, along: Along, sign: f64, x: f64, y: &[f64], rates: &[f64]) {
+    pub(crate) fn read(&mut self, along: Variable, sign: f64, x: f64, y: &[f64], rates: &[f64]) {
         let n = y.len() / 2;
         match along {
-            Along::Time => {
+            Variable::Time => {
                 self.t.push(x);
                 self.q.extend_from_slice(&y[..n]);
                 self.speed.extend_from_slice(&y[n..2 * n]);
                 self.acceleration.extend_from_slice(&rates[n..2 * n]);
                 self.work.push(y[2 * n]);
             }
-            Along::Coordinate => {
+            Variable::Coordinate => {
                 self.t.push(y[1]);
                 self.q.push(x);
                 self.speed.push(sign * y[0].max(0.0).sqrt());

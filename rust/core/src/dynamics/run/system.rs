@@ -2,11 +2,11 @@
 
 use std::time::Instant;
 
-use super::callbacks::Outside;
+use super::callbacks::Callbacks;
 use super::equation::{Equation, within};
-use super::error::Broken;
-use super::model::Source;
-use super::options::{Along, Occasion, Task, Watch};
+use super::error::RunError;
+use super::model::ReducedModel;
+use super::options::{EventKind, EventSpec, RunOptions, Variable};
 use crate::ode::system::{Action, Crossing, Fault, System};
 use crate::state::status::Status;
 
@@ -26,10 +26,10 @@ pub(crate) enum Ended {
 /// A machine on its way. Along the time its state is q, q̇ and the work done by all that is not
 /// told by the potential energy; along the coordinate q̇², the time and that work:
 /// d(q̇²)/dq = (2 M − J′ q̇²)/J.
-pub(crate) struct Way<'a, S, O> {
+pub(crate) struct RunSystem<'a, S, O> {
     pub equation: Equation<'a, S, O>,
-    pub along: Along,
-    pub watches: &'a [Watch],
+    pub along: Variable,
+    pub watches: &'a [EventSpec],
     pub deadline: Option<Instant>,
     pub ended: Option<Ended>,
     /// Sign of the speed, along the coordinate.
@@ -62,8 +62,8 @@ const FAR: f64 = 0.05;
 /// How far (rad, or of the size) to both sides the change of a condition is looked for.
 const LOOK: f64 = 1.0e-6;
 
-impl<'a, S: Source, O: Outside> Way<'a, S, O> {
-    pub(crate) fn new(equation: Equation<'a, S, O>, task: &Task<'a>) -> Self {
+impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
+    pub(crate) fn new(equation: Equation<'a, S, O>, task: &RunOptions<'a>) -> Self {
         Self {
             equation,
             along: task.along,
@@ -81,11 +81,11 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
     }
 
     /// Takes the energy at the beginning, from which what is kinetic is told later.
-    pub(crate) fn begin(&mut self, task: &Task<'_>) -> Result<(), Broken<O::Error>> {
+    pub(crate) fn begin(&mut self, task: &RunOptions<'_>) -> Result<(), RunError<O::Error>> {
         match self.equation.place(task.q) {
             Ok(()) => {}
             Err(Fault::Error(error)) => return Err(error),
-            Err(Fault::NotThere) => return Err(Broken::NothingThere { q: task.q.to_vec() }),
+            Err(Fault::OutOfDomain) => return Err(RunError::NothingThere { q: task.q.to_vec() }),
         }
         let reduced = &self.equation.reduced;
         self.energy = Some([reduced.kinetic(task.speed), reduced.potential]);
@@ -97,8 +97,8 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
         let n = self.drivers;
         let alone = [self.sign * y[0].max(0.0).sqrt()];
         let (speed, work) = match self.along {
-            Along::Time => (&y[n..2 * n], y[2 * n]),
-            Along::Coordinate => (&alone[..], y[2]),
+            Variable::Time => (&y[n..2 * n], y[2 * n]),
+            Variable::Coordinate => (&alone[..], y[2]),
         };
         let (reduced, source) = (&self.equation.reduced, &self.equation.source);
         let kinetic = reduced.kinetic(speed);
@@ -137,23 +137,23 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
     }
 
     /// The state at the beginning.
-    pub(crate) fn start(task: &Task<'_>) -> Vec<f64> {
+    pub(crate) fn start(task: &RunOptions<'_>) -> Vec<f64> {
         match task.along {
-            Along::Time => [task.q, task.speed, &[0.0]].concat(),
-            Along::Coordinate => vec![task.speed[0] * task.speed[0], task.t, 0.0],
+            Variable::Time => [task.q, task.speed, &[0.0]].concat(),
+            Variable::Coordinate => vec![task.speed[0] * task.speed[0], task.t, 0.0],
         }
     }
 
     /// Events at the borders of pieces come first: those of tables over q (along q they are breaks),
     /// then those of motors.
     fn has_table_borders(&self) -> bool {
-        self.along == Along::Time && !self.equation.tables.is_empty()
+        self.along == Variable::Time && !self.equation.tables.is_empty()
     }
 
     /// Behind them is the event that may be a dead point: of one driver its rest, of several the
     /// least distance from a singular position.
     fn has_dead_points(&self) -> bool {
-        self.along == Along::Time && self.equation.source.has_dead_points()
+        self.along == Variable::Time && self.equation.source.has_dead_points()
     }
 
     /// What makes each event function an event.
@@ -201,24 +201,24 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
 
     fn occasion(
         &mut self,
-        occasion: &Occasion,
+        occasion: &EventKind,
         t: f64,
         q: &[f64],
         speed: &[f64],
-    ) -> Result<f64, Broken<O::Error>> {
+    ) -> Result<f64, RunError<O::Error>> {
         let equation = &mut self.equation;
         Ok(match *occasion {
-            Occasion::Coordinate { driver, value } => q[driver] - value,
-            Occasion::Speed { driver, value } => speed[driver] - value,
-            Occasion::Angle(angle, value) => equation.source.angle(q, &angle) - value,
-            Occasion::Outside(which) => {
-                equation.outside.event(which, t, q, speed).map_err(Broken::Outside)?
+            EventKind::Coordinate { driver, value } => q[driver] - value,
+            EventKind::Speed { driver, value } => speed[driver] - value,
+            EventKind::Angle(angle, value) => equation.source.angle(q, &angle) - value,
+            EventKind::Outside(which) => {
+                equation.outside.event(which, t, q, speed).map_err(RunError::Outside)?
             }
-            Occasion::Extreme => {
+            EventKind::Extreme => {
                 let there = equation.place(q).and_then(|()| equation.load(t, q, speed));
                 match there {
                     Ok(()) => equation.moment(0) - equation.reduced.centrifugal(0, speed),
-                    Err(Fault::NotThere) => f64::NAN,
+                    Err(Fault::OutOfDomain) => f64::NAN,
                     Err(Fault::Error(error)) => return Err(error),
                 }
             }
@@ -226,13 +226,13 @@ impl<'a, S: Source, O: Outside> Way<'a, S, O> {
     }
 }
 
-impl<S: Source, O: Outside> System for Way<'_, S, O> {
-    type Error = Broken<O::Error>;
+impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
+    type Error = RunError<O::Error>;
 
     fn rates(&mut self, x: f64, y: &[f64], rates: &mut [f64]) -> Result<(), Fault<Self::Error>> {
         let (n, equation) = (self.drivers, &mut self.equation);
         match self.along {
-            Along::Time => {
+            Variable::Time => {
                 let (q, speed) = (&y[..n], &y[n..2 * n]);
                 equation.place(q)?;
                 equation.load(x, q, speed)?;
@@ -240,12 +240,12 @@ impl<S: Source, O: Outside> System for Way<'_, S, O> {
                 equation.accelerations(q, speed, &mut rates[n..2 * n])?;
                 rates[2 * n] = equation.power(speed);
             }
-            Along::Coordinate => {
+            Variable::Coordinate => {
                 // At rest the way ends.
                 let is_moving = y[0] > 0.0;
                 if !is_moving {
                     equation.refused = None;
-                    return Err(Fault::NotThere);
+                    return Err(Fault::OutOfDomain);
                 }
                 let speed = [self.sign * y[0].sqrt()];
                 equation.place(&[x])?;
@@ -262,7 +262,7 @@ impl<S: Source, O: Outside> System for Way<'_, S, O> {
     }
 
     fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
-        if self.along == Along::Coordinate {
+        if self.along == Variable::Coordinate {
             return self.equation.enter(from, to);
         }
         // The pieces of tables were found at the knots.
@@ -274,8 +274,8 @@ impl<S: Source, O: Outside> System for Way<'_, S, O> {
         let (n, mut values) = (self.drivers, values);
         let (one, alone) = ([x], [self.sign * y[0].max(0.0).sqrt()]);
         let (t, q, speed) = match self.along {
-            Along::Time => (x, &y[..n], &y[n..2 * n]),
-            Along::Coordinate => (y[1], &one[..], &alone[..]),
+            Variable::Time => (x, &y[..n], &y[n..2 * n]),
+            Variable::Coordinate => (y[1], &one[..], &alone[..]),
         };
         if self.has_table_borders() {
             let reader = &self.equation.reader;
@@ -325,8 +325,8 @@ impl<S: Source, O: Outside> System for Way<'_, S, O> {
             return Ok(Action::Stop);
         };
         match self.along {
-            Along::Time => y[self.drivers + driver] = speed,
-            Along::Coordinate => y[0] = speed * speed,
+            Variable::Time => y[self.drivers + driver] = speed,
+            Variable::Coordinate => y[0] = speed * speed,
         }
         Ok(Action::Restart)
     }

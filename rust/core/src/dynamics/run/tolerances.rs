@@ -1,20 +1,20 @@
 //! How accurate a run is.
 
-use super::callbacks::Outside;
-use super::error::Broken;
-use super::model::Source;
-use super::options::{Along, Task};
-use super::system::Way;
+use super::callbacks::Callbacks;
+use super::error::RunError;
+use super::model::ReducedModel;
+use super::options::{RunOptions, Variable};
+use super::system::RunSystem;
 use crate::ode::system::Fault;
 
 /// Relative and absolute tolerances of the state.
-pub(crate) fn tolerances<S: Source, O: Outside>(
-    way: &mut Way<'_, S, O>,
-    task: &Task<'_>,
+pub(crate) fn tolerances<S: ReducedModel, O: Callbacks>(
+    way: &mut RunSystem<'_, S, O>,
+    task: &RunOptions<'_>,
     sizes: &[f64],
-) -> Result<[Vec<f64>; 2], Broken<O::Error>> {
+) -> Result<[Vec<f64>; 2], RunError<O::Error>> {
     let (n, relative) = (task.q.len(), task.relative);
-    if task.along == Along::Coordinate {
+    if task.along == Variable::Coordinate {
         // A thousandth of it is that of a speed; but the motion may begin slowly.
         let typical = 1e3 * typical_speeds(way, task, sizes)?[0];
         let of_speed = task.absolute.map_or(relative * typical * 1e-3, |[_, of_speed]| of_speed);
@@ -38,11 +38,11 @@ pub(crate) fn tolerances<S: Source, O: Outside>(
 
 /// A thousandth of the speeds that a motion may be expected to have: those at its beginning, or
 /// what its accelerations there make of them over a radian (the size, of a slide).
-fn typical_speeds<S: Source, O: Outside>(
-    way: &mut Way<'_, S, O>,
-    task: &Task<'_>,
+fn typical_speeds<S: ReducedModel, O: Callbacks>(
+    way: &mut RunSystem<'_, S, O>,
+    task: &RunOptions<'_>,
     sizes: &[f64],
-) -> Result<Vec<f64>, Broken<O::Error>> {
+) -> Result<Vec<f64>, RunError<O::Error>> {
     let n = task.q.len();
     let mut accelerations = vec![0.0; n];
     let equation = &mut way.equation;
@@ -53,7 +53,7 @@ fn typical_speeds<S: Source, O: Outside>(
     match there {
         Err(Fault::Error(error)) => return Err(error),
         // The run will end where it begins.
-        Err(Fault::NotThere) => accelerations.fill(0.0),
+        Err(Fault::OutOfDomain) => accelerations.fill(0.0),
         Ok(()) => {}
     }
     let typical = |driver: usize| {

@@ -1,9 +1,9 @@
 //! What comes out of a run.
 
 use super::dead_point::Tail;
-use super::options::Along;
-use super::sample::{Moment, Moments};
-use crate::ode::dense::Path;
+use super::options::Variable;
+use super::sample::{Sample, Samples};
+use crate::ode::dense::DenseOutput;
 use crate::ode::solution::Statistics;
 use crate::state::status::Status;
 
@@ -11,7 +11,7 @@ use crate::state::status::Status;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub enum Ending {
+pub enum StopReason {
     /// Where it was to end.
     Reached,
     /// At an event that ends it: which of the watches.
@@ -47,7 +47,7 @@ pub enum Ending {
 /// An event on the way.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
-pub struct Happened {
+pub struct EventRecord {
     /// Which of the watches.
     pub watch: usize,
     /// Time, s.
@@ -63,18 +63,18 @@ pub struct Happened {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     /// The moments between steps.
-    pub moments: Moments,
+    pub moments: Samples,
     /// Kinetic and potential energy there, J.
     pub energies: Vec<[f64; 2]>,
     /// What happened on the way.
-    pub events: Vec<Happened>,
+    pub events: Vec<EventRecord>,
     /// How it ended.
-    pub ending: Ending,
+    pub ending: StopReason,
     /// What it cost.
     pub statistics: Statistics,
-    pub(crate) along: Along,
+    pub(crate) along: Variable,
     pub(crate) sign: f64,
-    pub(crate) path: Path,
+    pub(crate) path: DenseOutput,
     /// The rest of the way to a dead point.
     pub(crate) tail: Option<Tail>,
 }
@@ -82,7 +82,7 @@ pub struct Run {
 impl Run {
     /// The motion at a time (or a coordinate, if it went along that); none where it was not.
     #[must_use]
-    pub fn at(&self, x: f64) -> Option<Moment> {
+    pub fn at(&self, x: f64) -> Option<Sample> {
         let len = 2 * self.moments.drivers() + 1;
         let (mut y, mut rates) = (vec![0.0; len], vec![0.0; len]);
         if self.path.at(x, &mut y) && self.path.slope(x, &mut rates) {
@@ -93,15 +93,15 @@ impl Run {
         }
         // A run of no length is at its place.
         self.moments.get(0).filter(|one| match self.along {
-            Along::Time => one.t == x,
-            Along::Coordinate => one.q.first() == Some(&x),
+            Variable::Time => one.t == x,
+            Variable::Coordinate => one.q.first() == Some(&x),
         })
     }
 }
 
 /// Reads a state and its rates.
-pub(crate) fn moment(along: Along, sign: f64, x: f64, y: &[f64], rates: &[f64]) -> Moment {
-    let mut one = Moments::default();
+pub(crate) fn moment(along: Variable, sign: f64, x: f64, y: &[f64], rates: &[f64]) -> Sample {
+    let mut one = Samples::default();
     one.read(along, sign, x, y, rates);
     one.last().unwrap_or_default()
 }

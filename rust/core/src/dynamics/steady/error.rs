@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::dynamics::flywheel::flywheel::Mean;
-use crate::dynamics::run::error::Broken;
+use crate::dynamics::run::error::RunError;
 use crate::dynamics::tables::error::short;
 
 /// A mean as it is named in Python, and what it is.
@@ -18,9 +18,9 @@ fn mean_named(mean: Mean) -> &'static str {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the sentences say what the fields are")]
-pub enum Unsteady<E> {
+pub enum SteadyError<E> {
     #[error("{0}")]
-    Broken(Broken<E>),
+    Run(RunError<E>),
     #[error(
         "neither motor nor loads tell a speed to begin with: say speed= (the mean speed, or with dampers a first guess)"
     )]

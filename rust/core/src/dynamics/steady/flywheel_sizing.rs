@@ -1,16 +1,16 @@
 //! Periodic motions of machines and of tables, and the flywheel that evens them.
 
-use super::error::Unsteady;
-use super::options::Search;
+use super::error::SteadyError;
+use super::options::SteadyOptions;
 use super::steady::{NOISE, Shooting, Steady};
 use crate::dynamics::flywheel::cycle::Extreme;
 use crate::dynamics::flywheel::flywheel::Mean;
 use crate::dynamics::machine::Machine;
-use crate::dynamics::run::callbacks::Outside;
+use crate::dynamics::run::callbacks::Callbacks;
 use crate::dynamics::run::equation::Equation;
-use crate::dynamics::run::error::{Broken, counted};
-use crate::dynamics::run::model::{Moving, Sheet, Source};
-use crate::math::derivatives::Jets;
+use crate::dynamics::run::error::{RunError, counted};
+use crate::dynamics::run::model::{MechanismModel, ReducedModel, TabulatedMachine};
+use crate::math::derivatives::DerivativeTables;
 use crate::math::root;
 use crate::plan::mechanism::Mechanism;
 
@@ -26,7 +26,7 @@ const UNDAMPED: f64 = 1.0e-6;
 
 /// What a periodic motion is asked to have.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wanted {
+pub struct FluctuationTarget {
     /// Its fluctuation.
     pub fluctuation: f64,
     /// By which mean that is divided.
@@ -40,41 +40,41 @@ impl Machine {
     /// # Errors
     ///
     /// Why there is none.
-    pub fn steady<O: Outside>(
+    pub fn steady<O: Callbacks>(
         &self,
         mechanism: &Mechanism,
         dimensions: &[f64],
-        search: &Search<'_>,
-        wanted: Option<Wanted>,
+        search: &SteadyOptions<'_>,
+        wanted: Option<FluctuationTarget>,
         mut outside: O,
-    ) -> Result<Steady, Unsteady<O::Error>> {
+    ) -> Result<Steady, SteadyError<O::Error>> {
         let needed = mechanism.dimensions().len();
-        counted(&[("dimensions", needed, dimensions.len())]).map_err(Unsteady::Broken)?;
-        let jets = Jets::new(1, 2);
+        counted(&[("dimensions", needed, dimensions.len())]).map_err(SteadyError::Run)?;
+        let jets = DerivativeTables::new(1, 2);
         if mechanism.q0().len() != 1 || mechanism.plan().driven_slide(0).is_some() {
-            return Err(Unsteady::Other("a periodic motion is of one driver that turns".into()));
+            return Err(SteadyError::Other("a periodic motion is of one driver that turns".into()));
         }
         even(search, wanted, |search, guess| {
-            let source = Moving::new(self, mechanism, dimensions, &jets);
+            let source = MechanismModel::new(self, mechanism, dimensions, &jets);
             let equation = Equation::new(source, &mut outside, &self.tables, &self.motors, 1);
             find(equation, search, guess)
         })
     }
 }
 
-impl Sheet {
+impl TabulatedMachine {
     /// The same of a table.
     ///
     /// # Errors
     ///
     /// Why there is none.
-    pub fn steady<O: Outside>(
+    pub fn steady<O: Callbacks>(
         &self,
-        search: &Search<'_>,
-        wanted: Option<Wanted>,
+        search: &SteadyOptions<'_>,
+        wanted: Option<FluctuationTarget>,
         mut outside: O,
-    ) -> Result<Steady, Unsteady<O::Error>> {
-        self.check().map_err(Unsteady::Broken)?;
+    ) -> Result<Steady, SteadyError<O::Error>> {
+        self.check().map_err(SteadyError::Run)?;
         even(search, wanted, |search, guess| {
             let equation = Equation::new(self, &mut outside, &self.tables, &self.motors, 1);
             find(equation, search, guess)
@@ -82,11 +82,11 @@ impl Sheet {
     }
 }
 
-fn find<S: Source, O: Outside>(
+fn find<S: ReducedModel, O: Callbacks>(
     equation: Equation<'_, S, O>,
-    search: Search<'_>,
+    search: SteadyOptions<'_>,
     guess: Option<&Steady>,
-) -> Result<Steady, Unsteady<O::Error>> {
+) -> Result<Steady, SteadyError<O::Error>> {
     let mut shooting = Shooting::new(equation, search)?;
     let (begin, period) = shooting.find(guess.map(Steady::begin))?;
     shooting.run(begin, &period)
@@ -97,18 +97,18 @@ fn find<S: Source, O: Outside>(
 /// `find` meets the mean over the period. The mean of the extremes grows with it: where nothing
 /// depends on the speed, q̇² J gains the same energy everywhere.
 fn at_mean<E>(
-    search: &Search<'_>,
+    search: &SteadyOptions<'_>,
     guess: Option<&Steady>,
-    find: &mut impl FnMut(Search<'_>, Option<&Steady>) -> Result<Steady, Unsteady<E>>,
-) -> Result<Steady, Unsteady<E>> {
+    find: &mut impl FnMut(SteadyOptions<'_>, Option<&Steady>) -> Result<Steady, SteadyError<E>>,
+) -> Result<Steady, SteadyError<E>> {
     let first = find(*search, guess);
     let (Some(speed), Mean::Extremes) = (search.speed, search.mean) else { return first };
     match &first {
         Ok(steady) if steady.prescribed => {}
-        Err(Unsteady::NotMet { .. }) => {}
+        Err(SteadyError::NotMet { .. }) => {}
         _ => return first,
     }
-    let not_met = || Unsteady::NotMet { speed, mean: search.mean };
+    let not_met = || SteadyError::NotMet { speed, mean: search.mean };
     let wanted = speed.abs();
     let (mut first, mut best, mut failed) = (Some(first), None, None);
     let mut least_error = f64::INFINITY;
@@ -118,7 +118,7 @@ fn at_mean<E>(
         }
         let made = first.take().unwrap_or_else(|| {
             let speed = Some(over_period.copysign(speed));
-            find(Search { speed, ..*search }, best.as_ref())
+            find(SteadyOptions { speed, ..*search }, best.as_ref())
         });
         match made {
             Ok(steady) if steady.least_mean_of_extremes() > wanted => {
@@ -134,7 +134,7 @@ fn at_mean<E>(
                 if error.abs() <= search.relative * wanted { 0.0 } else { error }
             }
             // Too slow to be carried through the turn.
-            Err(Unsteady::Stops { .. } | Unsteady::NotMet { .. }) => -wanted,
+            Err(SteadyError::Stops { .. } | SteadyError::NotMet { .. }) => -wanted,
             Err(error) => {
                 failed = Some(error);
                 f64::NAN
@@ -150,25 +150,28 @@ fn at_mean<E>(
 }
 
 fn even<E>(
-    search: &Search<'_>,
-    wanted: Option<Wanted>,
-    mut find: impl FnMut(Search<'_>, Option<&Steady>) -> Result<Steady, Unsteady<E>>,
-) -> Result<Steady, Unsteady<E>> {
-    let mut find = |search: Search<'_>, guess: Option<&Steady>| at_mean(&search, guess, &mut find);
-    let Some(Wanted { fluctuation, mean }) = wanted else { return find(*search, None) };
+    search: &SteadyOptions<'_>,
+    wanted: Option<FluctuationTarget>,
+    mut find: impl FnMut(SteadyOptions<'_>, Option<&Steady>) -> Result<Steady, SteadyError<E>>,
+) -> Result<Steady, SteadyError<E>> {
+    let mut find =
+        |search: SteadyOptions<'_>, guess: Option<&Steady>| at_mean(&search, guess, &mut find);
+    let Some(FluctuationTarget { fluctuation, mean }) = wanted else { return find(*search, None) };
     // Without a flywheel it may stop; then it fluctuates as much as can be.
     let without = match find(*search, None) {
         Ok(steady) => Some(steady),
-        Err(Unsteady::Stops { .. } | Unsteady::CannotCarry { .. } | Unsteady::NotMet { .. }) => {
-            None
-        }
+        Err(
+            SteadyError::Stops { .. }
+            | SteadyError::CannotCarry { .. }
+            | SteadyError::NotMet { .. },
+        ) => None,
         // The flywheel may be all the inertia there is.
-        Err(Unsteady::Broken(Broken::NoInertia { .. })) => None,
+        Err(SteadyError::Run(RunError::NoInertia { .. })) => None,
         Err(error) => return Err(error),
     };
     let own = without.as_ref().map_or(GREATEST, |steady| steady.fluctuation(mean));
     if own <= fluctuation {
-        return Err(Unsteady::AlreadyMet { without: own, wanted: fluctuation });
+        return Err(SteadyError::AlreadyMet { without: own, wanted: fluctuation });
     }
     // The fluctuation is about inverse to the inertia.
     let size = find_inertia(without.as_ref());
@@ -178,7 +181,7 @@ fn even<E>(
         if failed.is_some() {
             return f64::NAN;
         }
-        let search = Search { flywheel: search.flywheel + flywheel, ..*search };
+        let search = SteadyOptions { flywheel: search.flywheel + flywheel, ..*search };
         match find(search, last.as_ref()) {
             Ok(steady) => {
                 let own = steady.fluctuation(mean);
@@ -186,7 +189,9 @@ fn even<E>(
                 fluctuation - own
             }
             Err(
-                Unsteady::Stops { .. } | Unsteady::CannotCarry { .. } | Unsteady::NotMet { .. },
+                SteadyError::Stops { .. }
+                | SteadyError::CannotCarry { .. }
+                | SteadyError::NotMet { .. },
             ) => fluctuation - GREATEST,
             Err(error) => {
                 failed = Some(error);
@@ -198,10 +203,10 @@ fn even<E>(
     match (found, failed, last) {
         (_, Some(error), _) => Err(error),
         (Some(flywheel), None, last) => {
-            let search = Search { flywheel: search.flywheel + flywheel, ..*search };
+            let search = SteadyOptions { flywheel: search.flywheel + flywheel, ..*search };
             find(search, last.as_ref())
         }
-        (None, None, _) => Err(Unsteady::NoFlywheel { wanted: fluctuation }),
+        (None, None, _) => Err(SteadyError::NoFlywheel { wanted: fluctuation }),
     }
 }
 

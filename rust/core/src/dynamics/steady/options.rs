@@ -7,7 +7,7 @@ use crate::ode::options::Method;
 
 /// What is asked for.
 #[derive(Debug, Clone, Copy)]
-pub struct Search<'a> {
+pub struct SteadyOptions<'a> {
     /// Where the period begins.
     pub q: f64,
     /// Its length, negative if the driver turns backward.

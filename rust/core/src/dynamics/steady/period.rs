@@ -5,15 +5,15 @@
 //! what they make of the time t′ = 1/q̇ is integrated along. So the matrix of the period is exact to
 //! the tolerance (E. Hairer, S. P. Nørsett, G. Wanner I, I.14).
 
-use super::error::Unsteady;
-use super::options::Search;
-use crate::dynamics::run::callbacks::Outside;
+use super::error::SteadyError;
+use super::options::SteadyOptions;
+use crate::dynamics::run::callbacks::Callbacks;
 use crate::dynamics::run::equation::Equation;
-use crate::dynamics::run::error::Broken;
-use crate::dynamics::run::model::Source;
+use crate::dynamics::run::error::RunError;
+use crate::dynamics::run::model::ReducedModel;
 use crate::ode::error::Error;
 use crate::ode::integrator::Integrator;
-use crate::ode::options::{Keep, Options};
+use crate::ode::options::{Options, Output};
 use crate::ode::solution::{End, Solution};
 use crate::ode::system::{Action, Crossing, Fault, System};
 use crate::query::evaluator::NearMiss;
@@ -49,7 +49,7 @@ pub(crate) struct Period {
 
 /// How a period came out.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Passage {
+pub(crate) enum PeriodOutcome {
     Whole(Period),
     /// The machine stops on the way.
     Stops {
@@ -77,15 +77,15 @@ const BESIDE: f64 = 1.0e-3;
 /// Numbers of its state: w, t, work of motors, sum of all work, and derivatives.
 const LEN: usize = 8;
 
-impl<S: Source, O: Outside> System for Cycle<'_, '_, S, O> {
-    type Error = Broken<O::Error>;
+impl<S: ReducedModel, O: Callbacks> System for Cycle<'_, '_, S, O> {
+    type Error = RunError<O::Error>;
 
     fn rates(&mut self, q: f64, y: &[f64], rates: &mut [f64]) -> Result<(), Fault<Self::Error>> {
-        let &[speed2, t, _, _, by_start, by_moment, ..] = y else { return Err(Fault::NotThere) };
+        let &[speed2, t, _, _, by_start, by_moment, ..] = y else { return Err(Fault::OutOfDomain) };
         let equation = &mut *self.equation;
         let is_moving = speed2 > 0.0;
         if !is_moving {
-            return Err(Fault::NotThere);
+            return Err(Fault::OutOfDomain);
         }
         let speed = self.sign * speed2.sqrt();
         equation.place(&[q])?;
@@ -136,16 +136,16 @@ impl<S: Source, O: Outside> System for Cycle<'_, '_, S, O> {
 }
 
 /// Goes through one period.
-pub(crate) fn period<S: Source, O: Outside>(
+pub(crate) fn period<S: ReducedModel, O: Callbacks>(
     equation: &mut Equation<'_, S, O>,
     integrator: &mut Option<Integrator>,
-    search: &Search<'_>,
+    search: &SteadyOptions<'_>,
     (from, breaks): (f64, &[f64]),
     begin: Begin,
-) -> Result<Passage, Unsteady<O::Error>> {
+) -> Result<PeriodOutcome, SteadyError<O::Error>> {
     let sign = search.span.signum();
     let speed = sign * begin.speed2.sqrt();
-    equation.begin(from, &[speed]).map_err(Unsteady::Broken)?;
+    equation.begin(from, &[speed]).map_err(SteadyError::Run)?;
     let events = vec![Crossing::Boundary; 2 * equation.tabled().count()];
     let deadline = search.deadline;
     let mut cycle =
@@ -161,7 +161,7 @@ pub(crate) fn period<S: Source, O: Outside>(
         max_steps: search.max_steps,
         breaks,
         events: &events,
-        keep: Keep::End,
+        keep: Output::End,
         ..Options::default()
     };
     let start = [begin.speed2, begin.t, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
@@ -169,34 +169,34 @@ pub(crate) fn period<S: Source, O: Outside>(
     let made = integrator.run(&mut cycle, from, &start, from + search.span, &options);
     let (table, depends) = (cycle.table, cycle.depends);
     let Solution { t: q, y, end, .. } = made.map_err(|error| match error {
-        Error::System(broken) => Unsteady::Broken(broken),
-        other => Unsteady::Other(other.to_string()),
+        Error::System(broken) => SteadyError::Run(broken),
+        other => SteadyError::Other(other.to_string()),
     })?;
     match end {
         End::Reached => {}
-        End::Edge { .. } | End::Stalled { .. }
+        End::DomainBoundary { .. } | End::Stalled { .. }
             if cycle.equation.source.is_beside_fold(&[q], BESIDE) =>
         {
-            return Err(Unsteady::DeadPoint { q });
+            return Err(SteadyError::DeadPoint { q });
         }
-        End::Edge { .. } | End::Stalled { .. } if y[0] <= AT_REST * begin.speed2 => {
-            return Ok(Passage::Stops { q });
+        End::DomainBoundary { .. } | End::Stalled { .. } if y[0] <= AT_REST * begin.speed2 => {
+            return Ok(PeriodOutcome::Stops { q });
         }
         End::Event { .. } if table => {
-            return Err(Unsteady::MotorTableEnds { q, speed: sign * y[0].max(0.0).sqrt() });
+            return Err(SteadyError::MotorTableEnds { q, speed: sign * y[0].max(0.0).sqrt() });
         }
-        End::Edge { .. } => {
+        End::DomainBoundary { .. } => {
             let near = cycle.equation.is_near_miss().then(|| cycle.equation.source.near_miss(q));
             return Err(match near.flatten() {
-                Some(NearMiss { dyad, miss, q }) => Unsteady::NearChangePoint { dyad, miss, q },
-                None => Unsteady::DeadPoint { q },
+                Some(NearMiss { dyad, miss, q }) => SteadyError::NearChangePoint { dyad, miss, q },
+                None => SteadyError::DeadPoint { q },
             });
         }
-        End::Cancelled { .. } => return Err(Unsteady::Cancelled { q }),
-        End::StepLimit { t: q, .. } => return Err(Unsteady::TooManySteps { q }),
-        other => return Err(Unsteady::Other(other.to_string())),
+        End::Cancelled { .. } => return Err(SteadyError::Cancelled { q }),
+        End::StepLimit { t: q, .. } => return Err(SteadyError::TooManySteps { q }),
+        other => return Err(SteadyError::Other(other.to_string())),
     }
-    Ok(Passage::Whole(Period {
+    Ok(PeriodOutcome::Whole(Period {
         speed2: y[0],
         time: y[1] - begin.t,
         drive: y[2],

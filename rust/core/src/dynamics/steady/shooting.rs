@@ -1,11 +1,11 @@
 //! The search for a periodic motion: the speed at the beginning of a period with which it is the same
 //! at the end.
 
-use super::error::Unsteady;
-use super::period::{Begin, Passage, Period};
+use super::error::SteadyError;
+use super::period::{Begin, Period, PeriodOutcome};
 use super::steady::{NOISE, Shooting};
-use crate::dynamics::run::callbacks::Outside;
-use crate::dynamics::run::model::Source;
+use crate::dynamics::run::callbacks::Callbacks;
+use crate::dynamics::run::model::ReducedModel;
 
 /// Steps toward the periodic motion, at most; it takes some five.
 const STEPS: u32 = 60;
@@ -20,14 +20,14 @@ const KNOWN: f64 = 1.0e-5;
 /// Part of the work of a period that may be left over then: motors are given with so many digits.
 const BALANCED: f64 = 1.0e-2;
 
-type Found<E> = Result<(Begin, Period), Unsteady<E>>;
+type Found<E> = Result<(Begin, Period), SteadyError<E>>;
 
-impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
+impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
     /// Finds the periodic motion, from a guess (speed² and moment) if there is one.
     pub(crate) fn find(&mut self, guess: Option<Begin>) -> Found<O::Error> {
         let motors = self.equation.motors;
         let idle = motors.iter().find_map(crate::dynamics::motor::Motor::idle_speed);
-        let speed = self.search.speed.or(idle).ok_or(Unsteady::NeedsSpeed)?;
+        let speed = self.search.speed.or(idle).ok_or(SteadyError::NeedsSpeed)?;
         let begin = guess.unwrap_or(Begin { speed2: speed * speed, moment: 0.0, t: 0.0 });
         if motors.is_empty() {
             return self.at_speed(speed, begin);
@@ -40,11 +40,11 @@ impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
         if left.abs() > BALANCED * first.turnover {
             let motor = first.drive / self.search.span;
             let needed = motor - left / self.search.span;
-            return Err(Unsteady::Unbalanced { motor, needed });
+            return Err(SteadyError::Unbalanced { motor, needed });
         }
         match self.search.speed {
             Some(speed) => self.at_speed(speed, begin),
-            None => Err(Unsteady::NeedsSpeed),
+            None => Err(SteadyError::NeedsSpeed),
         }
     }
 
@@ -65,14 +65,14 @@ impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
         let mut stop = self.search.q;
         for _ in 0..STEPS {
             match self.pass(begin)? {
-                Passage::Whole(period) => return Ok((begin, period)),
-                Passage::Stops { q } => {
+                PeriodOutcome::Whole(period) => return Ok((begin, period)),
+                PeriodOutcome::Stops { q } => {
                     stop = q;
                     begin.speed2 *= 4.0;
                 }
             }
         }
-        Err(Unsteady::Stops { q: stop, from })
+        Err(SteadyError::Stops { q: stop, from })
     }
 
     /// Where motors or loads depend on the speed: a zero of the gain of speed² over a period,
@@ -94,12 +94,12 @@ impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
             let settled = SETTLED.max(noise) * begin.speed2;
             if slope < 0.0 && (newton - begin.speed2).abs() <= settled {
                 if noise > KNOWN.max(10.0 * NOISE * self.search.relative) {
-                    return Err(Unsteady::Weak { part: -slope });
+                    return Err(SteadyError::Weak { part: -slope });
                 }
                 let last = Begin { speed2: newton, ..begin };
                 return match self.pass(last)? {
-                    Passage::Whole(period) => Ok((last, period)),
-                    Passage::Stops { q } => Err(Unsteady::Stops { q, from }),
+                    PeriodOutcome::Whole(period) => Ok((last, period)),
+                    PeriodOutcome::Stops { q } => Err(SteadyError::Stops { q, from }),
                 };
             }
             // Above the speed without load a motor brakes, if less and less.
@@ -121,27 +121,27 @@ impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
             loop {
                 if high.is_finite() && high - low <= SETTLED * high {
                     return Err(match stop {
-                        Some(q) if !grows => Unsteady::Stops { q, from },
-                        _ => Unsteady::CannotCarry { from },
+                        Some(q) if !grows => SteadyError::Stops { q, from },
+                        _ => SteadyError::CannotCarry { from },
                     });
                 }
                 if !next.is_finite() || next > 1e30 * first.speed2.max(from * from) {
-                    return Err(Unsteady::RunsAway { speed: begin.speed2.sqrt() });
+                    return Err(SteadyError::RunsAway { speed: begin.speed2.sqrt() });
                 }
                 begin.speed2 = next;
                 match self.pass(begin)? {
-                    Passage::Whole(own) => {
+                    PeriodOutcome::Whole(own) => {
                         period = own;
                         break;
                     }
-                    Passage::Stops { q } => {
+                    PeriodOutcome::Stops { q } => {
                         (low, stop) = (next, Some(q));
                         next = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * next };
                     }
                 }
             }
         }
-        Err(Unsteady::CannotCarry { from })
+        Err(SteadyError::CannotCarry { from })
     }
 
     /// A motion of this mean speed over the period, and the constant moment that it takes.
@@ -177,14 +177,14 @@ impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
                 };
                 // Not to less than a fourth at once: there the machine may stop.
                 let is_near = next.speed2 > 0.25 * begin.speed2;
-                if is_near && let Passage::Whole(own) = self.pass(next)? {
+                if is_near && let PeriodOutcome::Whole(own) = self.pass(next)? {
                     (begin, period) = (next, own);
                     break;
                 }
                 part *= 0.5;
                 if part < 1e-6 {
                     let from = begin.speed2.sqrt();
-                    return Err(Unsteady::Stops { q: self.search.q, from });
+                    return Err(SteadyError::Stops { q: self.search.q, from });
                 }
             }
             // As long as it gets better, but not beyond what rounding lets it.
@@ -195,11 +195,11 @@ impl<S: Source, O: Outside> Shooting<'_, '_, S, O> {
                 return if met {
                     Ok((begin, period))
                 } else {
-                    Err(Unsteady::NotMet { speed, mean: self.search.mean })
+                    Err(SteadyError::NotMet { speed, mean: self.search.mean })
                 };
             }
             last = step;
         }
-        Err(Unsteady::NotMet { speed, mean: self.search.mean })
+        Err(SteadyError::NotMet { speed, mean: self.search.mean })
     }
 }

@@ -1,15 +1,15 @@
 //! The periodic motion of a machine: what is asked, and what is made of the beginning that was found.
 
-use super::error::Unsteady;
-use super::options::Search;
-use super::period::{Begin, Passage, Period, period};
-use crate::dynamics::run::callbacks::Outside;
+use super::error::SteadyError;
+use super::options::SteadyOptions;
+use super::period::{Begin, Period, PeriodOutcome, period};
+use crate::dynamics::run::callbacks::Callbacks;
 use crate::dynamics::run::equation::Equation;
-use crate::dynamics::run::error::Broken;
+use crate::dynamics::run::error::RunError;
 use crate::dynamics::run::integrate::{breaks_of, run};
-use crate::dynamics::run::model::Source;
-use crate::dynamics::run::options::{Along, Occasion, Task, Watch};
-use crate::dynamics::run::trajectory::{Ending, Run};
+use crate::dynamics::run::model::ReducedModel;
+use crate::dynamics::run::options::{EventKind, EventSpec, RunOptions, Variable};
+use crate::dynamics::run::trajectory::{Run, StopReason};
 use crate::ode::integrator::Integrator;
 use crate::ode::system::Crossing;
 
@@ -54,7 +54,7 @@ impl Steady {
 /// A search and its work space.
 pub(crate) struct Shooting<'s, 'a, S, O> {
     pub equation: Equation<'a, S, O>,
-    pub search: Search<'s>,
+    pub search: SteadyOptions<'s>,
     /// Whether the motion has the mean speed of the search.
     pub prescribed: bool,
     integrator: Option<Integrator>,
@@ -63,11 +63,11 @@ pub(crate) struct Shooting<'s, 'a, S, O> {
     breaks: Vec<f64>,
 }
 
-impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
+impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
     pub(crate) fn new(
         mut equation: Equation<'a, S, O>,
-        search: Search<'s>,
-    ) -> Result<Self, Unsteady<O::Error>> {
+        search: SteadyOptions<'s>,
+    ) -> Result<Self, SteadyError<O::Error>> {
         equation.flywheel = search.flywheel;
         equation.slopes = true;
         let mut own = Self {
@@ -84,8 +84,8 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
     }
 
     /// Refuses a machine that is another one a period on.
-    fn compare(&mut self) -> Result<(), Unsteady<O::Error>> {
-        let Search { q: from, span, .. } = self.search;
+    fn compare(&mut self) -> Result<(), SteadyError<O::Error>> {
+        let SteadyOptions { q: from, span, .. } = self.search;
         let mut inertia = |q: f64| {
             let is_there = self.equation.find(q) && self.equation.place(&[q]).is_ok();
             if is_there { self.equation.reduced.inertia[0] } else { f64::NAN }
@@ -98,7 +98,7 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         let looks: Vec<_> = looks.collect();
         self.equation.refused = None;
         if looks[0].1[0].is_nan() {
-            return Err(Unsteady::Broken(Broken::NothingThere { q: vec![from] }));
+            return Err(SteadyError::Run(RunError::NothingThere { q: vec![from] }));
         }
         // Where somewhere nothing is, the period will tell; beyond, all may be other.
         if looks.iter().any(|(_, pair)| pair.iter().any(|value| value.is_nan())) {
@@ -107,23 +107,23 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         let most = looks.iter().fold(0.0_f64, |most, (_, [inertia, _])| most.max(inertia.abs()));
         let none = looks.iter().find(|(_, [inertia, _])| *inertia <= NO_INERTIA * most);
         if let Some(&([q, _], [value, _])) = none {
-            return Err(Unsteady::Broken(Broken::NoInertia { q, value }));
+            return Err(SteadyError::Run(RunError::NoInertia { q, value }));
         }
         let other = looks.into_iter().find(|(_, [a, b])| (b - a).abs() > SAME * a.abs());
-        other.map_or(Ok(()), |(q, inertia)| Err(Unsteady::AnotherOne { q, inertia }))
+        other.map_or(Ok(()), |(q, inertia)| Err(SteadyError::AnotherOne { q, inertia }))
     }
 
     /// Periods begin here from now on.
-    fn begin_at(&mut self, q: f64) -> Result<(), Unsteady<O::Error>> {
-        let Search { span, breaks, .. } = self.search;
+    fn begin_at(&mut self, q: f64) -> Result<(), SteadyError<O::Error>> {
+        let SteadyOptions { span, breaks, .. } = self.search;
         let given: Vec<f64> = breaks.iter().map(|at| at + (q - self.search.q)).collect();
         self.from = q;
         self.breaks =
-            breaks_of(self.equation.tables, &given, [q, q + span]).map_err(Unsteady::Broken)?;
+            breaks_of(self.equation.tables, &given, [q, q + span]).map_err(SteadyError::Run)?;
         Ok(())
     }
 
-    pub(crate) fn pass(&mut self, begin: Begin) -> Result<Passage, Unsteady<O::Error>> {
+    pub(crate) fn pass(&mut self, begin: Begin) -> Result<PeriodOutcome, SteadyError<O::Error>> {
         let Self { equation, integrator, search, from, breaks, .. } = self;
         period(equation, integrator, search, (*from, breaks), begin)
     }
@@ -133,24 +133,25 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         mut self,
         begin: Begin,
         period: &Period,
-    ) -> Result<Steady, Unsteady<O::Error>> {
+    ) -> Result<Steady, SteadyError<O::Error>> {
         // Once more, a period on: there the machine must be the same.
-        let Search { q, span, method, relative, max_steps, deadline, breaks, flywheel, .. } =
-            self.search;
+        let SteadyOptions {
+            q, span, method, relative, max_steps, deadline, breaks, flywheel, ..
+        } = self.search;
         self.begin_at(q + span)?;
         let later = self.pass(Begin { t: begin.t + period.time, ..begin })?;
         let part = SAME.max(NOISE * relative);
-        let same = matches!(later, Passage::Whole(own)
+        let same = matches!(later, PeriodOutcome::Whole(own)
             if (own.speed2 - period.speed2).abs() <= part * period.speed2
             && (own.time - period.time).abs() <= part * period.time.abs());
         if !same {
-            return Err(Unsteady::NotPeriodic);
+            return Err(SteadyError::NotPeriodic);
         }
         self.equation.extra = begin.moment;
         let watches =
-            [Watch { occasion: Occasion::Extreme, crossing: Crossing::Either, stops: false }];
-        let task = Task {
-            along: Along::Coordinate,
+            [EventSpec { occasion: EventKind::Extreme, crossing: Crossing::Either, stops: false }];
+        let task = RunOptions {
+            along: Variable::Coordinate,
             t: 0.0,
             q: &[q],
             speed: &[span.signum() * begin.speed2.sqrt()],
@@ -167,13 +168,15 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         };
         self.equation.slopes = false;
         let run = run(self.equation, &task, &[1.0]).map_err(|error| match error {
-            crate::ode::error::Error::System(broken) => Unsteady::Broken(broken),
-            other => Unsteady::Other(other.to_string()),
+            crate::ode::error::Error::System(broken) => SteadyError::Run(broken),
+            other => SteadyError::Other(other.to_string()),
         })?;
         match run.ending {
-            Ending::Reached => {}
-            Ending::Late | Ending::Cancelled => return Err(Unsteady::Cancelled { q }),
-            ref other => return Err(Unsteady::Other(format!("the period ended early: {other:?}"))),
+            StopReason::Reached => {}
+            StopReason::Late | StopReason::Cancelled => return Err(SteadyError::Cancelled { q }),
+            ref other => {
+                return Err(SteadyError::Other(format!("the period ended early: {other:?}")));
+            }
         }
         let ends = |list: &[f64]| list.last().zip(list.first()).map_or(f64::NAN, |(b, a)| b - a);
         let stored: Vec<f64> = run.energies.iter().map(|pair| pair[1]).collect();
@@ -184,7 +187,7 @@ impl<'s, 'a, S: Source, O: Outside> Shooting<'s, 'a, S, O> {
         let idle = period.turnover <= 64.0 * f64::EPSILON * kinetic;
         let balanced = left.abs() <= BALANCE * period.turnover + noise;
         if !(balanced && (idle || noise <= UNKNOWN * period.turnover)) {
-            return Err(Unsteady::RunsAway { speed: begin.speed2.sqrt() });
+            return Err(SteadyError::RunsAway { speed: begin.speed2.sqrt() });
         }
         let (multiplier, moment, drive) = (period.speed2_by[0], begin.moment, period.drive);
         Ok(Steady { run, multiplier, moment, drive, flywheel, prescribed: self.prescribed })

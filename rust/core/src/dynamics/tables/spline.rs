@@ -4,7 +4,7 @@ use super::error::TableError;
 
 /// Conditions at the ends of a spline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Ends {
+pub enum EndCondition {
     /// The first two pieces are one cubic, and so are the last two (Mathcad's `cspline`).
     #[default]
     NotAKnot,
@@ -27,15 +27,15 @@ pub type Pieces = Vec<[f64; 4]>;
 /// # Errors
 ///
 /// Fewer than two knots (periodic: three), or a system without solution.
-pub fn spline(knots: &[f64], values: &[f64], ends: Ends) -> Result<Pieces, TableError> {
+pub fn spline(knots: &[f64], values: &[f64], ends: EndCondition) -> Result<Pieces, TableError> {
     let n = knots.len();
-    let least = if ends == Ends::Periodic { 3 } else { 2 };
+    let least = if ends == EndCondition::Periodic { 3 } else { 2 };
     if n < least || values.len() != n {
         return Err(TableError::TooShort { count: n.min(values.len()), least });
     }
     let width: Vec<f64> = knots.windows(2).map(|k| k[1] - k[0]).collect();
     let rise: Vec<f64> = values.windows(2).zip(&width).map(|(v, h)| (v[1] - v[0]) / h).collect();
-    if ends == Ends::Linear {
+    if ends == EndCondition::Linear {
         return Ok(values.iter().zip(&rise).map(|(&v, &r)| [v, r, 0.0, 0.0]).collect());
     }
     let slopes = slopes(&width, &rise, ends);
@@ -48,7 +48,7 @@ pub fn spline(knots: &[f64], values: &[f64], ends: Ends) -> Result<Pieces, Table
 }
 
 /// Slopes at the knots: second derivatives agree at those between.
-fn slopes(width: &[f64], rise: &[f64], ends: Ends) -> Vec<f64> {
+fn slopes(width: &[f64], rise: &[f64], ends: EndCondition) -> Vec<f64> {
     let n = width.len() + 1;
     let last = n - 2;
     let inner = |i: usize| {
@@ -56,14 +56,14 @@ fn slopes(width: &[f64], rise: &[f64], ends: Ends) -> Vec<f64> {
         ([g, 2.0 * (h + g), h], 3.0 * (g * rise[i - 1] + h * rise[i]))
     };
     let ([head, foot], [first, final_]) = match ends {
-        Ends::NotAKnot if n == 2 => return vec![rise[0]; 2],
-        Ends::NotAKnot if n == 3 => {
+        EndCondition::NotAKnot if n == 2 => return vec![rise[0]; 2],
+        EndCondition::NotAKnot if n == 3 => {
             // One parabola.
             let bend = (rise[1] - rise[0]) / (width[0] + width[1]);
             let at = |i: usize, sign: f64| rise[i] + sign * bend * width[i];
             return vec![at(0, -1.0), at(0, 1.0), at(1, 1.0)];
         }
-        Ends::NotAKnot => {
+        EndCondition::NotAKnot => {
             let end = |h: f64, g: f64, r: f64, s: f64| {
                 let whole = h + g;
                 ([g, whole], ((h + 2.0 * whole) * g * r + h * h * s) / whole)
@@ -72,10 +72,10 @@ fn slopes(width: &[f64], rise: &[f64], ends: Ends) -> Vec<f64> {
             let (b, y) = end(width[last], width[last - 1], rise[last], rise[last - 1]);
             ([a, b], [x, y])
         }
-        Ends::Natural => ([[2.0, 1.0]; 2], [3.0 * rise[0], 3.0 * rise[last]]),
-        Ends::Clamped => ([[1.0, 0.0]; 2], [0.0; 2]),
-        Ends::Periodic => return periodic(width, rise),
-        Ends::Linear => return rise.to_vec(),
+        EndCondition::Natural => ([[2.0, 1.0]; 2], [3.0 * rise[0], 3.0 * rise[last]]),
+        EndCondition::Clamped => ([[1.0, 0.0]; 2], [0.0; 2]),
+        EndCondition::Periodic => return periodic(width, rise),
+        EndCondition::Linear => return rise.to_vec(),
     };
     let mut rows: Vec<([f64; 3], f64)> = vec![([0.0, head[0], head[1]], first)];
     rows.extend((1..n - 1).map(inner));
@@ -143,7 +143,12 @@ mod tests {
     use crate::math::polynomial::value;
 
     const KNOTS: [f64; 7] = [0.0, 0.3, 1.0, 1.4, 2.5, 3.0, 4.0];
-    const ALL: [Ends; 4] = [Ends::NotAKnot, Ends::Natural, Ends::Clamped, Ends::Periodic];
+    const ALL: [EndCondition; 4] = [
+        EndCondition::NotAKnot,
+        EndCondition::Natural,
+        EndCondition::Clamped,
+        EndCondition::Periodic,
+    ];
 
     fn derivatives(piece: &[f64; 4], x: f64) -> [f64; 3] {
         let [_, b, c, d] = *piece;
@@ -166,9 +171,11 @@ mod tests {
             let last = derivatives(&pieces[5], 1.0);
             assert!((last[0] - 1.0).abs() < 1e-13);
             let zero = match ends {
-                Ends::NotAKnot => [pieces[0][3] - pieces[1][3], pieces[4][3] - pieces[5][3]],
-                Ends::Natural => [first[2], last[2]],
-                Ends::Clamped => [first[1], last[1]],
+                EndCondition::NotAKnot => {
+                    [pieces[0][3] - pieces[1][3], pieces[4][3] - pieces[5][3]]
+                }
+                EndCondition::Natural => [first[2], last[2]],
+                EndCondition::Clamped => [first[1], last[1]],
                 _ => [first[1] - last[1], first[2] - last[2]],
             };
             assert!(zero.iter().all(|z| z.abs() < 1e-12), "{ends:?}: {zero:?}");
@@ -180,25 +187,28 @@ mod tests {
         let cubic = |x: f64| 1.0 - x + 0.5 * x * x + 0.25 * x * x * x;
         let values = KNOTS.map(cubic);
         for n in [4, 5, 7] {
-            let pieces = spline(&KNOTS[..n], &values[..n], Ends::NotAKnot).expect("a spline");
+            let pieces =
+                spline(&KNOTS[..n], &values[..n], EndCondition::NotAKnot).expect("a spline");
             for (piece, &knot) in pieces.iter().zip(&KNOTS) {
                 assert!((value(piece, 0.1) - cubic(knot + 0.1)).abs() < 1e-13);
             }
         }
-        let two = spline(&[0.0, 2.0], &[1.0, 5.0], Ends::NotAKnot).expect("a line");
+        let two = spline(&[0.0, 2.0], &[1.0, 5.0], EndCondition::NotAKnot).expect("a line");
         assert_eq!(two, [[1.0, 2.0, 0.0, 0.0]]);
-        let three = spline(&[0.0, 1.0, 3.0], &[0.0, 1.0, 9.0], Ends::NotAKnot).expect("a parabola");
+        let three =
+            spline(&[0.0, 1.0, 3.0], &[0.0, 1.0, 9.0], EndCondition::NotAKnot).expect("a parabola");
         assert!((value(&three[1], 1.0) - 4.0).abs() < 1e-15);
     }
 
     #[test]
     fn short_tables() {
-        let three = spline(&[0.0, 1.0, 3.0], &[1.0, 2.0, 1.0], Ends::Periodic).expect("a spline");
+        let three =
+            spline(&[0.0, 1.0, 3.0], &[1.0, 2.0, 1.0], EndCondition::Periodic).expect("a spline");
         let (first, last) = (derivatives(&three[0], 0.0), derivatives(&three[1], 2.0));
         for k in 0..3 {
             assert!((first[k] - last[k]).abs() < 1e-14);
         }
-        assert!(spline(&[0.0], &[1.0], Ends::Natural).is_err());
-        assert!(spline(&[0.0, 1.0], &[1.0, 1.0], Ends::Periodic).is_err());
+        assert!(spline(&[0.0], &[1.0], EndCondition::Natural).is_err());
+        assert!(spline(&[0.0, 1.0], &[1.0, 1.0], EndCondition::Periodic).is_err());
     }
 }

@@ -1,7 +1,7 @@
 //! Values over a coordinate or a speed.
 
 use super::error::TableError;
-use super::spline::{Ends, Pieces, spline};
+use super::spline::{EndCondition, Pieces, spline};
 use crate::dynamics::flywheel::cycle::within_period;
 
 /// A table with a curve through its rows.
@@ -33,7 +33,7 @@ impl Table {
     pub fn new(
         knots: &[f64],
         values: &[f64],
-        ends: Ends,
+        ends: EndCondition,
         periodic: bool,
     ) -> Result<Self, TableError> {
         crate::dynamics::flywheel::cycle::check_columns(knots, &[("value", values)], periodic)?;
@@ -152,7 +152,8 @@ mod tests {
     #[test]
     fn pieces_follow_each_other() {
         let knots = [0.0, 1.0, 3.0];
-        let table = Table::new(&knots, &[1.0, 2.0, 1.0], Ends::Linear, true).expect("a table");
+        let table =
+            Table::new(&knots, &[1.0, 2.0, 1.0], EndCondition::Linear, true).expect("a table");
         assert_eq!(table.at(0.5), 1.5);
         assert_eq!(table.at(-1.0), 1.5);
         let cell = table.cell(7.5).expect("periodic");
@@ -162,7 +163,8 @@ mod tests {
         assert_eq!(table.ends(next), [9.0, 10.0]);
         assert_eq!(table.next(next, false), Some(cell));
         assert_eq!(table.knots_within([0.5, 6.5]), [1.0, 3.0, 4.0, 6.0]);
-        let once = Table::new(&knots, &[1.0, 2.0, 5.0], Ends::Linear, false).expect("a table");
+        let once =
+            Table::new(&knots, &[1.0, 2.0, 5.0], EndCondition::Linear, false).expect("a table");
         assert!(once.at(3.1).is_nan());
         assert_eq!(once.at(3.0), 5.0);
         assert_eq!(once.next(once.cell(2.0).expect("inside"), true), None);

@@ -85,7 +85,7 @@ fn the_last_steps_of_a_stretch_are_equal() {
         breaks: &[1.0],
         first_step: Some(0.3),
         max_step: 0.3,
-        keep: Keep::Path,
+        keep: Output::Path,
         ..Options::default()
     };
     let run = Integrator::new(Method::DormandPrince853, 1)

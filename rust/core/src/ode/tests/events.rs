@@ -112,7 +112,7 @@ fn growth_doubles_at_ln_2_and_ends_there() {
             act: |_, _, _: &mut [f64]| Action::Stop,
             count: 0,
         };
-        let options = Options { keep: Keep::Path, ..tight(&[Crossing::Rising]) };
+        let options = Options { keep: Output::Path, ..tight(&[Crossing::Rising]) };
         let run = Integrator::new(method, 1).run(&mut system, 0.0, &[1.0], 3.0, &options).unwrap();
         let t = 2.0_f64.ln();
         assert!((run.t - t).abs() < 1e-12, "{:e}", run.t - t);
@@ -371,9 +371,9 @@ fn output_stops_and_starts_at_restarts() {
             .unwrap()
     };
     let exact = [0.25, 0.5, 10.75, 11.0];
-    let sampled = run(Keep::At(&places));
+    let sampled = run(Output::At(&places));
     assert!(largest_difference(&sampled.samples, &exact) < 1e-14, "{:?}", sampled.samples);
-    let path = run(Keep::Path).path;
+    let path = run(Output::Path).path;
     for (t, y) in places.iter().zip(exact) {
         let mut at = [0.0];
         assert!(path.at(*t, &mut at) && (at[0] - y).abs() < 1e-14, "{t}: {at:?}");

@@ -21,43 +21,47 @@ type Fallible = Result<(), Fault<Infallible>>;
 fn an_edge_ends_the_run_where_it_is() {
     let regular = |_: f64, y: &[f64], r: &mut [f64]| -> Fallible {
         r[0] = 1.0;
-        if y[0] > 1.0 { Err(Fault::NotThere) } else { Ok(()) }
+        if y[0] > 1.0 { Err(Fault::OutOfDomain) } else { Ok(()) }
     };
     let singular = |_: f64, y: &[f64], r: &mut [f64]| -> Fallible {
         r[0] = 1.0 / (1.0 - y[0]).sqrt();
-        if y[0] >= 1.0 { Err(Fault::NotThere) } else { Ok(()) }
+        if y[0] >= 1.0 { Err(Fault::OutOfDomain) } else { Ok(()) }
     };
     for method in BOTH {
-        for keep in [Keep::End, Keep::Path] {
+        for keep in [Output::End, Output::Path] {
             let options = Options { keep, ..Options::default() };
             let end = run(method, &mut Rates(regular), (0.0, 2.0), &[0.0], &options).unwrap();
-            let End::Edge { t } = end.end else { panic!("{}", end.end) };
+            let End::DomainBoundary { t } = end.end else { panic!("{}", end.end) };
             println!("{method:?} regular: {:.1e}, {:?}", t - 1.0, end.statistics);
             assert!((t - 1.0).abs() < 2e-15 && t == end.t, "{:e}", t - 1.0);
 
             let end = run(method, &mut Rates(singular), (0.0, 2.0), &[0.0], &options).unwrap();
             println!("{method:?} singular: {:.1e}, {:?}", end.t - 2.0 / 3.0, end.statistics);
-            let End::Edge { t } = end.end else { panic!("{}", end.end) };
+            let End::DomainBoundary { t } = end.end else { panic!("{}", end.end) };
             assert!((t - 2.0 / 3.0).abs() < 1e-9, "{:e}", t - 2.0 / 3.0);
         }
         let backward = |_: f64, y: &[f64], r: &mut [f64]| -> Fallible {
             r[0] = 1.0;
-            if y[0] < -1.0 { Err(Fault::NotThere) } else { Ok(()) }
+            if y[0] < -1.0 { Err(Fault::OutOfDomain) } else { Ok(()) }
         };
         let options = Options::default();
         let end = run(method, &mut Rates(backward), (5.0, 0.0), &[0.0], &options).unwrap();
-        assert!(matches!(end.end, End::Edge { t } if (t - 4.0).abs() < 1e-14), "{}", end.end);
+        assert!(
+            matches!(end.end, End::DomainBoundary { t } if (t - 4.0).abs() < 1e-14),
+            "{}",
+            end.end
+        );
         // None at all: the run ends where it begins.
-        let none = |_: f64, _: &[f64], _: &mut [f64]| -> Fallible { Err(Fault::NotThere) };
+        let none = |_: f64, _: &[f64], _: &mut [f64]| -> Fallible { Err(Fault::OutOfDomain) };
         let end = run(method, &mut Rates(none), (5.0, 0.0), &[3.0], &options).unwrap();
-        assert_eq!((end.end, end.y), (End::Edge { t: 5.0 }, vec![3.0]));
+        assert_eq!((end.end, end.y), (End::DomainBoundary { t: 5.0 }, vec![3.0]));
         // Only the place itself: likewise, also at t = 0, where t has no spacing.
         let only = |t: f64, _: &[f64], r: &mut [f64]| -> Fallible {
             r[0] = 1.0;
-            if t == 0.0 { Ok(()) } else { Err(Fault::NotThere) }
+            if t == 0.0 { Ok(()) } else { Err(Fault::OutOfDomain) }
         };
         let end = run(method, &mut Rates(only), (0.0, 1.0), &[3.0], &options).unwrap();
-        assert_eq!(end.end, End::Edge { t: 0.0 });
+        assert_eq!(end.end, End::DomainBoundary { t: 0.0 });
     }
 }
 
@@ -68,13 +72,13 @@ fn what_stands_before_an_edge_has_reached_it() {
     let wall = 2.461_918_768_390_287_2;
     let slowing = |_: f64, y: &[f64], r: &mut [f64]| -> Fallible {
         (r[0], r[1]) = (y[1], -3.0);
-        if y[0] > wall { Err(Fault::NotThere) } else { Ok(()) }
+        if y[0] > wall { Err(Fault::OutOfDomain) } else { Ok(()) }
     };
     for method in BOTH {
         let start = [wall - 1e-5, 0.02];
         let options = Options { max_steps: 10_000, ..Options::default() };
         let end = run(method, &mut Rates(slowing), (0.0, 1.0), &start, &options).unwrap();
-        assert!(matches!(end.end, End::Edge { .. }), "{}", end.end);
+        assert!(matches!(end.end, End::DomainBoundary { .. }), "{}", end.end);
         assert!((end.y[1] - (start[1] * start[1] - 6e-5_f64).sqrt()).abs() < 1e-8, "{:?}", end.y);
     }
 }
@@ -85,7 +89,7 @@ fn what_only_a_stage_misses_is_no_edge() {
     // Torricelli's bowl, nearly: y' = −√y comes near zero, where there is nothing below.
     let rates = |_: f64, y: &[f64], r: &mut [f64]| -> Fallible {
         if y[0] < 0.0 {
-            return Err(Fault::NotThere);
+            return Err(Fault::OutOfDomain);
         }
         r[0] = -y[0].sqrt();
         Ok(())
@@ -154,7 +158,7 @@ fn stiff_problems_are_told() {
     for method in BOTH {
         let (relative, absolute) = (&[1e-4][..], &[1e-4][..]);
         let options = Options { relative, absolute, max_steps: 20_000, ..Options::default() };
-        for keep in [Keep::End, Keep::Path] {
+        for keep in [Output::End, Output::Path] {
             let options = Options { keep, ..options };
             let end = run(method, &mut smooth(rates), (0.0, 10.0), &[1.0], &options).unwrap();
             println!("{method:?}: {} {:?}", end.end, end.statistics);
@@ -204,7 +208,7 @@ fn runs_can_be_cancelled() {
 fn nothing_happens_in_no_time() {
     let places = [2.0, 2.0];
     let options =
-        Options { keep: Keep::At(&places), events: &[Crossing::Either], ..Options::default() };
+        Options { keep: Output::At(&places), events: &[Crossing::Either], ..Options::default() };
     let end = run(BOTH[1], &mut smooth(oscillate), (2.0, 2.0), &[1.0, 3.0], &options).unwrap();
     assert_eq!((end.end, end.t, &end.y[..]), (End::Reached, 2.0, &[1.0, 3.0][..]));
     assert_eq!(end.samples, [1.0, 3.0, 1.0, 3.0]);
@@ -261,7 +265,7 @@ fn what_makes_no_sense_is_refused_by_name() {
         Error::Breaks { index: 2 }
     );
     for places in [[0.5, 0.2], [0.5, 1.1], [-0.1, 0.0]] {
-        let error = refused(span, &y, &Options { keep: Keep::At(&places), ..good });
+        let error = refused(span, &y, &Options { keep: Output::At(&places), ..good });
         assert!(matches!(error, Error::Places { .. }), "{error}");
     }
 }

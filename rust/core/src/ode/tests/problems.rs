@@ -183,8 +183,8 @@ fn output_between_steps_is_as_good_as_the_steps() {
                     .run(&mut smooth(oscillate), 0.0, &[0.0, 1.0], way * 20.0, &options)
                     .unwrap()
             };
-            let sampled = run(Keep::At(&places));
-            let path = run(Keep::Path);
+            let sampled = run(Output::At(&places));
+            let path = run(Output::Path);
             assert_eq!(sampled.samples.len(), 2 * places.len());
             let mut worst: f64 = 0.0;
             for (t, y) in places.iter().zip(sampled.samples.chunks(2)) {

@@ -8,8 +8,8 @@
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::dyad::{Dyad, Part, Unknown};
-use crate::plan::plan::Along;
+use crate::plan::dyad::{Dyad, LoopTerm, Unknown};
+use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
@@ -85,8 +85,10 @@ impl<R: Real, const G: usize> State<R, G> {
         let rigid =
             self.orient[edge.orientation * self.len + k][g] * Vector::splat(cx.bound.rigid[e]);
         match edge.along {
-            Along::Nothing => rigid,
-            Along::Slide(slide) | Along::Driver { slide } => rigid + self.along(g, cx, e, slide, k),
+            EdgeSlide::Nothing => rigid,
+            EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } => {
+                rigid + self.along(g, cx, e, slide, k)
+            }
         }
     }
 
@@ -104,9 +106,9 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Entry `k` of what a part adds beside the legs.
     #[inline(always)]
-    pub(crate) fn part(&self, g: usize, cx: &Context<'_>, part: &Part, k: usize) -> Vector<R> {
+    pub(crate) fn part(&self, g: usize, cx: &Context<'_>, part: &LoopTerm, k: usize) -> Vector<R> {
         let v = match cx.plan.edges[part.edge].along {
-            Along::Slide(slide) if part.in_leg => self.along(g, cx, part.edge, slide, k),
+            EdgeSlide::Slide(slide) if part.in_leg => self.along(g, cx, part.edge, slide, k),
             _ => self.edge(g, cx, part.edge, k),
         };
         if part.backward { -v } else { v }

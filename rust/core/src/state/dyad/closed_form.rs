@@ -8,7 +8,7 @@ use crate::plan::leg::Leg;
 
 /// How a dyad came out.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Solved<R: Real> {
+pub(crate) struct DyadSolution<R: Real> {
     /// Where it does not close.
     pub open: R::Mask,
     /// By how much, of the size (asked for with one lane only).
@@ -23,7 +23,7 @@ pub(crate) struct Solved<R: Real> {
     pub arm2: R,
 }
 
-impl<R: Real> Solved<R> {
+impl<R: Real> DyadSolution<R> {
     /// With the levers of the legs.
     #[inline(always)]
     pub(crate) fn with(self, arm2: R) -> Self {
@@ -63,7 +63,7 @@ pub(crate) fn two_circles<R: Real>(
     b: &Leg<R>,
     k: Vector<R>,
     sign: R,
-) -> (Vector<R>, Vector<R>, Solved<R>) {
+) -> (Vector<R>, Vector<R>, DyadSolution<R>) {
     let d2 = k.norm2();
     let d = d2.sqrt();
     let (sum, difference) = (a.norm + b.norm, a.norm - b.norm);
@@ -83,7 +83,7 @@ pub(crate) fn two_circles<R: Real>(
     let second = k * Vector::new((d2 - split) * half, -y);
     let far = size.finite().not();
     let gap = outer.gap(sum - d, inner.gap(d - difference.abs(), R::ZERO));
-    let solved = Solved {
+    let solved = DyadSolution {
         open: outer.open.or(inner.open).or(loose).or(far),
         gap: R::select(far, R::splat(f64::INFINITY), gap),
         flat: outer.flat.or(inner.flat),
@@ -103,7 +103,7 @@ pub(crate) fn circle_and_line<R: Real>(
     b: Vector<R>,
     k: Vector<R>,
     sign: R,
-) -> (Vector<R>, R, Solved<R>) {
+) -> (Vector<R>, R, DyadSolution<R>) {
     let (along, across) = (b.dot(k), b.cross(k));
     let size = a.norm.max(k.size());
     let inner = Factor::of(a.norm - across.abs(), size);
@@ -111,7 +111,7 @@ pub(crate) fn circle_and_line<R: Real>(
     let signed = sign * chord2.sqrt();
     let leg = b * Vector::new(-signed, across);
     let far = size.finite().not();
-    let solved = Solved {
+    let solved = DyadSolution {
         open: inner.open.or(R::ZERO.lt(a.norm2).not()).or(far),
         gap: R::select(far, R::splat(f64::INFINITY), inner.gap(a.norm - across.abs(), R::ZERO)),
         flat: inner.flat,
@@ -130,7 +130,7 @@ pub(crate) fn turning_guide<R: Real>(
     b: Vector<R>,
     k: Vector<R>,
     sign: R,
-) -> (Vector<R>, R, R, Solved<R>) {
+) -> (Vector<R>, R, R, DyadSolution<R>) {
     let (along, across) = (b.dot(a), b.cross(a));
     let d2 = k.norm2();
     let d = d2.sqrt();
@@ -141,7 +141,7 @@ pub(crate) fn turning_guide<R: Real>(
     let arm = b * Vector::new(signed, across);
     let per = R::ONE / d2;
     let far = size.finite().not();
-    let solved = Solved {
+    let solved = DyadSolution {
         // The far joint is on the guide's own pivot: every attitude closes.
         open: inner.open.or(R::ZERO.lt(d2).not()).or(far),
         gap: R::select(far, R::splat(f64::INFINITY), inner.gap(d - across.abs(), R::ZERO)),
@@ -154,10 +154,14 @@ pub(crate) fn turning_guide<R: Real>(
 
 /// `s a + t b = k` for two slides along unit vectors (Cramer).
 #[inline(always)]
-pub(crate) fn two_lines<R: Real>(a: Vector<R>, b: Vector<R>, k: Vector<R>) -> (R, R, Solved<R>) {
+pub(crate) fn two_lines<R: Real>(
+    a: Vector<R>,
+    b: Vector<R>,
+    k: Vector<R>,
+) -> (R, R, DyadSolution<R>) {
     let determinant = a.cross(b);
     let (s, t) = (k.cross(b) / determinant, a.cross(k) / determinant);
-    let solved = Solved {
+    let solved = DyadSolution {
         open: s.finite().and(t.finite()).not(),
         gap: R::splat(f64::INFINITY),
         flat: R::Mask::NONE,

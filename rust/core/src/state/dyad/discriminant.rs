@@ -5,7 +5,7 @@ use crate::math::lanes::Real;
 use crate::math::tolerance::CHANGE_MISFIT;
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Dyad, Form};
-use crate::plan::plan::Along;
+use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
@@ -55,7 +55,7 @@ impl State {
         (cx.plan.edges.iter().zip(&cx.bound.rigid).zip(&cx.bound.guide))
             .map(|((e, &rigid), &guide)| {
                 let mut span = rigid;
-                if let Along::Slide(s) | Along::Driver { slide: s } = e.along {
+                if let EdgeSlide::Slide(s) | EdgeSlide::Driver { slide: s } = e.along {
                     span += guide.scale(self.slides[s * len][0]);
                 }
                 let orientation = &cx.plan.orientations[e.orientation];

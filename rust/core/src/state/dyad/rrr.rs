@@ -36,7 +36,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
         }
-        if R::LANES == 1 && matches!(self.fault, Some(Fault::Flat { step }) if step == index) {
+        if R::LANES == 1 && matches!(self.fault, Some(Fault::Singular { step }) if step == index) {
             self.no_analogues(0, dyad);
         }
     }
@@ -82,12 +82,12 @@ impl<R: Real, const G: usize> State<R, G> {
             let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));
             self.care[g] = self.care[g].or(solved.open).or(flat);
             if R::LANES == 1 && solved.open.any() {
-                self.fault = Some(Fault::Open { step: index, gap: solved.gap.lane(0) });
+                self.fault = Some(Fault::NotClosed { step: index, gap: solved.gap.lane(0) });
                 self.status = Status::Unreachable;
                 return;
             }
             if R::LANES == 1 && flat.any() {
-                self.fault.get_or_insert(Fault::Flat { step: index });
+                self.fault.get_or_insert(Fault::Singular { step: index });
                 self.status = Status::Singular;
             }
             before_sign[g] = before[0][g].max(before[1][g]);

@@ -1,11 +1,11 @@
 //! A dyad's loop, sorted by what its edges turn with, and solved.
 
-use super::closed_form::{Solved, circle_and_line, turning_guide, two_circles, two_lines};
+use super::closed_form::{DyadSolution, circle_and_line, turning_guide, two_circles, two_lines};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Dyad, Form, Unknown};
 use crate::plan::leg::Leg;
-use crate::plan::plan::Along;
+use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 /// The dyad's equation, sorted: `a u₁ + b u₂ = k` with slides put in for the
@@ -22,7 +22,7 @@ struct Sorted<R> {
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves for the value of the unknowns.
     #[inline(always)]
-    pub(crate) fn close(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> Solved<R> {
+    pub(crate) fn close(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> DyadSolution<R> {
         let Sorted { first, second, known: k } = self.sorted(g, cx, dyad);
         let sign = if let Some(s) = dyad.sign { self.signs[s][g] } else { R::ONE };
         let data = self.data2(g, dyad);
@@ -101,7 +101,8 @@ impl<R: Real, const G: usize> State<R, G> {
                 continue;
             }
             let mut rigid = Vector::splat(cx.bound.rigid[e]);
-            if let (Along::Slide(slide) | Along::Driver { slide }, None) = (edge.along, part.slides)
+            if let (EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide }, None) =
+                (edge.along, part.slides)
             {
                 rigid += guide.scale(self.slides[slide * len][g]);
             }

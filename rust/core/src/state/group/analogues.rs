@@ -4,7 +4,7 @@ use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::dyad::Unknown;
 use crate::plan::group::{Chord, Group, Loop};
-use crate::plan::plan::Along;
+use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
@@ -67,7 +67,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 && let Unknown::Class(class) = group.unknowns[unknown]
             {
                 let value = &self.theta[class * len + k];
-                let guided = cx.plan.edges[edge.edge].along != Along::Nothing;
+                let guided = cx.plan.edges[edge.edge].along != EdgeSlide::Nothing;
                 for g in 0..G {
                     let top = self.legs[leg][g].left();
                     self.legs[leg + k][g] += top.scale(value[g]);
@@ -163,7 +163,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
             return;
         }
-        let rate = if let Along::Driver { .. } = cx.plan.edges[e].along {
+        let rate = if let EdgeSlide::Driver { .. } = cx.plan.edges[e].along {
             // What is left of U, but for the lengths' own entries.
             let mut rest = self.chords[place * len + k][g];
             for term in cx.jets.product[k].iter().filter(|term| term.left != k) {

@@ -4,16 +4,16 @@
 //! `group`), with one driver; eight positions after eight, so that all of it stays in a small
 //! work space.
 
-use super::newton::Work;
+use super::newton::NewtonState;
 use super::turn::turned;
-use super::workspace::{ENTRIES, Jet, Loops};
+use super::workspace::{ENTRIES, GroupWorkspace, VectorJet};
 use crate::math::derivatives::ONE_DRIVER;
 use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{NEWTON_LONGEST, NEWTON_ROUNDS};
 use crate::math::vector::Vector;
 use crate::plan::binary_links::{Links, MOST};
-use crate::plan::group::{Bars, Group};
+use crate::plan::group::{BinaryLoops, Group};
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
@@ -24,7 +24,7 @@ impl<R: Real, const G: usize> State<R, G> {
         &mut self,
         cx: &Context<'_>,
         group: &Group,
-        bars: &Bars,
+        bars: &BinaryLoops,
         index: usize,
     ) {
         let len = self.len.min(ENTRIES);
@@ -48,7 +48,7 @@ impl<R: Real, const G: usize> State<R, G> {
             for (unit, &class) in loops.units.iter_mut().zip(&bars.classes) {
                 *unit = self.class[class][g];
             }
-            let mut work = Work::<R, 1>::new([self.care[g]]);
+            let mut work = NewtonState::<R, 1>::new([self.care[g]]);
             let mut bend = self.bends[group.index][g];
             loops.place(&links);
             for round in 0..NEWTON_ROUNDS {
@@ -106,7 +106,7 @@ impl<R: Real, const G: usize> State<R, G> {
             self.first_step[g] = self.first_step[g].max(work.first[0]);
             self.later_steps[g] = self.later_steps[g].max(work.rest[0]);
             if R::LANES == 1 && !work.done[0].all() {
-                self.fault = Some(Fault::Astray { step: index });
+                self.fault = Some(Fault::NotConverged { step: index });
                 self.status = Status::NotConverged;
                 return;
             }
@@ -124,7 +124,7 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 }
 
-impl<R: Real> Loops<R> {
+impl<R: Real> GroupWorkspace<R> {
     /// Spans and chords at the unknowns.
     #[inline(always)]
     fn place(&mut self, links: &Links<'_>) {
@@ -265,7 +265,7 @@ impl<R: Real> Loops<R> {
 /// Entry `k` of the jet of a vector that turns with these analogues, from those before, but for
 /// the term in the analogue `k` itself.
 #[inline(always)]
-fn without_top<R: Real>(jet: &Jet<R>, rates: &[R; ENTRIES], k: usize) -> Vector<R> {
+fn without_top<R: Real>(jet: &VectorJet<R>, rates: &[R; ENTRIES], k: usize) -> Vector<R> {
     let mut sum = Vector::ZERO;
     for term in ONE_DRIVER[k] {
         sum += jet[term.left].scale(R::splat(term.factor) * rates[term.right]);

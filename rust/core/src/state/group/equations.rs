@@ -6,7 +6,7 @@
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::group::{Chord, Group};
-use crate::plan::plan::Along;
+use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
@@ -30,14 +30,14 @@ impl<R: Real, const G: usize> State<R, G> {
             for g in 0..G {
                 self.legs[leg + k][g] = unit[g] * rigid;
             }
-            if along == Along::Nothing {
+            if along == EdgeSlide::Nothing {
                 continue;
             }
             let guide = Vector::splat(cx.bound.guide[e]);
             for g in 0..G {
                 self.guides[place * len + k][g] = unit[g] * guide;
             }
-            if let Along::Slide(slide) | Along::Driver { slide } = along {
+            if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = along {
                 for term in &cx.jets.product[k] {
                     let factor = R::splat(term.factor);
                     for g in 0..G {
@@ -114,7 +114,7 @@ impl<R: Real, const G: usize> State<R, G> {
         if k == 0 {
             local = Vector::splat(cx.bound.rigid[e]);
         }
-        if let Along::Driver { slide } = cx.plan.edges[e].along {
+        if let EdgeSlide::Driver { slide } = cx.plan.edges[e].along {
             let value = self.slides[slide * self.len + k][g];
             local += Vector::splat(cx.bound.guide[e]).scale(value);
         }

@@ -16,7 +16,7 @@ use crate::math::tolerance::{
 use crate::math::vector::Vector;
 use crate::plan::dyad::Unknown;
 use crate::plan::group::{Chord, Group, Loop};
-use crate::plan::plan::Along;
+use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 use crate::state::status::{FLAT2, Fault, Status};
 
@@ -30,7 +30,7 @@ impl<R: Real, const G: usize> State<R, G> {
             return;
         }
         let mut matrix = std::mem::take(&mut self.matrix);
-        let mut work = Work::<R, G>::new(self.care);
+        let mut work = NewtonState::<R, G>::new(self.care);
         for unused in work.done.iter_mut().skip(self.groups) {
             *unused = R::Mask::NONE.not();
         }
@@ -65,7 +65,7 @@ impl<R: Real, const G: usize> State<R, G> {
             self.later_steps[g] = self.later_steps[g].max(work.rest[g]);
         }
         if R::LANES == 1 && !work.done.iter().all(|done| done.all()) {
-            self.fault = Some(Fault::Astray { step: index });
+            self.fault = Some(Fault::NotConverged { step: index });
             self.status = Status::NotConverged;
         } else {
             for g in 0..G {
@@ -89,7 +89,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 continue;
             }
             let e = group.edges[l.edge].edge;
-            if let Along::Driver { .. } = cx.plan.edges[e].along {
+            if let EdgeSlide::Driver { .. } = cx.plan.edges[e].along {
                 for g in 0..G {
                     self.per[place][g] = R::ONE / self.local(g, cx, e, 0).norm();
                 }
@@ -178,7 +178,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let flat = (condition * R::splat(FLAT2)).le(before).not();
         self.care[g] = self.care[g].or(flat);
         if R::LANES == 1 && flat.any() {
-            self.fault.get_or_insert(Fault::Flat { step: index });
+            self.fault.get_or_insert(Fault::Singular { step: index });
             self.status = Status::Singular;
         }
     }
@@ -199,7 +199,7 @@ impl<R: Real, const G: usize> State<R, G> {
 }
 
 /// How far the iteration is.
-pub(crate) struct Work<R: Real, const G: usize> {
+pub(crate) struct NewtonState<R: Real, const G: usize> {
     /// Lanes that need no more steps.
     pub done: [R::Mask; G],
     /// Square of the size of the last inverse.
@@ -210,7 +210,7 @@ pub(crate) struct Work<R: Real, const G: usize> {
     pub rest: [R; G],
 }
 
-impl<R: Real, const G: usize> Work<R, G> {
+impl<R: Real, const G: usize> NewtonState<R, G> {
     #[inline(always)]
     pub(crate) fn new(done: [R::Mask; G]) -> Self {
         Self { done, size2: [R::ONE; G], first: [R::ZERO; G], rest: [R::ZERO; G] }

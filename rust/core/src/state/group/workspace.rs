@@ -8,19 +8,19 @@ use crate::plan::binary_links::MOST;
 /// Entries of a jet, at most.
 pub(crate) const ENTRIES: usize = ONE_DRIVER.len();
 /// Jet of a vector.
-pub(crate) type Jet<R> = [Vector<R>; ENTRIES];
+pub(crate) type VectorJet<R> = [Vector<R>; ENTRIES];
 
 /// Work space for eight positions (or one).
 #[derive(Debug, Clone)]
-pub(crate) struct Loops<R: Real> {
+pub(crate) struct GroupWorkspace<R: Real> {
     /// The unknown rotations.
     pub(crate) units: [Vector<R>; MOST],
     /// What the loops have from before the group.
-    pub(crate) known: [Jet<R>; MOST],
+    pub(crate) known: [VectorJet<R>; MOST],
     /// The spans, turned: of every loop and unknown.
-    pub(crate) spans: [[Jet<R>; MOST]; MOST],
+    pub(crate) spans: [[VectorJet<R>; MOST]; MOST],
     /// The vectors of the loops' chords.
-    pub(crate) chords: [Jet<R>; MOST],
+    pub(crate) chords: [VectorJet<R>; MOST],
     /// Analogues of the unknowns, and of the binary links.
     pub(crate) rates: [[R; ENTRIES]; MOST],
     pub(crate) taken: [[R; ENTRIES]; MOST],
@@ -29,7 +29,7 @@ pub(crate) struct Loops<R: Real> {
     pub(crate) missing: [R; MOST],
 }
 
-impl<R: Real> Default for Loops<R> {
+impl<R: Real> Default for GroupWorkspace<R> {
     fn default() -> Self {
         Self {
             units: [Vector::ONE; MOST],
