@@ -65,12 +65,13 @@ bench: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m pytest benches/python
 	ASSUR_SIMD=baseline $(PY) -m pytest benches/python -k assur
 
+CAMPAIGN := PYTHONPATH=tests/python/models:tests/python/oracles $(PY) tests/python/campaigns/campaign.py
 campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
-	$(PY) tests/python/campaign.py --count 100000 --out docs/campaign.md
-	$(PY) tests/python/campaign.py --higher --count 10000 --out docs/campaign-higher.md
-	$(PY) tests/python/campaign.py --mixed --count 100000 --out docs/campaign-mixed.md
-	$(PY) tests/python/campaign.py --machines --count 10000 --out docs/campaign-machines.md
-	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/test_function_of_q.py
+	$(CAMPAIGN) --count 100000 --out docs/campaign.md
+	$(CAMPAIGN) --higher --count 10000 --out docs/campaign-higher.md
+	$(CAMPAIGN) --mixed --count 100000 --out docs/campaign-mixed.md
+	$(CAMPAIGN) --machines --count 10000 --out docs/campaign-machines.md
+	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/net/test_function_of_q.py
 
 # Flags: the targets have no magic numbers to compare with, and one unit takes minutes to compile.
 FUZZ := cargo fuzz run --sanitizer none --no-trace-compares --codegen-units 16

@@ -4,7 +4,8 @@ import importlib
 import sys
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).parents[1] / "tests" / "python"))
+TESTS = Path(__file__).parents[1] / "tests" / "python"
+sys.path += [str(TESTS / "fuzzing"), str(TESTS / "models")]
 atheris = importlib.import_module("atheris")  # not among the tools of `make test`
 with atheris.instrument_imports(include=["assur"]):
     entries = importlib.import_module("fuzz_entries")

@@ -7,8 +7,8 @@
 use arbitrary::{Result, Unstructured};
 use assur::Description;
 
-use crate::assembly::{DRIVERS, Driven};
-use crate::builder::{Builder, GROUND, beyond, direction};
+use crate::models::assembly::{DRIVERS, Driven};
+use crate::models::builder::{Builder, GROUND, beyond, direction};
 
 /// What is added to a linkage.
 #[derive(Clone, Copy)]

@@ -1,0 +1,88 @@
+"""What is no mechanism is refused, with the thing and the number named."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import assur
+from refusals import (
+    JOINTS,
+    LINKS,
+    Table,
+    build,
+    joint,
+    link,
+    slide,
+)
+from refused_structures import REFUSED
+
+nan, inf = math.nan, math.inf
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_refused(case: str) -> None:
+    arguments, words, fields = REFUSED[case]
+    with pytest.raises(assur.StructureError) as caught:
+        build(**arguments)
+    missing = [word for word in words if word not in str(caught.value)]
+    assert not missing, f"{missing} not in: {caught.value}"
+    assert {name: getattr(caught.value, name) for name in fields} == fields
+
+
+BAD_NAMES = ["", " ", "a b", "a\tb", "a\u00a0b", "a\nb", "a\u2028", "\0", "a.b", "a/b", "a\\b"]
+BAD_NAMES += ["a'b", 'a"b', "a`b", "a(b", "a)b", "a[b", "a]b", "{", "}", "<", ">"]
+
+
+@pytest.mark.parametrize("name", BAD_NAMES)
+def test_names_not_allowed(name: str) -> None:
+    for parts in (
+        joint(**{name: (9, 9)}) | link(rocker=["D", "C", name]),
+        {"links": {**LINKS, name: ["C", "P"]}},
+        {"slides": {name: slide("rocker", "ground", 0)}},
+    ):
+        with pytest.raises(assur.StructureError, match="not allowed"):
+            build(**parts)
+
+
+@pytest.mark.parametrize("name", ["é", "γ1", "A′", "1", "-", "a_b", "x" * 1000])
+def test_names_allowed(name: str) -> None:
+    m = build(**joint(**{name: (5, 5)}), **link(rocker=["D", "C", name]))
+    assert f"rocker.{name}.x" in m.dimensions
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        *(joint(P=at) for at in ((1,), (1, 2, 3), 5, None, "ab", (1 + 2j, 0), (10**400, 0))),
+        joint(P=np.zeros(3)),
+        {"joints": {**JOINTS, 3: (0, 0)}},
+        {"links": {**LINKS, 3: "AB"}},
+        {"joints": [("A", (0, 0))]},
+        {"slides": {"s": ("rocker", "ground", 0.0)}},
+        {"slides": {"s": slide("rocker", "ground", "x")}},  # type: ignore[arg-type]
+        {"driver": [None]},
+        {"joints": {**JOINTS, "a\ud800": (0, 0)}},
+    ],
+)
+def test_wrong_values_are_errors_of_ours(changed: Table) -> None:
+    with pytest.raises(assur.AssurError):
+        build(**changed)
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        link(coupler=["B", "C", 3]),
+        link(coupler=None),
+        {"driver": None},
+        {"driver": assur.Drive(3)},  # type: ignore[arg-type]
+        {"assembly": {"C": "x"}},
+        {"assembly": ["C"]},
+    ],
+)
+def test_wrong_types(changed: Table) -> None:
+    with pytest.raises((assur.AssurError, TypeError)):
+        build(**changed)

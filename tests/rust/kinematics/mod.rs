@@ -1,0 +1,6 @@
+//! Positions and analogues.
+
+mod agreement;
+mod higher_classes;
+mod published_numbers;
+mod regressions;

@@ -1,0 +1,4 @@
+//! What a linkage is made of.
+
+mod large;
+mod named;
