@@ -208,8 +208,12 @@ def test_scale_by_a_power_of_two(case: dyad_models.Case, move: float, power: int
         m.solve(x[0] if flat else x, order=3, on_error="nan") for m, x in ((one, q), (two, q_two))
     ]
     assert motions[0].status == motions[1].status
+    per_q = np.array(slide if len(slide) > 1 else slide[0], int)
     for k, index in enumerate(("value", "d1", "d2", "d3")):
-        per_q = k if slide[0] else 0  # mixed drivers are not among DRIVERS
+        # By every slide once a length less: of several drivers one index each, last fastest.
+        less = np.zeros((1,) * k, int)
+        for axis in range(k):
+            less = less + np.reshape(per_q, (1,) * axis + (-1,) + (1,) * (k - axis - 1))
         for kind, names, length in (
             ("joint", d.joints, 1),
             ("slide", d.slides, 1),
@@ -217,7 +221,10 @@ def test_scale_by_a_power_of_two(case: dyad_models.Case, move: float, power: int
         ):
             for name in names:
                 a, b = (getattr(getattr(m, kind)(name), index) for m in motions)
-                want = np.ldexp(a, power * (length - per_q))
+                powers = power * (length - (less if per_q.ndim else k * per_q))
+                if kind == "joint" and per_q.ndim:
+                    powers = powers[np.newaxis]  # x and y come first
+                want = np.ldexp(a, powers)
                 assert np.array_equal(want, b, equal_nan=True), (kind, name, index)
 
 
