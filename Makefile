@@ -27,11 +27,12 @@ export PYO3_PYTHON := $(abspath $(PY))
 export PROPTEST_RNG_SEED ?= 1
 export MPLBACKEND ?= Agg
 
-.PHONY: help run test rust-test python-test bench campaign fuzz clean rust-tools lint-tools
+.PHONY: help run check test rust-test python-test bench campaign fuzz clean rust-tools lint-tools
 .DEFAULT_GOAL := help
 
 help:
 	@echo "make run          build, then run examples/first_run.py"
+	@echo "make check        the daily loop: format, lints, types and the quick tests"
 	@echo "make test         format, lints, types, unit, integration and documentation tests"
 	@echo "make rust-test    the Rust half of it"
 	@echo "make python-test  the Python half of it"
@@ -43,11 +44,24 @@ help:
 run: rust-tools $(EXTENSION)
 	@$(PY) examples/first_run.py
 
+# What fails most often, in under a minute once everything is built.
+check: lint-tools $(EXTENSION) $(DEV_STAMP)
+	cargo fmt --all --check
+	$(PY) tools/check_order
+	cargo clippy $(LOCKED) --workspace -- -D warnings
+	$(PY) -m ruff check
+	$(PY) -m ruff format --check
+	$(VENV)/bin/lint-imports --no-logo --no-cache
+	$(PY) -m mypy
+	$(PY) -m pytest -q -n auto tests/python/net/test_digests.py tests/python/description \
+	  tests/python/papers tests/python/package/test_readme.py
+
 test: lint-tools rust-test python-test
 	@echo "All checks passed."
 
 rust-test: lint-tools $(RUN_STAMP)
 	cargo fmt --all --check
+	$(PY) tools/check_order
 	cargo clippy $(LOCKED) --workspace --all-targets -- -D warnings
 	cargo test $(LOCKED)
 	RUSTDOCFLAGS="-D warnings" cargo doc $(LOCKED) --workspace --no-deps
@@ -55,6 +69,7 @@ rust-test: lint-tools $(RUN_STAMP)
 python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
+	$(VENV)/bin/lint-imports --no-logo --no-cache
 	$(PY) -m mypy
 	$(PY) -m mypy.stubtest --mypy-config-file pyproject.toml assur._core
 	$(PY) -m pytest -q -n auto
