@@ -11,46 +11,52 @@ use super::plan::{EdgeSlide, Plan};
 use crate::math::vector::Vector;
 
 /// Unknowns (and loops), at most: more are left to the general machinery.
-pub(crate) const MOST: usize = 3;
+pub(crate) const MAX_UNKNOWNS: usize = 3;
 
 impl BinaryLoops {
     /// Of a group that is so, behind others.
     pub(crate) fn new<'b>(
         plan: &Plan,
         group: &Group,
-        before: impl Iterator<Item = &'b Self>,
+        earlier: impl Iterator<Item = &'b Self>,
     ) -> Option<Self> {
         let classes: Vec<usize> = group.unknowns.iter().filter_map(class_of).collect();
-        let taken: Vec<usize> = group.loops.iter().filter_map(|l| taken(&l.chord)).collect();
-        let square = classes.len() == group.unknowns.len() && taken.len() == group.loops.len();
+        let bar_classes: Vec<usize> =
+            group.loops.iter().filter_map(|l| bar_class(&l.chord)).collect();
+        let square =
+            classes.len() == group.unknowns.len() && bar_classes.len() == group.loops.len();
         let mut arms = Vec::new();
-        for (place, edge) in group.edges.iter().enumerate() {
-            let own = &plan.edges[edge.edge];
-            if own.along != EdgeSlide::Nothing || plan.orientations[own.orientation].driven {
+        for (index, edge) in group.edges.iter().enumerate() {
+            let plan_edge = &plan.edges[edge.edge];
+            if plan_edge.along != EdgeSlide::Nothing
+                || plan.orientations[plan_edge.orientation].driven
+            {
                 return None;
             }
             match edge.turns {
                 Some(unknown) => {
-                    arms.push(Arm { edge: edge.edge, leg: group.first_leg + place, unknown });
+                    arms.push(Arm { edge: edge.edge, leg: group.first_leg + index, unknown });
                 }
                 None if edge.is_bar => {}
                 None => return None,
             }
         }
-        let fits = square && (2..=MOST).contains(&taken.len()) && classes.len() == taken.len();
+        let fits = square
+            && (2..=MAX_UNKNOWNS).contains(&bar_classes.len())
+            && classes.len() == bar_classes.len();
         let (mut first_span, mut first_bar) = (0, 0);
-        for other in before {
+        for other in earlier {
             first_span += other.classes.len() * other.classes.len();
-            first_bar += other.taken.len();
+            first_bar += other.bar_classes.len();
         }
-        fits.then_some(Self { first_span, first_bar, classes, taken, arms })
+        fits.then_some(Self { first_span, first_bar, classes, bar_classes, arms })
     }
 
     /// Those of one design.
     #[inline(always)]
     #[must_use]
     pub(crate) fn links<'b>(&self, bound: &'b LoopVectors) -> Links<'b> {
-        let count = self.taken.len();
+        let count = self.bar_classes.len();
         let spans = &bound.spans[self.first_span..][..count * count];
         Links { count, spans, bars: &bound.bars[self.first_bar..][..count] }
     }
@@ -74,7 +80,7 @@ fn class_of(unknown: &Unknown) -> Option<usize> {
     }
 }
 
-fn taken(chord: &Chord) -> Option<usize> {
+fn bar_class(chord: &Chord) -> Option<usize> {
     match *chord {
         Chord::Length { class } => Some(class),
         _ => None,
@@ -90,21 +96,21 @@ pub(crate) struct LoopVectors {
 
 impl LoopVectors {
     /// Measures them on the rigid edges.
-    pub(crate) fn measure(&mut self, plan: &Plan, rigid: &[Vector]) {
+    pub(crate) fn measure(&mut self, plan: &Plan, edge_vectors: &[Vector]) {
         self.spans.clear();
         self.bars.clear();
-        for group in plan.groups().filter(|group| group.bars.is_some()) {
+        for group in plan.groups().filter(|group| group.binary_loops.is_some()) {
             for l in &group.loops {
                 for column in &l.columns {
                     let mut sum = Vector::ZERO;
-                    for influence in column {
-                        let Some(place) = influence.place else { continue };
-                        let v = rigid[group.edges[place].edge];
-                        sum += if influence.backward { -v } else { v };
+                    for term in column {
+                        let Some(index) = term.edge else { continue };
+                        let v = edge_vectors[group.edges[index].edge];
+                        sum += if term.backward { -v } else { v };
                     }
                     self.spans.push(sum);
                 }
-                self.bars.push(Leg::of(rigid[group.edges[l.edge].edge]));
+                self.bars.push(Leg::of(edge_vectors[group.edges[l.edge].edge]));
             }
         }
     }

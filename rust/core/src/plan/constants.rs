@@ -16,7 +16,7 @@ pub(crate) struct DesignConstants {
     /// Place of the frame's origin in the drawing, m: the first ground joint.
     pub origin: [f64; 2],
     /// Constant part of every edge, in the frame of its class.
-    pub rigid: Vec<Vector>,
+    pub edge_vector: Vec<Vector>,
     /// The square of its length.
     pub arm2: Vec<f64>,
     /// Guide direction of every edge with a slide, in the frame of its class.
@@ -31,7 +31,7 @@ pub(crate) struct DesignConstants {
     pub slide_turn: Vec<Vector>,
     /// Square of the longest constant edge that turns with a class (a coupler point's: at
     /// most 1).
-    pub lever2: Vec<f64>,
+    pub max_arm2: Vec<f64>,
     /// The legs of every dyad, where they are the same at all positions.
     pub legs: Vec<[Leg; 2]>,
     /// The vectors of groups of binary links.
@@ -104,7 +104,7 @@ impl DimensionMap {
         closure: &Closure,
         dimensions: &Dimensions,
     ) -> Self {
-        let find = |wanted: Dimension| dimensions.iter().position(|(_, d)| d == wanted);
+        let find = |dimension: Dimension| dimensions.iter().position(|(_, d)| d == dimension);
         let on_ground =
             |joint| [find(Dimension::GroundX { joint }), find(Dimension::GroundY { joint })];
         let in_link = |link: usize, joint: usize| match linkage.links[link]
@@ -214,7 +214,7 @@ impl DesignConstants {
         let origin = read_two(values, slots.origin);
         self.origin = [origin.x, origin.y];
         self.scale = slots.lengths.scale(values, self.origin);
-        let unit_of = 1.0 / self.scale;
+        let inv_scale = 1.0 / self.scale;
         self.offset.clear();
         self.turn.clear();
         for r in &plan.rotation {
@@ -228,12 +228,12 @@ impl DesignConstants {
         }
         self.slide_turn.clear();
         self.slide_turn.extend(slots.slides.iter().map(|s| unit(s.step(values))));
-        self.rigid.clear();
+        self.edge_vector.clear();
         self.guide.clear();
         self.arm2.clear();
         for (e, source) in plan.edges.iter().zip(&slots.edges) {
             let (w, d) = match *source {
-                EdgeSource::Joint(place) => (read_two(values, place), Vector::ZERO),
+                EdgeSource::Joint(slots) => (read_two(values, slots), Vector::ZERO),
                 EdgeSource::Guide(slide) => {
                     let slide = &slots.slides[slide];
                     let direction = unit(slide.angle(values));
@@ -246,43 +246,43 @@ impl DesignConstants {
                 }
             };
             let turn = self.turn[e.edge.link];
-            let rigid = (turn * w).scale(unit_of);
-            self.rigid.push(rigid);
-            self.arm2.push(rigid.norm2());
+            let edge_vector = (turn * w).scale(inv_scale);
+            self.edge_vector.push(edge_vector);
+            self.arm2.push(edge_vector.norm2());
             self.guide.push(turn * d);
         }
         self.fixed.clear();
         self.fixed.resize(plan.points, Vector::ZERO);
-        for &(joint, place) in &slots.ground {
-            self.fixed[joint + 1] = (read_two(values, place) - origin).scale(unit_of);
+        for &(joint, at) in &slots.ground {
+            self.fixed[joint + 1] = (read_two(values, at) - origin).scale(inv_scale);
         }
-        self.lever2.clear();
-        self.lever2.resize(plan.classes, 0.0);
+        self.max_arm2.clear();
+        self.max_arm2.resize(plan.classes, 0.0);
         for (e, &arm2) in plan.edges.iter().zip(&self.arm2) {
             let class = plan.orientations[e.orientation].class;
             // A coupler point farther than the rest is itself the size that its error
             // is a part of.
             let arm2 = if e.paired { arm2 } else { arm2.min(1.0) };
-            self.lever2[class] = self.lever2[class].max(arm2);
+            self.max_arm2[class] = self.max_arm2[class].max(arm2);
         }
         self.measure_legs(plan);
-        self.spans.measure(plan, &self.rigid);
+        self.spans.measure(plan, &self.edge_vector);
         // The scale is more than half of the greatest length.
-        let longest = plan.pairs.longest(&self.rigid, &self.fixed);
+        let longest = plan.pairs.longest(&self.edge_vector, &self.fixed);
         self.pair_size = if longest > 0.0 { (2.0 * longest).min(1.0) } else { 1.0 };
     }
 
     fn measure_legs(&mut self, plan: &Plan) {
         self.legs.clear();
         for dyad in plan.dyads() {
-            self.legs.push([0, 1].map(|place| {
-                if !dyad.leg[place] {
+            self.legs.push([0, 1].map(|unknown| {
+                if !dyad.leg[unknown] {
                     return Leg::default();
                 }
                 let mut sum = Vector::ZERO;
-                for part in dyad.path.iter().filter(|part| part.turns == Some(place)) {
-                    let v = self.rigid[part.edge];
-                    sum += if part.backward { -v } else { v };
+                for term in dyad.path.iter().filter(|term| term.turns == Some(unknown)) {
+                    let v = self.edge_vector[term.edge];
+                    sum += if term.backward { -v } else { v };
                 }
                 Leg::of(sum)
             }));

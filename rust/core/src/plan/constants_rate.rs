@@ -6,11 +6,11 @@ use crate::math::vector::Vector;
 
 /// Derivatives of what [`DesignConstants`] holds by one dimension (m or rad), its scale kept.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct BoundRate {
+pub(crate) struct ConstantsRate {
     /// Of the frame's origin, m.
     pub origin: Vector,
     /// Of the constant part of every edge.
-    pub rigid: Vec<Vector>,
+    pub edge_vector: Vec<Vector>,
     /// Of the guide direction of every edge with a slide.
     pub guide: Vec<Vector>,
     /// Of the points fixed to the ground.
@@ -19,7 +19,7 @@ pub(crate) struct BoundRate {
     pub offset: Vec<f64>,
 }
 
-impl BoundRate {
+impl ConstantsRate {
     /// For a design (`values`, `bound`) and the dimension of this index.
     #[must_use]
     pub(crate) fn new(
@@ -33,12 +33,14 @@ impl BoundRate {
         let mut by = vec![0.0; values.len()];
         by[index] = 1.0;
         let origin = read_two(&by, slots.origin);
-        let per = 1.0 / bound.scale;
+        let inv_scale = 1.0 / bound.scale;
         let offset = offsets(plan, slots, &by);
         let mut rate = Self { origin, offset, ..Self::default() };
-        for ((e, source), rigid) in plan.edges.iter().zip(&slots.edges).zip(&bound.rigid) {
+        for ((e, source), edge_vector) in
+            plan.edges.iter().zip(&slots.edges).zip(&bound.edge_vector)
+        {
             let (w, d) = match *source {
-                EdgeSource::Joint(place) => (read_two(&by, place), Vector::ZERO),
+                EdgeSource::Joint(slots) => (read_two(&by, slots), Vector::ZERO),
                 EdgeSource::Guide(slide) => {
                     let slide = &slots.slides[slide];
                     let direction = unit(slide.angle(values));
@@ -55,12 +57,12 @@ impl BoundRate {
             let link = e.edge.link;
             let (turn, offset) = (bound.turn[link], rate.offset[link]);
             let guide = bound.guide[rate.guide.len()];
-            rate.rigid.push((turn * w).scale(per) + rigid.left().scale(offset));
+            rate.edge_vector.push((turn * w).scale(inv_scale) + edge_vector.left().scale(offset));
             rate.guide.push(turn * d + guide.left().scale(offset));
         }
         rate.fixed.resize(plan.points, Vector::ZERO);
-        for &(joint, place) in &slots.ground {
-            rate.fixed[joint + 1] = (read_two(&by, place) - origin).scale(per);
+        for &(joint, at) in &slots.ground {
+            rate.fixed[joint + 1] = (read_two(&by, at) - origin).scale(inv_scale);
         }
         rate
     }

@@ -48,7 +48,7 @@ pub(crate) struct Dyad {
     pub unknowns: [Unknown; 2],
     /// The orientations that turn with each unknown (none with a slide) and that
     /// something else than its legs asks for.
-    pub turned: [Vec<usize>; 2],
+    pub orientations: [Vec<usize>; 2],
     /// The loop, edge by edge.
     pub path: Vec<LoopTerm>,
     /// What of the loop is not wholly in a leg.
@@ -56,7 +56,7 @@ pub(crate) struct Dyad {
     /// Whether what turns with each unknown is a leg: constant parts only, but for its slide.
     pub leg: [bool; 2],
     /// The classes of its two legs, if there is nothing else.
-    pub binary: Option<[usize; 2]>,
+    pub rrr_classes: Option<[usize; 2]>,
     /// Place among the dyads.
     pub index: usize,
     /// Known point where the path starts; of a path that ends where it starts: point 0.

@@ -23,7 +23,7 @@ pub(crate) enum Chord {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct LoopEdge {
     /// Place among the group's edges.
-    pub place: usize,
+    pub edge: usize,
     /// Run from `to` to `from`.
     pub backward: bool,
 }
@@ -55,7 +55,7 @@ pub(crate) struct Loop {
     /// Edges from `start` to `from`, run backward, and from `end` to `to`.
     pub path: Vec<LoopEdge>,
     /// The orientations that turn with the rotation it takes along.
-    pub turned: Vec<usize>,
+    pub orientations: Vec<usize>,
     /// Of every unknown, what changes the chord's vector.
     pub columns: Vec<Vec<ColumnTerm>>,
 }
@@ -65,7 +65,7 @@ pub(crate) struct Loop {
 pub(crate) struct ColumnTerm {
     /// The edge that it turns, or slides along: place among the group's edges. None: the chord,
     /// against the guide that turns.
-    pub place: Option<usize>,
+    pub edge: Option<usize>,
     /// Turns it (otherwise: slides).
     pub turns: bool,
     /// Against its direction.
@@ -78,7 +78,7 @@ pub(crate) struct Group {
     /// What is iterated for.
     pub unknowns: Vec<Unknown>,
     /// The orientations that turn with each (none with a slide).
-    pub turned: Vec<Vec<usize>>,
+    pub orientations: Vec<Vec<usize>>,
     /// Its edges.
     pub edges: Vec<GroupEdge>,
     /// Its loops.
@@ -92,25 +92,25 @@ pub(crate) struct Group {
     /// Place among the legs of its first edge; the others follow.
     pub first_leg: usize,
     /// What it consists of, if it is of rigid links and turning pairs alone, and small.
-    pub bars: Option<BinaryLoops>,
+    pub binary_loops: Option<BinaryLoops>,
 }
 
 impl Group {
     /// Whether an edge closes a loop (and places no point).
     #[must_use]
-    pub(crate) fn is_chord(&self, place: usize) -> bool {
-        self.loops.iter().any(|l| l.edge == place)
+    pub(crate) fn is_chord(&self, edge: usize) -> bool {
+        self.loops.iter().any(|l| l.edge == edge)
     }
 
     /// All that is found: the unknowns, and what the chords take along.
     #[inline(always)]
-    pub(crate) fn found(&self) -> impl Iterator<Item = Unknown> + '_ {
-        let taken = self.loops.iter().filter_map(|l| match l.chord {
+    pub(crate) fn all_unknowns(&self) -> impl Iterator<Item = Unknown> + '_ {
+        let eliminated = self.loops.iter().filter_map(|l| match l.chord {
             Chord::Length { class } => Some(Unknown::Class(class)),
             Chord::Guide { slide } => Some(Unknown::Slide(slide)),
             Chord::Whole => None,
         });
-        self.unknowns.iter().copied().chain(taken)
+        self.unknowns.iter().copied().chain(eliminated)
     }
 }
 
@@ -135,7 +135,7 @@ pub(crate) struct BinaryLoops {
     /// The class of every unknown.
     pub classes: Vec<usize>,
     /// The class of every loop's binary link.
-    pub taken: Vec<usize>,
+    pub bar_classes: Vec<usize>,
     /// The edges that place its points.
     pub arms: Vec<Arm>,
 }

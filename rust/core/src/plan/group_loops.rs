@@ -1,6 +1,6 @@
 //! Groups above class II: their loops, with as few unknowns as can be.
 //!
-//! The independent loops of the block's graph are those that its chords close over a spanning
+//! The independent loops of the block's graph are those that its chords close_loop over a spanning
 //! tree. A chord that alone turns with its rotation (a binary link) leaves of its two equations
 //! the one that says how long it is; a chord along a guide leaves the one that says how far from
 //! the guide its end is; either takes an unknown with it. So the tree takes other edges first.
@@ -23,7 +23,7 @@ impl Group {
         let mut order: Vec<usize> = edges.to_vec();
         order.sort_by_key(|&edge| usize::from(chord(edge) != Chord::Whole));
         let (tree, chords) = spanning_tree(plan, &order, known);
-        let gone: Vec<Unknown> = chords
+        let eliminated: Vec<Unknown> = chords
             .iter()
             .filter_map(|&edge| match chord(edge) {
                 Chord::Length { class } => Some(Unknown::Class(class)),
@@ -32,17 +32,17 @@ impl Group {
             })
             .collect();
         let unknowns: Vec<Unknown> =
-            unknowns.iter().copied().filter(|u| !gone.contains(u)).collect();
+            unknowns.iter().copied().filter(|u| !eliminated.contains(u)).collect();
         let mut loops: Vec<Loop> =
-            chords.iter().map(|&e| close(plan, &tree, e, chord(e), edges)).collect();
-        let place = |unknown| unknowns.iter().position(|&u| u == unknown);
+            chords.iter().map(|&e| close_loop(plan, &tree, e, chord(e), edges)).collect();
+        let position = |unknown| unknowns.iter().position(|&u| u == unknown);
         let edges: Vec<GroupEdge> = edges
             .iter()
             .map(|&edge| GroupEdge {
                 edge,
-                turns: place(Unknown::Class(plan.class_of(edge))),
+                turns: position(Unknown::Class(plan.class_of(edge))),
                 slides: match plan.edges[edge].along {
-                    EdgeSlide::Slide(slide) => place(Unknown::Slide(slide)),
+                    EdgeSlide::Slide(slide) => position(Unknown::Slide(slide)),
                     _ => None,
                 },
                 is_bar: matches!(chord(edge), Chord::Length { .. })
@@ -53,11 +53,21 @@ impl Group {
         for l in &mut loops {
             l.columns = (0..unknowns.len()).map(|unknown| column(&edges, l, unknown)).collect();
         }
-        let turned = unknowns.iter().map(|&unknown| turned(plan, unknown)).collect();
+        let orientations = unknowns.iter().map(|&unknown| orientations_of(plan, unknown)).collect();
         let rows = loops.iter().map(|l| if l.chord == Chord::Whole { 2 } else { 1 }).sum();
         let index = plan.groups().count();
         (
-            Self { unknowns, turned, edges, loops, rows, name, index, first_leg: 0, bars: None },
+            Self {
+                unknowns,
+                orientations,
+                edges,
+                loops,
+                rows,
+                name,
+                index,
+                first_leg: 0,
+                binary_loops: None,
+            },
             chords,
         )
     }
@@ -66,22 +76,22 @@ impl Group {
 /// What an unknown does to a loop.
 fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<ColumnTerm> {
     let mut column = Vec::new();
-    let mut add = |place: usize, backward: bool| {
-        let edge = &edges[place];
+    let mut add = |index: usize, backward: bool| {
+        let edge = &edges[index];
         for (own, turns) in [(edge.turns, true), (edge.slides, false)] {
             if own == Some(unknown) {
-                column.push(ColumnTerm { place: Some(place), turns, backward });
+                column.push(ColumnTerm { edge: Some(index), turns, backward });
             }
         }
     };
-    for piece in &l.path {
-        add(piece.place, piece.backward);
+    for path_edge in &l.path {
+        add(path_edge.edge, path_edge.backward);
     }
     match l.chord {
         Chord::Whole => add(l.edge, true),
         Chord::Guide { .. } if edges[l.edge].turns == Some(unknown) => {
             // The guide turns, which is as if the chord turned back.
-            column.push(ColumnTerm { place: None, turns: true, backward: true });
+            column.push(ColumnTerm { edge: None, turns: true, backward: true });
         }
         _ => {}
     }
@@ -89,9 +99,9 @@ fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<ColumnTerm> {
 }
 
 /// Orientations that turn with an unknown.
-fn turned(plan: &Plan, unknown: Unknown) -> Vec<usize> {
-    let with = |o: &usize| unknown == Unknown::Class(plan.orientations[*o].class);
-    (0..plan.orientations.len()).filter(with).collect()
+fn orientations_of(plan: &Plan, unknown: Unknown) -> Vec<usize> {
+    let turns_with = |o: &usize| unknown == Unknown::Class(plan.orientations[*o].class);
+    (0..plan.orientations.len()).filter(turns_with).collect()
 }
 
 /// What an edge would leave as a chord.
@@ -156,8 +166,8 @@ fn spanning_tree(plan: &Plan, order: &[usize], known: &[bool]) -> (Tree, Vec<usi
     (tree, chords)
 }
 
-fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usize]) -> Loop {
-    let walk = |mut point: usize| {
+fn close_loop(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usize]) -> Loop {
+    let to_root = |mut point: usize| {
         let mut run = Vec::new();
         while let Some((edge, backward)) = tree[point] {
             run.push((edge, backward));
@@ -167,7 +177,7 @@ fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usize]) -
         (point, run)
     };
     let [from, to] = plan.edges[edge].ends(false);
-    let ((start, mut back), (end, mut ahead)) = (walk(from), walk(to));
+    let ((start, mut back), (end, mut ahead)) = (to_root(from), to_root(to));
     // What both ways begin with is no part of the loop.
     while let (Some(a), Some(b)) = (back.last(), ahead.last())
         && a == b
@@ -176,13 +186,13 @@ fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usize]) -
         ahead.pop();
     }
     let (start, end) = if start == end { (0, 0) } else { (start, end) };
-    let place = |edge: usize| edges.iter().position(|&e| e == edge).unwrap_or(0);
-    let piece = |(edge, backward)| LoopEdge { place: place(edge), backward };
+    let position = |edge: usize| edges.iter().position(|&e| e == edge).unwrap_or(0);
+    let loop_edge = |(edge, backward)| LoopEdge { edge: position(edge), backward };
     let back = back.into_iter().map(|(edge, backward)| (edge, !backward));
-    let path = back.chain(ahead.into_iter().rev()).map(piece).collect();
-    let turned = match chord {
-        Chord::Length { class } => turned(plan, Unknown::Class(class)),
+    let path = back.chain(ahead.into_iter().rev()).map(loop_edge).collect();
+    let orientations = match chord {
+        Chord::Length { class } => orientations_of(plan, Unknown::Class(class)),
         _ => Vec::new(),
     };
-    Loop { edge: place(edge), chord, start, end, path, turned, columns: Vec::new() }
+    Loop { edge: position(edge), chord, start, end, path, orientations, columns: Vec::new() }
 }

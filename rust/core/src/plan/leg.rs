@@ -13,7 +13,7 @@ pub(crate) struct Leg<R = f64> {
     /// The square of that.
     pub norm2: R,
     /// 1/length².
-    pub per: R,
+    pub inv_norm2: R,
 }
 
 impl<R: Real> Leg<R> {
@@ -21,19 +21,19 @@ impl<R: Real> Leg<R> {
     #[inline(always)]
     pub(crate) fn of(vector: Vector<R>) -> Self {
         let norm2 = vector.norm2();
-        Self { vector, norm: norm2.sqrt(), norm2, per: R::ONE / norm2 }
+        Self { vector, norm: norm2.sqrt(), norm2, inv_norm2: R::ONE / norm2 }
     }
 
     /// 1/length.
     #[inline(always)]
-    pub(crate) fn per_norm(&self) -> R {
-        self.norm * self.per
+    pub(crate) fn inv_norm(&self) -> R {
+        self.norm * self.inv_norm2
     }
 
     /// The rotation that brings it to a place.
     #[inline(always)]
     pub(crate) fn turn_to(&self, place: Vector<R>) -> Vector<R> {
-        (place * self.vector.conj()).scale(self.per)
+        (place * self.vector.conj()).scale(self.inv_norm2)
     }
 }
 
@@ -45,7 +45,7 @@ impl Leg {
             vector: Vector::splat(self.vector),
             norm: R::splat(self.norm),
             norm2: R::splat(self.norm2),
-            per: R::splat(self.per),
+            inv_norm2: R::splat(self.inv_norm2),
         }
     }
 }

@@ -222,12 +222,12 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
     }
     let mut signs = vec![1; plan.signs()];
     for dyad in plan.dyads() {
-        let Some(place) = dyad.sign else { continue };
-        let name = &plan.dyad_names[place];
+        let Some(sign) = dyad.sign else { continue };
+        let name = &plan.dyad_names[sign];
         let named = linkage.assembly.iter().rev().find(|(n, _)| n == name);
         let sine = drawn_sine(linkage, plan, dyad);
-        signs[place] = match named {
-            Some((_, sign)) => *sign,
+        signs[sign] = match named {
+            Some((_, chosen)) => *chosen,
             None if sine.abs() >= FLAT_SINE => {
                 if sine > 0.0 {
                     1
@@ -237,7 +237,7 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
             }
             None => {
                 return Err(StructureError::FlatDyad {
-                    dyad: plan.dyad_links[place].clone(),
+                    dyad: plan.dyad_links[sign].clone(),
                     name: name.clone(),
                     sine,
                 });
@@ -263,13 +263,13 @@ fn drawn_sine(linkage: &Linkage, plan: &Plan, dyad: &Dyad) -> f64 {
     };
     let mut terms = [Vector::ZERO; 2];
     let mut guide = Vector::ZERO;
-    for part in &dyad.path {
-        let edge = &plan.edges[part.edge];
-        let signed = |v: Vector| if part.backward { -v } else { v };
-        if let Some(place) = part.turns {
-            terms[place] += signed(at(edge.edge.to) - at(edge.edge.from));
+    for term in &dyad.path {
+        let edge = &plan.edges[term.edge];
+        let signed = |v: Vector| if term.backward { -v } else { v };
+        if let Some(unknown) = term.turns {
+            terms[unknown] += signed(at(edge.edge.to) - at(edge.edge.from));
         }
-        if let (Some(slide), Some(_)) = (edge.edge.slide(), part.slides) {
+        if let (Some(slide), Some(_)) = (edge.edge.slide(), term.slides) {
             guide = signed(Vector::at_angle(linkage.slides[slide].angle));
         }
     }

@@ -63,7 +63,7 @@ pub(crate) struct Orientation {
     /// Whether a multiple is not 0.
     pub driven: bool,
     /// The driver that alone turns it, once, and whether the other way round.
-    pub lone: Option<(usize, bool)>,
+    pub single_driver: Option<(usize, bool)>,
 }
 
 /// One thing to do at every position.
@@ -85,7 +85,7 @@ pub(crate) struct RedundantLink {
     /// Name used when it does not fit.
     pub name: String,
     /// How its orientation is found; none for a slide alone.
-    pub turned: Option<AngleFrom>,
+    pub angle_from: Option<AngleFrom>,
     /// Edges whose far point is not placed by anything else, with direction.
     pub places: Vec<(usize, bool)>,
     /// Edges that must close (a slide along them takes the value that fits best).
@@ -177,9 +177,9 @@ impl Plan {
     }
 
     /// The redundant links and slides, in order.
-    pub(crate) fn fits(&self) -> impl Iterator<Item = &RedundantLink> {
+    pub(crate) fn redundant_links(&self) -> impl Iterator<Item = &RedundantLink> {
         self.steps.iter().filter_map(|step| match step {
-            Step::Redundant(fit) => Some(fit),
+            Step::Redundant(redundant) => Some(redundant),
             _ => None,
         })
     }
@@ -214,8 +214,8 @@ impl Plan {
     /// Whether an edge of a group is a rigid one that turns with an unknown: its jets follow from its own.
     #[must_use]
     #[inline(always)]
-    pub(crate) fn is_arm(&self, group: &Group, place: usize) -> bool {
-        let edge = &group.edges[place];
+    pub(crate) fn is_arm(&self, group: &Group, edge: usize) -> bool {
+        let edge = &group.edges[edge];
         edge.turns.is_some() && self.edges[edge.edge].along == EdgeSlide::Nothing
     }
 }

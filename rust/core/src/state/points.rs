@@ -28,7 +28,7 @@ impl<R: Real, const G: usize> State<R, G> {
     fn place_rigid(&mut self, cx: &Context<'_>, e: usize, backward: bool, len: usize) {
         let edge = &cx.plan.edges[e];
         let [from, to] = edge.ends(backward);
-        let jet = |place: usize| place * len..place * len + len;
+        let jet = |i: usize| i * len..i * len + len;
         let Ok([base, out]) = self.points.get_disjoint_mut([from, to].map(jet)) else { return };
         let groups = self.groups.min(G);
         match edge.leg {
@@ -49,24 +49,28 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
             None => {
-                let rigid = Vector::splat(cx.bound.rigid[e]);
-                let rigid = if backward { -rigid } else { rigid };
+                let edge_vector = Vector::splat(cx.bound.edge_vector[e]);
+                let edge_vector = if backward { -edge_vector } else { edge_vector };
                 let orient = &self.orient[jet(edge.orientation)];
                 for k in 0..len {
                     for g in 0..groups {
-                        out[k][g] = base[k][g] + orient[k][g] * rigid;
+                        out[k][g] = base[k][g] + orient[k][g] * edge_vector;
                     }
                 }
             }
         }
         let arm = R::splat(cx.bound.arm2[e]);
         let turned = &self.class_condition[edge.class];
-        let Ok([from_grain, grain]) = self.grain.get_disjoint_mut([from, to]) else { return };
+        let Ok([from_scale2, coordinate_scale2]) =
+            self.coordinate_scale2.get_disjoint_mut([from, to])
+        else {
+            return;
+        };
         let Ok([before, condition]) = self.point_condition.get_disjoint_mut([from, to]) else {
             return;
         };
         for g in 0..groups {
-            grain[g] = from_grain[g].max(arm).max(out[0][g].norm2());
+            coordinate_scale2[g] = from_scale2[g].max(arm).max(out[0][g].norm2());
             condition[g] = before[g].max(turned[g]);
         }
     }
@@ -86,7 +90,7 @@ impl<R: Real, const G: usize> State<R, G> {
             EdgeSlide::Nothing => R::splat(cx.bound.arm2[e]),
             _ => (end - start).norm2(),
         };
-        self.grain[to][g] = self.grain[from][g].max(arm).max(end.norm2());
+        self.coordinate_scale2[to][g] = self.coordinate_scale2[from][g].max(arm).max(end.norm2());
         let mut condition = self.point_condition[from][g].max(self.class_condition[edge.class][g]);
         if let EdgeSlide::Slide(slide) = edge.along {
             condition = condition.max(self.slide_condition[slide][g]);

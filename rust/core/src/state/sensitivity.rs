@@ -10,14 +10,14 @@ use nalgebra::{DMatrix, DVector};
 use super::state::{Context, State};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::vector::Vector;
-use crate::plan::constants_rate::BoundRate;
+use crate::plan::constants_rate::ConstantsRate;
 use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::group::Group;
 use crate::plan::plan::{EdgeSlide, Plan, Step};
 
 /// A closed path: `P_plus − P_minus + Σ ±edges = 0`.
 #[derive(Debug)]
-struct Path {
+struct ClosedPath {
     plus: usize,
     minus: usize,
     /// Edges, each with its sign.
@@ -28,7 +28,7 @@ struct Path {
 #[derive(Debug)]
 struct Closures {
     unknowns: Vec<Unknown>,
-    paths: Vec<Path>,
+    paths: Vec<ClosedPath>,
 }
 
 fn signed(backward: bool) -> f64 {
@@ -37,19 +37,20 @@ fn signed(backward: bool) -> f64 {
 
 impl Closures {
     fn of_dyad(dyad: &Dyad) -> Self {
-        let edges = dyad.path.iter().map(|part| (part.edge, signed(part.backward))).collect();
-        let path = Path { plus: dyad.start, minus: dyad.end, edges };
+        let edges = dyad.path.iter().map(|term| (term.edge, signed(term.backward))).collect();
+        let path = ClosedPath { plus: dyad.start, minus: dyad.end, edges };
         Self { unknowns: dyad.unknowns.to_vec(), paths: vec![path] }
     }
 
     fn of_group(group: &Group) -> Self {
-        let edge = |place: usize| group.edges[place].edge;
+        let edge = |i: usize| group.edges[i].edge;
         let paths = group.loops.iter().map(|l| {
-            let path = l.path.iter().map(|piece| (edge(piece.place), signed(piece.backward)));
+            let path =
+                l.path.iter().map(|path_edge| (edge(path_edge.edge), signed(path_edge.backward)));
             let edges = path.chain([(edge(l.edge), -1.0)]).collect();
-            Path { plus: l.end, minus: l.start, edges }
+            ClosedPath { plus: l.end, minus: l.start, edges }
         });
-        Self { unknowns: group.found().collect(), paths: paths.collect() }
+        Self { unknowns: group.all_unknowns().collect(), paths: paths.collect() }
     }
 }
 
@@ -77,16 +78,16 @@ impl Sensitivity {
     }
 
     /// Derivatives at a solved position; false where they do not exist.
-    pub(crate) fn solve(&mut self, state: &State, cx: &Context<'_>, by: &BoundRate) -> bool {
+    pub(crate) fn solve(&mut self, state: &State, cx: &Context<'_>, by: &ConstantsRate) -> bool {
         let len = state.len;
-        self.orient(state, cx);
-        for (place, &fixed) in by.fixed.iter().enumerate() {
-            self.rates.points[place * len..][..len].fill([Vector::ZERO]);
-            self.rates.points[place * len] = [fixed];
+        self.orientation_jets(state, cx);
+        for (i, &fixed) in by.fixed.iter().enumerate() {
+            self.rates.points[i * len..][..len].fill([Vector::ZERO]);
+            self.rates.points[i * len] = [fixed];
         }
         self.rates.theta.fill([0.0]);
         self.rates.slides.fill([0.0]);
-        let at = At { state, cx, by, len };
+        let at = Inputs { state, cx, by, len };
         for (index, step) in cx.plan.steps.iter().enumerate() {
             match step {
                 &Step::Place { edge, backward } => {
@@ -100,7 +101,7 @@ impl Sensitivity {
                 Step::Redundant(_) => return false,
                 Step::Dyad(_) | Step::Group(_) => {
                     let Some(closures) = self.steps[index].take() else { return false };
-                    let solved = self.close(&at, &closures);
+                    let solved = self.solve_closures(&at, &closures);
                     self.steps[index] = Some(closures);
                     if !solved {
                         return false;
@@ -112,16 +113,16 @@ impl Sensitivity {
     }
 
     /// All orientations, from the classes' angles.
-    fn orient(&mut self, state: &State, cx: &Context<'_>) {
+    fn orientation_jets(&mut self, state: &State, cx: &Context<'_>) {
         let len = state.len;
         for (o, orientation) in cx.plan.orientations.iter().enumerate() {
             let class = state.class[orientation.class][0];
             let phase = if orientation.driven { state.phase[o][0] } else { Vector::ONE };
             self.units[o * len] = class * phase;
             for k in 1..len {
-                let mut sum = self.units[o * len].scale(state.theta_of(0, cx, o, k));
+                let mut sum = self.units[o * len].scale(state.angle_analogue(0, cx, o, k));
                 for term in &cx.jets.rotation[k] {
-                    let rate = term.factor * state.theta_of(0, cx, o, term.right);
+                    let rate = term.factor * state.angle_analogue(0, cx, o, term.right);
                     sum += self.units[o * len + term.left].scale(rate);
                 }
                 self.units[o * len + k] = sum.left();
@@ -130,7 +131,7 @@ impl Sensitivity {
     }
 
     /// Entry `k` of an orientation's derivative: of `∂U = i U ∂Θ`, by Leibniz.
-    fn unit_rate(&self, at: &At<'_>, o: usize, k: usize) -> Vector {
+    fn unit_rate(&self, at: &Inputs<'_>, o: usize, k: usize) -> Vector {
         let class = at.cx.plan.orientations[o].class;
         let mut sum = Vector::ZERO;
         for term in &at.cx.jets.product[k] {
@@ -141,41 +142,41 @@ impl Sensitivity {
     }
 
     /// Entry `k` of an edge's derivative.
-    fn edge(&self, at: &At<'_>, e: usize, k: usize) -> Vector {
+    fn edge(&self, at: &Inputs<'_>, e: usize, k: usize) -> Vector {
         let (edge, bound, len) = (&at.cx.plan.edges[e], at.cx.bound, at.len);
         let o = edge.orientation;
-        let mut sum =
-            self.unit_rate(at, o, k) * bound.rigid[e] + self.units[o * len + k] * at.by.rigid[e];
+        let mut sum = self.unit_rate(at, o, k) * bound.edge_vector[e]
+            + self.units[o * len + k] * at.by.edge_vector[e];
         if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
             for term in &at.cx.jets.product[k] {
                 let unit = self.units[o * len + term.left];
                 let value = at.state.slides[slide * len + term.right][0];
                 let rate = self.rates.slides[slide * len + term.right][0];
                 let turned = self.unit_rate(at, o, term.left) * bound.guide[e];
-                let bent = unit * at.by.guide[e];
+                let guide_rate = unit * at.by.guide[e];
                 let along = unit * bound.guide[e];
-                sum += ((turned + bent).scale(value) + along.scale(rate)).scale(term.factor);
+                sum += ((turned + guide_rate).scale(value) + along.scale(rate)).scale(term.factor);
             }
         }
         sum
     }
 
     /// The unknowns' derivatives, order after order.
-    fn close(&mut self, at: &At<'_>, closures: &Closures) -> bool {
+    fn solve_closures(&mut self, at: &Inputs<'_>, closures: &Closures) -> bool {
         let (len, n) = (at.len, closures.unknowns.len());
         let lu = self.matrix(at, closures).lu();
         for k in 0..len {
-            let mut missing = DVector::zeros(n);
-            for (place, path) in closures.paths.iter().enumerate() {
+            let mut residual = DVector::zeros(n);
+            for (i, path) in closures.paths.iter().enumerate() {
                 let point = |p: usize| self.rates.points[p * len + k][0];
                 let mut sum = point(path.plus) - point(path.minus);
                 for &(e, sign) in &path.edges {
                     sum += self.edge(at, e, k).scale(sign);
                 }
-                missing[2 * place] = -sum.x;
-                missing[2 * place + 1] = -sum.y;
+                residual[2 * i] = -sum.x;
+                residual[2 * i + 1] = -sum.y;
             }
-            let Some(values) = lu.solve(&missing) else { return false };
+            let Some(values) = lu.solve(&residual) else { return false };
             for (&unknown, &value) in closures.unknowns.iter().zip(values.iter()) {
                 match unknown {
                     Unknown::Class(class) => self.rates.theta[class * len + k][0] = value,
@@ -187,15 +188,15 @@ impl Sensitivity {
     }
 
     /// Derivatives of the closures by the unknowns.
-    fn matrix(&self, at: &At<'_>, closures: &Closures) -> DMatrix<f64> {
+    fn matrix(&self, at: &Inputs<'_>, closures: &Closures) -> DMatrix<f64> {
         let n = closures.unknowns.len();
         let mut matrix = DMatrix::zeros(n, n);
-        for (place, path) in closures.paths.iter().enumerate() {
+        for (i, path) in closures.paths.iter().enumerate() {
             for &(e, sign) in &path.edges {
                 let edge = &at.cx.plan.edges[e];
                 let unit = self.units[edge.orientation * at.len].scale(sign);
                 let guide = unit * at.cx.bound.guide[e];
-                let mut vector = unit * at.cx.bound.rigid[e];
+                let mut vector = unit * at.cx.bound.edge_vector[e];
                 if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
                     vector += guide.scale(at.state.slides[slide * at.len][0]);
                 }
@@ -205,8 +206,8 @@ impl Sensitivity {
                         (Unknown::Slide(slide), EdgeSlide::Slide(own)) if slide == own => guide,
                         _ => continue,
                     };
-                    matrix[(2 * place, column)] += v.x;
-                    matrix[(2 * place + 1, column)] += v.y;
+                    matrix[(2 * i, column)] += v.x;
+                    matrix[(2 * i + 1, column)] += v.y;
                 }
             }
         }
@@ -215,9 +216,9 @@ impl Sensitivity {
 }
 
 /// Where it is.
-struct At<'a> {
+struct Inputs<'a> {
     state: &'a State,
     cx: &'a Context<'a>,
-    by: &'a BoundRate,
+    by: &'a ConstantsRate,
     len: usize,
 }

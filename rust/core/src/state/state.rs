@@ -45,7 +45,7 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) phase: Vec<[Vector<R>; G]>,
     /// Square of the greatest coordinate or arm on the way to each point: what its
     /// rounding is a part of.
-    pub(crate) grain: Vec<[R; G]>,
+    pub(crate) coordinate_scale2: Vec<[R; G]>,
     /// Square of the product of the conditions of the dyads that each point depends on
     /// (squares need no roots).
     pub(crate) point_condition: Vec<[R; G]>,
@@ -54,7 +54,7 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     /// Likewise of each slide.
     pub(crate) slide_condition: Vec<[R; G]>,
     /// Square of the condition of what each dyad with a sign hangs on.
-    pub(crate) before: Vec<[R; G]>,
+    pub(crate) upstream_condition2: Vec<[R; G]>,
     /// Matrix, inverse and right-hand side of a group above class II.
     pub(crate) matrix: Vec<[R; G]>,
     /// Jets of the directions of guides along the edges of a group, and of the chords of its
@@ -62,15 +62,15 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) guides: Vec<[Vector<R>; G]>,
     pub(crate) chords: Vec<[Vector<R>; G]>,
     /// 1/length of every chord that has one.
-    pub(crate) per: Vec<[R; G]>,
+    pub(crate) inv_length: Vec<[R; G]>,
     /// Classes of binary links whose rotation is asked for (where nothing else needs it).
-    pub(crate) asked: Vec<bool>,
+    pub(crate) angle_wanted: Vec<bool>,
     /// Work space for groups of binary links.
     pub(crate) loops: GroupWorkspace<R>,
     /// Determinant of every group's matrix (with analogues only).
     pub(crate) determinants: Vec<[R; G]>,
     /// The same of its last round's.
-    pub(crate) bends: Vec<[R; G]>,
+    pub(crate) det_sign: Vec<[R; G]>,
     /// How far (rad, or of the size) the first step of a group's iteration went, at most, and the
     /// others together.
     pub(crate) first_step: [R; G],
@@ -78,8 +78,8 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     /// Square of the greatest condition of the position.
     pub condition2: [R; G],
     /// Lanes that did not come out as plainly solved; each is done again by itself.
-    pub care: [R::Mask; G],
-    /// How one position by itself came out (with several lanes: see `care`).
+    pub needs_scalar: [R::Mask; G],
+    /// How one position by itself came out (with several lanes: see `needs_scalar`).
     pub status: Status,
     /// The first thing that failed, likewise.
     pub fault: Option<Fault>,
@@ -118,23 +118,23 @@ impl<R: Real, const G: usize> State<R, G> {
             slides: vec![[R::ZERO; G]; slides * len],
             class: vec![[Vector::ONE; G]; plan.classes],
             phase: vec![[Vector::ONE; G]; plan.orientations.len()],
-            grain: vec![[R::ZERO; G]; plan.points],
+            coordinate_scale2: vec![[R::ZERO; G]; plan.points],
             point_condition: vec![[R::ONE; G]; plan.points],
             class_condition: vec![[R::ONE; G]; plan.classes],
             slide_condition: vec![[R::ONE; G]; slides],
-            before: vec![[R::ONE; G]; plan.signs()],
+            upstream_condition2: vec![[R::ONE; G]; plan.signs()],
             matrix: vec![[R::ZERO; G]; plan.matrix_size()],
             guides: vec![[Vector::ZERO; G]; edges * len],
             chords: vec![[Vector::ZERO; G]; loops * len],
-            per: vec![[R::ONE; G]; loops],
-            asked: vec![true; plan.classes],
+            inv_length: vec![[R::ONE; G]; loops],
+            angle_wanted: vec![true; plan.classes],
             loops: GroupWorkspace::default(),
             determinants: vec![[R::ZERO; G]; plan.groups().count()],
-            bends: vec![[R::ZERO; G]; plan.groups().count()],
+            det_sign: vec![[R::ZERO; G]; plan.groups().count()],
             first_step: [R::ZERO; G],
             later_steps: [R::ZERO; G],
             condition2: [R::ONE; G],
-            care: [R::Mask::NONE; G],
+            needs_scalar: [R::Mask::NONE; G],
             status: Status::Ok,
             fault: None,
         }
@@ -155,7 +155,7 @@ impl<R: Real, const G: usize> State<R, G> {
             let fixed = Vector::splat(fixed);
             jet.fill([Vector::ZERO; G]);
             jet[0] = [fixed; G];
-            self.grain[point] = [fixed.norm2(); G];
+            self.coordinate_scale2[point] = [fixed.norm2(); G];
         }
         self.class[0] = [Vector::ONE; G];
         self.theta[..len].fill([R::ZERO; G]);
@@ -182,25 +182,25 @@ impl<R: Real, const G: usize> State<R, G> {
         cx: &Context<'_>,
         group: &impl Fn(&mut Self, &Context<'_>, &Group, usize),
     ) {
-        self.start(cx);
+        self.start_position(cx);
         for (index, step) in cx.plan.steps.iter().enumerate() {
-            if R::LANES == 1 && self.is_over() {
+            if R::LANES == 1 && self.has_failed() {
                 return;
             }
             match step {
-                Step::Dyad(dyad) => match dyad.binary {
-                    Some(classes) => self.solve_binary(cx, dyad, classes, index),
+                Step::Dyad(dyad) => match dyad.rrr_classes {
+                    Some(classes) => self.solve_rrr(cx, dyad, classes, index),
                     None => {
                         for g in 0..self.groups.min(G) {
-                            self.solve_dyad(g, cx, dyad, index);
+                            self.dyad_step(g, cx, dyad, index);
                         }
                     }
                 },
                 &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
                 Step::Group(higher) => group(self, cx, higher, index),
-                Step::Redundant(fit) => {
+                Step::Redundant(redundant) => {
                     for g in 0..self.groups.min(G) {
-                        self.fit(g, cx, fit, index);
+                        self.check_redundant(g, cx, redundant, index);
                     }
                 }
             }
@@ -209,7 +209,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Whether nothing is left to be computed.
     #[inline(always)]
-    pub(crate) fn is_over(&self) -> bool {
+    pub(crate) fn has_failed(&self) -> bool {
         matches!(self.status, Status::Unreachable | Status::BadInput | Status::NotConverged)
     }
 
@@ -220,21 +220,21 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     /// A coordinate that cannot be computed with.
-    pub(crate) fn refuse(&mut self) {
+    pub(crate) fn set_bad_input(&mut self) {
         self.fault = None;
         self.status = Status::BadInput;
     }
 
     /// A place to which the way from the drawing is not known.
-    pub(crate) fn lose(&mut self) {
+    pub(crate) fn set_lost(&mut self) {
         self.fault = None;
         self.status = Status::Lost;
     }
 
     /// Lanes where a step did not close; a position by itself is done with then.
     #[inline(always)]
-    pub(crate) fn open(&mut self, g: usize, open: R::Mask, fault: impl Fn() -> Fault) {
-        self.care[g] = self.care[g].or(open);
+    pub(crate) fn mark_open(&mut self, g: usize, open: R::Mask, fault: impl Fn() -> Fault) {
+        self.needs_scalar[g] = self.needs_scalar[g].or(open);
         if R::LANES == 1 && open.any() {
             self.fault = Some(fault());
             self.status = Status::Unreachable;
@@ -242,22 +242,22 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     #[inline(always)]
-    fn start(&mut self, cx: &Context<'_>) {
+    fn start_position(&mut self, cx: &Context<'_>) {
         self.fault = None;
         self.status = Status::Ok;
         self.condition2 = [R::ONE; G];
-        self.care = [R::Mask::NONE; G];
+        self.needs_scalar = [R::Mask::NONE; G];
         self.first_step = [R::ZERO; G];
         self.later_steps = [R::ZERO; G];
         for (driver, q) in self.q.iter().enumerate() {
             for g in 0..G {
-                self.care[g] = self.care[g].or(q[g].finite().not());
+                self.needs_scalar[g] = self.needs_scalar[g].or(q[g].finite().not());
             }
             if let Some(slide) = cx.plan.driven_slide(driver) {
                 self.slides[slide * self.len] = *q;
             }
         }
-        if R::LANES == 1 && self.care[0].any() {
+        if R::LANES == 1 && self.needs_scalar[0].any() {
             self.status = Status::BadInput;
             return;
         }
@@ -267,7 +267,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
             for g in 0..self.groups.min(G) {
                 let mut phase = Vector::ONE;
-                match orientation.lone {
+                match orientation.single_driver {
                     Some((driver, false)) => phase = self.unit[driver][g],
                     Some((driver, true)) => phase = self.unit[driver][g].conj(),
                     None => {
@@ -281,32 +281,36 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
                 self.phase[o][g] = phase;
                 if orientation.class == 0 {
-                    self.orient_driven(g, cx, o, phase);
+                    self.driven_orientation(g, cx, o, phase);
                 }
             }
         }
     }
 
     #[inline(always)]
-    fn solve_dyad(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, index: usize) {
-        let mut before = self.point_condition[dyad.start][g].max(self.point_condition[dyad.end][g]);
-        for part in &dyad.others {
-            if part.turns.is_none() {
-                before = before.max(self.class_condition[cx.plan.class_of(part.edge)][g]);
+    fn dyad_step(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, index: usize) {
+        let mut upstream2 =
+            self.point_condition[dyad.start][g].max(self.point_condition[dyad.end][g]);
+        for term in &dyad.others {
+            if term.turns.is_none() {
+                upstream2 = upstream2.max(self.class_condition[cx.plan.class_of(term.edge)][g]);
             }
-            if let (EdgeSlide::Slide(slide), None) = (cx.plan.edges[part.edge].along, part.slides) {
-                before = before.max(self.slide_condition[slide][g]);
+            if let (EdgeSlide::Slide(slide), None) = (cx.plan.edges[term.edge].along, term.slides) {
+                upstream2 = upstream2.max(self.slide_condition[slide][g]);
             }
         }
         if let Some(sign) = dyad.sign {
-            self.before[sign][g] = before;
+            self.upstream_condition2[sign][g] = upstream2;
         }
-        let solved = self.close(g, cx, dyad);
-        self.open(g, solved.open, || Fault::NotClosed { step: index, gap: solved.gap.lane(0) });
+        let solved = self.solve_dyad(g, cx, dyad);
+        self.mark_open(g, solved.open, || Fault::NotClosed {
+            step: index,
+            gap: solved.gap.lane(0),
+        });
         if self.status == Status::Unreachable {
             return;
         }
-        let condition = before * solved.arm2 / solved.sine2;
+        let condition = upstream2 * solved.arm2 / solved.sine2;
         for unknown in dyad.unknowns {
             match unknown {
                 Unknown::Class(c) => self.class_condition[c][g] = condition,
@@ -315,11 +319,11 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         self.condition2[g] = condition.max(self.condition2[g]);
         let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));
-        self.care[g] = self.care[g].or(flat);
+        self.needs_scalar[g] = self.needs_scalar[g].or(flat);
         if R::LANES == 1 && flat.any() {
             self.fault.get_or_insert(Fault::Singular { step: index });
             self.status = Status::Singular;
-            self.no_analogues(g, dyad);
+            self.nan_analogues(g, dyad);
             return;
         }
         self.analogues(g, cx, dyad);

@@ -26,7 +26,7 @@ pub(crate) struct DyadSolution<R: Real> {
 impl<R: Real> DyadSolution<R> {
     /// With the levers of the legs.
     #[inline(always)]
-    pub(crate) fn with(self, arm2: R) -> Self {
+    pub(crate) fn with_arm2(self, arm2: R) -> Self {
         Self { arm2: arm2.max(R::ONE), ..self }
     }
 }
@@ -88,7 +88,7 @@ pub(crate) fn two_circles<R: Real>(
         gap: R::select(far, R::splat(f64::INFINITY), gap),
         flat: outer.flat.or(inner.flat),
         // `area` is four times the triangle's: (2 a b sin)² = area².
-        sine2: area2 * (R::splat(0.25) * a.per * b.per),
+        sine2: area2 * (R::splat(0.25) * a.inv_norm2 * b.inv_norm2),
         arm2: R::ONE,
     };
     (first, second, solved)
@@ -115,10 +115,10 @@ pub(crate) fn circle_and_line<R: Real>(
         open: inner.open.or(R::ZERO.lt(a.norm2).not()).or(far),
         gap: R::select(far, R::splat(f64::INFINITY), inner.gap(a.norm - across.abs(), R::ZERO)),
         flat: inner.flat,
-        sine2: chord2 * a.per,
+        sine2: chord2 * a.inv_norm2,
         arm2: R::ONE,
     };
-    ((leg * a.vector.conj()).scale(a.per), along + signed, solved)
+    ((leg * a.vector.conj()).scale(a.inv_norm2), along + signed, solved)
 }
 
 /// `(a + s b) u = k` for a unit vector u and a slide s along the unit vector b
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn circles_that_do_not_meet_tell_the_gap() {
+    fn circles_that_do_not_meet_report_the_gap() {
         let unit = leg(1.0, 0.0);
         let (_, _, solved) = two_circles(&unit, &unit, Vector::new(2.5, 0.0), 1.0);
         assert!(solved.open && (solved.gap - 0.5).abs() < TOLERANCE);

@@ -13,15 +13,21 @@ impl<R: Real, const G: usize> State<R, G> {
     /// that by one driver (jet entry `first`): the sine of the angle between its legs (a rotation
     /// and a slide: the chord) as far as it matters near 0.
     #[inline(always)]
-    pub(crate) fn spread(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, first: usize) -> (R, R) {
-        let [a, da] = [0, first].map(|k| self.turning(g, cx, dyad, 0, k));
+    pub(crate) fn discriminant(
+        &self,
+        g: usize,
+        cx: &Context<'_>,
+        dyad: &Dyad,
+        first: usize,
+    ) -> (R, R) {
+        let [a, da] = [0, first].map(|k| self.leg_vector(g, cx, dyad, 0, k));
         let (value, rate, size) = match dyad.form {
             Form::TwoCircles => {
-                let [b, db] = [0, first].map(|k| self.turning(g, cx, dyad, 1, k));
+                let [b, db] = [0, first].map(|k| self.leg_vector(g, cx, dyad, 1, k));
                 (b.cross(a), db.cross(a) + b.cross(da), a.norm() * b.norm())
             }
             Form::CircleAndLine | Form::TurningGuide => {
-                let [guide, rate_of] = [0, first].map(|k| self.sliding(g, cx, dyad, 1, k));
+                let [guide, rate_of] = [0, first].map(|k| self.slide_direction(g, cx, dyad, 1, k));
                 let (value, rate) = (guide.dot(a), rate_of.dot(a) + guide.dot(da));
                 if dyad.form == Form::TurningGuide {
                     (value, rate, R::ONE)
@@ -31,30 +37,31 @@ impl<R: Real, const G: usize> State<R, G> {
             }
             Form::TwoLines => (R::ONE, R::ZERO, R::ONE),
         };
-        let per = R::ONE / size;
-        (value * per, rate * per)
+        let inv_size = R::ONE / size;
+        (value * inv_size, rate * inv_size)
     }
 }
 
 impl State {
     /// The size of a dyad's triangle by its shortest side that turns: what its rounding
     /// means for the spread.
-    pub(crate) fn shortness(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
-        let a = self.turning(0, cx, dyad, 0, 0).norm2();
+    pub(crate) fn length_ratio(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
+        let a = self.leg_vector(0, cx, dyad, 0, 0).norm2();
         let b = match dyad.form {
-            Form::TwoCircles => self.turning(0, cx, dyad, 1, 0).norm2(),
+            Form::TwoCircles => self.leg_vector(0, cx, dyad, 1, 0).norm2(),
             _ => a,
         };
-        let grain = self.grain[dyad.start][0].max(self.grain[dyad.end][0]);
-        (grain.max(a).max(b) / a.min(b)).sqrt()
+        let coordinate_scale2 =
+            self.coordinate_scale2[dyad.start][0].max(self.coordinate_scale2[dyad.end][0]);
+        (coordinate_scale2.max(a).max(b) / a.min(b)).sqrt()
     }
 
     /// Greatest misfit of any edge, of the size.
     pub(crate) fn residual(&self, cx: &Context<'_>) -> f64 {
         let len = self.len;
-        (cx.plan.edges.iter().zip(&cx.bound.rigid).zip(&cx.bound.guide))
-            .map(|((e, &rigid), &guide)| {
-                let mut span = rigid;
+        (cx.plan.edges.iter().zip(&cx.bound.edge_vector).zip(&cx.bound.guide))
+            .map(|((e, &edge_vector), &guide)| {
+                let mut span = edge_vector;
                 if let EdgeSlide::Slide(s) | EdgeSlide::Driver { slide: s } = e.along {
                     span += guide.scale(self.slides[s * len][0]);
                 }
@@ -84,18 +91,18 @@ impl State {
     /// How far the analogues of an order (of one driver; 0: points) are from those of another state,
     /// of the size or of themselves.
     pub(crate) fn distance(&self, other: &Self, order: usize) -> f64 {
-        let far = |(one, own): (&[Vector; 1], &[Vector; 1])| {
-            (one[0] - own[0]).norm() / (1.0 + own[0].norm())
+        let relative = |(one, other): (&[Vector; 1], &[Vector; 1])| {
+            (one[0] - other[0]).norm() / (1.0 + other[0].norm())
         };
         let pairs = self.points.iter().zip(&other.points).skip(order).step_by(self.len);
         let pairs = pairs.take(if order < self.len { usize::MAX } else { 0 });
         // What is no number is no fit.
-        pairs.map(far).fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
+        pairs.map(relative).fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
     }
 
     /// Becomes the weighted sum of other states of the same plan: a polynomial
     /// through them, evaluated between them.
-    pub(crate) fn blend(&mut self, states: &[Self], weights: &[f64]) {
+    pub(crate) fn interpolate(&mut self, states: &[Self], weights: &[f64]) {
         fn sum(
             out: &mut [[f64; 1]],
             states: &[State],

@@ -15,7 +15,7 @@ use crate::state::status::{FLAT2, Fault, Status};
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves the dyad (step `index`) whose two legs turn with these classes.
     #[inline(always)]
-    pub(crate) fn solve_binary(
+    pub(crate) fn solve_rrr(
         &mut self,
         cx: &Context<'_>,
         dyad: &Dyad,
@@ -23,27 +23,29 @@ impl<R: Real, const G: usize> State<R, G> {
         index: usize,
     ) {
         match (cx.jets.drivers, self.len) {
-            (1, 1) => self.binary(cx, dyad, classes, index, 1, &|k| ONE_DRIVER[k]),
-            (1, 2) => self.binary(cx, dyad, classes, index, 2, &|k| ONE_DRIVER[k]),
-            (1, 3) => self.binary(cx, dyad, classes, index, 3, &|k| ONE_DRIVER[k]),
-            (1, 4) => self.binary(cx, dyad, classes, index, 4, &|k| ONE_DRIVER[k]),
-            (_, len) => self.binary(cx, dyad, classes, index, len, &|k| &cx.jets.rotation[k][..]),
+            (1, 1) => self.rrr_of_length(cx, dyad, classes, index, 1, &|k| ONE_DRIVER[k]),
+            (1, 2) => self.rrr_of_length(cx, dyad, classes, index, 2, &|k| ONE_DRIVER[k]),
+            (1, 3) => self.rrr_of_length(cx, dyad, classes, index, 3, &|k| ONE_DRIVER[k]),
+            (1, 4) => self.rrr_of_length(cx, dyad, classes, index, 4, &|k| ONE_DRIVER[k]),
+            (_, len) => {
+                self.rrr_of_length(cx, dyad, classes, index, len, &|k| &cx.jets.rotation[k][..])
+            }
         }
-        for (turned, class) in dyad.turned.iter().zip(classes) {
+        for (turned, class) in dyad.orientations.iter().zip(classes) {
             for &o in turned {
                 for g in 0..self.groups.min(G) {
-                    self.turn_other(g, cx, o, class);
+                    self.update_orientation(g, cx, o, class);
                 }
             }
         }
         if R::LANES == 1 && matches!(self.fault, Some(Fault::Singular { step }) if step == index) {
-            self.no_analogues(0, dyad);
+            self.nan_analogues(0, dyad);
         }
     }
 
     /// `len`: entries of a jet; `terms`: their table.
     #[inline(always)]
-    fn binary<'t>(
+    fn rrr_of_length<'t>(
         &mut self,
         cx: &Context<'_>,
         dyad: &Dyad,
@@ -52,10 +54,11 @@ impl<R: Real, const G: usize> State<R, G> {
         len: usize,
         terms: &impl Fn(usize) -> &'t [Term],
     ) {
-        let jet = |place: usize| place * len..place * len + len;
+        let jet = |i: usize| i * len..i * len + len;
         let legs = [2 * dyad.index, 2 * dyad.index + 1].map(jet);
         let (start, end) = (&self.points[jet(dyad.start)], &self.points[jet(dyad.end)]);
-        let grain = [&self.grain[dyad.start], &self.grain[dyad.end]];
+        let coordinate_scale2 =
+            [&self.coordinate_scale2[dyad.start], &self.coordinate_scale2[dyad.end]];
         let before = [&self.point_condition[dyad.start], &self.point_condition[dyad.end]];
         let (
             Some(sign),
@@ -73,14 +76,15 @@ impl<R: Real, const G: usize> State<R, G> {
         else {
             return;
         };
-        let (signs, before_sign) = (&self.signs[sign], &mut self.before[sign]);
+        let (signs, before_sign) = (&self.signs[sign], &mut self.upstream_condition2[sign]);
         let [a, b] = &cx.bound.legs[dyad.index];
         let (a, b) = (a.on_lanes(), b.on_lanes());
-        let levers = [R::splat(cx.bound.lever2[classes[0]]), R::splat(cx.bound.lever2[classes[1]])];
+        let levers =
+            [R::splat(cx.bound.max_arm2[classes[0]]), R::splat(cx.bound.max_arm2[classes[1]])];
         for g in 0..self.groups.min(G) {
             let (first, second, solved) = two_circles(&a, &b, end[0][g] - start[0][g], signs[g]);
             let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));
-            self.care[g] = self.care[g].or(solved.open).or(flat);
+            self.needs_scalar[g] = self.needs_scalar[g].or(solved.open).or(flat);
             if R::LANES == 1 && solved.open.any() {
                 self.fault = Some(Fault::NotClosed { step: index, gap: solved.gap.lane(0) });
                 self.status = Status::Unreachable;
@@ -91,8 +95,8 @@ impl<R: Real, const G: usize> State<R, G> {
                 self.status = Status::Singular;
             }
             before_sign[g] = before[0][g].max(before[1][g]);
-            let data = R::splat(0.25) * grain[0][g].max(grain[1][g]);
-            let lever = (levers[0].max(data) * a.per).max(levers[1].max(data) * b.per);
+            let data = R::splat(0.25) * coordinate_scale2[0][g].max(coordinate_scale2[1][g]);
+            let lever = (levers[0].max(data) * a.inv_norm2).max(levers[1].max(data) * b.inv_norm2);
             let condition = before_sign[g] * lever.max(R::ONE) / solved.sine2;
             first_condition[g] = condition;
             second_condition[g] = condition;
@@ -124,7 +128,13 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// An orientation that turns with a leg, where something else asks for it.
     #[inline(always)]
-    pub(crate) fn turn_other(&mut self, g: usize, cx: &Context<'_>, o: usize, class: usize) {
+    pub(crate) fn update_orientation(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        o: usize,
+        class: usize,
+    ) {
         let len = self.len;
         let rotation = self.class[class][g];
         self.orient[o * len][g] =
