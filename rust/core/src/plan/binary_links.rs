@@ -1,8 +1,9 @@
-//! Groups above class II of rigid links and turning pairs, whose loops all leave the length of a
-//! binary link: most are so, and there is nothing in their loops to sort.
+//! Groups above class II of rigid links and turning pairs in which a binary link closes every loop.
+//! Most groups are of this kind, and their equations need no sorting by term.
 //!
-//! What turns with one unknown in one loop is one vector (a span), the same at all positions; so
-//! the vector of a loop's chord is a known one and a sum of spans, each turned by its unknown.
+//! In each loop, all that turns with one unknown is one vector (a span), constant over all
+//! positions. So the vector of a loop's chord is a known vector plus the spans, each turned by its
+//! unknown.
 
 use super::dyad::Unknown;
 use super::group::{Arm, BinaryLoops, Chord, Group};
@@ -10,11 +11,11 @@ use super::leg::Leg;
 use super::plan::{EdgeSlide, Plan};
 use crate::math::vector::Vector;
 
-/// Unknowns (and loops), at most: more are left to the general machinery.
+/// Greatest number of unknowns (and loops); larger groups use the general kernel.
 pub(crate) const MAX_UNKNOWNS: usize = 3;
 
 impl BinaryLoops {
-    /// Of a group that is so, behind others.
+    /// The loops of such a group, else `None`; `earlier` are those of the groups before it.
     pub(crate) fn new<'b>(
         plan: &Plan,
         group: &Group,
@@ -52,7 +53,7 @@ impl BinaryLoops {
         fits.then_some(Self { first_span, first_bar, classes, bar_classes, arms })
     }
 
-    /// Those of one design.
+    /// The spans and binary links of one design.
     #[inline(always)]
     #[must_use]
     pub(crate) fn links<'b>(&self, bound: &'b LoopVectors) -> Links<'b> {
@@ -62,14 +63,14 @@ impl BinaryLoops {
     }
 }
 
-/// Spans and binary links of a group, of one design.
+/// Spans and binary links of one group of one design.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Links<'b> {
-    /// Loops, and unknowns.
+    /// Number of loops, and of unknowns.
     pub count: usize,
-    /// Loop after loop, of every unknown.
+    /// Spans: for every loop, one per unknown.
     pub spans: &'b [Vector],
-    /// Of every loop.
+    /// The binary link of every loop.
     pub bars: &'b [Leg],
 }
 
@@ -87,7 +88,7 @@ fn bar_class(chord: &Chord) -> Option<usize> {
     }
 }
 
-/// The vectors of such groups, of one design.
+/// Spans and binary links of all such groups of one design.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct LoopVectors {
     spans: Vec<Vector>,
@@ -95,7 +96,7 @@ pub(crate) struct LoopVectors {
 }
 
 impl LoopVectors {
-    /// Measures them on the rigid edges.
+    /// Computes them from the edge vectors.
     pub(crate) fn measure(&mut self, plan: &Plan, edge_vectors: &[Vector]) {
         self.spans.clear();
         self.bars.clear();

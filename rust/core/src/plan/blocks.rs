@@ -1,4 +1,4 @@
-//! From blocks of closure equations to steps.
+//! Steps from blocks of closure equations.
 
 use std::collections::VecDeque;
 
@@ -12,7 +12,7 @@ use crate::structure::assur_group::roman;
 use crate::structure::closure::list;
 use crate::structure::matching::Pattern;
 
-/// Adds the steps of all blocks; returns which points they place.
+/// Adds the steps of all blocks; returns for every point whether a step places it.
 pub(crate) fn add_steps(
     plan: &mut Plan,
     linkage: &Linkage,
@@ -68,7 +68,7 @@ fn higher(links: Vec<usize>, linkage: &Linkage, structure: &Structure) -> Higher
     }
 }
 
-/// The counting pattern of the kept edges and what its unknowns stand for.
+/// Incidence pattern of the kept edges' equations, and the meaning of its unknowns.
 struct Nodes {
     pattern: Pattern,
     unknowns: Vec<Option<Unknown>>,
@@ -116,7 +116,7 @@ impl Nodes {
     }
 }
 
-/// Places points along edges as far as known points reach.
+/// Adds steps that place points along edges, as far as the known points reach.
 fn place_points(plan: &mut Plan, known: &mut [bool], mut edges: Vec<usize>) {
     loop {
         let count = edges.len();
@@ -142,8 +142,8 @@ fn place_points(plan: &mut Plan, known: &mut [bool], mut edges: Vec<usize>) {
     }
 }
 
-/// Finds the loop of a block; the edge that closes it is taken out of `edges`
-/// (the others place the points).
+/// Finds the loop of a block, and removes the edge that closes it from `edges` (the others place
+/// the points).
 fn dyad(
     plan: &mut Plan,
     linkage: &Linkage,
@@ -151,7 +151,7 @@ fn dyad(
     unknowns: &mut [Unknown],
     known: &[bool],
 ) -> Dyad {
-    // Paths from known points, breadth first; the edge left over closes the loop.
+    // Breadth-first paths from the known points; the remaining edge closes the loop.
     let mut path: Vec<Option<Vec<(usize, bool)>>> =
         known.iter().map(|&k| k.then(Vec::new)).collect();
     let mut queue: VecDeque<usize> = (0..known.len()).filter(|&p| known[p]).collect();
@@ -181,7 +181,7 @@ fn dyad(
         }
     }
     let (closing_edge, ahead, back) = closing.unwrap_or_default();
-    // The common beginning of the two paths is no term of the loop.
+    // The loop leaves out the common start of the two paths.
     let common = ahead.iter().zip(&back).take_while(|(a, b)| a == b).count();
     let mut loop_path: Vec<(usize, bool)> = ahead[common..].to_vec();
     loop_path.extend(back[common..].iter().rev().map(|&(e, b)| (e, !b)));
@@ -200,8 +200,7 @@ fn dyad(
     let end = loop_path.last().map_or(0, |&x| tip(x));
     let (start, end) = if start == end {
         rotate_to_first(plan, &mut loop_path, unknowns[0]);
-        // A closed loop hangs on no point; it may even pass through none that is known
-        // yet. It is counted from the origin.
+        // A closed loop depends on no point and may pass through no known one: start at the origin.
         (0, 0)
     } else {
         (start, end)
@@ -241,7 +240,7 @@ fn dyad(
     Dyad { form, unknowns, orientations, path, others, leg, rrr_classes, index, start, end, sign }
 }
 
-/// What the edges of a loop add to its equation, and the orientations of its legs.
+/// The terms that a loop's edges add to its equation, and for each unknown whether it has a leg.
 fn loop_terms(
     plan: &Plan,
     loop_path: Vec<(usize, bool)>,
@@ -274,8 +273,8 @@ fn loop_terms(
     (path, leg)
 }
 
-/// A closed loop may start anywhere on it: at the run of edges of its first unknown
-/// (of which then one end is the inner pair).
+/// A closed loop may start anywhere: here at the edges of its first unknown, so that one end of
+/// them is the inner pair.
 fn rotate_to_first(plan: &Plan, path: &mut [(usize, bool)], first: Unknown) {
     let has_unknown = |e: usize| match first {
         Unknown::Class(c) => plan.class_of(e) == c,
@@ -286,7 +285,7 @@ fn rotate_to_first(plan: &Plan, path: &mut [(usize, bool)], first: Unknown) {
     path.rotate_left(begin.unwrap_or(0));
 }
 
-/// Rotations before slides; of two rotations, that of the link listed first.
+/// Sorts rotations before slides, and of two rotations that of the link listed first.
 fn order_unknowns(plan: &Plan, path: &[(usize, bool)], unknowns: &mut [Unknown]) {
     unknowns.sort_by_key(|u| match *u {
         Unknown::Class(c) => {
@@ -315,8 +314,8 @@ fn form(plan: &Plan, unknowns: [Unknown; 2]) -> Form {
     }
 }
 
-/// Name of the dyad's inner pair: the slide of a turning guide, else the joint
-/// at which the first unknown's run of edges ends on the side of the second's.
+/// Name of the dyad's inner pair: the slide of a turning guide, else the joint between the edges
+/// of the first unknown and those of the second.
 fn inner_pair(
     plan: &Plan,
     linkage: &Linkage,

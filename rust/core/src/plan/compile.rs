@@ -1,4 +1,4 @@
-//! From a linkage and its structure to a plan.
+//! Compiles a linkage and its structure to a plan.
 
 use super::blocks::add_steps;
 use super::group::{BinaryLoops, Group};
@@ -10,7 +10,7 @@ use crate::description::{Driver, Linkage};
 use crate::structure::Structure;
 use crate::structure::closure::{Closure, Span, rotations};
 
-/// The drivers that turn something, and how often.
+/// The drivers with a multiple other than 0, with that multiple.
 fn driver_turns(turns: &[i8]) -> Box<[(usize, i8)]> {
     turns.iter().copied().enumerate().filter(|&(_, t)| t != 0).collect()
 }
@@ -20,7 +20,7 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// Only for what [`Structure::of`] would have refused before.
+    /// Only those that [`Structure::of`] raises before.
     pub(crate) fn new(
         linkage: &Linkage,
         closure: &Closure,
@@ -98,7 +98,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Finds the edges that are legs, and the orientations that something else asks for.
+    /// Marks the edges that are legs, and drops the orientations that only legs and bars would use.
     fn mark_legs(&mut self) {
         let mut found = Vec::new();
         for dyad in self.dyads() {

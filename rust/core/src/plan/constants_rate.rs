@@ -1,10 +1,10 @@
-//! How the fixed vectors of a design change with one of its dimensions.
+//! Derivatives of the constant vectors of a design by one of its dimensions.
 
 use super::constants::{DesignConstants, DimensionMap, EdgeSource, read, read_two, unit};
 use super::plan::Plan;
 use crate::math::vector::Vector;
 
-/// Derivatives of what [`DesignConstants`] holds by one dimension (m or rad), its scale kept.
+/// Derivatives of [`DesignConstants`] by one dimension (m or rad), at constant scale.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct ConstantsRate {
     /// Of the frame's origin, m.
@@ -15,12 +15,12 @@ pub(crate) struct ConstantsRate {
     pub guide: Vec<Vector>,
     /// Of the points fixed to the ground.
     pub fixed: Vec<Vector>,
-    /// Of the constant angle of every link against its class.
+    /// Of the constant angle of every link relative to its class.
     pub offset: Vec<f64>,
 }
 
 impl ConstantsRate {
-    /// For a design (`values`, `bound`) and the dimension of this index.
+    /// Derivatives for a design (`values`, `bound`) by the dimension of this index.
     #[must_use]
     pub(crate) fn new(
         plan: &Plan,
@@ -29,7 +29,7 @@ impl ConstantsRate {
         values: &[f64],
         index: usize,
     ) -> Self {
-        // Dimensions enter linearly, but for angles.
+        // All dimensions but angles enter linearly.
         let mut by = vec![0.0; values.len()];
         by[index] = 1.0;
         let origin = read_two(&by, slots.origin);
@@ -68,7 +68,7 @@ impl ConstantsRate {
     }
 }
 
-/// Derivatives of the links' constant angles by the dimension that is 1 in `by`.
+/// Derivatives of the links' constant angles by the dimension whose entry in `by` is 1.
 pub(crate) fn offsets(plan: &Plan, slots: &DimensionMap, by: &[f64]) -> Vec<f64> {
     let step = |slide: usize| slots.slides[slide].step(by);
     let offset = |r: &crate::structure::closure::Rotation| {

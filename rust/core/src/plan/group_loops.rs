@@ -1,16 +1,16 @@
-//! Groups above class II: their loops, with as few unknowns as can be.
+//! Independent loops of groups above class II, with as few unknowns as possible.
 //!
-//! The independent loops of the block's graph are those that its chords close_loop over a spanning
-//! tree. A chord that alone turns with its rotation (a binary link) leaves of its two equations
-//! the one that says how long it is; a chord along a guide leaves the one that says how far from
-//! the guide its end is; either takes an unknown with it. So the tree takes other edges first.
+//! A spanning tree of the block's graph leaves chords, and each chord closes one independent loop.
+//! If nothing else turns with a chord (a binary link), one equation for its length is enough. If a
+//! chord lies along a guide, one equation for the distance of its end from the guide is enough.
+//! Both eliminate an unknown, so the tree takes other edges first.
 
 use super::dyad::Unknown;
 use super::group::{Chord, ColumnTerm, Group, GroupEdge, Loop, LoopEdge};
 use super::plan::{EdgeSlide, Plan};
 
 impl Group {
-    /// Finds the loops of a block; returns their chords, which place no point.
+    /// Finds the loops of a block; also returns their chords, which place no point.
     pub(crate) fn new(
         plan: &Plan,
         edges: &[usize],
@@ -19,7 +19,7 @@ impl Group {
         name: String,
     ) -> (Self, Vec<usize>) {
         let chord = |edge: usize| chord_of(plan, edges, unknowns, edge);
-        // Stable: among equals the order of description.
+        // A stable sort keeps the order of the description among equals.
         let mut order: Vec<usize> = edges.to_vec();
         order.sort_by_key(|&edge| usize::from(chord(edge) != Chord::Whole));
         let (tree, chords) = spanning_tree(plan, &order, known);
@@ -73,7 +73,7 @@ impl Group {
     }
 }
 
-/// What an unknown does to a loop.
+/// Derivative of a loop's chord by an unknown.
 fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<ColumnTerm> {
     let mut column = Vec::new();
     let mut add = |index: usize, backward: bool| {
@@ -90,7 +90,7 @@ fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<ColumnTerm> {
     match l.chord {
         Chord::Whole => add(l.edge, true),
         Chord::Guide { .. } if edges[l.edge].turns == Some(unknown) => {
-            // The guide turns, which is as if the chord turned back.
+            // Seen from the guide that turns, the chord turns back.
             column.push(ColumnTerm { edge: None, turns: true, backward: true });
         }
         _ => {}
@@ -104,7 +104,7 @@ fn orientations_of(plan: &Plan, unknown: Unknown) -> Vec<usize> {
     (0..plan.orientations.len()).filter(turns_with).collect()
 }
 
-/// What an edge would leave as a chord.
+/// The condition that an edge would add as a chord.
 fn chord_of(plan: &Plan, edges: &[usize], unknowns: &[Unknown], edge: usize) -> Chord {
     let class = plan.class_of(edge);
     let alone = edges.iter().filter(|&&e| plan.class_of(e) == class).count() == 1;
@@ -117,11 +117,11 @@ fn chord_of(plan: &Plan, edges: &[usize], unknowns: &[Unknown], edge: usize) -> 
     }
 }
 
-/// For every point the edge by which the tree comes to it, and whether against its direction.
+/// For every point the tree's edge that reaches it, and whether it is traversed backward.
 type Tree = Vec<Option<(usize, bool)>>;
 
-/// A spanning tree of the first edges that make none of its loops; all known points are one.
-/// The others are chords.
+/// Spanning tree that takes edges in `order` unless they would close a loop; all known points
+/// count as one. The remaining edges are chords.
 fn spanning_tree(plan: &Plan, order: &[usize], known: &[bool]) -> (Tree, Vec<usize>) {
     let mut part: Vec<usize> = (0..plan.points).collect();
     if let Some(root) = known.iter().position(|&k| k) {
@@ -159,7 +159,7 @@ fn spanning_tree(plan: &Plan, order: &[usize], known: &[bool]) -> (Tree, Vec<usi
         if grown {
             continue;
         }
-        // A part that hangs on no known point grows from any point of its own.
+        // A component without a known point grows from any point of its own.
         let Some(&edge) = inside.iter().find(|&&e| !seen[plan.edges[e].edge.from]) else { break };
         seen[plan.edges[edge].edge.from] = true;
     }
@@ -178,7 +178,7 @@ fn close_loop(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usiz
     };
     let [from, to] = plan.edges[edge].ends(false);
     let ((start, mut back), (end, mut ahead)) = (to_root(from), to_root(to));
-    // What both ways begin with is no part of the loop.
+    // The loop leaves out the common start of the two paths.
     while let (Some(a), Some(b)) = (back.last(), ahead.last())
         && a == b
     {

@@ -1,10 +1,10 @@
-//! The size of what is paired: what the misfit of a redundant link is a part of.
+//! Greatest distance between the pairs of a link: the size to which a misfit is relative.
 
 use crate::description::Linkage;
 use crate::math::vector::Vector;
 use crate::structure::closure::{Closure, Span, point_of_joint};
 
-/// Where a link has a pair.
+/// Position of a pair on a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum PairAt {
     /// At its first joint.
@@ -15,12 +15,12 @@ enum PairAt {
     Fixed(usize),
 }
 
-/// The places of pairs, by link.
+/// The pairs of every link.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct PairSpans(Vec<Vec<PairAt>>);
 
 impl PairSpans {
-    /// Those of a linkage.
+    /// Collects the pairs of a linkage.
     #[must_use]
     pub(crate) fn of(linkage: &Linkage, closure: &Closure) -> Self {
         let at_pair = |joint: usize| closure.is_pair(linkage, joint);
@@ -46,8 +46,8 @@ impl PairSpans {
         Self(links)
     }
 
-    /// The longest distance between two pairs of a link (that from its first one), by the vectors of
-    /// edges and the places of ground joints.
+    /// The longest distance from the first pair of a link to another of its pairs, given the edge
+    /// vectors and the coordinates of ground joints.
     #[must_use]
     pub(crate) fn longest(&self, edge_vectors: &[Vector], fixed: &[Vector]) -> f64 {
         let at = |pair: &PairAt| match *pair {

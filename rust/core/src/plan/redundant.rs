@@ -1,11 +1,11 @@
-//! Redundant links: how each is placed and what must then close.
+//! Steps that place redundant links and check their closure.
 
 use super::plan::{AngleFrom, Plan, RedundantLink, Step};
 use crate::description::Linkage;
 use crate::structure::Structure;
 use crate::structure::closure::{Closure, Span, point_of_joint};
 
-/// Adds the placing and checking of redundant links and slides.
+/// Adds the steps that place and check redundant links and slides.
 pub(crate) fn add_redundant(
     plan: &mut Plan,
     linkage: &Linkage,
