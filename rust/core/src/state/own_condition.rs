@@ -1,8 +1,8 @@
-//! Which dyad or group of a position is nearest to a singular one, by itself, and by how much the
-//! lengths of a dyad miss a change point.
+//! Condition of each dyad and group on its own, and by how much the lengths of a dyad miss a change
+//! point.
 //!
-//! The condition of a position multiplies those along a chain; a long chain is large throughout
-//! and shows no single dyad that is about to fold.
+//! The condition of a position is a product along a chain. It is large everywhere in a long chain,
+//! so it does not show which single dyad is about to fold.
 
 use super::state::{Context, State};
 use crate::plan::dyad::{Dyad, Form, Unknown};
@@ -10,7 +10,8 @@ use crate::plan::group::Group;
 use crate::plan::plan::{EdgeSlide, Step};
 
 impl State {
-    /// The step with the greatest condition by itself, and that condition; none without groups.
+    /// The step with the greatest condition of its own, and that condition; `None` without dyads
+    /// and groups.
     pub(crate) fn worst_own_condition(&self, cx: &Context<'_>) -> Option<(usize, f64)> {
         let steps = cx.plan.steps.iter().enumerate();
         let conditions = steps.filter_map(|(index, step)| match step {
@@ -35,7 +36,7 @@ impl State {
         }
     }
 
-    /// Square of the condition of what a dyad hangs on.
+    /// Square of the condition of all that a dyad depends on.
     fn upstream_of_dyad(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
         let ends = [dyad.start, dyad.end].map(|point| self.point_condition[point][0]);
         let others = dyad.others.iter().map(|term| {
@@ -49,7 +50,7 @@ impl State {
         others.fold(ends[0].max(ends[1]), f64::max)
     }
 
-    /// The same of a group.
+    /// Square of the condition of all that a group depends on.
     fn upstream_of_group(&self, cx: &Context<'_>, group: &Group) -> f64 {
         let found: Vec<Unknown> = group.all_unknowns().collect();
         let ends = group.loops.iter().flat_map(|l| [l.start, l.end]);
@@ -61,7 +62,8 @@ impl State {
         points.chain(carried).fold(1.0, f64::max)
     }
 
-    /// By how much the sides of a dyad's triangle miss those of a flat one, in units of the scale.
+    /// By how much the sides of a dyad's triangle differ from those of a flat one, in units of the
+    /// scale.
     pub(crate) fn flatness_gap(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
         let a = self.leg_vector(0, cx, dyad, 0, 0);
         match dyad.form {
@@ -69,8 +71,8 @@ impl State {
                 let b = self.leg_vector(0, cx, dyad, 1, 0);
                 let (product, along, across) = (a.norm() * b.norm(), a.dot(b), a.cross(b));
                 let third = (a + b).norm();
-                // (a + b)² − c² or c² − (a − b)² is twice |a||b| (1 ± cos), and that the square of
-                // the sine by 1 ∓ cos.
+                // (|a| + |b|)² − c² or c² − (|a| − |b|)² is 2|a||b| (1 ∓ cos), and 1 ∓ cos is
+                // sin² / (1 ± cos).
                 let side = if along > 0.0 {
                     a.norm() + b.norm() + third
                 } else {

@@ -1,4 +1,4 @@
-//! Points along edges, from one end to the other.
+//! Points from known points, along edges.
 
 use super::state::{Context, State};
 use crate::math::lanes::Real;
@@ -6,10 +6,10 @@ use crate::math::vector::Vector;
 use crate::plan::plan::EdgeSlide;
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Places one end of an edge from the other, in all groups.
+    /// Computes the point at one end of an edge from that at the other end, in all sets.
     #[inline(always)]
     pub(crate) fn place_all(&mut self, cx: &Context<'_>, e: usize, backward: bool) {
-        // Jets of known length are arrays.
+        // With a constant jet length the compiler unrolls the loops.
         match (cx.plan.edges[e].along == EdgeSlide::Nothing, self.len) {
             (true, 1) => self.place_rigid(cx, e, backward, 1),
             (true, 2) => self.place_rigid(cx, e, backward, 2),
@@ -23,7 +23,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// An edge of constant length, jets of `len` entries.
+    /// [`place_all`](Self::place_all) for a rigid edge and jets of `len` entries.
     #[inline(always)]
     fn place_rigid(&mut self, cx: &Context<'_>, e: usize, backward: bool, len: usize) {
         let edge = &cx.plan.edges[e];
@@ -75,7 +75,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The same for any edge, in one group.
+    /// [`place_all`](Self::place_all) for any edge, in one set.
     #[inline(always)]
     pub(crate) fn place(&mut self, g: usize, cx: &Context<'_>, e: usize, backward: bool) {
         let edge = &cx.plan.edges[e];

@@ -1,4 +1,4 @@
-//! Redundant links and slides: placed by what the others give, then checked.
+//! Redundant links and slides: placed from the links already solved, then checked for closure.
 
 use super::state::{Context, State};
 use super::status::Fault;
@@ -23,7 +23,7 @@ impl<R: Real, const G: usize> State<R, G> {
         });
     }
 
-    /// Places what is redundant; returns by how much it misses, and may.
+    /// Places a redundant part; returns its misfit and the allowed misfit.
     #[inline(always)]
     fn place_redundant(&mut self, g: usize, cx: &Context<'_>, redundant: &RedundantLink) -> (R, R) {
         let pair_size = R::splat(cx.bound.pair_size);
@@ -54,7 +54,7 @@ impl<R: Real, const G: usize> State<R, G> {
             gap = self.misfit(g, cx, edge).max(gap);
         }
         for &(slide, on) in &redundant.parallel {
-            // An angle misses by as much at the size of what is paired.
+            // An angle error displaces by itself times the size.
             gap = (self.angle_misfit(g, cx, slide, on) * pair_size).max(gap);
         }
         for &e in &redundant.touched {
@@ -68,8 +68,7 @@ impl<R: Real, const G: usize> State<R, G> {
         (gap, allowed)
     }
 
-    /// Orientation from two joints that others carry; returns the misfit of
-    /// their distance.
+    /// Orientation from two joints that other links carry; returns the misfit of their distance.
     #[inline(always)]
     fn turn_by_joints(
         &mut self,
@@ -90,7 +89,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let inverse = R::ONE / (length * distance);
         self.set_orientation(g, cx, o, (chord * arm).scale(inverse));
         for k in 1..len {
-            // chord = U · arm at every order, were it not for rounding.
+            // chord = U · arm at every order, up to rounding.
             let unit = (span(self, k) * arm).scale(R::ONE / (length * length));
             let partial = self.orientation_without_top(g, cx, o, k);
             let rest = (unit - partial) * self.orient[o * len][g].conj();
@@ -101,7 +100,7 @@ impl<R: Real, const G: usize> State<R, G> {
         (distance - length).abs()
     }
 
-    /// Orientation from a slide: the other link's, turned by a constant.
+    /// Orientation from a slide: that of its other link, turned by a constant.
     #[inline(always)]
     fn turn_by_slide(&mut self, g: usize, cx: &Context<'_>, link: usize, slide: usize) {
         let len = self.len;
@@ -134,7 +133,7 @@ impl<R: Real, const G: usize> State<R, G> {
             partial + self.orient[o * self.len][g].left().scale(rate);
     }
 
-    /// How far an edge misses its end; the slide along it takes its best value.
+    /// Distance by which an edge misses its end; sets the slide along it to its best value.
     #[inline(always)]
     fn misfit(&mut self, g: usize, cx: &Context<'_>, e: usize) -> R {
         let len = self.len;
@@ -142,7 +141,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let (from, to, o) = (edge.edge.from * len, edge.edge.to * len, edge.orientation * len);
         if let EdgeSlide::Slide(slide) = edge.along {
             for k in 0..len {
-                // The span seen from the guide's link: conj(U) · ΔP, by Leibniz.
+                // Jet of the edge in the frame of the guide's link: conj(U) · ΔP, by Leibniz.
                 let mut local = Vector::ZERO;
                 for t in &cx.jets.product[k] {
                     let span = self.points[to + t.right][g] - self.points[from + t.right][g];
@@ -158,7 +157,8 @@ impl<R: Real, const G: usize> State<R, G> {
         (self.points[to][g] - self.points[from][g] - self.edge(g, cx, e, 0)).norm()
     }
 
-    /// How far two links miss their angle at a slide (a half turn: by 2); `on` carries it.
+    /// Misfit of the angle between the two links of a slide, as the distance of unit vectors (2 for
+    /// a half turn); `on` carries the slide.
     #[inline(always)]
     fn angle_misfit(&self, g: usize, cx: &Context<'_>, slide: usize, on: usize) -> R {
         let (link, constant) = cx.bound.across_slide(cx.plan, on, slide);
@@ -170,7 +170,8 @@ impl<R: Real, const G: usize> State<R, G> {
 }
 
 impl State {
-    /// Forgets where things are, so that what the next position leaves unsolved is NaN.
+    /// Fills points and orientations with NaN, so that those the next position does not solve stay
+    /// NaN.
     pub(crate) fn fill_nan(&mut self, cx: &Context<'_>) {
         let known = |point: usize| cx.plan.fixed[point];
         for (i, point) in self.points.iter_mut().enumerate() {
@@ -185,12 +186,12 @@ impl State {
         }
     }
 
-    /// Whether all redundant parts fit whose places are solved; `None` if nothing is solved.
+    /// Whether all redundant parts whose points are solved fit; `None` if none is solved.
     pub(crate) fn redundant_links_fit(&mut self, cx: &Context<'_>) -> Option<bool> {
         let mut all = None;
         for step in &cx.plan.steps {
             match step {
-                // Where a step is open, those behind it were not done.
+                // The solver stops at a step that does not close; place the points after it here.
                 &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
                 Step::Redundant(redundant) => {
                     let (gap, allowed) = self.place_redundant(0, cx, redundant);
@@ -204,7 +205,7 @@ impl State {
         all
     }
 
-    /// Whether everything that must fit is a number.
+    /// Whether all points and orientations that must fit are finite.
     fn is_solved(&self, cx: &Context<'_>, redundant: &RedundantLink) -> bool {
         let is_finite = |vector: &[Vector; 1]| vector[0].norm2().is_finite();
         let at = |point: usize| is_finite(&self.points[point * self.len]);

@@ -1,9 +1,9 @@
 //! Sensitivities: derivatives of positions and analogues by a dimension.
 //!
-//! The closure equations of every step are differentiated once more, by the dimension; what is
-//! unknown stands in the matrix that it had before, whatever the order, so one factorisation
-//! serves all (the same argument as for analogues; Uicker, Pennock & Shigley 2017, chapter 3, by
-//! complex algebra). One function for dyads and groups of any class.
+//! The closure equations of every step are differentiated once more, by the dimension. As for the
+//! analogues, the unknowns of every order have the same matrix, so one factorisation serves all
+//! orders (Uicker, Pennock & Shigley 2017, chapter 3, by complex algebra). The same functions serve
+//! dyads and groups of any class.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -24,7 +24,7 @@ struct ClosedPath {
     edges: Vec<(usize, f64)>,
 }
 
-/// The closures of a step, twice as many equations, and as many unknowns.
+/// The closed paths of a step (two equations each) and as many unknowns as equations.
 #[derive(Debug)]
 struct Closures {
     unknowns: Vec<Unknown>,
@@ -54,7 +54,8 @@ impl Closures {
     }
 }
 
-/// Work space: the steps' closures, and the derivatives by a dimension in the shape of a state.
+/// Work space: the closures of every step, and the derivatives by a dimension in the form of a
+/// state.
 pub(crate) struct Sensitivity {
     steps: Vec<Option<Closures>>,
     /// Jets of all orientations.
@@ -77,7 +78,7 @@ impl Sensitivity {
         }
     }
 
-    /// Derivatives at a solved position; false where they do not exist.
+    /// Computes the derivatives at a solved position; false if they do not exist.
     pub(crate) fn solve(&mut self, state: &State, cx: &Context<'_>, by: &ConstantsRate) -> bool {
         let len = state.len;
         self.orientation_jets(state, cx);
@@ -112,7 +113,7 @@ impl Sensitivity {
         true
     }
 
-    /// All orientations, from the classes' angles.
+    /// Jets of all orientations, from the angles of classes.
     fn orientation_jets(&mut self, state: &State, cx: &Context<'_>) {
         let len = state.len;
         for (o, orientation) in cx.plan.orientations.iter().enumerate() {
@@ -130,7 +131,7 @@ impl Sensitivity {
         }
     }
 
-    /// Entry `k` of an orientation's derivative: of `∂U = i U ∂Θ`, by Leibniz.
+    /// Entry `k` of an orientation's derivative by the dimension: `∂U = i U ∂Θ`, by Leibniz.
     fn unit_rate(&self, at: &Inputs<'_>, o: usize, k: usize) -> Vector {
         let class = at.cx.plan.orientations[o].class;
         let mut sum = Vector::ZERO;
@@ -141,7 +142,7 @@ impl Sensitivity {
         sum.left()
     }
 
-    /// Entry `k` of an edge's derivative.
+    /// Entry `k` of an edge's derivative by the dimension.
     fn edge(&self, at: &Inputs<'_>, e: usize, k: usize) -> Vector {
         let (edge, bound, len) = (&at.cx.plan.edges[e], at.cx.bound, at.len);
         let o = edge.orientation;
@@ -161,7 +162,7 @@ impl Sensitivity {
         sum
     }
 
-    /// The unknowns' derivatives, order after order.
+    /// Solves for the unknowns' derivatives, order by order; false if the matrix is singular.
     fn solve_closures(&mut self, at: &Inputs<'_>, closures: &Closures) -> bool {
         let (len, n) = (at.len, closures.unknowns.len());
         let lu = self.matrix(at, closures).lu();
@@ -215,7 +216,7 @@ impl Sensitivity {
     }
 }
 
-/// Where it is.
+/// The solved position and the rates of the constants by the dimension.
 struct Inputs<'a> {
     state: &'a State,
     cx: &'a Context<'a>,

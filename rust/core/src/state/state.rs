@@ -1,5 +1,5 @@
-//! One position of one design, or eight: every point, orientation and slide with its
-//! analogues.
+//! State of one position of a design, or of several at once: points, orientations and slides with
+//! their analogues.
 
 use super::group::workspace::GroupWorkspace;
 use super::status::{FLAT2, Fault, Status};
@@ -12,16 +12,16 @@ use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::group::Group;
 use crate::plan::plan::{EdgeSlide, Plan, Step};
 
-/// Work space for one position, or for `G` groups of as many as `R` has lanes; made once,
-/// used for all.
+/// Work space for one position, or for `G` sets of as many positions as `R` has lanes; allocated
+/// once and reused.
 ///
-/// Groups are the innermost index: what a step looks up serves all of them, and they do not wait
-/// for each other.
+/// The set is the innermost index, so that one lookup of a step serves all sets and their
+/// operations overlap.
 #[derive(Debug, Clone)]
 pub(crate) struct State<R: Real = f64, const G: usize = 1> {
-    /// Entries of a jet.
+    /// Number of entries of a jet.
     pub(crate) len: usize,
-    /// Groups in use.
+    /// Number of sets in use.
     pub(crate) groups: usize,
     /// Coordinates (rad; slide drivers in units of the scale).
     pub(crate) q: Vec<[R; G]>,
@@ -33,7 +33,7 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub points: Vec<[Vector<R>; G]>,
     /// Jets of orientations.
     pub orient: Vec<[Vector<R>; G]>,
-    /// Jets of the legs of dyads, two a dyad, then of the edges of groups.
+    /// Jets of the legs of dyads (two per dyad), then of the edges of groups.
     pub(crate) legs: Vec<[Vector<R>; G]>,
     /// Jets of the angles of classes; the value itself is not used.
     pub theta: Vec<[R; G]>,
@@ -41,60 +41,61 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub slides: Vec<[R; G]>,
     /// Rotations of classes.
     pub class: Vec<[Vector<R>; G]>,
-    /// Turns by the drivers alone, of every orientation.
+    /// Rotation of every orientation by the drivers alone.
     pub(crate) phase: Vec<[Vector<R>; G]>,
-    /// Square of the greatest coordinate or arm on the way to each point: what its
-    /// rounding is a part of.
+    /// Square of the greatest coordinate or arm in the chain to each point, to which its rounding
+    /// error is relative.
     pub(crate) coordinate_scale2: Vec<[R; G]>,
-    /// Square of the product of the conditions of the dyads that each point depends on
+    /// Square of the product of the conditions of the dyads and groups that each point depends on
     /// (squares need no roots).
     pub(crate) point_condition: Vec<[R; G]>,
-    /// Likewise of each class.
+    /// The same for each class.
     pub(crate) class_condition: Vec<[R; G]>,
-    /// Likewise of each slide.
+    /// The same for each slide.
     pub(crate) slide_condition: Vec<[R; G]>,
-    /// Square of the condition of what each dyad with a sign hangs on.
+    /// Square of the condition of all that each dyad with a sign depends on.
     pub(crate) upstream_condition2: Vec<[R; G]>,
     /// Matrix, inverse and right-hand side of a group above class II.
     pub(crate) matrix: Vec<[R; G]>,
-    /// Jets of the directions of guides along the edges of a group, and of the chords of its
-    /// loops.
+    /// Jets of the guides along the edges of a group.
     pub(crate) guides: Vec<[Vector<R>; G]>,
+    /// Jets of the chords of a group's loops.
     pub(crate) chords: Vec<[Vector<R>; G]>,
-    /// 1/length of every chord that has one.
+    /// 1/length of every chord of known length.
     pub(crate) inv_length: Vec<[R; G]>,
-    /// Classes of binary links whose rotation is asked for (where nothing else needs it).
+    /// Whether the caller wants the rotation of each class; used for bars that no step needs.
     pub(crate) angle_wanted: Vec<bool>,
     /// Work space for groups of binary links.
     pub(crate) loops: GroupWorkspace<R>,
-    /// Determinant of every group's matrix (with analogues only).
+    /// Determinant of every group's matrix at the solution (with analogues only).
     pub(crate) determinants: Vec<[R; G]>,
-    /// The same of its last round's.
+    /// Determinant of that matrix in the last Newton round; its sign distinguishes branches.
     pub(crate) det_sign: Vec<[R; G]>,
-    /// How far (rad, or of the size) the first step of a group's iteration went, at most, and the
-    /// others together.
+    /// Greatest change of an unknown (rad, or relative to the scale) in the first Newton step of
+    /// any group.
     pub(crate) first_step: [R; G],
+    /// Greatest sum of the changes in the later steps.
     pub(crate) later_steps: [R; G],
-    /// Square of the greatest condition of the position.
+    /// Square of the greatest condition in the position.
     pub condition2: [R; G],
-    /// Lanes that did not come out as plainly solved; each is done again by itself.
+    /// Lanes that failed or are singular; the caller solves each again as a single position.
     pub needs_scalar: [R::Mask; G],
-    /// How one position by itself came out (with several lanes: see `needs_scalar`).
+    /// Status of a single position (with several lanes see `needs_scalar`).
     pub status: Status,
-    /// The first thing that failed, likewise.
+    /// The first failure of a single position.
     pub fault: Option<Fault>,
 }
 
-/// What is the same for all positions of a design.
+/// The inputs that all positions of a design share.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Context<'a> {
     /// The compiled mechanism.
     pub plan: &'a Plan,
-    /// One design.
+    /// Constants of the design.
     pub bound: &'a DesignConstants,
     /// Index tables of the analogues.
     pub jets: &'a DerivativeTables,
-    /// Assembly signs, +1 or −1, of positions by themselves.
+    /// Assembly signs, +1 or −1, for single positions.
     pub signs: &'a [f64],
 }
 
@@ -140,7 +141,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Takes what is the same at all positions of a design; before the first of each.
+    /// Sets what is constant over all positions of a design; call it before the first of them.
     #[inline(always)]
     pub(crate) fn prepare(
         &mut self,
@@ -174,8 +175,8 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Computes positions at their `q`, `unit` and `signs`; `group` is
-    /// [`solve_group`](Self::solve_group), compiled by itself.
+    /// Computes positions at their `q`, `unit` and `signs`. `group` is
+    /// [`solve_group`](Self::solve_group), passed in so that it is compiled as a separate function.
     #[inline(always)]
     pub(crate) fn solve_all(
         &mut self,
@@ -207,31 +208,31 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Whether nothing is left to be computed.
+    /// Whether the position has failed, so that no further step can be computed.
     #[inline(always)]
     pub(crate) fn has_failed(&self) -> bool {
         matches!(self.status, Status::Unreachable | Status::BadInput | Status::NotConverged)
     }
 
-    /// Where fewer than six digits of the analogues remain.
+    /// Lanes whose analogues keep fewer than six digits.
     #[inline(always)]
     pub(crate) fn near_singular(&self, g: usize) -> R::Mask {
         R::splat(NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION).lt(self.condition2[g])
     }
 
-    /// A coordinate that cannot be computed with.
+    /// Marks the position as [`Status::BadInput`].
     pub(crate) fn set_bad_input(&mut self) {
         self.fault = None;
         self.status = Status::BadInput;
     }
 
-    /// A place to which the way from the drawing is not known.
+    /// Marks the position as [`Status::Lost`].
     pub(crate) fn set_lost(&mut self) {
         self.fault = None;
         self.status = Status::Lost;
     }
 
-    /// Lanes where a step did not close; a position by itself is done with then.
+    /// Marks the lanes where a step does not close; a single position then becomes unreachable.
     #[inline(always)]
     pub(crate) fn mark_open(&mut self, g: usize, open: R::Mask, fault: impl Fn() -> Fault) {
         self.needs_scalar[g] = self.needs_scalar[g].or(open);

@@ -1,10 +1,9 @@
-//! Analogues: derivatives of the closure equations, not of their solutions.
+//! Analogues, from derivatives of the closure equations.
 //!
-//! Every closure is a sum of unit vectors times fixed ones, and the derivative of
-//! a unit vector is `∂U = i U ∂Θ`; so at every order the unknown analogues stand in
-//! the same matrix, and all the rest is known from lower orders (Uicker, Pennock
-//! & Shigley 2017, chapters 3 and 4, by complex algebra). One function for all
-//! dyads, all orders, any number of drivers.
+//! Every closure is a sum of unit vectors times constant ones, and the derivative of a unit vector
+//! is `∂U = i U ∂Θ`. So the unknown analogues of every order have the same matrix, and the
+//! right-hand side follows from lower orders (Uicker, Pennock & Shigley 2017, chapters 3 and 4, by
+//! complex algebra). The same functions serve all dyads, all orders and any number of drivers.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -13,8 +12,8 @@ use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Value and analogues of an orientation that the drivers alone give:
-    /// `∂U = i U` times its turns.
+    /// Value and analogues of an orientation that only the drivers turn: `∂U = i U` times its
+    /// multiple of the driver.
     #[inline(always)]
     pub(crate) fn driven_orientation(
         &mut self,
@@ -41,7 +40,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// What the drivers add to analogue `k` of an orientation's angle.
+    /// Contribution of the drivers to analogue `k` of an orientation's angle.
     #[inline(always)]
     pub(crate) fn driver_analogue(cx: &Context<'_>, o: usize, k: usize) -> R {
         let turns = &cx.plan.orientations[o].turns;
@@ -60,7 +59,7 @@ impl<R: Real, const G: usize> State<R, G> {
         if orientation.driven { own + Self::driver_analogue(cx, o, k) } else { own }
     }
 
-    /// Analogue `k` of an orientation but for the term in its class's own `k`.
+    /// Analogue `k` of an orientation, without the term in analogue `k` of its class.
     #[inline(always)]
     pub(crate) fn orientation_without_top(
         &self,
@@ -98,7 +97,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Entry `k` of the part along its slide.
+    /// Entry `k` of the part of an edge's vector along its slide.
     #[inline(always)]
     fn along(&self, g: usize, cx: &Context<'_>, e: usize, slide: usize, k: usize) -> Vector<R> {
         let unit = cx.plan.edges[e].orientation * self.len;
@@ -110,7 +109,7 @@ impl<R: Real, const G: usize> State<R, G> {
         along * Vector::splat(cx.bound.guide[e])
     }
 
-    /// Entry `k` of what a part adds beside the legs.
+    /// Entry `k` of a loop term, without the part that is in a leg.
     #[inline(always)]
     pub(crate) fn term_vector(
         &self,
@@ -126,7 +125,7 @@ impl<R: Real, const G: usize> State<R, G> {
         if term.backward { -v } else { v }
     }
 
-    /// Entry `k` of a leg but for the term in its class's own `k`; legs are not driven.
+    /// Entry `k` of a leg, without the term in analogue `k` of its class; legs are not driven.
     #[inline(always)]
     fn leg_without_top(
         &self,
@@ -144,7 +143,7 @@ impl<R: Real, const G: usize> State<R, G> {
         sum.left()
     }
 
-    /// NaN for the analogues of a dyad's unknowns.
+    /// Sets the analogues of a dyad's unknowns, and of all that turns with them, to NaN.
     #[inline(always)]
     pub(crate) fn nan_analogues(&mut self, g: usize, dyad: &Dyad) {
         let len = self.len;
@@ -170,8 +169,8 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Analogues of a dyad's unknowns from its closure equation: at every order
-    /// the same two columns, and as right-hand side what is known of that order.
+    /// Analogues of a dyad's unknowns from its closure equation. Every order has the same two
+    /// columns; the right-hand side follows from lower orders.
     #[inline(always)]
     pub(crate) fn analogues(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad) {
         let len = self.len;
@@ -181,7 +180,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let columns = [self.column(g, cx, dyad, 0), self.column(g, cx, dyad, 1)];
         let inv_determinant = R::ONE / columns[0].cross(columns[1]);
         for k in 1..len {
-            // What is yet unknown counts as 0.
+            // The unknown entry counts as 0 in the right-hand side.
             for i in 0..2 {
                 match dyad.unknowns[i] {
                     Unknown::Slide(s) => self.slides[s * len + k][g] = R::ZERO,
@@ -254,7 +253,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Entry `k` of the sum of what turns with an unknown.
+    /// Entry `k` of the sum of all that turns with an unknown.
     #[inline(always)]
     pub(crate) fn leg_vector(
         &self,
@@ -276,7 +275,7 @@ impl<R: Real, const G: usize> State<R, G> {
         sum
     }
 
-    /// Entry `k` of the direction of the slide that is an unknown.
+    /// Entry `k` of the direction of an unknown slide.
     #[inline(always)]
     pub(crate) fn slide_direction(
         &self,

@@ -1,8 +1,9 @@
-//! Dyads of two binary links: most dyads are so, and there is nothing in them to sort.
+//! Kernel for dyads of two binary links (RRR). Most dyads are of this kind, and their equations
+//! need no sorting by term.
 //!
-//! The same closed form and the same equations as of every dyad (see `dyad`, `analogue`);
-//! with one driver they are compiled for each order by itself, so that jets are arrays of
-//! known length and the tables are constants.
+//! It has the closed form and the equations of every dyad (see `solve`, `analogues`). For one
+//! driver it is compiled for each order separately, so that jets have constant length and the
+//! tables are constants.
 
 use super::closed_form::two_circles;
 use crate::math::derivatives::{ONE_DRIVER, Term};
@@ -13,7 +14,7 @@ use crate::state::state::{Context, State};
 use crate::state::status::{FLAT2, Fault, Status};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Solves the dyad (step `index`) whose two legs turn with these classes.
+    /// Solves the dyad of step `index`, whose two legs turn with these classes.
     #[inline(always)]
     pub(crate) fn solve_rrr(
         &mut self,
@@ -43,7 +44,8 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// `len`: entries of a jet; `terms`: their table.
+    /// [`solve_rrr`](Self::solve_rrr) for jets of `len` entries, with `terms` the table of
+    /// rotation.
     #[inline(always)]
     fn rrr_of_length<'t>(
         &mut self,
@@ -126,7 +128,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// An orientation that turns with a leg, where something else asks for it.
+    /// Sets the jet of an orientation from the rotation and analogues of its class.
     #[inline(always)]
     pub(crate) fn update_orientation(
         &mut self,

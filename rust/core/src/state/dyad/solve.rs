@@ -1,4 +1,4 @@
-//! A dyad's loop, sorted by what its edges turn with, and solved.
+//! Solves a dyad: collects the terms of its loop by unknown, then applies its closed form.
 
 use super::closed_form::{DyadSolution, circle_and_line, turning_guide, two_circles, two_lines};
 use crate::math::lanes::Real;
@@ -8,19 +8,19 @@ use crate::plan::leg::Leg;
 use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
-/// The dyad's equation, sorted: `a u₁ + b u₂ = k` with slides put in for the
-/// terms that are missing.
+/// The dyad's equation `a u₁ + b u₂ = k`; for a slide the term is the slide times its direction.
 struct CollectedTerms<R> {
-    /// What turns with the first unknown, unless it is a leg.
+    /// Vector that turns with the first unknown (or the direction of its slide), unless it is a
+    /// leg.
     first: Vector<R>,
-    /// What turns with the second unknown, or the direction of its slide.
+    /// The same for the second unknown.
     second: Vector<R>,
-    /// The known rest.
+    /// Known right-hand side.
     known: Vector<R>,
 }
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Solves for the value of the unknowns.
+    /// Solves a dyad for the values of its unknowns, and sets them.
     #[inline(always)]
     pub(crate) fn solve_dyad(
         &mut self,
@@ -31,8 +31,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let CollectedTerms { first, second, known: k } = self.collect_terms(g, cx, dyad);
         let sign = if let Some(s) = dyad.sign { self.signs[s][g] } else { R::ONE };
         let rounding = self.rounding_arm2(g, dyad);
-        // A column of a rotation is measured in units of the greatest arm that turns
-        // with it.
+        // Weight a rotation by the greatest arm that turns with it.
         let relative_arm2 = |unknown: Unknown, inv_norm2: R| match unknown {
             Unknown::Class(c) => R::splat(cx.bound.max_arm2[c]).max(rounding) * inv_norm2,
             Unknown::Slide(_) => R::ONE,
@@ -74,15 +73,15 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Square of the arm below which the rounding of the joints that a dyad hangs on is
-    /// felt: half of their coordinates (more is within the margins of the bounds).
+    /// Square of the arm at which the rounding of the joints that a dyad depends on counts: half of
+    /// their greatest coordinate (the bounds have a margin for the rest).
     #[inline(always)]
     pub(crate) fn rounding_arm2(&self, g: usize, dyad: &Dyad) -> R {
         R::splat(0.25)
             * self.coordinate_scale2[dyad.start][g].max(self.coordinate_scale2[dyad.end][g])
     }
 
-    /// Sums of the path, by what they turn with; legs are not in them.
+    /// Sums the terms of the path by unknown, without the legs.
     #[inline(always)]
     fn collect_terms(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> CollectedTerms<R> {
         let len = self.len;
@@ -93,7 +92,7 @@ impl<R: Real, const G: usize> State<R, G> {
             let edge = &cx.plan.edges[e];
             let driven = cx.plan.orientations[edge.orientation].driven;
             let signed = |v: Vector<R>| if term.backward { -v } else { v };
-            // By the part of the orientation that is known.
+            // Turns a vector by the known part of its orientation.
             let turned = |v: Vector<R>| match term.turns {
                 None => self.orient[edge.orientation * len][g] * v,
                 Some(_) if driven => self.phase[edge.orientation][g] * v,

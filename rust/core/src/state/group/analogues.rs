@@ -1,4 +1,4 @@
-//! Analogues of groups above class II, and what their chords took with them.
+//! Analogues of groups above class II, and back substitution of the unknowns that chords eliminate.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -8,8 +8,8 @@ use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Analogues of the unknowns: at every order the same matrix (inverted), as right-hand side
-    /// what is known of that order; and what the chords took with them.
+    /// Analogues of the unknowns and, by back substitution, of the chords. Every order has the same
+    /// matrix (inverted); the right-hand side follows from lower orders.
     #[inline(always)]
     pub(crate) fn group_analogues(
         &mut self,
@@ -19,7 +19,7 @@ impl<R: Real, const G: usize> State<R, G> {
     ) {
         let (len, n) = (self.len, group.rows);
         for k in 1..len {
-            // What is yet unknown counts as 0.
+            // The unknown entry counts as 0 in the right-hand side.
             for (i, &unknown) in group.unknowns.iter().enumerate() {
                 if let Unknown::Slide(slide) = unknown {
                     self.slides[slide * len + k] = [R::ZERO; G];
@@ -57,7 +57,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Entry `k` of edges and chords, once that of the unknowns is known.
+    /// Adds the terms in entry `k` of the unknowns to entry `k` of edges and chords.
     #[inline(always)]
     fn add_top_terms(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
         let len = self.len;
@@ -90,7 +90,7 @@ impl<R: Real, const G: usize> State<R, G> {
         self.close_loops(group, k);
     }
 
-    /// Entry `k` of what the chords took with them.
+    /// Entry `k` of the slides and rotations that the chords eliminate.
     #[inline(always)]
     pub(crate) fn back_substitute(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
         for (i, l) in group.loops.iter().enumerate() {
@@ -134,7 +134,7 @@ impl<R: Real, const G: usize> State<R, G> {
         self.slides[slide * len + k][g] = sum;
     }
 
-    /// The rotation of a chord, which is U · local at every order.
+    /// Rotation U of a chord, from chord = U · local at every order.
     #[inline(always)]
     fn back_substitute_rotation(
         &mut self,
@@ -164,7 +164,7 @@ impl<R: Real, const G: usize> State<R, G> {
             return;
         }
         let rate = if let EdgeSlide::Driver { .. } = cx.plan.edges[e].along {
-            // What is left of U, but for the lengths' own entries.
+            // Solve Leibniz's sum for the top entry of U.
             let mut rest = self.chords[i * len + k][g];
             for term in cx.jets.product[k].iter().filter(|term| term.left != k) {
                 let known =
@@ -175,7 +175,7 @@ impl<R: Real, const G: usize> State<R, G> {
             let partial = self.orientation_without_top(g, cx, own, k);
             ((unit - partial) * self.orient[own * len][g].conj()).y
         } else {
-            // The chord turns as a whole: its entries follow from those before.
+            // The chord is rigid: its jet follows from its lower entries.
             let mut partial = Vector::ZERO;
             for term in &cx.jets.rotation[k] {
                 let rate = R::splat(term.factor) * self.angle_analogue(g, cx, own, term.right);

@@ -1,8 +1,7 @@
-//! Groups above class II of rigid links and turning pairs (see [`crate::plan::binary_links`]).
+//! Kernel for groups of rigid links and turning pairs (see [`crate::plan::binary_links`]).
 //!
-//! The same equations, the same iteration and the same ends of it as of every group (see
-//! `group`), with one driver; eight positions after eight, so that all of it stays in a small
-//! work space.
+//! It has the equations, the iteration and the stopping rule of every group (see `newton`), for one
+//! driver. It solves one set of lanes after another, so that all data stay in a small work space.
 
 use super::newton::NewtonState;
 use super::turn::turned;
@@ -125,7 +124,7 @@ impl<R: Real, const G: usize> State<R, G> {
 }
 
 impl<R: Real> GroupWorkspace<R> {
-    /// Spans and chords at the unknowns.
+    /// Updates spans and chords to the present unknowns.
     #[inline(always)]
     fn turn_spans(&mut self, links: &Links<'_>) {
         for l in 0..links.count.min(MAX_UNKNOWNS) {
@@ -140,14 +139,14 @@ impl<R: Real> GroupWorkspace<R> {
         }
     }
 
-    /// The inverse of the derivatives of what the lengths miss; their determinant.
+    /// Inverts the Jacobian of the length equations; returns its determinant.
     #[inline(always)]
     fn invert(&mut self, links: &Links<'_>) -> R {
         let n = links.count.min(MAX_UNKNOWNS);
         for l in 0..n {
             let along = self.chords[l][0].scale(R::splat(links.bars[l].inv_norm()));
             for unknown in 0..n {
-                // Along the chord · i · span.
+                // Derivative of the length: unit vector along the chord · i · span.
                 self.matrix[l * 2 * n + unknown][0] = self.spans[l][unknown][0].cross(along);
             }
         }
@@ -155,7 +154,7 @@ impl<R: Real> GroupWorkspace<R> {
         determinant
     }
 
-    /// Square of the size of the inverse.
+    /// Square of the weighted norm of the inverse.
     #[inline(always)]
     fn inverse_size2(&self, links: &Links<'_>, max_arm2: &[R; MAX_UNKNOWNS]) -> R {
         let n = links.count.min(MAX_UNKNOWNS);
@@ -171,8 +170,8 @@ impl<R: Real> GroupWorkspace<R> {
         size2
     }
 
-    /// Takes a step by the inverse at hand, on the lanes that are not done; how great a change
-    /// was asked for.
+    /// Takes a Newton step with the present inverse on the lanes that are not done; returns the
+    /// largest change of an unknown before it is limited.
     #[inline(always)]
     fn step(&mut self, links: &Links<'_>, done: R::Mask) -> R {
         let n = links.count.min(MAX_UNKNOWNS);
@@ -185,7 +184,7 @@ impl<R: Real> GroupWorkspace<R> {
         for unknown in 0..n {
             let change = -self.inverse_times_residual(n, unknown);
             let size = change.abs();
-            // No number counts as great.
+            // NaN must count as large, so that it does not look converged.
             largest = R::select(size.le(largest), largest, size);
             let old = self.units[unknown];
             let new = turned(old, change.max(-longest).min(longest));
@@ -195,7 +194,7 @@ impl<R: Real> GroupWorkspace<R> {
         largest
     }
 
-    /// Row of an unknown in the inverse, by what is missing.
+    /// Product of an unknown's row of the inverse with the residuals.
     #[inline(always)]
     fn inverse_times_residual(&self, n: usize, unknown: usize) -> R {
         let mut sum = R::ZERO;
@@ -205,8 +204,8 @@ impl<R: Real> GroupWorkspace<R> {
         sum
     }
 
-    /// Analogues of the unknowns and of the binary links asked for: at every order the same matrix,
-    /// as right-hand side what is known of that order.
+    /// Analogues of the unknowns and of the wanted bars. Every order has the same matrix; the
+    /// right-hand side follows from lower orders.
     #[inline(always)]
     fn find_analogues(&mut self, links: &Links<'_>, len: usize, wanted: [bool; MAX_UNKNOWNS]) {
         let n = links.count.min(MAX_UNKNOWNS);
@@ -221,7 +220,7 @@ impl<R: Real> GroupWorkspace<R> {
                     }
                 }
                 self.chords[l][k] = chord;
-                // Half of the derivative of the square of the length.
+                // Half the derivative of the square of the length.
                 let jet = &self.chords[l];
                 let mut sum = jet[0].dot(chord);
                 match k {
@@ -240,7 +239,7 @@ impl<R: Real> GroupWorkspace<R> {
                     let jet = &mut self.spans[l][unknown];
                     let top = jet[0].left().scale(self.rates[unknown][k]);
                     chord += top;
-                    // Nobody asks for the last.
+                    // The last entry is never read.
                     if k == 1 {
                         jet[1] = top;
                     } else if k + 1 < len {
@@ -251,7 +250,7 @@ impl<R: Real> GroupWorkspace<R> {
                 if !wanted[l] {
                     continue;
                 }
-                // The chord turns as a whole.
+                // The chord is rigid: its jet follows from its lower entries.
                 let mut top = chord;
                 if k > 1 {
                     top = top - without_top(&self.chords[l], &self.bar_rates[l], k);
@@ -263,8 +262,8 @@ impl<R: Real> GroupWorkspace<R> {
     }
 }
 
-/// Entry `k` of the jet of a vector that turns with these analogues, from those before, but for
-/// the term in the analogue `k` itself.
+/// Entry `k` of the jet of a vector that turns with these analogues, without the term in analogue
+/// `k` itself.
 #[inline(always)]
 fn without_top<R: Real>(jet: &VectorJet<R>, rates: &[R; ENTRIES], k: usize) -> Vector<R> {
     let mut sum = Vector::ZERO;

@@ -1,7 +1,8 @@
-//! The equations of groups above class II: what their loops miss, and the matrix of it.
+//! Loop equations of groups above class II: their residuals and their Jacobian.
 //!
-//! Polynomials in unit vectors and slides; so derivatives are exact, and those of the loops by the
-//! coordinate (analogues) stand beside the equations themselves.
+//! The equations are polynomials in unit vectors and slides, so all derivatives are exact. Entry
+//! `k` of a jet gives the derivative of the residual by the drivers in the same way as entry 0
+//! gives the residual.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -10,7 +11,7 @@ use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Entry `k` of the edges, guides and chords.
+    /// Computes entry `k` of the edges, guides and chords.
     #[inline(always)]
     pub(crate) fn edge_vectors(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
         let len = self.len;
@@ -51,7 +52,7 @@ impl<R: Real, const G: usize> State<R, G> {
         self.close_loops(group, k);
     }
 
-    /// Entry `k` of a rigid edge that turns with an unknown: from its own entries before.
+    /// Computes entry `k` of a rigid edge that turns with an unknown, from its lower entries.
     #[inline(always)]
     fn arm_vector(&mut self, cx: &Context<'_>, e: usize, leg: usize, k: usize) {
         let (o, class) = (cx.plan.edges[e].orientation, cx.plan.edges[e].class);
@@ -81,7 +82,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Entry `k` of the chords, from the edges.
+    /// Computes entry `k` of the chords from the edges.
     #[inline(always)]
     pub(crate) fn close_loops(&mut self, group: &Group, k: usize) {
         let len = self.len;
@@ -107,7 +108,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Entry `k` of the vector in a chord's own frame, whose length it has.
+    /// Entry `k` of a chord's vector in its own frame, that is before it is turned.
     #[inline(always)]
     pub(crate) fn local(&self, g: usize, cx: &Context<'_>, e: usize, k: usize) -> Vector<R> {
         let mut local = Vector::ZERO;
@@ -121,7 +122,7 @@ impl<R: Real, const G: usize> State<R, G> {
         local
     }
 
-    /// What the equations miss at order `k`.
+    /// Entry `k` of the residuals of the equations.
     #[inline(always)]
     pub(crate) fn group_residual(
         &self,
@@ -183,7 +184,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The matrix of the equations and, behind it, what they miss.
+    /// The Jacobian of the equations, followed by their residuals.
     #[inline(always)]
     pub(crate) fn jacobian(&self, cx: &Context<'_>, group: &Group, matrix: &mut [[R; G]]) {
         let (len, n) = (self.len, group.rows);
@@ -191,8 +192,8 @@ impl<R: Real, const G: usize> State<R, G> {
         let mut row = 0;
         for (i, l) in group.loops.iter().enumerate() {
             let chord = &self.chords[i * len];
-            // A change v of the chord's vector changes the equations by its products with these;
-            // the length's is along the chord, the guide's across the guide.
+            // A change v of the chord changes the equation by v · across: along the chord for a
+            // length, across the guide for a guide.
             let mut across = [Vector::ONE; G];
             for g in 0..G {
                 match l.chord {
@@ -230,7 +231,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The orientations of a class from its rotation.
+    /// Sets orientations of a class from its rotation.
     #[inline(always)]
     pub(crate) fn set_orientations(
         &mut self,

@@ -1,11 +1,10 @@
-//! Groups above class II: Newton's iteration on their loops.
+//! Newton's iteration for groups above class II.
 //!
-//! The unknown rotations are unit vectors, turned by every step; the equations are polynomials
-//! in them and in the slides, so the matrix is exact. It starts where the caller has put the
-//! rotations and slides, on the way from the drawing. Every matrix serves two steps, which
+//! The unknown rotations are unit vectors, which every step turns. The equations are polynomials in
+//! them and in the slides, so the Jacobian is exact. The iteration starts from the rotations and
+//! slides that the caller has set, which the branch predicts. Each Jacobian serves two steps, which
 //! together converge to the third order (Potra & Pták, Nondiscrete Induction and Iterative
-//! Processes, 1984). Work goes on in all groups of positions at once; each lane stops where its
-//! own steps end.
+//! Processes, 1984). All positions iterate together; each lane stops when its own steps converge.
 
 use super::turn::turned;
 use crate::math::inverse::invert;
@@ -21,8 +20,8 @@ use crate::state::state::{Context, State};
 use crate::state::status::{FLAT2, Fault, Status};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Solves the group (step `index`) from where its unknowns are; not where `needs_scalar` knows that
-    /// it must be done again.
+    /// Solves the group (step `index`) from the present values of its unknowns; skips lanes that
+    /// are already in `needs_scalar`.
     #[inline(always)]
     pub(crate) fn solve_group(&mut self, cx: &Context<'_>, group: &Group, index: usize) {
         if let (Some(bars), 1) = (&group.binary_loops, cx.jets.drivers) {
@@ -81,7 +80,7 @@ impl<R: Real, const G: usize> State<R, G> {
         self.matrix = matrix;
     }
 
-    /// What does not change during the iteration.
+    /// Sets what is constant during the iteration.
     #[inline(always)]
     fn prepare_group(&mut self, cx: &Context<'_>, group: &Group) {
         for (i, l) in group.loops.iter().enumerate() {
@@ -99,7 +98,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Edges and chords at the unknowns.
+    /// Updates edges and chords to the present unknowns.
     #[inline(always)]
     fn update_loops(&mut self, cx: &Context<'_>, group: &Group) {
         for (i, &unknown) in group.unknowns.iter().enumerate() {
@@ -110,8 +109,8 @@ impl<R: Real, const G: usize> State<R, G> {
         self.edge_vectors(cx, group, 0);
     }
 
-    /// Takes a step by the inverse at hand, on the lanes that are not done; how great a change
-    /// was asked for.
+    /// Takes a Newton step with the present inverse on the lanes that are not done; returns the
+    /// largest change of an unknown before it is limited.
     #[inline(always)]
     fn step(&mut self, group: &Group, matrix: &[[R; G]], done: &[R::Mask; G]) -> [R; G] {
         let (len, n) = (self.len, group.rows);
@@ -126,7 +125,7 @@ impl<R: Real, const G: usize> State<R, G> {
                     step = step - inverse[g] * residual[g];
                 }
                 let size = step.abs();
-                // No number counts as great.
+                // NaN must count as large, so that it does not look converged.
                 largest[g] = R::select(size.le(largest[g]), largest[g], size);
                 let step = R::select(done[g], R::ZERO, step.max(-longest).min(longest));
                 match unknown {
@@ -146,7 +145,8 @@ impl<R: Real, const G: usize> State<R, G> {
         largest
     }
 
-    /// Condition of the group, whose inverse has this size, and of all that hangs on it.
+    /// Sets the condition of the group from the size of its inverse, and updates that of the
+    /// position.
     #[inline(always)]
     pub(crate) fn update_condition(
         &mut self,
@@ -166,7 +166,7 @@ impl<R: Real, const G: usize> State<R, G> {
             upstream2 = upstream2.max(self.incoming_condition2(g, cx, group));
         }
         let condition = upstream2 * inverse_size2.max(R::ONE);
-        // No number counts as great.
+        // NaN must count as large, so that it is not taken for well-conditioned.
         let is_less = condition.le(self.condition2[g]);
         self.condition2[g] = R::select(is_less, self.condition2[g], condition);
         for unknown in group.all_unknowns() {
@@ -183,7 +183,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Square of the condition of the rotations that come from before the group.
+    /// Square of the condition of the rotations that earlier steps have found.
     #[inline(always)]
     fn incoming_condition2(&self, g: usize, cx: &Context<'_>, group: &Group) -> R {
         let mut upstream2 = R::ONE;
@@ -198,15 +198,15 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 }
 
-/// How far the iteration is.
+/// Progress of the iteration.
 pub(crate) struct NewtonState<R: Real, const G: usize> {
-    /// Lanes that need no more steps.
+    /// Lanes that have converged, and those that are skipped.
     pub done: [R::Mask; G],
-    /// Square of the size of the last inverse.
+    /// Square of the weighted norm of the last inverse.
     pub inverse_size2: [R; G],
-    /// Greatest change of an unknown by the first step (rad, or of the size).
+    /// Largest change of an unknown in the first step (rad, or relative to the scale).
     pub first_step: [R; G],
-    /// By the others, together.
+    /// Sum of the largest changes in the later steps.
     pub later_steps: [R; G],
 }
 
@@ -221,13 +221,13 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
         }
     }
 
-    /// Measures the inverse.
+    /// Computes and records the size of the inverse.
     #[inline(always)]
     fn inverse_size(&mut self, cx: &Context<'_>, group: &Group, matrix: &[[R; G]]) {
         let n = group.rows;
         let mut inverse_size2 = [R::ZERO; G];
         for (i, &unknown) in group.unknowns.iter().enumerate() {
-            // A column of a rotation is measured in units of the greatest arm that turns with it.
+            // Weight a rotation by the greatest arm that turns with it.
             let max_arm2 = match unknown {
                 Unknown::Class(class) => R::splat(cx.bound.max_arm2[class]),
                 Unknown::Slide(_) => R::ONE,
@@ -244,7 +244,7 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
         self.record_inverse_size(inverse_size2);
     }
 
-    /// Takes the size of the inverse.
+    /// Records the size of the inverse on the lanes that are not done.
     #[inline(always)]
     pub(crate) fn record_inverse_size(&mut self, inverse_size2: [R; G]) {
         for g in 0..G {
@@ -253,9 +253,9 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
         }
     }
 
-    /// Lanes that take no second step by the same matrix: what is done or will be by the first
-    /// step, and where that was so long that the matrix is not that of the solution (beside a fold
-    /// such a step leads to the other assembly).
+    /// Lanes that skip the second (frozen-Jacobian) step: converged, or about to converge with the
+    /// first, or the first was so long that the Jacobian has changed (near a fold a second step
+    /// would lead to the other assembly).
     #[inline(always)]
     pub(crate) fn skip_second_step(&self, first_size: [R; G]) -> [R::Mask; G] {
         let mut skip = self.done;
@@ -267,15 +267,15 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
         skip
     }
 
-    /// Whether nothing is left after one step: of its error the square remains, by the condition
-    /// (Kantorovich's theorem).
+    /// Whether one step is enough: the remaining error is the square of the step times the
+    /// condition (Kantorovich's theorem).
     #[inline(always)]
     fn will_converge(&self, g: usize, first_size: R) -> R::Mask {
-        let left = first_size * first_size;
-        (left * left * self.inverse_size2[g].max(R::ONE)).lt(R::splat(NEWTON_LEFT * NEWTON_LEFT))
+        let error = first_size * first_size;
+        (error * error * self.inverse_size2[g].max(R::ONE)).lt(R::splat(NEWTON_LEFT * NEWTON_LEFT))
     }
 
-    /// Counts the two steps of a round.
+    /// Records the two steps of a round, and the lanes that have converged.
     #[inline(always)]
     pub(crate) fn record_steps(
         &mut self,
@@ -296,9 +296,9 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
             if is_first {
                 self.first_step[g] = R::select(done, self.first_step[g], first_size[g]);
             }
-            // What is left is about the product.
-            let left = first_size[g] * second_size;
-            let settled = skip[g].not().and(left.lt(R::splat(NEWTON_LEFT)));
+            // The remaining error is about the product of the two steps.
+            let error = first_size[g] * second_size;
+            let settled = skip[g].not().and(error.lt(R::splat(NEWTON_LEFT)));
             let is_short =
                 first_size[g].lt(R::splat(NEWTON_DONE)).or(self.will_converge(g, first_size[g]));
             self.done[g] = done.or(settled).or(is_short);

@@ -1,31 +1,33 @@
-//! Work space of groups of binary links.
+//! Work space of the kernel for groups of binary links.
 
 use crate::math::derivatives::ONE_DRIVER;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::binary_links::MAX_UNKNOWNS;
 
-/// Entries of a jet, at most.
+/// Greatest number of entries of a jet.
 pub(crate) const ENTRIES: usize = ONE_DRIVER.len();
 /// Jet of a vector.
 pub(crate) type VectorJet<R> = [Vector<R>; ENTRIES];
 
-/// Work space for eight positions (or one).
+/// Work space for the lanes of one set of positions (or one position).
 #[derive(Debug, Clone)]
 pub(crate) struct GroupWorkspace<R: Real> {
-    /// The unknown rotations.
+    /// Unknown rotations.
     pub(crate) units: [Vector<R>; MAX_UNKNOWNS],
-    /// What the loops have from before the group.
+    /// Jets of the known part of every loop: from its start to its end point.
     pub(crate) known: [VectorJet<R>; MAX_UNKNOWNS],
-    /// The spans, turned: of every loop and unknown.
+    /// Jets of the turned spans, by loop and unknown.
     pub(crate) spans: [[VectorJet<R>; MAX_UNKNOWNS]; MAX_UNKNOWNS],
-    /// The vectors of the loops' chords.
+    /// Jets of the loops' chords.
     pub(crate) chords: [VectorJet<R>; MAX_UNKNOWNS],
-    /// Analogues of the unknowns, and of the binary links.
+    /// Analogues of the unknowns.
     pub(crate) rates: [[R; ENTRIES]; MAX_UNKNOWNS],
+    /// Analogues of the bars' rotations.
     pub(crate) bar_rates: [[R; ENTRIES]; MAX_UNKNOWNS],
-    /// The matrix, with its inverse beside it, and what the lengths miss.
+    /// The matrix, with its inverse beside it.
     pub(crate) matrix: [[R; 1]; 2 * MAX_UNKNOWNS * MAX_UNKNOWNS],
+    /// Residuals of the chords' lengths.
     pub(crate) residual: [R; MAX_UNKNOWNS],
 }
 
