@@ -15,7 +15,7 @@ enum PairAt {
     Fixed(usize),
 }
 
-/// The pairs of every link.
+/// The pairs of every link, then of every guide.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct PairSpans(Vec<Vec<PairAt>>);
 

@@ -6,7 +6,7 @@ use crate::math::vector::Vector;
 use crate::plan::plan::EdgeSlide;
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Computes the point at one end of an edge from that at the other end, in all sets.
+    /// Computes the point at one end of an edge from that at the other end, in all lane groups.
     #[inline(always)]
     pub(crate) fn place_all(&mut self, cx: &Context<'_>, e: usize, backward: bool) {
         // With a constant jet length the compiler unrolls the loops.
@@ -66,16 +66,16 @@ impl<R: Real, const G: usize> State<R, G> {
         else {
             return;
         };
-        let Ok([before, condition]) = self.point_condition.get_disjoint_mut([from, to]) else {
+        let Ok([upstream2, condition]) = self.point_condition.get_disjoint_mut([from, to]) else {
             return;
         };
         for g in 0..groups {
             coordinate_scale2[g] = from_scale2[g].max(arm).max(out[0][g].norm2());
-            condition[g] = before[g].max(turned[g]);
+            condition[g] = upstream2[g].max(turned[g]);
         }
     }
 
-    /// [`place_all`](Self::place_all) for any edge, in one set.
+    /// [`place_all`](Self::place_all) for any edge, in one lane group.
     #[inline(always)]
     pub(crate) fn place(&mut self, g: usize, cx: &Context<'_>, e: usize, backward: bool) {
         let edge = &cx.plan.edges[e];

@@ -54,7 +54,7 @@ impl<R: Real, const G: usize> State<R, G> {
             gap = self.misfit(g, cx, edge).max(gap);
         }
         for &(slide, on) in &redundant.parallel {
-            // An angle error displaces by itself times the size.
+            // The displacement that the angle error causes at the size of the pairs.
             gap = (self.angle_misfit(g, cx, slide, on) * pair_size).max(gap);
         }
         for &e in &redundant.touched {

@@ -12,16 +12,16 @@ use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::group::Group;
 use crate::plan::plan::{EdgeSlide, Plan, Step};
 
-/// Work space for one position, or for `G` sets of as many positions as `R` has lanes; allocated
-/// once and reused.
+/// Work space for one position, or for `G` lane groups of as many positions as `R` has lanes;
+/// allocated once and reused.
 ///
-/// The set is the innermost index, so that one lookup of a step serves all sets and their
+/// The lane group is the innermost index, so that one lookup of a step serves all of them and their
 /// operations overlap.
 #[derive(Debug, Clone)]
 pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     /// Number of entries of a jet.
     pub(crate) len: usize,
-    /// Number of sets in use.
+    /// Number of lane groups in use.
     pub(crate) groups: usize,
     /// Coordinates (rad; slide drivers in units of the scale).
     pub(crate) q: Vec<[R; G]>,
@@ -35,7 +35,7 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub orient: Vec<[Vector<R>; G]>,
     /// Jets of the legs of dyads (two per dyad), then of the edges of groups.
     pub(crate) legs: Vec<[Vector<R>; G]>,
-    /// Jets of the angles of classes; the value itself is not used.
+    /// Jets of the angles of classes; entry 0, the value, is not used.
     pub theta: Vec<[R; G]>,
     /// Jets of slides.
     pub slides: Vec<[R; G]>,

@@ -61,7 +61,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let (start, end) = (&self.points[jet(dyad.start)], &self.points[jet(dyad.end)]);
         let coordinate_scale2 =
             [&self.coordinate_scale2[dyad.start], &self.coordinate_scale2[dyad.end]];
-        let before = [&self.point_condition[dyad.start], &self.point_condition[dyad.end]];
+        let upstream2 = [&self.point_condition[dyad.start], &self.point_condition[dyad.end]];
         let (
             Some(sign),
             Ok([a_jet, b_jet]),
@@ -78,10 +78,10 @@ impl<R: Real, const G: usize> State<R, G> {
         else {
             return;
         };
-        let (signs, before_sign) = (&self.signs[sign], &mut self.upstream_condition2[sign]);
+        let (signs, upstream_sign2) = (&self.signs[sign], &mut self.upstream_condition2[sign]);
         let [a, b] = &cx.bound.legs[dyad.index];
         let (a, b) = (a.on_lanes(), b.on_lanes());
-        let levers =
+        let max_arm2 =
             [R::splat(cx.bound.max_arm2[classes[0]]), R::splat(cx.bound.max_arm2[classes[1]])];
         for g in 0..self.groups.min(G) {
             let (first, second, solved) = two_circles(&a, &b, end[0][g] - start[0][g], signs[g]);
@@ -96,10 +96,11 @@ impl<R: Real, const G: usize> State<R, G> {
                 self.fault.get_or_insert(Fault::Singular { step: index });
                 self.status = Status::Singular;
             }
-            before_sign[g] = before[0][g].max(before[1][g]);
-            let data = R::splat(0.25) * coordinate_scale2[0][g].max(coordinate_scale2[1][g]);
-            let lever = (levers[0].max(data) * a.inv_norm2).max(levers[1].max(data) * b.inv_norm2);
-            let condition = before_sign[g] * lever.max(R::ONE) / solved.sine2;
+            upstream_sign2[g] = upstream2[0][g].max(upstream2[1][g]);
+            let rounding = R::splat(0.25) * coordinate_scale2[0][g].max(coordinate_scale2[1][g]);
+            let relative_arm2 = (max_arm2[0].max(rounding) * a.inv_norm2)
+                .max(max_arm2[1].max(rounding) * b.inv_norm2);
+            let condition = upstream_sign2[g] * relative_arm2.max(R::ONE) / solved.sine2;
             first_condition[g] = condition;
             second_condition[g] = condition;
             self.condition2[g] = condition.max(self.condition2[g]);
@@ -108,7 +109,7 @@ impl<R: Real, const G: usize> State<R, G> {
             a_jet[0][g] = first;
             b_jet[0][g] = second;
             let columns = [first.left(), second.left()];
-            let per = R::ONE / columns[0].cross(columns[1]);
+            let inv_determinant = R::ONE / columns[0].cross(columns[1]);
             for k in 1..len {
                 let (mut first, mut second) = (Vector::ZERO, Vector::ZERO);
                 for term in terms(k) {
@@ -118,8 +119,10 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
                 let (first, second) = (first.left(), second.left());
                 let known = (start[k][g] - end[k][g]) + first + second;
-                let (first_rate, second_rate) =
-                    (columns[1].cross(known) * per, known.cross(columns[0]) * per);
+                let (first_rate, second_rate) = (
+                    columns[1].cross(known) * inv_determinant,
+                    known.cross(columns[0]) * inv_determinant,
+                );
                 u[k][g] = first_rate;
                 v[k][g] = second_rate;
                 a_jet[k][g] = first + columns[0].scale(first_rate);

@@ -38,8 +38,8 @@ impl<R: Real, const G: usize> State<R, G> {
         };
         let [u, v] = dyad.unknowns;
         let leg = |i: usize, vector: Vector<R>| {
-            let edge_vector = &cx.bound.legs[dyad.index][i];
-            if dyad.leg[i] { edge_vector.on_lanes() } else { Leg::of(vector) }
+            let constant = &cx.bound.legs[dyad.index][i];
+            if dyad.leg[i] { constant.on_lanes() } else { Leg::of(vector) }
         };
         match dyad.form {
             Form::TwoCircles => {
@@ -57,8 +57,8 @@ impl<R: Real, const G: usize> State<R, G> {
                 closed.with_arm2(relative_arm2(u, a.inv_norm2))
             }
             Form::TurningGuide => {
-                let edge_vector = Vector::splat(cx.bound.legs[dyad.index][0].vector);
-                let a = if dyad.leg[0] { edge_vector } else { first };
+                let constant = Vector::splat(cx.bound.legs[dyad.index][0].vector);
+                let a = if dyad.leg[0] { constant } else { first };
                 let (x, s, inv_distance2, closed) = turning_guide(a, second, k, sign);
                 self.set_rotation(g, cx, dyad, 0, x);
                 self.set_slide(g, v, s);

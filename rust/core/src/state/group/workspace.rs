@@ -10,7 +10,7 @@ pub(crate) const ENTRIES: usize = ONE_DRIVER.len();
 /// Jet of a vector.
 pub(crate) type VectorJet<R> = [Vector<R>; ENTRIES];
 
-/// Work space for the lanes of one set of positions (or one position).
+/// Work space for the lanes of one lane group (or one position).
 #[derive(Debug, Clone)]
 pub(crate) struct GroupWorkspace<R: Real> {
     /// Unknown rotations.
