@@ -12,7 +12,7 @@ use crate::structure::assur_group::roman;
 use crate::structure::closure::list;
 use crate::structure::matching::Pattern;
 
-/// Adds the steps of all blocks; returns for every point whether a step places it.
+/// Adds the steps of all blocks; returns for every point whether it is fixed or a step places it.
 pub(crate) fn add_steps(
     plan: &mut Plan,
     linkage: &Linkage,

@@ -20,7 +20,7 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// Only those that [`Structure::of`] raises before.
+    /// Only those that [`Structure::of`] has returned before.
     pub(crate) fn new(
         linkage: &Linkage,
         closure: &Closure,

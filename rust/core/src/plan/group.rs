@@ -48,9 +48,9 @@ pub(crate) struct Loop {
     pub edge: usize,
     /// The condition on that edge.
     pub chord: Chord,
-    /// Known point from which `from` is reached; point 0 if the loop touches no known point.
+    /// Known point from which `from` is reached; point 0 if both would be the same.
     pub start: usize,
-    /// Known point from which `to` is reached.
+    /// Known point from which `to` is reached; point 0 if both would be the same.
     pub end: usize,
     /// Edges from `start` to `from`, traversed backward, and from `end` to `to`.
     pub path: Vec<LoopEdge>,
@@ -91,7 +91,8 @@ pub(crate) struct Group {
     pub index: usize,
     /// Index of its first edge among the legs; its other edges follow.
     pub first_leg: usize,
-    /// Set if the group is small and has only rigid links and turning pairs: a special kernel.
+    /// Data of the special kernel, if the group is small and has only rigid links and turning
+    /// pairs.
     pub binary_loops: Option<BinaryLoops>,
 }
 

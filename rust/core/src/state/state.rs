@@ -282,7 +282,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
                 self.phase[o][g] = phase;
                 if orientation.class == 0 {
-                    self.driven_orientation(g, cx, o, phase);
+                    self.set_driven_orientation(g, cx, o, phase);
                 }
             }
         }
@@ -324,7 +324,7 @@ impl<R: Real, const G: usize> State<R, G> {
         if R::LANES == 1 && flat.any() {
             self.fault.get_or_insert(Fault::Singular { step: index });
             self.status = Status::Singular;
-            self.nan_analogues(g, dyad);
+            self.set_nan_analogues(g, dyad);
             return;
         }
         self.analogues(g, cx, dyad);

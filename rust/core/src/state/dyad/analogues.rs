@@ -15,7 +15,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Value and analogues of an orientation that only the drivers turn: `∂U = i U` times its
     /// multiple of the driver.
     #[inline(always)]
-    pub(crate) fn driven_orientation(
+    pub(crate) fn set_driven_orientation(
         &mut self,
         g: usize,
         cx: &Context<'_>,
@@ -145,7 +145,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Sets the analogues of a dyad's unknowns, and of all that turns with them, to NaN.
     #[inline(always)]
-    pub(crate) fn nan_analogues(&mut self, g: usize, dyad: &Dyad) {
+    pub(crate) fn set_nan_analogues(&mut self, g: usize, dyad: &Dyad) {
         let len = self.len;
         for unknown in dyad.unknowns {
             let jet = match unknown {

@@ -12,7 +12,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Discriminant of a dyad and its derivative by one driver (jet entry `first`): the sine of the
     /// angle between its legs, or the chord of a rotation and a slide, with the sign of the
     /// assembly. It is zero where the dyad is flat; the derivative leaves out the change of the
-    /// normalising lengths, which vanishes there.
+    /// normalising lengths, whose contribution vanishes there.
     #[inline(always)]
     pub(crate) fn discriminant(
         &self,
@@ -77,7 +77,7 @@ impl State {
                 // The square may overflow where the components do not.
                 if norm == f64::INFINITY { misfit.x.abs().max(misfit.y.abs()) } else { norm }
             })
-            // The comparison keeps NaN, which `max` would drop.
+            // Unlike `max`, this takes a NaN; only a later finite value replaces it.
             .fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
     }
 
@@ -97,7 +97,7 @@ impl State {
         };
         let pairs = self.points.iter().zip(&other.points).skip(order).step_by(self.len);
         let pairs = pairs.take(if order < self.len { usize::MAX } else { 0 });
-        // The comparison keeps NaN, which `max` would drop.
+        // Unlike `max`, this takes a NaN; only a later finite value replaces it.
         pairs.map(relative).fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
     }
 

@@ -40,7 +40,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
         }
         if R::LANES == 1 && matches!(self.fault, Some(Fault::Singular { step }) if step == index) {
-            self.nan_analogues(0, dyad);
+            self.set_nan_analogues(0, dyad);
         }
     }
 

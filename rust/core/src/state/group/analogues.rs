@@ -30,7 +30,7 @@ impl<R: Real, const G: usize> State<R, G> {
                     }
                 }
             }
-            self.edge_vectors(cx, group, k);
+            self.update_edge_vectors(cx, group, k);
             self.group_residual(cx, group, k, &mut matrix[2 * n * n..]);
             for (i, &unknown) in group.unknowns.iter().enumerate() {
                 let mut value = [R::ZERO; G];

@@ -23,17 +23,17 @@ impl<R: Real, const G: usize> State<R, G> {
         &mut self,
         cx: &Context<'_>,
         group: &Group,
-        bars: &BinaryLoops,
+        binary: &BinaryLoops,
         index: usize,
     ) {
         let len = self.len.min(ENTRIES);
-        let links = bars.links(&cx.bound.spans);
+        let links = binary.links(&cx.bound.spans);
         let mut max_arm2 = [R::ZERO; MAX_UNKNOWNS];
-        for (max_arm2, &class) in max_arm2.iter_mut().zip(&bars.classes) {
+        for (max_arm2, &class) in max_arm2.iter_mut().zip(&binary.classes) {
             *max_arm2 = R::splat(cx.bound.max_arm2[class]);
         }
         let mut wanted = [false; MAX_UNKNOWNS];
-        for ((wanted, &class), l) in wanted.iter_mut().zip(&bars.bar_classes).zip(&group.loops) {
+        for ((wanted, &class), l) in wanted.iter_mut().zip(&binary.bar_classes).zip(&group.loops) {
             *wanted = self.angle_wanted[class] || !l.orientations.is_empty();
         }
         for g in 0..self.groups.min(G) {
@@ -44,7 +44,7 @@ impl<R: Real, const G: usize> State<R, G> {
                     *known = end[g] - start[g];
                 }
             }
-            for (unit, &class) in loops.units.iter_mut().zip(&bars.classes) {
+            for (unit, &class) in loops.units.iter_mut().zip(&binary.classes) {
                 *unit = self.class[class][g];
             }
             let mut work = NewtonState::<R, 1>::new([self.needs_scalar[g]]);
@@ -71,13 +71,13 @@ impl<R: Real, const G: usize> State<R, G> {
                 self.determinants[group.index][g] = loops.invert(&links);
                 loops.find_analogues(&links, len, wanted);
             }
-            for (i, &class) in bars.classes.iter().enumerate().take(MAX_UNKNOWNS) {
+            for (i, &class) in binary.classes.iter().enumerate().take(MAX_UNKNOWNS) {
                 self.class[class][g] = loops.units[i];
                 for k in 1..len {
                     self.theta[class * len + k][g] = loops.rates[i][k];
                 }
             }
-            for (i, &class) in bars.bar_classes.iter().enumerate().take(MAX_UNKNOWNS) {
+            for (i, &class) in binary.bar_classes.iter().enumerate().take(MAX_UNKNOWNS) {
                 if !wanted[i] {
                     continue;
                 }
@@ -86,7 +86,7 @@ impl<R: Real, const G: usize> State<R, G> {
                     self.theta[class * len + k][g] = loops.bar_rates[i][k];
                 }
             }
-            for arm in &bars.arms {
+            for arm in &binary.arms {
                 let unknown = arm.unknown.min(MAX_UNKNOWNS - 1);
                 let rates = &loops.rates[unknown];
                 let v = loops.units[unknown] * Vector::splat(cx.bound.edge_vector[arm.edge]);
@@ -111,8 +111,8 @@ impl<R: Real, const G: usize> State<R, G> {
             }
             self.update_condition(g, cx, group, index, work.inverse_size2[0]);
         }
-        let of_unknowns = group.orientations.iter().zip(&bars.classes);
-        let of_bars = group.loops.iter().map(|l| &l.orientations).zip(&bars.bar_classes);
+        let of_unknowns = group.orientations.iter().zip(&binary.classes);
+        let of_bars = group.loops.iter().map(|l| &l.orientations).zip(&binary.bar_classes);
         for (orientations, &class) in of_unknowns.chain(of_bars) {
             for &o in orientations {
                 for g in 0..self.groups.min(G) {

@@ -13,7 +13,7 @@ use crate::state::state::{Context, State};
 impl<R: Real, const G: usize> State<R, G> {
     /// Computes entry `k` of the edges, guides and chords.
     #[inline(always)]
-    pub(crate) fn edge_vectors(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
+    pub(crate) fn update_edge_vectors(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
         let len = self.len;
         for (i, edge) in group.edges.iter().enumerate() {
             if edge.is_bar {
@@ -21,7 +21,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
             let leg = (group.first_leg + i) * len;
             if cx.plan.is_arm(group, i) {
-                self.arm_vector(cx, edge.edge, leg, k);
+                self.update_arm_vector(cx, edge.edge, leg, k);
                 continue;
             }
             let e = edge.edge;
@@ -54,7 +54,7 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Computes entry `k` of a rigid edge that turns with an unknown, from its lower entries.
     #[inline(always)]
-    fn arm_vector(&mut self, cx: &Context<'_>, e: usize, leg: usize, k: usize) {
+    fn update_arm_vector(&mut self, cx: &Context<'_>, e: usize, leg: usize, k: usize) {
         let (o, class) = (cx.plan.edges[e].orientation, cx.plan.edges[e].class);
         let driven = cx.plan.orientations[o].driven;
         if k == 0 {

@@ -24,8 +24,8 @@ impl<R: Real, const G: usize> State<R, G> {
     /// are already in `needs_scalar`.
     #[inline(always)]
     pub(crate) fn solve_group(&mut self, cx: &Context<'_>, group: &Group, index: usize) {
-        if let (Some(bars), 1) = (&group.binary_loops, cx.jets.drivers) {
-            self.solve_binary_loops(cx, group, bars, index);
+        if let (Some(binary), 1) = (&group.binary_loops, cx.jets.drivers) {
+            self.solve_binary_loops(cx, group, binary, index);
             return;
         }
         let mut matrix = std::mem::take(&mut self.matrix);
@@ -46,7 +46,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 let last = &mut self.det_sign[group.index][g];
                 *last = R::select(work.done[g], *last, determinants[g]);
             }
-            work.inverse_size(cx, group, &matrix);
+            work.update_inverse_size(cx, group, &matrix);
             let first_size = self.step(group, &matrix, &work.done);
             let skip = work.skip_second_step(first_size);
             self.update_loops(cx, group);
@@ -106,7 +106,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 self.set_orientations(cx, &group.orientations[i], class);
             }
         }
-        self.edge_vectors(cx, group, 0);
+        self.update_edge_vectors(cx, group, 0);
     }
 
     /// Takes a Newton step with the present inverse on the lanes that are not done; returns the
@@ -223,7 +223,7 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
 
     /// Computes and records the size of the inverse.
     #[inline(always)]
-    fn inverse_size(&mut self, cx: &Context<'_>, group: &Group, matrix: &[[R; G]]) {
+    fn update_inverse_size(&mut self, cx: &Context<'_>, group: &Group, matrix: &[[R; G]]) {
         let n = group.rows;
         let mut inverse_size2 = [R::ZERO; G];
         for (i, &unknown) in group.unknowns.iter().enumerate() {
