@@ -250,7 +250,7 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
 /// Sine of the angle between a dyad's legs in the drawing; its sign is that of the assembly.
 fn drawn_sine(linkage: &Linkage, plan: &Plan, dyad: &Dyad) -> f64 {
     let at = |point: usize| {
-        let [x, y] = match point.checked_sub(1) {
+        let xy = match point.checked_sub(1) {
             None => [0.0; 2],
             Some(j) if j < linkage.joints.len() => linkage.joints[j].at,
             Some(_) => {
@@ -258,7 +258,7 @@ fn drawn_sine(linkage: &Linkage, plan: &Plan, dyad: &Dyad) -> f64 {
                 linkage.reference_point(link).unwrap_or([0.0; 2])
             }
         };
-        Vector::new(x, y)
+        Vector::new(xy[0], xy[1])
     };
     let mut terms = [Vector::ZERO; 2];
     let mut guide = Vector::ZERO;

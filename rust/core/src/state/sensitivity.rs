@@ -88,13 +88,13 @@ impl Sensitivity {
         }
         self.rates.theta.fill([0.0]);
         self.rates.slides.fill([0.0]);
-        let at = Inputs { state, cx, by, len };
+        let inputs = Inputs { state, cx, by, len };
         for (index, step) in cx.plan.steps.iter().enumerate() {
             match step {
                 &Step::Place { edge, backward } => {
                     let [from, to] = cx.plan.edges[edge].ends(backward);
                     for k in 0..len {
-                        let v = self.edge(&at, edge, k).scale(signed(backward));
+                        let v = self.edge(&inputs, edge, k).scale(signed(backward));
                         let start = self.rates.points[from * len + k][0];
                         self.rates.points[to * len + k][0] = start + v;
                     }
@@ -102,7 +102,7 @@ impl Sensitivity {
                 Step::Redundant(_) => return false,
                 Step::Dyad(_) | Step::Group(_) => {
                     let Some(closures) = self.steps[index].take() else { return false };
-                    let solved = self.solve_closures(&at, &closures);
+                    let solved = self.solve_closures(&inputs, &closures);
                     self.steps[index] = Some(closures);
                     if !solved {
                         return false;
@@ -132,29 +132,29 @@ impl Sensitivity {
     }
 
     /// Entry `k` of an orientation's derivative by the dimension: `∂U = i U ∂Θ`, by Leibniz.
-    fn unit_rate(&self, at: &Inputs<'_>, o: usize, k: usize) -> Vector {
-        let class = at.cx.plan.orientations[o].class;
+    fn unit_rate(&self, inputs: &Inputs<'_>, o: usize, k: usize) -> Vector {
+        let class = inputs.cx.plan.orientations[o].class;
         let mut sum = Vector::ZERO;
-        for term in &at.cx.jets.product[k] {
-            let rate = term.factor * self.rates.theta[class * at.len + term.right][0];
-            sum += self.units[o * at.len + term.left].scale(rate);
+        for term in &inputs.cx.jets.product[k] {
+            let rate = term.factor * self.rates.theta[class * inputs.len + term.right][0];
+            sum += self.units[o * inputs.len + term.left].scale(rate);
         }
         sum.left()
     }
 
     /// Entry `k` of an edge's derivative by the dimension.
-    fn edge(&self, at: &Inputs<'_>, e: usize, k: usize) -> Vector {
-        let (edge, bound, len) = (&at.cx.plan.edges[e], at.cx.bound, at.len);
+    fn edge(&self, inputs: &Inputs<'_>, e: usize, k: usize) -> Vector {
+        let (edge, bound, len) = (&inputs.cx.plan.edges[e], inputs.cx.bound, inputs.len);
         let o = edge.orientation;
-        let mut sum = self.unit_rate(at, o, k) * bound.edge_vector[e]
-            + self.units[o * len + k] * at.by.edge_vector[e];
+        let mut sum = self.unit_rate(inputs, o, k) * bound.edge_vector[e]
+            + self.units[o * len + k] * inputs.by.edge_vector[e];
         if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
-            for term in &at.cx.jets.product[k] {
+            for term in &inputs.cx.jets.product[k] {
                 let unit = self.units[o * len + term.left];
-                let value = at.state.slides[slide * len + term.right][0];
+                let value = inputs.state.slides[slide * len + term.right][0];
                 let rate = self.rates.slides[slide * len + term.right][0];
-                let turned = self.unit_rate(at, o, term.left) * bound.guide[e];
-                let guide_rate = unit * at.by.guide[e];
+                let turned = self.unit_rate(inputs, o, term.left) * bound.guide[e];
+                let guide_rate = unit * inputs.by.guide[e];
                 let along = unit * bound.guide[e];
                 sum += ((turned + guide_rate).scale(value) + along.scale(rate)).scale(term.factor);
             }
@@ -163,21 +163,21 @@ impl Sensitivity {
     }
 
     /// Solves for the unknowns' derivatives, order by order; false if the matrix is singular.
-    fn solve_closures(&mut self, at: &Inputs<'_>, closures: &Closures) -> bool {
-        let (len, n) = (at.len, closures.unknowns.len());
-        let lu = self.matrix(at, closures).lu();
+    fn solve_closures(&mut self, inputs: &Inputs<'_>, closures: &Closures) -> bool {
+        let (len, n) = (inputs.len, closures.unknowns.len());
+        let lu = self.matrix(inputs, closures).lu();
         for k in 0..len {
-            let mut residual = DVector::zeros(n);
+            let mut rhs = DVector::zeros(n);
             for (i, path) in closures.paths.iter().enumerate() {
                 let point = |p: usize| self.rates.points[p * len + k][0];
                 let mut sum = point(path.plus) - point(path.minus);
                 for &(e, sign) in &path.edges {
-                    sum += self.edge(at, e, k).scale(sign);
+                    sum += self.edge(inputs, e, k).scale(sign);
                 }
-                residual[2 * i] = -sum.x;
-                residual[2 * i + 1] = -sum.y;
+                rhs[2 * i] = -sum.x;
+                rhs[2 * i + 1] = -sum.y;
             }
-            let Some(values) = lu.solve(&residual) else { return false };
+            let Some(values) = lu.solve(&rhs) else { return false };
             for (&unknown, &value) in closures.unknowns.iter().zip(values.iter()) {
                 match unknown {
                     Unknown::Class(class) => self.rates.theta[class * len + k][0] = value,
@@ -189,17 +189,17 @@ impl Sensitivity {
     }
 
     /// Derivatives of the closures by the unknowns.
-    fn matrix(&self, at: &Inputs<'_>, closures: &Closures) -> DMatrix<f64> {
+    fn matrix(&self, inputs: &Inputs<'_>, closures: &Closures) -> DMatrix<f64> {
         let n = closures.unknowns.len();
         let mut matrix = DMatrix::zeros(n, n);
         for (i, path) in closures.paths.iter().enumerate() {
             for &(e, sign) in &path.edges {
-                let edge = &at.cx.plan.edges[e];
-                let unit = self.units[edge.orientation * at.len].scale(sign);
-                let guide = unit * at.cx.bound.guide[e];
-                let mut vector = unit * at.cx.bound.edge_vector[e];
+                let edge = &inputs.cx.plan.edges[e];
+                let unit = self.units[edge.orientation * inputs.len].scale(sign);
+                let guide = unit * inputs.cx.bound.guide[e];
+                let mut vector = unit * inputs.cx.bound.edge_vector[e];
                 if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
-                    vector += guide.scale(at.state.slides[slide * at.len][0]);
+                    vector += guide.scale(inputs.state.slides[slide * inputs.len][0]);
                 }
                 for (column, &unknown) in closures.unknowns.iter().enumerate() {
                     let v = match (unknown, edge.along) {
