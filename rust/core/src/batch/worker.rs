@@ -78,7 +78,7 @@ impl<'a> Worker<'a> {
         let design = Design::new(mechanism, request.signs, jets);
         let plan = mechanism.plan();
         let mut many = State::new(plan, jets);
-        many.asked.clone_from(&writer.asked);
+        many.angle_wanted.clone_from(&writer.asked);
         Self {
             quick: design.quick(),
             one: State::new(plan, jets),
@@ -237,7 +237,7 @@ impl<'a> Worker<'a> {
         job.rows.status[at..at + count].fill(MaybeUninit::new(Status::Ok as u8));
         let mut again = false;
         for group in 0..groups.min(GROUPS) {
-            care[group] = care[group].or(state.care[group]);
+            care[group] = care[group].or(state.needs_scalar[group]);
             care[group] = care[group].or(design.track.bends_as(state, group).not());
             again |= care[group].any();
             let near = state.near_singular(group);

@@ -129,7 +129,7 @@ impl ChangeInterpolant {
         let raw: Vec<f64> = self.nodes.iter().map(|(at, w)| w / (distance - at)).collect();
         let total: f64 = raw.iter().sum();
         let weights: Vec<f64> = raw.iter().map(|w| w / total).collect();
-        state.blend(&self.states, &weights);
+        state.interpolate(&self.states, &weights);
         if let Some(known) = self.condition2 {
             state.condition2[0] = known;
         }

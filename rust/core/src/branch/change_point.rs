@@ -58,10 +58,10 @@ fn leads_through(walker: &mut BranchTracer<'_, '_>, change: ChangePoint, [a, b]:
         let [with, without] = [&[change][..], &[]].map(|taken| {
             walker.changes.extend_from_slice(taken);
             // Also where something else is open, within a gap of another dyad.
-            walker.state.forget(&walker.cx);
+            walker.state.fill_nan(&walker.cx);
             walker.solve(a + cells * (b - a));
             walker.changes.truncate(before);
-            walker.state.fits(&walker.cx)
+            walker.state.redundant_links_fit(&walker.cx)
         });
         if let (Some(with), Some(without)) = (with, without)
             && with != without
@@ -105,7 +105,7 @@ fn locate(
         }
         if value * rate * walker.way < 0.0 { low = middle } else { high = middle }
     }
-    let redundant = walker.cx.plan.fits().next().is_some();
+    let redundant = walker.cx.plan.redundant_links().next().is_some();
     let strict = if redundant { REDUNDANT_ROUNDING } else { CHANGE_SPREAD };
     let mut centre = 0.5 * (low + high);
     for _ in 0..if redundant { 2 * CENTRINGS } else { CENTRINGS } {
@@ -162,8 +162,8 @@ impl LocalFit {
                 odd[place] += 0.5 * side * value / (reach * step);
                 square[place] += 0.5 * value * value;
                 let state = &*walker.state;
-                before = before.max(state.before[sign][0].sqrt());
-                shortness = shortness.max(state.shortness(&walker.cx, dyad));
+                before = before.max(state.upstream_condition2[sign][0].sqrt());
+                shortness = shortness.max(state.length_ratio(&walker.cx, dyad));
             }
         }
         // Even polynomials through ±1, ±2, ±3 steps, at 0: weights 15, −6, 1 of 10.

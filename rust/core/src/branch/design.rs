@@ -14,7 +14,7 @@ use crate::math::lanes::Real;
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
-use crate::plan::constants_rate::BoundRate;
+use crate::plan::constants_rate::ConstantsRate;
 use crate::plan::dyad::Unknown;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
@@ -93,9 +93,9 @@ impl<'a> Design<'a> {
     }
 
     /// How the fixed vectors change with a dimension.
-    pub(crate) fn rate(&self, index: usize) -> BoundRate {
+    pub(crate) fn rate(&self, index: usize) -> ConstantsRate {
         let mechanism = self.mechanism;
-        BoundRate::new(mechanism.plan(), &mechanism.slots, &self.bound, &self.values, index)
+        ConstantsRate::new(mechanism.plan(), &mechanism.slots, &self.bound, &self.values, index)
     }
 
     /// What a position is solved with; the signs are those at the drawing.
@@ -160,7 +160,7 @@ impl<'a> Design<'a> {
         if let [_] = *q {
             let Some(seeds) = track.approach(&first, &mut self.state(&self.first), at) else {
                 // Nothing can be told from the fold where the way ends.
-                state.lose();
+                state.set_lost();
                 return;
             };
             let unknowns = self.mechanism.plan().groups().flat_map(|group| &group.unknowns);
@@ -176,7 +176,7 @@ impl<'a> Design<'a> {
         let other =
             matches!(state.status, Status::Ok | Status::NearSingular) && !track.bends_as(state, 0);
         if (is_astray || other) && q.len() == 1 {
-            state.lose();
+            state.set_lost();
         } else if other {
             let steps = &self.mechanism.plan().steps;
             let last = steps.iter().rposition(|step| matches!(step, Step::Group(_)));
@@ -244,7 +244,7 @@ impl<'a> Design<'a> {
             let scaled = || q.iter().map(|q| q * self.unit.coordinate[0]).filter(|q| q.is_finite());
             let range = [scaled().fold(start, f64::min), scaled().fold(start, f64::max)];
             // Beyond the sum of all lengths no slide reaches.
-            let paired = cx.plan.edges.iter().zip(&cx.bound.rigid).filter(|(e, _)| e.paired);
+            let paired = cx.plan.edges.iter().zip(&cx.bound.edge_vector).filter(|(e, _)| e.paired);
             let lengths = paired.map(|(_, w)| w).chain(&cx.bound.fixed).map(|w| w.norm());
             let reach = 2.0 * lengths.sum::<f64>() + 1.0;
             Branch::sliding(&cx, &mut state, start, range, reach, from)
@@ -295,7 +295,7 @@ impl<'a> Design<'a> {
         let mut state = self.state(self.jets);
         let place = BranchPoint { track: Cow::Borrowed(&self.track), at };
         self.solve(&mut state, &[at], Some(&place));
-        if state.is_over() {
+        if state.has_failed() {
             return 0.0;
         }
         let values = state.points.chunks_exact(state.len);
@@ -357,11 +357,11 @@ impl<'a> Design<'a> {
         place: Option<&BranchPoint<'_>>,
     ) -> bool {
         let Some(BranchPoint { track, at }) = place else {
-            state.refuse();
+            state.set_bad_input();
             return false;
         };
         if !track.covers(*at) {
-            state.lose();
+            state.set_lost();
             return false;
         }
         let cx = self.context(self.jets);

@@ -17,7 +17,7 @@ impl Branch {
         g: usize,
     ) -> R::Mask {
         let mut other = R::Mask::NONE;
-        for (groups, &bend) in state.bends.iter().zip(&self.bends) {
+        for (groups, &bend) in state.det_sign.iter().zip(&self.bends) {
             let positive = R::ZERO.lt(groups[g]);
             other = other.or(if bend { positive.not() } else { positive });
         }

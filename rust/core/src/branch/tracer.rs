@@ -262,7 +262,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
 
     /// Spread of a dyad at the position just visited, and its rate along the path.
     pub(crate) fn spread(&self, dyad: &Dyad) -> (f64, f64) {
-        let at = |driver: usize| self.state.spread(0, &self.cx, dyad, driver + 1);
+        let at = |driver: usize| self.state.discriminant(0, &self.cx, dyad, driver + 1);
         (at(0).0, self.along(|driver| at(driver).1))
     }
 

@@ -148,11 +148,11 @@ impl UniformTracer {
     fn look(&mut self, cx: &Context<'_>, group: usize) -> bool {
         let state = &self.state;
         let mut lines = 0;
-        let mut trouble = state.care[group];
+        let mut trouble = state.needs_scalar[group];
         for dyad in cx.plan.dyads() {
             match dyad.sign {
                 Some(sign) => {
-                    let (value, rate) = state.spread(group, cx, dyad, 1);
+                    let (value, rate) = state.discriminant(group, cx, dyad, 1);
                     let (last, last_rate) = self.spread[sign];
                     let before = (after(last, value), after(last_rate, rate));
                     trouble = trouble.or(may_touch(before, (value, rate), Lanes::splat(CELL)));

@@ -1,4 +1,4 @@
-//! From blocks of closure equations to steps.
+//! Steps from blocks of closure equations.
 
 use std::collections::VecDeque;
 
@@ -12,7 +12,7 @@ use crate::structure::assur_group::roman;
 use crate::structure::closure::list;
 use crate::structure::matching::Pattern;
 
-/// Adds the steps of all blocks; returns which points they place.
+/// Adds the steps of all blocks; returns for every point whether it is fixed or a step places it.
 pub(crate) fn add_steps(
     plan: &mut Plan,
     linkage: &Linkage,
@@ -45,7 +45,7 @@ pub(crate) fn add_steps(
                 plan.higher.get_or_insert(higher);
             }
         }
-        place(plan, &mut known, edges);
+        place_points(plan, &mut known, edges);
     }
     Ok(known)
 }
@@ -68,7 +68,7 @@ fn higher(links: Vec<usize>, linkage: &Linkage, structure: &Structure) -> Higher
     }
 }
 
-/// The counting pattern of the kept edges and what its unknowns stand for.
+/// Incidence pattern of the kept edges' equations, and the meaning of its unknowns.
 struct Nodes {
     pattern: Pattern,
     unknowns: Vec<Option<Unknown>>,
@@ -95,13 +95,13 @@ impl Nodes {
         }
         for &e in kept {
             let edge = &plan.edges[e];
-            let mut touches: Vec<usize> =
+            let mut touched: Vec<usize> =
                 [point[edge.edge.from], point[edge.edge.to]].into_iter().flatten().collect();
-            touches.extend(class[plan.class_of(e)]);
+            touched.extend(class[plan.class_of(e)]);
             if let EdgeSlide::Slide(s) = edge.along {
-                touches.push(nodes.add(1, Some(Unknown::Slide(s))));
+                touched.push(nodes.add(1, Some(Unknown::Slide(s))));
             }
-            nodes.pattern.equation(2, touches);
+            nodes.pattern.equation(2, touched);
         }
         nodes
     }
@@ -116,10 +116,10 @@ impl Nodes {
     }
 }
 
-/// Places points along edges as far as known points reach.
-fn place(plan: &mut Plan, known: &mut [bool], mut edges: Vec<usize>) {
+/// Adds steps that place points along edges, as far as the known points reach.
+fn place_points(plan: &mut Plan, known: &mut [bool], mut edges: Vec<usize>) {
     loop {
-        let before = edges.len();
+        let count = edges.len();
         edges.retain(|&edge| {
             let e = &plan.edges[edge].edge;
             match (known[e.from], known[e.to]) {
@@ -136,14 +136,14 @@ fn place(plan: &mut Plan, known: &mut [bool], mut edges: Vec<usize>) {
                 _ => true,
             }
         });
-        if edges.len() == before {
+        if edges.len() == count {
             return;
         }
     }
 }
 
-/// Finds the loop of a block; the edge that closes it is taken out of `edges`
-/// (the others place the points).
+/// Finds the loop of a block, and removes the edge that closes it from `edges` (the others place
+/// the points).
 fn dyad(
     plan: &mut Plan,
     linkage: &Linkage,
@@ -151,7 +151,7 @@ fn dyad(
     unknowns: &mut [Unknown],
     known: &[bool],
 ) -> Dyad {
-    // Paths from known points, breadth first; the edge left over closes the loop.
+    // Breadth-first paths from the known points; the remaining edge closes the loop.
     let mut path: Vec<Option<Vec<(usize, bool)>>> =
         known.iter().map(|&k| k.then(Vec::new)).collect();
     let mut queue: VecDeque<usize> = (0..known.len()).filter(|&p| known[p]).collect();
@@ -169,24 +169,24 @@ fn dyad(
                 continue;
             }
             used[i] = true;
-            let mut longer = path[here].clone().unwrap_or_default();
-            longer.push((edge, backward));
+            let mut extended = path[here].clone().unwrap_or_default();
+            extended.push((edge, backward));
             match &path[next] {
                 None => {
-                    path[next] = Some(longer);
+                    path[next] = Some(extended);
                     queue.push_back(next);
                 }
-                Some(other) => closing = Some((i, longer, other.clone())),
+                Some(other) => closing = Some((i, extended, other.clone())),
             }
         }
     }
-    let (index, ahead, back) = closing.unwrap_or_default();
-    // The common beginning of the two paths is no part of the loop.
+    let (closing_edge, ahead, back) = closing.unwrap_or_default();
+    // The loop leaves out the common start of the two paths.
     let common = ahead.iter().zip(&back).take_while(|(a, b)| a == b).count();
     let mut loop_path: Vec<(usize, bool)> = ahead[common..].to_vec();
     loop_path.extend(back[common..].iter().rev().map(|&(e, b)| (e, !b)));
-    if index < edges.len() {
-        edges.remove(index);
+    if closing_edge < edges.len() {
+        edges.remove(closing_edge);
     }
     let tip = |(e, backward): (usize, bool)| {
         let edge = &plan.edges[e].edge;
@@ -200,8 +200,7 @@ fn dyad(
     let end = loop_path.last().map_or(0, |&x| tip(x));
     let (start, end) = if start == end {
         rotate_to_first(plan, &mut loop_path, unknowns[0]);
-        // A closed loop hangs on no point; it may even pass through none that is known
-        // yet. It is counted from the origin.
+        // A closed loop depends on no point and may pass through no known one: start at the origin.
         (0, 0)
     } else {
         (start, end)
@@ -224,69 +223,69 @@ fn dyad(
         plan.dyad_links.push(links);
         plan.dyad_names.len() - 1
     });
-    let turned = unknowns.map(|unknown| {
+    let orientations = unknowns.map(|unknown| {
         let with = |o: &usize| unknown == Unknown::Class(plan.orientations[*o].class);
         (0..plan.orientations.len()).filter(with).collect()
     });
-    let (path, leg) = parts(plan, loop_path, unknowns);
+    let (path, leg) = loop_terms(plan, loop_path, unknowns);
     let others =
-        path.iter().copied().filter(|part| !part.in_leg || part.slides.is_some()).collect();
+        path.iter().copied().filter(|term| !term.in_leg || term.slides.is_some()).collect();
     let index = plan.dyads().count();
-    let binary = match unknowns {
-        [Unknown::Class(a), Unknown::Class(b)] if path.iter().all(|part| part.in_leg) => {
+    let rrr_classes = match unknowns {
+        [Unknown::Class(a), Unknown::Class(b)] if path.iter().all(|term| term.in_leg) => {
             Some([a, b])
         }
         _ => None,
     };
-    Dyad { form, unknowns, turned, path, others, leg, binary, index, start, end, sign }
+    Dyad { form, unknowns, orientations, path, others, leg, rrr_classes, index, start, end, sign }
 }
 
-/// What the edges of a loop add to its equation, and the orientations of its legs.
-fn parts(
+/// The terms that a loop's edges add to its equation, and for each unknown whether it has a leg.
+fn loop_terms(
     plan: &Plan,
     loop_path: Vec<(usize, bool)>,
     unknowns: [Unknown; 2],
 ) -> (Vec<LoopTerm>, [bool; 2]) {
-    let place = |unknown| unknowns.iter().position(|&u| u == unknown);
+    let position = |unknown| unknowns.iter().position(|&u| u == unknown);
     let mut path: Vec<LoopTerm> = loop_path
         .into_iter()
         .map(|(edge, backward)| {
-            let turns = place(Unknown::Class(plan.class_of(edge)));
+            let turns = position(Unknown::Class(plan.class_of(edge)));
             let slides = match plan.edges[edge].along {
-                EdgeSlide::Slide(s) => place(Unknown::Slide(s)),
+                EdgeSlide::Slide(s) => position(Unknown::Slide(s)),
                 _ => None,
             };
             LoopTerm { edge, backward, turns, slides, in_leg: false }
         })
         .collect();
-    let leg = [0, 1].map(|place| {
-        let mut turning = path.iter().filter(|part| part.turns == Some(place)).peekable();
+    let leg = [0, 1].map(|unknown| {
+        let mut turning = path.iter().filter(|term| term.turns == Some(unknown)).peekable();
         turning.peek().is_some()
-            && turning.all(|part| {
-                let edge = &plan.edges[part.edge];
-                let own = edge.along == EdgeSlide::Nothing || part.slides.is_some();
-                own && !plan.orientations[edge.orientation].driven
+            && turning.all(|term| {
+                let edge = &plan.edges[term.edge];
+                let constant = edge.along == EdgeSlide::Nothing || term.slides.is_some();
+                constant && !plan.orientations[edge.orientation].driven
             })
     });
-    for part in &mut path {
-        part.in_leg = part.turns.is_some_and(|place| leg[place]);
+    for term in &mut path {
+        term.in_leg = term.turns.is_some_and(|unknown| leg[unknown]);
     }
     (path, leg)
 }
 
-/// A closed loop may start anywhere on it: at the run of edges of its first unknown
-/// (of which then one end is the inner pair).
+/// A closed loop may start anywhere: here at the edges of its first unknown, so that one end of
+/// them is the inner pair.
 fn rotate_to_first(plan: &Plan, path: &mut [(usize, bool)], first: Unknown) {
-    let carries = |e: usize| match first {
+    let has_unknown = |e: usize| match first {
         Unknown::Class(c) => plan.class_of(e) == c,
         Unknown::Slide(s) => plan.edges[e].along == EdgeSlide::Slide(s),
     };
     let n = path.len();
-    let begin = (0..n).find(|&i| carries(path[i].0) && !carries(path[(i + n - 1) % n].0));
+    let begin = (0..n).find(|&i| has_unknown(path[i].0) && !has_unknown(path[(i + n - 1) % n].0));
     path.rotate_left(begin.unwrap_or(0));
 }
 
-/// Rotations before slides; of two rotations, that of the link listed first.
+/// Sorts rotations before slides, and of two rotations that of the link listed first.
 fn order_unknowns(plan: &Plan, path: &[(usize, bool)], unknowns: &mut [Unknown]) {
     unknowns.sort_by_key(|u| match *u {
         Unknown::Class(c) => {
@@ -315,8 +314,8 @@ fn form(plan: &Plan, unknowns: [Unknown; 2]) -> Form {
     }
 }
 
-/// Name of the dyad's inner pair: the slide of a turning guide, else the joint
-/// at which the first unknown's run of edges ends on the side of the second's.
+/// Name of the dyad's inner pair: the slide of a turning guide, else the joint between the edges
+/// of the first unknown and those of the second.
 fn inner_pair(
     plan: &Plan,
     linkage: &Linkage,
@@ -326,7 +325,7 @@ fn inner_pair(
     tip: &impl Fn((usize, bool)) -> usize,
     tail: &impl Fn((usize, bool)) -> usize,
 ) -> String {
-    let carries = |e: usize, unknown: Unknown| match unknown {
+    let has_unknown = |e: usize, unknown: Unknown| match unknown {
         Unknown::Class(c) => plan.class_of(e) == c,
         Unknown::Slide(s) => plan.edges[e].along == EdgeSlide::Slide(s),
     };
@@ -337,7 +336,8 @@ fn inner_pair(
     if form == Form::TurningGuide {
         return slide_name(unknowns[1]).unwrap_or_default();
     }
-    let ranks = |u| path.iter().enumerate().filter(move |(_, x)| carries(x.0, u)).map(|(i, _)| i);
+    let ranks =
+        |u| path.iter().enumerate().filter(move |(_, x)| has_unknown(x.0, u)).map(|(i, _)| i);
     let (first, second) =
         (ranks(unknowns[0]).collect::<Vec<_>>(), ranks(unknowns[1]).collect::<Vec<_>>());
     let point = match (first.last(), second.first()) {

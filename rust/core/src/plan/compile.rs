@@ -1,4 +1,4 @@
-//! From a linkage and its structure to a plan.
+//! Compiles a linkage and its structure to a plan.
 
 use super::blocks::add_steps;
 use super::group::{BinaryLoops, Group};
@@ -10,8 +10,8 @@ use crate::description::{Driver, Linkage};
 use crate::structure::Structure;
 use crate::structure::closure::{Closure, Span, rotations};
 
-/// The drivers that turn something, and how often.
-fn turning(turns: &[i8]) -> Box<[(usize, i8)]> {
+/// The drivers with a multiple other than 0, with that multiple.
+fn driver_turns(turns: &[i8]) -> Box<[(usize, i8)]> {
     turns.iter().copied().enumerate().filter(|&(_, t)| t != 0).collect()
 }
 
@@ -20,7 +20,7 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// Only for what [`Structure::of`] would have refused before.
+    /// Only those that [`Structure::of`] has returned before.
     pub(crate) fn new(
         linkage: &Linkage,
         closure: &Closure,
@@ -31,17 +31,18 @@ impl Plan {
         let mut link_orientation = Vec::new();
         for r in &rotation {
             let driven = r.turns.iter().any(|&t| t != 0);
-            let lone = match *turning(&r.turns) {
+            let single_driver = match *driver_turns(&r.turns) {
                 [(driver, 1)] => Some((driver, false)),
                 [(driver, -1)] => Some((driver, true)),
                 _ => None,
             };
-            let orientation = Orientation { class: r.class, turns: r.turns.clone(), driven, lone };
-            let place = orientations.iter().position(|o| *o == orientation).unwrap_or_else(|| {
+            let orientation =
+                Orientation { class: r.class, turns: r.turns.clone(), driven, single_driver };
+            let index = orientations.iter().position(|o| *o == orientation).unwrap_or_else(|| {
                 orientations.push(orientation);
                 orientations.len() - 1
             });
-            link_orientation.push(place);
+            link_orientation.push(index);
         }
         let edges = closure
             .edges
@@ -89,26 +90,26 @@ impl Plan {
         };
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
         let placed = add_steps(&mut plan, linkage, structure, &kept)?;
-        redundant::add_fits(&mut plan, linkage, closure, structure, placed);
-        if plan.fits().next().is_some() {
+        redundant::add_redundant(&mut plan, linkage, closure, structure, placed);
+        if plan.redundant_links().next().is_some() {
             plan.pairs = PairSpans::of(linkage, closure);
         }
         plan.mark_legs();
         Ok(plan)
     }
 
-    /// Finds the edges that are legs, and the orientations that something else asks for.
+    /// Marks the edges that are legs, and drops the orientations that only legs and bars would use.
     fn mark_legs(&mut self) {
         let mut found = Vec::new();
         for dyad in self.dyads() {
-            for place in 0..2 {
-                let mut turning = dyad.path.iter().filter(|part| part.turns == Some(place));
-                if let (Some(part), None) = (turning.next(), turning.next())
-                    && part.in_leg
-                    && part.slides.is_none()
+            for unknown in 0..2 {
+                let mut turned = dyad.path.iter().filter(|term| term.turns == Some(unknown));
+                if let (Some(term), None) = (turned.next(), turned.next())
+                    && term.in_leg
+                    && term.slides.is_none()
                 {
-                    let index = 2 * dyad.index + place;
-                    found.push((part.edge, LegEdge { index, backward: part.backward }));
+                    let index = 2 * dyad.index + unknown;
+                    found.push((term.edge, LegEdge { index, backward: term.backward }));
                 }
             }
         }
@@ -120,25 +121,25 @@ impl Plan {
             group.first_leg = first;
             first += group.edges.len();
         }
-        let mut of_bars: Vec<Option<BinaryLoops>> = Vec::new();
+        let mut binary_loops: Vec<Option<BinaryLoops>> = Vec::new();
         for group in self.groups() {
-            let bars = BinaryLoops::new(self, group, of_bars.iter().flatten());
-            of_bars.push(bars);
+            let loops = BinaryLoops::new(self, group, binary_loops.iter().flatten());
+            binary_loops.push(loops);
         }
-        let mut of_bars = of_bars.into_iter();
+        let mut binary_loops = binary_loops.into_iter();
         for step in &mut self.steps {
             let Step::Group(group) = step else { continue };
-            group.bars = of_bars.next().flatten();
+            group.binary_loops = binary_loops.next().flatten();
         }
         for group in self.groups() {
-            for (place, edge) in group.edges.iter().enumerate() {
-                if !group.is_chord(place) {
-                    let index = group.first_leg + place;
-                    found.push((edge.edge, LegEdge { index, backward: false }));
+            for (index, edge) in group.edges.iter().enumerate() {
+                if !group.is_chord(index) {
+                    let leg = group.first_leg + index;
+                    found.push((edge.edge, LegEdge { index: leg, backward: false }));
                 }
                 if edge.is_bar {
                     bars.push(edge.edge);
-                } else if !self.is_arm(group, place) {
+                } else if !self.is_arm(group, index) {
                     used[self.edges[edge.edge].orientation] = true;
                 }
             }
@@ -149,7 +150,7 @@ impl Plan {
         for (index, edge) in self.edges.iter().enumerate() {
             let is_arm = |group: &Group| {
                 (0..group.edges.len())
-                    .any(|place| group.edges[place].edge == index && self.is_arm(group, place))
+                    .any(|i| group.edges[i].edge == index && self.is_arm(group, i))
             };
             if edge.leg.is_none() && !bars.contains(&index) && !self.groups().any(is_arm) {
                 used[edge.orientation] = true;
@@ -163,16 +164,16 @@ impl Plan {
         for step in &mut self.steps {
             match step {
                 Step::Dyad(dyad) => {
-                    for turned in &mut dyad.turned {
-                        turned.retain(|&o| used[o]);
+                    for orientations in &mut dyad.orientations {
+                        orientations.retain(|&o| used[o]);
                     }
                 }
                 Step::Group(group) => {
-                    for turned in &mut group.turned {
-                        turned.retain(|&o| used[o]);
+                    for orientations in &mut group.orientations {
+                        orientations.retain(|&o| used[o]);
                     }
                     for l in &mut group.loops {
-                        l.turned.retain(|&o| used[o]);
+                        l.orientations.retain(|&o| used[o]);
                     }
                 }
                 _ => {}

@@ -1,4 +1,4 @@
-//! A plan with the numbers of one design.
+//! The constant vectors of one design.
 
 use super::binary_links::LoopVectors;
 use super::leg::Leg;
@@ -8,41 +8,40 @@ use crate::description::dimension::{Dimension, Dimensions};
 use crate::math::vector::Vector;
 use crate::structure::closure::{Closure, Span};
 
-/// The fixed vectors of one design, in units of its scale.
+/// The constant vectors of one design, in units of its scale.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct DesignConstants {
-    /// Power of two near the greatest length; results are multiplied by it.
+    /// Power of two near the greatest length, m; results are multiplied by it.
     pub scale: f64,
-    /// Place of the frame's origin in the drawing, m: the first ground joint.
+    /// Origin of the frame in the drawing, m: the first ground joint.
     pub origin: [f64; 2],
     /// Constant part of every edge, in the frame of its class.
-    pub rigid: Vec<Vector>,
-    /// The square of its length.
+    pub edge_vector: Vec<Vector>,
+    /// Square of the length of that part.
     pub arm2: Vec<f64>,
     /// Guide direction of every edge with a slide, in the frame of its class.
     pub guide: Vec<Vector>,
-    /// Places of the points fixed to the ground.
+    /// Coordinates of the points fixed to the ground.
     pub fixed: Vec<Vector>,
-    /// Constant angle of every link against its class, rad.
+    /// Constant angle of every link relative to its class, rad.
     pub offset: Vec<f64>,
-    /// The same as a unit vector.
+    /// That angle as a unit vector.
     pub turn: Vec<Vector>,
-    /// Turn from the carrying to the sliding link of every slide.
+    /// Rotation from the carrying to the sliding link of every slide.
     pub slide_turn: Vec<Vector>,
-    /// Square of the longest constant edge that turns with a class (a coupler point's: at
-    /// most 1).
-    pub lever2: Vec<f64>,
-    /// The legs of every dyad, where they are the same at all positions.
+    /// Square of the longest constant edge that turns with each class (edges to coupler points
+    /// count as 1 at most).
+    pub max_arm2: Vec<f64>,
+    /// The two legs of every dyad (default values where an unknown has no leg).
     pub legs: Vec<[Leg; 2]>,
-    /// The vectors of groups of binary links.
+    /// Spans and bars of the groups of binary links.
     pub spans: LoopVectors,
-    /// What the misfit of redundant links is a part of: 1, or less where a joint far from all pairs
-    /// makes the scale.
+    /// The misfit of redundant links is relative to this size: 1, or less where a joint far from
+    /// all pairs sets the scale.
     pub pair_size: f64,
 }
 
-/// Where the dimensions of every edge and slide stand in the list of values; found
-/// once for a mechanism.
+/// Index of every edge's and slide's dimensions in the list of values; found once per mechanism.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DimensionMap {
     pub(crate) edges: Vec<EdgeSource>,
@@ -51,16 +50,16 @@ pub(crate) struct DimensionMap {
     pub(crate) ground: Vec<(usize, [Slot; 2])>,
     /// Coordinates of the origin.
     pub(crate) origin: [Slot; 2],
-    /// Lengths that make the scale.
+    /// Lengths that set the scale.
     lengths: Lengths,
 }
 
-/// Place of a value; a linkage that has no such dimension has 0.
+/// Index of a value; `None` if the linkage has no such dimension, whose value is then 0.
 pub(crate) type Slot = Option<usize>;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum EdgeSource {
-    /// From the first joint of a link to another: its place in the link's frame.
+    /// From the first joint of a link to another: its coordinates in the link's frame.
     Joint([Slot; 2]),
     /// Along a guide.
     Guide(usize),
@@ -72,7 +71,7 @@ pub(crate) struct SlideSlots {
     link_angle: Slot,
     pub(crate) offset: Slot,
     pub(crate) origin: [Slot; 2],
-    /// Whether its origin is a place in the drawing.
+    /// Whether its origin is a point of the drawing, not a joint.
     pub(crate) drawn: bool,
 }
 
@@ -89,14 +88,14 @@ impl SlideSlots {
         read(values, self.angle)
     }
 
-    /// Turn from the carrying to the sliding link.
+    /// Angle from the carrying to the sliding link, rad.
     pub(crate) fn step(&self, values: &[f64]) -> f64 {
         read(values, self.angle) - read(values, self.link_angle)
     }
 }
 
 impl DimensionMap {
-    /// Finds the places.
+    /// Finds the indices.
     #[must_use]
     pub(crate) fn new(
         plan: &Plan,
@@ -104,7 +103,7 @@ impl DimensionMap {
         closure: &Closure,
         dimensions: &Dimensions,
     ) -> Self {
-        let find = |wanted: Dimension| dimensions.iter().position(|(_, d)| d == wanted);
+        let find = |dimension: Dimension| dimensions.iter().position(|(_, d)| d == dimension);
         let on_ground =
             |joint| [find(Dimension::GroundX { joint }), find(Dimension::GroundY { joint })];
         let in_link = |link: usize, joint: usize| match linkage.links[link]
@@ -139,19 +138,19 @@ impl DimensionMap {
             .collect();
         let joints = &linkage.links[linkage.ground].joints;
         let ground = joints.iter().map(|&joint| (joint, on_ground(joint))).collect();
-        // The first ground joint; without one the drawing's own origin.
+        // The first ground joint, or the drawing's own origin if there is none.
         let origin = joints.first().map_or([None, None], |&joint| on_ground(joint));
         let lengths = Lengths::of(linkage, closure, dimensions);
         Self { edges, slides, ground, origin, lengths }
     }
 }
 
-/// The dimensions that make the size of a design, each with the coordinate of the origin to take off.
+/// The dimensions that set the size of a design, each with the axis of the origin to subtract.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Lengths {
-    /// To where there are pairs.
+    /// Dimensions of points at pairs.
     paired: Vec<(usize, Option<usize>)>,
-    /// To other points: they are the size only where nothing else is.
+    /// Dimensions of other points: they set the size only if all others are 0.
     loose: Vec<(usize, Option<usize>)>,
 }
 
@@ -178,7 +177,7 @@ impl Lengths {
         lengths
     }
 
-    /// Power of two at or below the greatest.
+    /// Power of two at or below the greatest length.
     fn scale(&self, values: &[f64], origin: [f64; 2]) -> f64 {
         let greatest = |lengths: &[(usize, Option<usize>)]| {
             let taken_off = |from: Option<usize>| from.map_or(0.0, |axis| origin[axis]);
@@ -191,8 +190,8 @@ impl Lengths {
 }
 
 impl DesignConstants {
-    /// The link on the other side of a slide, and the constant turn from its
-    /// orientation to that of `link`.
+    /// The link on the other side of a slide, and the constant rotation from its orientation to
+    /// that of `link`.
     #[must_use]
     pub(crate) fn across_slide(&self, plan: &Plan, link: usize, slide: usize) -> (usize, Vector) {
         let [sliding, carrying] = plan.slide_links[slide];
@@ -201,7 +200,7 @@ impl DesignConstants {
         (other, self.turn[other] * turn * self.turn[link].conj())
     }
 
-    /// Binds a plan to dimensions (in the order of [`Dimensions`]).
+    /// Constants for these values of the dimensions (in the order of [`Dimensions`]).
     #[must_use]
     pub(crate) fn new(plan: &Plan, slots: &DimensionMap, values: &[f64]) -> Self {
         let mut bound = Self::default();
@@ -209,16 +208,16 @@ impl DesignConstants {
         bound
     }
 
-    /// Takes the dimensions of another design.
+    /// Recomputes the constants for the dimensions of another design.
     pub(crate) fn bind(&mut self, plan: &Plan, slots: &DimensionMap, values: &[f64]) {
         let origin = read_two(values, slots.origin);
         self.origin = [origin.x, origin.y];
         self.scale = slots.lengths.scale(values, self.origin);
-        let unit_of = 1.0 / self.scale;
+        let inv_scale = 1.0 / self.scale;
         self.offset.clear();
         self.turn.clear();
         for r in &plan.rotation {
-            // Written as a sum from the first link on, so that 0 stays 0.
+            // Starting the sum at 0.0 keeps 0 exact.
             let angle = r.slides.iter().fold(0.0, |angle, &(slide, sign)| {
                 let step = slots.slides[slide].step(values);
                 if sign > 0 { angle + step } else { angle - step }
@@ -228,12 +227,12 @@ impl DesignConstants {
         }
         self.slide_turn.clear();
         self.slide_turn.extend(slots.slides.iter().map(|s| unit(s.step(values))));
-        self.rigid.clear();
+        self.edge_vector.clear();
         self.guide.clear();
         self.arm2.clear();
         for (e, source) in plan.edges.iter().zip(&slots.edges) {
             let (w, d) = match *source {
-                EdgeSource::Joint(place) => (read_two(values, place), Vector::ZERO),
+                EdgeSource::Joint(slots) => (read_two(values, slots), Vector::ZERO),
                 EdgeSource::Guide(slide) => {
                     let slide = &slots.slides[slide];
                     let direction = unit(slide.angle(values));
@@ -246,43 +245,42 @@ impl DesignConstants {
                 }
             };
             let turn = self.turn[e.edge.link];
-            let rigid = (turn * w).scale(unit_of);
-            self.rigid.push(rigid);
-            self.arm2.push(rigid.norm2());
+            let edge_vector = (turn * w).scale(inv_scale);
+            self.edge_vector.push(edge_vector);
+            self.arm2.push(edge_vector.norm2());
             self.guide.push(turn * d);
         }
         self.fixed.clear();
         self.fixed.resize(plan.points, Vector::ZERO);
-        for &(joint, place) in &slots.ground {
-            self.fixed[joint + 1] = (read_two(values, place) - origin).scale(unit_of);
+        for &(joint, at) in &slots.ground {
+            self.fixed[joint + 1] = (read_two(values, at) - origin).scale(inv_scale);
         }
-        self.lever2.clear();
-        self.lever2.resize(plan.classes, 0.0);
+        self.max_arm2.clear();
+        self.max_arm2.resize(plan.classes, 0.0);
         for (e, &arm2) in plan.edges.iter().zip(&self.arm2) {
             let class = plan.orientations[e.orientation].class;
-            // A coupler point farther than the rest is itself the size that its error
-            // is a part of.
+            // The error of a coupler point beyond all pairs is relative to its own distance.
             let arm2 = if e.paired { arm2 } else { arm2.min(1.0) };
-            self.lever2[class] = self.lever2[class].max(arm2);
+            self.max_arm2[class] = self.max_arm2[class].max(arm2);
         }
         self.measure_legs(plan);
-        self.spans.measure(plan, &self.rigid);
-        // The scale is more than half of the greatest length.
-        let longest = plan.pairs.longest(&self.rigid, &self.fixed);
+        self.spans.measure(plan, &self.edge_vector);
+        // Twice, since the scale is more than half of the greatest length.
+        let longest = plan.pairs.longest(&self.edge_vector, &self.fixed);
         self.pair_size = if longest > 0.0 { (2.0 * longest).min(1.0) } else { 1.0 };
     }
 
     fn measure_legs(&mut self, plan: &Plan) {
         self.legs.clear();
         for dyad in plan.dyads() {
-            self.legs.push([0, 1].map(|place| {
-                if !dyad.leg[place] {
+            self.legs.push([0, 1].map(|unknown| {
+                if !dyad.leg[unknown] {
                     return Leg::default();
                 }
                 let mut sum = Vector::ZERO;
-                for part in dyad.path.iter().filter(|part| part.turns == Some(place)) {
-                    let v = self.rigid[part.edge];
-                    sum += if part.backward { -v } else { v };
+                for term in dyad.path.iter().filter(|term| term.turns == Some(unknown)) {
+                    let v = self.edge_vector[term.edge];
+                    sum += if term.backward { -v } else { v };
                 }
                 Leg::of(sum)
             }));
@@ -290,13 +288,14 @@ impl DesignConstants {
     }
 }
 
-/// Unit vector at an angle, exact for no turn.
+/// Unit vector at an angle, exact at 0.
 pub(crate) fn unit(angle: f64) -> Vector {
     if angle == 0.0 { Vector::ONE } else { Vector::at_angle(angle) }
 }
 
-/// The power of two at or below a positive number (1 for 0 or no number); kept within 2^-508 to 2^508,
-/// about the range of lengths, so that third analogues by a slide can be divided by its square.
+/// The power of two at or below a positive number; 1 for 0, NaN, infinity and negative numbers.
+/// Kept within 2^-508 to 2^508, about the range of lengths, so that third analogues by a slide can
+/// be divided by its square.
 fn power_of_two(x: f64) -> f64 {
     if !(x.is_finite() && x > 0.0) {
         return 1.0;

@@ -1,26 +1,26 @@
-//! How the fixed vectors of a design change with one of its dimensions.
+//! Derivatives of the constant vectors of a design by one of its dimensions.
 
 use super::constants::{DesignConstants, DimensionMap, EdgeSource, read, read_two, unit};
 use super::plan::Plan;
 use crate::math::vector::Vector;
 
-/// Derivatives of what [`DesignConstants`] holds by one dimension (m or rad), its scale kept.
+/// Derivatives of [`DesignConstants`] by one dimension (m or rad), at constant scale.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct BoundRate {
+pub(crate) struct ConstantsRate {
     /// Of the frame's origin, m.
     pub origin: Vector,
     /// Of the constant part of every edge.
-    pub rigid: Vec<Vector>,
+    pub edge_vector: Vec<Vector>,
     /// Of the guide direction of every edge with a slide.
     pub guide: Vec<Vector>,
     /// Of the points fixed to the ground.
     pub fixed: Vec<Vector>,
-    /// Of the constant angle of every link against its class.
+    /// Of the constant angle of every link relative to its class.
     pub offset: Vec<f64>,
 }
 
-impl BoundRate {
-    /// For a design (`values`, `bound`) and the dimension of this index.
+impl ConstantsRate {
+    /// Derivatives for a design (`values`, `bound`) by the dimension of this index.
     #[must_use]
     pub(crate) fn new(
         plan: &Plan,
@@ -29,16 +29,18 @@ impl BoundRate {
         values: &[f64],
         index: usize,
     ) -> Self {
-        // Dimensions enter linearly, but for angles.
+        // All dimensions but angles enter linearly.
         let mut by = vec![0.0; values.len()];
         by[index] = 1.0;
         let origin = read_two(&by, slots.origin);
-        let per = 1.0 / bound.scale;
+        let inv_scale = 1.0 / bound.scale;
         let offset = offsets(plan, slots, &by);
         let mut rate = Self { origin, offset, ..Self::default() };
-        for ((e, source), rigid) in plan.edges.iter().zip(&slots.edges).zip(&bound.rigid) {
+        for ((e, source), edge_vector) in
+            plan.edges.iter().zip(&slots.edges).zip(&bound.edge_vector)
+        {
             let (w, d) = match *source {
-                EdgeSource::Joint(place) => (read_two(&by, place), Vector::ZERO),
+                EdgeSource::Joint(slots) => (read_two(&by, slots), Vector::ZERO),
                 EdgeSource::Guide(slide) => {
                     let slide = &slots.slides[slide];
                     let direction = unit(slide.angle(values));
@@ -55,18 +57,18 @@ impl BoundRate {
             let link = e.edge.link;
             let (turn, offset) = (bound.turn[link], rate.offset[link]);
             let guide = bound.guide[rate.guide.len()];
-            rate.rigid.push((turn * w).scale(per) + rigid.left().scale(offset));
+            rate.edge_vector.push((turn * w).scale(inv_scale) + edge_vector.left().scale(offset));
             rate.guide.push(turn * d + guide.left().scale(offset));
         }
         rate.fixed.resize(plan.points, Vector::ZERO);
-        for &(joint, place) in &slots.ground {
-            rate.fixed[joint + 1] = (read_two(&by, place) - origin).scale(per);
+        for &(joint, at) in &slots.ground {
+            rate.fixed[joint + 1] = (read_two(&by, at) - origin).scale(inv_scale);
         }
         rate
     }
 }
 
-/// Derivatives of the links' constant angles by the dimension that is 1 in `by`.
+/// Derivatives of the links' constant angles by the dimension whose entry in `by` is 1.
 pub(crate) fn offsets(plan: &Plan, slots: &DimensionMap, by: &[f64]) -> Vec<f64> {
     let step = |slide: usize| slots.slides[slide].step(by);
     let offset = |r: &crate::structure::closure::Rotation| {

@@ -9,7 +9,7 @@ pub(crate) enum Unknown {
     Slide(usize),
 }
 
-/// The closed forms: every dyad is one of four.
+/// Closed form of a dyad.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
     /// Two rotations (RRR): two circles.
@@ -22,18 +22,18 @@ pub(crate) enum Form {
     TwoLines,
 }
 
-/// What an edge of a dyad's loop adds to its equation.
+/// The term that an edge adds to the equation of a dyad's loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct LoopTerm {
-    /// The edge.
+    /// Index of the edge in the plan.
     pub edge: usize,
-    /// Run from `to` to `from`.
+    /// Traversed from `to` to `from`.
     pub backward: bool,
     /// The unknown (0 or 1) whose rotation turns it.
     pub turns: Option<usize>,
     /// The unknown that is the slide along it.
     pub slides: Option<usize>,
-    /// Whether its constant part is counted in that unknown's leg.
+    /// Whether its constant part belongs to that unknown's leg.
     pub in_leg: bool,
 }
 
@@ -41,28 +41,28 @@ pub(crate) struct LoopTerm {
 /// `P_start + Σ ±edge vectors = P_end`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Dyad {
-    /// Its closed form.
+    /// Closed form.
     pub form: Form,
     /// The unknowns; a rotation comes before a slide, and the rotation of the
     /// link listed first before the other.
     pub unknowns: [Unknown; 2],
-    /// The orientations that turn with each unknown (none with a slide) and that
-    /// something else than its legs asks for.
-    pub turned: [Vec<usize>; 2],
+    /// The orientations that turn with each unknown (none with a slide) and that more than the legs
+    /// need.
+    pub orientations: [Vec<usize>; 2],
     /// The loop, edge by edge.
     pub path: Vec<LoopTerm>,
-    /// What of the loop is not wholly in a leg.
+    /// The terms that are not entirely in a leg.
     pub others: Vec<LoopTerm>,
-    /// Whether what turns with each unknown is a leg: constant parts only, but for its slide.
+    /// Whether each unknown has a leg: all that turns with it is constant, apart from its slide.
     pub leg: [bool; 2],
-    /// The classes of its two legs, if there is nothing else.
-    pub binary: Option<[usize; 2]>,
-    /// Place among the dyads.
+    /// The classes of its two legs, if it has nothing else (RRR).
+    pub rrr_classes: Option<[usize; 2]>,
+    /// Index among the dyads.
     pub index: usize,
-    /// Known point where the path starts; of a path that ends where it starts: point 0.
+    /// Known point where the path starts; point 0 if the path is closed.
     pub start: usize,
     /// Known point where it ends.
     pub end: usize,
-    /// Place among the assembly signs, if it has two solutions.
+    /// Index among the assembly signs, if it has two solutions.
     pub sign: Option<usize>,
 }

@@ -1,141 +1,142 @@
-//! A group above class II of the plan: its edges and independent loops.
+//! Groups above class II in the plan: their edges and independent loops.
 
 use super::dyad::Unknown;
 
-/// What the chord of a loop leaves of its vector equation.
+/// The condition on the chord that a loop adds to the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Chord {
-    /// Its length: the rotation of this class is found afterwards.
+    /// Its length; the rotation of its class follows by back substitution.
     Length {
-        /// The class.
+        /// Class of the chord.
         class: usize,
     },
-    /// The distance of its end from the guide: the value of this slide is found afterwards.
+    /// The distance of its end from the guide; the slide's value follows by back substitution.
     Guide {
-        /// The slide.
+        /// Slide along the chord.
         slide: usize,
     },
-    /// Both components.
+    /// Both components of its vector.
     Whole,
 }
 
 /// An edge on the path of a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct LoopEdge {
-    /// Place among the group's edges.
-    pub place: usize,
-    /// Run from `to` to `from`.
+    /// Index among the group's edges.
+    pub edge: usize,
+    /// Traversed from `to` to `from`.
     pub backward: bool,
 }
 
 /// An edge of a group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct GroupEdge {
-    /// The edge.
+    /// Index of the edge in the plan.
     pub edge: usize,
     /// The unknown that turns it.
     pub turns: Option<usize>,
     /// The unknown that is the slide along it.
     pub slides: Option<usize>,
-    /// Nothing but its length is asked for.
+    /// Whether it is a bar that closes a loop: only its length enters the equations.
     pub is_bar: bool,
 }
 
 /// One independent loop: its chord's vector is `P_end − P_start + Σ path`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Loop {
-    /// The edge that closes it, from its `from` to its `to`: place among the group's edges.
+    /// The edge that closes it, from its `from` to its `to`: index among the group's edges.
     pub edge: usize,
-    /// What it leaves.
+    /// The condition on that edge.
     pub chord: Chord,
-    /// Known point from which `from` is reached; of loops on no known point: point 0.
+    /// Known point from which `from` is reached; point 0 if both would be the same.
     pub start: usize,
-    /// Known point from which `to` is reached.
+    /// Known point from which `to` is reached; point 0 if both would be the same.
     pub end: usize,
-    /// Edges from `start` to `from`, run backward, and from `end` to `to`.
+    /// Edges from `start` to `from`, traversed backward, and from `end` to `to`.
     pub path: Vec<LoopEdge>,
-    /// The orientations that turn with the rotation it takes along.
-    pub turned: Vec<usize>,
-    /// Of every unknown, what changes the chord's vector.
+    /// The orientations that turn with the chord, if its rotation follows by back substitution.
+    pub orientations: Vec<usize>,
+    /// For every unknown, the derivative of the chord's vector.
     pub columns: Vec<Vec<ColumnTerm>>,
 }
 
-/// What an unknown does to a loop.
+/// A term of the derivative of a loop's chord by an unknown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct ColumnTerm {
-    /// The edge that it turns, or slides along: place among the group's edges. None: the chord,
-    /// against the guide that turns.
-    pub place: Option<usize>,
-    /// Turns it (otherwise: slides).
+    /// The edge that the unknown turns or slides along: index among the group's edges. `None`: the
+    /// chord, seen from a guide that turns.
+    pub edge: Option<usize>,
+    /// Whether the unknown turns the edge (else it slides along it).
     pub turns: bool,
-    /// Against its direction.
+    /// Whether the term is negative.
     pub backward: bool,
 }
 
 /// A group without a closed form.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Group {
-    /// What is iterated for.
+    /// The unknowns of the iteration.
     pub unknowns: Vec<Unknown>,
-    /// The orientations that turn with each (none with a slide).
-    pub turned: Vec<Vec<usize>>,
-    /// Its edges.
+    /// The orientations that turn with each unknown (none with a slide).
+    pub orientations: Vec<Vec<usize>>,
+    /// All edges, chords included.
     pub edges: Vec<GroupEdge>,
-    /// Its loops.
+    /// Independent loops.
     pub loops: Vec<Loop>,
-    /// Rows of its equations: one of a loop or two.
+    /// Number of equations: one or two per loop.
     pub rows: usize,
-    /// Names of its links, for what is said of it.
+    /// Class and links, for messages.
     pub name: String,
-    /// Place among the groups.
+    /// Index among the groups.
     pub index: usize,
-    /// Place among the legs of its first edge; the others follow.
+    /// Index of its first edge among the legs; its other edges follow.
     pub first_leg: usize,
-    /// What it consists of, if it is of rigid links and turning pairs alone, and small.
-    pub bars: Option<BinaryLoops>,
+    /// Data of the special kernel, if the group is small and has only rigid links and turning
+    /// pairs.
+    pub binary_loops: Option<BinaryLoops>,
 }
 
 impl Group {
     /// Whether an edge closes a loop (and places no point).
     #[must_use]
-    pub(crate) fn is_chord(&self, place: usize) -> bool {
-        self.loops.iter().any(|l| l.edge == place)
+    pub(crate) fn is_chord(&self, edge: usize) -> bool {
+        self.loops.iter().any(|l| l.edge == edge)
     }
 
-    /// All that is found: the unknowns, and what the chords take along.
+    /// The unknowns of the iteration, then those found by back substitution.
     #[inline(always)]
-    pub(crate) fn found(&self) -> impl Iterator<Item = Unknown> + '_ {
-        let taken = self.loops.iter().filter_map(|l| match l.chord {
+    pub(crate) fn all_unknowns(&self) -> impl Iterator<Item = Unknown> + '_ {
+        let eliminated = self.loops.iter().filter_map(|l| match l.chord {
             Chord::Length { class } => Some(Unknown::Class(class)),
             Chord::Guide { slide } => Some(Unknown::Slide(slide)),
             Chord::Whole => None,
         });
-        self.unknowns.iter().copied().chain(taken)
+        self.unknowns.iter().copied().chain(eliminated)
     }
 }
 
 /// A rigid edge that turns with an unknown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Arm {
-    /// The edge.
+    /// Index of the edge in the plan.
     pub edge: usize,
-    /// Place among the legs.
+    /// Index among the legs.
     pub leg: usize,
-    /// The unknown.
+    /// The unknown that turns it.
     pub unknown: usize,
 }
 
-/// What a group of rigid links and turning pairs consists of, if it is small.
+/// A small group of rigid links and turning pairs, prepared for its special kernel.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct BinaryLoops {
-    /// Place of its first span in the design's spans.
+    /// Index of its first span in the design's spans.
     pub(crate) first_span: usize,
-    /// Place of its first binary link in the design's binary links.
+    /// Index of its first binary link in the design's binary links.
     pub(crate) first_bar: usize,
     /// The class of every unknown.
     pub classes: Vec<usize>,
     /// The class of every loop's binary link.
-    pub taken: Vec<usize>,
+    pub bar_classes: Vec<usize>,
     /// The edges that place its points.
     pub arms: Vec<Arm>,
 }

@@ -1,16 +1,16 @@
-//! Groups above class II: their loops, with as few unknowns as can be.
+//! Independent loops of groups above class II, with as few unknowns as possible.
 //!
-//! The independent loops of the block's graph are those that its chords close over a spanning
-//! tree. A chord that alone turns with its rotation (a binary link) leaves of its two equations
-//! the one that says how long it is; a chord along a guide leaves the one that says how far from
-//! the guide its end is; either takes an unknown with it. So the tree takes other edges first.
+//! A spanning tree of the block's graph leaves chords, and each chord closes one independent loop.
+//! If nothing else turns with a chord (a binary link), one equation for its length is enough. If a
+//! chord lies along a guide, one equation for the distance of its end from the guide is enough.
+//! Both eliminate an unknown, so the tree takes other edges first.
 
 use super::dyad::Unknown;
 use super::group::{Chord, ColumnTerm, Group, GroupEdge, Loop, LoopEdge};
 use super::plan::{EdgeSlide, Plan};
 
 impl Group {
-    /// Finds the loops of a block; returns their chords, which place no point.
+    /// Finds the loops of a block; also returns their chords, which place no point.
     pub(crate) fn new(
         plan: &Plan,
         edges: &[usize],
@@ -19,11 +19,11 @@ impl Group {
         name: String,
     ) -> (Self, Vec<usize>) {
         let chord = |edge: usize| chord_of(plan, edges, unknowns, edge);
-        // Stable: among equals the order of description.
+        // A stable sort keeps the order of the description among equals.
         let mut order: Vec<usize> = edges.to_vec();
         order.sort_by_key(|&edge| usize::from(chord(edge) != Chord::Whole));
         let (tree, chords) = spanning_tree(plan, &order, known);
-        let gone: Vec<Unknown> = chords
+        let eliminated: Vec<Unknown> = chords
             .iter()
             .filter_map(|&edge| match chord(edge) {
                 Chord::Length { class } => Some(Unknown::Class(class)),
@@ -32,17 +32,17 @@ impl Group {
             })
             .collect();
         let unknowns: Vec<Unknown> =
-            unknowns.iter().copied().filter(|u| !gone.contains(u)).collect();
+            unknowns.iter().copied().filter(|u| !eliminated.contains(u)).collect();
         let mut loops: Vec<Loop> =
-            chords.iter().map(|&e| close(plan, &tree, e, chord(e), edges)).collect();
-        let place = |unknown| unknowns.iter().position(|&u| u == unknown);
+            chords.iter().map(|&e| close_loop(plan, &tree, e, chord(e), edges)).collect();
+        let position = |unknown| unknowns.iter().position(|&u| u == unknown);
         let edges: Vec<GroupEdge> = edges
             .iter()
             .map(|&edge| GroupEdge {
                 edge,
-                turns: place(Unknown::Class(plan.class_of(edge))),
+                turns: position(Unknown::Class(plan.class_of(edge))),
                 slides: match plan.edges[edge].along {
-                    EdgeSlide::Slide(slide) => place(Unknown::Slide(slide)),
+                    EdgeSlide::Slide(slide) => position(Unknown::Slide(slide)),
                     _ => None,
                 },
                 is_bar: matches!(chord(edge), Chord::Length { .. })
@@ -53,35 +53,45 @@ impl Group {
         for l in &mut loops {
             l.columns = (0..unknowns.len()).map(|unknown| column(&edges, l, unknown)).collect();
         }
-        let turned = unknowns.iter().map(|&unknown| turned(plan, unknown)).collect();
+        let orientations = unknowns.iter().map(|&unknown| orientations_of(plan, unknown)).collect();
         let rows = loops.iter().map(|l| if l.chord == Chord::Whole { 2 } else { 1 }).sum();
         let index = plan.groups().count();
         (
-            Self { unknowns, turned, edges, loops, rows, name, index, first_leg: 0, bars: None },
+            Self {
+                unknowns,
+                orientations,
+                edges,
+                loops,
+                rows,
+                name,
+                index,
+                first_leg: 0,
+                binary_loops: None,
+            },
             chords,
         )
     }
 }
 
-/// What an unknown does to a loop.
+/// Derivative of a loop's chord by an unknown.
 fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<ColumnTerm> {
     let mut column = Vec::new();
-    let mut add = |place: usize, backward: bool| {
-        let edge = &edges[place];
+    let mut add = |index: usize, backward: bool| {
+        let edge = &edges[index];
         for (own, turns) in [(edge.turns, true), (edge.slides, false)] {
             if own == Some(unknown) {
-                column.push(ColumnTerm { place: Some(place), turns, backward });
+                column.push(ColumnTerm { edge: Some(index), turns, backward });
             }
         }
     };
-    for piece in &l.path {
-        add(piece.place, piece.backward);
+    for path_edge in &l.path {
+        add(path_edge.edge, path_edge.backward);
     }
     match l.chord {
         Chord::Whole => add(l.edge, true),
         Chord::Guide { .. } if edges[l.edge].turns == Some(unknown) => {
-            // The guide turns, which is as if the chord turned back.
-            column.push(ColumnTerm { place: None, turns: true, backward: true });
+            // Seen from the guide that turns, the chord turns back.
+            column.push(ColumnTerm { edge: None, turns: true, backward: true });
         }
         _ => {}
     }
@@ -89,12 +99,12 @@ fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<ColumnTerm> {
 }
 
 /// Orientations that turn with an unknown.
-fn turned(plan: &Plan, unknown: Unknown) -> Vec<usize> {
-    let with = |o: &usize| unknown == Unknown::Class(plan.orientations[*o].class);
-    (0..plan.orientations.len()).filter(with).collect()
+fn orientations_of(plan: &Plan, unknown: Unknown) -> Vec<usize> {
+    let turns_with = |o: &usize| unknown == Unknown::Class(plan.orientations[*o].class);
+    (0..plan.orientations.len()).filter(turns_with).collect()
 }
 
-/// What an edge would leave as a chord.
+/// The condition that an edge would add as a chord.
 fn chord_of(plan: &Plan, edges: &[usize], unknowns: &[Unknown], edge: usize) -> Chord {
     let class = plan.class_of(edge);
     let alone = edges.iter().filter(|&&e| plan.class_of(e) == class).count() == 1;
@@ -107,11 +117,11 @@ fn chord_of(plan: &Plan, edges: &[usize], unknowns: &[Unknown], edge: usize) -> 
     }
 }
 
-/// For every point the edge by which the tree comes to it, and whether against its direction.
+/// For every point the tree's edge that reaches it, and whether it is traversed backward.
 type Tree = Vec<Option<(usize, bool)>>;
 
-/// A spanning tree of the first edges that make none of its loops; all known points are one.
-/// The others are chords.
+/// Spanning tree that takes edges in `order` unless they would close a loop; all known points
+/// count as one. The remaining edges are chords.
 fn spanning_tree(plan: &Plan, order: &[usize], known: &[bool]) -> (Tree, Vec<usize>) {
     let mut part: Vec<usize> = (0..plan.points).collect();
     if let Some(root) = known.iter().position(|&k| k) {
@@ -149,15 +159,15 @@ fn spanning_tree(plan: &Plan, order: &[usize], known: &[bool]) -> (Tree, Vec<usi
         if grown {
             continue;
         }
-        // A part that hangs on no known point grows from any point of its own.
+        // A component without a known point grows from any point of its own.
         let Some(&edge) = inside.iter().find(|&&e| !seen[plan.edges[e].edge.from]) else { break };
         seen[plan.edges[edge].edge.from] = true;
     }
     (tree, chords)
 }
 
-fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usize]) -> Loop {
-    let walk = |mut point: usize| {
+fn close_loop(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usize]) -> Loop {
+    let to_root = |mut point: usize| {
         let mut run = Vec::new();
         while let Some((edge, backward)) = tree[point] {
             run.push((edge, backward));
@@ -167,8 +177,8 @@ fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usize]) -
         (point, run)
     };
     let [from, to] = plan.edges[edge].ends(false);
-    let ((start, mut back), (end, mut ahead)) = (walk(from), walk(to));
-    // What both ways begin with is no part of the loop.
+    let ((start, mut back), (end, mut ahead)) = (to_root(from), to_root(to));
+    // The loop leaves out the common start of the two paths.
     while let (Some(a), Some(b)) = (back.last(), ahead.last())
         && a == b
     {
@@ -176,13 +186,13 @@ fn close(plan: &Plan, tree: &Tree, edge: usize, chord: Chord, edges: &[usize]) -
         ahead.pop();
     }
     let (start, end) = if start == end { (0, 0) } else { (start, end) };
-    let place = |edge: usize| edges.iter().position(|&e| e == edge).unwrap_or(0);
-    let piece = |(edge, backward)| LoopEdge { place: place(edge), backward };
+    let position = |edge: usize| edges.iter().position(|&e| e == edge).unwrap_or(0);
+    let loop_edge = |(edge, backward)| LoopEdge { edge: position(edge), backward };
     let back = back.into_iter().map(|(edge, backward)| (edge, !backward));
-    let path = back.chain(ahead.into_iter().rev()).map(piece).collect();
-    let turned = match chord {
-        Chord::Length { class } => turned(plan, Unknown::Class(class)),
+    let path = back.chain(ahead.into_iter().rev()).map(loop_edge).collect();
+    let orientations = match chord {
+        Chord::Length { class } => orientations_of(plan, Unknown::Class(class)),
         _ => Vec::new(),
     };
-    Loop { edge: place(edge), chord, start, end, path, turned, columns: Vec::new() }
+    Loop { edge: position(edge), chord, start, end, path, orientations, columns: Vec::new() }
 }

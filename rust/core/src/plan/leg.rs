@@ -1,51 +1,51 @@
-//! A leg of a dyad: what turns with one of its unknown rotations.
+//! The leg of a dyad: the side that turns with one of its unknowns.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
-/// What turns with an unknown rotation of a dyad.
+/// The sum of the constant vectors that turn with one unknown rotation, and its length.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Leg<R = f64> {
-    /// In the frame of the class.
+    /// Vector in the frame of the class.
     pub vector: Vector<R>,
-    /// Its length.
+    /// Length.
     pub norm: R,
-    /// The square of that.
+    /// Length².
     pub norm2: R,
     /// 1/length².
-    pub per: R,
+    pub inv_norm2: R,
 }
 
 impl<R: Real> Leg<R> {
-    /// Measures a vector.
+    /// The leg with this vector.
     #[inline(always)]
     pub(crate) fn of(vector: Vector<R>) -> Self {
         let norm2 = vector.norm2();
-        Self { vector, norm: norm2.sqrt(), norm2, per: R::ONE / norm2 }
+        Self { vector, norm: norm2.sqrt(), norm2, inv_norm2: R::ONE / norm2 }
     }
 
     /// 1/length.
     #[inline(always)]
-    pub(crate) fn per_norm(&self) -> R {
-        self.norm * self.per
+    pub(crate) fn inv_norm(&self) -> R {
+        self.norm * self.inv_norm2
     }
 
-    /// The rotation that brings it to a place.
+    /// The rotation that turns the leg to a vector of the same length.
     #[inline(always)]
-    pub(crate) fn turn_to(&self, place: Vector<R>) -> Vector<R> {
-        (place * self.vector.conj()).scale(self.per)
+    pub(crate) fn turn_to(&self, turned: Vector<R>) -> Vector<R> {
+        (turned * self.vector.conj()).scale(self.inv_norm2)
     }
 }
 
 impl Leg {
-    /// The same on every lane.
+    /// The same leg on every lane.
     #[inline(always)]
     pub(crate) fn on_lanes<R: Real>(&self) -> Leg<R> {
         Leg {
             vector: Vector::splat(self.vector),
             norm: R::splat(self.norm),
             norm2: R::splat(self.norm2),
-            per: R::splat(self.per),
+            inv_norm2: R::splat(self.inv_norm2),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A mechanism ready to be moved: description, structure, plan, assembly.
+//! The compiled mechanism: description, structure, plan, assembly of the drawing.
 
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
@@ -16,7 +16,7 @@ use crate::structure::adjust::Adjusted;
 use crate::structure::closure::Closure;
 use crate::structure::{Structure, adjust};
 
-/// A mechanism: what it is, how it is built, and how it is solved.
+/// A mechanism: its description, its structure, and the plan that solves it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mechanism {
     linkage: Linkage,
@@ -27,16 +27,16 @@ pub struct Mechanism {
     adjustment: f64,
     q0: Vec<f64>,
     signs: Vec<i8>,
-    /// Where the dimensions of edges and slides stand.
+    /// Indices of the dimensions of edges and slides.
     pub(crate) slots: DimensionMap,
     /// Angle of every class in the drawing.
     pub(crate) class_angle: Vec<f64>,
-    /// Whole turns between a link's drawing angle and that of its class plus offsets.
+    /// Whole turns between each link's angle in the drawing and that of its class plus offsets.
     pub(crate) whole_turns: Vec<f64>,
 }
 
 impl Mechanism {
-    /// Analyses and compiles a description, unless `cancel` becomes true.
+    /// Analyses and compiles a description; stops when `cancel` becomes true.
     ///
     /// # Errors
     ///
@@ -121,14 +121,14 @@ impl Mechanism {
         &self.drawing
     }
 
-    /// How far the joints of the drawing were moved, at most, for its redundant links to fit, m; 0
-    /// for most drawings.
+    /// The greatest distance by which a joint of the drawing was moved to make its redundant links
+    /// fit, m; 0 for most drawings.
     #[must_use]
     pub fn adjustment(&self) -> f64 {
         self.adjustment
     }
 
-    /// Coordinates of the drawing, one a driver, rad or m.
+    /// Coordinates of the drawing, one per driver, rad or m.
     #[must_use]
     pub fn q0(&self) -> &[f64] {
         &self.q0
@@ -146,7 +146,7 @@ impl Mechanism {
         &self.signs
     }
 
-    /// Refuses what cannot be solved yet.
+    /// Fails if the mechanism has a group above class II.
     pub(crate) fn require_closed_form(&self) -> Result<(), SolveError> {
         match &self.plan.higher {
             Some(higher) => Err(SolveError::HigherClass {
@@ -197,7 +197,7 @@ fn find<'a>(
     })
 }
 
-/// The angle, in the drawing, of the first link of every class.
+/// Angle in the drawing of every class.
 fn class_angles(linkage: &Linkage, plan: &Plan) -> Vec<f64> {
     let mut angles = vec![0.0; plan.classes];
     for (l, r) in plan.rotation.iter().enumerate() {
@@ -208,7 +208,7 @@ fn class_angles(linkage: &Linkage, plan: &Plan) -> Vec<f64> {
     angles
 }
 
-/// Signs of the drawing, or as the user names them.
+/// Assembly signs of the drawing, unless the user gives them by name.
 fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureError> {
     for (name, _) in &linkage.assembly {
         if !plan.dyad_names.contains(name) {
@@ -222,12 +222,12 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
     }
     let mut signs = vec![1; plan.signs()];
     for dyad in plan.dyads() {
-        let Some(place) = dyad.sign else { continue };
-        let name = &plan.dyad_names[place];
+        let Some(sign) = dyad.sign else { continue };
+        let name = &plan.dyad_names[sign];
         let named = linkage.assembly.iter().rev().find(|(n, _)| n == name);
         let sine = drawn_sine(linkage, plan, dyad);
-        signs[place] = match named {
-            Some((_, sign)) => *sign,
+        signs[sign] = match named {
+            Some((_, chosen)) => *chosen,
             None if sine.abs() >= FLAT_SINE => {
                 if sine > 0.0 {
                     1
@@ -237,7 +237,7 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
             }
             None => {
                 return Err(StructureError::FlatDyad {
-                    dyad: plan.dyad_links[place].clone(),
+                    dyad: plan.dyad_links[sign].clone(),
                     name: name.clone(),
                     sine,
                 });
@@ -247,11 +247,10 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
     Ok(signs)
 }
 
-/// Sine of the angle between a dyad's legs in the drawing, with the sign of the
-/// assembly.
+/// Sine of the angle between a dyad's legs in the drawing; its sign is that of the assembly.
 fn drawn_sine(linkage: &Linkage, plan: &Plan, dyad: &Dyad) -> f64 {
     let at = |point: usize| {
-        let place = match point.checked_sub(1) {
+        let xy = match point.checked_sub(1) {
             None => [0.0; 2],
             Some(j) if j < linkage.joints.len() => linkage.joints[j].at,
             Some(_) => {
@@ -259,17 +258,17 @@ fn drawn_sine(linkage: &Linkage, plan: &Plan, dyad: &Dyad) -> f64 {
                 linkage.reference_point(link).unwrap_or([0.0; 2])
             }
         };
-        Vector::new(place[0], place[1])
+        Vector::new(xy[0], xy[1])
     };
     let mut terms = [Vector::ZERO; 2];
     let mut guide = Vector::ZERO;
-    for part in &dyad.path {
-        let edge = &plan.edges[part.edge];
-        let signed = |v: Vector| if part.backward { -v } else { v };
-        if let Some(place) = part.turns {
-            terms[place] += signed(at(edge.edge.to) - at(edge.edge.from));
+    for term in &dyad.path {
+        let edge = &plan.edges[term.edge];
+        let signed = |v: Vector| if term.backward { -v } else { v };
+        if let Some(unknown) = term.turns {
+            terms[unknown] += signed(at(edge.edge.to) - at(edge.edge.from));
         }
-        if let (Some(slide), Some(_)) = (edge.edge.slide(), part.slides) {
+        if let (Some(slide), Some(_)) = (edge.edge.slide(), term.slides) {
             guide = signed(Vector::at_angle(linkage.slides[slide].angle));
         }
     }

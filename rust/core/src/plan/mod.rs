@@ -1,11 +1,11 @@
-//! The description compiled: a list of steps, made once, run for any number of
-//! designs and positions.
+//! The compiled description: a list of steps, compiled once and run for any number of designs and
+//! positions.
 //!
-//! The closure equations are split into the smallest blocks that determine
-//! something. A block with two unknown rotations or slides is one vector
-//! equation (a dyad) solved in closed form; a block with none only places
-//! points. A driver appears nowhere as a step: a driven angle makes the
-//! orientation of two links differ by q, a driven slide is a known length.
+//! The closure equations are split into the smallest blocks that can be solved one after another.
+//! A block with two unknown rotations or slides is one vector equation (a dyad) with a closed
+//! form; a block with more is a group above class II; a block with none only places points. No
+//! step is needed for a driver: a driven angle makes the orientations of two links differ by q,
+//! and a driven slide is a known length.
 
 pub(crate) mod binary_links;
 pub(crate) mod blocks;

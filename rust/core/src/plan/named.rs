@@ -1,4 +1,4 @@
-//! Dimensions of the named mechanisms, in the order of their mechanism.
+//! Dimensions of the named mechanisms, in the order of their compiled mechanism.
 
 use super::mechanism::Mechanism;
 use crate::description::four_bar::FourBar;

@@ -1,12 +1,12 @@
-//! The size of what is paired: what the misfit of a redundant link is a part of.
+//! Greatest distance between the pairs of a link: the size to which a misfit is relative.
 
 use crate::description::Linkage;
 use crate::math::vector::Vector;
 use crate::structure::closure::{Closure, Span, point_of_joint};
 
-/// Where a link has a pair.
+/// Position of a pair on a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum PairAt {
     /// At its first joint.
     First,
     /// At the far end of an edge.
@@ -15,49 +15,49 @@ enum Place {
     Fixed(usize),
 }
 
-/// The places of pairs, by link.
+/// The pairs of every link, then of every guide.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct PairSpans(Vec<Vec<Place>>);
+pub(crate) struct PairSpans(Vec<Vec<PairAt>>);
 
 impl PairSpans {
-    /// Those of a linkage.
+    /// Collects the pairs of a linkage.
     #[must_use]
     pub(crate) fn of(linkage: &Linkage, closure: &Closure) -> Self {
         let at_pair = |joint: usize| closure.is_pair(linkage, joint);
         let mut links = vec![Vec::new(); linkage.links.len()];
         for (index, link) in linkage.links.iter().enumerate() {
-            for (place, &joint) in link.joints.iter().enumerate() {
+            for (position, &joint) in link.joints.iter().enumerate() {
                 if index == linkage.ground && at_pair(joint) {
-                    links[index].push(Place::Fixed(point_of_joint(joint)));
-                } else if place == 0 && at_pair(joint) {
-                    links[index].push(Place::First);
+                    links[index].push(PairAt::Fixed(point_of_joint(joint)));
+                } else if position == 0 && at_pair(joint) {
+                    links[index].push(PairAt::First);
                 }
             }
         }
         for (index, edge) in closure.edges.iter().enumerate() {
             match edge.span {
                 Span::Joint { link, joint } if at_pair(joint) => {
-                    links[link].push(Place::Edge(index));
+                    links[link].push(PairAt::Edge(index));
                 }
                 Span::Joint { .. } => {}
-                Span::Guide { .. } => links.push(vec![Place::First, Place::Edge(index)]),
+                Span::Guide { .. } => links.push(vec![PairAt::First, PairAt::Edge(index)]),
             }
         }
         Self(links)
     }
 
-    /// The longest distance between two pairs of a link (that from its first one), by the vectors of
-    /// edges and the places of ground joints.
+    /// The longest distance from the first pair of a link to another of its pairs, given the edge
+    /// vectors and the coordinates of ground joints.
     #[must_use]
-    pub(crate) fn longest(&self, rigid: &[Vector], fixed: &[Vector]) -> f64 {
-        let at = |place: &Place| match *place {
-            Place::First => Vector::ZERO,
-            Place::Edge(edge) => rigid[edge],
-            Place::Fixed(point) => fixed[point],
+    pub(crate) fn longest(&self, edge_vectors: &[Vector], fixed: &[Vector]) -> f64 {
+        let at = |pair: &PairAt| match *pair {
+            PairAt::First => Vector::ZERO,
+            PairAt::Edge(edge) => edge_vectors[edge],
+            PairAt::Fixed(point) => fixed[point],
         };
-        let spans = self.0.iter().flat_map(|places| {
-            places.first().into_iter().flat_map(|first| places.iter().map(move |p| (first, p)))
+        let spans = self.0.iter().flat_map(|pairs| {
+            pairs.first().into_iter().flat_map(|first| pairs.iter().map(move |p| (first, p)))
         });
-        spans.map(|(first, place)| (at(place) - at(first)).norm()).fold(0.0, f64::max)
+        spans.map(|(first, pair)| (at(pair) - at(first)).norm()).fold(0.0, f64::max)
     }
 }

@@ -6,36 +6,36 @@ use super::pair_span::PairSpans;
 use crate::description::Driver;
 use crate::structure::closure::{Edge, Rotation};
 
-/// Value of a slide on an edge.
+/// The slide along an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum EdgeSlide {
-    /// A rigid edge.
+    /// None: a rigid edge.
     Nothing,
-    /// The slide's value is unknown until its dyad is solved.
+    /// A slide whose value its dyad or group finds.
     Slide(usize),
-    /// The slide is this driver.
+    /// A slide that is a driver.
     Driver { slide: usize },
 }
 
 /// An edge with the orientation that turns it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PlanEdge {
-    /// Its points, link and span.
+    /// Points, link and span.
     pub edge: Edge,
     /// Index of its link's orientation.
     pub orientation: usize,
-    /// Class of that.
+    /// Class of that orientation.
     pub class: usize,
     /// The slide along it.
     pub along: EdgeSlide,
-    /// Whether the motion depends on it (not on that of a coupler point).
+    /// Whether the motion depends on it (as on all edges but those to coupler points).
     pub paired: bool,
-    /// The leg that it is by itself.
+    /// Set if the edge alone is a leg.
     pub leg: Option<LegEdge>,
 }
 
 impl PlanEdge {
-    /// Its points: where it is run from and where to.
+    /// The points where a traversal of the edge starts and ends.
     #[must_use]
     #[inline(always)]
     pub(crate) fn ends(&self, backward: bool) -> [usize; 2] {
@@ -44,29 +44,29 @@ impl PlanEdge {
     }
 }
 
-/// An edge that is a leg of a dyad.
+/// An edge that is a leg of a dyad, or the edge of a group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct LegEdge {
-    /// Place among the legs, two a dyad.
+    /// Index among the legs: two per dyad, then the edges of groups.
     pub index: usize,
-    /// Run from `to` to `from`.
+    /// Whether the leg runs from `to` to `from`.
     pub backward: bool,
 }
 
-/// An orientation: rotation of a class plus multiples of driven angles.
+/// An orientation: the rotation of a class plus integer multiples of driven angles.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Orientation {
-    /// The class.
+    /// Class.
     pub class: usize,
-    /// Multiples of the drivers.
+    /// Multiple of every driver's angle.
     pub turns: Vec<i8>,
     /// Whether a multiple is not 0.
     pub driven: bool,
-    /// The driver that alone turns it, once, and whether the other way round.
-    pub lone: Option<(usize, bool)>,
+    /// The driver, if only one counts and its multiple is ±1; true for −1.
+    pub single_driver: Option<(usize, bool)>,
 }
 
-/// One thing to do at every position.
+/// One step of the solution at every position.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Step {
     /// Solve a dyad.
@@ -79,18 +79,18 @@ pub(crate) enum Step {
     Redundant(RedundantLink),
 }
 
-/// A redundant link (or slide): what places it, and what must then fit.
+/// A redundant link (or slide): how it is placed, and which closures must then hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct RedundantLink {
-    /// Name used when it does not fit.
+    /// Name for messages.
     pub name: String,
-    /// How its orientation is found; none for a slide alone.
-    pub turned: Option<AngleFrom>,
-    /// Edges whose far point is not placed by anything else, with direction.
+    /// How its orientation is found; `None` for a slide alone.
+    pub angle_from: Option<AngleFrom>,
+    /// Edges to points that nothing else places; true for an edge traversed backward.
     pub places: Vec<(usize, bool)>,
     /// Edges that must close (a slide along them takes the value that fits best).
     pub checks: Vec<usize>,
-    /// All edges that are placed or must close.
+    /// The edges of `checks`, then those of `places`.
     pub touched: Vec<usize>,
     /// Slides whose two links must keep their angle, with the carrying link.
     pub parallel: Vec<(usize, usize)>,
@@ -99,19 +99,19 @@ pub(crate) struct RedundantLink {
 /// How a redundant link's orientation is found.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum AngleFrom {
-    /// By two joints that other links carry: edges from the link's first joint
-    /// (none: the first joint itself).
+    /// From two joints that other links carry: edges to them from the link's first joint (`None`:
+    /// the first joint itself).
     Joints { link: usize, first: Option<usize>, second: Option<usize>, points: [usize; 2] },
-    /// By a slide.
+    /// From the other link of a slide.
     Slide { link: usize, slide: usize },
 }
 
 /// A group that has no closed form.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Higher {
-    /// Its links.
+    /// Names of its links.
     pub links: String,
-    /// Its class in Roman numerals.
+    /// Class in Roman numerals.
     pub class: String,
 }
 
@@ -140,7 +140,7 @@ pub(crate) struct Plan {
     pub ground: usize,
     /// Points fixed to the ground.
     pub fixed: Vec<bool>,
-    /// What to do, in order.
+    /// Steps in order of solution.
     pub steps: Vec<Step>,
     /// Inner joint or slide of every dyad that has two solutions, in order.
     pub dyad_names: Vec<String>,
@@ -148,7 +148,7 @@ pub(crate) struct Plan {
     pub dyad_links: Vec<String>,
     /// The first group without a closed form.
     pub higher: Option<Higher>,
-    /// Where the links have pairs; nothing if no link or slide is redundant.
+    /// Pairs of every link; empty if no link or slide is redundant.
     pub pairs: PairSpans,
 }
 
@@ -177,9 +177,9 @@ impl Plan {
     }
 
     /// The redundant links and slides, in order.
-    pub(crate) fn fits(&self) -> impl Iterator<Item = &RedundantLink> {
+    pub(crate) fn redundant_links(&self) -> impl Iterator<Item = &RedundantLink> {
         self.steps.iter().filter_map(|step| match step {
-            Step::Redundant(fit) => Some(fit),
+            Step::Redundant(redundant) => Some(redundant),
             _ => None,
         })
     }
@@ -192,13 +192,13 @@ impl Plan {
         })
     }
 
-    /// Numbers that the matrix of any group needs, with its inverse and a right-hand side.
+    /// Largest size of a group's matrix with its inverse and a right-hand side, in numbers.
     #[must_use]
     pub(crate) fn matrix_size(&self) -> usize {
         self.groups().map(|group| (2 * group.rows + 1) * group.rows).max().unwrap_or(0)
     }
 
-    /// Number of legs: two a dyad, and the edges of groups.
+    /// Number of legs: two per dyad, and the edges of groups.
     #[must_use]
     pub(crate) fn legs(&self) -> usize {
         let edges: usize = self.groups().map(|group| group.edges.len()).sum();
@@ -211,11 +211,12 @@ impl Plan {
         self.dyad_names.len()
     }
 
-    /// Whether an edge of a group is a rigid one that turns with an unknown: its jets follow from its own.
+    /// Whether an edge of a group is rigid and turns with an unknown, so that its jet follows from
+    /// its own lower entries.
     #[must_use]
     #[inline(always)]
-    pub(crate) fn is_arm(&self, group: &Group, place: usize) -> bool {
-        let edge = &group.edges[place];
+    pub(crate) fn is_arm(&self, group: &Group, edge: usize) -> bool {
+        let edge = &group.edges[edge];
         edge.turns.is_some() && self.edges[edge.edge].along == EdgeSlide::Nothing
     }
 }

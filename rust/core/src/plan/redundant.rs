@@ -1,44 +1,44 @@
-//! Redundant links: how each is placed and what must then close.
+//! Steps that place redundant links and check their closure.
 
 use super::plan::{AngleFrom, Plan, RedundantLink, Step};
 use crate::description::Linkage;
 use crate::structure::Structure;
 use crate::structure::closure::{Closure, Span, point_of_joint};
 
-/// Adds the placing and checking of redundant links and slides.
-pub(crate) fn add_fits(
+/// Adds the steps that place and check redundant links and slides.
+pub(crate) fn add_redundant(
     plan: &mut Plan,
     linkage: &Linkage,
     closure: &Closure,
     structure: &Structure,
     mut known: Vec<bool>,
 ) {
-    let left_out = &structure.redundant;
-    let mut waiting: Vec<usize> = left_out.links.iter().rev().copied().collect();
+    let redundant_parts = &structure.redundant;
+    let mut waiting: Vec<usize> = redundant_parts.links.iter().rev().copied().collect();
     let mut placed_links: Vec<usize> =
-        (0..linkage.links.len()).filter(|l| !left_out.links.contains(l)).collect();
+        (0..linkage.links.len()).filter(|l| !redundant_parts.links.contains(l)).collect();
     let mut checked = Vec::new();
     while !waiting.is_empty() {
-        let before = waiting.len();
+        let count = waiting.len();
         waiting.retain(|&link| {
-            let fit = fit_link(plan, linkage, closure, link, &placed_links, &mut known);
-            let Some(fit) = fit else { return true };
-            checked.extend(fit.parallel.iter().map(|&(slide, _)| slide));
-            plan.steps.push(Step::Redundant(fit));
+            let redundant = redundant_link(plan, linkage, closure, link, &placed_links, &mut known);
+            let Some(redundant) = redundant else { return true };
+            checked.extend(redundant.parallel.iter().map(|&(slide, _)| slide));
+            plan.steps.push(Step::Redundant(redundant));
             placed_links.push(link);
             false
         });
-        if waiting.len() == before {
+        if waiting.len() == count {
             break;
         }
     }
-    for &slide in &left_out.slides {
+    for &slide in &redundant_parts.slides {
         if !checked.contains(&slide) {
             let checks: Vec<usize> = slide_edge(closure, slide).into_iter().collect();
             let name = linkage.slides[slide].name.clone();
             plan.steps.push(Step::Redundant(RedundantLink {
                 name,
-                turned: None,
+                angle_from: None,
                 places: vec![],
                 touched: checks.clone(),
                 checks,
@@ -52,7 +52,7 @@ fn slide_edge(closure: &Closure, slide: usize) -> Option<usize> {
     closure.edges.iter().position(|e| e.span == Span::Guide { slide })
 }
 
-fn fit_link(
+fn redundant_link(
     plan: &Plan,
     linkage: &Linkage,
     closure: &Closure,
@@ -72,7 +72,7 @@ fn fit_link(
                 || (x.on == link && placed_links.contains(&x.link))
         })
         .collect();
-    let turned = match (&carried[..], &slides[..]) {
+    let angle_from = match (&carried[..], &slides[..]) {
         (&[a, b, ..], _) => AngleFrom::Joints {
             link,
             first: edge_to(a),
@@ -106,7 +106,7 @@ fn fit_link(
     let touched = checks.iter().copied().chain(places.iter().map(|&(e, _)| e)).collect();
     Some(RedundantLink {
         name: linkage.links[link].name.clone(),
-        turned: Some(turned),
+        angle_from: Some(angle_from),
         places,
         checks,
         touched,

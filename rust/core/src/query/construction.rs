@@ -46,7 +46,7 @@ impl Mechanism {
     /// would be solved: its lengths do not agree well enough to pass a change point.
     fn refuse_what_fits_here_alone(&self, scale: f64) -> Result<(), StructureError> {
         let is_slide = self.plan().driven_slide(0).is_some();
-        if self.plan().fits().next().is_none() || self.q0().len() > 1 {
+        if self.plan().redundant_links().next().is_none() || self.q0().len() > 1 {
             return Ok(());
         }
         let step = if is_slide { self.linkage().size() } else { TAU } / f64::from(LOOKS);

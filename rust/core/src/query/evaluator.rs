@@ -135,7 +135,7 @@ impl<'m> Evaluator<'m> {
             [q] => self.design.track.change_near(q, self.design.bridge.reach).is_some(),
             _ => false,
         };
-        let worst = self.state.worst_by_itself(&self.design.context(self.design.jets));
+        let worst = self.state.worst_own_condition(&self.design.context(self.design.jets));
         let Some((step, condition)) = worst.filter(|_| !beside_change) else {
             return (None, self.product());
         };
@@ -184,7 +184,7 @@ impl<'m> Evaluator<'m> {
         let solved = self.solve(&[at]).is_ok();
         match self.state.fault {
             Some(Fault::NotClosed { gap, .. }) if !solved => -gap,
-            _ => self.state.misses_flat_by(&self.design.context(self.design.jets), dyad),
+            _ => self.state.flatness_gap(&self.design.context(self.design.jets), dyad),
         }
     }
 

@@ -1,14 +1,14 @@
-//! One compiled copy of the solver for each set of vector instructions. All give the same bits: each
-//! operation is rounded by itself.
+//! One compiled copy of the solver for each level, that is for each set of vector instructions. All
+//! give the same bits, since each operation is rounded separately.
 
 use super::state::{Context, State};
 use crate::math::lanes::Lanes;
 use crate::plan::group::Group;
 
-/// The solver of positions compiled for a set of instructions.
+/// The solver of positions compiled for one level.
 ///
-/// Positions are a function of their own, as both the way and the rows call it, and so are groups
-/// above class II: the compiler has less to do at once.
+/// `solve` and `group` are separate functions: several callers share `solve`, and smaller functions
+/// compile faster.
 pub(crate) trait Level {
     /// See [`State::solve_all`].
     fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>);
@@ -21,7 +21,7 @@ pub(crate) trait Level {
     );
 }
 
-/// The baseline, for which nothing is asked.
+/// The baseline, which every machine has.
 pub(crate) mod baseline {
     use super::{Context, Group, Lanes, Level, State};
 
@@ -44,8 +44,7 @@ pub(crate) mod baseline {
     }
 }
 
-/// A level beyond the baseline; in a module of its own, so that the compiler works on the levels
-/// side by side.
+/// A level above the baseline; in its own module, so that the levels compile in parallel.
 #[cfg(target_arch = "x86_64")]
 macro_rules! level {
     ($module:ident, $level:ident, $features:literal) => {
@@ -62,7 +61,7 @@ macro_rules! level {
                     fn with<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
                         state.solve_all(cx, &$level::group);
                     }
-                    // SAFETY: `solve` comes here only if `Simd::best` has found them.
+                    // SAFETY: `solve` is called only if `Simd::best` found these instructions.
                     unsafe { with(state, cx) }
                 }
                 #[inline(always)]

@@ -1,4 +1,4 @@
-//! One position at q: poses of all links, their analogues, and how they came out.
+//! One position at q: the poses of all links, their analogues, condition and status.
 
 pub(crate) mod dyad;
 pub(crate) mod group;

@@ -1,8 +1,8 @@
-//! Which dyad or group of a position is nearest to a singular one, by itself, and by how much the
-//! lengths of a dyad miss a change point.
+//! Condition of each dyad and group on its own, and by how much the lengths of a dyad miss a change
+//! point.
 //!
-//! The condition of a position multiplies those along a chain; a long chain is large throughout
-//! and shows no single dyad that is about to fold.
+//! The condition of a position is a product along a chain. It is large everywhere in a long chain,
+//! so it does not show which single dyad is about to fold.
 
 use super::state::{Context, State};
 use crate::plan::dyad::{Dyad, Form, Unknown};
@@ -10,17 +10,18 @@ use crate::plan::group::Group;
 use crate::plan::plan::{EdgeSlide, Step};
 
 impl State {
-    /// The step with the greatest condition by itself, and that condition; none without groups.
-    pub(crate) fn worst_by_itself(&self, cx: &Context<'_>) -> Option<(usize, f64)> {
+    /// The step with the greatest condition of its own, and that condition; `None` without dyads
+    /// and groups.
+    pub(crate) fn worst_own_condition(&self, cx: &Context<'_>) -> Option<(usize, f64)> {
         let steps = cx.plan.steps.iter().enumerate();
         let conditions = steps.filter_map(|(index, step)| match step {
             Step::Dyad(dyad) => {
                 let of = self.condition2_of(dyad.unknowns[0]);
-                Some((index, of / self.before_dyad(cx, dyad)))
+                Some((index, of / self.upstream_of_dyad(cx, dyad)))
             }
             Step::Group(group) => {
                 let of = self.condition2_of(*group.unknowns.first()?);
-                Some((index, of / self.before_group(cx, group)))
+                Some((index, of / self.upstream_of_group(cx, group)))
             }
             _ => None,
         });
@@ -35,13 +36,13 @@ impl State {
         }
     }
 
-    /// Square of the condition of what a dyad hangs on.
-    fn before_dyad(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
+    /// Square of the condition of all that a dyad depends on.
+    fn upstream_of_dyad(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
         let ends = [dyad.start, dyad.end].map(|point| self.point_condition[point][0]);
-        let others = dyad.others.iter().map(|part| {
-            let class = cx.plan.class_of(part.edge);
-            let turned = if part.turns.is_none() { self.class_condition[class][0] } else { 1.0 };
-            match (cx.plan.edges[part.edge].along, part.slides) {
+        let others = dyad.others.iter().map(|term| {
+            let class = cx.plan.class_of(term.edge);
+            let turned = if term.turns.is_none() { self.class_condition[class][0] } else { 1.0 };
+            match (cx.plan.edges[term.edge].along, term.slides) {
                 (EdgeSlide::Slide(slide), None) => turned.max(self.slide_condition[slide][0]),
                 _ => turned,
             }
@@ -49,9 +50,9 @@ impl State {
         others.fold(ends[0].max(ends[1]), f64::max)
     }
 
-    /// The same of a group.
-    fn before_group(&self, cx: &Context<'_>, group: &Group) -> f64 {
-        let found: Vec<Unknown> = group.found().collect();
+    /// Square of the condition of all that a group depends on.
+    fn upstream_of_group(&self, cx: &Context<'_>, group: &Group) -> f64 {
+        let found: Vec<Unknown> = group.all_unknowns().collect();
         let ends = group.loops.iter().flat_map(|l| [l.start, l.end]);
         let points = ends.map(|point| self.point_condition[point][0]);
         let classes = group.edges.iter().map(|edge| cx.plan.class_of(edge.edge));
@@ -61,16 +62,17 @@ impl State {
         points.chain(carried).fold(1.0, f64::max)
     }
 
-    /// By how much the sides of a dyad's triangle miss those of a flat one, in units of the scale.
-    pub(crate) fn misses_flat_by(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
-        let a = self.turning(0, cx, dyad, 0, 0);
+    /// By how much the sides of a dyad's triangle differ from those of a flat one, in units of the
+    /// scale.
+    pub(crate) fn flatness_gap(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
+        let a = self.leg_vector(0, cx, dyad, 0, 0);
         match dyad.form {
             Form::TwoCircles => {
-                let b = self.turning(0, cx, dyad, 1, 0);
+                let b = self.leg_vector(0, cx, dyad, 1, 0);
                 let (product, along, across) = (a.norm() * b.norm(), a.dot(b), a.cross(b));
                 let third = (a + b).norm();
-                // (a + b)² − c² or c² − (a − b)² is twice |a||b| (1 ± cos), and that the square of
-                // the sine by 1 ∓ cos.
+                // (|a| + |b|)² − c² or c² − (|a| − |b|)² is 2|a||b| (1 ∓ cos), and 1 ∓ cos is
+                // sin² / (1 ± cos).
                 let side = if along > 0.0 {
                     a.norm() + b.norm() + third
                 } else {
@@ -79,7 +81,7 @@ impl State {
                 2.0 * across * across / ((product + along.abs()) * side)
             }
             Form::CircleAndLine | Form::TurningGuide => {
-                let guide = self.sliding(0, cx, dyad, 1, 0);
+                let guide = self.slide_direction(0, cx, dyad, 1, 0);
                 let (along, across) = (guide.dot(a), guide.cross(a));
                 along * along / (a.norm() + across.abs())
             }

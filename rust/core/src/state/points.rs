@@ -1,4 +1,4 @@
-//! Points along edges, from one end to the other.
+//! Points from known points, along edges.
 
 use super::state::{Context, State};
 use crate::math::lanes::Real;
@@ -6,10 +6,10 @@ use crate::math::vector::Vector;
 use crate::plan::plan::EdgeSlide;
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Places one end of an edge from the other, in all groups.
+    /// Computes the point at one end of an edge from that at the other end, in all lane groups.
     #[inline(always)]
     pub(crate) fn place_all(&mut self, cx: &Context<'_>, e: usize, backward: bool) {
-        // Jets of known length are arrays.
+        // With a constant jet length the compiler unrolls the loops.
         match (cx.plan.edges[e].along == EdgeSlide::Nothing, self.len) {
             (true, 1) => self.place_rigid(cx, e, backward, 1),
             (true, 2) => self.place_rigid(cx, e, backward, 2),
@@ -23,12 +23,12 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// An edge of constant length, jets of `len` entries.
+    /// [`place_all`](Self::place_all) for a rigid edge and jets of `len` entries.
     #[inline(always)]
     fn place_rigid(&mut self, cx: &Context<'_>, e: usize, backward: bool, len: usize) {
         let edge = &cx.plan.edges[e];
         let [from, to] = edge.ends(backward);
-        let jet = |place: usize| place * len..place * len + len;
+        let jet = |i: usize| i * len..i * len + len;
         let Ok([base, out]) = self.points.get_disjoint_mut([from, to].map(jet)) else { return };
         let groups = self.groups.min(G);
         match edge.leg {
@@ -49,29 +49,33 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
             None => {
-                let rigid = Vector::splat(cx.bound.rigid[e]);
-                let rigid = if backward { -rigid } else { rigid };
+                let edge_vector = Vector::splat(cx.bound.edge_vector[e]);
+                let edge_vector = if backward { -edge_vector } else { edge_vector };
                 let orient = &self.orient[jet(edge.orientation)];
                 for k in 0..len {
                     for g in 0..groups {
-                        out[k][g] = base[k][g] + orient[k][g] * rigid;
+                        out[k][g] = base[k][g] + orient[k][g] * edge_vector;
                     }
                 }
             }
         }
         let arm = R::splat(cx.bound.arm2[e]);
         let turned = &self.class_condition[edge.class];
-        let Ok([from_grain, grain]) = self.grain.get_disjoint_mut([from, to]) else { return };
-        let Ok([before, condition]) = self.point_condition.get_disjoint_mut([from, to]) else {
+        let Ok([from_scale2, coordinate_scale2]) =
+            self.coordinate_scale2.get_disjoint_mut([from, to])
+        else {
+            return;
+        };
+        let Ok([upstream2, condition]) = self.point_condition.get_disjoint_mut([from, to]) else {
             return;
         };
         for g in 0..groups {
-            grain[g] = from_grain[g].max(arm).max(out[0][g].norm2());
-            condition[g] = before[g].max(turned[g]);
+            coordinate_scale2[g] = from_scale2[g].max(arm).max(out[0][g].norm2());
+            condition[g] = upstream2[g].max(turned[g]);
         }
     }
 
-    /// The same for any edge, in one group.
+    /// [`place_all`](Self::place_all) for any edge, in one lane group.
     #[inline(always)]
     pub(crate) fn place(&mut self, g: usize, cx: &Context<'_>, e: usize, backward: bool) {
         let edge = &cx.plan.edges[e];
@@ -86,7 +90,7 @@ impl<R: Real, const G: usize> State<R, G> {
             EdgeSlide::Nothing => R::splat(cx.bound.arm2[e]),
             _ => (end - start).norm2(),
         };
-        self.grain[to][g] = self.grain[from][g].max(arm).max(end.norm2());
+        self.coordinate_scale2[to][g] = self.coordinate_scale2[from][g].max(arm).max(end.norm2());
         let mut condition = self.point_condition[from][g].max(self.class_condition[edge.class][g]);
         if let EdgeSlide::Slide(slide) = edge.along {
             condition = condition.max(self.slide_condition[slide][g]);

@@ -1,4 +1,4 @@
-//! Redundant links and slides: placed by what the others give, then checked.
+//! Redundant links and slides: placed from the links already solved, then checked for closure.
 
 use super::state::{Context, State};
 use super::status::Fault;
@@ -9,42 +9,55 @@ use crate::plan::plan::{AngleFrom, EdgeSlide, RedundantLink, Step};
 
 impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
-    pub(crate) fn fit(&mut self, g: usize, cx: &Context<'_>, fit: &RedundantLink, index: usize) {
-        let (gap, allowed) = self.place_redundant(g, cx, fit);
-        self.open(g, gap.le(allowed).not(), || Fault::RedundantMisfit {
+    pub(crate) fn check_redundant(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        redundant: &RedundantLink,
+        index: usize,
+    ) {
+        let (gap, allowed) = self.place_redundant(g, cx, redundant);
+        self.mark_open(g, gap.le(allowed).not(), || Fault::RedundantMisfit {
             step: index,
             gap: gap.lane(0),
         });
     }
 
-    /// Places what is redundant; returns by how much it misses, and may.
+    /// Places a redundant part; returns its misfit and the allowed misfit.
     #[inline(always)]
-    fn place_redundant(&mut self, g: usize, cx: &Context<'_>, fit: &RedundantLink) -> (R, R) {
+    fn place_redundant(&mut self, g: usize, cx: &Context<'_>, redundant: &RedundantLink) -> (R, R) {
         let pair_size = R::splat(cx.bound.pair_size);
         let mut gap = R::ZERO;
         let mut condition2 = R::ONE;
-        match &fit.turned {
+        match &redundant.angle_from {
             None => {}
             Some(AngleFrom::Joints { link, first, second, points }) => {
-                let rigid = |edge: &Option<usize>| edge.map_or(Vector::ZERO, |e| cx.bound.rigid[e]);
-                gap = self.turn_by_joints(g, cx, *link, rigid(second) - rigid(first), *points);
+                let edge_vector =
+                    |edge: &Option<usize>| edge.map_or(Vector::ZERO, |e| cx.bound.edge_vector[e]);
+                gap = self.turn_by_joints(
+                    g,
+                    cx,
+                    *link,
+                    edge_vector(second) - edge_vector(first),
+                    *points,
+                );
                 for &point in points {
                     condition2 = self.point_condition[point][g].max(condition2);
                 }
             }
             Some(AngleFrom::Slide { link, slide }) => self.turn_by_slide(g, cx, *link, *slide),
         }
-        for &(edge, backward) in &fit.places {
+        for &(edge, backward) in &redundant.places {
             self.place(g, cx, edge, backward);
         }
-        for &edge in &fit.checks {
+        for &edge in &redundant.checks {
             gap = self.misfit(g, cx, edge).max(gap);
         }
-        for &(slide, on) in &fit.parallel {
-            // An angle misses by as much at the size of what is paired.
+        for &(slide, on) in &redundant.parallel {
+            // The displacement that the angle error causes at the size of the pairs.
             gap = (self.angle_misfit(g, cx, slide, on) * pair_size).max(gap);
         }
-        for &e in &fit.touched {
+        for &e in &redundant.touched {
             let edge = &cx.plan.edges[e].edge;
             let ends = self.point_condition[edge.from][g].max(self.point_condition[edge.to][g]);
             condition2 = ends.max(condition2);
@@ -55,8 +68,7 @@ impl<R: Real, const G: usize> State<R, G> {
         (gap, allowed)
     }
 
-    /// Orientation from two joints that others carry; returns the misfit of
-    /// their distance.
+    /// Orientation from two joints that other links carry; returns the misfit of their distance.
     #[inline(always)]
     fn turn_by_joints(
         &mut self,
@@ -74,10 +86,10 @@ impl<R: Real, const G: usize> State<R, G> {
         let chord = span(self, 0);
         let (length, distance) = (R::splat(arm.norm()), chord.norm());
         let arm = Vector::splat(arm.conj());
-        let per = R::ONE / (length * distance);
-        self.set_orientation(g, cx, o, (chord * arm).scale(per));
+        let inverse = R::ONE / (length * distance);
+        self.set_orientation(g, cx, o, (chord * arm).scale(inverse));
         for k in 1..len {
-            // chord = U · arm at every order, were it not for rounding.
+            // chord = U · arm at every order, up to rounding.
             let unit = (span(self, k) * arm).scale(R::ONE / (length * length));
             let partial = self.orientation_without_top(g, cx, o, k);
             let rest = (unit - partial) * self.orient[o * len][g].conj();
@@ -88,7 +100,7 @@ impl<R: Real, const G: usize> State<R, G> {
         (distance - length).abs()
     }
 
-    /// Orientation from a slide: the other link's, turned by a constant.
+    /// Orientation from a slide: that of its other link, turned by a constant.
     #[inline(always)]
     fn turn_by_slide(&mut self, g: usize, cx: &Context<'_>, link: usize, slide: usize) {
         let len = self.len;
@@ -98,7 +110,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let value = self.orient[from * len][g] * Vector::splat(constant);
         self.set_orientation(g, cx, o, value);
         for k in 1..len {
-            let rate = self.theta_of(g, cx, from, k);
+            let rate = self.angle_analogue(g, cx, from, k);
             self.set_rate(g, cx, o, k, rate);
         }
         self.class_condition[cx.plan.orientations[o].class][g] =
@@ -121,7 +133,7 @@ impl<R: Real, const G: usize> State<R, G> {
             partial + self.orient[o * self.len][g].left().scale(rate);
     }
 
-    /// How far an edge misses its end; the slide along it takes its best value.
+    /// Distance by which an edge misses its end; sets the slide along it to its best value.
     #[inline(always)]
     fn misfit(&mut self, g: usize, cx: &Context<'_>, e: usize) -> R {
         let len = self.len;
@@ -129,15 +141,15 @@ impl<R: Real, const G: usize> State<R, G> {
         let (from, to, o) = (edge.edge.from * len, edge.edge.to * len, edge.orientation * len);
         if let EdgeSlide::Slide(slide) = edge.along {
             for k in 0..len {
-                // The span seen from the guide's link: conj(U) · ΔP, by Leibniz.
+                // Jet of the edge in the frame of the guide's link: conj(U) · ΔP, by Leibniz.
                 let mut local = Vector::ZERO;
                 for t in &cx.jets.product[k] {
                     let span = self.points[to + t.right][g] - self.points[from + t.right][g];
-                    let part = span * self.orient[o + t.left][g].conj();
-                    local += part.scale(R::splat(t.factor));
+                    let v = span * self.orient[o + t.left][g].conj();
+                    local += v.scale(R::splat(t.factor));
                 }
                 if k == 0 {
-                    local = local - Vector::splat(cx.bound.rigid[e]);
+                    local = local - Vector::splat(cx.bound.edge_vector[e]);
                 }
                 self.slides[slide * len + k][g] = local.dot(Vector::splat(cx.bound.guide[e]));
             }
@@ -145,7 +157,8 @@ impl<R: Real, const G: usize> State<R, G> {
         (self.points[to][g] - self.points[from][g] - self.edge(g, cx, e, 0)).norm()
     }
 
-    /// How far two links miss their angle at a slide (a half turn: by 2); `on` carries it.
+    /// Misfit of the angle between the two links of a slide, as the distance of unit vectors (2 for
+    /// a half turn); `on` carries the slide.
     #[inline(always)]
     fn angle_misfit(&self, g: usize, cx: &Context<'_>, slide: usize, on: usize) -> R {
         let (link, constant) = cx.bound.across_slide(cx.plan, on, slide);
@@ -157,31 +170,32 @@ impl<R: Real, const G: usize> State<R, G> {
 }
 
 impl State {
-    /// Forgets where things are, so that what the next position leaves unsolved is NaN.
-    pub(crate) fn forget(&mut self, cx: &Context<'_>) {
+    /// Fills points and orientations with NaN, so that those the next position does not solve stay
+    /// NaN.
+    pub(crate) fn fill_nan(&mut self, cx: &Context<'_>) {
         let known = |point: usize| cx.plan.fixed[point];
-        for (place, point) in self.points.iter_mut().enumerate() {
-            if !known(place / self.len) {
+        for (i, point) in self.points.iter_mut().enumerate() {
+            if !known(i / self.len) {
                 *point = [Vector::splat(Vector::new(f64::NAN, f64::NAN))];
             }
         }
-        for (place, orient) in self.orient.iter_mut().enumerate() {
-            if cx.plan.orientations[place / self.len].class != 0 {
+        for (i, orient) in self.orient.iter_mut().enumerate() {
+            if cx.plan.orientations[i / self.len].class != 0 {
                 *orient = [Vector::splat(Vector::new(f64::NAN, f64::NAN))];
             }
         }
     }
 
-    /// Whether all redundant parts fit whose places are solved; `None` if nothing is solved.
-    pub(crate) fn fits(&mut self, cx: &Context<'_>) -> Option<bool> {
+    /// Whether all redundant parts whose points are solved fit; `None` if none is solved.
+    pub(crate) fn redundant_links_fit(&mut self, cx: &Context<'_>) -> Option<bool> {
         let mut all = None;
         for step in &cx.plan.steps {
             match step {
-                // Where a step is open, those behind it were not done.
+                // The solver stops at a step that does not close; place the points after it here.
                 &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
-                Step::Redundant(fit) => {
-                    let (gap, allowed) = self.place_redundant(0, cx, fit);
-                    if self.is_solved(cx, fit) {
+                Step::Redundant(redundant) => {
+                    let (gap, allowed) = self.place_redundant(0, cx, redundant);
+                    if self.is_solved(cx, redundant) {
                         all = Some(all.unwrap_or(true) && gap <= allowed);
                     }
                 }
@@ -191,13 +205,14 @@ impl State {
         all
     }
 
-    /// Whether everything that must fit is a number.
-    fn is_solved(&self, cx: &Context<'_>, fit: &RedundantLink) -> bool {
-        let known = |vector: &[Vector; 1]| vector[0].norm2().is_finite();
-        let at = |point: usize| known(&self.points[point * self.len]);
-        let mut edges = fit.touched.iter().map(|&e| &cx.plan.edges[e].edge);
-        let mut links = fit.parallel.iter().flat_map(|&(slide, _)| cx.plan.slide_links[slide]);
+    /// Whether all points and orientations that must fit are finite.
+    fn is_solved(&self, cx: &Context<'_>, redundant: &RedundantLink) -> bool {
+        let is_finite = |vector: &[Vector; 1]| vector[0].norm2().is_finite();
+        let at = |point: usize| is_finite(&self.points[point * self.len]);
+        let mut edges = redundant.touched.iter().map(|&e| &cx.plan.edges[e].edge);
+        let mut links =
+            redundant.parallel.iter().flat_map(|&(slide, _)| cx.plan.slide_links[slide]);
         edges.all(|edge| at(edge.from) && at(edge.to))
-            && links.all(|link| known(&self.orient[cx.plan.link_orientation[link] * self.len]))
+            && links.all(|link| is_finite(&self.orient[cx.plan.link_orientation[link] * self.len]))
     }
 }

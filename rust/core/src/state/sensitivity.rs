@@ -1,34 +1,34 @@
 //! Sensitivities: derivatives of positions and analogues by a dimension.
 //!
-//! The closure equations of every step are differentiated once more, by the dimension; what is
-//! unknown stands in the matrix that it had before, whatever the order, so one factorisation
-//! serves all (the same argument as for analogues; Uicker, Pennock & Shigley 2017, chapter 3, by
-//! complex algebra). One function for dyads and groups of any class.
+//! The closure equations of every step are differentiated once more, by the dimension. As for the
+//! analogues, the unknowns of every order have the same matrix, so one factorisation serves all
+//! orders (Uicker, Pennock & Shigley 2017, chapter 3, by complex algebra). The same functions serve
+//! dyads and groups of any class.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::state::{Context, State};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::vector::Vector;
-use crate::plan::constants_rate::BoundRate;
+use crate::plan::constants_rate::ConstantsRate;
 use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::group::Group;
 use crate::plan::plan::{EdgeSlide, Plan, Step};
 
 /// A closed path: `P_plus − P_minus + Σ ±edges = 0`.
 #[derive(Debug)]
-struct Path {
+struct ClosedPath {
     plus: usize,
     minus: usize,
     /// Edges, each with its sign.
     edges: Vec<(usize, f64)>,
 }
 
-/// The closures of a step, twice as many equations, and as many unknowns.
+/// The closed paths of a step (two equations each) and as many unknowns as equations.
 #[derive(Debug)]
 struct Closures {
     unknowns: Vec<Unknown>,
-    paths: Vec<Path>,
+    paths: Vec<ClosedPath>,
 }
 
 fn signed(backward: bool) -> f64 {
@@ -37,23 +37,25 @@ fn signed(backward: bool) -> f64 {
 
 impl Closures {
     fn of_dyad(dyad: &Dyad) -> Self {
-        let edges = dyad.path.iter().map(|part| (part.edge, signed(part.backward))).collect();
-        let path = Path { plus: dyad.start, minus: dyad.end, edges };
+        let edges = dyad.path.iter().map(|term| (term.edge, signed(term.backward))).collect();
+        let path = ClosedPath { plus: dyad.start, minus: dyad.end, edges };
         Self { unknowns: dyad.unknowns.to_vec(), paths: vec![path] }
     }
 
     fn of_group(group: &Group) -> Self {
-        let edge = |place: usize| group.edges[place].edge;
+        let edge = |i: usize| group.edges[i].edge;
         let paths = group.loops.iter().map(|l| {
-            let path = l.path.iter().map(|piece| (edge(piece.place), signed(piece.backward)));
+            let path =
+                l.path.iter().map(|path_edge| (edge(path_edge.edge), signed(path_edge.backward)));
             let edges = path.chain([(edge(l.edge), -1.0)]).collect();
-            Path { plus: l.end, minus: l.start, edges }
+            ClosedPath { plus: l.end, minus: l.start, edges }
         });
-        Self { unknowns: group.found().collect(), paths: paths.collect() }
+        Self { unknowns: group.all_unknowns().collect(), paths: paths.collect() }
     }
 }
 
-/// Work space: the steps' closures, and the derivatives by a dimension in the shape of a state.
+/// Work space: the closures of every step, and the derivatives by a dimension in the form of a
+/// state.
 pub(crate) struct Sensitivity {
     steps: Vec<Option<Closures>>,
     /// Jets of all orientations.
@@ -76,23 +78,23 @@ impl Sensitivity {
         }
     }
 
-    /// Derivatives at a solved position; false where they do not exist.
-    pub(crate) fn solve(&mut self, state: &State, cx: &Context<'_>, by: &BoundRate) -> bool {
+    /// Computes the derivatives at a solved position; false if they do not exist.
+    pub(crate) fn solve(&mut self, state: &State, cx: &Context<'_>, by: &ConstantsRate) -> bool {
         let len = state.len;
-        self.orient(state, cx);
-        for (place, &fixed) in by.fixed.iter().enumerate() {
-            self.rates.points[place * len..][..len].fill([Vector::ZERO]);
-            self.rates.points[place * len] = [fixed];
+        self.orientation_jets(state, cx);
+        for (i, &fixed) in by.fixed.iter().enumerate() {
+            self.rates.points[i * len..][..len].fill([Vector::ZERO]);
+            self.rates.points[i * len] = [fixed];
         }
         self.rates.theta.fill([0.0]);
         self.rates.slides.fill([0.0]);
-        let at = At { state, cx, by, len };
+        let inputs = Inputs { state, cx, by, len };
         for (index, step) in cx.plan.steps.iter().enumerate() {
             match step {
                 &Step::Place { edge, backward } => {
                     let [from, to] = cx.plan.edges[edge].ends(backward);
                     for k in 0..len {
-                        let v = self.edge(&at, edge, k).scale(signed(backward));
+                        let v = self.edge(&inputs, edge, k).scale(signed(backward));
                         let start = self.rates.points[from * len + k][0];
                         self.rates.points[to * len + k][0] = start + v;
                     }
@@ -100,7 +102,7 @@ impl Sensitivity {
                 Step::Redundant(_) => return false,
                 Step::Dyad(_) | Step::Group(_) => {
                     let Some(closures) = self.steps[index].take() else { return false };
-                    let solved = self.close(&at, &closures);
+                    let solved = self.solve_closures(&inputs, &closures);
                     self.steps[index] = Some(closures);
                     if !solved {
                         return false;
@@ -111,17 +113,17 @@ impl Sensitivity {
         true
     }
 
-    /// All orientations, from the classes' angles.
-    fn orient(&mut self, state: &State, cx: &Context<'_>) {
+    /// Jets of all orientations, from the angles of classes.
+    fn orientation_jets(&mut self, state: &State, cx: &Context<'_>) {
         let len = state.len;
         for (o, orientation) in cx.plan.orientations.iter().enumerate() {
             let class = state.class[orientation.class][0];
             let phase = if orientation.driven { state.phase[o][0] } else { Vector::ONE };
             self.units[o * len] = class * phase;
             for k in 1..len {
-                let mut sum = self.units[o * len].scale(state.theta_of(0, cx, o, k));
+                let mut sum = self.units[o * len].scale(state.angle_analogue(0, cx, o, k));
                 for term in &cx.jets.rotation[k] {
-                    let rate = term.factor * state.theta_of(0, cx, o, term.right);
+                    let rate = term.factor * state.angle_analogue(0, cx, o, term.right);
                     sum += self.units[o * len + term.left].scale(rate);
                 }
                 self.units[o * len + k] = sum.left();
@@ -129,53 +131,53 @@ impl Sensitivity {
         }
     }
 
-    /// Entry `k` of an orientation's derivative: of `∂U = i U ∂Θ`, by Leibniz.
-    fn unit_rate(&self, at: &At<'_>, o: usize, k: usize) -> Vector {
-        let class = at.cx.plan.orientations[o].class;
+    /// Entry `k` of an orientation's derivative by the dimension: `∂U = i U ∂Θ`, by Leibniz.
+    fn unit_rate(&self, inputs: &Inputs<'_>, o: usize, k: usize) -> Vector {
+        let class = inputs.cx.plan.orientations[o].class;
         let mut sum = Vector::ZERO;
-        for term in &at.cx.jets.product[k] {
-            let rate = term.factor * self.rates.theta[class * at.len + term.right][0];
-            sum += self.units[o * at.len + term.left].scale(rate);
+        for term in &inputs.cx.jets.product[k] {
+            let rate = term.factor * self.rates.theta[class * inputs.len + term.right][0];
+            sum += self.units[o * inputs.len + term.left].scale(rate);
         }
         sum.left()
     }
 
-    /// Entry `k` of an edge's derivative.
-    fn edge(&self, at: &At<'_>, e: usize, k: usize) -> Vector {
-        let (edge, bound, len) = (&at.cx.plan.edges[e], at.cx.bound, at.len);
+    /// Entry `k` of an edge's derivative by the dimension.
+    fn edge(&self, inputs: &Inputs<'_>, e: usize, k: usize) -> Vector {
+        let (edge, bound, len) = (&inputs.cx.plan.edges[e], inputs.cx.bound, inputs.len);
         let o = edge.orientation;
-        let mut sum =
-            self.unit_rate(at, o, k) * bound.rigid[e] + self.units[o * len + k] * at.by.rigid[e];
+        let mut sum = self.unit_rate(inputs, o, k) * bound.edge_vector[e]
+            + self.units[o * len + k] * inputs.by.edge_vector[e];
         if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
-            for term in &at.cx.jets.product[k] {
+            for term in &inputs.cx.jets.product[k] {
                 let unit = self.units[o * len + term.left];
-                let value = at.state.slides[slide * len + term.right][0];
+                let value = inputs.state.slides[slide * len + term.right][0];
                 let rate = self.rates.slides[slide * len + term.right][0];
-                let turned = self.unit_rate(at, o, term.left) * bound.guide[e];
-                let bent = unit * at.by.guide[e];
+                let turned = self.unit_rate(inputs, o, term.left) * bound.guide[e];
+                let guide_rate = unit * inputs.by.guide[e];
                 let along = unit * bound.guide[e];
-                sum += ((turned + bent).scale(value) + along.scale(rate)).scale(term.factor);
+                sum += ((turned + guide_rate).scale(value) + along.scale(rate)).scale(term.factor);
             }
         }
         sum
     }
 
-    /// The unknowns' derivatives, order after order.
-    fn close(&mut self, at: &At<'_>, closures: &Closures) -> bool {
-        let (len, n) = (at.len, closures.unknowns.len());
-        let lu = self.matrix(at, closures).lu();
+    /// Solves for the unknowns' derivatives, order by order; false if the matrix is singular.
+    fn solve_closures(&mut self, inputs: &Inputs<'_>, closures: &Closures) -> bool {
+        let (len, n) = (inputs.len, closures.unknowns.len());
+        let lu = self.matrix(inputs, closures).lu();
         for k in 0..len {
-            let mut missing = DVector::zeros(n);
-            for (place, path) in closures.paths.iter().enumerate() {
+            let mut rhs = DVector::zeros(n);
+            for (i, path) in closures.paths.iter().enumerate() {
                 let point = |p: usize| self.rates.points[p * len + k][0];
                 let mut sum = point(path.plus) - point(path.minus);
                 for &(e, sign) in &path.edges {
-                    sum += self.edge(at, e, k).scale(sign);
+                    sum += self.edge(inputs, e, k).scale(sign);
                 }
-                missing[2 * place] = -sum.x;
-                missing[2 * place + 1] = -sum.y;
+                rhs[2 * i] = -sum.x;
+                rhs[2 * i + 1] = -sum.y;
             }
-            let Some(values) = lu.solve(&missing) else { return false };
+            let Some(values) = lu.solve(&rhs) else { return false };
             for (&unknown, &value) in closures.unknowns.iter().zip(values.iter()) {
                 match unknown {
                     Unknown::Class(class) => self.rates.theta[class * len + k][0] = value,
@@ -187,17 +189,17 @@ impl Sensitivity {
     }
 
     /// Derivatives of the closures by the unknowns.
-    fn matrix(&self, at: &At<'_>, closures: &Closures) -> DMatrix<f64> {
+    fn matrix(&self, inputs: &Inputs<'_>, closures: &Closures) -> DMatrix<f64> {
         let n = closures.unknowns.len();
         let mut matrix = DMatrix::zeros(n, n);
-        for (place, path) in closures.paths.iter().enumerate() {
+        for (i, path) in closures.paths.iter().enumerate() {
             for &(e, sign) in &path.edges {
-                let edge = &at.cx.plan.edges[e];
-                let unit = self.units[edge.orientation * at.len].scale(sign);
-                let guide = unit * at.cx.bound.guide[e];
-                let mut vector = unit * at.cx.bound.rigid[e];
+                let edge = &inputs.cx.plan.edges[e];
+                let unit = self.units[edge.orientation * inputs.len].scale(sign);
+                let guide = unit * inputs.cx.bound.guide[e];
+                let mut vector = unit * inputs.cx.bound.edge_vector[e];
                 if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
-                    vector += guide.scale(at.state.slides[slide * at.len][0]);
+                    vector += guide.scale(inputs.state.slides[slide * inputs.len][0]);
                 }
                 for (column, &unknown) in closures.unknowns.iter().enumerate() {
                     let v = match (unknown, edge.along) {
@@ -205,8 +207,8 @@ impl Sensitivity {
                         (Unknown::Slide(slide), EdgeSlide::Slide(own)) if slide == own => guide,
                         _ => continue,
                     };
-                    matrix[(2 * place, column)] += v.x;
-                    matrix[(2 * place + 1, column)] += v.y;
+                    matrix[(2 * i, column)] += v.x;
+                    matrix[(2 * i + 1, column)] += v.y;
                 }
             }
         }
@@ -214,10 +216,10 @@ impl Sensitivity {
     }
 }
 
-/// Where it is.
-struct At<'a> {
+/// The solved position and the rates of the constants by the dimension.
+struct Inputs<'a> {
     state: &'a State,
     cx: &'a Context<'a>,
-    by: &'a BoundRate,
+    by: &'a ConstantsRate,
     len: usize,
 }

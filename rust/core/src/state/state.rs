@@ -1,5 +1,5 @@
-//! One position of one design, or eight: every point, orientation and slide with its
-//! analogues.
+//! State of one position of a design, or of several at once: points, orientations and slides with
+//! their analogues.
 
 use super::group::workspace::GroupWorkspace;
 use super::status::{FLAT2, Fault, Status};
@@ -12,16 +12,16 @@ use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::group::Group;
 use crate::plan::plan::{EdgeSlide, Plan, Step};
 
-/// Work space for one position, or for `G` groups of as many as `R` has lanes; made once,
-/// used for all.
+/// Work space for one position, or for `G` lane groups of as many positions as `R` has lanes;
+/// allocated once and reused.
 ///
-/// Groups are the innermost index: what a step looks up serves all of them, and they do not wait
-/// for each other.
+/// The lane group is the innermost index, so that one lookup of a step serves all of them and their
+/// operations overlap.
 #[derive(Debug, Clone)]
 pub(crate) struct State<R: Real = f64, const G: usize = 1> {
-    /// Entries of a jet.
+    /// Number of entries of a jet.
     pub(crate) len: usize,
-    /// Groups in use.
+    /// Number of lane groups in use.
     pub(crate) groups: usize,
     /// Coordinates (rad; slide drivers in units of the scale).
     pub(crate) q: Vec<[R; G]>,
@@ -33,68 +33,69 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub points: Vec<[Vector<R>; G]>,
     /// Jets of orientations.
     pub orient: Vec<[Vector<R>; G]>,
-    /// Jets of the legs of dyads, two a dyad, then of the edges of groups.
+    /// Jets of the legs of dyads (two per dyad), then of the edges of groups.
     pub(crate) legs: Vec<[Vector<R>; G]>,
-    /// Jets of the angles of classes; the value itself is not used.
+    /// Jets of the angles of classes; entry 0, the value, is not used.
     pub theta: Vec<[R; G]>,
     /// Jets of slides.
     pub slides: Vec<[R; G]>,
     /// Rotations of classes.
     pub class: Vec<[Vector<R>; G]>,
-    /// Turns by the drivers alone, of every orientation.
+    /// Rotation of every orientation by the drivers alone.
     pub(crate) phase: Vec<[Vector<R>; G]>,
-    /// Square of the greatest coordinate or arm on the way to each point: what its
-    /// rounding is a part of.
-    pub(crate) grain: Vec<[R; G]>,
-    /// Square of the product of the conditions of the dyads that each point depends on
+    /// Square of the greatest coordinate or arm in the chain to each point, to which its rounding
+    /// error is relative.
+    pub(crate) coordinate_scale2: Vec<[R; G]>,
+    /// Square of the product of the conditions of the dyads and groups that each point depends on
     /// (squares need no roots).
     pub(crate) point_condition: Vec<[R; G]>,
-    /// Likewise of each class.
+    /// The same for each class.
     pub(crate) class_condition: Vec<[R; G]>,
-    /// Likewise of each slide.
+    /// The same for each slide.
     pub(crate) slide_condition: Vec<[R; G]>,
-    /// Square of the condition of what each dyad with a sign hangs on.
-    pub(crate) before: Vec<[R; G]>,
+    /// Square of the condition of all that each dyad with a sign depends on.
+    pub(crate) upstream_condition2: Vec<[R; G]>,
     /// Matrix, inverse and right-hand side of a group above class II.
     pub(crate) matrix: Vec<[R; G]>,
-    /// Jets of the directions of guides along the edges of a group, and of the chords of its
-    /// loops.
+    /// Jets of the guides along the edges of a group.
     pub(crate) guides: Vec<[Vector<R>; G]>,
+    /// Jets of the chords of a group's loops.
     pub(crate) chords: Vec<[Vector<R>; G]>,
-    /// 1/length of every chord that has one.
-    pub(crate) per: Vec<[R; G]>,
-    /// Classes of binary links whose rotation is asked for (where nothing else needs it).
-    pub(crate) asked: Vec<bool>,
+    /// 1/length of every chord of known length.
+    pub(crate) inv_length: Vec<[R; G]>,
+    /// Whether the caller wants the rotation of each class; used for bars that no step needs.
+    pub(crate) angle_wanted: Vec<bool>,
     /// Work space for groups of binary links.
     pub(crate) loops: GroupWorkspace<R>,
-    /// Determinant of every group's matrix (with analogues only).
+    /// Determinant of every group's matrix at the solution (with analogues only).
     pub(crate) determinants: Vec<[R; G]>,
-    /// The same of its last round's.
-    pub(crate) bends: Vec<[R; G]>,
-    /// How far (rad, or of the size) the first step of a group's iteration went, at most, and the
-    /// others together.
+    /// Determinant of that matrix in the last Newton round; its sign distinguishes branches.
+    pub(crate) det_sign: Vec<[R; G]>,
+    /// Greatest change of an unknown (rad, or relative to the scale) in the first Newton step of
+    /// any group.
     pub(crate) first_step: [R; G],
+    /// Greatest sum of the changes in the later steps.
     pub(crate) later_steps: [R; G],
-    /// Square of the greatest condition of the position.
+    /// Square of the greatest condition in the position.
     pub condition2: [R; G],
-    /// Lanes that did not come out as plainly solved; each is done again by itself.
-    pub care: [R::Mask; G],
-    /// How one position by itself came out (with several lanes: see `care`).
+    /// Lanes that failed or are singular; the caller solves each again as a single position.
+    pub needs_scalar: [R::Mask; G],
+    /// Status of a single position (with several lanes see `needs_scalar`).
     pub status: Status,
-    /// The first thing that failed, likewise.
+    /// The first failure of a single position.
     pub fault: Option<Fault>,
 }
 
-/// What is the same for all positions of a design.
+/// The inputs that all positions of a design share.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Context<'a> {
     /// The compiled mechanism.
     pub plan: &'a Plan,
-    /// One design.
+    /// Constants of the design.
     pub bound: &'a DesignConstants,
     /// Index tables of the analogues.
     pub jets: &'a DerivativeTables,
-    /// Assembly signs, +1 or −1, of positions by themselves.
+    /// Assembly signs, +1 or −1, for single positions.
     pub signs: &'a [f64],
 }
 
@@ -118,29 +119,29 @@ impl<R: Real, const G: usize> State<R, G> {
             slides: vec![[R::ZERO; G]; slides * len],
             class: vec![[Vector::ONE; G]; plan.classes],
             phase: vec![[Vector::ONE; G]; plan.orientations.len()],
-            grain: vec![[R::ZERO; G]; plan.points],
+            coordinate_scale2: vec![[R::ZERO; G]; plan.points],
             point_condition: vec![[R::ONE; G]; plan.points],
             class_condition: vec![[R::ONE; G]; plan.classes],
             slide_condition: vec![[R::ONE; G]; slides],
-            before: vec![[R::ONE; G]; plan.signs()],
+            upstream_condition2: vec![[R::ONE; G]; plan.signs()],
             matrix: vec![[R::ZERO; G]; plan.matrix_size()],
             guides: vec![[Vector::ZERO; G]; edges * len],
             chords: vec![[Vector::ZERO; G]; loops * len],
-            per: vec![[R::ONE; G]; loops],
-            asked: vec![true; plan.classes],
+            inv_length: vec![[R::ONE; G]; loops],
+            angle_wanted: vec![true; plan.classes],
             loops: GroupWorkspace::default(),
             determinants: vec![[R::ZERO; G]; plan.groups().count()],
-            bends: vec![[R::ZERO; G]; plan.groups().count()],
+            det_sign: vec![[R::ZERO; G]; plan.groups().count()],
             first_step: [R::ZERO; G],
             later_steps: [R::ZERO; G],
             condition2: [R::ONE; G],
-            care: [R::Mask::NONE; G],
+            needs_scalar: [R::Mask::NONE; G],
             status: Status::Ok,
             fault: None,
         }
     }
 
-    /// Takes what is the same at all positions of a design; before the first of each.
+    /// Sets what is constant over all positions of a design; call it before the first of them.
     #[inline(always)]
     pub(crate) fn prepare(
         &mut self,
@@ -155,7 +156,7 @@ impl<R: Real, const G: usize> State<R, G> {
             let fixed = Vector::splat(fixed);
             jet.fill([Vector::ZERO; G]);
             jet[0] = [fixed; G];
-            self.grain[point] = [fixed.norm2(); G];
+            self.coordinate_scale2[point] = [fixed.norm2(); G];
         }
         self.class[0] = [Vector::ONE; G];
         self.theta[..len].fill([R::ZERO; G]);
@@ -174,67 +175,67 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Computes positions at their `q`, `unit` and `signs`; `group` is
-    /// [`solve_group`](Self::solve_group), compiled by itself.
+    /// Computes positions at their `q`, `unit` and `signs`. `group` is
+    /// [`solve_group`](Self::solve_group), passed in so that it is compiled as a separate function.
     #[inline(always)]
     pub(crate) fn solve_all(
         &mut self,
         cx: &Context<'_>,
         group: &impl Fn(&mut Self, &Context<'_>, &Group, usize),
     ) {
-        self.start(cx);
+        self.start_position(cx);
         for (index, step) in cx.plan.steps.iter().enumerate() {
-            if R::LANES == 1 && self.is_over() {
+            if R::LANES == 1 && self.has_failed() {
                 return;
             }
             match step {
-                Step::Dyad(dyad) => match dyad.binary {
-                    Some(classes) => self.solve_binary(cx, dyad, classes, index),
+                Step::Dyad(dyad) => match dyad.rrr_classes {
+                    Some(classes) => self.solve_rrr(cx, dyad, classes, index),
                     None => {
                         for g in 0..self.groups.min(G) {
-                            self.solve_dyad(g, cx, dyad, index);
+                            self.dyad_step(g, cx, dyad, index);
                         }
                     }
                 },
                 &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
                 Step::Group(higher) => group(self, cx, higher, index),
-                Step::Redundant(fit) => {
+                Step::Redundant(redundant) => {
                     for g in 0..self.groups.min(G) {
-                        self.fit(g, cx, fit, index);
+                        self.check_redundant(g, cx, redundant, index);
                     }
                 }
             }
         }
     }
 
-    /// Whether nothing is left to be computed.
+    /// Whether the position has failed, so that no further step can be computed.
     #[inline(always)]
-    pub(crate) fn is_over(&self) -> bool {
+    pub(crate) fn has_failed(&self) -> bool {
         matches!(self.status, Status::Unreachable | Status::BadInput | Status::NotConverged)
     }
 
-    /// Where fewer than six digits of the analogues remain.
+    /// Lanes whose analogues keep fewer than six digits.
     #[inline(always)]
     pub(crate) fn near_singular(&self, g: usize) -> R::Mask {
         R::splat(NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION).lt(self.condition2[g])
     }
 
-    /// A coordinate that cannot be computed with.
-    pub(crate) fn refuse(&mut self) {
+    /// Marks the position as [`Status::BadInput`].
+    pub(crate) fn set_bad_input(&mut self) {
         self.fault = None;
         self.status = Status::BadInput;
     }
 
-    /// A place to which the way from the drawing is not known.
-    pub(crate) fn lose(&mut self) {
+    /// Marks the position as [`Status::Lost`].
+    pub(crate) fn set_lost(&mut self) {
         self.fault = None;
         self.status = Status::Lost;
     }
 
-    /// Lanes where a step did not close; a position by itself is done with then.
+    /// Marks the lanes where a step does not close; a single position then becomes unreachable.
     #[inline(always)]
-    pub(crate) fn open(&mut self, g: usize, open: R::Mask, fault: impl Fn() -> Fault) {
-        self.care[g] = self.care[g].or(open);
+    pub(crate) fn mark_open(&mut self, g: usize, open: R::Mask, fault: impl Fn() -> Fault) {
+        self.needs_scalar[g] = self.needs_scalar[g].or(open);
         if R::LANES == 1 && open.any() {
             self.fault = Some(fault());
             self.status = Status::Unreachable;
@@ -242,22 +243,22 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     #[inline(always)]
-    fn start(&mut self, cx: &Context<'_>) {
+    fn start_position(&mut self, cx: &Context<'_>) {
         self.fault = None;
         self.status = Status::Ok;
         self.condition2 = [R::ONE; G];
-        self.care = [R::Mask::NONE; G];
+        self.needs_scalar = [R::Mask::NONE; G];
         self.first_step = [R::ZERO; G];
         self.later_steps = [R::ZERO; G];
         for (driver, q) in self.q.iter().enumerate() {
             for g in 0..G {
-                self.care[g] = self.care[g].or(q[g].finite().not());
+                self.needs_scalar[g] = self.needs_scalar[g].or(q[g].finite().not());
             }
             if let Some(slide) = cx.plan.driven_slide(driver) {
                 self.slides[slide * self.len] = *q;
             }
         }
-        if R::LANES == 1 && self.care[0].any() {
+        if R::LANES == 1 && self.needs_scalar[0].any() {
             self.status = Status::BadInput;
             return;
         }
@@ -267,7 +268,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
             for g in 0..self.groups.min(G) {
                 let mut phase = Vector::ONE;
-                match orientation.lone {
+                match orientation.single_driver {
                     Some((driver, false)) => phase = self.unit[driver][g],
                     Some((driver, true)) => phase = self.unit[driver][g].conj(),
                     None => {
@@ -281,32 +282,36 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
                 self.phase[o][g] = phase;
                 if orientation.class == 0 {
-                    self.orient_driven(g, cx, o, phase);
+                    self.set_driven_orientation(g, cx, o, phase);
                 }
             }
         }
     }
 
     #[inline(always)]
-    fn solve_dyad(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, index: usize) {
-        let mut before = self.point_condition[dyad.start][g].max(self.point_condition[dyad.end][g]);
-        for part in &dyad.others {
-            if part.turns.is_none() {
-                before = before.max(self.class_condition[cx.plan.class_of(part.edge)][g]);
+    fn dyad_step(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, index: usize) {
+        let mut upstream2 =
+            self.point_condition[dyad.start][g].max(self.point_condition[dyad.end][g]);
+        for term in &dyad.others {
+            if term.turns.is_none() {
+                upstream2 = upstream2.max(self.class_condition[cx.plan.class_of(term.edge)][g]);
             }
-            if let (EdgeSlide::Slide(slide), None) = (cx.plan.edges[part.edge].along, part.slides) {
-                before = before.max(self.slide_condition[slide][g]);
+            if let (EdgeSlide::Slide(slide), None) = (cx.plan.edges[term.edge].along, term.slides) {
+                upstream2 = upstream2.max(self.slide_condition[slide][g]);
             }
         }
         if let Some(sign) = dyad.sign {
-            self.before[sign][g] = before;
+            self.upstream_condition2[sign][g] = upstream2;
         }
-        let solved = self.close(g, cx, dyad);
-        self.open(g, solved.open, || Fault::NotClosed { step: index, gap: solved.gap.lane(0) });
+        let solved = self.solve_dyad(g, cx, dyad);
+        self.mark_open(g, solved.open, || Fault::NotClosed {
+            step: index,
+            gap: solved.gap.lane(0),
+        });
         if self.status == Status::Unreachable {
             return;
         }
-        let condition = before * solved.arm2 / solved.sine2;
+        let condition = upstream2 * solved.arm2 / solved.sine2;
         for unknown in dyad.unknowns {
             match unknown {
                 Unknown::Class(c) => self.class_condition[c][g] = condition,
@@ -315,11 +320,11 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         self.condition2[g] = condition.max(self.condition2[g]);
         let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));
-        self.care[g] = self.care[g].or(flat);
+        self.needs_scalar[g] = self.needs_scalar[g].or(flat);
         if R::LANES == 1 && flat.any() {
             self.fault.get_or_insert(Fault::Singular { step: index });
             self.status = Status::Singular;
-            self.no_analogues(g, dyad);
+            self.set_nan_analogues(g, dyad);
             return;
         }
         self.analogues(g, cx, dyad);

@@ -1,44 +1,44 @@
-//! How a position came out, and what failed.
+//! Status of a position, and the step that failed.
 
 use crate::math::tolerance::SINGULAR_CONDITION;
 
-/// Square of the sine of a dyad that cannot be told from a flat one.
+/// Square of the sine below which rounding cannot distinguish a dyad from a flat one.
 pub(crate) const FLAT2: f64 = 1.0 / (SINGULAR_CONDITION * SINGULAR_CONDITION);
 
-/// How a position came out; the codes are those of the arrays.
+/// Status of a position; its value is the code in the arrays of results.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Status {
     /// Solved.
     Ok = 0,
-    /// Solved; fewer than six digits of the analogues remain.
+    /// Solved, but the analogues keep fewer than six digits.
     NearSingular = 1,
-    /// The position is given; its analogues are NaN, except at a change point.
+    /// Solved, but the analogues are NaN, except at a change point.
     Singular = 2,
-    /// This assembly does not exist at this coordinate.
+    /// The assembly does not exist at this coordinate.
     Unreachable = 3,
-    /// The way from the drawing to here is not known: the signs of a driven angle do not
-    /// return within 64 turns (or beyond a fold of a higher group).
+    /// The branch cannot be followed from the drawing to this coordinate: the signs of a driven
+    /// angle do not return within 64 turns, or it is beyond a fold of a group above class II.
     Lost = 4,
-    /// The iteration of a higher group did not end.
+    /// The iteration of a group above class II did not converge.
     NotConverged = 5,
-    /// A dimension of this design is no dimension.
+    /// The design has an invalid dimension.
     BadDimension = 6,
-    /// The coordinate is no number, or with several drivers too far from the drawing.
+    /// The coordinate is not finite, or with several drivers too far from the drawing.
     BadInput = 7,
 }
 
-/// Where and why a position failed.
+/// The step at which a position failed, and why.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Fault {
-    /// Dyad (step) whose triangle does not close, by this part of the size.
+    /// The dyad of this step does not close; the gap is relative to the scale.
     NotClosed { step: usize, gap: f64 },
-    /// Redundant link (step) that does not fit, by this part of the size.
+    /// The redundant link of this step does not fit; the gap is relative to the scale.
     RedundantMisfit { step: usize, gap: f64 },
-    /// Dyad or group (step) that is flat.
+    /// The dyad or group of this step is flat.
     Singular { step: usize },
-    /// Group (step) whose iteration did not end.
+    /// The iteration of the group of this step did not converge.
     NotConverged { step: usize },
 }
 

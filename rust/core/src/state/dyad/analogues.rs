@@ -1,10 +1,9 @@
-//! Analogues: derivatives of the closure equations, not of their solutions.
+//! Analogues, from derivatives of the closure equations.
 //!
-//! Every closure is a sum of unit vectors times fixed ones, and the derivative of
-//! a unit vector is `∂U = i U ∂Θ`; so at every order the unknown analogues stand in
-//! the same matrix, and all the rest is known from lower orders (Uicker, Pennock
-//! & Shigley 2017, chapters 3 and 4, by complex algebra). One function for all
-//! dyads, all orders, any number of drivers.
+//! Every closure is a sum of unit vectors times constant ones, and the derivative of a unit vector
+//! is `∂U = i U ∂Θ`. So the unknown analogues of every order have the same matrix, and the
+//! right-hand side follows from lower orders (Uicker, Pennock & Shigley 2017, chapters 3 and 4, by
+//! complex algebra). The same functions serve all dyads, all orders and any number of drivers.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -13,14 +12,20 @@ use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Value and analogues of an orientation that the drivers alone give:
-    /// `∂U = i U` times its turns.
+    /// Value and analogues of an orientation that only the drivers turn: `∂U = i U` times its
+    /// multiple of the driver.
     #[inline(always)]
-    pub(crate) fn orient_driven(&mut self, g: usize, cx: &Context<'_>, o: usize, phase: Vector<R>) {
+    pub(crate) fn set_driven_orientation(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        o: usize,
+        phase: Vector<R>,
+    ) {
         let orientation = &cx.plan.orientations[o];
         let jet = &mut self.orient[o * self.len..][..self.len];
         jet[0][g] = phase;
-        if let (1, Some((_, backward))) = (cx.jets.drivers, orientation.lone) {
+        if let (1, Some((_, backward))) = (cx.jets.drivers, orientation.single_driver) {
             let mut last = phase;
             for entry in &mut jet[1..] {
                 last = if backward { -last.left() } else { last.left() };
@@ -35,9 +40,9 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// What the drivers add to analogue `k` of an orientation's angle.
+    /// Contribution of the drivers to analogue `k` of an orientation's angle.
     #[inline(always)]
-    pub(crate) fn driven(cx: &Context<'_>, o: usize, k: usize) -> R {
+    pub(crate) fn driver_analogue(cx: &Context<'_>, o: usize, k: usize) -> R {
         let turns = &cx.plan.orientations[o].turns;
         R::splat(if let Some(driver) = cx.jets.driver_of[k] {
             f64::from(turns[driver])
@@ -48,13 +53,13 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Analogue `k` of an orientation's angle.
     #[inline(always)]
-    pub(crate) fn theta_of(&self, g: usize, cx: &Context<'_>, o: usize, k: usize) -> R {
+    pub(crate) fn angle_analogue(&self, g: usize, cx: &Context<'_>, o: usize, k: usize) -> R {
         let orientation = &cx.plan.orientations[o];
         let own = self.theta[orientation.class * self.len + k][g];
-        if orientation.driven { own + Self::driven(cx, o, k) } else { own }
+        if orientation.driven { own + Self::driver_analogue(cx, o, k) } else { own }
     }
 
-    /// Analogue `k` of an orientation but for the term in its class's own `k`.
+    /// Analogue `k` of an orientation, without the term in analogue `k` of its class.
     #[inline(always)]
     pub(crate) fn orientation_without_top(
         &self,
@@ -65,11 +70,11 @@ impl<R: Real, const G: usize> State<R, G> {
     ) -> Vector<R> {
         let mut sum = Vector::ZERO;
         for term in &cx.jets.rotation[k] {
-            let rate = R::splat(term.factor) * self.theta_of(g, cx, o, term.right);
+            let rate = R::splat(term.factor) * self.angle_analogue(g, cx, o, term.right);
             sum += self.orient[o * self.len + term.left][g].scale(rate);
         }
         if cx.plan.orientations[o].driven {
-            sum += self.orient[o * self.len][g].scale(Self::driven(cx, o, k));
+            sum += self.orient[o * self.len][g].scale(Self::driver_analogue(cx, o, k));
         }
         sum.left()
     }
@@ -82,17 +87,17 @@ impl<R: Real, const G: usize> State<R, G> {
             let v = self.legs[leg.index * self.len + k][g];
             return if leg.backward { -v } else { v };
         }
-        let rigid =
-            self.orient[edge.orientation * self.len + k][g] * Vector::splat(cx.bound.rigid[e]);
+        let edge_vector = self.orient[edge.orientation * self.len + k][g]
+            * Vector::splat(cx.bound.edge_vector[e]);
         match edge.along {
-            EdgeSlide::Nothing => rigid,
+            EdgeSlide::Nothing => edge_vector,
             EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } => {
-                rigid + self.along(g, cx, e, slide, k)
+                edge_vector + self.along(g, cx, e, slide, k)
             }
         }
     }
 
-    /// Entry `k` of the part along its slide.
+    /// Entry `k` of the part of an edge's vector along its slide.
     #[inline(always)]
     fn along(&self, g: usize, cx: &Context<'_>, e: usize, slide: usize, k: usize) -> Vector<R> {
         let unit = cx.plan.edges[e].orientation * self.len;
@@ -104,17 +109,23 @@ impl<R: Real, const G: usize> State<R, G> {
         along * Vector::splat(cx.bound.guide[e])
     }
 
-    /// Entry `k` of what a part adds beside the legs.
+    /// Entry `k` of a loop term, without the part that is in a leg.
     #[inline(always)]
-    pub(crate) fn part(&self, g: usize, cx: &Context<'_>, part: &LoopTerm, k: usize) -> Vector<R> {
-        let v = match cx.plan.edges[part.edge].along {
-            EdgeSlide::Slide(slide) if part.in_leg => self.along(g, cx, part.edge, slide, k),
-            _ => self.edge(g, cx, part.edge, k),
+    pub(crate) fn term_vector(
+        &self,
+        g: usize,
+        cx: &Context<'_>,
+        term: &LoopTerm,
+        k: usize,
+    ) -> Vector<R> {
+        let v = match cx.plan.edges[term.edge].along {
+            EdgeSlide::Slide(slide) if term.in_leg => self.along(g, cx, term.edge, slide, k),
+            _ => self.edge(g, cx, term.edge, k),
         };
-        if part.backward { -v } else { v }
+        if term.backward { -v } else { v }
     }
 
-    /// Entry `k` of a leg but for the term in its class's own `k`; legs are not driven.
+    /// Entry `k` of a leg, without the term in analogue `k` of its class; legs are not driven.
     #[inline(always)]
     fn leg_without_top(
         &self,
@@ -132,9 +143,9 @@ impl<R: Real, const G: usize> State<R, G> {
         sum.left()
     }
 
-    /// NaN for the analogues of a dyad's unknowns.
+    /// Sets the analogues of a dyad's unknowns, and of all that turns with them, to NaN.
     #[inline(always)]
-    pub(crate) fn no_analogues(&mut self, g: usize, dyad: &Dyad) {
+    pub(crate) fn set_nan_analogues(&mut self, g: usize, dyad: &Dyad) {
         let len = self.len;
         for unknown in dyad.unknowns {
             let jet = match unknown {
@@ -145,21 +156,21 @@ impl<R: Real, const G: usize> State<R, G> {
                 entry[g] = R::splat(f64::NAN);
             }
         }
-        let nothing = Vector::splat(Vector::NAN);
-        for &o in dyad.turned.iter().flatten() {
+        let nan = Vector::splat(Vector::NAN);
+        for &o in dyad.orientations.iter().flatten() {
             for entry in &mut self.orient[o * len + 1..(o + 1) * len] {
-                entry[g] = nothing;
+                entry[g] = nan;
             }
         }
         for leg in [2 * dyad.index, 2 * dyad.index + 1] {
             for entry in &mut self.legs[leg * len + 1..(leg + 1) * len] {
-                entry[g] = nothing;
+                entry[g] = nan;
             }
         }
     }
 
-    /// Analogues of a dyad's unknowns from its closure equation: at every order
-    /// the same two columns, and as right-hand side what is known of that order.
+    /// Analogues of a dyad's unknowns from its closure equation. Every order has the same two
+    /// columns; the right-hand side follows from lower orders.
     #[inline(always)]
     pub(crate) fn analogues(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad) {
         let len = self.len;
@@ -167,40 +178,43 @@ impl<R: Real, const G: usize> State<R, G> {
             return;
         }
         let columns = [self.column(g, cx, dyad, 0), self.column(g, cx, dyad, 1)];
-        let per = R::ONE / columns[0].cross(columns[1]);
+        let inv_determinant = R::ONE / columns[0].cross(columns[1]);
         for k in 1..len {
-            // What is yet unknown counts as 0.
-            for place in 0..2 {
-                match dyad.unknowns[place] {
+            // The unknown entry counts as 0 in the right-hand side.
+            for i in 0..2 {
+                match dyad.unknowns[i] {
                     Unknown::Slide(s) => self.slides[s * len + k][g] = R::ZERO,
                     Unknown::Class(class) => {
-                        let leg = 2 * dyad.index + place;
-                        if dyad.leg[place] {
+                        let leg = 2 * dyad.index + i;
+                        if dyad.leg[i] {
                             self.legs[leg * len + k][g] =
                                 self.leg_without_top(g, cx, leg, class, k);
                         }
                     }
                 }
-                for &o in &dyad.turned[place] {
+                for &o in &dyad.orientations[i] {
                     self.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k);
                 }
             }
             let known = self.closure(g, cx, dyad, k);
-            let values = [columns[1].cross(known) * per, known.cross(columns[0]) * per];
-            for place in 0..2 {
-                let value = values[place];
-                match dyad.unknowns[place] {
+            let values = [
+                columns[1].cross(known) * inv_determinant,
+                known.cross(columns[0]) * inv_determinant,
+            ];
+            for i in 0..2 {
+                let value = values[i];
+                match dyad.unknowns[i] {
                     Unknown::Slide(s) => self.slides[s * len + k][g] = value,
                     Unknown::Class(class) => {
                         self.theta[class * len + k][g] = value;
-                        if dyad.leg[place] {
-                            let leg = (2 * dyad.index + place) * len;
+                        if dyad.leg[i] {
+                            let leg = (2 * dyad.index + i) * len;
                             let top = self.legs[leg][g].left().scale(value);
                             self.legs[leg + k][g] += top;
                         }
                     }
                 }
-                for &o in &dyad.turned[place] {
+                for &o in &dyad.orientations[i] {
                     let top = self.orient[o * len][g].left().scale(value);
                     self.orient[o * len + k][g] += top;
                 }
@@ -213,13 +227,13 @@ impl<R: Real, const G: usize> State<R, G> {
     pub(crate) fn closure(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, k: usize) -> Vector<R> {
         let mut sum =
             self.points[dyad.start * self.len + k][g] - self.points[dyad.end * self.len + k][g];
-        for place in 0..2 {
-            if dyad.leg[place] {
-                sum += self.legs[(2 * dyad.index + place) * self.len + k][g];
+        for i in 0..2 {
+            if dyad.leg[i] {
+                sum += self.legs[(2 * dyad.index + i) * self.len + k][g];
             }
         }
-        for part in &dyad.others {
-            sum += self.part(g, cx, part, k);
+        for term in &dyad.others {
+            sum += self.term_vector(g, cx, term, k);
         }
         sum
     }
@@ -232,51 +246,51 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// Derivative of the closure with respect to one unknown.
     #[inline(always)]
-    fn column(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, place: usize) -> Vector<R> {
-        match dyad.unknowns[place] {
-            Unknown::Class(_) => self.turning(g, cx, dyad, place, 0).left(),
-            Unknown::Slide(_) => self.sliding(g, cx, dyad, place, 0),
+    fn column(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, i: usize) -> Vector<R> {
+        match dyad.unknowns[i] {
+            Unknown::Class(_) => self.leg_vector(g, cx, dyad, i, 0).left(),
+            Unknown::Slide(_) => self.slide_direction(g, cx, dyad, i, 0),
         }
     }
 
-    /// Entry `k` of the sum of what turns with an unknown.
+    /// Entry `k` of the sum of all that turns with an unknown.
     #[inline(always)]
-    pub(crate) fn turning(
+    pub(crate) fn leg_vector(
         &self,
         g: usize,
         cx: &Context<'_>,
         dyad: &Dyad,
-        place: usize,
+        i: usize,
         k: usize,
     ) -> Vector<R> {
         let mut sum = Vector::ZERO;
-        if dyad.leg[place] {
-            sum = self.legs[(2 * dyad.index + place) * self.len + k][g];
+        if dyad.leg[i] {
+            sum = self.legs[(2 * dyad.index + i) * self.len + k][g];
         }
-        for part in &dyad.others {
-            if part.turns == Some(place) {
-                sum += self.part(g, cx, part, k);
+        for term in &dyad.others {
+            if term.turns == Some(i) {
+                sum += self.term_vector(g, cx, term, k);
             }
         }
         sum
     }
 
-    /// Entry `k` of the direction of the slide that is an unknown.
+    /// Entry `k` of the direction of an unknown slide.
     #[inline(always)]
-    pub(crate) fn sliding(
+    pub(crate) fn slide_direction(
         &self,
         g: usize,
         cx: &Context<'_>,
         dyad: &Dyad,
-        place: usize,
+        i: usize,
         k: usize,
     ) -> Vector<R> {
         let mut sum = Vector::ZERO;
-        for part in &dyad.others {
-            if part.slides == Some(place) {
-                let unit = self.orient[cx.plan.edges[part.edge].orientation * self.len + k][g];
-                let v = unit * Vector::splat(cx.bound.guide[part.edge]);
-                sum = if part.backward { -v } else { v };
+        for term in &dyad.others {
+            if term.slides == Some(i) {
+                let unit = self.orient[cx.plan.edges[term.edge].orientation * self.len + k][g];
+                let v = unit * Vector::splat(cx.bound.guide[term.edge]);
+                sum = if term.backward { -v } else { v };
             }
         }
         sum

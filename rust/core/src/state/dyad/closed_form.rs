@@ -1,4 +1,4 @@
-//! The closed forms: one vector equation with two unknowns, by square roots and
+//! Closed forms of dyads: one vector equation with two unknowns, solved by square roots and
 //! divisions only.
 
 use crate::math::lanes::{Mask, Real};
@@ -6,33 +6,33 @@ use crate::math::tolerance::FLAT_CLOSURE;
 use crate::math::vector::Vector;
 use crate::plan::leg::Leg;
 
-/// How a dyad came out.
+/// Outcome of a dyad's closed form.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DyadSolution<R: Real> {
-    /// Where it does not close.
+    /// Lanes where it does not close.
     pub open: R::Mask,
-    /// By how much, of the size (asked for with one lane only).
+    /// By how much it does not close, relative to the scale (used with one lane only).
     pub gap: R,
-    /// Where it is flat: the two solutions coincide, to rounding.
+    /// Lanes where it is flat: the two solutions coincide to rounding.
     pub flat: R::Mask,
     /// Square of the sine of the angle between the columns of the closure matrix: between
     /// the legs of two binary links.
     pub sine2: R,
-    /// Square of the greatest lever of a leg, in lengths of the leg; at least 1. The size
-    /// of the inverse of the scaled closure matrix is lever by sine.
+    /// Square of the greatest arm that turns with a leg, divided by the leg's length²; at least 1.
+    /// The norm of the inverse of the scaled closure matrix is this arm divided by the sine.
     pub arm2: R,
 }
 
 impl<R: Real> DyadSolution<R> {
-    /// With the levers of the legs.
+    /// Sets the arms of the legs.
     #[inline(always)]
-    pub(crate) fn with(self, arm2: R) -> Self {
+    pub(crate) fn with_arm2(self, arm2: R) -> Self {
         Self { arm2: arm2.max(R::ONE), ..self }
     }
 }
 
-/// A factor that vanishes where the dyad is flat: negative by rounding counts
-/// as 0 (flat), by more as open.
+/// A factor that vanishes where the dyad is flat. If it is negative within rounding, the dyad
+/// counts as flat; if it is more negative, as open.
 struct Factor<R: Real> {
     value: R,
     flat: R::Mask,
@@ -48,7 +48,7 @@ impl<R: Real> Factor<R> {
         Self { value, flat: positive.not().and(within), open: positive.or(within).not() }
     }
 
-    /// What is missing where it is open, else `or`.
+    /// The missing length where it is open, else `or`.
     #[inline(always)]
     fn gap(&self, difference: R, or: R) -> R {
         R::select(self.open, -difference, or)
@@ -88,7 +88,7 @@ pub(crate) fn two_circles<R: Real>(
         gap: R::select(far, R::splat(f64::INFINITY), gap),
         flat: outer.flat.or(inner.flat),
         // `area` is four times the triangle's: (2 a b sin)² = area².
-        sine2: area2 * (R::splat(0.25) * a.per * b.per),
+        sine2: area2 * (R::splat(0.25) * a.inv_norm2 * b.inv_norm2),
         arm2: R::ONE,
     };
     (first, second, solved)
@@ -115,10 +115,10 @@ pub(crate) fn circle_and_line<R: Real>(
         open: inner.open.or(R::ZERO.lt(a.norm2).not()).or(far),
         gap: R::select(far, R::splat(f64::INFINITY), inner.gap(a.norm - across.abs(), R::ZERO)),
         flat: inner.flat,
-        sine2: chord2 * a.per,
+        sine2: chord2 * a.inv_norm2,
         arm2: R::ONE,
     };
-    ((leg * a.vector.conj()).scale(a.per), along + signed, solved)
+    ((leg * a.vector.conj()).scale(a.inv_norm2), along + signed, solved)
 }
 
 /// `(a + s b) u = k` for a unit vector u and a slide s along the unit vector b
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn circles_that_do_not_meet_tell_the_gap() {
+    fn circles_that_do_not_meet_report_the_gap() {
         let unit = leg(1.0, 0.0);
         let (_, _, solved) = two_circles(&unit, &unit, Vector::new(2.5, 0.0), 1.0);
         assert!(solved.open && (solved.gap - 0.5).abs() < TOLERANCE);

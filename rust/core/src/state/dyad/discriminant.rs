@@ -1,5 +1,5 @@
-//! How far a dyad is from flat, and polynomials through several states: what
-//! change points are found and passed with.
+//! What detects and passes change points: the discriminant of a dyad, distances between states, and
+//! interpolation of states.
 
 use crate::math::lanes::Real;
 use crate::math::tolerance::CHANGE_MISFIT;
@@ -9,19 +9,26 @@ use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// How far a dyad is from flat, with the sign of its assembly, and the rate of
-    /// that by one driver (jet entry `first`): the sine of the angle between its legs (a rotation
-    /// and a slide: the chord) as far as it matters near 0.
+    /// Discriminant of a dyad and its derivative by one driver (jet entry `first`): the sine of the
+    /// angle between its legs, or the chord of a rotation and a slide, with the sign of the
+    /// assembly. It is zero where the dyad is flat; the derivative leaves out the change of the
+    /// normalising lengths, whose contribution vanishes there.
     #[inline(always)]
-    pub(crate) fn spread(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, first: usize) -> (R, R) {
-        let [a, da] = [0, first].map(|k| self.turning(g, cx, dyad, 0, k));
+    pub(crate) fn discriminant(
+        &self,
+        g: usize,
+        cx: &Context<'_>,
+        dyad: &Dyad,
+        first: usize,
+    ) -> (R, R) {
+        let [a, da] = [0, first].map(|k| self.leg_vector(g, cx, dyad, 0, k));
         let (value, rate, size) = match dyad.form {
             Form::TwoCircles => {
-                let [b, db] = [0, first].map(|k| self.turning(g, cx, dyad, 1, k));
+                let [b, db] = [0, first].map(|k| self.leg_vector(g, cx, dyad, 1, k));
                 (b.cross(a), db.cross(a) + b.cross(da), a.norm() * b.norm())
             }
             Form::CircleAndLine | Form::TurningGuide => {
-                let [guide, rate_of] = [0, first].map(|k| self.sliding(g, cx, dyad, 1, k));
+                let [guide, rate_of] = [0, first].map(|k| self.slide_direction(g, cx, dyad, 1, k));
                 let (value, rate) = (guide.dot(a), rate_of.dot(a) + guide.dot(da));
                 if dyad.form == Form::TurningGuide {
                     (value, rate, R::ONE)
@@ -31,30 +38,31 @@ impl<R: Real, const G: usize> State<R, G> {
             }
             Form::TwoLines => (R::ONE, R::ZERO, R::ONE),
         };
-        let per = R::ONE / size;
-        (value * per, rate * per)
+        let inv_size = R::ONE / size;
+        (value * inv_size, rate * inv_size)
     }
 }
 
 impl State {
-    /// The size of a dyad's triangle by its shortest side that turns: what its rounding
-    /// means for the spread.
-    pub(crate) fn shortness(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
-        let a = self.turning(0, cx, dyad, 0, 0).norm2();
+    /// Ratio of a dyad's greatest length or coordinate to its shortest leg: the factor from
+    /// rounding to an error of the discriminant.
+    pub(crate) fn length_ratio(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
+        let a = self.leg_vector(0, cx, dyad, 0, 0).norm2();
         let b = match dyad.form {
-            Form::TwoCircles => self.turning(0, cx, dyad, 1, 0).norm2(),
+            Form::TwoCircles => self.leg_vector(0, cx, dyad, 1, 0).norm2(),
             _ => a,
         };
-        let grain = self.grain[dyad.start][0].max(self.grain[dyad.end][0]);
-        (grain.max(a).max(b) / a.min(b)).sqrt()
+        let coordinate_scale2 =
+            self.coordinate_scale2[dyad.start][0].max(self.coordinate_scale2[dyad.end][0]);
+        (coordinate_scale2.max(a).max(b) / a.min(b)).sqrt()
     }
 
-    /// Greatest misfit of any edge, of the size.
+    /// Greatest closure error of any edge, relative to the scale.
     pub(crate) fn residual(&self, cx: &Context<'_>) -> f64 {
         let len = self.len;
-        (cx.plan.edges.iter().zip(&cx.bound.rigid).zip(&cx.bound.guide))
-            .map(|((e, &rigid), &guide)| {
-                let mut span = rigid;
+        (cx.plan.edges.iter().zip(&cx.bound.edge_vector).zip(&cx.bound.guide))
+            .map(|((e, &edge_vector), &guide)| {
+                let mut span = edge_vector;
                 if let EdgeSlide::Slide(s) | EdgeSlide::Driver { slide: s } = e.along {
                     span += guide.scale(self.slides[s * len][0]);
                 }
@@ -66,14 +74,14 @@ impl State {
                 let misfit =
                     self.points[e.edge.to * len][0] - self.points[e.edge.from * len][0] - turned;
                 let norm = misfit.norm();
-                // Its square may be too great for a number.
+                // The square may overflow where the components do not.
                 if norm == f64::INFINITY { misfit.x.abs().max(misfit.y.abs()) } else { norm }
             })
-            // What is no number stays so.
+            // Unlike `max`, this takes a NaN; only a later finite value replaces it.
             .fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
     }
 
-    /// Whether the points are where another state has them, as far as that can be known.
+    /// Whether the points agree with those of another state, within its accuracy.
     pub(crate) fn is_near(&self, other: &Self) -> bool {
         let allowed = CHANGE_MISFIT * other.condition2[0].sqrt();
         let values = |state: &Self| state.points.iter().step_by(state.len).map(|p| p[0]).collect();
@@ -81,21 +89,21 @@ impl State {
         a.iter().zip(&b).all(|(&a, &b)| (a - b).norm() <= allowed)
     }
 
-    /// How far the analogues of an order (of one driver; 0: points) are from those of another state,
-    /// of the size or of themselves.
+    /// Greatest distance of the points' analogues of an order (one driver; 0: the points) from
+    /// those of another state, relative to the scale or to themselves.
     pub(crate) fn distance(&self, other: &Self, order: usize) -> f64 {
-        let far = |(one, own): (&[Vector; 1], &[Vector; 1])| {
-            (one[0] - own[0]).norm() / (1.0 + own[0].norm())
+        let relative = |(one, other): (&[Vector; 1], &[Vector; 1])| {
+            (one[0] - other[0]).norm() / (1.0 + other[0].norm())
         };
         let pairs = self.points.iter().zip(&other.points).skip(order).step_by(self.len);
         let pairs = pairs.take(if order < self.len { usize::MAX } else { 0 });
-        // What is no number is no fit.
-        pairs.map(far).fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
+        // Unlike `max`, this takes a NaN; only a later finite value replaces it.
+        pairs.map(relative).fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
     }
 
-    /// Becomes the weighted sum of other states of the same plan: a polynomial
-    /// through them, evaluated between them.
-    pub(crate) fn blend(&mut self, states: &[Self], weights: &[f64]) {
+    /// Sets the state to a weighted sum of other states of the same plan: a polynomial through
+    /// them, evaluated between them.
+    pub(crate) fn interpolate(&mut self, states: &[Self], weights: &[f64]) {
         fn sum(
             out: &mut [[f64; 1]],
             states: &[State],

@@ -1,4 +1,4 @@
-//! Groups of class II: two links, solved in closed form.
+//! Dyads: groups of class II, solved in closed form.
 
 pub(crate) mod analogues;
 pub(crate) mod closed_form;

@@ -1,8 +1,9 @@
-//! Dyads of two binary links: most dyads are so, and there is nothing in them to sort.
+//! Kernel for dyads of two binary links (RRR). Most dyads are of this kind, and their equations
+//! need no sorting by term.
 //!
-//! The same closed form and the same equations as of every dyad (see `dyad`, `analogue`);
-//! with one driver they are compiled for each order by itself, so that jets are arrays of
-//! known length and the tables are constants.
+//! It has the closed form and the equations of every dyad (see `solve`, `analogues`). For one
+//! driver it is compiled for each order separately, so that jets have constant length and the
+//! tables are constants.
 
 use super::closed_form::two_circles;
 use crate::math::derivatives::{ONE_DRIVER, Term};
@@ -13,9 +14,9 @@ use crate::state::state::{Context, State};
 use crate::state::status::{FLAT2, Fault, Status};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Solves the dyad (step `index`) whose two legs turn with these classes.
+    /// Solves the dyad of step `index`, whose two legs turn with these classes.
     #[inline(always)]
-    pub(crate) fn solve_binary(
+    pub(crate) fn solve_rrr(
         &mut self,
         cx: &Context<'_>,
         dyad: &Dyad,
@@ -23,27 +24,30 @@ impl<R: Real, const G: usize> State<R, G> {
         index: usize,
     ) {
         match (cx.jets.drivers, self.len) {
-            (1, 1) => self.binary(cx, dyad, classes, index, 1, &|k| ONE_DRIVER[k]),
-            (1, 2) => self.binary(cx, dyad, classes, index, 2, &|k| ONE_DRIVER[k]),
-            (1, 3) => self.binary(cx, dyad, classes, index, 3, &|k| ONE_DRIVER[k]),
-            (1, 4) => self.binary(cx, dyad, classes, index, 4, &|k| ONE_DRIVER[k]),
-            (_, len) => self.binary(cx, dyad, classes, index, len, &|k| &cx.jets.rotation[k][..]),
+            (1, 1) => self.rrr_of_length(cx, dyad, classes, index, 1, &|k| ONE_DRIVER[k]),
+            (1, 2) => self.rrr_of_length(cx, dyad, classes, index, 2, &|k| ONE_DRIVER[k]),
+            (1, 3) => self.rrr_of_length(cx, dyad, classes, index, 3, &|k| ONE_DRIVER[k]),
+            (1, 4) => self.rrr_of_length(cx, dyad, classes, index, 4, &|k| ONE_DRIVER[k]),
+            (_, len) => {
+                self.rrr_of_length(cx, dyad, classes, index, len, &|k| &cx.jets.rotation[k][..])
+            }
         }
-        for (turned, class) in dyad.turned.iter().zip(classes) {
+        for (turned, class) in dyad.orientations.iter().zip(classes) {
             for &o in turned {
                 for g in 0..self.groups.min(G) {
-                    self.turn_other(g, cx, o, class);
+                    self.update_orientation(g, cx, o, class);
                 }
             }
         }
         if R::LANES == 1 && matches!(self.fault, Some(Fault::Singular { step }) if step == index) {
-            self.no_analogues(0, dyad);
+            self.set_nan_analogues(0, dyad);
         }
     }
 
-    /// `len`: entries of a jet; `terms`: their table.
+    /// [`solve_rrr`](Self::solve_rrr) for jets of `len` entries, with `terms` the table of
+    /// rotation.
     #[inline(always)]
-    fn binary<'t>(
+    fn rrr_of_length<'t>(
         &mut self,
         cx: &Context<'_>,
         dyad: &Dyad,
@@ -52,11 +56,12 @@ impl<R: Real, const G: usize> State<R, G> {
         len: usize,
         terms: &impl Fn(usize) -> &'t [Term],
     ) {
-        let jet = |place: usize| place * len..place * len + len;
+        let jet = |i: usize| i * len..i * len + len;
         let legs = [2 * dyad.index, 2 * dyad.index + 1].map(jet);
         let (start, end) = (&self.points[jet(dyad.start)], &self.points[jet(dyad.end)]);
-        let grain = [&self.grain[dyad.start], &self.grain[dyad.end]];
-        let before = [&self.point_condition[dyad.start], &self.point_condition[dyad.end]];
+        let coordinate_scale2 =
+            [&self.coordinate_scale2[dyad.start], &self.coordinate_scale2[dyad.end]];
+        let upstream2 = [&self.point_condition[dyad.start], &self.point_condition[dyad.end]];
         let (
             Some(sign),
             Ok([a_jet, b_jet]),
@@ -73,14 +78,15 @@ impl<R: Real, const G: usize> State<R, G> {
         else {
             return;
         };
-        let (signs, before_sign) = (&self.signs[sign], &mut self.before[sign]);
+        let (signs, upstream_sign2) = (&self.signs[sign], &mut self.upstream_condition2[sign]);
         let [a, b] = &cx.bound.legs[dyad.index];
         let (a, b) = (a.on_lanes(), b.on_lanes());
-        let levers = [R::splat(cx.bound.lever2[classes[0]]), R::splat(cx.bound.lever2[classes[1]])];
+        let max_arm2 =
+            [R::splat(cx.bound.max_arm2[classes[0]]), R::splat(cx.bound.max_arm2[classes[1]])];
         for g in 0..self.groups.min(G) {
             let (first, second, solved) = two_circles(&a, &b, end[0][g] - start[0][g], signs[g]);
             let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));
-            self.care[g] = self.care[g].or(solved.open).or(flat);
+            self.needs_scalar[g] = self.needs_scalar[g].or(solved.open).or(flat);
             if R::LANES == 1 && solved.open.any() {
                 self.fault = Some(Fault::NotClosed { step: index, gap: solved.gap.lane(0) });
                 self.status = Status::Unreachable;
@@ -90,10 +96,11 @@ impl<R: Real, const G: usize> State<R, G> {
                 self.fault.get_or_insert(Fault::Singular { step: index });
                 self.status = Status::Singular;
             }
-            before_sign[g] = before[0][g].max(before[1][g]);
-            let data = R::splat(0.25) * grain[0][g].max(grain[1][g]);
-            let lever = (levers[0].max(data) * a.per).max(levers[1].max(data) * b.per);
-            let condition = before_sign[g] * lever.max(R::ONE) / solved.sine2;
+            upstream_sign2[g] = upstream2[0][g].max(upstream2[1][g]);
+            let rounding = R::splat(0.25) * coordinate_scale2[0][g].max(coordinate_scale2[1][g]);
+            let relative_arm2 = (max_arm2[0].max(rounding) * a.inv_norm2)
+                .max(max_arm2[1].max(rounding) * b.inv_norm2);
+            let condition = upstream_sign2[g] * relative_arm2.max(R::ONE) / solved.sine2;
             first_condition[g] = condition;
             second_condition[g] = condition;
             self.condition2[g] = condition.max(self.condition2[g]);
@@ -102,7 +109,7 @@ impl<R: Real, const G: usize> State<R, G> {
             a_jet[0][g] = first;
             b_jet[0][g] = second;
             let columns = [first.left(), second.left()];
-            let per = R::ONE / columns[0].cross(columns[1]);
+            let inv_determinant = R::ONE / columns[0].cross(columns[1]);
             for k in 1..len {
                 let (mut first, mut second) = (Vector::ZERO, Vector::ZERO);
                 for term in terms(k) {
@@ -112,8 +119,10 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
                 let (first, second) = (first.left(), second.left());
                 let known = (start[k][g] - end[k][g]) + first + second;
-                let (first_rate, second_rate) =
-                    (columns[1].cross(known) * per, known.cross(columns[0]) * per);
+                let (first_rate, second_rate) = (
+                    columns[1].cross(known) * inv_determinant,
+                    known.cross(columns[0]) * inv_determinant,
+                );
                 u[k][g] = first_rate;
                 v[k][g] = second_rate;
                 a_jet[k][g] = first + columns[0].scale(first_rate);
@@ -122,9 +131,15 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// An orientation that turns with a leg, where something else asks for it.
+    /// Sets the jet of an orientation from the rotation and analogues of its class.
     #[inline(always)]
-    pub(crate) fn turn_other(&mut self, g: usize, cx: &Context<'_>, o: usize, class: usize) {
+    pub(crate) fn update_orientation(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        o: usize,
+        class: usize,
+    ) {
         let len = self.len;
         let rotation = self.class[class][g];
         self.orient[o * len][g] =

@@ -1,4 +1,4 @@
-//! A dyad's loop, sorted by what its edges turn with, and solved.
+//! Solves a dyad: collects the terms of its loop by unknown, then applies its closed form.
 
 use super::closed_form::{DyadSolution, circle_and_line, turning_guide, two_circles, two_lines};
 use crate::math::lanes::Real;
@@ -8,122 +8,134 @@ use crate::plan::leg::Leg;
 use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
-/// The dyad's equation, sorted: `a u₁ + b u₂ = k` with slides put in for the
-/// terms that are missing.
-struct Sorted<R> {
-    /// What turns with the first unknown, unless it is a leg.
+/// The dyad's equation `a u₁ + b u₂ = k`; for a slide the term is the slide times its direction.
+struct CollectedTerms<R> {
+    /// Vector that turns with the first unknown (or the direction of its slide), unless it is a
+    /// leg.
     first: Vector<R>,
-    /// What turns with the second unknown, or the direction of its slide.
+    /// The same for the second unknown.
     second: Vector<R>,
-    /// The known rest.
+    /// Known right-hand side.
     known: Vector<R>,
 }
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Solves for the value of the unknowns.
+    /// Solves a dyad for the values of its unknowns, and sets them.
     #[inline(always)]
-    pub(crate) fn close(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> DyadSolution<R> {
-        let Sorted { first, second, known: k } = self.sorted(g, cx, dyad);
+    pub(crate) fn solve_dyad(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        dyad: &Dyad,
+    ) -> DyadSolution<R> {
+        let CollectedTerms { first, second, known: k } = self.collect_terms(g, cx, dyad);
         let sign = if let Some(s) = dyad.sign { self.signs[s][g] } else { R::ONE };
-        let data = self.data2(g, dyad);
-        // A column of a rotation is measured in units of the greatest arm that turns
-        // with it.
-        let lever = |unknown: Unknown, per: R| match unknown {
-            Unknown::Class(c) => R::splat(cx.bound.lever2[c]).max(data) * per,
+        let rounding = self.rounding_arm2(g, dyad);
+        // Weight a rotation by the greatest arm that turns with it.
+        let relative_arm2 = |unknown: Unknown, inv_norm2: R| match unknown {
+            Unknown::Class(c) => R::splat(cx.bound.max_arm2[c]).max(rounding) * inv_norm2,
             Unknown::Slide(_) => R::ONE,
         };
         let [u, v] = dyad.unknowns;
-        let leg = |place: usize, vector: Vector<R>| {
-            let rigid = &cx.bound.legs[dyad.index][place];
-            if dyad.leg[place] { rigid.on_lanes() } else { Leg::of(vector) }
+        let leg = |i: usize, vector: Vector<R>| {
+            let constant = &cx.bound.legs[dyad.index][i];
+            if dyad.leg[i] { constant.on_lanes() } else { Leg::of(vector) }
         };
         match dyad.form {
             Form::TwoCircles => {
                 let (a, b) = (leg(0, first), leg(1, second));
                 let (x, y, closed) = two_circles(&a, &b, k, sign);
-                self.turn(g, cx, dyad, 0, a.turn_to(x));
-                self.turn(g, cx, dyad, 1, b.turn_to(y));
-                closed.with(lever(u, a.per).max(lever(v, b.per)))
+                self.set_rotation(g, cx, dyad, 0, a.turn_to(x));
+                self.set_rotation(g, cx, dyad, 1, b.turn_to(y));
+                closed.with_arm2(relative_arm2(u, a.inv_norm2).max(relative_arm2(v, b.inv_norm2)))
             }
             Form::CircleAndLine => {
                 let a = leg(0, first);
                 let (x, s, closed) = circle_and_line(&a, second, k, sign);
-                self.turn(g, cx, dyad, 0, x);
-                self.slide(g, v, s);
-                closed.with(lever(u, a.per))
+                self.set_rotation(g, cx, dyad, 0, x);
+                self.set_slide(g, v, s);
+                closed.with_arm2(relative_arm2(u, a.inv_norm2))
             }
             Form::TurningGuide => {
-                let rigid = Vector::splat(cx.bound.legs[dyad.index][0].vector);
-                let a = if dyad.leg[0] { rigid } else { first };
-                let (x, s, per, closed) = turning_guide(a, second, k, sign);
-                self.turn(g, cx, dyad, 0, x);
-                self.slide(g, v, s);
-                closed.with(lever(u, per))
+                let constant = Vector::splat(cx.bound.legs[dyad.index][0].vector);
+                let a = if dyad.leg[0] { constant } else { first };
+                let (x, s, inv_distance2, closed) = turning_guide(a, second, k, sign);
+                self.set_rotation(g, cx, dyad, 0, x);
+                self.set_slide(g, v, s);
+                closed.with_arm2(relative_arm2(u, inv_distance2))
             }
             Form::TwoLines => {
                 let (s, t, closed) = two_lines(first, second, k);
-                self.slide(g, u, s);
-                self.slide(g, v, t);
+                self.set_slide(g, u, s);
+                self.set_slide(g, v, t);
                 closed
             }
         }
     }
 
-    /// Square of the arm below which the rounding of the joints that a dyad hangs on is
-    /// felt: half of their coordinates (more is within the margins of the bounds).
+    /// Square of the arm at which the rounding of the joints that a dyad depends on counts: half of
+    /// their greatest coordinate (the bounds have a margin for the rest).
     #[inline(always)]
-    pub(crate) fn data2(&self, g: usize, dyad: &Dyad) -> R {
-        R::splat(0.25) * self.grain[dyad.start][g].max(self.grain[dyad.end][g])
+    pub(crate) fn rounding_arm2(&self, g: usize, dyad: &Dyad) -> R {
+        R::splat(0.25)
+            * self.coordinate_scale2[dyad.start][g].max(self.coordinate_scale2[dyad.end][g])
     }
 
-    /// Sums of the path, by what they turn with; legs are not in them.
+    /// Sums the terms of the path by unknown, without the legs.
     #[inline(always)]
-    fn sorted(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> Sorted<R> {
+    fn collect_terms(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> CollectedTerms<R> {
         let len = self.len;
         let mut terms = [Vector::ZERO; 2];
         let mut known = self.points[dyad.end * len][g] - self.points[dyad.start * len][g];
-        for part in &dyad.others {
-            let e = part.edge;
+        for term in &dyad.others {
+            let e = term.edge;
             let edge = &cx.plan.edges[e];
             let driven = cx.plan.orientations[edge.orientation].driven;
-            let signed = |v: Vector<R>| if part.backward { -v } else { v };
-            // By the part of the orientation that is known.
-            let turned = |v: Vector<R>| match part.turns {
+            let signed = |v: Vector<R>| if term.backward { -v } else { v };
+            // Turns a vector by the known part of its orientation.
+            let turned = |v: Vector<R>| match term.turns {
                 None => self.orient[edge.orientation * len][g] * v,
                 Some(_) if driven => self.phase[edge.orientation][g] * v,
                 Some(_) => v,
             };
             let guide = Vector::splat(cx.bound.guide[e]);
-            if let Some(place) = part.slides {
-                terms[place] += signed(turned(guide));
+            if let Some(i) = term.slides {
+                terms[i] += signed(turned(guide));
             }
-            if part.in_leg {
+            if term.in_leg {
                 continue;
             }
-            let mut rigid = Vector::splat(cx.bound.rigid[e]);
+            let mut edge_vector = Vector::splat(cx.bound.edge_vector[e]);
             if let (EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide }, None) =
-                (edge.along, part.slides)
+                (edge.along, term.slides)
             {
-                rigid += guide.scale(self.slides[slide * len][g]);
+                edge_vector += guide.scale(self.slides[slide * len][g]);
             }
-            let v = signed(turned(rigid));
-            match part.turns {
-                Some(place) => terms[place] += v,
+            let v = signed(turned(edge_vector));
+            match term.turns {
+                Some(i) => terms[i] += v,
                 None => known = known - v,
             }
         }
-        Sorted { first: terms[0], second: terms[1], known }
+        CollectedTerms { first: terms[0], second: terms[1], known }
     }
 
     #[inline(always)]
-    fn turn(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, place: usize, rotation: Vector<R>) {
-        let Unknown::Class(class) = dyad.unknowns[place] else { return };
+    fn set_rotation(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        dyad: &Dyad,
+        i: usize,
+        rotation: Vector<R>,
+    ) {
+        let Unknown::Class(class) = dyad.unknowns[i] else { return };
         self.class[class][g] = rotation;
-        if dyad.leg[place] {
-            let vector = cx.bound.legs[dyad.index][place].vector;
-            self.legs[(2 * dyad.index + place) * self.len][g] = rotation * Vector::splat(vector);
+        if dyad.leg[i] {
+            let vector = cx.bound.legs[dyad.index][i].vector;
+            self.legs[(2 * dyad.index + i) * self.len][g] = rotation * Vector::splat(vector);
         }
-        for &o in &dyad.turned[place] {
+        for &o in &dyad.orientations[i] {
             let driven = cx.plan.orientations[o].driven;
             self.orient[o * self.len][g] =
                 if driven { rotation * self.phase[o][g] } else { rotation };
@@ -131,7 +143,7 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     #[inline(always)]
-    fn slide(&mut self, g: usize, unknown: Unknown, value: R) {
+    fn set_slide(&mut self, g: usize, unknown: Unknown, value: R) {
         if let Unknown::Slide(slide) = unknown {
             self.slides[slide * self.len][g] = value;
         }

@@ -1,4 +1,4 @@
-//! Analogues of groups above class II, and what their chords took with them.
+//! Analogues of groups above class II, and back substitution of the unknowns that chords eliminate.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -8,8 +8,8 @@ use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Analogues of the unknowns: at every order the same matrix (inverted), as right-hand side
-    /// what is known of that order; and what the chords took with them.
+    /// Analogues of the unknowns and, by back substitution, of the chords. Every order has the same
+    /// matrix (inverted); the right-hand side follows from lower orders.
     #[inline(always)]
     pub(crate) fn group_analogues(
         &mut self,
@@ -19,50 +19,50 @@ impl<R: Real, const G: usize> State<R, G> {
     ) {
         let (len, n) = (self.len, group.rows);
         for k in 1..len {
-            // What is yet unknown counts as 0.
-            for (place, &unknown) in group.unknowns.iter().enumerate() {
+            // The unknown entry counts as 0 in the right-hand side.
+            for (i, &unknown) in group.unknowns.iter().enumerate() {
                 if let Unknown::Slide(slide) = unknown {
                     self.slides[slide * len + k] = [R::ZERO; G];
                 }
-                for &o in &group.turned[place] {
+                for &o in &group.orientations[i] {
                     for g in 0..G {
                         self.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k);
                     }
                 }
             }
-            self.measure(cx, group, k);
-            self.miss(cx, group, k, &mut matrix[2 * n * n..]);
-            for (place, &unknown) in group.unknowns.iter().enumerate() {
+            self.update_edge_vectors(cx, group, k);
+            self.group_residual(cx, group, k, &mut matrix[2 * n * n..]);
+            for (i, &unknown) in group.unknowns.iter().enumerate() {
                 let mut value = [R::ZERO; G];
                 for column in 0..n {
-                    let inverse = &matrix[place * 2 * n + n + column];
-                    let missing = &matrix[2 * n * n + column];
+                    let inverse = &matrix[i * 2 * n + n + column];
+                    let residual = &matrix[2 * n * n + column];
                     for g in 0..G {
-                        value[g] = value[g] - inverse[g] * missing[g];
+                        value[g] = value[g] - inverse[g] * residual[g];
                     }
                 }
                 match unknown {
                     Unknown::Slide(slide) => self.slides[slide * len + k] = value,
                     Unknown::Class(class) => self.theta[class * len + k] = value,
                 }
-                for &o in &group.turned[place] {
+                for &o in &group.orientations[i] {
                     for g in 0..G {
                         let top = self.orient[o * len][g].left().scale(value[g]);
                         self.orient[o * len + k][g] += top;
                     }
                 }
             }
-            self.complete(cx, group, k);
-            self.take_all(cx, group, k);
+            self.add_top_terms(cx, group, k);
+            self.back_substitute(cx, group, k);
         }
     }
 
-    /// Entry `k` of edges and chords, once that of the unknowns is known.
+    /// Adds the terms in entry `k` of the unknowns to entry `k` of edges and chords.
     #[inline(always)]
-    fn complete(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
+    fn add_top_terms(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
         let len = self.len;
-        for (place, edge) in group.edges.iter().enumerate() {
-            let (at, leg) = (place * len, (group.first_leg + place) * len);
+        for (i, edge) in group.edges.iter().enumerate() {
+            let (at, leg) = (i * len, (group.first_leg + i) * len);
             if let Some(unknown) = edge.turns
                 && let Unknown::Class(class) = group.unknowns[unknown]
             {
@@ -90,20 +90,20 @@ impl<R: Real, const G: usize> State<R, G> {
         self.close_loops(group, k);
     }
 
-    /// Entry `k` of what the chords took with them.
+    /// Entry `k` of the slides and rotations that the chords eliminate.
     #[inline(always)]
-    pub(crate) fn take_all(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
-        for (place, l) in group.loops.iter().enumerate() {
+    pub(crate) fn back_substitute(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
+        for (i, l) in group.loops.iter().enumerate() {
             match l.chord {
                 Chord::Whole => {}
                 Chord::Guide { slide } => {
                     for g in 0..G {
-                        self.take_slide(g, cx, group, (place, l), slide, k);
+                        self.back_substitute_slide(g, cx, group, (i, l), slide, k);
                     }
                 }
                 Chord::Length { class } => {
                     for g in 0..G {
-                        self.take_rotation(g, cx, group, (place, l), class, k);
+                        self.back_substitute_rotation(g, cx, group, (i, l), class, k);
                     }
                 }
             }
@@ -111,12 +111,12 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     #[inline(always)]
-    fn take_slide(
+    fn back_substitute_slide(
         &mut self,
         g: usize,
         cx: &Context<'_>,
         group: &Group,
-        (place, l): (usize, &Loop),
+        (i, l): (usize, &Loop),
         slide: usize,
         k: usize,
     ) {
@@ -125,38 +125,38 @@ impl<R: Real, const G: usize> State<R, G> {
         let mut sum = R::ZERO;
         for term in &cx.jets.product[k] {
             let guide = self.guides[l.edge * len + term.left][g];
-            let chord = self.chords[place * len + term.right][g];
+            let chord = self.chords[i * len + term.right][g];
             sum += R::splat(term.factor) * guide.dot(chord);
         }
         if k == 0 {
-            sum = sum - R::splat(cx.bound.guide[e].dot(cx.bound.rigid[e]));
+            sum = sum - R::splat(cx.bound.guide[e].dot(cx.bound.edge_vector[e]));
         }
         self.slides[slide * len + k][g] = sum;
     }
 
-    /// The rotation of a chord, which is U · local at every order.
+    /// Rotation U of a chord, from chord = U · local at every order.
     #[inline(always)]
-    fn take_rotation(
+    fn back_substitute_rotation(
         &mut self,
         g: usize,
         cx: &Context<'_>,
         group: &Group,
-        (place, l): (usize, &Loop),
+        (i, l): (usize, &Loop),
         class: usize,
         k: usize,
     ) {
         let len = self.len;
         let e = group.edges[l.edge].edge;
         let own = cx.plan.edges[e].orientation;
-        let per = self.per[place][g];
-        let per2 = per * per;
+        let inv_length = self.inv_length[i][g];
+        let inv_length2 = inv_length * inv_length;
         if k == 0 {
             let local = self.local(g, cx, e, 0);
-            let unit = (self.chords[place * len][g] * local.conj()).scale(per2);
+            let unit = (self.chords[i * len][g] * local.conj()).scale(inv_length2);
             let driven = cx.plan.orientations[own].driven;
             let rotation = if driven { unit * self.phase[own][g].conj() } else { unit };
             self.class[class][g] = rotation;
-            for &o in &l.turned {
+            for &o in &l.orientations {
                 let driven = cx.plan.orientations[o].driven;
                 self.orient[o * len][g] =
                     if driven { rotation * self.phase[o][g] } else { rotation };
@@ -164,30 +164,30 @@ impl<R: Real, const G: usize> State<R, G> {
             return;
         }
         let rate = if let EdgeSlide::Driver { .. } = cx.plan.edges[e].along {
-            // What is left of U, but for the lengths' own entries.
-            let mut rest = self.chords[place * len + k][g];
+            // Solve Leibniz's sum for the top entry of U.
+            let mut rest = self.chords[i * len + k][g];
             for term in cx.jets.product[k].iter().filter(|term| term.left != k) {
                 let known =
                     self.orient[own * len + term.left][g] * self.local(g, cx, e, term.right);
                 rest = rest - known.scale(R::splat(term.factor));
             }
-            let unit = (rest * self.local(g, cx, e, 0).conj()).scale(per2);
+            let unit = (rest * self.local(g, cx, e, 0).conj()).scale(inv_length2);
             let partial = self.orientation_without_top(g, cx, own, k);
             ((unit - partial) * self.orient[own * len][g].conj()).y
         } else {
-            // The chord turns as a whole: its entries follow from those before.
+            // The chord is rigid: its jet follows from its lower entries.
             let mut partial = Vector::ZERO;
             for term in &cx.jets.rotation[k] {
-                let rate = R::splat(term.factor) * self.theta_of(g, cx, own, term.right);
-                partial += self.chords[place * len + term.left][g].scale(rate);
+                let rate = R::splat(term.factor) * self.angle_analogue(g, cx, own, term.right);
+                partial += self.chords[i * len + term.left][g].scale(rate);
             }
-            let top = self.chords[place * len + k][g] - partial.left();
-            let rate = self.chords[place * len][g].cross(top) * per2;
+            let top = self.chords[i * len + k][g] - partial.left();
+            let rate = self.chords[i * len][g].cross(top) * inv_length2;
             let driven = cx.plan.orientations[own].driven;
-            if driven { rate - Self::driven(cx, own, k) } else { rate }
+            if driven { rate - Self::driver_analogue(cx, own, k) } else { rate }
         };
         self.theta[class * len + k][g] = rate;
-        for &o in &l.turned {
+        for &o in &l.orientations {
             let top = self.orient[o * len][g].left().scale(rate);
             self.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k) + top;
         }

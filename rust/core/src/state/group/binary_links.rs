@@ -1,8 +1,7 @@
-//! Groups above class II of rigid links and turning pairs (see [`crate::plan::binary_links`]).
+//! Kernel for groups of rigid links and turning pairs (see [`crate::plan::binary_links`]).
 //!
-//! The same equations, the same iteration and the same ends of it as of every group (see
-//! `group`), with one driver; eight positions after eight, so that all of it stays in a small
-//! work space.
+//! It has the equations, the iteration and the stopping rule of every group (see `newton`), for one
+//! driver. It solves one lane group after another, so that all data stay in a small work space.
 
 use super::newton::NewtonState;
 use super::turn::turned;
@@ -12,7 +11,7 @@ use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{NEWTON_LONGEST, NEWTON_ROUNDS};
 use crate::math::vector::Vector;
-use crate::plan::binary_links::{Links, MOST};
+use crate::plan::binary_links::{Links, MAX_UNKNOWNS};
 use crate::plan::group::{BinaryLoops, Group};
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
@@ -20,22 +19,22 @@ use crate::state::status::{Fault, Status};
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves a group (step `index`).
     #[inline(always)]
-    pub(crate) fn solve_bars(
+    pub(crate) fn solve_binary_loops(
         &mut self,
         cx: &Context<'_>,
         group: &Group,
-        bars: &BinaryLoops,
+        binary: &BinaryLoops,
         index: usize,
     ) {
         let len = self.len.min(ENTRIES);
-        let links = bars.links(&cx.bound.spans);
-        let mut lever2 = [R::ZERO; MOST];
-        for (lever2, &class) in lever2.iter_mut().zip(&bars.classes) {
-            *lever2 = R::splat(cx.bound.lever2[class]);
+        let links = binary.links(&cx.bound.spans);
+        let mut max_arm2 = [R::ZERO; MAX_UNKNOWNS];
+        for (max_arm2, &class) in max_arm2.iter_mut().zip(&binary.classes) {
+            *max_arm2 = R::splat(cx.bound.max_arm2[class]);
         }
-        let mut asked = [false; MOST];
-        for ((asked, &class), l) in asked.iter_mut().zip(&bars.taken).zip(&group.loops) {
-            *asked = self.asked[class] || !l.turned.is_empty();
+        let mut wanted = [false; MAX_UNKNOWNS];
+        for ((wanted, &class), l) in wanted.iter_mut().zip(&binary.bar_classes).zip(&group.loops) {
+            *wanted = self.angle_wanted[class] || !l.orientations.is_empty();
         }
         for g in 0..self.groups.min(G) {
             let loops = &mut self.loops;
@@ -45,52 +44,52 @@ impl<R: Real, const G: usize> State<R, G> {
                     *known = end[g] - start[g];
                 }
             }
-            for (unit, &class) in loops.units.iter_mut().zip(&bars.classes) {
+            for (unit, &class) in loops.units.iter_mut().zip(&binary.classes) {
                 *unit = self.class[class][g];
             }
-            let mut work = NewtonState::<R, 1>::new([self.care[g]]);
-            let mut bend = self.bends[group.index][g];
-            loops.place(&links);
+            let mut work = NewtonState::<R, 1>::new([self.needs_scalar[g]]);
+            let mut last_determinant = self.det_sign[group.index][g];
+            loops.turn_spans(&links);
             for round in 0..NEWTON_ROUNDS {
                 if work.done[0].all() {
                     break;
                 }
                 let determinant = loops.invert(&links);
-                bend = R::select(work.done[0], bend, determinant);
-                work.take_size([loops.size2(&links, &lever2)]);
+                last_determinant = R::select(work.done[0], last_determinant, determinant);
+                work.record_inverse_size([loops.inverse_size2(&links, &max_arm2)]);
                 let first = loops.step(&links, work.done[0]);
-                let waits = work.waits([first]);
-                loops.place(&links);
+                let skip = work.skip_second_step([first]);
+                loops.turn_spans(&links);
                 let mut second = R::ZERO;
-                if !waits[0].all() {
-                    second = loops.step(&links, waits[0]);
-                    loops.place(&links);
+                if !skip[0].all() {
+                    second = loops.step(&links, skip[0]);
+                    loops.turn_spans(&links);
                 }
-                work.count([first], [second], &waits, round == 0);
+                work.record_steps([first], [second], &skip, round == 0);
             }
             if len > 1 {
                 self.determinants[group.index][g] = loops.invert(&links);
-                loops.find_rates(&links, len, asked);
+                loops.find_analogues(&links, len, wanted);
             }
-            for (place, &class) in bars.classes.iter().enumerate().take(MOST) {
-                self.class[class][g] = loops.units[place];
+            for (i, &class) in binary.classes.iter().enumerate().take(MAX_UNKNOWNS) {
+                self.class[class][g] = loops.units[i];
                 for k in 1..len {
-                    self.theta[class * len + k][g] = loops.rates[place][k];
+                    self.theta[class * len + k][g] = loops.rates[i][k];
                 }
             }
-            for (place, &class) in bars.taken.iter().enumerate().take(MOST) {
-                if !asked[place] {
+            for (i, &class) in binary.bar_classes.iter().enumerate().take(MAX_UNKNOWNS) {
+                if !wanted[i] {
                     continue;
                 }
-                self.class[class][g] = links.bars[place].on_lanes().turn_to(loops.chords[place][0]);
+                self.class[class][g] = links.bars[i].on_lanes().turn_to(loops.chords[i][0]);
                 for k in 1..len {
-                    self.theta[class * len + k][g] = loops.taken[place][k];
+                    self.theta[class * len + k][g] = loops.bar_rates[i][k];
                 }
             }
-            for arm in &bars.arms {
-                let unknown = arm.unknown.min(MOST - 1);
+            for arm in &binary.arms {
+                let unknown = arm.unknown.min(MAX_UNKNOWNS - 1);
                 let rates = &loops.rates[unknown];
-                let v = loops.units[unknown] * Vector::splat(cx.bound.rigid[arm.edge]);
+                let v = loops.units[unknown] * Vector::splat(cx.bound.edge_vector[arm.edge]);
                 let jet = &mut self.legs[arm.leg * len..][..len];
                 jet[0][g] = v;
                 for k in 1..len {
@@ -101,23 +100,23 @@ impl<R: Real, const G: usize> State<R, G> {
                     jet[k][g] = sum.left();
                 }
             }
-            self.bends[group.index][g] = bend;
-            self.care[g] = self.care[g].or(work.done[0].not());
-            self.first_step[g] = self.first_step[g].max(work.first[0]);
-            self.later_steps[g] = self.later_steps[g].max(work.rest[0]);
+            self.det_sign[group.index][g] = last_determinant;
+            self.needs_scalar[g] = self.needs_scalar[g].or(work.done[0].not());
+            self.first_step[g] = self.first_step[g].max(work.first_step[0]);
+            self.later_steps[g] = self.later_steps[g].max(work.later_steps[0]);
             if R::LANES == 1 && !work.done[0].all() {
                 self.fault = Some(Fault::NotConverged { step: index });
                 self.status = Status::NotConverged;
                 return;
             }
-            self.judge(g, cx, group, index, work.size2[0]);
+            self.update_condition(g, cx, group, index, work.inverse_size2[0]);
         }
-        let unknown = group.turned.iter().zip(&bars.classes);
-        let taken = group.loops.iter().map(|l| &l.turned).zip(&bars.taken);
-        for (turned, &class) in unknown.chain(taken) {
-            for &o in turned {
+        let of_unknowns = group.orientations.iter().zip(&binary.classes);
+        let of_bars = group.loops.iter().map(|l| &l.orientations).zip(&binary.bar_classes);
+        for (orientations, &class) in of_unknowns.chain(of_bars) {
+            for &o in orientations {
                 for g in 0..self.groups.min(G) {
-                    self.turn_other(g, cx, o, class);
+                    self.update_orientation(g, cx, o, class);
                 }
             }
         }
@@ -125,12 +124,12 @@ impl<R: Real, const G: usize> State<R, G> {
 }
 
 impl<R: Real> GroupWorkspace<R> {
-    /// Spans and chords at the unknowns.
+    /// Updates spans and chords to the present unknowns.
     #[inline(always)]
-    fn place(&mut self, links: &Links<'_>) {
-        for l in 0..links.count.min(MOST) {
+    fn turn_spans(&mut self, links: &Links<'_>) {
+        for l in 0..links.count.min(MAX_UNKNOWNS) {
             let mut chord = self.known[l][0];
-            for unknown in 0..links.count.min(MOST) {
+            for unknown in 0..links.count.min(MAX_UNKNOWNS) {
                 let span = Vector::splat(links.spans[l * links.count + unknown]);
                 let turned = self.units[unknown] * span;
                 self.spans[l][unknown][0] = turned;
@@ -140,14 +139,14 @@ impl<R: Real> GroupWorkspace<R> {
         }
     }
 
-    /// The inverse of the derivatives of what the lengths miss; their determinant.
+    /// Inverts the Jacobian of the length equations; returns its determinant.
     #[inline(always)]
     fn invert(&mut self, links: &Links<'_>) -> R {
-        let n = links.count.min(MOST);
+        let n = links.count.min(MAX_UNKNOWNS);
         for l in 0..n {
-            let along = self.chords[l][0].scale(R::splat(links.bars[l].per_norm()));
+            let along = self.chords[l][0].scale(R::splat(links.bars[l].inv_norm()));
             for unknown in 0..n {
-                // Along the chord · i · span.
+                // Derivative of the length: unit vector along the chord · i · span.
                 self.matrix[l * 2 * n + unknown][0] = self.spans[l][unknown][0].cross(along);
             }
         }
@@ -155,10 +154,10 @@ impl<R: Real> GroupWorkspace<R> {
         determinant
     }
 
-    /// Square of the size of the inverse.
+    /// Square of the weighted norm of the inverse.
     #[inline(always)]
-    fn size2(&self, links: &Links<'_>, lever2: &[R; MOST]) -> R {
-        let n = links.count.min(MOST);
+    fn inverse_size2(&self, links: &Links<'_>, max_arm2: &[R; MAX_UNKNOWNS]) -> R {
+        let n = links.count.min(MAX_UNKNOWNS);
         let mut size2 = R::ZERO;
         for unknown in 0..n {
             let mut sum = R::ZERO;
@@ -166,50 +165,50 @@ impl<R: Real> GroupWorkspace<R> {
                 let entry = self.matrix[unknown * 2 * n + n + l][0];
                 sum += entry * entry;
             }
-            size2 += lever2[unknown] * sum;
+            size2 += max_arm2[unknown] * sum;
         }
         size2
     }
 
-    /// Takes a step by the inverse at hand, on the lanes that are not done; how great a change
-    /// was asked for.
+    /// Takes a Newton step with the present inverse on the lanes that are not done; returns the
+    /// largest change of an unknown before it is limited.
     #[inline(always)]
     fn step(&mut self, links: &Links<'_>, done: R::Mask) -> R {
-        let n = links.count.min(MOST);
+        let n = links.count.min(MAX_UNKNOWNS);
         for l in 0..n {
-            let lack = self.chords[l][0].norm2() - R::splat(links.bars[l].norm2);
-            self.missing[l] = lack * R::splat(0.5 * links.bars[l].per_norm());
+            let excess2 = self.chords[l][0].norm2() - R::splat(links.bars[l].norm2);
+            self.residual[l] = excess2 * R::splat(0.5 * links.bars[l].inv_norm());
         }
-        let most = R::splat(NEWTON_LONGEST);
-        let mut greatest = R::ZERO;
+        let longest = R::splat(NEWTON_LONGEST);
+        let mut largest = R::ZERO;
         for unknown in 0..n {
-            let change = -self.by_inverse(n, unknown);
+            let change = -self.inverse_times_residual(n, unknown);
             let size = change.abs();
-            // No number counts as great.
-            greatest = R::select(size.le(greatest), greatest, size);
+            // NaN must count as large, so that it does not look converged.
+            largest = R::select(size.le(largest), largest, size);
             let old = self.units[unknown];
-            let new = turned(old, change.max(-most).min(most));
+            let new = turned(old, change.max(-longest).min(longest));
             self.units[unknown] =
                 Vector::new(R::select(done, old.x, new.x), R::select(done, old.y, new.y));
         }
-        greatest
+        largest
     }
 
-    /// Row of an unknown in the inverse, by what is missing.
+    /// Product of an unknown's row of the inverse with the residuals.
     #[inline(always)]
-    fn by_inverse(&self, n: usize, unknown: usize) -> R {
+    fn inverse_times_residual(&self, n: usize, unknown: usize) -> R {
         let mut sum = R::ZERO;
         for l in 0..n {
-            sum += self.matrix[unknown * 2 * n + n + l][0] * self.missing[l];
+            sum += self.matrix[unknown * 2 * n + n + l][0] * self.residual[l];
         }
         sum
     }
 
-    /// Analogues of the unknowns and of the binary links asked for: at every order the same matrix,
-    /// as right-hand side what is known of that order.
+    /// Analogues of the unknowns and of the wanted bars. Every order has the same matrix; the
+    /// right-hand side follows from lower orders.
     #[inline(always)]
-    fn find_rates(&mut self, links: &Links<'_>, len: usize, asked: [bool; MOST]) {
-        let n = links.count.min(MOST);
+    fn find_analogues(&mut self, links: &Links<'_>, len: usize, wanted: [bool; MAX_UNKNOWNS]) {
+        let n = links.count.min(MAX_UNKNOWNS);
         for k in 1..len.min(ENTRIES) {
             for l in 0..n {
                 let mut chord = self.known[l][k];
@@ -221,7 +220,7 @@ impl<R: Real> GroupWorkspace<R> {
                     }
                 }
                 self.chords[l][k] = chord;
-                // Half of the derivative of the square of the length.
+                // Half the derivative of the square of the length.
                 let jet = &self.chords[l];
                 let mut sum = jet[0].dot(chord);
                 match k {
@@ -229,10 +228,10 @@ impl<R: Real> GroupWorkspace<R> {
                     3 => sum += R::splat(3.0) * jet[1].dot(jet[2]),
                     _ => {}
                 }
-                self.missing[l] = sum * R::splat(links.bars[l].per_norm());
+                self.residual[l] = sum * R::splat(links.bars[l].inv_norm());
             }
             for unknown in 0..n {
-                self.rates[unknown][k] = -self.by_inverse(n, unknown);
+                self.rates[unknown][k] = -self.inverse_times_residual(n, unknown);
             }
             for l in 0..n {
                 let mut chord = self.chords[l][k];
@@ -240,7 +239,7 @@ impl<R: Real> GroupWorkspace<R> {
                     let jet = &mut self.spans[l][unknown];
                     let top = jet[0].left().scale(self.rates[unknown][k]);
                     chord += top;
-                    // Nobody asks for the last.
+                    // The last entry is never read.
                     if k == 1 {
                         jet[1] = top;
                     } else if k + 1 < len {
@@ -248,22 +247,23 @@ impl<R: Real> GroupWorkspace<R> {
                     }
                 }
                 self.chords[l][k] = chord;
-                if !asked[l] {
+                if !wanted[l] {
                     continue;
                 }
-                // The chord turns as a whole.
+                // The chord is rigid: its jet follows from its lower entries.
                 let mut top = chord;
                 if k > 1 {
-                    top = top - without_top(&self.chords[l], &self.taken[l], k);
+                    top = top - without_top(&self.chords[l], &self.bar_rates[l], k);
                 }
-                self.taken[l][k] = self.chords[l][0].cross(top) * R::splat(links.bars[l].per);
+                self.bar_rates[l][k] =
+                    self.chords[l][0].cross(top) * R::splat(links.bars[l].inv_norm2);
             }
         }
     }
 }
 
-/// Entry `k` of the jet of a vector that turns with these analogues, from those before, but for
-/// the term in the analogue `k` itself.
+/// Entry `k` of the jet of a vector that turns with these analogues, without the term in analogue
+/// `k` itself.
 #[inline(always)]
 fn without_top<R: Real>(jet: &VectorJet<R>, rates: &[R; ENTRIES], k: usize) -> Vector<R> {
     let mut sum = Vector::ZERO;

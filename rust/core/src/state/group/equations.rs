@@ -1,7 +1,8 @@
-//! The equations of groups above class II: what their loops miss, and the matrix of it.
+//! Loop equations of groups above class II: their residuals and their Jacobian.
 //!
-//! Polynomials in unit vectors and slides; so derivatives are exact, and those of the loops by the
-//! coordinate (analogues) stand beside the equations themselves.
+//! The equations are polynomials in unit vectors and slides, so all derivatives are exact. Entry
+//! `k` of a jet gives the derivative of the residual by the drivers in the same way as entry 0
+//! gives the residual.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -10,39 +11,39 @@ use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Entry `k` of the edges, guides and chords.
+    /// Computes entry `k` of the edges, guides and chords.
     #[inline(always)]
-    pub(crate) fn measure(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
+    pub(crate) fn update_edge_vectors(&mut self, cx: &Context<'_>, group: &Group, k: usize) {
         let len = self.len;
-        for (place, edge) in group.edges.iter().enumerate() {
+        for (i, edge) in group.edges.iter().enumerate() {
             if edge.is_bar {
                 continue;
             }
-            let leg = (group.first_leg + place) * len;
-            if cx.plan.is_arm(group, place) {
-                self.measure_arm(cx, edge.edge, leg, k);
+            let leg = (group.first_leg + i) * len;
+            if cx.plan.is_arm(group, i) {
+                self.update_arm_vector(cx, edge.edge, leg, k);
                 continue;
             }
             let e = edge.edge;
             let along = cx.plan.edges[e].along;
             let unit = &self.orient[cx.plan.edges[e].orientation * len + k];
-            let rigid = Vector::splat(cx.bound.rigid[e]);
+            let edge_vector = Vector::splat(cx.bound.edge_vector[e]);
             for g in 0..G {
-                self.legs[leg + k][g] = unit[g] * rigid;
+                self.legs[leg + k][g] = unit[g] * edge_vector;
             }
             if along == EdgeSlide::Nothing {
                 continue;
             }
             let guide = Vector::splat(cx.bound.guide[e]);
             for g in 0..G {
-                self.guides[place * len + k][g] = unit[g] * guide;
+                self.guides[i * len + k][g] = unit[g] * guide;
             }
             if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = along {
                 for term in &cx.jets.product[k] {
                     let factor = R::splat(term.factor);
                     for g in 0..G {
                         let s = factor * self.slides[slide * len + term.right][g];
-                        let v = self.guides[place * len + term.left][g].scale(s);
+                        let v = self.guides[i * len + term.left][g].scale(s);
                         self.legs[leg + k][g] += v;
                     }
                 }
@@ -51,17 +52,17 @@ impl<R: Real, const G: usize> State<R, G> {
         self.close_loops(group, k);
     }
 
-    /// Entry `k` of a rigid edge that turns with an unknown: from its own entries before.
+    /// Computes entry `k` of a rigid edge that turns with an unknown, from its lower entries.
     #[inline(always)]
-    fn measure_arm(&mut self, cx: &Context<'_>, e: usize, leg: usize, k: usize) {
+    fn update_arm_vector(&mut self, cx: &Context<'_>, e: usize, leg: usize, k: usize) {
         let (o, class) = (cx.plan.edges[e].orientation, cx.plan.edges[e].class);
         let driven = cx.plan.orientations[o].driven;
         if k == 0 {
-            let rigid = Vector::splat(cx.bound.rigid[e]);
+            let edge_vector = Vector::splat(cx.bound.edge_vector[e]);
             for g in 0..G {
                 let rotation = self.class[class][g];
                 let unit = if driven { rotation * self.phase[o][g] } else { rotation };
-                self.legs[leg][g] = unit * rigid;
+                self.legs[leg][g] = unit * edge_vector;
             }
             return;
         }
@@ -69,31 +70,31 @@ impl<R: Real, const G: usize> State<R, G> {
         for term in &cx.jets.rotation[k] {
             let factor = R::splat(term.factor);
             for g in 0..G {
-                let rate = factor * self.theta_of(g, cx, o, term.right);
+                let rate = factor * self.angle_analogue(g, cx, o, term.right);
                 sum[g] += self.legs[leg + term.left][g].scale(rate);
             }
         }
         for g in 0..G {
             if driven {
-                sum[g] += self.legs[leg][g].scale(Self::driven(cx, o, k));
+                sum[g] += self.legs[leg][g].scale(Self::driver_analogue(cx, o, k));
             }
             self.legs[leg + k][g] = sum[g].left();
         }
     }
 
-    /// Entry `k` of the chords, from the edges.
+    /// Computes entry `k` of the chords from the edges.
     #[inline(always)]
     pub(crate) fn close_loops(&mut self, group: &Group, k: usize) {
         let len = self.len;
-        for (place, l) in group.loops.iter().enumerate() {
+        for (i, l) in group.loops.iter().enumerate() {
             let (start, end) = (&self.points[l.start * len + k], &self.points[l.end * len + k]);
             let mut sum = [Vector::ZERO; G];
             for g in 0..G {
                 sum[g] = end[g] - start[g];
             }
-            for piece in &l.path {
-                let span = &self.legs[(group.first_leg + piece.place) * len + k];
-                if piece.backward {
+            for path_edge in &l.path {
+                let span = &self.legs[(group.first_leg + path_edge.edge) * len + k];
+                if path_edge.backward {
                     for g in 0..G {
                         sum[g] = sum[g] - span[g];
                     }
@@ -103,16 +104,16 @@ impl<R: Real, const G: usize> State<R, G> {
                     }
                 }
             }
-            self.chords[place * len + k] = sum;
+            self.chords[i * len + k] = sum;
         }
     }
 
-    /// Entry `k` of the vector in a chord's own frame, whose length it has.
+    /// Entry `k` of a chord's vector in its own frame, that is before it is turned.
     #[inline(always)]
     pub(crate) fn local(&self, g: usize, cx: &Context<'_>, e: usize, k: usize) -> Vector<R> {
         let mut local = Vector::ZERO;
         if k == 0 {
-            local = Vector::splat(cx.bound.rigid[e]);
+            local = Vector::splat(cx.bound.edge_vector[e]);
         }
         if let EdgeSlide::Driver { slide } = cx.plan.edges[e].along {
             let value = self.slides[slide * self.len + k][g];
@@ -121,30 +122,36 @@ impl<R: Real, const G: usize> State<R, G> {
         local
     }
 
-    /// What the equations miss at order `k`.
+    /// Entry `k` of the residuals of the equations.
     #[inline(always)]
-    pub(crate) fn miss(&self, cx: &Context<'_>, group: &Group, k: usize, missing: &mut [[R; G]]) {
+    pub(crate) fn group_residual(
+        &self,
+        cx: &Context<'_>,
+        group: &Group,
+        k: usize,
+        residual: &mut [[R; G]],
+    ) {
         let len = self.len;
         let mut row = 0;
-        for (place, l) in group.loops.iter().enumerate() {
+        for (i, l) in group.loops.iter().enumerate() {
             let e = group.edges[l.edge].edge;
             let mut sum = [R::ZERO; G];
             match l.chord {
                 Chord::Whole => {
                     let (chord, span) = (
-                        &self.chords[place * len + k],
+                        &self.chords[i * len + k],
                         &self.legs[(group.first_leg + l.edge) * len + k],
                     );
                     for g in 0..G {
                         let v = chord[g] - span[g];
                         sum[g] = v.x;
-                        missing[row + 1][g] = v.y;
+                        residual[row + 1][g] = v.y;
                     }
                 }
                 Chord::Length { .. } => {
                     for term in &cx.jets.product[k] {
                         let factor = R::splat(term.factor);
-                        let [a, b] = [term.left, term.right].map(|k| &self.chords[place * len + k]);
+                        let [a, b] = [term.left, term.right].map(|k| &self.chords[i * len + k]);
                         for g in 0..G {
                             let c = self.local(g, cx, e, term.left);
                             let d = self.local(g, cx, e, term.right);
@@ -152,60 +159,60 @@ impl<R: Real, const G: usize> State<R, G> {
                         }
                     }
                     for g in 0..G {
-                        sum[g] = sum[g] * (R::splat(0.5) * self.per[place][g]);
+                        sum[g] = sum[g] * (R::splat(0.5) * self.inv_length[i][g]);
                     }
                 }
                 Chord::Guide { .. } => {
                     for term in &cx.jets.product[k] {
                         let factor = R::splat(term.factor);
                         let guide = &self.guides[l.edge * len + term.left];
-                        let chord = &self.chords[place * len + term.right];
+                        let chord = &self.chords[i * len + term.right];
                         for g in 0..G {
                             sum[g] += factor * guide[g].cross(chord[g]);
                         }
                     }
                     if k == 0 {
-                        let own = R::splat(cx.bound.guide[e].cross(cx.bound.rigid[e]));
+                        let own = R::splat(cx.bound.guide[e].cross(cx.bound.edge_vector[e]));
                         for sum in &mut sum {
                             *sum = *sum - own;
                         }
                     }
                 }
             }
-            missing[row] = sum;
+            residual[row] = sum;
             row += if l.chord == Chord::Whole { 2 } else { 1 };
         }
     }
 
-    /// The matrix of the equations and, behind it, what they miss.
+    /// The Jacobian of the equations, followed by their residuals.
     #[inline(always)]
-    pub(crate) fn linearise(&self, cx: &Context<'_>, group: &Group, matrix: &mut [[R; G]]) {
+    pub(crate) fn jacobian(&self, cx: &Context<'_>, group: &Group, matrix: &mut [[R; G]]) {
         let (len, n) = (self.len, group.rows);
-        self.miss(cx, group, 0, &mut matrix[2 * n * n..]);
+        self.group_residual(cx, group, 0, &mut matrix[2 * n * n..]);
         let mut row = 0;
-        for (place, l) in group.loops.iter().enumerate() {
-            let chord = &self.chords[place * len];
-            // A change v of the chord's vector changes the equations by its products with these;
-            // the length's is along the chord, the guide's across the guide.
+        for (i, l) in group.loops.iter().enumerate() {
+            let chord = &self.chords[i * len];
+            // A change v of the chord changes the equation by v · across: along the chord for a
+            // length, across the guide for a guide.
             let mut across = [Vector::ONE; G];
             for g in 0..G {
                 match l.chord {
                     Chord::Whole => {}
-                    Chord::Length { .. } => across[g] = chord[g].scale(self.per[place][g]),
+                    Chord::Length { .. } => across[g] = chord[g].scale(self.inv_length[i][g]),
                     Chord::Guide { .. } => across[g] = self.guides[l.edge * len][g].left(),
                 }
             }
             for (unknown, column) in l.columns.iter().enumerate() {
                 let mut sum = [Vector::ZERO; G];
-                for influence in column {
-                    let v = match influence.place {
+                for term in column {
+                    let v = match term.edge {
                         None => chord,
-                        Some(edge) if influence.turns => &self.legs[(group.first_leg + edge) * len],
+                        Some(edge) if term.turns => &self.legs[(group.first_leg + edge) * len],
                         Some(edge) => &self.guides[edge * len],
                     };
                     for g in 0..G {
-                        let v = if influence.turns { v[g].left() } else { v[g] };
-                        sum[g] = if influence.backward { sum[g] - v } else { sum[g] + v };
+                        let v = if term.turns { v[g].left() } else { v[g] };
+                        sum[g] = if term.backward { sum[g] - v } else { sum[g] + v };
                     }
                 }
                 let at = row * 2 * n + unknown;
@@ -224,9 +231,9 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The orientations of a class from its rotation.
+    /// Sets orientations of a class from its rotation.
     #[inline(always)]
-    pub(crate) fn spread_rotation(
+    pub(crate) fn set_orientations(
         &mut self,
         cx: &Context<'_>,
         orientations: &[usize],

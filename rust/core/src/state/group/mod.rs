@@ -1,4 +1,4 @@
-//! Groups above class II: solved by Newton's method from a guess.
+//! Groups above class II, solved by Newton's method from a guess.
 
 pub(crate) mod analogues;
 pub(crate) mod binary_links;

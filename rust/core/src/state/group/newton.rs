@@ -1,11 +1,10 @@
-//! Groups above class II: Newton's iteration on their loops.
+//! Newton's iteration for groups above class II.
 //!
-//! The unknown rotations are unit vectors, turned by every step; the equations are polynomials
-//! in them and in the slides, so the matrix is exact. It starts where the caller has put the
-//! rotations and slides, on the way from the drawing. Every matrix serves two steps, which
+//! The unknown rotations are unit vectors, which every step turns. The equations are polynomials in
+//! them and in the slides, so the Jacobian is exact. The iteration starts from the rotations and
+//! slides that the caller has set, which the branch predicts. Each Jacobian serves two steps, which
 //! together converge to the third order (Potra & Pták, Nondiscrete Induction and Iterative
-//! Processes, 1984). Work goes on in all groups of positions at once; each lane stops where its
-//! own steps end.
+//! Processes, 1984). All positions iterate together; each lane stops when its own steps converge.
 
 use super::turn::turned;
 use crate::math::inverse::invert;
@@ -21,59 +20,59 @@ use crate::state::state::{Context, State};
 use crate::state::status::{FLAT2, Fault, Status};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Solves the group (step `index`) from where its unknowns are; not where `care` knows that
-    /// it must be done again.
+    /// Solves the group (step `index`) from the present values of its unknowns; skips lanes that
+    /// are already in `needs_scalar`.
     #[inline(always)]
     pub(crate) fn solve_group(&mut self, cx: &Context<'_>, group: &Group, index: usize) {
-        if let (Some(bars), 1) = (&group.bars, cx.jets.drivers) {
-            self.solve_bars(cx, group, bars, index);
+        if let (Some(binary), 1) = (&group.binary_loops, cx.jets.drivers) {
+            self.solve_binary_loops(cx, group, binary, index);
             return;
         }
         let mut matrix = std::mem::take(&mut self.matrix);
-        let mut work = NewtonState::<R, G>::new(self.care);
+        let mut work = NewtonState::<R, G>::new(self.needs_scalar);
         for unused in work.done.iter_mut().skip(self.groups) {
             *unused = R::Mask::NONE.not();
         }
-        let known = work.done;
+        let skipped = work.done;
         self.prepare_group(cx, group);
-        self.place_group(cx, group);
+        self.update_loops(cx, group);
         for round in 0..NEWTON_ROUNDS {
             if work.done.iter().all(|done| done.all()) {
                 break;
             }
-            self.linearise(cx, group, &mut matrix);
+            self.jacobian(cx, group, &mut matrix);
             let determinants = invert(&mut matrix, group.rows);
             for g in 0..G {
-                let own = &mut self.bends[group.index][g];
-                *own = R::select(work.done[g], *own, determinants[g]);
+                let last = &mut self.det_sign[group.index][g];
+                *last = R::select(work.done[g], *last, determinants[g]);
             }
-            work.weigh(cx, group, &matrix);
-            let first = self.step(group, &matrix, &work.done);
-            let waits = work.waits(first);
-            self.place_group(cx, group);
-            let mut second = [R::ZERO; G];
-            if !waits.iter().all(|waits| waits.all()) {
-                self.miss(cx, group, 0, &mut matrix[2 * group.rows * group.rows..]);
-                second = self.step(group, &matrix, &waits);
-                self.place_group(cx, group);
+            work.update_inverse_size(cx, group, &matrix);
+            let first_size = self.step(group, &matrix, &work.done);
+            let skip = work.skip_second_step(first_size);
+            self.update_loops(cx, group);
+            let mut second_size = [R::ZERO; G];
+            if !skip.iter().all(|skip| skip.all()) {
+                self.group_residual(cx, group, 0, &mut matrix[2 * group.rows * group.rows..]);
+                second_size = self.step(group, &matrix, &skip);
+                self.update_loops(cx, group);
             }
-            work.count(first, second, &waits, round == 0);
+            work.record_steps(first_size, second_size, &skip, round == 0);
         }
         for g in 0..G {
-            self.care[g] = self.care[g].or(work.done[g].not());
-            self.first_step[g] = self.first_step[g].max(work.first[g]);
-            self.later_steps[g] = self.later_steps[g].max(work.rest[g]);
+            self.needs_scalar[g] = self.needs_scalar[g].or(work.done[g].not());
+            self.first_step[g] = self.first_step[g].max(work.first_step[g]);
+            self.later_steps[g] = self.later_steps[g].max(work.later_steps[g]);
         }
         if R::LANES == 1 && !work.done.iter().all(|done| done.all()) {
             self.fault = Some(Fault::NotConverged { step: index });
             self.status = Status::NotConverged;
         } else {
             for g in 0..G {
-                self.judge(g, cx, group, index, work.size2[g]);
+                self.update_condition(g, cx, group, index, work.inverse_size2[g]);
             }
-            self.take_all(cx, group, 0);
-            if self.len > 1 && !known.iter().all(|done| done.all()) {
-                self.linearise(cx, group, &mut matrix);
+            self.back_substitute(cx, group, 0);
+            if self.len > 1 && !skipped.iter().all(|done| done.all()) {
+                self.jacobian(cx, group, &mut matrix);
                 self.determinants[group.index] = invert(&mut matrix, group.rows);
                 self.group_analogues(cx, group, &mut matrix);
             }
@@ -81,54 +80,54 @@ impl<R: Real, const G: usize> State<R, G> {
         self.matrix = matrix;
     }
 
-    /// What does not change during the iteration.
+    /// Sets what is constant during the iteration.
     #[inline(always)]
     fn prepare_group(&mut self, cx: &Context<'_>, group: &Group) {
-        for (place, l) in group.loops.iter().enumerate() {
+        for (i, l) in group.loops.iter().enumerate() {
             if l.chord == Chord::Whole {
                 continue;
             }
             let e = group.edges[l.edge].edge;
             if let EdgeSlide::Driver { .. } = cx.plan.edges[e].along {
                 for g in 0..G {
-                    self.per[place][g] = R::ONE / self.local(g, cx, e, 0).norm();
+                    self.inv_length[i][g] = R::ONE / self.local(g, cx, e, 0).norm();
                 }
             } else {
-                self.per[place] = [R::splat(1.0 / cx.bound.rigid[e].norm()); G];
+                self.inv_length[i] = [R::splat(1.0 / cx.bound.edge_vector[e].norm()); G];
             }
         }
     }
 
-    /// Edges and chords at the unknowns.
+    /// Updates edges and chords to the present unknowns.
     #[inline(always)]
-    fn place_group(&mut self, cx: &Context<'_>, group: &Group) {
-        for (place, &unknown) in group.unknowns.iter().enumerate() {
+    fn update_loops(&mut self, cx: &Context<'_>, group: &Group) {
+        for (i, &unknown) in group.unknowns.iter().enumerate() {
             if let Unknown::Class(class) = unknown {
-                self.spread_rotation(cx, &group.turned[place], class);
+                self.set_orientations(cx, &group.orientations[i], class);
             }
         }
-        self.measure(cx, group, 0);
+        self.update_edge_vectors(cx, group, 0);
     }
 
-    /// Takes a step by the inverse at hand, on the lanes that are not done; how great a change
-    /// was asked for.
+    /// Takes a Newton step with the present inverse on the lanes that are not done; returns the
+    /// largest change of an unknown before it is limited.
     #[inline(always)]
     fn step(&mut self, group: &Group, matrix: &[[R; G]], done: &[R::Mask; G]) -> [R; G] {
         let (len, n) = (self.len, group.rows);
-        let most = R::splat(NEWTON_LONGEST);
-        let mut greatest = [R::ZERO; G];
-        let missing = &matrix[2 * n * n..][..n];
-        for (place, &unknown) in group.unknowns.iter().enumerate() {
-            let row = &matrix[place * 2 * n + n..][..n];
+        let longest = R::splat(NEWTON_LONGEST);
+        let mut largest = [R::ZERO; G];
+        let residual = &matrix[2 * n * n..][..n];
+        for (i, &unknown) in group.unknowns.iter().enumerate() {
+            let row = &matrix[i * 2 * n + n..][..n];
             for g in 0..G {
                 let mut step = R::ZERO;
-                for (inverse, missing) in row.iter().zip(missing) {
-                    step = step - inverse[g] * missing[g];
+                for (inverse, residual) in row.iter().zip(residual) {
+                    step = step - inverse[g] * residual[g];
                 }
                 let size = step.abs();
-                // No number counts as great.
-                greatest[g] = R::select(size.le(greatest[g]), greatest[g], size);
-                let step = R::select(done[g], R::ZERO, step.max(-most).min(most));
+                // NaN must count as large, so that it does not look converged.
+                largest[g] = R::select(size.le(largest[g]), largest[g], size);
+                let step = R::select(done[g], R::ZERO, step.max(-longest).min(longest));
                 match unknown {
                     Unknown::Class(class) => {
                         let old = self.class[class][g];
@@ -143,153 +142,165 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
         }
-        greatest
+        largest
     }
 
-    /// Condition of the group, whose inverse has this size, and of all that hangs on it.
+    /// Sets the condition of the group from the size of its inverse, and updates that of the
+    /// position.
     #[inline(always)]
-    pub(crate) fn judge(
+    pub(crate) fn update_condition(
         &mut self,
         g: usize,
         cx: &Context<'_>,
         group: &Group,
         index: usize,
-        size2: R,
+        inverse_size2: R,
     ) {
-        let mut before = R::ONE;
+        let mut upstream2 = R::ONE;
         for l in &group.loops {
             for point in [l.start, l.end] {
-                before = before.max(self.point_condition[point][g]);
+                upstream2 = upstream2.max(self.point_condition[point][g]);
             }
         }
-        if group.bars.is_none() {
-            before = before.max(self.carried(g, cx, group));
+        if group.binary_loops.is_none() {
+            upstream2 = upstream2.max(self.incoming_condition2(g, cx, group));
         }
-        let condition = before * size2.max(R::ONE);
-        // No number counts as great.
-        let kept = condition.le(self.condition2[g]);
-        self.condition2[g] = R::select(kept, self.condition2[g], condition);
-        for unknown in group.found() {
+        let condition = upstream2 * inverse_size2.max(R::ONE);
+        // NaN must count as large, so that it is not taken for well-conditioned.
+        let is_less = condition.le(self.condition2[g]);
+        self.condition2[g] = R::select(is_less, self.condition2[g], condition);
+        for unknown in group.all_unknowns() {
             match unknown {
                 Unknown::Class(class) => self.class_condition[class][g] = condition,
                 Unknown::Slide(slide) => self.slide_condition[slide][g] = condition,
             }
         }
-        let flat = (condition * R::splat(FLAT2)).le(before).not();
-        self.care[g] = self.care[g].or(flat);
+        let flat = (condition * R::splat(FLAT2)).le(upstream2).not();
+        self.needs_scalar[g] = self.needs_scalar[g].or(flat);
         if R::LANES == 1 && flat.any() {
             self.fault.get_or_insert(Fault::Singular { step: index });
             self.status = Status::Singular;
         }
     }
 
-    /// Square of the condition of the rotations that come from before the group.
+    /// Square of the condition of the rotations that earlier steps have found.
     #[inline(always)]
-    fn carried(&self, g: usize, cx: &Context<'_>, group: &Group) -> R {
-        let mut before = R::ONE;
+    fn incoming_condition2(&self, g: usize, cx: &Context<'_>, group: &Group) -> R {
+        let mut upstream2 = R::ONE;
         for edge in group.edges.iter().filter(|edge| edge.turns.is_none()) {
             let class = cx.plan.class_of(edge.edge);
-            let own = |l: &Loop| l.chord == Chord::Length { class };
-            if !group.loops.iter().any(own) {
-                before = before.max(self.class_condition[class][g]);
+            let is_chord_of = |l: &Loop| l.chord == Chord::Length { class };
+            if !group.loops.iter().any(is_chord_of) {
+                upstream2 = upstream2.max(self.class_condition[class][g]);
             }
         }
-        before
+        upstream2
     }
 }
 
-/// How far the iteration is.
+/// Progress of the iteration.
 pub(crate) struct NewtonState<R: Real, const G: usize> {
-    /// Lanes that need no more steps.
+    /// Lanes that have converged, and those that are skipped.
     pub done: [R::Mask; G],
-    /// Square of the size of the last inverse.
-    pub size2: [R; G],
-    /// Greatest change of an unknown by the first step (rad, or of the size).
-    pub first: [R; G],
-    /// By the others, together.
-    pub rest: [R; G],
+    /// Square of the weighted norm of the last inverse.
+    pub inverse_size2: [R; G],
+    /// Largest change of an unknown in the first step (rad, or relative to the scale).
+    pub first_step: [R; G],
+    /// Sum of the largest changes in the later steps.
+    pub later_steps: [R; G],
 }
 
 impl<R: Real, const G: usize> NewtonState<R, G> {
     #[inline(always)]
     pub(crate) fn new(done: [R::Mask; G]) -> Self {
-        Self { done, size2: [R::ONE; G], first: [R::ZERO; G], rest: [R::ZERO; G] }
+        Self {
+            done,
+            inverse_size2: [R::ONE; G],
+            first_step: [R::ZERO; G],
+            later_steps: [R::ZERO; G],
+        }
     }
 
-    /// Measures the inverse.
+    /// Computes and records the size of the inverse.
     #[inline(always)]
-    fn weigh(&mut self, cx: &Context<'_>, group: &Group, matrix: &[[R; G]]) {
+    fn update_inverse_size(&mut self, cx: &Context<'_>, group: &Group, matrix: &[[R; G]]) {
         let n = group.rows;
-        let mut size2 = [R::ZERO; G];
-        for (place, &unknown) in group.unknowns.iter().enumerate() {
-            // A column of a rotation is measured in units of the greatest arm that turns with it.
-            let lever2 = match unknown {
-                Unknown::Class(class) => R::splat(cx.bound.lever2[class]),
+        let mut inverse_size2 = [R::ZERO; G];
+        for (i, &unknown) in group.unknowns.iter().enumerate() {
+            // Weight a rotation by the greatest arm that turns with it.
+            let max_arm2 = match unknown {
+                Unknown::Class(class) => R::splat(cx.bound.max_arm2[class]),
                 Unknown::Slide(_) => R::ONE,
             };
-            let row = &matrix[place * 2 * n + n..][..n];
+            let row = &matrix[i * 2 * n + n..][..n];
             for g in 0..G {
                 let mut sum = R::ZERO;
                 for entry in row {
                     sum += entry[g] * entry[g];
                 }
-                size2[g] += lever2 * sum;
+                inverse_size2[g] += max_arm2 * sum;
             }
         }
-        self.take_size(size2);
+        self.record_inverse_size(inverse_size2);
     }
 
-    /// Takes the size of the inverse.
+    /// Records the size of the inverse on the lanes that are not done.
     #[inline(always)]
-    pub(crate) fn take_size(&mut self, size2: [R; G]) {
+    pub(crate) fn record_inverse_size(&mut self, inverse_size2: [R; G]) {
         for g in 0..G {
-            self.size2[g] = R::select(self.done[g], self.size2[g], size2[g]);
+            self.inverse_size2[g] =
+                R::select(self.done[g], self.inverse_size2[g], inverse_size2[g]);
         }
     }
 
-    /// Lanes that take no second step by the same matrix: what is done or will be by the first
-    /// step, and where that was so long that the matrix is not that of the solution (beside a fold
-    /// such a step leads to the other assembly).
+    /// Lanes that skip the second (frozen-Jacobian) step: converged, or about to converge with the
+    /// first, or the first was so long that the Jacobian has changed (near a fold a second step
+    /// would lead to the other assembly).
     #[inline(always)]
-    pub(crate) fn waits(&self, first: [R; G]) -> [R::Mask; G] {
-        let mut waits = self.done;
+    pub(crate) fn skip_second_step(&self, first_size: [R; G]) -> [R::Mask; G] {
+        let mut skip = self.done;
         for g in 0..G {
-            let turned2 = first[g] * first[g] * self.size2[g];
-            let bent = turned2.lt(R::splat(NEWTON_BENT2)).not();
-            waits[g] = waits[g].or(bent).or(self.enough(g, first[g]));
+            let relative2 = first_size[g] * first_size[g] * self.inverse_size2[g];
+            let curved = relative2.lt(R::splat(NEWTON_BENT2)).not();
+            skip[g] = skip[g].or(curved).or(self.will_converge(g, first_size[g]));
         }
-        waits
+        skip
     }
 
-    /// Whether nothing is left after one step: of its error the square remains, by the condition
-    /// (Kantorovich's theorem).
+    /// Whether one step is enough: the remaining error is the square of the step times the
+    /// condition (Kantorovich's theorem).
     #[inline(always)]
-    fn enough(&self, g: usize, first: R) -> R::Mask {
-        let left = first * first;
-        (left * left * self.size2[g].max(R::ONE)).lt(R::splat(NEWTON_LEFT * NEWTON_LEFT))
+    fn will_converge(&self, g: usize, first_size: R) -> R::Mask {
+        let error = first_size * first_size;
+        (error * error * self.inverse_size2[g].max(R::ONE)).lt(R::splat(NEWTON_LEFT * NEWTON_LEFT))
     }
 
-    /// Counts the two steps of a round.
+    /// Records the two steps of a round, and the lanes that have converged.
     #[inline(always)]
-    pub(crate) fn count(
+    pub(crate) fn record_steps(
         &mut self,
-        first: [R; G],
-        second: [R; G],
-        waits: &[R::Mask; G],
+        first_size: [R; G],
+        second_size: [R; G],
+        skip: &[R::Mask; G],
         is_first: bool,
     ) {
         for g in 0..G {
             let done = self.done[g];
-            let second = R::select(waits[g], R::ZERO, second[g]);
-            let sum = if is_first { second } else { self.rest[g] + first[g] + second };
-            self.rest[g] = R::select(done, self.rest[g], sum);
+            let second_size = R::select(skip[g], R::ZERO, second_size[g]);
+            let sum = if is_first {
+                second_size
+            } else {
+                self.later_steps[g] + first_size[g] + second_size
+            };
+            self.later_steps[g] = R::select(done, self.later_steps[g], sum);
             if is_first {
-                self.first[g] = R::select(done, self.first[g], first[g]);
+                self.first_step[g] = R::select(done, self.first_step[g], first_size[g]);
             }
-            // What is left is about the product.
-            let left = first[g] * second;
-            let settled = waits[g].not().and(left.lt(R::splat(NEWTON_LEFT)));
-            let is_short = first[g].lt(R::splat(NEWTON_DONE)).or(self.enough(g, first[g]));
+            // The remaining error is about the product of the two steps.
+            let error = first_size[g] * second_size;
+            let settled = skip[g].not().and(error.lt(R::splat(NEWTON_LEFT)));
+            let is_short =
+                first_size[g].lt(R::splat(NEWTON_DONE)).or(self.will_converge(g, first_size[g]));
             self.done[g] = done.or(settled).or(is_short);
         }
     }

@@ -3,8 +3,8 @@
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
-/// A unit vector turned by a small angle, and a unit vector again: by Taylor's polynomials of the
-/// third degree, then one step of Newton's for 1/√.
+/// A unit vector turned by a small angle: by Taylor polynomials of the third degree, then
+/// normalised by one Newton step for 1/√.
 #[inline(always)]
 pub(crate) fn turned<R: Real>(unit: Vector<R>, angle: R) -> Vector<R> {
     let half2 = angle * angle * R::splat(0.5);
