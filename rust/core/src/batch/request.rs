@@ -106,8 +106,8 @@ impl Request<'_> {
 }
 
 pub(crate) fn product(designs: usize, positions: usize) -> Result<usize, SolveError> {
-    let wrong = || SolveError::Shape(format!("{designs} × {positions} positions are too many"));
-    designs.checked_mul(positions).ok_or_else(wrong)
+    let error = || SolveError::Shape(format!("{designs} × {positions} positions are too many"));
+    designs.checked_mul(positions).ok_or_else(error)
 }
 
 pub(crate) fn check_arrays(
@@ -147,17 +147,17 @@ impl Shape {
             }
         }
         let linkage = mechanism.linkage();
-        let within = |wanted: &[usize], have: usize| wanted.iter().all(|&i| i < have);
-        let held = request.outputs;
-        if !(within(&held.joints, linkage.joints.len())
-            && within(&held.links, linkage.links.len())
-            && within(&held.slides, linkage.slides.len()))
+        let all_below = |indices: &[usize], limit: usize| indices.iter().all(|&i| i < limit);
+        let outputs = request.outputs;
+        if !(all_below(&outputs.joints, linkage.joints.len())
+            && all_below(&outputs.links, linkage.links.len())
+            && all_below(&outputs.slides, linkage.slides.len()))
         {
             return Err(SolveError::Shape("an output's index is beyond what there is".into()));
         }
-        let wrong = |what: String| Err(SolveError::Shape(what));
+        let error = |what: String| Err(SolveError::Shape(what));
         if request.signs.len() != mechanism.plan().signs() {
-            return wrong(format!(
+            return error(format!(
                 "{} assembly signs were given, this mechanism has {} dyads with two solutions",
                 request.signs.len(),
                 mechanism.plan().signs()
@@ -165,20 +165,20 @@ impl Shape {
         }
         let designs = request.dimensions.len().checked_div(dimensions).unwrap_or(1);
         if designs * dimensions != request.dimensions.len() {
-            return wrong(format!(
+            return error(format!(
                 "{} numbers are not a whole number of designs of {dimensions} dimensions",
                 request.dimensions.len()
             ));
         }
-        let (count, per) = match request.coordinates {
+        let (count, per_position) = match request.coordinates {
             Coordinates::Shared(q) => (q.len(), drivers),
             Coordinates::PerDesign(q) => (q.len(), drivers * designs),
         };
-        if per == 0 || count % per != 0 {
-            return wrong(format!(
+        if per_position == 0 || count % per_position != 0 {
+            return error(format!(
                 "{count} coordinates do not divide into positions of {drivers} drivers"
             ));
         }
-        Ok(Self { designs, positions: count / per, drivers, dimensions })
+        Ok(Self { designs, positions: count / per_position, drivers, dimensions })
     }
 }

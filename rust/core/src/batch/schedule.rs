@@ -16,9 +16,9 @@ use crate::math::simd::Simd;
 /// and the taking of it cost little.
 const CHUNK: usize = 8192;
 /// The same with several drivers, where each position has a way of its own.
-const CHUNK_OF_WAYS: usize = 8;
+const CHUNK_SEVERAL_DRIVERS: usize = 8;
 /// Designs in a chunk, at most: the way of one may take a millisecond.
-const CHUNK_OF_DESIGNS: usize = 64;
+const MAX_DESIGNS: usize = 64;
 
 /// How work is done: on how many threads, and whether it is still wanted.
 #[derive(Debug, Clone, Copy, Default)]
@@ -57,7 +57,7 @@ impl<'a> Chunks<'a> {
         [designs, positions]: [usize; 2],
         drivers: usize,
     ) -> Self {
-        let size = if drivers == 1 { CHUNK } else { CHUNK_OF_WAYS };
+        let size = if drivers == 1 { CHUNK } else { CHUNK_SEVERAL_DRIVERS };
         Self { rest: arrays, columns, designs, positions, next: (0, 0), size }
     }
 
@@ -68,13 +68,13 @@ impl<'a> Chunks<'a> {
         } else if self.positions >= self.size {
             self.designs * self.positions.div_ceil(self.size)
         } else {
-            self.designs.div_ceil(self.designs_together())
+            self.designs.div_ceil(self.designs_per_chunk())
         }
     }
 
     /// Designs of a chunk that has all their positions.
-    fn designs_together(&self) -> usize {
-        (self.size / self.positions).min(CHUNK_OF_DESIGNS)
+    fn designs_per_chunk(&self) -> usize {
+        (self.size / self.positions).min(MAX_DESIGNS)
     }
 
     fn take(&mut self) -> Option<(Chunk, RowSlices<'a>)> {
@@ -87,35 +87,35 @@ impl<'a> Chunks<'a> {
             self.next = if end == self.positions { (design + 1, 0) } else { (design, end) };
             Chunk { designs: design..design + 1, positions: position..end }
         } else {
-            let end = (design + self.designs_together()).min(self.designs);
+            let end = (design + self.designs_per_chunk()).min(self.designs);
             self.next = (end, 0);
             Chunk { designs: design..end, positions: 0..self.positions }
         };
-        let rows = self.split(chunk.designs.len() * chunk.positions.len());
+        let rows = self.take_rows(chunk.designs.len() * chunk.positions.len());
         Some((chunk, rows))
     }
 
-    fn split(&mut self, rows: usize) -> RowSlices<'a> {
+    fn take_rows(&mut self, rows: usize) -> RowSlices<'a> {
         let columns = self.rest.columns.iter_mut().zip(self.columns);
         RowSlices {
-            columns: columns.map(|(all, column)| front(all, rows * column.width)).collect(),
-            status: front(&mut self.rest.status, rows),
+            columns: columns.map(|(all, column)| split_front(all, rows * column.width)).collect(),
+            status: split_front(&mut self.rest.status, rows),
         }
     }
 }
 
 /// Takes the first `count` off a slice.
 #[allow(clippy::mut_mut, reason = "the slice itself is moved on")]
-fn front<'a, T>(all: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+fn split_front<'a, T>(all: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     let (front, rest) = std::mem::take(all).split_at_mut(count);
     *all = rest;
     front
 }
 
 /// Stops the other workers when one panics.
-struct Alarm<'a>(&'a AtomicBool);
+struct PanicFlag<'a>(&'a AtomicBool);
 
-impl Drop for Alarm<'_> {
+impl Drop for PanicFlag<'_> {
     fn drop(&mut self) {
         if thread::panicking() {
             self.0.store(true, Ordering::Relaxed);
@@ -148,8 +148,8 @@ impl Control<'_> {
         };
         let queue = Mutex::new(chunks);
         let panicked = AtomicBool::new(false);
-        let one = || {
-            let alarm = Alarm(&panicked);
+        let work_until_done = || {
+            let panic_flag = PanicFlag(&panicked);
             let mut worker = worker();
             while !self.is_cancelled() && !panicked.load(Ordering::Relaxed) {
                 // A worker that panics does not hold the queue.
@@ -159,14 +159,14 @@ impl Control<'_> {
                 super::test_hooks::before_chunk();
                 work(&mut worker, &chunk, rows);
             }
-            drop(alarm);
+            drop(panic_flag);
         };
         thread::scope(|scope| {
             // Where the system gives no thread, the others do its part.
             let others: Vec<_> = (1..threads)
-                .filter_map(|_| thread::Builder::new().spawn_scoped(scope, one).ok())
+                .filter_map(|_| thread::Builder::new().spawn_scoped(scope, work_until_done).ok())
                 .collect();
-            one();
+            work_until_done();
             for other in others {
                 if let Err(panic) = other.join() {
                     resume_unwind(panic);

@@ -74,8 +74,8 @@ pub(crate) fn solve(
         if column.order == 0 {
             list.push(Series { index, derivatives: Vec::new() });
         }
-        if let Some(track) = list.last_mut() {
-            track.derivatives.push(values);
+        if let Some(series) = list.last_mut() {
+            series.derivatives.push(values);
         }
     }
     Ok(motion)
@@ -111,9 +111,9 @@ pub fn fill(
     let numbers = arrays.columns.iter().map(|column| column.len()).sum::<usize>();
     let mut writer = match request.by {
         None => Writer::new(mechanism, &jets, &columns),
-        Some(index) => Writer::of_rates(mechanism, &jets, &columns, index),
+        Some(index) => Writer::for_sensitivity(mechanism, &jets, &columns, index),
     };
-    writer.streams = numbers >= stream::LEAST;
+    writer.streams = numbers >= stream::MIN_NUMBERS;
     let chunks = Chunks::new(arrays, &columns, [shape.designs, shape.positions], shape.drivers);
     let worker = || Worker::new(mechanism, request, &jets, &writer, &columns, control);
     let per_design = shape.positions * shape.drivers;

@@ -7,7 +7,7 @@ use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
 /// Numbers from which on they are stored so: 32 MiB, about what the last cache of a machine holds.
-pub(crate) const LEAST: usize = 4 << 20;
+pub(crate) const MIN_NUMBERS: usize = 4 << 20;
 
 /// Whether points may be stored so here.
 #[inline(always)]

@@ -108,7 +108,7 @@ impl<'a> Worker<'a> {
         if mechanism.dimensions().first_fault(values).is_some() {
             let count = job.q.len() / mechanism.q0().len();
             let status = Status::BadDimension as u8;
-            job.rows.leave_out(self.columns, job.first, count, status);
+            job.rows.write_failed(self.columns, job.first, count, status);
             return false;
         }
         self.design.bind(values);
@@ -124,7 +124,7 @@ impl<'a> Worker<'a> {
         let drivers = self.design.mechanism.q0().len();
         let count = job.q.len() / drivers;
         if let Some((index, mut by)) = self.by.take() {
-            self.rates_of_rows(job, index, &mut by);
+            self.sensitivities(job, index, &mut by);
             self.by = Some((index, by));
             return;
         }
@@ -133,24 +133,24 @@ impl<'a> Worker<'a> {
                 if self.is_cancelled() {
                     return;
                 }
-                self.one_row(job, row);
+                self.solve_scalar(job, row);
             }
             return;
         }
         let (plan, jets) = (self.design.mechanism.plan(), self.design.jets);
         self.many.prepare(plan, &self.design.bound, jets);
-        self.turn(job);
+        self.load_coordinates(job);
         for row in (0..count).step_by(GROUPS * LANES) {
             if self.is_cancelled() {
                 return;
             }
-            self.block::<L>(job, row, (count - row).min(GROUPS * LANES));
+            self.solve_block::<L>(job, row, (count - row).min(GROUPS * LANES));
         }
     }
 
     /// Coordinates in groups of eight; sines and cosines of shared ones are kept.
     #[inline(always)]
-    fn turn(&mut self, job: &Job<'_, '_>) {
+    fn load_coordinates(&mut self, job: &Job<'_, '_>) {
         let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
         let track = &self.design.track;
         if !(is_angle && job.shared.is_some() && self.shared == job.shared) {
@@ -178,27 +178,27 @@ impl<'a> Worker<'a> {
 
     /// Lanes of a group that must be done by themselves, whatever comes out.
     #[inline(always)]
-    fn strange(&self, q: Lanes, spot: &BranchLocation<Lanes>) -> <Lanes as Real>::Mask {
+    fn lanes_to_redo(&self, q: Lanes, spot: &BranchLocation<Lanes>) -> <Lanes as Real>::Mask {
         let track = &self.design.track;
-        let strange = |i: usize| {
+        let must_redo = |i: usize| {
             let at = q.lane(i);
             !track.covers(at)
                 || track.hides(spot, i)
                 || track.change_near(at, self.design.bridge.reach).is_some()
         };
-        Lanes::ZERO.lt(Lanes::from_lanes(|i| if strange(i) { 1.0 } else { 0.0 }))
+        Lanes::ZERO.lt(Lanes::from_lanes(|i| if must_redo(i) { 1.0 } else { 0.0 }))
     }
 
     /// Up to [`GROUPS`] groups of positions from `row` on.
     #[inline(always)]
-    fn block<L: Level>(&mut self, job: &mut Job<'_, '_>, row: usize, count: usize) {
+    fn solve_block<L: Level>(&mut self, job: &mut Job<'_, '_>, row: usize, count: usize) {
         let (first, groups) = (row / LANES, count.div_ceil(LANES));
         let mut care = [<Lanes as Real>::Mask::NONE; GROUPS];
         for group in 0..groups {
             let DriverLanes { q, unit } = self.turned[first + group];
             let spot = &self.spots[first + group];
             if self.design.track.even.is_none() {
-                care[group] = self.strange(q, spot);
+                care[group] = self.lanes_to_redo(q, spot);
             }
             let track = &self.design.track;
             // What is done by itself is no matter here.
@@ -260,7 +260,7 @@ impl<'a> Worker<'a> {
                     return;
                 }
                 if care[place / LANES].lane(place % LANES) {
-                    self.one_row(job, row + place);
+                    self.solve_scalar(job, row + place);
                 }
             }
         }
@@ -269,7 +269,7 @@ impl<'a> Worker<'a> {
     /// One position by itself.
     #[cold]
     #[inline(never)]
-    fn one_row(&mut self, job: &mut Job<'_, '_>, row: usize) {
+    fn solve_scalar(&mut self, job: &mut Job<'_, '_>, row: usize) {
         let drivers = self.design.mechanism.q0().len();
         let q = self.design.scaled(&job.q[row * drivers..][..drivers]);
         let place = self.design.way(&q);
@@ -278,7 +278,7 @@ impl<'a> Worker<'a> {
         let at = job.first + row;
         let solved = matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular);
         let (true, Some(place)) = (solved, &place) else {
-            job.rows.leave_out(self.columns, at, 1, state.status as u8);
+            job.rows.write_failed(self.columns, at, 1, state.status as u8);
             return;
         };
         let near = self.design.near(place, self.lifted.len());
@@ -287,7 +287,7 @@ impl<'a> Worker<'a> {
         let with = (&self.design.bound, &self.design.unit);
         self.writer.write(job.rows, (at, 1), with, state, &lifted);
         if !analogues {
-            job.rows.blank(self.columns, 1, at, 1);
+            job.rows.write_nan(self.columns, 1, at, 1);
         }
         job.rows.status[at] = MaybeUninit::new(state.status as u8);
     }
@@ -295,7 +295,7 @@ impl<'a> Worker<'a> {
     /// Derivatives by a dimension, one position after another.
     #[cold]
     #[inline(never)]
-    fn rates_of_rows(&mut self, job: &mut Job<'_, '_>, index: usize, by: &mut Sensitivity) {
+    fn sensitivities(&mut self, job: &mut Job<'_, '_>, index: usize, by: &mut Sensitivity) {
         let design = &self.design;
         let drivers = design.mechanism.q0().len();
         let cx = design.context(design.jets);
@@ -311,7 +311,7 @@ impl<'a> Worker<'a> {
             design.solve(state, &q, place.as_ref());
             let at = job.first + row;
             let status = state.status;
-            job.rows.leave_out(self.columns, at, 1, status as u8);
+            job.rows.write_failed(self.columns, at, 1, status as u8);
             let solved = matches!(status, Status::Ok | Status::NearSingular);
             if solved && by.solve(state, &cx, &rate) {
                 // Where a change of the dimension moves the frame's origin, all goes with it.

@@ -116,7 +116,7 @@ impl<'a> Writer<'a> {
 
     /// The same for derivatives by a dimension: angles are numbers as their analogues are, and
     /// nothing is added to what the state holds.
-    pub(crate) fn of_rates(
+    pub(crate) fn for_sensitivity(
         mechanism: &'a Mechanism,
         jets: &DerivativeTables,
         columns: &[Column],
@@ -174,8 +174,8 @@ impl<'a> Writer<'a> {
             }
             for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
                 let p = place(points[g]);
-                store_some(out, entry.width, entry.place, p.x);
-                store_some(out, entry.width, entry.place + entry.y, p.y);
+                store_lanes(out, entry.width, entry.place, p.x);
+                store_lanes(out, entry.width, entry.place + entry.y, p.y);
             }
         }
         for entry in &self.slides {
@@ -233,12 +233,12 @@ impl Entry {
             }
             let rest = groups.into_remainder();
             if !rest.is_empty() {
-                store_some(rest, 1, 0, of(g));
+                store_lanes(rest, 1, 0, of(g));
             }
             return;
         }
         for (g, group) in out.chunks_mut(self.width * R::LANES).enumerate() {
-            store_some(group, self.width, self.place, of(g));
+            store_lanes(group, self.width, self.place, of(g));
         }
     }
 }
@@ -251,13 +251,19 @@ impl RowSlices<'_> {
     }
 
     /// Nothing but a status, for `count` rows from `row` on.
-    pub(crate) fn leave_out(&mut self, columns: &[Column], row: usize, count: usize, status: u8) {
-        self.blank(columns, 0, row, count);
+    pub(crate) fn write_failed(
+        &mut self,
+        columns: &[Column],
+        row: usize,
+        count: usize,
+        status: u8,
+    ) {
+        self.write_nan(columns, 0, row, count);
         self.status[row..row + count].fill(MaybeUninit::new(status));
     }
 
     /// No number from some order on.
-    pub(crate) fn blank(&mut self, columns: &[Column], order: usize, row: usize, count: usize) {
+    pub(crate) fn write_nan(&mut self, columns: &[Column], order: usize, row: usize, count: usize) {
         for (column, out) in columns.iter().zip(&mut self.columns) {
             if column.order >= order {
                 let rows = row * column.width..(row + count) * column.width;
@@ -279,7 +285,7 @@ fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
 
 /// One entry of every row: of the first few lanes.
 #[inline(always)]
-fn store_some<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, place: usize, x: R) {
+fn store_lanes<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, place: usize, x: R) {
     for (lane, row) in out.chunks_exact_mut(width).enumerate() {
         row[place] = MaybeUninit::new(x.lane(lane));
     }

@@ -33,30 +33,30 @@ impl<'p> Pose<'p> {
     }
 
     /// Entry of the jets: the derivative by one driver.
-    pub(crate) fn first(driver: usize) -> usize {
+    pub(crate) fn first_order(driver: usize) -> usize {
         1 + driver
     }
 
     /// The derivative by two.
-    pub(crate) fn second(&self, a: usize, b: usize) -> usize {
+    pub(crate) fn second_order(&self, a: usize, b: usize) -> usize {
         let (a, b) = (a.min(b), a.max(b));
-        let is_it = |k: &usize| {
+        let is_entry = |k: &usize| {
             let (driver, lower) = self.jets.lowered[*k];
             driver == a && self.jets.driver_of[lower] == Some(b)
         };
-        (1 + self.jets.drivers..self.jets.len()).find(is_it).unwrap_or(0)
+        (1 + self.jets.drivers..self.jets.len()).find(is_entry).unwrap_or(0)
     }
 
     /// Entry `k` of a point's place, m.
     pub(crate) fn point(&self, point: Point, k: usize) -> Vector {
         let Position { state, plan, bound, units, .. } = &self.position;
-        let own = |point: usize| {
+        let place_of = |point: usize| {
             let scaled = state.points[point * self.jets.len() + k][0].scale(units.length[k]);
             let origin = Vector::new(bound.origin[0], bound.origin[1]);
             if k == 0 { scaled + origin } else { scaled }
         };
         match point {
-            Point::Joint(joint) => own(point_of_joint(joint)),
+            Point::Joint(joint) => place_of(point_of_joint(joint)),
             // The ground's frame is the drawing's, wherever its first joint is.
             Point::Link { link, at: [x, y] } if link == plan.ground => {
                 if k == 0 {
@@ -66,7 +66,7 @@ impl<'p> Pose<'p> {
                 }
             }
             Point::Link { link, at } => {
-                own(plan.reference[link]) + self.frame(link, k) * Vector::new(at[0], at[1])
+                place_of(plan.reference[link]) + self.frame(link, k) * Vector::new(at[0], at[1])
             }
         }
     }
@@ -81,14 +81,14 @@ impl<'p> Pose<'p> {
         if k == 0 {
             return unit;
         }
-        let top = unit.left().scale(self.angle(link, k));
+        let tangential = unit.left().scale(self.angle(link, k));
         if self.jets.driver_of[k].is_some() {
-            return top;
+            return tangential;
         }
         // ∂∂U = i U ∂∂Θ − U ∂Θ ∂Θ.
         let (driver, lower) = self.jets.lowered[k];
-        let rates = self.angle(link, Self::first(driver)) * self.angle(link, lower);
-        top - unit.scale(rates)
+        let rates = self.angle(link, Self::first_order(driver)) * self.angle(link, lower);
+        tangential - unit.scale(rates)
     }
 
     /// Entry `k` (not 0) of a link's angle.
@@ -101,7 +101,7 @@ impl<'p> Pose<'p> {
     }
 
     /// A link's angle itself, rad, continuous along the way from the drawing.
-    pub(crate) fn turned(&self, link: usize) -> f64 {
+    pub(crate) fn total_angle(&self, link: usize) -> f64 {
         self.position.angle(link)
     }
 }

@@ -45,23 +45,27 @@ impl Motor {
     /// Moment on the driver and its derivative by the driver's speed; a table is read in `cell`.
     #[inline]
     pub(crate) fn moment(&self, speed: f64, cell: Cell, numbers: Numbers<'_>) -> [f64; 2] {
-        let own = self.ratio * speed;
+        let motor_speed = self.ratio * speed;
         let [torque, slope] = match &self.characteristic {
             Characteristic::Value(value) => {
                 // Its function has the driver's speed.
-                let by_driver = value.by_speed(numbers);
-                return [self.ratio * value.at(numbers), self.ratio * by_driver];
+                let slope = value.d_speed(numbers);
+                return [self.ratio * value.at(numbers), self.ratio * slope];
             }
             &Characteristic::Linear { stall, no_load } => {
-                [stall * (1.0 - own / no_load), -stall / no_load]
+                [stall * (1.0 - motor_speed / no_load), -stall / no_load]
             }
-            &Characteristic::Induction { breakdown, slip: most, synchronous } => {
-                let slip = 1.0 - own / synchronous;
-                let size = slip * slip + most * most;
-                let by_slip = 2.0 * breakdown * most * (most * most - slip * slip) / (size * size);
-                [2.0 * breakdown * most * slip / size, -by_slip / synchronous]
+            &Characteristic::Induction { breakdown, slip: breakdown_slip, synchronous } => {
+                let slip = 1.0 - motor_speed / synchronous;
+                let sum = slip * slip + breakdown_slip * breakdown_slip;
+                let d_torque_d_slip = 2.0
+                    * breakdown
+                    * breakdown_slip
+                    * (breakdown_slip * breakdown_slip - slip * slip)
+                    / (sum * sum);
+                [2.0 * breakdown * breakdown_slip * slip / sum, -d_torque_d_slip / synchronous]
             }
-            Characteristic::Table(table) => table.read(cell, own),
+            Characteristic::Table(table) => table.read(cell, motor_speed),
         };
         [self.ratio * torque, self.ratio * self.ratio * slope]
     }
@@ -83,13 +87,13 @@ impl Motor {
     /// The driver's speed at which it gives no torque, if its characteristic has one.
     #[must_use]
     pub fn idle_speed(&self) -> Option<f64> {
-        let own = match &self.characteristic {
+        let motor_speed = match &self.characteristic {
             Characteristic::Value(_) => return None,
             Characteristic::Linear { no_load, .. } => *no_load,
             Characteristic::Induction { synchronous, .. } => *synchronous,
             Characteristic::Table(table) => table.range()[1],
         };
-        Some(own / self.ratio)
+        Some(motor_speed / self.ratio)
     }
 }
 
@@ -108,8 +112,8 @@ mod tests {
         };
         let moment = |speed: f64| motor.moment(speed, cell(speed), Numbers::default());
         for &(speed, torque) in points {
-            let [own, slope] = moment(speed);
-            assert!((own - 4.0 * torque).abs() < 1e-12, "{own} at {speed}");
+            let [found, slope] = moment(speed);
+            assert!((found - 4.0 * torque).abs() < 1e-12, "{found} at {speed}");
             let h = 1e-6;
             let difference = (moment(speed + h)[0] - moment(speed - h)[0]) / (2.0 * h);
             assert!((slope - difference).abs() < 1e-7 * (1.0 + slope.abs()), "{slope}");

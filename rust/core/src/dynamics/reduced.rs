@@ -10,13 +10,13 @@ pub(crate) struct Reduced {
     /// The mass matrix, row after row: of one driver the reduced inertia.
     pub inertia: Vec<f64>,
     /// Its derivatives: by every driver one matrix.
-    pub rates: Vec<f64>,
+    pub d_inertia: Vec<f64>,
     /// Reduced forces and moments of weights and springs.
-    pub stored: Vec<f64>,
+    pub conservative: Vec<f64>,
     /// Of all other loads.
     pub applied: Vec<f64>,
     /// Derivative of these by the speed, with one driver.
-    pub by_speed: f64,
+    pub d_moment_d_speed: f64,
     /// Potential energy of weights and springs, J.
     pub potential: f64,
 }
@@ -27,8 +27,8 @@ impl Reduced {
     pub(crate) fn new(drivers: usize) -> Self {
         Self {
             inertia: vec![0.0; drivers * drivers],
-            rates: vec![0.0; drivers * drivers * drivers],
-            stored: vec![0.0; drivers],
+            d_inertia: vec![0.0; drivers * drivers * drivers],
+            conservative: vec![0.0; drivers],
             applied: vec![0.0; drivers],
             ..Self::default()
         }
@@ -37,7 +37,7 @@ impl Reduced {
     /// Reduced force or moment of all loads on a driver.
     #[must_use]
     pub(crate) fn moment(&self, driver: usize) -> f64 {
-        self.stored[driver] + self.applied[driver]
+        self.conservative[driver] + self.applied[driver]
     }
 
     /// Kinetic energy at speeds, J.
@@ -53,15 +53,15 @@ impl Reduced {
     #[must_use]
     pub(crate) fn centrifugal(&self, driver: usize, speed: &[f64]) -> f64 {
         if let &[speed] = speed {
-            return 0.5 * self.rates[0] * speed * speed;
+            return 0.5 * self.d_inertia[0] * speed * speed;
         }
         let n = speed.len();
-        let rate = |c: usize, a: usize, b: usize| self.rates[(c * n + a) * n + b];
+        let rate = |c: usize, a: usize, b: usize| self.d_inertia[(c * n + a) * n + b];
         let mut sum = 0.0;
         for b in 0..n {
             for c in 0..n {
-                let own = rate(c, driver, b) - 0.5 * rate(driver, b, c);
-                sum += own * speed[b] * speed[c];
+                let term = rate(c, driver, b) - 0.5 * rate(driver, b, c);
+                sum += term * speed[b] * speed[c];
             }
         }
         sum
@@ -70,21 +70,21 @@ impl Reduced {
     /// Begins a place.
     pub(crate) fn clear(&mut self) {
         self.inertia.fill(0.0);
-        self.rates.fill(0.0);
-        self.stored.fill(0.0);
+        self.d_inertia.fill(0.0);
+        self.conservative.fill(0.0);
         self.potential = 0.0;
     }
 
     /// Adds a body: Σ m ∂S·∂S + I ∂Θ ∂Θ (I. M. Matsyuk & E. M. Shlyakhov, equation 2), its
     /// derivatives from second analogues, and its weight.
-    pub(crate) fn add(&mut self, pose: &Pose<'_>, body: &Body, gravity: Vector) {
-        let n = self.stored.len();
+    pub(crate) fn add_body(&mut self, pose: &Pose<'_>, body: &Body, gravity: Vector) {
+        let n = self.conservative.len();
         let first = |a: usize| {
-            let k = Pose::first(a);
+            let k = Pose::first_order(a);
             (pose.point(body.at, k), pose.angle(body.link, k))
         };
         let second = |a: usize, c: usize| {
-            let k = pose.second(a, c);
+            let k = pose.second_order(a, c);
             (pose.point(body.at, k), pose.angle(body.link, k))
         };
         let product = |(p, u): (Vector, f64), (r, v): (Vector, f64)| {
@@ -95,17 +95,17 @@ impl Reduced {
         if n == 1 {
             let (one, two) = (first(0), second(0, 0));
             self.inertia[0] += product(one, one);
-            self.rates[0] += 2.0 * product(one, two);
-            self.stored[0] += weight.dot(one.0);
+            self.d_inertia[0] += 2.0 * product(one, two);
+            self.conservative[0] += weight.dot(one.0);
             return;
         }
         for a in 0..n {
-            self.stored[a] += weight.dot(first(a).0);
+            self.conservative[a] += weight.dot(first(a).0);
             for b in 0..n {
                 self.inertia[a * n + b] += product(first(a), first(b));
                 for c in 0..n {
                     let rate = product(second(a, c), first(b)) + product(first(a), second(b, c));
-                    self.rates[(c * n + a) * n + b] += rate;
+                    self.d_inertia[(c * n + a) * n + b] += rate;
                 }
             }
         }

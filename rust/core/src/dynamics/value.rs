@@ -17,7 +17,7 @@ pub(crate) struct Numbers<'a> {
     /// Value of every table, and its slope.
     pub tables: &'a [[f64; 2]],
     /// Numbers from outside, and their slopes by the speed.
-    pub given: &'a [[f64; 2]],
+    pub external: &'a [[f64; 2]],
 }
 
 impl Value {
@@ -26,14 +26,14 @@ impl Value {
         match self {
             Self::Number(number) => number,
             Self::Table(which) => of(numbers.tables, which),
-            Self::External(which) => of(numbers.given, which),
+            Self::External(which) => of(numbers.external, which),
         }
     }
 
     /// Its derivative by the driver's speed.
-    pub(crate) fn by_speed(self, numbers: Numbers<'_>) -> f64 {
+    pub(crate) fn d_speed(self, numbers: Numbers<'_>) -> f64 {
         match self {
-            Self::External(which) => numbers.given.get(which).map_or(f64::NAN, |pair| pair[1]),
+            Self::External(which) => numbers.external.get(which).map_or(f64::NAN, |pair| pair[1]),
             Self::Number(_) | Self::Table(_) => 0.0,
         }
     }

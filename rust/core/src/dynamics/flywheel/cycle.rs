@@ -5,12 +5,12 @@ use crate::dynamics::tables::spline::{EndCondition, Pieces, spline};
 use crate::math::polynomial::{value, zeros};
 
 /// Part of the greatest value by which the ends of a table may differ: tables are rounded.
-const PERIODIC: f64 = 1.0e-9;
+const PERIODIC_RTOL: f64 = 1.0e-9;
 
 /// Part of the greatest inertia by which the curve may be negative between rows that are not: tables
 /// have three or four digits, and a spline beside rows of zero swings by its own error. What it is
 /// with a flywheel must be positive all the same.
-const UNDERSHOOT: f64 = 1.0e-3;
+const UNDERSHOOT_RTOL: f64 = 1.0e-3;
 
 /// An extreme value and its place.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -70,30 +70,30 @@ impl Cycle {
             .collect();
         cuts.sort_unstable();
         cuts.dedup();
-        let lay = |values: &[f64]| -> Result<Pieces, TableError> {
+        let fit = |values: &[f64]| -> Result<Pieces, TableError> {
             let mut all = Pieces::with_capacity(knots.len());
             for cut in cuts.windows(2) {
                 all.append(&mut spline(&knots[cut[0]..=cut[1]], &values[cut[0]..=cut[1]], ends)?);
             }
             Ok(all)
         };
-        let (moment, inertia) = (lay(moment)?, lay(inertia)?);
-        let mut turn =
+        let (moment, inertia) = (fit(moment)?, fit(inertia)?);
+        let mut cycle =
             Self { knots: knots.to_vec(), moment, inertia, work: Vec::new(), motor: 0.0 };
-        turn.lay_work();
+        cycle.integrate_work();
         // The moment's mean, taken off.
-        turn.motor = -turn.work_of_turn() / turn.period();
-        turn.lay_work();
-        let [least, greatest] = turn.extremes(1.0, 0.0);
+        cycle.motor = -cycle.total_work() / cycle.period();
+        cycle.integrate_work();
+        let [least, greatest] = cycle.extremes(1.0, 0.0);
         // NaN is refused too.
-        let is_inertia = least.value >= -UNDERSHOOT * greatest.value;
-        if !is_inertia {
+        let is_positive = least.value >= -UNDERSHOOT_RTOL * greatest.value;
+        if !is_positive {
             return Err(TableError::Negative { value: least.value, at: least.at });
         }
-        Ok(turn)
+        Ok(cycle)
     }
 
-    fn lay_work(&mut self) {
+    fn integrate_work(&mut self) {
         self.work.clear();
         let mut sum = 0.0;
         for (piece, ends) in self.moment.iter().zip(self.knots.windows(2)) {
@@ -104,7 +104,7 @@ impl Cycle {
         }
     }
 
-    fn work_of_turn(&self) -> f64 {
+    fn total_work(&self) -> f64 {
         let last = self.knots.len() - 1;
         value(&self.work[last - 1], self.knots[last] - self.knots[last - 1])
     }
@@ -128,36 +128,36 @@ impl Cycle {
     }
 
     /// The piece that a coordinate is in, how far from its knot, and whole periods before it.
-    pub(crate) fn place(&self, phi: f64) -> (usize, f64, f64) {
-        let [within, whole] = within_period(phi, self.start(), self.period());
-        let after = self.knots.partition_point(|&knot| knot <= within);
+    pub(crate) fn locate(&self, phi: f64) -> (usize, f64, f64) {
+        let [phi, periods] = wrap_to_period(phi, self.start(), self.period());
+        let after = self.knots.partition_point(|&knot| knot <= phi);
         let piece = after.clamp(1, self.knots.len() - 1) - 1;
-        (piece, within - self.knots[piece], whole)
+        (piece, phi - self.knots[piece], periods)
     }
 
     /// Reduced inertia, kg·m².
     #[must_use]
     pub fn inertia(&self, phi: f64) -> f64 {
-        let (piece, x, _) = self.place(phi);
+        let (piece, x, _) = self.locate(phi);
         value(&self.inertia[piece], x)
     }
 
     /// Reduced moment without the motor, N·m.
     #[must_use]
     pub fn moment(&self, phi: f64) -> f64 {
-        let (piece, x, _) = self.place(phi);
+        let (piece, x, _) = self.locate(phi);
         value(&self.moment[piece], x)
     }
 
     /// Work of all moments from the beginning of the turn on, J.
     #[must_use]
     pub fn work(&self, phi: f64) -> f64 {
-        let (piece, x, _) = self.place(phi);
+        let (piece, x, _) = self.locate(phi);
         value(&self.work[piece], x)
     }
 
     /// Inertia and work in a piece, at a distance from its knot.
-    pub(crate) fn within(&self, piece: usize, x: f64) -> [f64; 2] {
+    pub(crate) fn inertia_and_work(&self, piece: usize, x: f64) -> [f64; 2] {
         [value(&self.inertia[piece], x), value(&self.work[piece], x)]
     }
 
@@ -168,25 +168,25 @@ impl Cycle {
     /// Least and greatest value of `speed2 · I − work · W` over the turn: its derivative is a cubic
     /// in every piece.
     pub(crate) fn extremes(&self, speed2: f64, work: f64) -> [Extreme; 2] {
-        let of = |piece: usize, x: f64| {
-            let [inertia, done] = self.within(piece, x);
-            speed2 * inertia - work * done
+        let combined = |piece: usize, x: f64| {
+            let [inertia, energy] = self.inertia_and_work(piece, x);
+            speed2 * inertia - work * energy
         };
-        let first = Extreme { at: self.start(), value: of(0, 0.0) };
+        let first = Extreme { at: self.start(), value: combined(0, 0.0) };
         let [mut least, mut greatest] = [first; 2];
         for (piece, ends) in self.knots.windows(2).enumerate() {
-            let mut look = |x: f64| {
-                let own = Extreme { at: ends[0] + x, value: of(piece, x) };
-                if own.value < least.value {
-                    least = own;
+            let mut consider = |x: f64| {
+                let here = Extreme { at: ends[0] + x, value: combined(piece, x) };
+                if here.value < least.value {
+                    least = here;
                 }
-                if own.value > greatest.value {
-                    greatest = own;
+                if here.value > greatest.value {
+                    greatest = here;
                 }
             };
             let width = ends[1] - ends[0];
             // The end of the last piece is the beginning of the first.
-            look(0.0);
+            consider(0.0);
             let ([_, i1, i2, i3], [_, w1, w2, w3, w4]) = (self.inertia[piece], self.work[piece]);
             let slope = [
                 speed2 * i1 - work * w1,
@@ -194,7 +194,7 @@ impl Cycle {
                 3.0 * (speed2 * i3 - work * w3),
                 -4.0 * work * w4,
             ];
-            zeros(&slope, width, look);
+            zeros(&slope, width, consider);
         }
         [least, greatest]
     }
@@ -202,7 +202,7 @@ impl Cycle {
 
 /// A place less whole periods, from `start` on, and how many these are. The remainder of a division
 /// is exact, so a place of any size is found.
-pub(crate) fn within_period(x: f64, start: f64, period: f64) -> [f64; 2] {
+pub(crate) fn wrap_to_period(x: f64, start: f64, period: f64) -> [f64; 2] {
     if (start..start + period).contains(&x) {
         return [x, 0.0];
     }
@@ -247,7 +247,7 @@ pub(crate) fn check_columns(
     for &(quantity, column) in columns.iter().filter(|_| periodic) {
         let (first, last) = (column[0], column[count - 1]);
         let greatest = column.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        if (first - last).abs() > PERIODIC * greatest {
+        if (first - last).abs() > PERIODIC_RTOL * greatest {
             return Err(TableError::NotPeriodic { quantity, first, last });
         }
     }

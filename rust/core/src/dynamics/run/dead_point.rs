@@ -8,12 +8,12 @@
 use super::options::Variable;
 use super::sample::Sample;
 
-/// From the last moment that was integrated to the dead point.
+/// From the last sample that was integrated to the dead point.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tail {
     last: Sample,
-    fold: f64,
+    dead_point: f64,
     sign: f64,
     root: f64,
     b: f64,
@@ -22,21 +22,21 @@ pub(crate) struct Tail {
 
 impl Tail {
     /// None if the coordinate is at the dead point already, or does not go to it.
-    pub(crate) fn of(last: &Sample, fold: f64) -> Option<Self> {
-        let (left, sign) = (fold - last.q[0], last.speed[0].signum());
+    pub(crate) fn of(last: &Sample, dead_point: f64) -> Option<Self> {
+        let (left, sign) = (dead_point - last.q[0], last.speed[0].signum());
         let root = (left * sign).sqrt();
         let b = last.speed[0].abs() / root;
         // v̇ = −(b + s b′) b / 2.
         let slope = (-2.0 * sign * last.acceleration[0] / b - b) / root;
-        let is_way = root > 0.0 && b > 0.0 && (slope * root).abs() < 0.5 * b;
-        is_way.then(|| Self { last: last.clone(), fold, sign, root, b, slope })
+        let approaches = root > 0.0 && b > 0.0 && (slope * root).abs() < 0.5 * b;
+        approaches.then(|| Self { last: last.clone(), dead_point, sign, root, b, slope })
     }
 
     fn b(&self, root: f64) -> f64 {
         self.b - self.slope * (self.root - root)
     }
 
-    /// Time from the last moment to a root.
+    /// Time from the last sample to a root.
     fn time(&self, root: f64) -> f64 {
         // ∫ 2/b ds, b straight: by its mean the logarithm is avoided where b hardly changes.
         let (b, change) = (self.b(root), self.b - self.b(root));
@@ -49,11 +49,11 @@ impl Tail {
         2.0 * (self.root - root) / b * mean
     }
 
-    fn moment(&self, root: f64) -> Sample {
+    fn sample(&self, root: f64) -> Sample {
         let b = self.b(root);
         Sample {
             t: self.last.t + self.time(root),
-            q: vec![self.fold - self.sign * root * root],
+            q: vec![self.dead_point - self.sign * root * root],
             speed: vec![self.sign * root * b],
             acceleration: vec![-0.5 * self.sign * (b + root * self.slope) * b],
             work: self.last.work,
@@ -62,28 +62,28 @@ impl Tail {
 
     /// The dead point.
     pub(crate) fn end(&self) -> Sample {
-        self.moment(0.0)
+        self.sample(0.0)
     }
 
     /// The motion at a time or a coordinate of this bit.
     pub(crate) fn at(&self, along: Variable, x: f64) -> Option<Sample> {
         let root = match along {
-            Variable::Coordinate => ((self.fold - x) * self.sign).sqrt(),
+            Variable::Coordinate => ((self.dead_point - x) * self.sign).sqrt(),
             Variable::Time => {
                 // ṡ = −b(s)/2 is linear in s.
                 let (since, rate) = (x - self.last.t, 0.5 * self.slope);
                 let decay = -libm::expm1(rate * -since);
-                let gone = if rate == 0.0 { since } else { decay / rate };
-                self.root - 0.5 * self.b * gone
+                let decrease = if rate == 0.0 { since } else { decay / rate };
+                self.root - 0.5 * self.b * decrease
             }
         };
         let slack = -1e-9 * self.root;
         (root >= slack && root <= self.root).then(|| {
-            let mut moment = self.moment(root.max(0.0));
+            let mut sample = self.sample(root.max(0.0));
             if along == Variable::Time {
-                moment.t = x;
+                sample.t = x;
             }
-            moment
+            sample
         })
     }
 }

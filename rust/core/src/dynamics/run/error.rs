@@ -9,7 +9,7 @@ use crate::dynamics::tables::table::Table;
 pub enum RunError<E> {
     /// What a function from outside said.
     #[error("{0}")]
-    Outside(E),
+    Callback(E),
     /// There is nothing to be accelerated.
     #[error(
         "the reduced inertia is {value} at q = {q}: it must be positive everywhere (give masses to the links that turn with the driver)"
@@ -61,13 +61,13 @@ pub enum RunError<E> {
 }
 
 /// A table does not go so far.
-pub(crate) fn beyond<E>(what: &'static str, table: &Table, q: f64) -> RunError<E> {
+pub(crate) fn outside_table<E>(what: &'static str, table: &Table, q: f64) -> RunError<E> {
     let [from, to] = table.range();
     RunError::TableEnds { what, from, to, q }
 }
 
 /// Refuses what has not as many numbers as needed.
-pub(crate) fn counted<E>(counts: &[(&'static str, usize, usize)]) -> Result<(), RunError<E>> {
+pub(crate) fn check_counts<E>(counts: &[(&'static str, usize, usize)]) -> Result<(), RunError<E>> {
     match counts.iter().find(|(_, needed, given)| needed != given) {
         Some(&(what, needed, given)) => Err(RunError::Malformed { what, needed, given }),
         None => Ok(()),

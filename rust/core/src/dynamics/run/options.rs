@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::error::{RunError, counted};
+use super::error::{RunError, check_counts};
 use crate::dynamics::angle_between::Angle;
 use crate::dynamics::motor::Motor;
 use crate::ode::options::Method;
@@ -40,14 +40,14 @@ pub enum EventKind {
     /// An angle has a value.
     Angle(Angle, f64),
     /// A function from outside is zero: which one.
-    Outside(usize),
+    Callback(usize),
 }
 
 /// An event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EventSpec {
     /// What is looked for.
-    pub occasion: EventKind,
+    pub kind: EventKind,
     /// Which way.
     pub crossing: Crossing,
     /// Whether the run ends there.
@@ -83,7 +83,7 @@ pub struct RunOptions<'a> {
     /// Where functions from outside are not smooth (times or coordinates), ascending.
     pub breaks: &'a [f64],
     /// Events.
-    pub watches: &'a [EventSpec],
+    pub events: &'a [EventSpec],
     /// Inertia added to the first driver's.
     pub flywheel: f64,
 }
@@ -91,16 +91,20 @@ pub struct RunOptions<'a> {
 impl RunOptions<'_> {
     /// Refuses what is no task of a machine with so many drivers.
     pub(crate) fn check<E>(&self, drivers: usize, motors: &[Motor]) -> Result<(), RunError<E>> {
-        counted(&[("coordinates", drivers, self.q.len()), ("speeds", drivers, self.speed.len())])?;
+        check_counts(&[
+            ("coordinates", drivers, self.q.len()),
+            ("speeds", drivers, self.speed.len()),
+        ])?;
         if self.along == Variable::Coordinate {
-            counted(&[("drivers of a motion along the coordinate", 1, drivers)])?;
+            check_counts(&[("drivers of a motion along the coordinate", 1, drivers)])?;
         }
-        let own = |watch: &EventSpec| match watch.occasion {
+        let driver_of = |event: &EventSpec| match event.kind {
             EventKind::Coordinate { driver, .. } | EventKind::Speed { driver, .. } => driver,
             _ => 0,
         };
-        let watched = self.watches.iter().map(own).chain(motors.iter().map(|motor| motor.driver));
-        match watched.max().filter(|driver| *driver >= drivers) {
+        let drivers_used =
+            self.events.iter().map(driver_of).chain(motors.iter().map(|motor| motor.driver));
+        match drivers_used.max().filter(|driver| *driver >= drivers) {
             Some(driver) => {
                 Err(RunError::Malformed { what: "drivers", needed: driver + 1, given: drivers })
             }

@@ -78,16 +78,23 @@ impl Samples {
     }
 
     /// Adds one.
-    pub fn push(&mut self, moment: &Sample) {
-        self.t.push(moment.t);
-        self.q.extend_from_slice(&moment.q);
-        self.speed.extend_from_slice(&moment.speed);
-        self.acceleration.extend_from_slice(&moment.acceleration);
-        self.work.push(moment.work);
+    pub fn push(&mut self, sample: &Sample) {
+        self.t.push(sample.t);
+        self.q.extend_from_slice(&sample.q);
+        self.speed.extend_from_slice(&sample.speed);
+        self.acceleration.extend_from_slice(&sample.acceleration);
+        self.work.push(sample.work);
     }
 
     /// Adds what a state and its rates tell.
-    pub(crate) fn read(&mut self, along: Variable, sign: f64, x: f64, y: &[f64], rates: &[f64]) {
+    pub(crate) fn push_state(
+        &mut self,
+        along: Variable,
+        sign: f64,
+        x: f64,
+        y: &[f64],
+        rates: &[f64],
+    ) {
         let n = y.len() / 2;
         match along {
             Variable::Time => {

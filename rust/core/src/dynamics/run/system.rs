@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::callbacks::Callbacks;
-use super::equation::{Equation, within};
+use super::equation::{Equation, just_inside};
 use super::error::RunError;
 use super::model::ReducedModel;
 use super::options::{EventKind, EventSpec, RunOptions, Variable};
@@ -18,9 +18,9 @@ pub(crate) enum Ended {
     /// The table of a motor.
     Motor(usize),
     /// A dead point.
-    Dead,
+    DeadPoint,
     /// The clock.
-    Late,
+    Deadline,
 }
 
 /// A machine on its way. Along the time its state is q, q̇ and the work done by all that is not
@@ -29,7 +29,7 @@ pub(crate) enum Ended {
 pub(crate) struct RunSystem<'a, S, O> {
     pub equation: Equation<'a, S, O>,
     pub along: Variable,
-    pub watches: &'a [EventSpec],
+    pub events: &'a [EventSpec],
     pub deadline: Option<Instant>,
     pub ended: Option<Ended>,
     /// Sign of the speed, along the coordinate.
@@ -37,58 +37,63 @@ pub(crate) struct RunSystem<'a, S, O> {
     drivers: usize,
     /// Energy at the beginning, kinetic and potential, if it is known.
     energy: Option<[f64; 2]>,
-    /// What is as near to a dead point may be at it.
-    near: f64,
+    /// What is as reach to a dead point may be at it.
+    reach: f64,
     /// The relative tolerance.
     relative: f64,
     /// Kinetic and potential energy less work where a step begins, and at the end of the last that
-    /// was tried.
+    /// was trial_total.
     total: f64,
-    tried: f64,
+    trial_total: f64,
 }
 
 /// In so many tolerances the energy may change over a step, as its error is estimated.
-const DRIFT: f64 = 3.0;
+const MAX_DRIFT: f64 = 3.0;
 /// Roundings of the energies themselves that are not counted as such.
 const ROUNDINGS: f64 = 64.0;
 
 /// Part of the energies of a motion below which what is left of the kinetic energy is none: the
 /// balance is kept far better.
 const AT_REST: f64 = 1.0e-6;
-/// Distance from a dead point (rad, or of the size) within which one is looked for; with loose
+/// Distance from a dead point (rad, or of the size) just_inside which one is looked for; with loose
 /// tolerances a thousand of them, up to the second.
-const NEAR: f64 = 1.0e-3;
-const FAR: f64 = 0.05;
+const MIN_REACH: f64 = 1.0e-3;
+const MAX_REACH: f64 = 0.05;
 /// How far (rad, or of the size) to both sides the change of a condition is looked for.
-const LOOK: f64 = 1.0e-6;
+const CONDITION_STEP: f64 = 1.0e-6;
 
 impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
-    pub(crate) fn new(equation: Equation<'a, S, O>, task: &RunOptions<'a>) -> Self {
+    pub(crate) fn new(equation: Equation<'a, S, O>, options: &RunOptions<'a>) -> Self {
         Self {
             equation,
-            along: task.along,
-            watches: task.watches,
-            deadline: task.deadline,
+            along: options.along,
+            events: options.events,
+            deadline: options.deadline,
             ended: None,
-            sign: task.speed[0].signum(),
-            drivers: task.q.len(),
+            sign: options.speed[0].signum(),
+            drivers: options.q.len(),
             energy: None,
-            near: (1.0e3 * task.relative).clamp(NEAR, FAR),
-            relative: task.relative,
+            reach: (1.0e3 * options.relative).clamp(MIN_REACH, MAX_REACH),
+            relative: options.relative,
             total: f64::NAN,
-            tried: f64::NAN,
+            trial_total: f64::NAN,
         }
     }
 
     /// Takes the energy at the beginning, from which what is kinetic is told later.
-    pub(crate) fn begin(&mut self, task: &RunOptions<'_>) -> Result<(), RunError<O::Error>> {
-        match self.equation.place(task.q) {
+    pub(crate) fn store_initial_energy(
+        &mut self,
+        options: &RunOptions<'_>,
+    ) -> Result<(), RunError<O::Error>> {
+        match self.equation.set_configuration(options.q) {
             Ok(()) => {}
             Err(Fault::Error(error)) => return Err(error),
-            Err(Fault::OutOfDomain) => return Err(RunError::NothingThere { q: task.q.to_vec() }),
+            Err(Fault::OutOfDomain) => {
+                return Err(RunError::NothingThere { q: options.q.to_vec() });
+            }
         }
         let reduced = &self.equation.reduced;
-        self.energy = Some([reduced.kinetic(task.speed), reduced.potential]);
+        self.energy = Some([reduced.kinetic(options.speed), reduced.potential]);
         Ok(())
     }
 
@@ -100,30 +105,30 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             Variable::Time => (&y[n..2 * n], y[2 * n]),
             Variable::Coordinate => (&alone[..], y[2]),
         };
-        let (reduced, source) = (&self.equation.reduced, &self.equation.source);
+        let (reduced, model) = (&self.equation.reduced, &self.equation.model);
         let kinetic = reduced.kinetic(speed);
         // Speeds are good to the tolerance, coordinates to as much of their unit.
-        let by_place = |driver: usize| {
-            let change = reduced.centrifugal(driver, speed) - reduced.stored[driver];
-            change.abs() * source.unit(driver)
+        let by_coordinate = |driver: usize| {
+            let change = reduced.centrifugal(driver, speed) - reduced.conservative[driver];
+            change.abs() * model.unit(driver)
         };
-        let by_places: f64 = (0..n).map(by_place).sum();
+        let by_coordinates: f64 = (0..n).map(by_coordinate).sum();
         let size = kinetic.abs() + reduced.potential.abs() + work.abs();
-        let allowed = DRIFT * self.relative * (2.0 * kinetic + by_places)
+        let allowed = MAX_DRIFT * self.relative * (2.0 * kinetic + by_coordinates)
             + ROUNDINGS * f64::EPSILON * size
-            + source.noise() * kinetic;
+            + model.inertia_noise() * kinetic;
         (kinetic + reduced.potential - work, allowed)
     }
 
     /// Whether a driver that rests at coordinates after some work is at a dead point: there is one
-    /// as near as the coordinates are known, and by the balance kinetic energy is left, as the
+    /// as reach as the coordinates are known, and by the balance kinetic energy is left, as the
     /// mechanism does not rest.
-    pub(crate) fn is_dead(&mut self, q: &[f64], work: f64) -> bool {
-        if !self.equation.source.is_beside_fold(q, self.near) {
+    pub(crate) fn is_at_dead_point(&mut self, q: &[f64], work: f64) -> bool {
+        if !self.equation.model.is_near_dead_point(q, self.reach) {
             return false;
         }
         let Some([kinetic, potential]) = self.energy else { return true };
-        if self.equation.place(q).is_err() {
+        if self.equation.set_configuration(q).is_err() {
             return true;
         }
         let change = self.equation.reduced.potential - potential;
@@ -137,85 +142,87 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
     }
 
     /// The state at the beginning.
-    pub(crate) fn start(task: &RunOptions<'_>) -> Vec<f64> {
-        match task.along {
-            Variable::Time => [task.q, task.speed, &[0.0]].concat(),
-            Variable::Coordinate => vec![task.speed[0] * task.speed[0], task.t, 0.0],
+    pub(crate) fn initial_state(options: &RunOptions<'_>) -> Vec<f64> {
+        match options.along {
+            Variable::Time => [options.q, options.speed, &[0.0]].concat(),
+            Variable::Coordinate => vec![options.speed[0] * options.speed[0], options.t, 0.0],
         }
     }
 
-    /// Events at the borders of pieces come first: those of tables over q (along q they are breaks),
+    /// Events at the margins of pieces come first: those of tables over q (along q they are breaks),
     /// then those of motors.
-    fn has_table_borders(&self) -> bool {
+    fn has_table_boundaries(&self) -> bool {
         self.along == Variable::Time && !self.equation.tables.is_empty()
     }
 
     /// Behind them is the event that may be a dead point: of one driver its rest, of several the
     /// least distance from a singular position.
     fn has_dead_points(&self) -> bool {
-        self.along == Variable::Time && self.equation.source.has_dead_points()
+        self.along == Variable::Time && self.equation.model.has_dead_points()
     }
 
     /// What makes each event function an event.
     pub(crate) fn crossings(&self) -> Vec<Crossing> {
-        let tables = usize::from(self.has_table_borders()) + self.equation.tabled().count();
-        let turning = if self.drivers == 1 { Crossing::Either } else { Crossing::Rising };
-        let own = self.watches.iter().map(|watch| watch.crossing);
+        let tables =
+            usize::from(self.has_table_boundaries()) + self.equation.motors_with_table().count();
+        let crossing = if self.drivers == 1 { Crossing::Either } else { Crossing::Rising };
+        let own = self.events.iter().map(|event| event.crossing);
         std::iter::repeat_n(Crossing::Boundary, 2 * tables)
-            .chain(std::iter::repeat_n(turning, usize::from(self.has_dead_points())))
+            .chain(std::iter::repeat_n(crossing, usize::from(self.has_dead_points())))
             .chain(own)
             .collect()
     }
 
     /// How the distance from a singular position grows along the motion.
-    fn receding(&mut self, q: &[f64], speed: &[f64]) -> f64 {
-        let own = speed.iter().enumerate().map(|(i, v)| v.abs() / self.equation.source.unit(i));
+    fn singularity_trend(&mut self, q: &[f64], speed: &[f64]) -> f64 {
+        let own = speed.iter().enumerate().map(|(i, v)| v.abs() / self.equation.model.unit(i));
         let fastest = own.fold(0.0_f64, f64::max);
-        let [back, ahead] = [-LOOK, LOOK].map(|part| {
+        let [back, ahead] = [-CONDITION_STEP, CONDITION_STEP].map(|part| {
             let beside: Vec<f64> =
                 q.iter().zip(speed).map(|(q, v)| q + part * v / fastest).collect();
-            self.equation.source.flatness(&beside)
+            self.equation.model.inverse_condition(&beside)
         });
         ahead - back
     }
 
-    fn on_turning(&mut self, y: &[f64]) -> Action {
+    fn on_possible_dead_point(&mut self, y: &[f64]) -> Action {
         let n = self.drivers;
-        let dead = if n == 1 {
-            self.is_dead(&y[..1], y[2])
+        let at_dead_point = if n == 1 {
+            self.is_at_dead_point(&y[..1], y[2])
         } else {
-            self.equation.source.is_beside_fold(&y[..n], self.near)
+            self.equation.model.is_near_dead_point(&y[..n], self.reach)
         };
-        if !dead {
+        if !at_dead_point {
             return Action::Continue;
         }
-        self.equation.refused = Some((Status::Singular, y[..n].to_vec()));
-        self.ended = Some(Ended::Dead);
+        self.equation.rejected = Some((Status::Singular, y[..n].to_vec()));
+        self.ended = Some(Ended::DeadPoint);
         Action::Stop
     }
 
     /// Which watch an event is.
-    pub(crate) fn watch(&self, event: usize) -> Option<usize> {
-        event.checked_sub(self.crossings().len() - self.watches.len())
+    pub(crate) fn event_index(&self, event: usize) -> Option<usize> {
+        event.checked_sub(self.crossings().len() - self.events.len())
     }
 
-    fn occasion(
+    fn event_value(
         &mut self,
-        occasion: &EventKind,
+        kind: &EventKind,
         t: f64,
         q: &[f64],
         speed: &[f64],
     ) -> Result<f64, RunError<O::Error>> {
         let equation = &mut self.equation;
-        Ok(match *occasion {
+        Ok(match *kind {
             EventKind::Coordinate { driver, value } => q[driver] - value,
             EventKind::Speed { driver, value } => speed[driver] - value,
-            EventKind::Angle(angle, value) => equation.source.angle(q, &angle) - value,
-            EventKind::Outside(which) => {
-                equation.outside.event(which, t, q, speed).map_err(RunError::Outside)?
+            EventKind::Angle(angle, value) => equation.model.angle(q, &angle) - value,
+            EventKind::Callback(which) => {
+                equation.callbacks.event(which, t, q, speed).map_err(RunError::Callback)?
             }
             EventKind::Extreme => {
-                let there = equation.place(q).and_then(|()| equation.load(t, q, speed));
+                let there =
+                    equation.set_configuration(q).and_then(|()| equation.apply_loads(t, q, speed));
                 match there {
                     Ok(()) => equation.moment(0) - equation.reduced.centrifugal(0, speed),
                     Err(Fault::OutOfDomain) => f64::NAN,
@@ -234,8 +241,8 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         match self.along {
             Variable::Time => {
                 let (q, speed) = (&y[..n], &y[n..2 * n]);
-                equation.place(q)?;
-                equation.load(x, q, speed)?;
+                equation.set_configuration(q)?;
+                equation.apply_loads(x, q, speed)?;
                 rates[..n].copy_from_slice(speed);
                 equation.accelerations(q, speed, &mut rates[n..2 * n])?;
                 rates[2 * n] = equation.power(speed);
@@ -244,16 +251,17 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
                 // At rest the way ends.
                 let is_moving = y[0] > 0.0;
                 if !is_moving {
-                    equation.refused = None;
+                    equation.rejected = None;
                     return Err(Fault::OutOfDomain);
                 }
                 let speed = [self.sign * y[0].sqrt()];
-                equation.place(&[x])?;
-                equation.load(y[1], &[x], &speed)?;
+                equation.set_configuration(&[x])?;
+                equation.apply_loads(y[1], &[x], &speed)?;
                 let inertia = equation.inertia(x)?;
                 // The quotient does not wait for the state.
                 let inverse = 1.0 / inertia;
-                rates[0] = (2.0 * equation.moment(0) - equation.reduced.rates[0] * y[0]) * inverse;
+                rates[0] =
+                    (2.0 * equation.moment(0) - equation.reduced.d_inertia[0] * y[0]) * inverse;
                 rates[1] = 1.0 / speed[0];
                 rates[2] = equation.reduced.applied[0] + equation.drive[0];
             }
@@ -263,10 +271,10 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
 
     fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
         if self.along == Variable::Coordinate {
-            return self.equation.enter(from, to);
+            return self.equation.enter_interval(from, to);
         }
         // The pieces of tables were found at the knots.
-        self.equation.times = within(from, to);
+        self.equation.times = just_inside(from, to);
         Ok(())
     }
 
@@ -277,34 +285,34 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
             Variable::Time => (x, &y[..n], &y[n..2 * n]),
             Variable::Coordinate => (y[1], &one[..], &alone[..]),
         };
-        if self.has_table_borders() {
-            let reader = &self.equation.reader;
-            (values[0], values[1]) = (y[0] - reader.low, reader.high - y[0]);
+        if self.has_table_boundaries() {
+            let cursor = &self.equation.cursor;
+            (values[0], values[1]) = (y[0] - cursor.low, cursor.high - y[0]);
             values = &mut values[2..];
         }
-        let (borders, rest) = values.split_at_mut(2 * self.equation.tabled().count());
-        self.equation.motor_borders(speed, borders);
+        let (margins, rest) = values.split_at_mut(2 * self.equation.motors_with_table().count());
+        self.equation.motor_table_margins(speed, margins);
         values = rest;
         if self.has_dead_points() {
-            values[0] = if n == 1 { speed[0] } else { self.receding(q, speed) };
+            values[0] = if n == 1 { speed[0] } else { self.singularity_trend(q, speed) };
             values = &mut values[1..];
         }
-        for (value, watch) in values.iter_mut().zip(self.watches) {
-            *value = self.occasion(&watch.occasion, t, q, speed)?;
+        for (value, spec) in values.iter_mut().zip(self.events) {
+            *value = self.event_value(&spec.kind, t, q, speed)?;
         }
         Ok(())
     }
 
     fn on_event(&mut self, event: usize, _: f64, y: &mut [f64]) -> Result<Action, Self::Error> {
-        if let Some(watch) = self.watch(event) {
-            let stops = self.watches[watch].stops;
+        if let Some(index) = self.event_index(event) {
+            let stops = self.events[index].stops;
             return Ok(if stops { Action::Stop } else { Action::Continue });
         }
         let up = event % 2 == 1;
         let mut event = event;
-        if self.has_table_borders() {
+        if self.has_table_boundaries() {
             if event < 2 {
-                return Ok(match self.equation.reader.pass(self.equation.tables, up) {
+                return Ok(match self.equation.cursor.cross(self.equation.tables, up) {
                     Ok(knot) => {
                         y[0] = knot;
                         Action::Restart
@@ -317,10 +325,10 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
             }
             event -= 2;
         }
-        let Some(which) = self.equation.tabled().nth(event / 2) else {
-            return Ok(self.on_turning(y));
+        let Some(which) = self.equation.motors_with_table().nth(event / 2) else {
+            return Ok(self.on_possible_dead_point(y));
         };
-        let Some((driver, speed)) = self.equation.pass_motor(which, up) else {
+        let Some((driver, speed)) = self.equation.advance_motor_table(which, up) else {
             self.ended = Some(Ended::Motor(which));
             return Ok(Action::Stop);
         };
@@ -337,21 +345,21 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
 
     fn drift(&mut self, _: f64, y: &[f64]) -> f64 {
         let (total, allowed) = self.balance(y);
-        self.tried = total;
+        self.trial_total = total;
         // Where the energy is not a number nothing is known of it.
         let drift = (total - self.total).abs() / allowed;
         if drift.is_finite() { drift } else { 0.0 }
     }
 
     fn keep_invariant(&mut self) {
-        self.total = self.tried;
+        self.total = self.trial_total;
     }
 
     fn cancelled(&mut self) -> bool {
         if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
-            self.ended = Some(Ended::Late);
+            self.ended = Some(Ended::Deadline);
             return true;
         }
-        self.equation.outside.cancelled()
+        self.equation.callbacks.cancelled()
     }
 }

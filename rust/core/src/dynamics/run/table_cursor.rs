@@ -5,17 +5,17 @@ use crate::dynamics::tables::table::{Cell, Table};
 
 /// Knots nearer than this part of their size (or of 1) are one: coordinates that count turns are
 /// not better known.
-pub(crate) const TOGETHER: f64 = 1.0e-12;
+pub(crate) const SAME_KNOT_RTOL: f64 = 1.0e-12;
 
 /// The pieces that tables are in, and the interval that has no knot inside.
 #[derive(Debug, Clone)]
-pub(crate) struct Reader {
+pub(crate) struct TableCursor {
     cells: Vec<Cell>,
     pub low: f64,
     pub high: f64,
 }
 
-impl Reader {
+impl TableCursor {
     pub(crate) fn new() -> Self {
         // Nowhere yet.
         Self { cells: Vec::new(), low: f64::INFINITY, high: f64::NEG_INFINITY }
@@ -26,14 +26,14 @@ impl Reader {
     /// # Errors
     ///
     /// The table that has nothing there.
-    pub(crate) fn place(&mut self, tables: &[Table], x: f64) -> Result<(), usize> {
+    pub(crate) fn look_up(&mut self, tables: &[Table], x: f64) -> Result<(), usize> {
         self.cells.clear();
         // Of a place that is in no pieces nothing is read.
         (self.low, self.high) = (f64::INFINITY, f64::NEG_INFINITY);
         for (which, table) in tables.iter().enumerate() {
             self.cells.push(table.cell(x).ok_or(which)?);
         }
-        self.bound(tables);
+        self.update_interval(tables);
         Ok(())
     }
 
@@ -43,21 +43,21 @@ impl Reader {
     /// # Errors
     ///
     /// The table that has nothing beyond.
-    pub(crate) fn pass(&mut self, tables: &[Table], up: bool) -> Result<f64, usize> {
+    pub(crate) fn cross(&mut self, tables: &[Table], up: bool) -> Result<f64, usize> {
         let border = if up { self.high } else { self.low };
-        let near = TOGETHER * border.abs().max(1.0);
+        let near = SAME_KNOT_RTOL * border.abs().max(1.0);
         for (which, (table, cell)) in tables.iter().zip(&mut self.cells).enumerate() {
             let end = table.ends(*cell)[usize::from(up)];
             if (end - border).abs() <= near {
                 *cell = table.next(*cell, up).ok_or(which)?;
             }
         }
-        self.bound(tables);
+        self.update_interval(tables);
         // Knots of several tables that are one may lie apart by a last digit.
         Ok(if up { border.max(self.low) } else { border.min(self.high) })
     }
 
-    fn bound(&mut self, tables: &[Table]) {
+    fn update_interval(&mut self, tables: &[Table]) {
         (self.low, self.high) = (f64::NEG_INFINITY, f64::INFINITY);
         for (table, &cell) in tables.iter().zip(&self.cells) {
             let [low, high] = table.ends(cell);

@@ -9,26 +9,26 @@ use crate::ode::system::Fault;
 
 /// Relative and absolute tolerances of the state.
 pub(crate) fn tolerances<S: ReducedModel, O: Callbacks>(
-    way: &mut RunSystem<'_, S, O>,
-    task: &RunOptions<'_>,
+    system: &mut RunSystem<'_, S, O>,
+    options: &RunOptions<'_>,
     sizes: &[f64],
 ) -> Result<[Vec<f64>; 2], RunError<O::Error>> {
-    let (n, relative) = (task.q.len(), task.relative);
-    if task.along == Variable::Coordinate {
+    let (n, relative) = (options.q.len(), options.relative);
+    if options.along == Variable::Coordinate {
         // A thousandth of it is that of a speed; but the motion may begin slowly.
-        let typical = 1e3 * typical_speeds(way, task, sizes)?[0];
-        let of_speed = task.absolute.map_or(relative * typical * 1e-3, |[_, of_speed]| of_speed);
+        let typical = 1e3 * typical_speeds(system, options, sizes)?[0];
+        let of_speed = options.absolute.map_or(relative * typical * 1e-3, |[_, of_speed]| of_speed);
         let absolute =
-            vec![2.0 * of_speed * task.speed[0].abs(), relative / typical, f64::INFINITY];
+            vec![2.0 * of_speed * options.speed[0].abs(), relative / typical, f64::INFINITY];
         return Ok([vec![relative, relative, 0.0], absolute]);
     }
     let mut absolute = Vec::with_capacity(2 * n + 1);
-    if let Some([of_q, of_speed]) = task.absolute {
+    if let Some([of_q, of_speed]) = options.absolute {
         absolute.extend(std::iter::repeat_n(of_q, n));
         absolute.extend(std::iter::repeat_n(of_speed, n));
     } else {
         absolute.extend(sizes.iter().map(|size| relative * size));
-        absolute.extend(typical_speeds(way, task, sizes)?.iter().map(|v| relative * v));
+        absolute.extend(typical_speeds(system, options, sizes)?.iter().map(|v| relative * v));
     }
     absolute.push(f64::INFINITY);
     // An angle counts turns: its size says nothing.
@@ -39,17 +39,17 @@ pub(crate) fn tolerances<S: ReducedModel, O: Callbacks>(
 /// A thousandth of the speeds that a motion may be expected to have: those at its beginning, or
 /// what its accelerations there make of them over a radian (the size, of a slide).
 fn typical_speeds<S: ReducedModel, O: Callbacks>(
-    way: &mut RunSystem<'_, S, O>,
-    task: &RunOptions<'_>,
+    system: &mut RunSystem<'_, S, O>,
+    options: &RunOptions<'_>,
     sizes: &[f64],
 ) -> Result<Vec<f64>, RunError<O::Error>> {
-    let n = task.q.len();
+    let n = options.q.len();
     let mut accelerations = vec![0.0; n];
-    let equation = &mut way.equation;
+    let equation = &mut system.equation;
     let there = equation
-        .place(task.q)
-        .and_then(|()| equation.load(task.t, task.q, task.speed))
-        .and_then(|()| equation.accelerations(task.q, task.speed, &mut accelerations));
+        .set_configuration(options.q)
+        .and_then(|()| equation.apply_loads(options.t, options.q, options.speed))
+        .and_then(|()| equation.accelerations(options.q, options.speed, &mut accelerations));
     match there {
         Err(Fault::Error(error)) => return Err(error),
         // The run will end where it begins.
@@ -57,12 +57,12 @@ fn typical_speeds<S: ReducedModel, O: Callbacks>(
         Ok(()) => {}
     }
     let typical = |driver: usize| {
-        let own = task.speed[driver].abs();
+        let own = options.speed[driver].abs();
         own.max((accelerations[driver].abs() * sizes[driver]).sqrt())
     };
     let most = (0..n).map(typical).fold(0.0, f64::max);
     // What rests in balance is measured by a size a second.
-    let of =
+    let scale =
         |driver: usize| if most > 0.0 { typical(driver).max(1e-3 * most) } else { sizes[driver] };
-    Ok((0..n).map(|driver| 1e-3 * of(driver)).collect())
+    Ok((0..n).map(|driver| 1e-3 * scale(driver)).collect())
 }

@@ -49,7 +49,7 @@ pub enum StopReason {
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventRecord {
     /// Which of the watches.
-    pub watch: usize,
+    pub event: usize,
     /// Time, s.
     pub t: f64,
     /// Coordinates.
@@ -62,14 +62,14 @@ pub struct EventRecord {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// The moments between steps.
-    pub moments: Samples,
+    /// The samples between steps.
+    pub samples: Samples,
     /// Kinetic and potential energy there, J.
     pub energies: Vec<[f64; 2]>,
     /// What happened on the way.
     pub events: Vec<EventRecord>,
     /// How it ended.
-    pub ending: StopReason,
+    pub stop_reason: StopReason,
     /// What it cost.
     pub statistics: Statistics,
     pub(crate) along: Variable,
@@ -83,25 +83,25 @@ impl Run {
     /// The motion at a time (or a coordinate, if it went along that); none where it was not.
     #[must_use]
     pub fn at(&self, x: f64) -> Option<Sample> {
-        let len = 2 * self.moments.drivers() + 1;
+        let len = 2 * self.samples.drivers() + 1;
         let (mut y, mut rates) = (vec![0.0; len], vec![0.0; len]);
         if self.path.at(x, &mut y) && self.path.slope(x, &mut rates) {
-            return Some(moment(self.along, self.sign, x, &y, &rates));
+            return Some(sample_at(self.along, self.sign, x, &y, &rates));
         }
         if let Some(tail) = &self.tail {
             return tail.at(self.along, x);
         }
         // A run of no length is at its place.
-        self.moments.get(0).filter(|one| match self.along {
-            Variable::Time => one.t == x,
-            Variable::Coordinate => one.q.first() == Some(&x),
+        self.samples.get(0).filter(|sample| match self.along {
+            Variable::Time => sample.t == x,
+            Variable::Coordinate => sample.q.first() == Some(&x),
         })
     }
 }
 
 /// Reads a state and its rates.
-pub(crate) fn moment(along: Variable, sign: f64, x: f64, y: &[f64], rates: &[f64]) -> Sample {
-    let mut one = Samples::default();
-    one.read(along, sign, x, y, rates);
-    one.last().unwrap_or_default()
+pub(crate) fn sample_at(along: Variable, sign: f64, x: f64, y: &[f64], rates: &[f64]) -> Sample {
+    let mut samples = Samples::default();
+    samples.push_state(along, sign, x, y, rates);
+    samples.last().unwrap_or_default()
 }

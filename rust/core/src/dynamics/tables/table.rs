@@ -2,7 +2,7 @@
 
 use super::error::TableError;
 use super::spline::{EndCondition, Pieces, spline};
-use crate::dynamics::flywheel::cycle::within_period;
+use crate::dynamics::flywheel::cycle::wrap_to_period;
 
 /// A table with a curve through its rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +13,7 @@ pub struct Table {
 }
 
 /// Part of its size by which a place may be beyond a table.
-const SLACK: f64 = 1.0e-12;
+const RANGE_RTOL: f64 = 1.0e-12;
 
 /// A piece of a table, whole periods on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -49,7 +49,7 @@ impl Table {
     /// Value and slope at a place; none beyond a table that is not periodic.
     pub(crate) fn value_and_slope(&self, x: f64) -> Option<[f64; 2]> {
         let within = if self.periodic && x.is_finite() {
-            within_period(x, self.knots[0], self.width())[0]
+            wrap_to_period(x, self.knots[0], self.width())[0]
         } else {
             x
         };
@@ -77,7 +77,7 @@ impl Table {
     pub(crate) fn cell(&self, x: f64) -> Option<Cell> {
         let [first, last] = self.range();
         // A last digit beyond its end is at it.
-        let slack = SLACK * (last - first).max(first.abs()).max(last.abs());
+        let slack = RANGE_RTOL * (last - first).max(first.abs()).max(last.abs());
         let within = self.periodic || (first - slack..=last + slack).contains(&x);
         if !x.is_finite() || !within {
             return None;
@@ -85,10 +85,10 @@ impl Table {
         let whole = if self.periodic { ((x - first) / self.width()).floor() } else { 0.0 };
         let within = x - self.width() * whole;
         let after = self.knots.partition_point(|&knot| knot <= within);
-        Some(self.own(after.clamp(1, self.pieces.len()) - 1, whole))
+        Some(self.cell_of(after.clamp(1, self.pieces.len()) - 1, whole))
     }
 
-    fn own(&self, piece: usize, whole: f64) -> Cell {
+    fn cell_of(&self, piece: usize, whole: f64) -> Cell {
         Cell { piece, whole, start: self.knots[piece] + whole * self.width() }
     }
 
@@ -103,10 +103,10 @@ impl Table {
         let last = self.pieces.len() - 1;
         let Cell { piece, whole, .. } = cell;
         match up {
-            true if piece < last => Some(self.own(piece + 1, whole)),
-            false if piece > 0 => Some(self.own(piece - 1, whole)),
-            true => self.periodic.then(|| self.own(0, whole + 1.0)),
-            false => self.periodic.then(|| self.own(last, whole - 1.0)),
+            true if piece < last => Some(self.cell_of(piece + 1, whole)),
+            false if piece > 0 => Some(self.cell_of(piece - 1, whole)),
+            true => self.periodic.then(|| self.cell_of(0, whole + 1.0)),
+            false => self.periodic.then(|| self.cell_of(last, whole - 1.0)),
         }
     }
 
@@ -129,13 +129,13 @@ impl Table {
         let mut found = Vec::new();
         let [first, last] = self.range();
         let mut cell = self.cell(if self.periodic { low } else { low.clamp(first, last) });
-        while let Some(own) = cell {
-            let [start, end] = self.ends(own);
+        while let Some(cell_of) = cell {
+            let [start, end] = self.ends(cell_of);
             if start > high {
                 break;
             }
             found.push(start);
-            cell = self.next(own, true);
+            cell = self.next(cell_of, true);
             if cell.is_none() {
                 found.push(end);
             }
