@@ -1,4 +1,4 @@
-//! Work cut into chunks, and threads that take one after another.
+//! Cuts the work into chunks and runs threads that take one chunk after another.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -12,35 +12,35 @@ use super::writer::RowSlices;
 use crate::description::error::SolveError;
 use crate::math::simd::Simd;
 
-/// Positions in a chunk: some hundred microseconds, so that its way from the drawing
-/// and the taking of it cost little.
+/// Positions per chunk: some hundred microseconds of work, so that tracing the branch and taking
+/// the chunk from the queue cost little.
 const CHUNK: usize = 8192;
-/// The same with several drivers, where each position has a way of its own.
+/// The same with several drivers, where each position needs a branch of its own.
 const CHUNK_SEVERAL_DRIVERS: usize = 8;
-/// Designs in a chunk, at most: the way of one may take a millisecond.
+/// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
 const MAX_DESIGNS: usize = 64;
 
-/// How work is done: on how many threads, and whether it is still wanted.
+/// How to do the work: threads, vector instructions and cancellation.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Control<'a> {
-    /// Threads; none: as many as the machine has cores, one for small work.
+    /// Number of threads; `None` uses one per core, or a single thread for small work.
     pub threads: Option<NonZeroUsize>,
-    /// Vector instructions, at most.
+    /// Highest level of vector instructions to use.
     pub simd: Simd,
-    /// When true, work stops after the blocks at hand.
+    /// Setting it to true stops the work after the blocks in progress.
     pub cancel: Option<&'a AtomicBool>,
 }
 
-/// Some positions of some designs.
+/// A range of positions of a range of designs.
 #[derive(Debug, Clone)]
 pub(crate) struct Chunk {
     pub designs: Range<usize>,
     pub positions: Range<usize>,
 }
 
-/// Chunks that are yet to be done, with the rows to be written. Each is taken by one
-/// thread. After an interruption the rest stays unwritten: nobody may read it, and writing it
-/// would take as long as solving it.
+/// The chunks still to do, with the rows to write. Each is taken by one thread. After an
+/// interruption the rest stays unwritten: nobody may read it, and filling it would take as long as
+/// solving.
 pub(crate) struct Chunks<'a> {
     rest: Arrays<'a>,
     columns: &'a [Column],
@@ -61,7 +61,7 @@ impl<'a> Chunks<'a> {
         Self { rest: arrays, columns, designs, positions, next: (0, 0), size }
     }
 
-    /// How many chunks there are.
+    /// Number of chunks.
     fn count(&self) -> usize {
         if self.positions == 0 {
             0
@@ -72,7 +72,7 @@ impl<'a> Chunks<'a> {
         }
     }
 
-    /// Designs of a chunk that has all their positions.
+    /// Designs per chunk when each has all its positions in the chunk.
     fn designs_per_chunk(&self) -> usize {
         (self.size / self.positions).min(MAX_DESIGNS)
     }
@@ -104,7 +104,7 @@ impl<'a> Chunks<'a> {
     }
 }
 
-/// Takes the first `count` off a slice.
+/// Splits the first `count` elements off a slice.
 #[allow(clippy::mut_mut, reason = "the slice itself is moved on")]
 fn split_front<'a, T>(all: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     let (front, rest) = std::mem::take(all).split_at_mut(count);
@@ -112,7 +112,7 @@ fn split_front<'a, T>(all: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     front
 }
 
-/// Stops the other workers when one panics.
+/// Makes the other workers stop when one panics.
 struct PanicFlag<'a>(&'a AtomicBool);
 
 impl Drop for PanicFlag<'_> {
@@ -124,15 +124,15 @@ impl Drop for PanicFlag<'_> {
 }
 
 impl Control<'_> {
-    /// Whether the work is no longer wanted.
+    /// Whether the caller has cancelled the work.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
     /// Does all chunks; each thread makes its own worker.
     ///
-    /// Threads are made for the call and gone after it: they cost some ten
-    /// microseconds, nothing is left to break when the process is forked.
+    /// The threads live only during the call: starting them costs some ten microseconds, and no
+    /// idle thread is left that a fork of the process could break.
     pub(crate) fn run<W>(
         &self,
         chunks: Chunks<'_>,
@@ -141,7 +141,7 @@ impl Control<'_> {
     ) -> Result<(), SolveError> {
         let count = chunks.count();
         let threads = match self.threads {
-            // Asking the system how many cores there are takes longer than small work.
+            // Asking the system for the number of cores takes longer than small work.
             _ if count <= 1 => 1,
             Some(threads) => threads.get().min(count),
             None => thread::available_parallelism().map_or(1, NonZeroUsize::get).min(count),
@@ -152,7 +152,7 @@ impl Control<'_> {
             let panic_flag = PanicFlag(&panicked);
             let mut worker = worker();
             while !self.is_cancelled() && !panicked.load(Ordering::Relaxed) {
-                // A worker that panics does not hold the queue.
+                // The lock is not held during the work, so a panic does not poison it.
                 let next = queue.lock().ok().and_then(|mut queue| queue.take());
                 let Some((chunk, rows)) = next else { break };
                 #[cfg(feature = "test-hooks")]
@@ -162,7 +162,7 @@ impl Control<'_> {
             drop(panic_flag);
         };
         thread::scope(|scope| {
-            // Where the system gives no thread, the others do its part.
+            // If the system refuses a thread, the others do its share.
             let others: Vec<_> = (1..threads)
                 .filter_map(|_| thread::Builder::new().spawn_scoped(scope, work_until_done).ok())
                 .collect();

@@ -1,5 +1,5 @@
-//! The positions of one design into their rows: eight at a time, and one by one
-//! those that need care.
+//! Solves the positions of one design into their rows: eight per vector, and one by one those that
+//! need special care.
 
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -22,44 +22,44 @@ use crate::state::sensitivity::Sensitivity;
 use crate::state::state::State;
 use crate::state::status::Status;
 
-/// Groups of positions worked on at once: as many as stay in the nearest cache.
+/// Vectors of positions solved at once: as many as fit the first-level cache.
 const GROUPS: usize = 4;
 
-/// Work space of one thread.
+/// Workspace of one thread.
 pub(crate) struct Worker<'a> {
     design: Design<'a>,
     writer: &'a Writer<'a>,
     columns: &'a [Column],
     quick: UniformTracer,
     one: State,
-    /// The dimension by which all is differentiated, and work space for that.
+    /// The dimension to differentiate by, with its workspace.
     by: Option<(usize, Sensitivity)>,
     many: State<Lanes, GROUPS>,
-    /// Angles of its classes.
+    /// Angles of the classes.
     lifted: Vec<[Lanes; GROUPS]>,
-    /// Positions of the last job, in groups, and which they were.
+    /// Driver lanes of the last job, and the index of its first shared coordinate.
     turned: Vec<DriverLanes>,
     shared: Option<usize>,
-    /// Their places on the way.
+    /// Locations of these lanes on the branch.
     spots: Vec<BranchLocation<Lanes>>,
-    /// Whether that was a quick one.
+    /// Whether that branch was a uniform one.
     spots_even: bool,
-    /// When true, work stops after the block at hand.
+    /// When true, work stops after the block in progress.
     cancel: Option<&'a AtomicBool>,
 }
 
-/// Some positions of one design, and where they go.
+/// Some positions of one design, and the rows they go to.
 pub(crate) struct Job<'j, 'r> {
     /// Coordinates, drivers fastest, rad or m.
     pub q: &'j [f64],
     pub rows: &'j mut RowSlices<'r>,
     /// Row of the first position.
     pub first: usize,
-    /// Which coordinates these are, if other designs have the same.
+    /// Index of the first of these among the coordinates shared by all designs, if they are shared.
     pub shared: Option<usize>,
 }
 
-/// Eight positions of a driven angle: what does not depend on the design.
+/// Eight positions of a driven angle: the part that does not depend on the design.
 #[derive(Debug, Clone, Copy)]
 struct DriverLanes {
     q: Lanes,
@@ -96,13 +96,13 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Whether work is no longer wanted.
+    /// Whether the caller has cancelled the work.
     fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
-    /// Takes the design with these dimensions; whether they are good. If not, the job is done: its
-    /// rows are left out.
+    /// Loads a design. Returns false if its dimensions are invalid: the job is then done, with its
+    /// rows set to NaN and the status `BadDimension`.
     pub(crate) fn bind(&mut self, values: &[f64], job: &mut Job<'_, '_>) -> bool {
         let mechanism = self.design.mechanism;
         if mechanism.dimensions().first_fault(values).is_some() {
@@ -115,7 +115,7 @@ impl<'a> Worker<'a> {
         true
     }
 
-    /// Solves positions of the design; called by `dispatch` alone.
+    /// Solves the positions of the design; only `dispatch` calls this.
     #[inline(always)]
     pub(crate) fn run<L: Level>(&mut self, job: &mut Job<'_, '_>) {
         if !self.design.lay_quick::<L>(&mut self.quick) {
@@ -148,7 +148,7 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Coordinates in groups of eight; sines and cosines of shared ones are kept.
+    /// Loads the coordinates in vectors of eight; sines and cosines of shared ones are kept.
     #[inline(always)]
     fn load_coordinates(&mut self, job: &Job<'_, '_>) {
         let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
@@ -164,7 +164,7 @@ impl<'a> Worker<'a> {
                 self.turned.push(DriverLanes { q, unit });
             }
         }
-        // The knots of a quick way are the same for all designs.
+        // Uniform branches have the same knots for all designs.
         if track.even.is_none() || !self.spots_even {
             self.spots.clear();
         }
@@ -176,7 +176,7 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Lanes of a group that must be done by themselves, whatever comes out.
+    /// Lanes that must be solved again by themselves, whatever the vector solution gives.
     #[inline(always)]
     fn lanes_to_redo(&self, q: Lanes, spot: &BranchLocation<Lanes>) -> <Lanes as Real>::Mask {
         let track = &self.design.track;
@@ -189,7 +189,7 @@ impl<'a> Worker<'a> {
         Lanes::ZERO.lt(Lanes::from_lanes(|i| if must_redo(i) { 1.0 } else { 0.0 }))
     }
 
-    /// Up to [`GROUPS`] groups of positions from `row` on.
+    /// Solves up to [`GROUPS`] vectors of positions from `row` on.
     #[inline(always)]
     fn solve_block<L: Level>(&mut self, job: &mut Job<'_, '_>, row: usize, count: usize) {
         let (first, groups) = (row / LANES, count.div_ceil(LANES));
@@ -201,7 +201,7 @@ impl<'a> Worker<'a> {
                 care[group] = self.lanes_to_redo(q, spot);
             }
             let track = &self.design.track;
-            // What is done by itself is no matter here.
+            // Lanes to redo are set to NaN: their vector result is not used.
             self.many.q[0][group] = Lanes::select(care[group], Lanes::splat(f64::NAN), q);
             self.many.unit[0][group] = unit;
             for (sign, groups) in self.many.signs.iter_mut().enumerate() {
@@ -220,7 +220,7 @@ impl<'a> Worker<'a> {
         }
         L::solve(&mut self.many, &design.context(design.jets));
         let state = &self.many;
-        // Each by itself, so that one goes on while the other waits.
+        // A separate loop: independent arctangents overlap.
         for &class in &self.writer.classes {
             for g in 0..groups.min(GROUPS) {
                 self.lifted[class][g] = state.class[class][g].angle();
@@ -252,7 +252,7 @@ impl<'a> Worker<'a> {
         }
         if again {
             if self.writer.streams {
-                // These rows are written a second time.
+                // The loop below writes these rows again.
                 stream::fence();
             }
             for place in 0..count {
@@ -266,7 +266,7 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// One position by itself.
+    /// Solves one position by itself.
     #[cold]
     #[inline(never)]
     fn solve_scalar(&mut self, job: &mut Job<'_, '_>, row: usize) {
@@ -292,7 +292,7 @@ impl<'a> Worker<'a> {
         job.rows.status[at] = MaybeUninit::new(state.status as u8);
     }
 
-    /// Derivatives by a dimension, one position after another.
+    /// Differentiates by a dimension, one position after another.
     #[cold]
     #[inline(never)]
     fn sensitivities(&mut self, job: &mut Job<'_, '_>, index: usize, by: &mut Sensitivity) {
@@ -314,7 +314,7 @@ impl<'a> Worker<'a> {
             job.rows.write_failed(self.columns, at, 1, status as u8);
             let solved = matches!(status, Status::Ok | Status::NearSingular);
             if solved && by.solve(state, &cx, &rate) {
-                // Where a change of the dimension moves the frame's origin, all goes with it.
+                // A dimension that moves the frame's origin moves all points with it.
                 for point in by.rates.points.chunks_exact_mut(design.jets.len()) {
                     point[0][0] += rate.origin.scale(1.0 / design.bound.scale);
                 }

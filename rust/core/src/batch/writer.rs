@@ -1,4 +1,4 @@
-//! Numbers of a position written to their columns.
+//! Writes the numbers of solved positions to their columns.
 
 use std::mem::MaybeUninit;
 
@@ -21,20 +21,20 @@ pub(crate) struct RowSlices<'a> {
     pub status: &'a mut [MaybeUninit<u8>],
 }
 
-/// One number (or point) of a row: where it goes.
+/// Target and source of one number (or point) of a row.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
     column: usize,
     width: usize,
-    /// Place in the row (of x, for a point).
+    /// Index within the row (of x, for a point).
     place: usize,
-    /// Place of y behind x.
+    /// Offset from x to y.
     y: usize,
-    /// Entry of the jets.
+    /// Index of the derivative in the jets.
     k: usize,
-    /// Where it comes from: the point's, slide's or class's entry, or the link.
+    /// Source: the entry of the point, slide or class, or the link.
     from: usize,
-    /// What the drivers add to an angle's derivative.
+    /// The drivers' contribution to an angle's derivative.
     driven: f64,
 }
 
@@ -45,13 +45,13 @@ pub(crate) struct Writer<'a> {
     slides: Vec<Entry>,
     /// Angles of links.
     angles: Vec<Entry>,
-    /// Derivatives of them.
+    /// Derivatives of links' angles.
     rates: Vec<Entry>,
-    /// Classes whose angle is asked for.
+    /// Classes whose angle is wanted.
     pub classes: Vec<usize>,
-    /// Whether a class's rotation is asked for, or derivatives of its angle.
+    /// For each class, whether its rotation or a derivative of its angle is wanted.
     pub asked: Vec<bool>,
-    /// Whether values of points begin at the frame's origin.
+    /// Whether the frame's origin is added to the points.
     shifted: bool,
     /// Whether points are stored past the caches.
     pub streams: bool,
@@ -114,8 +114,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The same for derivatives by a dimension: angles are numbers as their analogues are, and
-    /// nothing is added to what the state holds.
+    /// A writer of derivatives by a dimension: it treats angles like their analogues and adds no
+    /// origin to points.
     pub(crate) fn for_sensitivity(
         mechanism: &'a Mechanism,
         jets: &DerivativeTables,
@@ -160,7 +160,7 @@ impl<'a> Writer<'a> {
                 if let Some(shift) = shift { scaled + shift } else { scaled }
             };
             if entry.width == 2 && count == G * R::LANES {
-                // A position by itself is written again where it has no analogues.
+                // Scalar positions may be written a second time (without analogues): plain stores.
                 let streams = self.streams && R::LANES > 1;
                 for g in 0..G {
                     let out = &mut out[2 * R::LANES * g..][..2 * R::LANES];
@@ -189,7 +189,7 @@ impl<'a> Writer<'a> {
             let offset = R::splat(bound.offset[entry.from] + whole);
             let lifted = &lifted[rotation.class];
             entry.store(rows.of(entry, row, count), |g| {
-                // Of the class, plus what turns the link against it.
+                // The class's angle, plus the drivers' turns of the link relative to its class.
                 let mut angle = lifted[g];
                 for (&turns, q) in rotation.turns.iter().zip(&state.q) {
                     if turns != 0 {
@@ -207,7 +207,7 @@ impl<'a> Writer<'a> {
                 let rate = rates[g] + driven;
                 let scaled = rate * scale;
                 if beyond {
-                    // Beyond the range of numbers, but for what does not turn.
+                    // The unit overflows; only a link that does not turn keeps a finite derivative.
                     R::select(rate.abs().le(R::ZERO), rate, scaled)
                 } else {
                     scaled
@@ -218,7 +218,7 @@ impl<'a> Writer<'a> {
 }
 
 impl Entry {
-    /// Writes a number for each lane of each group, as far as there are rows.
+    /// Writes one number for each lane of each group, as far as there are rows.
     #[inline(always)]
     fn store<R: Real>(&self, out: &mut [MaybeUninit<f64>], of: impl Fn(usize) -> R) {
         if self.width == 1 {
@@ -244,13 +244,13 @@ impl Entry {
 }
 
 impl RowSlices<'_> {
-    /// An entry's rows.
+    /// The rows of an entry's column.
     #[inline(always)]
     fn of(&mut self, entry: &Entry, row: usize, count: usize) -> &mut [MaybeUninit<f64>] {
         &mut self.columns[entry.column][row * entry.width..(row + count) * entry.width]
     }
 
-    /// Nothing but a status, for `count` rows from `row` on.
+    /// Writes NaN and a status into `count` rows from `row` on.
     pub(crate) fn write_failed(
         &mut self,
         columns: &[Column],
@@ -262,7 +262,7 @@ impl RowSlices<'_> {
         self.status[row..row + count].fill(MaybeUninit::new(status));
     }
 
-    /// No number from some order on.
+    /// Writes NaN into the derivatives from `order` on.
     pub(crate) fn write_nan(&mut self, columns: &[Column], order: usize, row: usize, count: usize) {
         for (column, out) in columns.iter().zip(&mut self.columns) {
             if column.order >= order {
@@ -273,7 +273,7 @@ impl RowSlices<'_> {
     }
 }
 
-/// The lanes of a point, x and y side by side.
+/// Stores the lanes of a point, x and y side by side.
 #[inline(always)]
 fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
     let out = &mut out[..2 * R::LANES];
@@ -283,7 +283,7 @@ fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
     }
 }
 
-/// One entry of every row: of the first few lanes.
+/// Stores one entry of each row, from as many lanes as there are rows.
 #[inline(always)]
 fn store_lanes<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, place: usize, x: R) {
     for (lane, row) in out.chunks_exact_mut(width).enumerate() {

@@ -1,4 +1,4 @@
-//! What forces and masses ask of a position: places of points, angles of links, and their
+//! The kinematics that forces and masses need: positions of points, angles of links, and their
 //! derivatives by the drivers, in metres and radians.
 
 use crate::math::derivatives::DerivativeTables;
@@ -6,17 +6,17 @@ use crate::math::vector::Vector;
 use crate::query::evaluator::Position;
 use crate::structure::closure::point_of_joint;
 
-/// Something that moves with a mechanism.
+/// A point that moves with a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Point {
     /// A joint.
     Joint(usize),
-    /// A place in a link's frame (origin at its first joint, x toward its second; the ground's is
-    /// the drawing's), m.
+    /// A point in a link's frame (origin at its first joint, x toward its second; the ground's
+    /// frame is the drawing's), m.
     Link {
         /// The link.
         link: usize,
-        /// The place.
+        /// Its coordinates.
         at: [f64; 2],
     },
 }
@@ -32,12 +32,12 @@ impl<'p> Pose<'p> {
         Self { position, jets }
     }
 
-    /// Entry of the jets: the derivative by one driver.
+    /// Index of the first derivative by a driver.
     pub(crate) fn first_order(driver: usize) -> usize {
         1 + driver
     }
 
-    /// The derivative by two.
+    /// Index of the second derivative by two drivers.
     pub(crate) fn second_order(&self, a: usize, b: usize) -> usize {
         let (a, b) = (a.min(b), a.max(b));
         let is_entry = |k: &usize| {
@@ -47,7 +47,7 @@ impl<'p> Pose<'p> {
         (1 + self.jets.drivers..self.jets.len()).find(is_entry).unwrap_or(0)
     }
 
-    /// Entry `k` of a point's place, m.
+    /// Derivative `k` of a point's position (0: the position), m.
     pub(crate) fn point(&self, point: Point, k: usize) -> Vector {
         let Position { state, plan, bound, units, .. } = &self.position;
         let place_of = |point: usize| {
@@ -71,7 +71,7 @@ impl<'p> Pose<'p> {
         }
     }
 
-    /// Entry `k` of the unit vector along a link's x, to the second order.
+    /// Derivative `k` of the unit vector along a link's x axis, up to the second order.
     fn frame(&self, link: usize, k: usize) -> Vector {
         let Position { state, plan, bound, .. } = &self.position;
         let o = plan.link_orientation[link];
@@ -91,7 +91,7 @@ impl<'p> Pose<'p> {
         tangential - unit.scale(rates)
     }
 
-    /// Entry `k` (not 0) of a link's angle.
+    /// Derivative `k` (not 0) of a link's angle.
     pub(crate) fn angle(&self, link: usize, k: usize) -> f64 {
         let Position { state, plan, units, .. } = &self.position;
         let rotation = &plan.rotation[link];
@@ -100,7 +100,7 @@ impl<'p> Pose<'p> {
         (own + f64::from(turns)) * units.angle[k]
     }
 
-    /// A link's angle itself, rad, continuous along the way from the drawing.
+    /// A link's angle, rad, continuous along the branch from the drawing.
     pub(crate) fn total_angle(&self, link: usize) -> f64 {
         self.position.angle(link)
     }

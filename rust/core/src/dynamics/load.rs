@@ -1,34 +1,34 @@
-//! Forces and torques, referred to the drivers: by the principle of virtual work each counts as its
-//! product with the derivatives of what it acts on (I. M. Matsyuk & E. M. Shlyakhov, equation 1; Uicker,
-//! Pennock & Shigley 2017, chapter 12).
+//! Forces and torques referred to the drivers. By the principle of virtual work each contributes
+//! its product with the derivatives of the point or angle it acts on (I. M. Matsyuk &
+//! E. M. Shlyakhov, equation 1; Uicker, Pennock & Shigley 2017, chapter 12).
 
 use super::kinematics::{Point, Pose};
 use super::reduced::Reduced;
 use super::value::{Numbers, Value};
 use crate::math::vector::Vector;
 
-/// What acts on a mechanism besides its weight.
+/// A load on a mechanism, besides the weight of its bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Load {
-    /// A force (N) at a point, along the frame's axes or those of a link.
+    /// A force at a point, N; its components are along the axes of the frame or of a link.
     Force {
-        /// Where it acts.
+        /// The point where it acts.
         at: Point,
         /// Components.
         force: [Value; 2],
-        /// The link whose axes these are along.
+        /// The link whose axes they are along; `None`: the frame's.
         axes: Option<usize>,
     },
-    /// A torque (N·m) on a link, its reaction on another (or the frame).
+    /// A torque on a link; its reaction acts on another link (or the frame).
     Torque {
         /// The link.
         link: usize,
-        /// Its counterpart.
+        /// The link that takes the reaction.
         on: usize,
-        /// Counter-clockwise on the link.
+        /// N·m, counter-clockwise on the link.
         torque: Value,
     },
-    /// A spring between two points; pulls them together when it is elongation than free.
+    /// A spring between two points; pulls them together when longer than its free length.
     Spring {
         /// Its ends.
         ends: [Point; 2],
@@ -39,17 +39,17 @@ pub enum Load {
         /// Tension at the free length, N.
         preload: f64,
     },
-    /// A spring between two links; turns them back.
+    /// A torsion spring between two links.
     TorsionSpring {
         /// The link.
         link: usize,
-        /// The other.
+        /// The other link.
         on: usize,
         /// N·m/rad.
         stiffness: f64,
-        /// Difference of their angles without load, rad.
+        /// Difference of their angles at which only the preload acts, rad.
         angle: f64,
-        /// Torque back at that, N·m.
+        /// Restoring torque at that angle, N·m.
         preload: f64,
     },
     /// A damper between two points.
@@ -59,19 +59,19 @@ pub enum Load {
         /// N·s/m.
         damping: f64,
     },
-    /// A damper between two links.
+    /// A torsion damper between two links.
     TorsionDamper {
         /// The link.
         link: usize,
-        /// The other.
+        /// The other link.
         on: usize,
         /// N·m·s/rad.
         damping: f64,
     },
 }
 
-/// Unit vector of a distance, and the distance; of none no direction (unless a spring has no force
-/// there either).
+/// Unit vector from one end to the other, and the distance. The vector is NaN at zero distance;
+/// only a spring without tension there can ignore that.
 fn direction_and_length(pose: &Pose<'_>, ends: [Point; 2]) -> (Vector, f64) {
     let span = pose.point(ends[1], 0) - pose.point(ends[0], 0);
     let length = libm::hypot(span.x, span.y);
@@ -79,7 +79,7 @@ fn direction_and_length(pose: &Pose<'_>, ends: [Point; 2]) -> (Vector, f64) {
 }
 
 impl Load {
-    /// Adds the force of a spring, which its energy tells, and that energy.
+    /// Adds the moments and the potential energy of a spring.
     pub(crate) fn add_conservative(&self, pose: &Pose<'_>, out: &mut Reduced) {
         match self {
             Self::Spring { ends, stiffness, length, preload } => {
@@ -106,7 +106,7 @@ impl Load {
         }
     }
 
-    /// Adds what anything but a spring does to every driver at speeds.
+    /// Adds the moments of any other load at the given speeds.
     pub(crate) fn add_applied(
         &self,
         pose: &Pose<'_>,
@@ -149,7 +149,7 @@ impl Load {
     }
 }
 
-/// Adds a damper of something that grows at a rate with every driver.
+/// Adds a damper across a distance or angle with this rate by each driver.
 fn damp(damping: f64, rate: impl Fn(usize) -> f64, speed: &[f64], out: &mut Reduced) {
     let elongation_speed: f64 = speed.iter().enumerate().map(|(driver, s)| s * rate(driver)).sum();
     for (driver, sum) in out.applied.iter_mut().enumerate() {
@@ -158,12 +158,12 @@ fn damp(damping: f64, rate: impl Fn(usize) -> f64, speed: &[f64], out: &mut Redu
     out.d_moment_d_speed += -damping * rate(0) * rate(0);
 }
 
-/// How a link turns against another with a driver.
+/// Derivative by a driver of a link's angle relative to another link.
 fn relative_rate(pose: &Pose<'_>, link: usize, on: usize, driver: usize) -> f64 {
     pose.angle(link, Pose::first_order(driver)) - pose.angle(on, Pose::first_order(driver))
 }
 
-/// How a distance grows with a driver.
+/// Derivative by a driver of the distance between two points.
 fn elongation_rate(pose: &Pose<'_>, ends: [Point; 2], unit: Vector, driver: usize) -> f64 {
     let k = Pose::first_order(driver);
     unit.dot(pose.point(ends[1], k) - pose.point(ends[0], k))

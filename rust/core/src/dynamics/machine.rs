@@ -15,40 +15,40 @@ use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Asked, Evaluator};
 use crate::state::status::Status;
 
-/// What a mechanism carries and what acts on it.
+/// Masses, loads and motors of a mechanism.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Machine {
     /// Its bodies.
     pub bodies: Vec<Body>,
     /// Its loads.
     pub loads: Vec<Load>,
-    /// Acceleration of free fall, m/s².
+    /// Gravitational acceleration, m/s².
     pub gravity: [f64; 2],
-    /// Tables over the first driver's coordinate that loads and motors refer to.
+    /// Tables over the first driver's coordinate, for loads and motors.
     pub tables: Vec<Table>,
-    /// Its motors; their rotors' inertia is part of the machine's, their torque none of its loads.
+    /// Its motors. Their rotors count in the machine's inertia, but their torque is not a load.
     pub motors: Vec<Motor>,
 }
 
-/// A machine referred to its drivers at many positions, reduced after another; NaN where there is
-/// nothing.
+/// A machine referred to its drivers at many positions, one after another; NaN where a position
+/// could not be solved.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ReducedTable {
     /// Mass matrices.
     pub inertia: Vec<f64>,
-    /// Their derivatives.
+    /// Their derivatives by the drivers.
     pub d_inertia: Vec<f64>,
-    /// Reduced forces and moments of all loads.
+    /// Reduced moments (forces, for slides) of all loads.
     pub moment: Vec<f64>,
     /// Potential energies of weights and springs, J.
     pub potential: Vec<f64>,
-    /// How the positions came out.
+    /// Status of each position.
     pub status: Vec<Status>,
 }
 
 impl Machine {
-    /// Refers a design to the drivers at positions (`q`, `speed`: drivers fastest; `external`: the
-    /// numbers from outside of every position, as many per_position). Ends early once `cancel` is true.
+    /// Refers a design to its drivers at positions (`q`, `speed`: drivers fastest; `external`: the
+    /// callbacks' values, equally many for each position). Ends early once `cancel` is true.
     #[must_use]
     pub fn reduce(
         &self,
@@ -103,12 +103,12 @@ impl Machine {
         rows
     }
 
-    /// Whether a load asks for angles themselves.
+    /// Whether a load needs the angles of links, not only their derivatives.
     pub(crate) fn has_torsion(&self) -> bool {
         self.loads.iter().any(|load| matches!(load, Load::TorsionSpring { .. }))
     }
 
-    /// Inertia, weights and springs at a position.
+    /// Inertia, weights and springs at a position; replaces those in `out`.
     pub(crate) fn add_configuration(&self, pose: &Pose<'_>, out: &mut Reduced) {
         out.clear();
         let n = out.conservative.len();
@@ -124,7 +124,7 @@ impl Machine {
         }
     }
 
-    /// All other loads there, at speeds.
+    /// All other loads at the same position and the given speeds; replaces those in `out`.
     pub(crate) fn add_speed_loads(
         &self,
         pose: &Pose<'_>,

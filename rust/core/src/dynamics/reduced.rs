@@ -1,4 +1,4 @@
-//! A machine referred to its drivers at one place.
+//! A machine referred to its drivers at one position.
 
 use super::body::Body;
 use super::kinematics::Pose;
@@ -7,22 +7,22 @@ use crate::math::vector::Vector;
 /// Inertia, forces and energy of a machine, referred to its drivers.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Reduced {
-    /// The mass matrix, row after row: of one driver the reduced inertia.
+    /// The mass matrix, row by row; with one driver the reduced inertia.
     pub inertia: Vec<f64>,
-    /// Its derivatives: by every driver one matrix.
+    /// Its derivatives: one matrix per driver.
     pub d_inertia: Vec<f64>,
-    /// Reduced forces and moments of weights and springs.
+    /// Reduced moments (forces, for slides) of weights and springs.
     pub conservative: Vec<f64>,
-    /// Of all other loads.
+    /// Reduced moments of all other loads.
     pub applied: Vec<f64>,
-    /// Derivative of these by the speed, with one driver.
+    /// Derivative of the first of these by the speed, for one driver.
     pub d_moment_d_speed: f64,
     /// Potential energy of weights and springs, J.
     pub potential: f64,
 }
 
 impl Reduced {
-    /// For a number of drivers.
+    /// Zero inertia and loads for a number of drivers.
     #[must_use]
     pub(crate) fn new(drivers: usize) -> Self {
         Self {
@@ -34,13 +34,13 @@ impl Reduced {
         }
     }
 
-    /// Reduced force or moment of all loads on a driver.
+    /// Reduced moment of all loads on a driver.
     #[must_use]
     pub(crate) fn moment(&self, driver: usize) -> f64 {
         self.conservative[driver] + self.applied[driver]
     }
 
-    /// Kinetic energy at speeds, J.
+    /// Kinetic energy at these speeds, J.
     #[must_use]
     pub(crate) fn kinetic(&self, speed: &[f64]) -> f64 {
         let n = speed.len();
@@ -48,8 +48,8 @@ impl Reduced {
         0.5 * (0..n).map(|a| speed[a] * row(a)).sum::<f64>()
     }
 
-    /// What the inertia itself asks of a driver at speeds: Σ (∂Mₐᵦ/∂γ − ½ ∂Mᵦᵧ/∂α) vᵦ vᵧ (the
-    /// terms of Lagrange's equations without accelerations; of one driver ½ J′ v²).
+    /// Velocity-dependent inertia moment on a driver: Σ (∂Mₐᵦ/∂γ − ½ ∂Mᵦᵧ/∂α) vᵦ vᵧ (the terms of
+    /// Lagrange's equations without accelerations; for one driver ½ J′ v²).
     #[must_use]
     pub(crate) fn centrifugal(&self, driver: usize, speed: &[f64]) -> f64 {
         if let &[speed] = speed {
@@ -67,7 +67,7 @@ impl Reduced {
         sum
     }
 
-    /// Begins a place.
+    /// Sets inertia, weights and springs to zero.
     pub(crate) fn clear(&mut self) {
         self.inertia.fill(0.0);
         self.d_inertia.fill(0.0);

@@ -1,54 +1,55 @@
-//! Flywheels: from the energy of a cycle to the speed, and from the fluctuation of that to the
-//! flywheel.
+//! Flywheels: the speed from the energy of a cycle, and the flywheel from the fluctuation of the
+//! speed.
 //!
 //! With K the flywheel's inertia and C = (I(0) + K) ω0² the energy integral (I. M. Matsyuk & E. M.
 //! Shlyakhov, equation 3) is ω² = (2 W + C) / (I + K). So ω ≤ p everywhere means
-//! C ≤ p² K + min(p² I − 2 W), ω ≥ r means C ≥ r² K + max(r² I − 2 W), and both are reached: two
-//! equations, linear in K and C (the tangents of F. Wittenbauer's diagram, Graphische Dynamik, 1923).
+//! C ≤ p² K + min(p² I − 2 W), ω ≥ r means C ≥ r² K + max(r² I − 2 W), and both bounds are reached:
+//! two equations, linear in K and C (the tangents of F. Wittenbauer's diagram, Graphische Dynamik,
+//! 1923).
 
 use super::cycle::{Cycle, Extreme, wrap_to_period};
 use crate::dynamics::tables::error::TableError;
 use crate::math::quadrature::integral;
 use crate::math::root;
 
-/// Steps toward an extreme of the speed, at most; it takes some five.
+/// Iteration limit for an extreme speed and for the coordinate at a time; about five are needed.
 const MAX_STEPS: u32 = 64;
 
-/// What the mean speed is, by which the fluctuation is divided.
+/// Definition of the mean speed, by which the fluctuation is divided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Mean {
-    /// Half the sum of the greatest and the least.
+    /// Half the sum of the greatest and the least speed.
     #[default]
     Extremes,
-    /// The cycle by its time.
+    /// The period in rad divided by its time.
     Period,
 }
 
 /// A machine with a flywheel in steady motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flywheel {
-    /// One cycle without it.
+    /// The cycle without the flywheel.
     pub cycle: Cycle,
-    /// Its moment of inertia, kg·m².
+    /// Moment of inertia of the flywheel, kg·m².
     pub inertia: f64,
     /// Speed where the cycle begins, rad/s.
     pub speed0: f64,
-    /// The greatest speed and its place, rad/s and rad.
+    /// The greatest speed and its coordinate, rad/s and rad.
     pub greatest: Extreme,
-    /// The least.
+    /// The least speed and its coordinate, rad/s and rad.
     pub least: Extreme,
-    /// C.
+    /// The energy constant C.
     constant: f64,
-    /// Time from the beginning of the cycle to every knot, s.
+    /// Time from the start of the cycle to every knot, s.
     times: Vec<f64>,
 }
 
 impl Flywheel {
-    /// The flywheel with which the speed varies by this part of its mean (rad/s).
+    /// Sizes the flywheel for a coefficient of speed fluctuation at a mean speed (rad/s).
     ///
     /// # Errors
     ///
-    /// A fluctuation or mean that cannot be, or one that needs no flywheel.
+    /// An invalid fluctuation or mean, or a fluctuation that needs no flywheel.
     pub fn for_fluctuation(
         cycle: Cycle,
         fluctuation: f64,
@@ -80,11 +81,11 @@ impl Flywheel {
         Err(TableError::AlreadyMet { without, wanted: fluctuation })
     }
 
-    /// A given flywheel at a given mean speed, rad/s.
+    /// The motion with a given flywheel at a mean speed, rad/s.
     ///
     /// # Errors
     ///
-    /// A flywheel or mean that cannot be, or a mean at which the machine would stop.
+    /// An invalid flywheel or mean, or a mean speed at which the machine would stop.
     pub fn for_mean_speed(
         cycle: Cycle,
         inertia: f64,
@@ -93,11 +94,11 @@ impl Flywheel {
     ) -> Result<Self, TableError> {
         check_inertia(&cycle, inertia)?;
         check_speed("mean_speed", mean)?;
-        // Below, the speed would not be real everywhere.
+        // With a smaller constant the speed would not be real everywhere.
         let [greatest, least] = cycle.extremes(0.0, 2.0);
         let guess = mean * mean * (cycle.inertia(cycle.start()) + inertia);
         if guess <= f64::EPSILON * greatest.value.abs().max(least.value.abs()) {
-            // Beside such energies that of the mean speed is rounding.
+            // The kinetic energy at this mean speed is below the rounding of the work.
             return Err(TableError::NoMean { mean });
         }
         let residual = |above: f64| {
@@ -115,11 +116,11 @@ impl Flywheel {
         Self::with_energy(cycle, inertia, least.value + above, ("mean_speed", mean))
     }
 
-    /// A given flywheel with a given speed (rad/s) where the cycle begins.
+    /// The motion with a given flywheel and initial speed (rad/s).
     ///
     /// # Errors
     ///
-    /// A flywheel or speed that cannot be, or with which the machine stops on the way.
+    /// An invalid flywheel or speed, or a speed at which the machine stops within the cycle.
     pub fn for_initial_speed(cycle: Cycle, inertia: f64, speed0: f64) -> Result<Self, TableError> {
         check_inertia(&cycle, inertia)?;
         check_speed("speed0", speed0)?;
@@ -132,7 +133,7 @@ impl Flywheel {
         Self::with_energy(cycle, inertia, constant, ("speed0", speed0))
     }
 
-    /// At a speed that was asked for by name.
+    /// The motion with the energy constant C; `name` and `speed`: the user's argument, for errors.
     fn with_energy(
         cycle: Cycle,
         inertia: f64,
@@ -172,7 +173,7 @@ impl Flywheel {
         }
     }
 
-    /// How much the speed varies, as a part of its mean.
+    /// Coefficient of speed fluctuation: (greatest − least) / mean speed.
     #[must_use]
     pub fn fluctuation(&self, by: Mean) -> f64 {
         (self.greatest.value - self.least.value) / self.mean(by)
@@ -185,7 +186,7 @@ impl Flywheel {
         speed_within(&self.cycle, [self.inertia, self.constant], piece, x)
     }
 
-    /// Time at which a coordinate is reached, s; 0 where the table begins.
+    /// Time at which a coordinate is reached, s; 0 at the start of the table.
     #[must_use]
     pub fn time(&self, phi: f64) -> f64 {
         let (piece, x, periods) = self.cycle.locate(phi);
@@ -223,7 +224,7 @@ fn check_speed(name: &'static str, value: f64) -> Result<(), TableError> {
     }
 }
 
-/// Refuses a flywheel that is none, or with which a machine has no inertia somewhere.
+/// Checks that the flywheel is valid and the total inertia positive everywhere.
 fn check_inertia(cycle: &Cycle, flywheel: f64) -> Result<(), TableError> {
     if !(flywheel >= 0.0 && flywheel.is_finite()) {
         return Err(TableError::BadInertia { value: flywheel });
@@ -233,7 +234,7 @@ fn check_inertia(cycle: &Cycle, flywheel: f64) -> Result<(), TableError> {
     if value > 0.0 { Ok(()) } else { Err(TableError::NoInertia { flywheel, value, at: least.at }) }
 }
 
-/// Flywheel and C for which these are the extreme speeds.
+/// The flywheel and the constant C with which these are the extreme speeds.
 fn tangents(cycle: &Cycle, [least, greatest]: [f64; 2]) -> [f64; 2] {
     let [low, high] = [least * least, greatest * greatest];
     let [above, _] = cycle.extremes(high, 2.0);
@@ -242,18 +243,18 @@ fn tangents(cycle: &Cycle, [least, greatest]: [f64; 2]) -> [f64; 2] {
     [inertia, high * inertia + above.value]
 }
 
-/// Least and greatest speed: a quotient of two functions is greatest where their difference is with
-/// that quotient as a factor, and steps toward it end there (W. Dinkelbach, On nonlinear fractional
+/// Least and greatest speed. Dinkelbach's iteration: a quotient of two functions is extreme where
+/// their difference, with that quotient as a factor, is (W. Dinkelbach, On nonlinear fractional
 /// programming, 1967).
 fn speeds(cycle: &Cycle, inertia: f64, constant: f64) -> [Extreme; 2] {
     [0, 1].map(|which| {
         let mut best = Extreme::default();
         let mut speed2 = constant / (cycle.inertia(cycle.start()) + inertia);
         for step in 0..MAX_STEPS {
-            // Of the difference the other one: its sign is turned.
+            // `extremes` has the opposite sign, so the other extreme is the one.
             let at = cycle.extremes(speed2, 2.0)[1 - which].at;
             let own = (2.0 * cycle.work(at) + constant) / (cycle.inertia(at) + inertia);
-            // The last step tells nothing but the place.
+            // The last step changes the coordinate only.
             best = Extreme { at, value: own.sqrt() };
             let better = if which == 1 { own > speed2 } else { own < speed2 };
             if step > 0 && !better {
@@ -270,7 +271,7 @@ fn speed_within(cycle: &Cycle, [flywheel, constant]: [f64; 2], piece: usize, x: 
     ((2.0 * work + constant) / (inertia + flywheel)).sqrt()
 }
 
-/// Time from a knot to a place in the piece behind it.
+/// Time from a knot to a point in the piece behind it.
 fn time_within(cycle: &Cycle, state: [f64; 2], piece: usize, x: f64) -> f64 {
     integral(&|x| 1.0 / speed_within(cycle, state, piece, x), 0.0, x)
 }

@@ -1,14 +1,14 @@
-//! The last bit of a way to a dead point.
+//! The last part of a motion that ends at a dead point.
 //!
-//! There the driver turns back while the mechanism goes through: with s the root of what is left of
-//! its coordinate, the speed is s b(s) with a smooth b (another link's angle, which goes through the
-//! dead point at a speed of its own, grows like s). So ṡ = −b/2; with b straight over the last 1e-4
-//! or so of s, whose slope the acceleration tells, its square is all that is left out.
+//! There the driver turns back while the mechanism moves on. With s the square root of the
+//! remaining coordinate, the speed is s b(s) with a smooth b (another link's angle, which passes
+//! the dead point at a finite speed, grows like s). So ṡ = −b/2. Over the last 1e-4 or so of s, b
+//! is taken as linear, with the slope from the acceleration; only its quadratic term is neglected.
 
 use super::options::Variable;
 use super::sample::Sample;
 
-/// From the last sample that was integrated to the dead point.
+/// The motion from the last integrated sample to the dead point.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tail {
@@ -21,7 +21,7 @@ pub(crate) struct Tail {
 }
 
 impl Tail {
-    /// None if the coordinate is at the dead point already, or does not go to it.
+    /// `None` if the coordinate is already at the dead point, or does not move toward it.
     pub(crate) fn of(last: &Sample, dead_point: f64) -> Option<Self> {
         let (left, sign) = (dead_point - last.q[0], last.speed[0].signum());
         let root = (left * sign).sqrt();
@@ -36,9 +36,9 @@ impl Tail {
         self.b - self.slope * (self.root - root)
     }
 
-    /// Time from the last sample to a root.
+    /// Time from the last sample to `root`, the square root of the remaining coordinate.
     fn time(&self, root: f64) -> f64 {
-        // ∫ 2/b ds, b straight: by its mean the logarithm is avoided where b hardly changes.
+        // ∫ 2/b ds with b linear. The series avoids the logarithm where b hardly changes.
         let (b, change) = (self.b(root), self.b - self.b(root));
         let part = change / b;
         let mean = if part.abs() < 1e-4 {
@@ -65,7 +65,7 @@ impl Tail {
         self.sample(0.0)
     }
 
-    /// The motion at a time or a coordinate of this bit.
+    /// The motion at a time or a coordinate within this part.
     pub(crate) fn at(&self, along: Variable, x: f64) -> Option<Sample> {
         let root = match along {
             Variable::Coordinate => ((self.dead_point - x) * self.sign).sqrt(),

@@ -1,5 +1,5 @@
-//! The equation of motion of a machine at clamped place: J q̈ + ½ J′ q̇² = M (I. M. Matsyuk & E. M.
-//! Shlyakhov, equation 3, differentiated; of several drivers Lagrange's equations).
+//! The equation of motion of a machine at one state: J q̈ + ½ J′ q̇² = M (I. M. Matsyuk & E. M.
+//! Shlyakhov, equation 3, differentiated; with several drivers Lagrange's equations).
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -14,19 +14,19 @@ use crate::dynamics::value::Numbers;
 use crate::ode::system::Fault;
 use crate::state::status::Status;
 
-/// Part of the speed by which functions from callbacks are varied to find their wants_slopes: the cube root
-/// of the unit roundoff, where rounding and curvature are equal.
+/// Relative change of the speed for the difference quotient of callbacks: the cube root of the unit
+/// roundoff, which balances rounding and curvature.
 const SLOPE_STEP: f64 = 6.0e-6;
 
 type EquationFault<E> = Fault<RunError<E>>;
 
-/// The numbers just within two others, ascending.
+/// The ends of an interval moved inward by one ulp, ascending.
 pub(crate) fn just_inside(from: f64, to: f64) -> [f64; 2] {
     let (low, high) = (from.min(to).next_up(), from.max(to).next_down());
     [low.min(high), high.max(low)]
 }
 
-/// The machine with everything that is read at a place.
+/// A machine with the values of tables, callbacks and motors at the current state.
 pub(crate) struct Equation<'a, S, O> {
     pub model: S,
     pub callbacks: O,
@@ -36,20 +36,20 @@ pub(crate) struct Equation<'a, S, O> {
     pub flywheel: f64,
     pub extra_moment: f64,
     pub cursor: TableCursor,
-    /// The piece of every motor's own table.
+    /// The current piece of each motor's own table.
     pub motor_cells: Vec<Cell>,
     pub reduced: Reduced,
     /// Moments of the motors on the drivers.
     pub drive: Vec<f64>,
-    /// Derivative of the first by the speed.
+    /// Derivative of the first driver's by its speed.
     pub d_drive_d_speed: f64,
-    /// Between which times or coordinates functions from callbacks are asked now: just within breaks,
+    /// Ranges of time and coordinate in which callbacks are evaluated: just inside the breaks,
     /// where they may jump.
     pub times: [f64; 2],
     pub coordinates: [f64; 2],
-    /// Whether wants_slopes of functions from callbacks are asked for.
+    /// Whether derivatives of the callbacks by the speed are needed.
     pub wants_slopes: bool,
-    /// Why there was nothing at the last place that was rejected, and where.
+    /// Status and coordinates of the last position that was rejected.
     pub rejected: Option<(Status, Vec<f64>)>,
     readings: Vec<[f64; 2]>,
     external: Vec<[f64; 2]>,
@@ -89,7 +89,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         }
     }
 
-    /// Looks tables up where a motion begins.
+    /// Looks up the tables at the start of a motion.
     pub(crate) fn begin(&mut self, q: f64, speed: &[f64]) -> Result<(), RunError<O::Error>> {
         self.look_up(q)?;
         for (motor, cell) in self.motors.iter().zip(&mut self.motor_cells) {
@@ -103,13 +103,13 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         Ok(())
     }
 
-    /// The motors that have tables over their speed.
+    /// Indices of the motors with a table over their speed.
     pub(crate) fn motors_with_table(&self) -> impl Iterator<Item = usize> + use<'a, S, O> {
         let motors = self.motors;
         (0..motors.len()).filter(move |&motor| motors[motor].table().is_some())
     }
 
-    /// How far these are from the ends of their pieces, two numbers each.
+    /// Distances of these motors' speeds from both ends of their pieces: two numbers per motor.
     pub(crate) fn motor_table_margins(&self, speed: &[f64], values: &mut [f64]) {
         for (pair, which) in values.chunks_exact_mut(2).zip(self.motors_with_table()) {
             let motor = &self.motors[which];
@@ -120,8 +120,8 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         }
     }
 
-    /// A motor goes on to the next piece of its table: the driver and its speed there, inside that
-    /// piece; none if the table ends.
+    /// Moves a motor to the next piece of its table. Returns its driver and that driver's speed at
+    /// the knot, inside the new piece; `None` if the table ends.
     pub(crate) fn advance_motor_table(&mut self, which: usize, up: bool) -> Option<(usize, f64)> {
         let motor = &self.motors[which];
         let table = motor.table()?;
@@ -129,7 +129,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         let knot = table.ends(*cell)[usize::from(up)];
         *cell = table.next(*cell, up)?;
         let mut speed = knot / motor.ratio;
-        // By its rounding the motor's own speed may be before the knot.
+        // Rounding may leave the motor's speed short of the knot.
         let is_before = |speed: f64| {
             let own = motor.ratio * speed;
             if up { own < knot } else { own > knot }
@@ -140,7 +140,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         Some((motor.driver, speed))
     }
 
-    /// Looks tables up in the middle of a stretch between knots.
+    /// Looks up the tables in the middle of an interval between knots.
     pub(crate) fn enter_interval(&mut self, from: f64, to: f64) -> Result<(), RunError<O::Error>> {
         self.coordinates = just_inside(from, to);
         self.look_up(0.5 * (from + to))
@@ -153,19 +153,19 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             .map_err(|which| outside_table("table over q", &tables[which], q))
     }
 
-    /// Looks tables up at a coordinate, unless they are in their pieces there; whether they are
-    /// there.
+    /// Looks up the tables at a coordinate, unless their current pieces contain it. Returns false
+    /// if a table does not.
     pub(crate) fn ensure_tables_at(&mut self, q: f64) -> bool {
         (self.cursor.low..=self.cursor.high).contains(&q)
             || self.cursor.look_up(self.tables, q).is_ok()
     }
 
-    /// Whether the last place that was rejected is beside a near miss of a change point.
+    /// Whether the last rejected position is beside a near miss of a change point.
     pub(crate) fn is_near_miss(&self) -> bool {
         matches!(self.rejected, Some((Status::NearSingular, _)))
     }
 
-    /// Inertia, weights and springs at coordinates.
+    /// Reduces inertia, weights and springs at coordinates.
     #[inline]
     pub(crate) fn set_configuration(&mut self, q: &[f64]) -> Result<(), EquationFault<O::Error>> {
         self.cursor.read(self.tables, q[0], &mut self.readings);
@@ -178,7 +178,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         Ok(())
     }
 
-    /// All other loads and motors there, at speeds.
+    /// Adds all other loads and the motors there, at these speeds.
     #[inline]
     pub(crate) fn apply_loads(
         &mut self,
@@ -225,27 +225,27 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         Ok(())
     }
 
-    /// Moment of all that acts on a driver, motors among it.
+    /// Moment of all loads and motors on a driver.
     pub(crate) fn moment(&self, driver: usize) -> f64 {
         self.reduced.moment(driver) + self.drive[driver]
     }
 
-    /// Power of all that is not told by the potential energy, W.
+    /// Power of loads and motors that the potential energy does not include, W.
     pub(crate) fn power(&self, speed: &[f64]) -> f64 {
         let of =
             |(driver, v): (usize, &f64)| (self.reduced.applied[driver] + self.drive[driver]) * v;
         speed.iter().enumerate().map(of).sum()
     }
 
-    /// The reduced inertia of the clamped driver.
+    /// The reduced inertia of a single driver.
     #[inline]
     pub(crate) fn inertia(&self, q: f64) -> Result<f64, EquationFault<O::Error>> {
         let value = self.reduced.inertia[0];
-        // NaN as well is none.
+        // NaN must fail too.
         if value > 0.0 { Ok(value) } else { Err(Fault::Error(RunError::NoInertia { q, value })) }
     }
 
-    /// Accelerations of the drivers there.
+    /// Accelerations of the drivers.
     pub(crate) fn accelerations(
         &self,
         q: &[f64],

@@ -1,4 +1,4 @@
-//! Makes a run.
+//! Integrates the equation of motion into a run.
 
 use super::callbacks::Callbacks;
 use super::dead_point::Tail;
@@ -23,15 +23,16 @@ use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::NearMiss;
 use crate::state::status::Status;
 
-/// What a run cannot be made for.
+/// Why a run could not be made.
 pub type IntegrationError<E> = Error<RunError<E>>;
 
 impl Machine {
-    /// Makes a run of a design of the mechanism.
+    /// Integrates the motion of a design of the mechanism.
     ///
     /// # Errors
     ///
-    /// What cannot be begun, and where there is nothing to be accelerated.
+    /// Invalid options or initial state, a reduced inertia that is not positive, or a failed
+    /// callback.
     pub fn run<O: Callbacks>(
         &self,
         mechanism: &Mechanism,
@@ -52,11 +53,11 @@ impl Machine {
 }
 
 impl TabulatedMachine {
-    /// Makes a run.
+    /// Integrates the motion of the tabulated machine.
     ///
     /// # Errors
     ///
-    /// As of [`Machine::run`].
+    /// Those of [`Machine::run`].
     pub fn run<O: Callbacks>(
         &self,
         options: &RunOptions<'_>,
@@ -67,13 +68,13 @@ impl TabulatedMachine {
         run(Equation::new(self, callbacks, &self.tables, &self.motors, 1), options, &[1.0])
     }
 
-    /// Inertia and moment are its first two tables.
+    /// Checks that there are tables of inertia and moment, the first two.
     pub(crate) fn check<E>(&self) -> Result<(), RunError<E>> {
         check_counts(&[("tables of inertia and moment", 2, self.tables.len().min(2))])
     }
 }
 
-/// Makes it; `sizes`: what a coordinate's tolerance is a part of.
+/// Integrates the motion; `sizes`: for each driver, the size that its tolerance is relative to.
 pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     mut equation: Equation<'_, S, O>,
     options: &RunOptions<'_>,
@@ -99,14 +100,14 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     };
     let [relative, absolute] = tolerances(&mut system, options, sizes).map_err(Error::System)?;
     let crossings = system.crossings();
-    // A smooth motion in wide steps does not show what the mechanism does on the system.
+    // Wide steps of a smooth motion could skip over an angle's event.
     let has_angle_events =
         options.events.iter().any(|event| matches!(event.kind, EventKind::Angle(..)));
     let (mut max_step, mut max_change) = (options.max_step, Vec::new());
     if has_angle_events && options.along == Variable::Coordinate {
         max_step = max_step.min(ANGLE_EVENT_STEP);
     } else if has_angle_events || sizes.len() > 1 {
-        // With several drivers positions are followed from one to the next.
+        // With several drivers each position is solved from the one before.
         let largest = if has_angle_events { ANGLE_EVENT_STEP } else { SEVERAL_DRIVERS_STEP };
         max_change.extend(sizes.iter().map(|size| largest * size));
     }
@@ -127,7 +128,8 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     Ok(assemble_run(system, options, from, solution, clipped))
 }
 
-/// Where a run along the coordinate must end, as a table does, and which.
+/// The end of a run along the coordinate, no farther than its tables reach, and the table that
+/// ends.
 fn clip_to_tables(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>) {
     let mut clipped = (end, None);
     if from == end {
@@ -143,17 +145,17 @@ fn clip_to_tables(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>)
     clipped
 }
 
-/// How far (rad, or of the size) a step goes where angles of the mechanism are looked at.
+/// Largest step (rad, or of the size) with events on angles of the mechanism.
 const ANGLE_EVENT_STEP: f64 = 0.1;
-/// The same with several drivers, where nothing is.
+/// The same with several drivers and no such events.
 const SEVERAL_DRIVERS_STEP: f64 = 1.0;
-/// Knots on a system along the coordinate, at most: they are all known beforehand.
+/// Largest number of table knots in a run along the coordinate: they are all listed beforehand.
 const MAX_KNOTS: f64 = 1.0e7;
-/// Coordinates beyond this have no place in a table.
+/// Coordinates beyond this are too coarse for a table's knots.
 const MAX_COORDINATE: f64 = 1.0e9;
 
-/// Knots of tables between two coordinates, with breaks that are given; knots of several tables at
-/// one place are one.
+/// Knots of tables between two coordinates, together with given breaks; knots of several tables
+/// that coincide count once.
 pub(crate) fn breaks_of<E>(
     tables: &[Table],
     given: &[f64],
@@ -161,7 +163,7 @@ pub(crate) fn breaks_of<E>(
 ) -> Result<Vec<f64>, RunError<E>> {
     let count: f64 = tables.iter().map(|table| table.knots_in((to - from).abs())).sum();
     let far = from.abs().max(to.abs());
-    // Beyond a table's own accuracy knots are none.
+    // Beyond this coordinate rounding exceeds the accuracy of the knots.
     if count > MAX_KNOTS || (!tables.is_empty() && far > MAX_COORDINATE) {
         return Err(RunError::ManyKnots { most: MAX_KNOTS, from, to });
     }
@@ -173,7 +175,7 @@ pub(crate) fn breaks_of<E>(
     Ok(breaks)
 }
 
-/// Nothing is beyond: why, and where that was found.
+/// Why a motion cannot be continued, and where.
 fn edge_reason<S: ReducedModel, O: Callbacks>(equation: &mut Equation<'_, S, O>) -> StopReason {
     let (status, q) = equation.rejected.take().unwrap_or((Status::Singular, Vec::new()));
     if let (Status::NearSingular, &[at]) = (status, &q[..])
@@ -229,7 +231,7 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
     if path.at(from, &mut y) && path.slope(from, &mut rates) {
         samples.push_state(along, sign, from, &y, &rates);
     } else {
-        // A run of no length has its rates too.
+        // A run of zero length has no dense output.
         let start = RunSystem::<S, O>::initial_state(options);
         if system.rates(from, &start, &mut rates).is_err() {
             rates.fill(f64::NAN);
@@ -244,7 +246,7 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
         }
         _ => None,
     };
-    // Backward: with several drivers each place is reached from the one before.
+    // Backward: with several drivers each position is solved from its neighbour.
     let mut energies = vec![[f64::NAN; 2]; samples.len()];
     for (index, pair) in energies.iter_mut().enumerate().rev() {
         let (q, speed) = samples.state(index);

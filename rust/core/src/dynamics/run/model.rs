@@ -1,4 +1,4 @@
-//! Where inertia and loads of a machine come from: a mechanism, or tables.
+//! Sources of reduced inertia and loads: a mechanism, or tables.
 
 use crate::dynamics::angle_between::Angle;
 use crate::dynamics::kinematics::Pose;
@@ -13,13 +13,13 @@ use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Asked, Evaluator, NearMiss};
 use crate::state::status::Status;
 
-/// A machine, place after place.
+/// A machine referred to its drivers, at one position after another.
 pub(crate) trait ReducedModel {
-    /// Finds inertia, weights and springs at coordinates.
+    /// Reduces inertia, weights and springs at coordinates.
     ///
     /// # Errors
     ///
-    /// Why there is nothing.
+    /// The status of a position that cannot be used.
     fn set_configuration(
         &mut self,
         q: &[f64],
@@ -27,60 +27,60 @@ pub(crate) trait ReducedModel {
         out: &mut Reduced,
     ) -> Result<(), Status>;
 
-    /// Finds the other loads at the place found last, at speeds.
+    /// Adds the other loads at the last position and these speeds.
     fn apply_loads(&mut self, speed: &[f64], numbers: Numbers<'_>, out: &mut Reduced);
 
-    /// An angle at coordinates; NaN where there is none.
+    /// An angle at coordinates; NaN if they cannot be reached.
     fn angle(&mut self, q: &[f64], angle: &Angle) -> f64;
 
-    /// What a driver's coordinate is measured in: the size of a slide, of an angle 1.
+    /// Unit of a driver's coordinate: the mechanism's size for a slide, 1 for an angle.
     fn unit(&self, driver: usize) -> f64;
 
-    /// Whether there may be dead points.
+    /// Whether dead points are possible.
     fn has_dead_points(&self) -> bool;
 
-    /// Where the dead point ahead of the one driver's coordinate is, if it is near.
+    /// The coordinate of the dead point ahead of a single driver, if it is near.
     fn dead_point_ahead(&mut self, q: f64, direction: f64) -> Option<f64>;
 
-    /// The near miss of a change point beside the one driver's coordinate, if there is one.
+    /// The near miss of a change point beside a single driver's coordinate, if there is one.
     fn near_miss(&mut self, q: f64) -> Option<NearMiss>;
 
-    /// Whether there is a dead point within this part of a radian (or of the size).
+    /// Whether a dead point is within this part of a radian (or of the size).
     fn is_near_dead_point(&mut self, q: &[f64], within: f64) -> bool;
 
-    /// Part of the inertia at the last place that is rounding.
+    /// Relative rounding error of the inertia at the last position.
     fn inertia_noise(&self) -> f64;
 
-    /// How far coordinates are from a singular position (the inverse of the condition); NaN where
-    /// there is nothing.
+    /// Distance from a singular position, as the inverse of the condition; NaN if the coordinates
+    /// cannot be reached.
     fn inverse_condition(&mut self, q: &[f64]) -> f64;
 }
 
-/// A machine with its mechanism.
+/// A machine on its mechanism.
 pub(crate) struct MechanismModel<'m> {
     machine: &'m Machine,
     jets: &'m DerivativeTables,
     evaluator: Evaluator<'m>,
 }
 
-/// Beyond this condition of a dyad or group too few digits of the analogues are left to be
-/// integrated: some eight of them (64 u κ²). A dead point at a distance x has about 1/√x, so this
+/// Beyond this condition of a dyad or group the analogues have too few digits to be integrated:
+/// about eight (64 u κ²). At a distance x from a dead point the condition is about 1/√x, so this
 /// is some 1e-7 before it.
 const MAX_CONDITION: f64 = 3.0e3;
-/// Where there is a dead point it is within this part of 1/κ².
+/// A dead point is within this multiple of 1/κ².
 const DEAD_POINT_WITHIN: f64 = 1.0e3;
-/// Halvings on the way to it.
+/// Limit of bisections for a dead point.
 const MAX_HALVINGS: u32 = 80;
 
 impl<'m> MechanismModel<'m> {
-    /// How far from here a dead point may be, in the coordinate's unit; not farther than `most` of
-    /// it.
+    /// How far a dead point may be from here, in the coordinate's unit; at most `most` times that
+    /// unit.
     fn reach(&self, driver: usize, most: f64) -> f64 {
         let (_, condition) = self.evaluator.condition();
         (DEAD_POINT_WITHIN / (condition * condition)).min(most) * self.evaluator.unit(driver)
     }
 
-    /// Whether a dead point is near the place solved last.
+    /// Whether a dead point is near the last position.
     fn has_dead_point_near(&mut self, q: &[f64], most: f64) -> bool {
         let reaches: Vec<f64> = (0..q.len()).map(|driver| self.reach(driver, most)).collect();
         let mut beside = q.to_vec();
@@ -96,7 +96,7 @@ impl<'m> MechanismModel<'m> {
         false
     }
 
-    /// Refuses a place beside a dead point or a near miss of a change point.
+    /// Rejects a position beside a dead point or a near miss of a change point.
     #[cold]
     #[inline(never)]
     fn check_singularity(&mut self, q: &[f64]) -> Result<(), Status> {
@@ -133,7 +133,7 @@ impl ReducedModel for MechanismModel<'_> {
         out: &mut Reduced,
     ) -> Result<(), Status> {
         self.evaluator.solve(q)?;
-        // No dyad has more by itself than the whole position.
+        // The product bounds the condition of each dyad.
         if self.evaluator.product() > MAX_CONDITION {
             self.check_singularity(q)?;
         }
@@ -202,14 +202,14 @@ impl ReducedModel for MechanismModel<'_> {
 /// A machine given by tables of its reduced inertia and moment over the driver's coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TabulatedMachine {
-    /// Inertia and moment first, then those of motors.
+    /// Inertia and moment, then the tables of motors.
     pub tables: Vec<Table>,
     /// Its motors.
     pub motors: Vec<Motor>,
 }
 
 impl TabulatedMachine {
-    /// Refers to the driver at coordinates; nothing is beyond tables that are not periodic.
+    /// The machine at coordinates; NaN beyond tables that are not periodic.
     #[must_use]
     pub fn reduce(&self, q: &[f64]) -> ReducedTable {
         let mut rows = ReducedTable::default();

@@ -1,4 +1,4 @@
-//! What is asked of a run.
+//! Options of a run.
 
 use std::time::Instant;
 
@@ -8,88 +8,88 @@ use crate::dynamics::motor::Motor;
 use crate::ode::options::Method;
 use crate::ode::system::Crossing;
 
-/// What a run goes along.
+/// Independent variable of a run.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variable {
     /// The time.
     Time,
-    /// The coordinate of the one driver.
+    /// The coordinate of a single driver.
     Coordinate,
 }
 
-/// Something to be looked for on the way.
+/// What an event looks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EventKind {
-    /// A driver's coordinate has a value.
+    /// A driver's coordinate reaches a value.
     Coordinate {
-        /// Which driver.
+        /// Index of the driver.
         driver: usize,
         /// The value.
         value: f64,
     },
-    /// A driver's speed has a value; 0 is rest.
+    /// A driver's speed reaches a value; 0 is rest.
     Speed {
-        /// Which driver.
+        /// Index of the driver.
         driver: usize,
         /// The value.
         value: f64,
     },
-    /// The speed of the one driver is the greatest or the least.
+    /// The speed of a single driver is greatest or least.
     Extreme,
-    /// An angle has a value.
+    /// An angle reaches a value.
     Angle(Angle, f64),
-    /// A function from outside is zero: which one.
+    /// The callback with this index is zero.
     Callback(usize),
 }
 
-/// An event.
+/// An event to look for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EventSpec {
-    /// What is looked for.
+    /// What to look for.
     pub kind: EventKind,
-    /// Which way.
+    /// Direction of the crossing.
     pub crossing: Crossing,
     /// Whether the run ends there.
     pub stops: bool,
 }
 
-/// A run.
+/// Options of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct RunOptions<'a> {
-    /// What it goes along.
+    /// Independent variable.
     pub along: Variable,
-    /// Time at the beginning, s.
+    /// Initial time, s.
     pub t: f64,
-    /// Coordinates there.
+    /// Initial coordinates.
     pub q: &'a [f64],
-    /// Speeds there.
+    /// Initial speeds.
     pub speed: &'a [f64],
-    /// Where it ends: a time or a coordinate.
+    /// Final time or coordinate.
     pub end: f64,
-    /// The pair of formulas.
+    /// Runge-Kutta method.
     pub method: Method,
-    /// Relative tolerance of the speeds; that of the coordinates is as much of a radian, or of the
-    /// size of the mechanism.
+    /// Relative tolerance of the speeds; also the absolute tolerance of the coordinates, in rad or
+    /// as a part of the mechanism's size.
     pub relative: f64,
-    /// Absolute tolerances of coordinates and speeds instead.
+    /// Absolute tolerances of coordinates and speeds, if they are given.
     pub absolute: Option<[f64; 2]>,
-    /// The widest step.
+    /// Largest step.
     pub max_step: f64,
-    /// How many steps may be tried.
+    /// Largest number of steps, rejected ones included.
     pub max_steps: u64,
-    /// When it must be over.
+    /// Time limit.
     pub deadline: Option<Instant>,
-    /// Where functions from outside are not smooth (times or coordinates), ascending.
+    /// Times or coordinates where callbacks are not smooth, ascending.
     pub breaks: &'a [f64],
-    /// Events.
+    /// Events to look for.
     pub events: &'a [EventSpec],
     /// Inertia added to the first driver's.
     pub flywheel: f64,
 }
 
 impl RunOptions<'_> {
-    /// Refuses what is no task of a machine with so many drivers.
+    /// Checks the options against the number of drivers.
     pub(crate) fn check<E>(&self, drivers: usize, motors: &[Motor]) -> Result<(), RunError<E>> {
         check_counts(&[
             ("coordinates", drivers, self.q.len()),

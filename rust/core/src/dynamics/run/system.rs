@@ -1,4 +1,4 @@
-//! The equation of motion as a system of differential equations, along the time or the coordinate.
+//! The equation of motion as a system of differential equations, in time or in the coordinate.
 
 use std::time::Instant;
 
@@ -10,56 +10,55 @@ use super::options::{EventKind, EventSpec, RunOptions, Variable};
 use crate::ode::system::{Action, Crossing, Fault, System};
 use crate::state::status::Status;
 
-/// What ended a run of itself.
+/// What ended a run early.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Ended {
-    /// A table over the coordinate.
+    /// The end of a table over the coordinate.
     Table(usize),
-    /// The table of a motor.
+    /// The end of a motor's table.
     Motor(usize),
     /// A dead point.
     DeadPoint,
-    /// The clock.
+    /// The time limit.
     Deadline,
 }
 
-/// A machine on its way. Along the time its state is q, q̇ and the work done by all that is not
-/// told by the potential energy; along the coordinate q̇², the time and that work:
-/// d(q̇²)/dq = (2 M − J′ q̇²)/J.
+/// A machine in motion. In time its state is q, q̇ and the work that the potential energy does not
+/// include; in the coordinate it is q̇², the time and that work: d(q̇²)/dq = (2 M − J′ q̇²)/J.
 pub(crate) struct RunSystem<'a, S, O> {
     pub equation: Equation<'a, S, O>,
     pub along: Variable,
     pub events: &'a [EventSpec],
     pub deadline: Option<Instant>,
     pub ended: Option<Ended>,
-    /// Sign of the speed, along the coordinate.
+    /// Sign of the speed, for a run along the coordinate.
     pub sign: f64,
     drivers: usize,
-    /// Energy at the beginning, kinetic and potential, if it is known.
+    /// Initial kinetic and potential energy, once known.
     energy: Option<[f64; 2]>,
-    /// What is as reach to a dead point may be at it.
+    /// Within this distance of a dead point a driver at rest may be at it.
     reach: f64,
     /// The relative tolerance.
     relative: f64,
-    /// Kinetic and potential energy less work where a step begins, and at the end of the last that
-    /// was trial_total.
+    /// Kinetic and potential energy less work at the start of a step, and at the end of the last
+    /// trial step.
     total: f64,
     trial_total: f64,
 }
 
-/// In so many tolerances the energy may change over a step, as its error is estimated.
+/// Largest change of the energy over a step, in tolerances: its error is only estimated.
 const MAX_DRIFT: f64 = 3.0;
-/// Roundings of the energies themselves that are not counted as such.
+/// Multiples of the energies' rounding that do not count as a change.
 const ROUNDINGS: f64 = 64.0;
 
-/// Part of the energies of a motion below which what is left of the kinetic energy is none: the
-/// balance is kept far better.
+/// Kinetic energy below this part of the energies of a motion counts as zero: the balance is kept
+/// far better.
 const AT_REST: f64 = 1.0e-6;
-/// Distance from a dead point (rad, or of the size) just_inside which one is looked for; with loose
-/// tolerances a thousand of them, up to the second.
+/// Smallest distance (rad, or of the size) within which to look for a dead point; with loose
+/// tolerances it is a thousand of them, at most the second.
 const MIN_REACH: f64 = 1.0e-3;
 const MAX_REACH: f64 = 0.05;
-/// How far (rad, or of the size) to both sides the change of a condition is looked for.
+/// Step (rad, or of the size) to both sides for the change of a condition.
 const CONDITION_STEP: f64 = 1.0e-6;
 
 impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
@@ -80,7 +79,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         }
     }
 
-    /// Takes the energy at the beginning, from which what is kinetic is told later.
+    /// Stores the initial energy, from which `is_at_dead_point` takes the balance.
     pub(crate) fn store_initial_energy(
         &mut self,
         options: &RunOptions<'_>,
@@ -97,7 +96,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         Ok(())
     }
 
-    /// Kinetic and potential energy less work at the place found last, and its tolerance.
+    /// Kinetic and potential energy less work at the last position, and the tolerance of that sum.
     fn balance(&self, y: &[f64]) -> (f64, f64) {
         let n = self.drivers;
         let alone = [self.sign * y[0].max(0.0).sqrt()];
@@ -107,7 +106,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         };
         let (reduced, model) = (&self.equation.reduced, &self.equation.model);
         let kinetic = reduced.kinetic(speed);
-        // Speeds are good to the tolerance, coordinates to as much of their unit.
+        // Speeds are accurate to the relative tolerance, coordinates to that part of their unit.
         let by_coordinate = |driver: usize| {
             let change = reduced.centrifugal(driver, speed) - reduced.conservative[driver];
             change.abs() * model.unit(driver)
@@ -120,9 +119,8 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         (kinetic + reduced.potential - work, allowed)
     }
 
-    /// Whether a driver that rests at coordinates after some work is at a dead point: there is one
-    /// as reach as the coordinates are known, and by the balance kinetic energy is left, as the
-    /// mechanism does not rest.
+    /// Whether a driver at rest after some work is at a dead point: one is near, and by the energy
+    /// balance kinetic energy is left, so the mechanism itself still moves.
     pub(crate) fn is_at_dead_point(&mut self, q: &[f64], work: f64) -> bool {
         if !self.equation.model.is_near_dead_point(q, self.reach) {
             return false;
@@ -136,12 +134,12 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         kinetic + work - change > AT_REST * size
     }
 
-    /// How many numbers the state has.
+    /// Length of the state.
     pub(crate) fn len(&self) -> usize {
         2 * self.drivers + 1
     }
 
-    /// The state at the beginning.
+    /// The initial state.
     pub(crate) fn initial_state(options: &RunOptions<'_>) -> Vec<f64> {
         match options.along {
             Variable::Time => [options.q, options.speed, &[0.0]].concat(),
@@ -149,19 +147,19 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         }
     }
 
-    /// Events at the margins of pieces come first: those of tables over q (along q they are breaks),
-    /// then those of motors.
+    /// Boundaries of table pieces are the first events: those of tables over q (in a run along q
+    /// they are breaks), then those of motors.
     fn has_table_boundaries(&self) -> bool {
         self.along == Variable::Time && !self.equation.tables.is_empty()
     }
 
-    /// Behind them is the event that may be a dead point: of one driver its rest, of several the
+    /// Next comes the event that may be a dead point: for a single driver its rest, for several the
     /// least distance from a singular position.
     fn has_dead_points(&self) -> bool {
         self.along == Variable::Time && self.equation.model.has_dead_points()
     }
 
-    /// What makes each event function an event.
+    /// The direction of crossing of each event function.
     pub(crate) fn crossings(&self) -> Vec<Crossing> {
         let tables =
             usize::from(self.has_table_boundaries()) + self.equation.motors_with_table().count();
@@ -173,7 +171,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             .collect()
     }
 
-    /// How the distance from a singular position grows along the motion.
+    /// Whether the distance from a singular position grows (> 0) or falls along the motion.
     fn singularity_trend(&mut self, q: &[f64], speed: &[f64]) -> f64 {
         let own = speed.iter().enumerate().map(|(i, v)| v.abs() / self.equation.model.unit(i));
         let fastest = own.fold(0.0_f64, f64::max);
@@ -200,7 +198,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         Action::Stop
     }
 
-    /// Which watch an event is.
+    /// Index of the `EventSpec` of an event.
     pub(crate) fn event_index(&self, event: usize) -> Option<usize> {
         event.checked_sub(self.crossings().len() - self.events.len())
     }
@@ -248,7 +246,7 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
                 rates[2 * n] = equation.power(speed);
             }
             Variable::Coordinate => {
-                // At rest the way ends.
+                // A run along the coordinate ends at rest.
                 let is_moving = y[0] > 0.0;
                 if !is_moving {
                     equation.rejected = None;
@@ -273,7 +271,7 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         if self.along == Variable::Coordinate {
             return self.equation.enter_interval(from, to);
         }
-        // The pieces of tables were found at the knots.
+        // The table pieces were set when their knots were crossed.
         self.equation.times = just_inside(from, to);
         Ok(())
     }
@@ -346,7 +344,7 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
     fn drift(&mut self, _: f64, y: &[f64]) -> f64 {
         let (total, allowed) = self.balance(y);
         self.trial_total = total;
-        // Where the energy is not a number nothing is known of it.
+        // Without a finite energy there is nothing to check.
         let drift = (total - self.total).abs() / allowed;
         if drift.is_finite() { drift } else { 0.0 }
     }

@@ -1,13 +1,13 @@
-//! Tables over the coordinate, read piece by piece: between two knots the equation of motion is
-//! smooth, and steps end at them.
+//! Current pieces of the tables over the coordinate: between two knots the equation of motion is
+//! smooth, and steps end at the knots.
 
 use crate::dynamics::tables::table::{Cell, Table};
 
-/// Knots nearer than this part of their size (or of 1) are one: coordinates that count turns are
-/// not better known.
+/// Knots closer than this, relative to their size (or to 1), count as one: coordinates that count
+/// turns are no more accurate.
 pub(crate) const SAME_KNOT_RTOL: f64 = 1.0e-12;
 
-/// The pieces that tables are in, and the interval that has no knot inside.
+/// The current piece of every table, and the interval between their nearest knots.
 #[derive(Debug, Clone)]
 pub(crate) struct TableCursor {
     cells: Vec<Cell>,
@@ -17,18 +17,18 @@ pub(crate) struct TableCursor {
 
 impl TableCursor {
     pub(crate) fn new() -> Self {
-        // Nowhere yet.
+        // An empty interval: no piece yet.
         Self { cells: Vec::new(), low: f64::INFINITY, high: f64::NEG_INFINITY }
     }
 
-    /// Looks a coordinate up in all tables.
+    /// Looks up a coordinate in all tables.
     ///
     /// # Errors
     ///
-    /// The table that has nothing there.
+    /// Index of the table that does not cover it.
     pub(crate) fn look_up(&mut self, tables: &[Table], x: f64) -> Result<(), usize> {
         self.cells.clear();
-        // Of a place that is in no pieces nothing is read.
+        // On an error the interval stays empty.
         (self.low, self.high) = (f64::INFINITY, f64::NEG_INFINITY);
         for (which, table) in tables.iter().enumerate() {
             self.cells.push(table.cell(x).ok_or(which)?);
@@ -37,12 +37,12 @@ impl TableCursor {
         Ok(())
     }
 
-    /// Goes on to the next piece of every table that has a knot at this end of the interval, and
-    /// says where that is: inside the next interval.
+    /// Moves every table that has a knot at this end of the interval to its next piece. Returns the
+    /// knot's coordinate, inside the new interval.
     ///
     /// # Errors
     ///
-    /// The table that has nothing beyond.
+    /// Index of the table that ends there.
     pub(crate) fn cross(&mut self, tables: &[Table], up: bool) -> Result<f64, usize> {
         let border = if up { self.high } else { self.low };
         let near = SAME_KNOT_RTOL * border.abs().max(1.0);
@@ -53,7 +53,7 @@ impl TableCursor {
             }
         }
         self.update_interval(tables);
-        // Knots of several tables that are one may lie apart by a last digit.
+        // Coinciding knots of several tables may differ by rounding.
         Ok(if up { border.max(self.low) } else { border.min(self.high) })
     }
 

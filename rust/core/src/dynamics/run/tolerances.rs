@@ -1,4 +1,4 @@
-//! How accurate a run is.
+//! Tolerances of a run.
 
 use super::callbacks::Callbacks;
 use super::error::RunError;
@@ -15,7 +15,8 @@ pub(crate) fn tolerances<S: ReducedModel, O: Callbacks>(
 ) -> Result<[Vec<f64>; 2], RunError<O::Error>> {
     let (n, relative) = (options.q.len(), options.relative);
     if options.along == Variable::Coordinate {
-        // A thousandth of it is that of a speed; but the motion may begin slowly.
+        // The absolute tolerance uses a thousandth of the typical speed: the motion may begin
+        // slowly.
         let typical = 1e3 * typical_speeds(system, options, sizes)?[0];
         let of_speed = options.absolute.map_or(relative * typical * 1e-3, |[_, of_speed]| of_speed);
         let absolute =
@@ -31,13 +32,13 @@ pub(crate) fn tolerances<S: ReducedModel, O: Callbacks>(
         absolute.extend(typical_speeds(system, options, sizes)?.iter().map(|v| relative * v));
     }
     absolute.push(f64::INFINITY);
-    // An angle counts turns: its size says nothing.
+    // An angle counts turns, so its size gives no tolerance.
     let relative = [vec![0.0; n], vec![relative; n], vec![0.0]].concat();
     Ok([relative, absolute])
 }
 
-/// A thousandth of the speeds that a motion may be expected to have: those at its beginning, or
-/// what its accelerations there make of them over a radian (the size, of a slide).
+/// A thousandth of the typical speeds: the initial ones, or those that the initial accelerations
+/// reach over a radian (for a slide, over the size).
 fn typical_speeds<S: ReducedModel, O: Callbacks>(
     system: &mut RunSystem<'_, S, O>,
     options: &RunOptions<'_>,
@@ -61,7 +62,7 @@ fn typical_speeds<S: ReducedModel, O: Callbacks>(
         own.max((accelerations[driver].abs() * sizes[driver]).sqrt())
     };
     let most = (0..n).map(typical).fold(0.0, f64::max);
-    // What rests in balance is measured by a size a second.
+    // A machine at rest in balance: one unit per second.
     let scale =
         |driver: usize| if most > 0.0 { typical(driver).max(1e-3 * most) } else { sizes[driver] };
     Ok((0..n).map(|driver| 1e-3 * scale(driver)).collect())

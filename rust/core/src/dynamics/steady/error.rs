@@ -1,4 +1,4 @@
-//! Why there is no periodic motion.
+//! Errors of the search for a periodic motion.
 
 use thiserror::Error;
 
@@ -6,7 +6,7 @@ use crate::dynamics::flywheel::flywheel::Mean;
 use crate::dynamics::run::error::RunError;
 use crate::dynamics::tables::error::short;
 
-/// A mean as it is named in Python, and what it is.
+/// A mean as Python names it, with its definition.
 fn mean_named(mean: Mean) -> &'static str {
     match mean {
         Mean::Extremes => "mean=\"extremes\", half the sum of the extreme speeds",
@@ -14,7 +14,7 @@ fn mean_named(mean: Mean) -> &'static str {
     }
 }
 
-/// Why there is no periodic motion.
+/// Why no periodic motion was found.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the sentences say what the fields are")]

@@ -1,4 +1,4 @@
-//! Periodic motions of machines and of tables, and the flywheel that evens them.
+//! Steady states of machines and of tables, and the flywheel for a wanted fluctuation.
 
 use super::error::SteadyError;
 use super::options::SteadyOptions;
@@ -14,32 +14,32 @@ use crate::math::derivatives::DerivativeTables;
 use crate::math::root;
 use crate::plan::mechanism::Mechanism;
 
-/// Part of the flywheel to which it is found: the motions themselves are known no better.
+/// Relative accuracy of the flywheel: the motions themselves are no more accurate.
 const FLYWHEEL_RTOL: f64 = 1.0e-12;
-/// The greatest fluctuation there can be, where the least speed is none.
+/// The greatest possible fluctuation, reached when the least speed is zero.
 const MAX_FLUCTUATION: f64 = 2.0;
 
-/// How far sampled inertias may be off between the samples.
+/// Margin for the extremes of the inertia between the samples.
 const SAMPLING_MARGIN: f64 = 1.01;
-/// A multiplier this near 1 is that of a machine in which nothing depends on the speed.
+/// A multiplier this near 1 means that nothing depends on the speed.
 const UNDAMPED: f64 = 1.0e-6;
 
-/// What a periodic motion is asked to have.
+/// A wanted coefficient of speed fluctuation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FluctuationTarget {
-    /// Its fluctuation.
+    /// The coefficient.
     pub fluctuation: f64,
-    /// By which mean that is divided.
+    /// The mean speed in its definition.
     pub mean: Mean,
 }
 
 impl Machine {
-    /// The periodic motion of a design, with the flywheel that gives a wanted fluctuation or (none
-    /// wanted) that of the options.
+    /// The periodic motion of a design, with the flywheel of the options and, for a `target`, the
+    /// further flywheel that gives its fluctuation.
     ///
     /// # Errors
     ///
-    /// Why there is none.
+    /// Why no such motion was found.
     pub fn steady<O: Callbacks>(
         &self,
         mechanism: &Mechanism,
@@ -63,11 +63,11 @@ impl Machine {
 }
 
 impl TabulatedMachine {
-    /// The same of a table.
+    /// The periodic motion of a tabulated machine; see [`Machine::steady`].
     ///
     /// # Errors
     ///
-    /// Why there is none.
+    /// Why no such motion was found.
     pub fn steady<O: Callbacks>(
         &self,
         options: &SteadyOptions<'_>,
@@ -92,7 +92,7 @@ fn solve_period<S: ReducedModel, O: Callbacks>(
     shooting.run(start, &period)
 }
 
-/// Finds the motion of the mean speed that the options asks for, if motors and loads leave it open.
+/// Finds the motion with the mean speed of the options, if motors and loads leave the speed open.
 ///
 /// `solve` meets the mean over the period. The mean of the extremes grows with it: where nothing
 /// depends on the speed, q̇² J gains the same energy everywhere.
@@ -130,10 +130,10 @@ fn at_mean_speed<E>(
                 if error.abs() < least_error {
                     (best, least_error) = (Some(steady), error.abs());
                 }
-                // What is nearer than the motions themselves is met.
+                // An error below the accuracy of the motions counts as zero.
                 if error.abs() <= options.relative * wanted { 0.0 } else { error }
             }
-            // Too slow to be carried through the turn.
+            // The motion is too slow to get through the turn.
             Err(SteadyError::Stops { .. } | SteadyError::NotMet { .. }) => -wanted,
             Err(error) => {
                 failed = Some(error);
@@ -160,7 +160,7 @@ fn size_flywheel<E>(
     let Some(FluctuationTarget { fluctuation, mean }) = target else {
         return solve(*options, None);
     };
-    // Without a flywheel it may stop; then it fluctuates as much as can be.
+    // Without the flywheel the machine may stop; its fluctuation is then the greatest.
     let without = match solve(*options, None) {
         Ok(steady) => Some(steady),
         Err(
@@ -213,7 +213,7 @@ fn size_flywheel<E>(
     }
 }
 
-/// The inertia where a motion begins, kg·m².
+/// The inertia at the start of a motion, kg·m²; 1 without one.
 fn initial_inertia(steady: Option<&Steady>) -> f64 {
     let of = |steady: &Steady| {
         let speed = steady.run.samples.speed.first()?;
@@ -223,7 +223,7 @@ fn initial_inertia(steady: Option<&Steady>) -> f64 {
 }
 
 impl Steady {
-    /// The least and the greatest speed, without its sign, and where they are.
+    /// The least and the greatest absolute speed, with their coordinates.
     #[must_use]
     pub fn extremes(&self) -> [Extreme; 2] {
         let samples = &self.run.samples;
@@ -242,7 +242,7 @@ impl Steady {
         extremes
     }
 
-    /// Below which no motion of this machine has its mean of the extremes; 0 if that is not known.
+    /// A lower bound of the mean of the extremes over all motions of this machine; 0 if unknown.
     ///
     /// At a lower energy level q̇² falls everywhere by C/J, at most until the least is 0: the
     /// greatest is then still q̇² − (least q̇²) J/J′.
@@ -265,7 +265,7 @@ impl Steady {
         width(&self.run.samples.t)
     }
 
-    /// The mean speed without its sign, rad/s.
+    /// The mean absolute speed, rad/s.
     #[must_use]
     pub fn mean(&self, by: Mean) -> f64 {
         let [least, greatest] = self.extremes();
@@ -275,7 +275,7 @@ impl Steady {
         }
     }
 
-    /// How much the speed varies, as a part of its mean.
+    /// Coefficient of speed fluctuation: (greatest − least) / mean speed.
     #[must_use]
     pub fn fluctuation(&self, by: Mean) -> f64 {
         let [least, greatest] = self.extremes();
@@ -283,7 +283,7 @@ impl Steady {
     }
 }
 
-/// From the first number to the last.
+/// The last number less the first.
 fn width(list: &[f64]) -> f64 {
     match list {
         [first, .., last] => last - first,

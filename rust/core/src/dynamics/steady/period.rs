@@ -1,9 +1,9 @@
-//! One period of a motion along the coordinate, with its derivatives by what it begins with.
+//! One period of a motion along the coordinate, with its derivatives by the initial values.
 //!
-//! With w = q̇² the equation of motion is w′ = (2 M − J′ w)/J. A change δw at the beginning grows
-//! by the linearised equation δw′ = (∂M/∂q̇ / q̇ − J′)/J δw, a constant moment τ more adds 2 τ/J;
-//! what they make of the time t′ = 1/q̇ is integrated along. So the matrix of the period is exact to
-//! the tolerance (E. Hairer, S. P. Nørsett, G. Wanner I, I.14).
+//! With w = q̇² the equation of motion is w′ = (2 M − J′ w)/J. A perturbation δw grows by the
+//! linearised equation δw′ = (∂M/∂q̇ / q̇ − J′)/J δw, and an additional constant moment τ adds 2
+//! τ/J; their effect on the time, t′ = 1/q̇, is integrated along. So the matrix of the period is
+//! exact to the tolerance (E. Hairer, S. P. Nørsett, G. Wanner I, I.14).
 
 use super::error::SteadyError;
 use super::options::SteadyOptions;
@@ -18,46 +18,46 @@ use crate::ode::solution::{End, Solution};
 use crate::ode::system::{Action, Crossing, Fault, System};
 use crate::query::evaluator::NearMiss;
 
-/// Where a period begins.
+/// Initial values of a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PeriodStart {
     /// q̇².
     pub speed2: f64,
-    /// A constant moment on the driver besides its motors.
+    /// A constant moment on the driver besides its motors, N·m.
     pub moment: f64,
-    /// Time.
+    /// Time, s.
     pub t: f64,
 }
 
-/// What a period comes to.
+/// Result of a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Period {
     /// q̇² at its end.
     pub speed2: f64,
-    /// Its time.
+    /// Its duration, s.
     pub time: f64,
-    /// Work of the motors.
+    /// Work of the motors and the constant moment.
     pub drive: f64,
-    /// Work of loads and motors, each counted positive.
+    /// Work of loads and motors, with each power counted positive.
     pub turnover: f64,
-    /// Whether anything depends_on_speed on the speed.
+    /// Whether loads or motors depend on the speed.
     pub depends_on_speed: bool,
-    /// Derivatives of the first two by `speed2` at the beginning and by the moment.
+    /// Derivatives of `speed2` and `time` by the initial `speed2` and by the moment.
     pub speed2_by: [f64; 2],
     pub time_by: [f64; 2],
 }
 
-/// How a period came out.
+/// Outcome of a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum PeriodOutcome {
     Whole(Period),
-    /// The machine stops on the way.
+    /// The machine stops within the period.
     Stops {
         q: f64,
     },
 }
 
-/// The system of a period.
+/// The differential equations of a period.
 struct PeriodSystem<'c, 'a, S, O> {
     equation: &'c mut Equation<'a, S, O>,
     sign: f64,
@@ -67,14 +67,14 @@ struct PeriodSystem<'c, 'a, S, O> {
     deadline: Option<std::time::Instant>,
 }
 
-/// What is left of q̇² where a machine comes to rest, as a part of it at the beginning: the time
-/// grows as its root there, and steps become too narrow before it is none.
+/// The machine counts as stopped when q̇² falls below this part of its initial value: there the
+/// time grows like the square root, and steps become too narrow before q̇² is zero.
 const AT_REST: f64 = 1.0e-4;
 
-/// How far (rad) from a dead point a period that ends there may end.
+/// A period that ends within this distance (rad) of a dead point ends because of it.
 const BESIDE: f64 = 1.0e-3;
 
-/// Numbers of its state: w, t, work of motors, sum of all work, and derivatives.
+/// Length of the state: w, t, work of motors, sum of all work, and four derivatives.
 const LEN: usize = 8;
 
 impl<S: ReducedModel, O: Callbacks> System for PeriodSystem<'_, '_, S, O> {
@@ -136,7 +136,7 @@ impl<S: ReducedModel, O: Callbacks> System for PeriodSystem<'_, '_, S, O> {
     }
 }
 
-/// Goes through one period.
+/// Integrates one period.
 pub(crate) fn period<S: ReducedModel, O: Callbacks>(
     equation: &mut Equation<'_, S, O>,
     integrator: &mut Option<Integrator>,

@@ -1,5 +1,4 @@
-//! The search for a periodic motion: the speed at the beginning of a period with which it is the same
-//! at the end.
+//! Shooting: finds the initial speed with which a period closes.
 
 use super::error::SteadyError;
 use super::period::{Period, PeriodOutcome, PeriodStart};
@@ -7,23 +6,24 @@ use super::steady::{NOISE, Shooting};
 use crate::dynamics::run::callbacks::Callbacks;
 use crate::dynamics::run::model::ReducedModel;
 
-/// Steps toward the periodic motion, at most; it takes some five.
+/// Limit of Newton steps; about five are needed.
 const MAX_STEPS: u32 = 60;
-/// A step by less than this part is the last: what is left is its square.
+/// A Newton step smaller than this is the last: the remaining error is its square.
 const CONVERGED_RTOL: f64 = 1.0e-9;
-/// By how much speed² may fall in one step: what is looked for is the first motion below the idle
-/// speed, which is the stable one.
+/// How far speed² may fall in one step: the first motion below the idle speed is wanted, which is
+/// the stable one.
 const MAX_FALL: f64 = 0.7;
-/// A speed that is known to no more than this part is not told by the motor: a period's end then
-/// depends_on_speed on its beginning alone.
+/// With more relative noise in speed² than this, the motor does not determine the speed: the end of
+/// a period then depends on its start alone.
 const MAX_RELATIVE_NOISE: f64 = 1.0e-5;
-/// Part of the work of a period that may be left over then: motors are given with so many digits.
+/// Imbalance allowed where nothing depends on the speed, as a part of the period's work: motors are
+/// given with a few digits.
 const BALANCE_RTOL: f64 = 1.0e-2;
 
 type Solution<E> = Result<(PeriodStart, Period), SteadyError<E>>;
 
 impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
-    /// Finds the periodic motion, from a guess (speed² and moment) if there is one.
+    /// Finds the periodic motion, from a guess of speed² and moment if there is one.
     pub(crate) fn solve(&mut self, guess: Option<PeriodStart>) -> Solution<O::Error> {
         let motors = self.equation.motors;
         let idle = motors.iter().find_map(crate::dynamics::motor::Motor::idle_speed);
@@ -48,7 +48,7 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
         }
     }
 
-    /// Energy that a period gains.
+    /// Kinetic energy gained over a period.
     fn energy_gain(&mut self, start: PeriodStart, period: &Period) -> f64 {
         let _ = self
             .equation
@@ -60,7 +60,7 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
         0.5 * inertia * (period.speed2 - start.speed2)
     }
 
-    /// The slowest beginning at or above this one, by powers of 4, that goes through the period.
+    /// The slowest start at or above this one, by powers of 4, that gets through the period.
     fn slowest_full_period(&mut self, mut start: PeriodStart) -> Solution<O::Error> {
         let from = start.speed2.sqrt();
         let mut stop = self.options.q;
@@ -76,21 +76,21 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
         Err(SteadyError::Stops { q: stop, from })
     }
 
-    /// Where motors or loads depend on the speed: a zero of the gain of speed² over a period,
-    /// between a speed at which it falls and one at which it grows, by Newton's steps.
+    /// Finds the speed that motors and loads determine: a zero of the gain of speed² over a period,
+    /// by Newton's method, bracketed by a speed at which it falls and one at which it grows.
     fn solve_free_speed(&mut self, start: PeriodStart, first: Period) -> Solution<O::Error> {
         let from = start.speed2.sqrt();
         let idle = self.equation.motors.iter().find_map(crate::dynamics::motor::Motor::idle_speed);
         let idle2 = idle.map_or(0.0, |idle| idle * idle);
         let (mut start, mut period) = (start, first);
-        // Where it falls from on, and where it grows or the machine stops.
+        // The gain is negative from `high` on; at `low` it is positive or the machine stops.
         let (mut high, mut low) = (f64::INFINITY, 0.0);
         let (mut grows, mut stop) = (false, None);
         for _ in 0..2 * MAX_STEPS {
             let gain = period.speed2 - start.speed2;
             let slope = period.speed2_by[0] - 1.0;
             let newton = start.speed2 - gain / slope;
-            // What the errors of a period make of it.
+            // The relative error of speed² that the errors of a period cause.
             let noise = NOISE * self.options.relative / slope.abs();
             let settled = CONVERGED_RTOL.max(noise) * start.speed2;
             if slope < 0.0 && (newton - start.speed2).abs() <= settled {
@@ -103,13 +103,14 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
                     PeriodOutcome::Stops { q } => Err(SteadyError::Stops { q, from }),
                 };
             }
-            // Above the speed without load a motor brakes, if less and less.
+            // Above the idle speed a motor brakes, even where its braking moment decreases with the
+            // speed.
             if gain < 0.0 && (slope < 0.0 || start.speed2 > idle2) {
                 high = start.speed2;
             } else if gain >= 0.0 {
                 (low, grows) = (start.speed2, true);
             } else {
-                // It falls, the more so the slower: below the unstable motion.
+                // The slower, the faster it falls: this is below the unstable motion.
                 low = start.speed2;
             }
             let between = newton > low && newton < high && slope < 0.0;
@@ -145,7 +146,7 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
         Err(SteadyError::CannotCarry { from })
     }
 
-    /// A motion of this mean speed over the period, and the constant moment that it takes.
+    /// Finds the motion with this mean speed over the period, and the constant moment it needs.
     fn solve_prescribed_speed(&mut self, speed: f64, guess: PeriodStart) -> Solution<O::Error> {
         self.prescribed = true;
         let time = self.options.span / speed;
@@ -153,7 +154,7 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
             PeriodStart { moment: guess.moment, speed2: guess.speed2.max(speed * speed), ..guess };
         let (mut start, mut period) = self.slowest_full_period(first)?;
         if guess.moment == 0.0 {
-            // In balance at so great a speed that the machine does not stop.
+            // First the moment in balance, at a speed so high that the machine does not stop.
             start.moment -= self.energy_gain(start, &period) / self.options.span;
             (start, period) = self.slowest_full_period(start)?;
         }
@@ -176,7 +177,7 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
                     moment: start.moment + part * by_moment,
                     ..start
                 };
-                // Not to less than a fourth at once: there the machine may stop.
+                // Not below a fourth at once: the machine may stop there.
                 let is_near = next.speed2 > 0.25 * start.speed2;
                 if is_near && let PeriodOutcome::Whole(own) = self.run_period(next)? {
                     (start, period) = (next, own);
@@ -188,7 +189,7 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
                     return Err(SteadyError::Stops { q: self.options.q, from });
                 }
             }
-            // As long as it gets better, but not beyond what rounding lets it.
+            // Iterate while it improves, until rounding stops it.
             let settled = CONVERGED_RTOL.max(self.options.relative);
             if step <= settled && (step >= 0.5 * last || step <= 1e-3 * settled) {
                 let met = (period.time - time).abs() <= settled * time.abs()

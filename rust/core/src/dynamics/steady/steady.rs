@@ -1,4 +1,4 @@
-//! The periodic motion of a machine: what is asked, and what is made of the beginning that was found.
+//! Periodic motions: their checks, and the run over one period from the initial speed found.
 
 use super::error::SteadyError;
 use super::options::SteadyOptions;
@@ -13,29 +13,31 @@ use crate::dynamics::run::trajectory::{Run, StopReason};
 use crate::ode::integrator::Integrator;
 use crate::ode::system::Crossing;
 
-/// Errors of a period, as multiples of the tolerance.
+/// Error of a period, in tolerances.
 pub(crate) const NOISE: f64 = 100.0;
-/// Part of the work of a period that may be lost in them.
+/// Largest error of a period's energy, as a part of its work.
 const MAX_NOISE: f64 = 0.05;
-/// Part of the work of a period to which it is in balance.
+/// Largest imbalance of a period, as a part of its work.
 const BALANCE_RTOL: f64 = 1.0e-6;
-/// At how many places of a period the machine is compared with itself a period on.
+/// Number of coordinates at which the machine is compared with itself one period later.
 const SAMPLES: u32 = 5;
-/// Part of the greatest inertia that is rounding.
+/// Inertia below this part of the greatest is rounding.
 const INERTIA_NOISE: f64 = 64.0 * f64::EPSILON;
-/// How far two periods, one after the other, may differ.
+/// Largest relative difference of two successive periods.
 const PERIODIC_RTOL: f64 = 1.0e-7;
 
 /// A periodic motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steady {
-    /// One period, along the coordinate; its events are the extremes of the speed.
+    /// One period along the coordinate; its events are the extremes of the speed.
     pub run: Run,
-    /// What a small change of the energy at the beginning has become at the end: stable below 1.
+    /// Floquet multiplier: factor by which a perturbation of the energy changes each period; stable
+    /// below 1.
     pub multiplier: f64,
-    /// The constant moment on the driver that was found for the speed; 0 if the motors told it.
+    /// The constant moment on the driver that keeps the prescribed speed; 0 if motors and loads
+    /// determine the speed.
     pub moment: f64,
-    /// Work of the motors in a period, J.
+    /// Work of the motors and of that moment in a period, J.
     pub drive: f64,
     /// Inertia added to the driver's, kg·m².
     pub flywheel: f64,
@@ -44,21 +46,21 @@ pub struct Steady {
 }
 
 impl Steady {
-    /// What a options near it begins with.
+    /// Initial values for a search near this motion.
     pub(crate) fn start(&self) -> PeriodStart {
         let speed = self.run.samples.speed.first().copied().unwrap_or(f64::NAN);
         PeriodStart { speed2: speed * speed, moment: self.moment, t: 0.0 }
     }
 }
 
-/// A options and its work space.
+/// The search for a periodic motion, with its workspace.
 pub(crate) struct Shooting<'s, 'a, S, O> {
     pub equation: Equation<'a, S, O>,
     pub options: SteadyOptions<'s>,
     /// Whether the motion has the mean speed of the options.
     pub prescribed: bool,
     integrator: Option<Integrator>,
-    /// Where the period at hand begins, and its breaks.
+    /// Start of the current period, and its breaks.
     from: f64,
     breaks: Vec<f64>,
 }
@@ -83,7 +85,7 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         Ok(shooting)
     }
 
-    /// Refuses a machine that is another one a period on.
+    /// Checks that the machine is the same one period later.
     fn check_periodic(&mut self) -> Result<(), SteadyError<O::Error>> {
         let SteadyOptions { q: from, span, .. } = self.options;
         let mut inertia = |q: f64| {
@@ -101,7 +103,7 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         if samples[0].1[0].is_nan() {
             return Err(SteadyError::Run(RunError::NothingThere { q: vec![from] }));
         }
-        // Where somewhere nothing is, the period will tell; beyond, all may be other.
+        // The periods themselves report unreachable positions.
         if samples.iter().any(|(_, pair)| pair.iter().any(|value| value.is_nan())) {
             return Ok(());
         }
@@ -114,7 +116,7 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         other.map_or(Ok(()), |(q, inertia)| Err(SteadyError::AnotherOne { q, inertia }))
     }
 
-    /// Periods start here from now on.
+    /// Sets the coordinate where periods start.
     fn set_start(&mut self, q: f64) -> Result<(), SteadyError<O::Error>> {
         let SteadyOptions { span, breaks, .. } = self.options;
         let given: Vec<f64> = breaks.iter().map(|at| at + (q - self.options.q)).collect();
@@ -132,13 +134,13 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         period(equation, integrator, options, (*from, breaks), start)
     }
 
-    /// The motion found, with all its moments.
+    /// Integrates the motion found, with all its samples.
     pub(crate) fn run(
         mut self,
         start: PeriodStart,
         period: &Period,
     ) -> Result<Steady, SteadyError<O::Error>> {
-        // Once more, a period on: there the machine must be the same.
+        // A second period must repeat the first: the machine may depend on the time.
         let SteadyOptions {
             q, span, method, relative, max_steps, deadline, breaks, flywheel, ..
         } = self.options;
@@ -185,7 +187,7 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         let ends = |list: &[f64]| list.last().zip(list.first()).map_or(f64::NAN, |(b, a)| b - a);
         let stored: Vec<f64> = run.energies.iter().map(|pair| pair[1]).collect();
         let left = ends(&run.samples.work) - ends(&stored);
-        // At too great a speed the energy's own rounding is more than a period's work.
+        // At too high a speed the rounding of the energy exceeds the work of a period.
         let kinetic = run.energies.first().map_or(f64::NAN, |pair| pair[0]);
         let noise = NOISE * relative * kinetic;
         let idle = period.turnover <= 64.0 * f64::EPSILON * kinetic;
