@@ -240,7 +240,7 @@ impl Run {
             StopReason::TableEnds(which) => ("table ends", *which, Vec::new()),
             StopReason::MotorTableEnds(which) => ("motor table ends", *which, Vec::new()),
             StopReason::StepLimit(stiff) => ("step limit", usize::from(*stiff), Vec::new()),
-            StopReason::Late => plain("time limit"),
+            StopReason::TimeLimit => plain("time limit"),
             StopReason::Cancelled => plain("cancelled"),
             _ => plain("stalled"),
         }

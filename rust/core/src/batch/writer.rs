@@ -27,13 +27,13 @@ struct Entry {
     column: usize,
     width: usize,
     /// Index within the row (of x, for a point).
-    place: usize,
+    index: usize,
     /// Offset from x to y.
     y: usize,
     /// Index of the derivative in the jets.
     k: usize,
     /// Source: the entry of the point, slide or class, or the link.
-    from: usize,
+    source: usize,
     /// The drivers' contribution to an angle's derivative.
     driven: f64,
 }
@@ -81,8 +81,8 @@ impl<'a> Writer<'a> {
         let [mut points, mut slides, mut angles, mut rates] = [const { Vec::new() }; 4];
         for (index, column) in columns.iter().enumerate() {
             let tensor = jets.tensor(column.order);
-            for (place, &k) in tensor.iter().enumerate() {
-                let (list, from, driven) = match column.quantity {
+            for (component, &k) in tensor.iter().enumerate() {
+                let (list, source, driven) = match column.quantity {
                     Quantity::Joint(joint) => (&mut points, point_of_joint(joint), 0),
                     Quantity::Place(link) => (&mut points, plan.reference[link], 0),
                     Quantity::Slide(slide) => (&mut slides, slide, 0),
@@ -93,12 +93,20 @@ impl<'a> Writer<'a> {
                         (&mut rates, rotation.class, turns)
                     }
                 };
-                let from = match column.quantity {
-                    Quantity::Angle(_) if k == 0 => from,
-                    _ => from * jets.len() + k,
+                let source = match column.quantity {
+                    Quantity::Angle(_) if k == 0 => source,
+                    _ => source * jets.len() + k,
                 };
                 let (width, y) = (column.width, tensor.len());
-                list.push(Entry { column: index, width, place, y, k, from, driven: driven.into() });
+                list.push(Entry {
+                    column: index,
+                    width,
+                    index: component,
+                    y,
+                    k,
+                    source,
+                    driven: driven.into(),
+                });
             }
         }
         Self {
@@ -124,16 +132,16 @@ impl<'a> Writer<'a> {
     ) -> Self {
         let mut writer = Self::new(mechanism, jets, columns);
         let plan = mechanism.plan();
-        let mut by = vec![0.0; mechanism.dimensions().len()];
-        by[index] = 1.0;
-        let offsets = offsets(plan, &mechanism.slots, &by);
+        let mut unit_change = vec![0.0; mechanism.dimensions().len()];
+        unit_change[index] = 1.0;
+        let offsets = offsets(plan, &mechanism.slots, &unit_change);
         for entry in &mut writer.rates {
             entry.driven = 0.0;
         }
         for entry in writer.angles.drain(..) {
-            let class = plan.rotation[entry.from].class;
-            let driven = offsets[entry.from];
-            writer.rates.push(Entry { from: class * jets.len(), driven, ..entry });
+            let class = plan.rotation[entry.source].class;
+            let driven = offsets[entry.source];
+            writer.rates.push(Entry { source: class * jets.len(), driven, ..entry });
         }
         Self { shifted: false, classes: Vec::new(), ..writer }
     }
@@ -153,9 +161,9 @@ impl<'a> Writer<'a> {
         for entry in &self.points {
             let scale = R::splat(unit.length[entry.k]);
             let shift = if entry.k == 0 && self.shifted { Some(origin) } else { None };
-            let points = &state.points[entry.from];
+            let points = &state.points[entry.source];
             let out = rows.of(entry, row, count);
-            let place = |point: Vector<R>| {
+            let scaled_point = |point: Vector<R>| {
                 let scaled = point.scale(scale);
                 if let Some(shift) = shift { scaled + shift } else { scaled }
             };
@@ -165,28 +173,28 @@ impl<'a> Writer<'a> {
                 for g in 0..G {
                     let out = &mut out[2 * R::LANES * g..][..2 * R::LANES];
                     if streams {
-                        stream::store_pairs(out, place(points[g]));
+                        stream::store_pairs(out, scaled_point(points[g]));
                     } else {
-                        store_pairs(out, place(points[g]));
+                        store_pairs(out, scaled_point(points[g]));
                     }
                 }
                 continue;
             }
             for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
-                let p = place(points[g]);
-                store_lanes(out, entry.width, entry.place, p.x);
-                store_lanes(out, entry.width, entry.place + entry.y, p.y);
+                let p = scaled_point(points[g]);
+                store_lanes(out, entry.width, entry.index, p.x);
+                store_lanes(out, entry.width, entry.index + entry.y, p.y);
             }
         }
         for entry in &self.slides {
             let scale = R::splat(unit.length[entry.k]);
-            let slides = &state.slides[entry.from];
+            let slides = &state.slides[entry.source];
             entry.store(rows.of(entry, row, count), |g| slides[g] * scale);
         }
         for entry in &self.angles {
-            let rotation = &self.mechanism.plan().rotation[entry.from];
-            let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.from];
-            let offset = R::splat(bound.offset[entry.from] + whole);
+            let rotation = &self.mechanism.plan().rotation[entry.source];
+            let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.source];
+            let offset = R::splat(bound.offset[entry.source] + whole);
             let lifted = &lifted[rotation.class];
             entry.store(rows.of(entry, row, count), |g| {
                 // The class's angle, plus the drivers' turns of the link relative to its class.
@@ -201,12 +209,12 @@ impl<'a> Writer<'a> {
         }
         for entry in &self.rates {
             let (driven, scale) = (R::splat(entry.driven), R::splat(unit.angle[entry.k]));
-            let beyond = unit.angle[entry.k].is_infinite();
-            let rates = &state.theta[entry.from];
+            let overflows = unit.angle[entry.k].is_infinite();
+            let rates = &state.theta[entry.source];
             entry.store(rows.of(entry, row, count), |g| {
                 let rate = rates[g] + driven;
                 let scaled = rate * scale;
-                if beyond {
+                if overflows {
                     // The unit overflows; only a link that does not turn keeps a finite derivative.
                     R::select(rate.abs().le(R::ZERO), rate, scaled)
                 } else {
@@ -238,7 +246,7 @@ impl Entry {
             return;
         }
         for (g, group) in out.chunks_mut(self.width * R::LANES).enumerate() {
-            store_lanes(group, self.width, self.place, of(g));
+            store_lanes(group, self.width, self.index, of(g));
         }
     }
 }
@@ -285,8 +293,8 @@ fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
 
 /// Stores one entry of each row, from as many lanes as there are rows.
 #[inline(always)]
-fn store_lanes<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, place: usize, x: R) {
+fn store_lanes<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, index: usize, x: R) {
     for (lane, row) in out.chunks_exact_mut(width).enumerate() {
-        row[place] = MaybeUninit::new(x.lane(lane));
+        row[index] = MaybeUninit::new(x.lane(lane));
     }
 }

@@ -29,9 +29,9 @@ impl Angle {
         let [a, b] = self.lines.map(|line| match line {
             Line::Through(from, to) => pose.point(to, 0) - pose.point(from, 0),
             Line::Along(link, angle) => {
-                let at = Vector::at_angle(angle);
-                let place = |at| pose.point(Point::Link { link, at }, 0);
-                place([at.x, at.y]) - place([0.0; 2])
+                let direction = Vector::at_angle(angle);
+                let position = |at| pose.point(Point::Link { link, at }, 0);
+                position([direction.x, direction.y]) - position([0.0; 2])
             }
         });
         let acute = atan2(a.cross(b).abs(), a.dot(b).abs());

@@ -50,13 +50,13 @@ impl<'p> Pose<'p> {
     /// Derivative `k` of a point's position (0: the position), m.
     pub(crate) fn point(&self, point: Point, k: usize) -> Vector {
         let Position { state, plan, bound, units, .. } = &self.position;
-        let place_of = |point: usize| {
+        let position = |point: usize| {
             let scaled = state.points[point * self.jets.len() + k][0].scale(units.length[k]);
             let origin = Vector::new(bound.origin[0], bound.origin[1]);
             if k == 0 { scaled + origin } else { scaled }
         };
         match point {
-            Point::Joint(joint) => place_of(point_of_joint(joint)),
+            Point::Joint(joint) => position(point_of_joint(joint)),
             // The ground's frame is the drawing's, wherever its first joint is.
             Point::Link { link, at: [x, y] } if link == plan.ground => {
                 if k == 0 {
@@ -66,7 +66,7 @@ impl<'p> Pose<'p> {
                 }
             }
             Point::Link { link, at } => {
-                place_of(plan.reference[link]) + self.frame(link, k) * Vector::new(at[0], at[1])
+                position(plan.reference[link]) + self.frame(link, k) * Vector::new(at[0], at[1])
             }
         }
     }
@@ -96,8 +96,8 @@ impl<'p> Pose<'p> {
         let Position { state, plan, units, .. } = &self.position;
         let rotation = &plan.rotation[link];
         let turns = self.jets.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
-        let own = state.theta[rotation.class * self.jets.len() + k][0];
-        (own + f64::from(turns)) * units.angle[k]
+        let class_angle = state.theta[rotation.class * self.jets.len() + k][0];
+        (class_angle + f64::from(turns)) * units.angle[k]
     }
 
     /// A link's angle, rad, continuous along the branch from the drawing.

@@ -22,18 +22,19 @@ pub(crate) struct Numbers<'a> {
 
 impl Value {
     pub(crate) fn at(self, numbers: Numbers<'_>) -> f64 {
-        let of = |list: &[[f64; 2]], which: usize| list.get(which).map_or(f64::NAN, |pair| pair[0]);
+        let value =
+            |list: &[[f64; 2]], index: usize| list.get(index).map_or(f64::NAN, |pair| pair[0]);
         match self {
             Self::Number(number) => number,
-            Self::Table(which) => of(numbers.tables, which),
-            Self::External(which) => of(numbers.external, which),
+            Self::Table(index) => value(numbers.tables, index),
+            Self::External(index) => value(numbers.external, index),
         }
     }
 
     /// Derivative by the driver's speed.
     pub(crate) fn d_speed(self, numbers: Numbers<'_>) -> f64 {
         match self {
-            Self::External(which) => numbers.external.get(which).map_or(f64::NAN, |pair| pair[1]),
+            Self::External(index) => numbers.external.get(index).map_or(f64::NAN, |pair| pair[1]),
             Self::Number(_) | Self::Table(_) => 0.0,
         }
     }

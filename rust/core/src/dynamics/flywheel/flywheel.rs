@@ -103,14 +103,14 @@ impl Flywheel {
         }
         let residual = |above: f64| {
             let constant = least.value + above;
-            let own = match by {
+            let own_mean = match by {
                 Mean::Extremes => {
                     let [a, b] = speeds(&cycle, inertia, constant);
                     0.5 * (a.value + b.value)
                 }
                 Mean::Period => cycle.period() / duration(&cycle, inertia, constant),
             };
-            own - mean
+            own_mean - mean
         };
         let above = root::zero(residual, guess).ok_or(TableError::NoMean { mean })?;
         Self::with_energy(cycle, inertia, least.value + above, ("mean_speed", mean))
@@ -253,14 +253,14 @@ fn speeds(cycle: &Cycle, inertia: f64, constant: f64) -> [Extreme; 2] {
         for step in 0..MAX_STEPS {
             // `extremes` has the opposite sign, so the other extreme is the one.
             let at = cycle.extremes(speed2, 2.0)[1 - which].at;
-            let own = (2.0 * cycle.work(at) + constant) / (cycle.inertia(at) + inertia);
+            let quotient = (2.0 * cycle.work(at) + constant) / (cycle.inertia(at) + inertia);
             // The last step changes the coordinate only.
-            best = Extreme { at, value: own.sqrt() };
-            let better = if which == 1 { own > speed2 } else { own < speed2 };
+            best = Extreme { at, value: quotient.sqrt() };
+            let better = if which == 1 { quotient > speed2 } else { quotient < speed2 };
             if step > 0 && !better {
                 break;
             }
-            speed2 = own;
+            speed2 = quotient;
         }
         best
     })

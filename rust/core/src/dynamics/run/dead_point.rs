@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn the_end_is_reached_smoothly() {
+    fn end_matches_the_exact_motion() {
         let tail = Tail::of(&motion(0.0), 1.0).expect("a way");
         assert!((tail.end().t - 1e-4).abs() < 1e-11, "{}", tail.end().t);
         assert_eq!((tail.end().q[0], tail.end().speed[0]), (1.0, 0.0));

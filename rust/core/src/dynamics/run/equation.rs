@@ -94,10 +94,10 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         self.look_up(q)?;
         for (motor, cell) in self.motors.iter().zip(&mut self.motor_cells) {
             if let Some(table) = motor.table() {
-                let own = motor.ratio * speed[motor.driver];
-                *cell = table
-                    .cell(own)
-                    .ok_or_else(|| outside_table("motor's table over its speed", table, own))?;
+                let motor_speed = motor.ratio * speed[motor.driver];
+                *cell = table.cell(motor_speed).ok_or_else(|| {
+                    outside_table("motor's table over its speed", table, motor_speed)
+                })?;
             }
         }
         Ok(())
@@ -114,9 +114,9 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         for (pair, which) in values.chunks_exact_mut(2).zip(self.motors_with_table()) {
             let motor = &self.motors[which];
             let ends = motor.table().map(|table| table.ends(self.motor_cells[which]));
-            let own = motor.ratio * speed[motor.driver];
+            let motor_speed = motor.ratio * speed[motor.driver];
             let [low, high] = ends.unwrap_or([f64::NAN; 2]);
-            pair.copy_from_slice(&[own - low, high - own]);
+            pair.copy_from_slice(&[motor_speed - low, high - motor_speed]);
         }
     }
 
@@ -131,8 +131,8 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         let mut speed = knot / motor.ratio;
         // Rounding may leave the motor's speed short of the knot.
         let is_before = |speed: f64| {
-            let own = motor.ratio * speed;
-            if up { own < knot } else { own > knot }
+            let motor_speed = motor.ratio * speed;
+            if up { motor_speed < knot } else { motor_speed > knot }
         };
         while is_before(speed) {
             speed = if up == (motor.ratio > 0.0) { speed.next_up() } else { speed.next_down() };
@@ -178,7 +178,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         Ok(())
     }
 
-    /// Adds all other loads and the motors there, at these speeds.
+    /// Reduces all other loads and the motors' moments at these speeds.
     #[inline]
     pub(crate) fn apply_loads(
         &mut self,
@@ -232,9 +232,9 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
 
     /// Power of loads and motors that the potential energy does not include, W.
     pub(crate) fn power(&self, speed: &[f64]) -> f64 {
-        let of =
+        let driver_power =
             |(driver, v): (usize, &f64)| (self.reduced.applied[driver] + self.drive[driver]) * v;
-        speed.iter().enumerate().map(of).sum()
+        speed.iter().enumerate().map(driver_power).sum()
     }
 
     /// The reduced inertia of a single driver.

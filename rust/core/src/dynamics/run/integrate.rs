@@ -205,7 +205,7 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
     let last_work = y_end[len - 1];
     let stop_reason = match (end, system.ended) {
         (End::Reached, _) => clipped.map_or(StopReason::Reached, StopReason::TableEnds),
-        (End::Cancelled { .. }, Some(Ended::Deadline)) => StopReason::Late,
+        (End::Cancelled { .. }, Some(Ended::TimeLimit)) => StopReason::TimeLimit,
         (End::Cancelled { .. }, _) => StopReason::Cancelled,
         (_, Some(Ended::Table(which))) => StopReason::TableEnds(which),
         (_, Some(Ended::Motor(which))) => StopReason::MotorTableEnds(which),

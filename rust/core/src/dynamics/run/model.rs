@@ -27,7 +27,7 @@ pub(crate) trait ReducedModel {
         out: &mut Reduced,
     ) -> Result<(), Status>;
 
-    /// Adds the other loads at the last position and these speeds.
+    /// Reduces the other loads at the last position and these speeds.
     fn apply_loads(&mut self, speed: &[f64], numbers: Numbers<'_>, out: &mut Reduced);
 
     /// An angle at coordinates; NaN if they cannot be reached.
@@ -163,19 +163,20 @@ impl ReducedModel for MechanismModel<'_> {
 
     fn dead_point_ahead(&mut self, q: f64, direction: f64) -> Option<f64> {
         self.evaluator.solve(&[q]).ok()?;
-        let (mut there, mut beyond) = (q, q + direction.signum() * self.reach(0, f64::INFINITY));
+        let (mut reachable, mut beyond) =
+            (q, q + direction.signum() * self.reach(0, f64::INFINITY));
         if self.evaluator.solve(&[beyond]).is_ok() {
             return None;
         }
         for _ in 0..MAX_HALVINGS {
-            let middle = 0.5 * (there + beyond);
-            if middle == there || middle == beyond {
+            let middle = 0.5 * (reachable + beyond);
+            if middle == reachable || middle == beyond {
                 break;
             }
-            let is_there = self.evaluator.solve(&[middle]).is_ok();
-            *(if is_there { &mut there } else { &mut beyond }) = middle;
+            let is_reachable = self.evaluator.solve(&[middle]).is_ok();
+            *(if is_reachable { &mut reachable } else { &mut beyond }) = middle;
         }
-        Some(there)
+        Some(reachable)
     }
 
     fn near_miss(&mut self, q: f64) -> Option<NearMiss> {
@@ -221,9 +222,9 @@ impl TabulatedMachine {
             rows.inertia.push(inertia[0] + self.motors.iter().map(Motor::inertia).sum::<f64>());
             rows.d_inertia.push(inertia[1]);
             rows.moment.push(moment[0]);
-            let is_there = inertia[0].is_finite() && moment[0].is_finite();
-            rows.potential.push(if is_there { 0.0 } else { f64::NAN });
-            rows.status.push(if is_there { Status::Ok } else { Status::Unreachable });
+            let is_covered = inertia[0].is_finite() && moment[0].is_finite();
+            rows.potential.push(if is_covered { 0.0 } else { f64::NAN });
+            rows.status.push(if is_covered { Status::Ok } else { Status::Unreachable });
         }
         rows
     }

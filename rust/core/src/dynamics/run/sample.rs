@@ -53,20 +53,20 @@ impl Samples {
 
     /// Coordinates and speeds of a sample.
     pub(crate) fn state(&self, index: usize) -> (&[f64], &[f64]) {
-        let own = index * self.drivers()..(index + 1) * self.drivers();
-        (&self.q[own.clone()], &self.speed[own])
+        let range = index * self.drivers()..(index + 1) * self.drivers();
+        (&self.q[range.clone()], &self.speed[range])
     }
 
     /// The sample at an index.
     #[must_use]
     pub fn get(&self, index: usize) -> Option<Sample> {
         let n = self.drivers();
-        let own = |all: &[f64]| all.get(index * n..(index + 1) * n).map(<[f64]>::to_vec);
+        let row = |all: &[f64]| all.get(index * n..(index + 1) * n).map(<[f64]>::to_vec);
         Some(Sample {
             t: *self.t.get(index)?,
-            q: own(&self.q)?,
-            speed: own(&self.speed)?,
-            acceleration: own(&self.acceleration)?,
+            q: row(&self.q)?,
+            speed: row(&self.speed)?,
+            acceleration: row(&self.acceleration)?,
             work: *self.work.get(index)?,
         })
     }

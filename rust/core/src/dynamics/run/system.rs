@@ -20,7 +20,7 @@ pub(crate) enum Ended {
     /// A dead point.
     DeadPoint,
     /// The time limit.
-    Deadline,
+    TimeLimit,
 }
 
 /// A machine in motion. In time its state is q, q̇ and the work that the potential energy does not
@@ -99,10 +99,10 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
     /// Kinetic and potential energy less work at the last position, and the tolerance of that sum.
     fn balance(&self, y: &[f64]) -> (f64, f64) {
         let n = self.drivers;
-        let alone = [self.sign * y[0].max(0.0).sqrt()];
+        let own_speed = [self.sign * y[0].max(0.0).sqrt()];
         let (speed, work) = match self.along {
             Variable::Time => (&y[n..2 * n], y[2 * n]),
-            Variable::Coordinate => (&alone[..], y[2]),
+            Variable::Coordinate => (&own_speed[..], y[2]),
         };
         let (reduced, model) = (&self.equation.reduced, &self.equation.model);
         let kinetic = reduced.kinetic(speed);
@@ -164,20 +164,21 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         let tables =
             usize::from(self.has_table_boundaries()) + self.equation.motors_with_table().count();
         let crossing = if self.drivers == 1 { Crossing::Either } else { Crossing::Rising };
-        let own = self.events.iter().map(|event| event.crossing);
+        let directions = self.events.iter().map(|event| event.crossing);
         std::iter::repeat_n(Crossing::Boundary, 2 * tables)
             .chain(std::iter::repeat_n(crossing, usize::from(self.has_dead_points())))
-            .chain(own)
+            .chain(directions)
             .collect()
     }
 
     /// Whether the distance from a singular position grows (> 0) or falls along the motion.
     fn singularity_trend(&mut self, q: &[f64], speed: &[f64]) -> f64 {
-        let own = speed.iter().enumerate().map(|(i, v)| v.abs() / self.equation.model.unit(i));
-        let fastest = own.fold(0.0_f64, f64::max);
-        let [back, ahead] = [-CONDITION_STEP, CONDITION_STEP].map(|part| {
+        let relative_speeds =
+            speed.iter().enumerate().map(|(i, v)| v.abs() / self.equation.model.unit(i));
+        let fastest = relative_speeds.fold(0.0_f64, f64::max);
+        let [back, ahead] = [-CONDITION_STEP, CONDITION_STEP].map(|step| {
             let beside: Vec<f64> =
-                q.iter().zip(speed).map(|(q, v)| q + part * v / fastest).collect();
+                q.iter().zip(speed).map(|(q, v)| q + step * v / fastest).collect();
             self.equation.model.inverse_condition(&beside)
         });
         ahead - back
@@ -219,9 +220,9 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
                 equation.callbacks.event(which, t, q, speed).map_err(RunError::Callback)?
             }
             EventKind::Extreme => {
-                let there =
+                let outcome =
                     equation.set_configuration(q).and_then(|()| equation.apply_loads(t, q, speed));
-                match there {
+                match outcome {
                     Ok(()) => equation.moment(0) - equation.reduced.centrifugal(0, speed),
                     Err(Fault::OutOfDomain) => f64::NAN,
                     Err(Fault::Error(error)) => return Err(error),
@@ -278,10 +279,10 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
 
     fn events(&mut self, x: f64, y: &[f64], values: &mut [f64]) -> Result<(), Self::Error> {
         let (n, mut values) = (self.drivers, values);
-        let (one, alone) = ([x], [self.sign * y[0].max(0.0).sqrt()]);
+        let (own_q, own_speed) = ([x], [self.sign * y[0].max(0.0).sqrt()]);
         let (t, q, speed) = match self.along {
             Variable::Time => (x, &y[..n], &y[n..2 * n]),
-            Variable::Coordinate => (y[1], &one[..], &alone[..]),
+            Variable::Coordinate => (y[1], &own_q[..], &own_speed[..]),
         };
         if self.has_table_boundaries() {
             let cursor = &self.equation.cursor;
@@ -355,7 +356,7 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
 
     fn cancelled(&mut self) -> bool {
         if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
-            self.ended = Some(Ended::Deadline);
+            self.ended = Some(Ended::TimeLimit);
             return true;
         }
         self.equation.callbacks.cancelled()

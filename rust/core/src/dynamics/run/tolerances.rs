@@ -47,23 +47,24 @@ fn typical_speeds<S: ReducedModel, O: Callbacks>(
     let n = options.q.len();
     let mut accelerations = vec![0.0; n];
     let equation = &mut system.equation;
-    let there = equation
+    let outcome = equation
         .set_configuration(options.q)
         .and_then(|()| equation.apply_loads(options.t, options.q, options.speed))
         .and_then(|()| equation.accelerations(options.q, options.speed, &mut accelerations));
-    match there {
+    match outcome {
         Err(Fault::Error(error)) => return Err(error),
         // The run will end where it begins.
         Err(Fault::OutOfDomain) => accelerations.fill(0.0),
         Ok(()) => {}
     }
     let typical = |driver: usize| {
-        let own = options.speed[driver].abs();
-        own.max((accelerations[driver].abs() * sizes[driver]).sqrt())
+        let initial = options.speed[driver].abs();
+        initial.max((accelerations[driver].abs() * sizes[driver]).sqrt())
     };
-    let most = (0..n).map(typical).fold(0.0, f64::max);
+    let greatest = (0..n).map(typical).fold(0.0, f64::max);
     // A machine at rest in balance: one unit per second.
-    let scale =
-        |driver: usize| if most > 0.0 { typical(driver).max(1e-3 * most) } else { sizes[driver] };
+    let scale = |driver: usize| {
+        if greatest > 0.0 { typical(driver).max(1e-3 * greatest) } else { sizes[driver] }
+    };
     Ok((0..n).map(|driver| 1e-3 * scale(driver)).collect())
 }

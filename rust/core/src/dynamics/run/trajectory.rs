@@ -40,7 +40,7 @@ pub enum StopReason {
     /// At the step limit; true if stability limited the steps (the machine is stiff).
     StepLimit(bool),
     /// At the time limit.
-    Late,
+    TimeLimit,
     /// Cancelled by a callback.
     Cancelled,
 }

@@ -109,43 +109,43 @@ fn at_mean_speed<E>(
         _ => return first,
     }
     let not_met = || SteadyError::NotMet { speed, mean: options.mean };
-    let wanted = speed.abs();
+    let wanted_mean = speed.abs();
     let (mut first, mut best, mut failed) = (Some(first), None, None);
     let mut least_error = f64::INFINITY;
     let excess = |over_period: f64| {
         if failed.is_some() {
             return f64::NAN;
         }
-        let made = first.take().unwrap_or_else(|| {
+        let result = first.take().unwrap_or_else(|| {
             let speed = Some(over_period.copysign(speed));
             solve(SteadyOptions { speed, ..*options }, best.as_ref())
         });
-        match made {
-            Ok(steady) if steady.least_mean_of_extremes() > wanted => {
+        match result {
+            Ok(steady) if steady.least_mean_of_extremes() > wanted_mean => {
                 failed = Some(not_met());
                 f64::NAN
             }
             Ok(steady) => {
-                let error = steady.mean(Mean::Extremes) - wanted;
+                let error = steady.mean(Mean::Extremes) - wanted_mean;
                 if error.abs() < least_error {
                     (best, least_error) = (Some(steady), error.abs());
                 }
                 // An error below the accuracy of the motions counts as zero.
-                if error.abs() <= options.relative * wanted { 0.0 } else { error }
+                if error.abs() <= options.relative * wanted_mean { 0.0 } else { error }
             }
             // The motion is too slow to get through the turn.
-            Err(SteadyError::Stops { .. } | SteadyError::NotMet { .. }) => -wanted,
+            Err(SteadyError::Stops { .. } | SteadyError::NotMet { .. }) => -wanted_mean,
             Err(error) => {
                 failed = Some(error);
                 f64::NAN
             }
         }
     };
-    root::zero_to(excess, wanted, options.relative);
+    root::zero_to(excess, wanted_mean, options.relative);
     if let Some(error) = failed {
         return Err(error);
     }
-    let is_met = least_error <= NOISE * options.relative * wanted;
+    let is_met = least_error <= NOISE * options.relative * wanted_mean;
     best.filter(|_| is_met).ok_or_else(not_met)
 }
 
@@ -172,13 +172,14 @@ fn size_flywheel<E>(
         Err(SteadyError::Run(RunError::NoInertia { .. })) => None,
         Err(error) => return Err(error),
     };
-    let own = without.as_ref().map_or(MAX_FLUCTUATION, |steady| steady.fluctuation(mean));
-    if own <= fluctuation {
-        return Err(SteadyError::AlreadyMet { without: own, wanted: fluctuation });
+    let without_flywheel =
+        without.as_ref().map_or(MAX_FLUCTUATION, |steady| steady.fluctuation(mean));
+    if without_flywheel <= fluctuation {
+        return Err(SteadyError::AlreadyMet { without: without_flywheel, wanted: fluctuation });
     }
     // The fluctuation is about inverse to the inertia.
     let size = initial_inertia(without.as_ref());
-    let guess = size * (own / fluctuation - 1.0).max(0.1);
+    let guess = size * (without_flywheel / fluctuation - 1.0).max(0.1);
     let (mut last, mut failed) = (without, None);
     let residual = |flywheel: f64| {
         if failed.is_some() {
@@ -187,9 +188,9 @@ fn size_flywheel<E>(
         let options = SteadyOptions { flywheel: options.flywheel + flywheel, ..*options };
         match solve(options, last.as_ref()) {
             Ok(steady) => {
-                let own = steady.fluctuation(mean);
+                let found = steady.fluctuation(mean);
                 last = Some(steady);
-                fluctuation - own
+                fluctuation - found
             }
             Err(
                 SteadyError::Stops { .. }
@@ -215,11 +216,11 @@ fn size_flywheel<E>(
 
 /// The inertia at the start of a motion, kg·m²; 1 without one.
 fn initial_inertia(steady: Option<&Steady>) -> f64 {
-    let of = |steady: &Steady| {
+    let at_start = |steady: &Steady| {
         let speed = steady.run.samples.speed.first()?;
         Some(2.0 * steady.run.energies.first()?[0] / (speed * speed))
     };
-    steady.and_then(of).filter(|size| size.is_finite()).unwrap_or(1.0)
+    steady.and_then(at_start).filter(|size| size.is_finite()).unwrap_or(1.0)
 }
 
 impl Steady {
@@ -227,16 +228,16 @@ impl Steady {
     #[must_use]
     pub fn extremes(&self) -> [Extreme; 2] {
         let samples = &self.run.samples;
-        let within = samples.q.iter().copied().zip(samples.speed.iter().copied());
-        let between = self.run.events.iter().map(|one| (one.q[0], one.speed[0]));
+        let at_samples = samples.q.iter().copied().zip(samples.speed.iter().copied());
+        let at_events = self.run.events.iter().map(|event| (event.q[0], event.speed[0]));
         let mut extremes = [f64::INFINITY, 0.0].map(|value| Extreme { at: f64::NAN, value });
-        for (at, speed) in between.chain(within) {
-            let own = Extreme { at, value: speed.abs() };
-            if own.value < extremes[0].value {
-                extremes[0] = own;
+        for (at, speed) in at_events.chain(at_samples) {
+            let here = Extreme { at, value: speed.abs() };
+            if here.value < extremes[0].value {
+                extremes[0] = here;
             }
-            if own.value > extremes[1].value {
-                extremes[1] = own;
+            if here.value > extremes[1].value {
+                extremes[1] = here;
             }
         }
         extremes

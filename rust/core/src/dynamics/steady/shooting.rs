@@ -36,10 +36,10 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
         if first.depends_on_speed {
             return self.solve_free_speed(start, first);
         }
-        let left = self.energy_gain(start, &first);
-        if left.abs() > BALANCE_RTOL * first.turnover {
+        let gain = self.energy_gain(start, &first);
+        if gain.abs() > BALANCE_RTOL * first.turnover {
             let motor = first.drive / self.options.span;
-            let needed = motor - left / self.options.span;
+            let needed = motor - gain / self.options.span;
             return Err(SteadyError::Unbalanced { motor, needed });
         }
         match self.options.speed {
@@ -113,8 +113,8 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
                 // The slower, the faster it falls: this is below the unstable motion.
                 low = start.speed2;
             }
-            let between = newton > low && newton < high && slope < 0.0;
-            let mut next = match (between, high.is_finite()) {
+            let is_bracketed = newton > low && newton < high && slope < 0.0;
+            let mut next = match (is_bracketed, high.is_finite()) {
                 (true, _) => newton,
                 (false, true) => 0.5 * (low + high),
                 (false, false) => 2.0 * start.speed2,
@@ -132,8 +132,8 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
                 }
                 start.speed2 = next;
                 match self.run_period(start)? {
-                    PeriodOutcome::Whole(own) => {
-                        period = own;
+                    PeriodOutcome::Whole(next_period) => {
+                        period = next_period;
                         break;
                     }
                     PeriodOutcome::Stops { q } => {
@@ -166,25 +166,25 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
             let determinant = a * d - b * c;
             let by_start = (b * gaps[1] - d * gaps[0]) / determinant;
             let by_moment = (c * gaps[0] - a * gaps[1]) / determinant;
-            let mut part = 1.0;
+            let mut damping = 1.0;
             let step = by_start.abs() / start.speed2;
             if !step.is_finite() {
                 break;
             }
             loop {
                 let next = PeriodStart {
-                    speed2: start.speed2 + part * by_start,
-                    moment: start.moment + part * by_moment,
+                    speed2: start.speed2 + damping * by_start,
+                    moment: start.moment + damping * by_moment,
                     ..start
                 };
                 // Not below a fourth at once: the machine may stop there.
                 let is_near = next.speed2 > 0.25 * start.speed2;
-                if is_near && let PeriodOutcome::Whole(own) = self.run_period(next)? {
-                    (start, period) = (next, own);
+                if is_near && let PeriodOutcome::Whole(next_period) = self.run_period(next)? {
+                    (start, period) = (next, next_period);
                     break;
                 }
-                part *= 0.5;
-                if part < 1e-6 {
+                damping *= 0.5;
+                if damping < 1e-6 {
                     let from = start.speed2.sqrt();
                     return Err(SteadyError::Stops { q: self.options.q, from });
                 }
@@ -192,9 +192,9 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
             // Iterate while it improves, until rounding stops it.
             let settled = CONVERGED_RTOL.max(self.options.relative);
             if step <= settled && (step >= 0.5 * last || step <= 1e-3 * settled) {
-                let met = (period.time - time).abs() <= settled * time.abs()
+                let closes = (period.time - time).abs() <= settled * time.abs()
                     && (period.speed2 - start.speed2).abs() <= settled * start.speed2;
-                return if met {
+                return if closes {
                     Ok((start, period))
                 } else {
                     Err(SteadyError::NotMet { speed, mean: self.options.mean })

@@ -89,9 +89,9 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
     fn check_periodic(&mut self) -> Result<(), SteadyError<O::Error>> {
         let SteadyOptions { q: from, span, .. } = self.options;
         let mut inertia = |q: f64| {
-            let is_there =
+            let is_reachable =
                 self.equation.ensure_tables_at(q) && self.equation.set_configuration(&[q]).is_ok();
-            if is_there { self.equation.reduced.inertia[0] } else { f64::NAN }
+            if is_reachable { self.equation.reduced.inertia[0] } else { f64::NAN }
         };
         let samples = (0..SAMPLES).map(|part| {
             let here = from + span * f64::from(part) / f64::from(SAMPLES);
@@ -107,13 +107,16 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         if samples.iter().any(|(_, pair)| pair.iter().any(|value| value.is_nan())) {
             return Ok(());
         }
-        let most = samples.iter().fold(0.0_f64, |most, (_, [inertia, _])| most.max(inertia.abs()));
-        let massless = samples.iter().find(|(_, [inertia, _])| *inertia <= INERTIA_NOISE * most);
+        let greatest =
+            samples.iter().fold(0.0_f64, |greatest, (_, [inertia, _])| greatest.max(inertia.abs()));
+        let massless =
+            samples.iter().find(|(_, [inertia, _])| *inertia <= INERTIA_NOISE * greatest);
         if let Some(&([q, _], [value, _])) = massless {
             return Err(SteadyError::Run(RunError::NoInertia { q, value }));
         }
-        let other = samples.into_iter().find(|(_, [a, b])| (b - a).abs() > PERIODIC_RTOL * a.abs());
-        other.map_or(Ok(()), |(q, inertia)| Err(SteadyError::AnotherOne { q, inertia }))
+        let different =
+            samples.into_iter().find(|(_, [a, b])| (b - a).abs() > PERIODIC_RTOL * a.abs());
+        different.map_or(Ok(()), |(q, inertia)| Err(SteadyError::AnotherOne { q, inertia }))
     }
 
     /// Sets the coordinate where periods start.
@@ -179,19 +182,21 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         })?;
         match run.stop_reason {
             StopReason::Reached => {}
-            StopReason::Late | StopReason::Cancelled => return Err(SteadyError::Cancelled { q }),
+            StopReason::TimeLimit | StopReason::Cancelled => {
+                return Err(SteadyError::Cancelled { q });
+            }
             ref other => {
                 return Err(SteadyError::Other(format!("the period ended early: {other:?}")));
             }
         }
-        let ends = |list: &[f64]| list.last().zip(list.first()).map_or(f64::NAN, |(b, a)| b - a);
+        let change = |list: &[f64]| list.last().zip(list.first()).map_or(f64::NAN, |(b, a)| b - a);
         let stored: Vec<f64> = run.energies.iter().map(|pair| pair[1]).collect();
-        let left = ends(&run.samples.work) - ends(&stored);
+        let imbalance = change(&run.samples.work) - change(&stored);
         // At too high a speed the rounding of the energy exceeds the work of a period.
         let kinetic = run.energies.first().map_or(f64::NAN, |pair| pair[0]);
         let noise = NOISE * relative * kinetic;
         let idle = period.turnover <= 64.0 * f64::EPSILON * kinetic;
-        let balanced = left.abs() <= BALANCE_RTOL * period.turnover + noise;
+        let balanced = imbalance.abs() <= BALANCE_RTOL * period.turnover + noise;
         if !(balanced && (idle || noise <= MAX_NOISE * period.turnover)) {
             return Err(SteadyError::RunsAway { speed: start.speed2.sqrt() });
         }

@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn pieces_meet_with_two_derivatives() {
+    fn pieces_join_with_two_derivatives() {
         let values = [1.0, -2.0, 0.5, 3.0, 1.0, 0.0, 1.0];
         for ends in ALL {
             let pieces = spline(&KNOTS, &values, ends).expect("a spline");
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn cubics_are_themselves() {
+    fn not_a_knot_reproduces_cubics() {
         let cubic = |x: f64| 1.0 - x + 0.5 * x * x + 0.25 * x * x * x;
         let values = KNOTS.map(cubic);
         for n in [4, 5, 7] {

@@ -15,11 +15,11 @@ pub struct Table {
 /// How far beyond a table its ends still count, relative to its size.
 const RANGE_RTOL: f64 = 1.0e-12;
 
-/// A piece of a table, shifted by whole periods.
+/// A piece of a table, shifted by periods periods.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Cell {
     piece: usize,
-    whole: f64,
+    periods: f64,
     /// Its first knot, shifted by the periods.
     start: f64,
 }
@@ -82,14 +82,14 @@ impl Table {
         if !x.is_finite() || !within {
             return None;
         }
-        let whole = if self.periodic { ((x - first) / self.width()).floor() } else { 0.0 };
-        let within = x - self.width() * whole;
+        let periods = if self.periodic { ((x - first) / self.width()).floor() } else { 0.0 };
+        let within = x - self.width() * periods;
         let after = self.knots.partition_point(|&knot| knot <= within);
-        Some(self.cell_of(after.clamp(1, self.pieces.len()) - 1, whole))
+        Some(self.cell_of(after.clamp(1, self.pieces.len()) - 1, periods))
     }
 
-    fn cell_of(&self, piece: usize, whole: f64) -> Cell {
-        Cell { piece, whole, start: self.knots[piece] + whole * self.width() }
+    fn cell_of(&self, piece: usize, periods: f64) -> Cell {
+        Cell { piece, periods, start: self.knots[piece] + periods * self.width() }
     }
 
     /// The knots at the ends of a piece; each end is the next piece's start, to the last bit.
@@ -101,12 +101,12 @@ impl Table {
     /// The next piece (`up`) or the previous one.
     pub(crate) fn next(&self, cell: Cell, up: bool) -> Option<Cell> {
         let last = self.pieces.len() - 1;
-        let Cell { piece, whole, .. } = cell;
+        let Cell { piece, periods, .. } = cell;
         match up {
-            true if piece < last => Some(self.cell_of(piece + 1, whole)),
-            false if piece > 0 => Some(self.cell_of(piece - 1, whole)),
-            true => self.periodic.then(|| self.cell_of(0, whole + 1.0)),
-            false => self.periodic.then(|| self.cell_of(last, whole - 1.0)),
+            true if piece < last => Some(self.cell_of(piece + 1, periods)),
+            false if piece > 0 => Some(self.cell_of(piece - 1, periods)),
+            true => self.periodic.then(|| self.cell_of(0, periods + 1.0)),
+            false => self.periodic.then(|| self.cell_of(last, periods - 1.0)),
         }
     }
 
@@ -120,8 +120,8 @@ impl Table {
 
     /// About how many knots an interval of this length has.
     pub(crate) fn knots_in(&self, length: f64) -> f64 {
-        let own = self.knots.len() as f64;
-        if self.periodic { own * (1.0 + length / self.width()) } else { own }
+        let knots = self.knots.len() as f64;
+        if self.periodic { knots * (1.0 + length / self.width()) } else { knots }
     }
 
     /// The knots inside an interval, ascending.
@@ -129,13 +129,13 @@ impl Table {
         let mut found = Vec::new();
         let [first, last] = self.range();
         let mut cell = self.cell(if self.periodic { low } else { low.clamp(first, last) });
-        while let Some(cell_of) = cell {
-            let [start, end] = self.ends(cell_of);
+        while let Some(current) = cell {
+            let [start, end] = self.ends(current);
             if start > high {
                 break;
             }
             found.push(start);
-            cell = self.next(cell_of, true);
+            cell = self.next(current, true);
             if cell.is_none() {
                 found.push(end);
             }
@@ -150,7 +150,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pieces_follow_each_other() {
+    fn pieces_are_adjacent() {
         let knots = [0.0, 1.0, 3.0];
         let table =
             Table::new(&knots, &[1.0, 2.0, 1.0], EndCondition::Linear, true).expect("a table");
