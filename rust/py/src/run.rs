@@ -127,7 +127,7 @@ impl Callbacks for Calls {
 pub(crate) fn broken(error: IntegrationError<PyErr>) -> PyErr {
     match error {
         Error::System(RunError::Callback(error)) => error,
-        Error::System(nothing @ RunError::NothingThere { .. }) => {
+        Error::System(nothing @ RunError::NoInitialPosition { .. }) => {
             error::position(nothing.to_string())
         }
         Error::System(other) => error::input(other.to_string(), None),
@@ -139,7 +139,7 @@ pub(crate) fn broken(error: IntegrationError<PyErr>) -> PyErr {
 pub(crate) fn unsteady(error: SteadyError<PyErr>) -> PyErr {
     match error {
         SteadyError::Run(RunError::Callback(error)) => error,
-        SteadyError::Run(nothing @ RunError::NothingThere { .. }) => {
+        SteadyError::Run(nothing @ RunError::NoInitialPosition { .. }) => {
             error::position(nothing.to_string())
         }
         other => error::input(other.to_string(), None),

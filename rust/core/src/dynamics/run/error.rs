@@ -22,13 +22,13 @@ pub enum RunError<E> {
     },
     /// The mechanism has no valid position at the initial coordinates.
     #[error("there is nothing to begin with at q = {q:?}")]
-    NothingThere {
+    NoInitialPosition {
         /// Initial coordinates.
         q: Vec<f64>,
     },
     /// A list of the wrong length.
     #[error("{given} {what} are given: {needed} are needed")]
-    Malformed {
+    WrongCount {
         /// What the list contains.
         what: &'static str,
         /// Length needed.
@@ -38,7 +38,7 @@ pub enum RunError<E> {
     },
     /// Too many knots of tables.
     #[error("the tables have more than {most:e} knots between q = {from} and {to}")]
-    ManyKnots {
+    TooManyKnots {
         /// The limit.
         most: f64,
         /// Start of the interval.
@@ -69,7 +69,7 @@ pub(crate) fn outside_table<E>(what: &'static str, table: &Table, q: f64) -> Run
 /// Checks lengths: (name, needed, given) each.
 pub(crate) fn check_counts<E>(counts: &[(&'static str, usize, usize)]) -> Result<(), RunError<E>> {
     match counts.iter().find(|(_, needed, given)| needed != given) {
-        Some(&(what, needed, given)) => Err(RunError::Malformed { what, needed, given }),
+        Some(&(what, needed, given)) => Err(RunError::WrongCount { what, needed, given }),
         None => Ok(()),
     }
 }

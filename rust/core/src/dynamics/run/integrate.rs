@@ -165,7 +165,7 @@ pub(crate) fn breaks_of<E>(
     let far = from.abs().max(to.abs());
     // Beyond this coordinate rounding exceeds the accuracy of the knots.
     if count > MAX_KNOTS || (!tables.is_empty() && far > MAX_COORDINATE) {
-        return Err(RunError::ManyKnots { most: MAX_KNOTS, from, to });
+        return Err(RunError::TooManyKnots { most: MAX_KNOTS, from, to });
     }
     let range = [from.min(to), from.max(to)];
     let mut breaks = given.to_vec();

@@ -106,7 +106,7 @@ impl RunOptions<'_> {
             self.events.iter().map(driver_of).chain(motors.iter().map(|motor| motor.driver));
         match drivers_used.max().filter(|driver| *driver >= drivers) {
             Some(driver) => {
-                Err(RunError::Malformed { what: "drivers", needed: driver + 1, given: drivers })
+                Err(RunError::WrongCount { what: "drivers", needed: driver + 1, given: drivers })
             }
             None => Ok(()),
         }

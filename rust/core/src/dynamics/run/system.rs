@@ -88,7 +88,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             Ok(()) => {}
             Err(Fault::Error(error)) => return Err(error),
             Err(Fault::OutOfDomain) => {
-                return Err(RunError::NothingThere { q: options.q.to_vec() });
+                return Err(RunError::NoInitialPosition { q: options.q.to_vec() });
             }
         }
         let reduced = &self.equation.reduced;

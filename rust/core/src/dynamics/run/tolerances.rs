@@ -15,8 +15,8 @@ pub(crate) fn tolerances<S: ReducedModel, O: Callbacks>(
 ) -> Result<[Vec<f64>; 2], RunError<O::Error>> {
     let (n, relative) = (options.q.len(), options.relative);
     if options.along == Variable::Coordinate {
-        // The absolute tolerance uses a thousandth of the typical speed: the motion may begin
-        // slowly.
+        // From a thousandth of the typical speed for q̇², from all of it for the time: the initial
+        // speed may be small.
         let typical = 1e3 * typical_speeds(system, options, sizes)?[0];
         let of_speed = options.absolute.map_or(relative * typical * 1e-3, |[_, of_speed]| of_speed);
         let absolute =
@@ -62,7 +62,7 @@ fn typical_speeds<S: ReducedModel, O: Callbacks>(
         initial.max((accelerations[driver].abs() * sizes[driver]).sqrt())
     };
     let greatest = (0..n).map(typical).fold(0.0, f64::max);
-    // A machine at rest in balance: one unit per second.
+    // A machine at rest in balance: one radian (or size) per second.
     let scale = |driver: usize| {
         if greatest > 0.0 { typical(driver).max(1e-3 * greatest) } else { sizes[driver] }
     };

@@ -29,7 +29,7 @@ const UNDAMPED: f64 = 1.0e-6;
 pub struct FluctuationTarget {
     /// The coefficient.
     pub fluctuation: f64,
-    /// The mean speed in its definition.
+    /// The mean speed that it refers to.
     pub mean: Mean,
 }
 
@@ -105,10 +105,10 @@ fn at_mean_speed<E>(
     let (Some(speed), Mean::Extremes) = (options.speed, options.mean) else { return first };
     match &first {
         Ok(steady) if steady.prescribed => {}
-        Err(SteadyError::NotMet { .. }) => {}
+        Err(SteadyError::MeanNotReached { .. }) => {}
         _ => return first,
     }
-    let not_met = || SteadyError::NotMet { speed, mean: options.mean };
+    let not_met = || SteadyError::MeanNotReached { speed, mean: options.mean };
     let wanted_mean = speed.abs();
     let (mut first, mut best, mut failed) = (Some(first), None, None);
     let mut least_error = f64::INFINITY;
@@ -134,7 +134,7 @@ fn at_mean_speed<E>(
                 if error.abs() <= options.relative * wanted_mean { 0.0 } else { error }
             }
             // The motion is too slow to get through the turn.
-            Err(SteadyError::Stops { .. } | SteadyError::NotMet { .. }) => -wanted_mean,
+            Err(SteadyError::Stops { .. } | SteadyError::MeanNotReached { .. }) => -wanted_mean,
             Err(error) => {
                 failed = Some(error);
                 f64::NAN
@@ -166,7 +166,7 @@ fn size_flywheel<E>(
         Err(
             SteadyError::Stops { .. }
             | SteadyError::CannotCarry { .. }
-            | SteadyError::NotMet { .. },
+            | SteadyError::MeanNotReached { .. },
         ) => None,
         // The flywheel may be all the inertia there is.
         Err(SteadyError::Run(RunError::NoInertia { .. })) => None,
@@ -195,7 +195,7 @@ fn size_flywheel<E>(
             Err(
                 SteadyError::Stops { .. }
                 | SteadyError::CannotCarry { .. }
-                | SteadyError::NotMet { .. },
+                | SteadyError::MeanNotReached { .. },
             ) => fluctuation - MAX_FLUCTUATION,
             Err(error) => {
                 failed = Some(error);

@@ -95,7 +95,7 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
             let settled = CONVERGED_RTOL.max(noise) * start.speed2;
             if slope < 0.0 && (newton - start.speed2).abs() <= settled {
                 if noise > MAX_RELATIVE_NOISE.max(10.0 * NOISE * self.options.relative) {
-                    return Err(SteadyError::Weak { part: -slope });
+                    return Err(SteadyError::PoorlyDetermined { part: -slope });
                 }
                 let last = PeriodStart { speed2: newton, ..start };
                 return match self.run_period(last)? {
@@ -197,11 +197,11 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
                 return if closes {
                     Ok((start, period))
                 } else {
-                    Err(SteadyError::NotMet { speed, mean: self.options.mean })
+                    Err(SteadyError::MeanNotReached { speed, mean: self.options.mean })
                 };
             }
             last = step;
         }
-        Err(SteadyError::NotMet { speed, mean: self.options.mean })
+        Err(SteadyError::MeanNotReached { speed, mean: self.options.mean })
     }
 }

@@ -101,7 +101,7 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         let samples: Vec<_> = samples.collect();
         self.equation.rejected = None;
         if samples[0].1[0].is_nan() {
-            return Err(SteadyError::Run(RunError::NothingThere { q: vec![from] }));
+            return Err(SteadyError::Run(RunError::NoInitialPosition { q: vec![from] }));
         }
         // The periods themselves report unreachable positions.
         if samples.iter().any(|(_, pair)| pair.iter().any(|value| value.is_nan())) {
@@ -116,7 +116,7 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         }
         let different =
             samples.into_iter().find(|(_, [a, b])| (b - a).abs() > PERIODIC_RTOL * a.abs());
-        different.map_or(Ok(()), |(q, inertia)| Err(SteadyError::AnotherOne { q, inertia }))
+        different.map_or(Ok(()), |(q, inertia)| Err(SteadyError::InertiaNotPeriodic { q, inertia }))
     }
 
     /// Sets the coordinate where periods start.
