@@ -128,8 +128,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     Ok(assemble_run(system, options, from, solution, clipped))
 }
 
-/// The end of a run along the coordinate, no farther than its tables reach, and the table that
-/// ends.
+/// Clips the end of a run along the coordinate to its tables; returns it and the table that ends.
 fn clip_to_tables(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>) {
     let mut clipped = (end, None);
     if from == end {

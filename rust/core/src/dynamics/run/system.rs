@@ -40,7 +40,7 @@ pub(crate) struct RunSystem<'a, S, O> {
     reach: f64,
     /// The relative tolerance.
     relative: f64,
-    /// Kinetic and potential energy less work at the start of a step, and at the end of the last
+    /// Kinetic and potential energy less work: at the start of a step, and at the end of the last
     /// trial step.
     total: f64,
     trial_total: f64,
@@ -54,8 +54,8 @@ const ROUNDINGS: f64 = 64.0;
 /// Kinetic energy below this part of the energies of a motion counts as zero: the balance is kept
 /// far better.
 const AT_REST: f64 = 1.0e-6;
-/// Smallest distance (rad, or of the size) within which to look for a dead point; with loose
-/// tolerances it is a thousand of them, at most the second.
+/// Bounds of the distance (rad, or of the size) within which to look for a dead point: it is a
+/// thousand relative tolerances.
 const MIN_REACH: f64 = 1.0e-3;
 const MAX_REACH: f64 = 0.05;
 /// Step (rad, or of the size) to both sides for the change of a condition.
