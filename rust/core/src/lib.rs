@@ -1,10 +1,9 @@
 //! Planar linkages: description, Assur groups, position, analogues.
 //!
 //! A planar linkage is a driver plus Assur groups attached one after another.
-//! [`Description`] says what the mechanism is; [`Mechanism`] finds its structure
-//! and compiles it; [`Mechanism::solve`] gives positions and *analogues*
-//! (derivatives with respect to the driver's coordinate) of many designs at many
-//! positions.
+//! [`Description`] defines a mechanism; [`Mechanism`] finds its structure and compiles it;
+//! [`Mechanism::solve`] computes positions and *analogues* (derivatives by the driver's
+//! coordinate) of many designs at many positions.
 //!
 //! # Examples
 //!
@@ -40,15 +39,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Machines that move under loads are in [`dynamics`], the integrator they move by in [`ode`].
+//! [`dynamics`] moves machines under loads and motors; [`ode`] is the integrator it uses.
 #![warn(unreachable_pub)] // the face of the crate is what is listed here
 #![cfg_attr(
     test,
     allow(clippy::disallowed_methods, reason = "tests compare with the platform's functions")
 )]
 
-// The floors, from the ground up: math, ode, description, structure, plan, state, branch, query,
-// batch, dynamics, papers. Each knows only those below it (`tools/check_order`).
+// The layers, from the bottom up: math, ode, description, structure, plan, state, branch, query,
+// batch, dynamics, papers. Each imports only from those below it (`tools/check_order`).
 mod batch;
 mod branch;
 mod description;

@@ -39,9 +39,9 @@ impl Task {
 
     fn solve(self, turn: Cycle, [first, second]: [f64; 2]) -> One {
         match self {
-            Self::Sized(mean) => Flywheel::sized(turn, first, second, mean),
-            Self::Driven(mean) => Flywheel::driven(turn, first, second, mean),
-            Self::Given => Flywheel::given(turn, first, second),
+            Self::Sized(mean) => Flywheel::for_fluctuation(turn, first, second, mean),
+            Self::Driven(mean) => Flywheel::for_mean_speed(turn, first, second, mean),
+            Self::Given => Flywheel::for_initial_speed(turn, first, second),
         }
     }
 }
@@ -104,7 +104,7 @@ impl Flywheels {
         let of: [fn(&Flywheel) -> f64; 8] = [
             |f| f.inertia,
             |f| f.speed0,
-            |f| f.turn.motor,
+            |f| f.cycle.motor,
             |f| f.greatest.at,
             |f| f.greatest.value,
             |f| f.least.at,
@@ -128,9 +128,9 @@ impl Flywheels {
             "speed" => Flywheel::speed,
             "time" => Flywheel::time,
             "angle" => Flywheel::angle,
-            "moment" => |f, phi| f.turn.moment(phi),
-            "inertia" => |f, phi| f.turn.inertia(phi),
-            "work" => |f, phi| f.turn.work(phi),
+            "moment" => |f, phi| f.cycle.moment(phi),
+            "inertia" => |f, phi| f.cycle.inertia(phi),
+            "work" => |f, phi| f.cycle.work(phi),
             _ => return Err(error::input(format!("no such curve: {what:?}"), None)),
         };
         let places = places.as_slice()?.to_vec();

@@ -150,7 +150,7 @@ impl Machine {
             max_steps,
             deadline: deadline(seconds),
             breaks: &breaks,
-            watches: &watches,
+            events: &watches,
             flywheel: 0.0,
         };
         let made = called(py, functions, |calls| match &self.0 {
@@ -247,7 +247,7 @@ fn arrays<'py>(py: Python<'py>, all: &[ReducedTable]) -> Arrays<'py> {
     let statuses = all.iter().flat_map(|rows| rows.status.iter().map(|&one| one as u8));
     (
         array(|r| &r.inertia),
-        array(|r| &r.rates),
+        array(|r| &r.d_inertia),
         array(|r| &r.moment),
         array(|r| &r.potential),
         PyArray1::from_vec(py, statuses.collect()),

@@ -126,7 +126,7 @@ pub(crate) fn watch(own: Option<&Mechanism>, parts: WatchParts) -> PyResult<Even
     let occasion = match (kind.as_str(), own) {
         ("coordinate", _) => EventKind::Coordinate { driver: which, value },
         ("speed", _) => EventKind::Speed { driver: which, value },
-        ("function", _) => EventKind::Outside(which),
+        ("function", _) => EventKind::Callback(which),
         ("angle", Some(own)) => {
             let lines = lines.into_iter().map(|l| line(own, l)).collect::<PyResult<Vec<_>>>()?;
             let lines = <[Line; 2]>::try_from(lines)
@@ -140,5 +140,5 @@ pub(crate) fn watch(own: Option<&Mechanism>, parts: WatchParts) -> PyResult<Even
         1.. => Crossing::Rising,
         _ => Crossing::Falling,
     };
-    Ok(EventSpec { occasion, crossing, stops })
+    Ok(EventSpec { kind: occasion, crossing, stops })
 }

@@ -126,8 +126,8 @@ impl Callbacks for Calls {
 /// What a run could not be made for, as Python's.
 pub(crate) fn broken(error: IntegrationError<PyErr>) -> PyErr {
     match error {
-        Error::System(RunError::Outside(error)) => error,
-        Error::System(nothing @ RunError::NothingThere { .. }) => {
+        Error::System(RunError::Callback(error)) => error,
+        Error::System(nothing @ RunError::NoInitialPosition { .. }) => {
             error::position(nothing.to_string())
         }
         Error::System(other) => error::input(other.to_string(), None),
@@ -138,8 +138,8 @@ pub(crate) fn broken(error: IntegrationError<PyErr>) -> PyErr {
 /// Why there is no periodic motion, as Python's.
 pub(crate) fn unsteady(error: SteadyError<PyErr>) -> PyErr {
     match error {
-        SteadyError::Run(RunError::Outside(error)) => error,
-        SteadyError::Run(nothing @ RunError::NothingThere { .. }) => {
+        SteadyError::Run(RunError::Callback(error)) => error,
+        SteadyError::Run(nothing @ RunError::NoInitialPosition { .. }) => {
             error::position(nothing.to_string())
         }
         other => error::input(other.to_string(), None),
@@ -162,7 +162,7 @@ impl Run {
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Vec<Array<'py>>> {
         let energy = |which: usize| self.0.energies.iter().map(|pair| pair[which]).collect();
         guard(|| {
-            let mut arrays = arrays(py, self.0.moments.clone());
+            let mut arrays = arrays(py, self.0.samples.clone());
             arrays.push(PyArray1::from_vec(py, energy(0)));
             arrays.push(PyArray1::from_vec(py, energy(1)));
             Ok(arrays)
@@ -171,7 +171,7 @@ impl Run {
 
     /// The same without energies at times (or coordinates, if it went along these); NaN beyond.
     fn at<'py>(&self, py: Python<'py>, places: Vec<f64>) -> PyResult<Vec<Array<'py>>> {
-        let own = &self.0.moments;
+        let own = &self.0.samples;
         let nan = vec![f64::NAN; own.q.len() / own.len().max(1)];
         let nothing = Sample {
             t: f64::NAN,
@@ -213,7 +213,7 @@ impl Run {
     /// What happened on the way.
     #[getter]
     fn events(&self) -> Vec<EventParts> {
-        let of = |one: &EventRecord| (one.watch, one.t, one.q.clone(), one.speed.clone());
+        let of = |one: &EventRecord| (one.event, one.t, one.q.clone(), one.speed.clone());
         self.0.events.iter().map(of).collect()
     }
 
@@ -221,7 +221,7 @@ impl Run {
     /// coordinate.
     #[getter]
     fn near_change_point(&self) -> Option<(String, f64, f64)> {
-        match &self.0.ending {
+        match &self.0.stop_reason {
             StopReason::NearChangePoint { dyad, miss, q } => Some((dyad.clone(), *miss, *q)),
             _ => None,
         }
@@ -231,7 +231,7 @@ impl Run {
     #[getter]
     fn ending(&self) -> (&'static str, usize, Vec<f64>) {
         let plain = |kind| (kind, 0, Vec::new());
-        match &self.0.ending {
+        match &self.0.stop_reason {
             StopReason::Reached => plain("reached"),
             StopReason::Event(which) => ("event", *which, Vec::new()),
             StopReason::Rest => plain("rest"),
@@ -240,7 +240,7 @@ impl Run {
             StopReason::TableEnds(which) => ("table ends", *which, Vec::new()),
             StopReason::MotorTableEnds(which) => ("motor table ends", *which, Vec::new()),
             StopReason::StepLimit(stiff) => ("step limit", usize::from(*stiff), Vec::new()),
-            StopReason::Late => plain("time limit"),
+            StopReason::TimeLimit => plain("time limit"),
             StopReason::Cancelled => plain("cancelled"),
             _ => plain("stalled"),
         }

@@ -27,7 +27,7 @@ fn task<'a>(q: &'a [f64], speed: &'a [f64], end: f64) -> RunOptions<'a> {
         max_steps: 100_000,
         deadline: None,
         breaks: &[],
-        watches: &[],
+        events: &[],
         flywheel: 0.0,
     }
 }
@@ -67,9 +67,9 @@ fn what_does_not_fit_is_named() {
     said(run(&task(&[0.0], &[1.0], 1.0), &own[1..]), "dimensions are given");
     said(run(&task(&[0.0, 1.0], &[1.0], 1.0), own), "2 coordinates are given: 1 are needed");
     said(run(&task(&[0.0], &[], 1.0), own), "0 speeds are given: 1 are needed");
-    let occasion = EventKind::Speed { driver: 1, value: 0.0 };
-    let watches = [EventSpec { occasion, crossing: Crossing::Either, stops: true }];
-    let watched = RunOptions { watches: &watches, ..task(&[0.0], &[1.0], 1.0) };
+    let kind = EventKind::Speed { driver: 1, value: 0.0 };
+    let watches = [EventSpec { kind, crossing: Crossing::Either, stops: true }];
+    let watched = RunOptions { events: &watches, ..task(&[0.0], &[1.0], 1.0) };
     said(run(&watched, own), "1 drivers are given: 2 are needed");
     let steady = machine.steady(&mechanism, &own[1..], &search(TAU, Some(1.0)), None, NoCallbacks);
     said(steady.expect_err("too few").to_string(), "dimensions are given");
@@ -99,24 +99,24 @@ fn energy_stays_and_a_position_is_met() {
         ..Machine::default()
     };
     let watches = [EventSpec {
-        occasion: EventKind::Coordinate { driver: 0, value: 20.0 },
+        kind: EventKind::Coordinate { driver: 0, value: 20.0 },
         crossing: Crossing::Rising,
         stops: true,
     }];
     let mut task = task(&[0.0], &[3.0], 60.0);
-    task.watches = &watches;
+    task.events = &watches;
     let run = machine.run(&mechanism, mechanism.drawing(), &task, NoCallbacks).expect("a run");
-    assert_eq!(run.ending, StopReason::Event(0));
-    let last = run.moments.last().expect("an end");
+    assert_eq!(run.stop_reason, StopReason::Event(0));
+    let last = run.samples.last().expect("an end");
     assert!((last.q[0] - 20.0).abs() < 1e-13);
     let total: Vec<f64> =
         run.energies.iter().map(|[kinetic, potential]| kinetic + potential).collect();
     assert!(total.iter().all(|own| (own - total[0]).abs() < 1e-10 * total[0].abs()));
     // Along the coordinate it takes the same time.
     let mut along = task;
-    (along.along, along.end, along.watches) = (Variable::Coordinate, 20.0, &[]);
+    (along.along, along.end, along.events) = (Variable::Coordinate, 20.0, &[]);
     let over = machine.run(&mechanism, mechanism.drawing(), &along, NoCallbacks).expect("a run");
-    assert!((over.moments.last().expect("an end").t - last.t).abs() < 1e-10);
+    assert!((over.samples.last().expect("an end").t - last.t).abs() < 1e-10);
     let there = over.at(10.0).expect("on the way");
     assert!((run.at(there.t).expect("on the way").q[0] - 10.0).abs() < 1e-9);
     assert!(over.at(21.0).is_none());
@@ -138,7 +138,7 @@ fn a_table_over_the_coordinate_does_its_work() {
     let task = RunOptions { along: Variable::Coordinate, ..task(&[0.0], &[1.0], TAU) };
     let run = machine.run(&mechanism, mechanism.drawing(), &task, NoCallbacks).expect("a run");
     // Work of 2 N·m over a turn.
-    let speed = run.moments.last().expect("an end").speed[0];
+    let speed = run.samples.last().expect("an end").speed[0];
     assert!((speed - (1.0 + 2.0 * TAU).sqrt()).abs() < 1e-12, "{speed}");
     assert_eq!(run.statistics.restarts, 1);
 }

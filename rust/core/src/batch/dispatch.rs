@@ -1,10 +1,10 @@
-//! Which compiled copy of the worker runs, chosen by the processor and the caller.
+//! Chooses the compiled copy of the worker, by the processor and the caller's limit.
 
 use super::worker::{Job, Worker};
 use crate::math::simd::Simd;
 use crate::state::kernel::baseline::Baseline;
 
-/// Solves a job with the instructions asked for, as far as the machine has them.
+/// Solves a job at the requested SIMD level, or at the best one the processor has.
 pub(crate) fn run(simd: Simd, worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
     match simd.min(Simd::best()) {
         #[cfg(target_arch = "x86_64")]
@@ -30,7 +30,7 @@ macro_rules! entry {
             fn with(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
                 worker.run::<crate::state::kernel::$name::$level>(job);
             }
-            // SAFETY: `run` comes here only if `Simd::best` has found them.
+            // SAFETY: `run` calls this only if `Simd::best` found these instructions.
             unsafe { with(worker, job) }
         }
     };

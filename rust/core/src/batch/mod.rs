@@ -1,4 +1,4 @@
-//! Designs × positions: a request solved into arrays, in blocks, on all cores.
+//! Solves many designs at many positions into arrays, in blocks and on all cores.
 pub(crate) mod dispatch;
 pub(crate) mod outputs;
 pub(crate) mod request;

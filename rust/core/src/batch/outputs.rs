@@ -1,24 +1,24 @@
-//! What is kept of a motion, and how it is laid out in arrays.
+//! Which quantities of a motion are kept, and the layout of their arrays.
 
 use std::mem::MaybeUninit;
 
 use crate::plan::mechanism::Mechanism;
 
-/// What is kept: indices of joints, links and slides.
+/// Quantities to keep: indices of joints, links and slides.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Outputs {
-    /// Joints.
+    /// Joints: their positions.
     pub joints: Vec<usize>,
     /// Links: their angles.
     pub links: Vec<usize>,
-    /// Links: the places of their reference points.
+    /// Links: the positions of their reference points.
     pub places: Vec<usize>,
-    /// Slides.
+    /// Slides: their values.
     pub slides: Vec<usize>,
 }
 
 impl Outputs {
-    /// Everything a mechanism has: joints, angles of links, slides.
+    /// All joints, links' angles and slides of a mechanism.
     #[must_use]
     pub fn all(mechanism: &Mechanism) -> Self {
         let linkage = mechanism.linkage();
@@ -31,12 +31,12 @@ impl Outputs {
     }
 }
 
-/// What one array holds, by index.
+/// Quantity in one array, with the index of its joint, link or slide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
-    /// Place of a joint, m.
+    /// Position of a joint, m.
     Joint(usize),
-    /// Place of a link's reference point (its first joint), m.
+    /// Position of a link's reference point (its first joint), m.
     Place(usize),
     /// Value of a slide, m.
     Slide(usize),
@@ -44,16 +44,15 @@ pub enum Quantity {
     Angle(usize),
 }
 
-/// One array: a quantity's derivatives of one order. Entries run over designs,
-/// positions, components (2 for a point) and as many driver indices as the order,
-/// last fastest.
+/// One array: the derivatives of one order of a quantity. Its entries run over designs, positions,
+/// components (2 for a point) and as many driver indices as the order, the last one fastest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Column {
-    /// What it holds.
+    /// The quantity.
     pub quantity: Quantity,
     /// Order of the derivative; 0: the value.
     pub order: usize,
-    /// Numbers a position.
+    /// Numbers per position.
     pub width: usize,
 }
 
@@ -73,11 +72,11 @@ pub(crate) fn columns(outputs: &Outputs, drivers: usize, order: usize) -> Vec<Co
     .collect()
 }
 
-/// Arrays to be filled, in the order of [`crate::Request::columns`]; see [`crate::fill`].
+/// Arrays to fill, in the order of [`crate::Request::columns`]; see [`crate::fill`].
 #[derive(Debug)]
 pub struct Arrays<'a> {
-    /// One array a column, of designs × positions × width numbers.
+    /// One array per column, of designs × positions × width numbers.
     pub columns: Vec<&'a mut [MaybeUninit<f64>]>,
-    /// One [`crate::state::status::Status`] code a position.
+    /// One [`crate::state::status::Status`] code per position.
     pub status: &'a mut [MaybeUninit<u8>],
 }

@@ -1,11 +1,11 @@
-//! What to solve, and what comes of it.
+//! The request for a batch, and the motion it returns.
 
 use super::outputs::{Arrays, Column, Outputs, columns};
 use crate::description::error::SolveError;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
 
-/// Where the coordinates are taken from; `drivers` numbers a position.
+/// Coordinates of the drivers: one number per driver for each position.
 #[derive(Debug, Clone, Copy)]
 pub enum Coordinates<'a> {
     /// The same positions for every design.
@@ -15,7 +15,7 @@ pub enum Coordinates<'a> {
 }
 
 impl<'a> Coordinates<'a> {
-    /// The `count` numbers of one design.
+    /// The `count` coordinates of one design.
     pub(crate) fn of(self, design: usize, count: usize) -> &'a [f64] {
         match self {
             Self::Shared(q) => q,
@@ -24,7 +24,7 @@ impl<'a> Coordinates<'a> {
     }
 }
 
-/// What to solve.
+/// A batch to solve: designs × positions.
 #[derive(Debug, Clone)]
 pub struct Request<'a> {
     /// Dimensions, one design after another.
@@ -35,22 +35,22 @@ pub struct Request<'a> {
     pub signs: &'a [i8],
     /// Highest order of the analogues, 0 to 3.
     pub order: usize,
-    /// What to keep.
+    /// The quantities to keep.
     pub outputs: &'a Outputs,
-    /// The dimension by which all of it is differentiated, in the order of
-    /// [`Mechanism::dimensions`]; none: the motion itself.
+    /// The dimension to differentiate by, in the order of [`Mechanism::dimensions`]; `None` gives
+    /// the motion itself.
     pub by: Option<usize>,
 }
 
 /// Value and analogues of one quantity over all designs and positions.
 ///
-/// `derivatives[k]` is of order k (0: the value). Entries run over designs,
-/// positions, components (2 for a point) and k driver indices, last fastest.
+/// `derivatives[k]` is of order k (0: the value). Its entries run over designs, positions,
+/// components (2 for a point) and k driver indices, the last one fastest.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Series {
     /// Index of the joint, link or slide.
     pub index: usize,
-    /// Arrays by order.
+    /// One array per order.
     pub derivatives: Vec<Vec<f64>>,
 }
 
@@ -59,17 +59,17 @@ pub struct Series {
 pub struct Motion {
     /// Number of designs.
     pub designs: usize,
-    /// Positions of each design.
+    /// Number of positions of each design.
     pub positions: usize,
-    /// Joints' places, m.
+    /// Positions of joints, m.
     pub joints: Vec<Series>,
-    /// Links' angles, rad.
+    /// Angles of links, rad.
     pub links: Vec<Series>,
-    /// Places of the links' reference points (first joint), m.
+    /// Positions of the links' reference points (first joint), m.
     pub places: Vec<Series>,
-    /// Slides' values, m.
+    /// Values of slides, m.
     pub slides: Vec<Series>,
-    /// One [`crate::state::status::Status`] code a position.
+    /// One [`crate::state::status::Status`] code per position.
     pub status: Vec<u8>,
 }
 
@@ -80,7 +80,7 @@ impl Request<'_> {
         columns(self.outputs, mechanism.q0().len(), self.order)
     }
 
-    /// Designs and positions of each.
+    /// Number of designs, and of positions per design.
     ///
     /// # Errors
     ///
@@ -90,11 +90,11 @@ impl Request<'_> {
         Ok([shape.designs, shape.positions])
     }
 
-    /// Refuses arrays of other sizes than this request fills.
+    /// Checks that the arrays have the sizes that this request fills.
     ///
     /// # Errors
     ///
-    /// That, and those of [`Mechanism::solve`].
+    /// Arrays of other sizes, and the errors of [`Mechanism::solve`].
     pub fn check_arrays(
         &self,
         mechanism: &Mechanism,
@@ -106,8 +106,8 @@ impl Request<'_> {
 }
 
 pub(crate) fn product(designs: usize, positions: usize) -> Result<usize, SolveError> {
-    let wrong = || SolveError::Shape(format!("{designs} × {positions} positions are too many"));
-    designs.checked_mul(positions).ok_or_else(wrong)
+    let error = || SolveError::Shape(format!("{designs} × {positions} positions are too many"));
+    designs.checked_mul(positions).ok_or_else(error)
 }
 
 pub(crate) fn check_arrays(
@@ -147,17 +147,17 @@ impl Shape {
             }
         }
         let linkage = mechanism.linkage();
-        let within = |wanted: &[usize], have: usize| wanted.iter().all(|&i| i < have);
-        let held = request.outputs;
-        if !(within(&held.joints, linkage.joints.len())
-            && within(&held.links, linkage.links.len())
-            && within(&held.slides, linkage.slides.len()))
+        let all_below = |indices: &[usize], limit: usize| indices.iter().all(|&i| i < limit);
+        let outputs = request.outputs;
+        if !(all_below(&outputs.joints, linkage.joints.len())
+            && all_below(&outputs.links, linkage.links.len())
+            && all_below(&outputs.slides, linkage.slides.len()))
         {
             return Err(SolveError::Shape("an output's index is beyond what there is".into()));
         }
-        let wrong = |what: String| Err(SolveError::Shape(what));
+        let error = |what: String| Err(SolveError::Shape(what));
         if request.signs.len() != mechanism.plan().signs() {
-            return wrong(format!(
+            return error(format!(
                 "{} assembly signs were given, this mechanism has {} dyads with two solutions",
                 request.signs.len(),
                 mechanism.plan().signs()
@@ -165,20 +165,20 @@ impl Shape {
         }
         let designs = request.dimensions.len().checked_div(dimensions).unwrap_or(1);
         if designs * dimensions != request.dimensions.len() {
-            return wrong(format!(
+            return error(format!(
                 "{} numbers are not a whole number of designs of {dimensions} dimensions",
                 request.dimensions.len()
             ));
         }
-        let (count, per) = match request.coordinates {
+        let (count, per_position) = match request.coordinates {
             Coordinates::Shared(q) => (q.len(), drivers),
             Coordinates::PerDesign(q) => (q.len(), drivers * designs),
         };
-        if per == 0 || count % per != 0 {
-            return wrong(format!(
+        if per_position == 0 || count % per_position != 0 {
+            return error(format!(
                 "{count} coordinates do not divide into positions of {drivers} drivers"
             ));
         }
-        Ok(Self { designs, positions: count / per, drivers, dimensions })
+        Ok(Self { designs, positions: count / per_position, drivers, dimensions })
     }
 }

@@ -1,4 +1,4 @@
-//! Work cut into chunks, and threads that take one after another.
+//! Cuts the work into chunks and runs threads that take one chunk after another.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -12,35 +12,35 @@ use super::writer::RowSlices;
 use crate::description::error::SolveError;
 use crate::math::simd::Simd;
 
-/// Positions in a chunk: some hundred microseconds, so that its way from the drawing
-/// and the taking of it cost little.
+/// Positions per chunk: some hundred microseconds of work, so that tracing the branch and taking
+/// the chunk from the queue cost little.
 const CHUNK: usize = 8192;
-/// The same with several drivers, where each position has a way of its own.
-const CHUNK_OF_WAYS: usize = 8;
-/// Designs in a chunk, at most: the way of one may take a millisecond.
-const CHUNK_OF_DESIGNS: usize = 64;
+/// The same with several drivers, where each position needs a branch of its own.
+const CHUNK_SEVERAL_DRIVERS: usize = 8;
+/// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
+const MAX_DESIGNS: usize = 64;
 
-/// How work is done: on how many threads, and whether it is still wanted.
+/// How to do the work: threads, vector instructions and cancellation.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Control<'a> {
-    /// Threads; none: as many as the machine has cores, one for small work.
+    /// Number of threads; `None` uses one per core, or a single thread for small work.
     pub threads: Option<NonZeroUsize>,
-    /// Vector instructions, at most.
+    /// Highest level of vector instructions to use.
     pub simd: Simd,
-    /// When true, work stops after the blocks at hand.
+    /// Setting it to true stops the work after the blocks in progress.
     pub cancel: Option<&'a AtomicBool>,
 }
 
-/// Some positions of some designs.
+/// A range of positions of a range of designs.
 #[derive(Debug, Clone)]
 pub(crate) struct Chunk {
     pub designs: Range<usize>,
     pub positions: Range<usize>,
 }
 
-/// Chunks that are yet to be done, with the rows to be written. Each is taken by one
-/// thread. After an interruption the rest stays unwritten: nobody may read it, and writing it
-/// would take as long as solving it.
+/// The chunks still to do, with the rows to write. Each is taken by one thread. After an
+/// interruption the rest stays unwritten: nobody may read it, and filling it would take as long as
+/// solving.
 pub(crate) struct Chunks<'a> {
     rest: Arrays<'a>,
     columns: &'a [Column],
@@ -57,24 +57,24 @@ impl<'a> Chunks<'a> {
         [designs, positions]: [usize; 2],
         drivers: usize,
     ) -> Self {
-        let size = if drivers == 1 { CHUNK } else { CHUNK_OF_WAYS };
+        let size = if drivers == 1 { CHUNK } else { CHUNK_SEVERAL_DRIVERS };
         Self { rest: arrays, columns, designs, positions, next: (0, 0), size }
     }
 
-    /// How many chunks there are.
+    /// Number of chunks.
     fn count(&self) -> usize {
         if self.positions == 0 {
             0
         } else if self.positions >= self.size {
             self.designs * self.positions.div_ceil(self.size)
         } else {
-            self.designs.div_ceil(self.designs_together())
+            self.designs.div_ceil(self.designs_per_chunk())
         }
     }
 
-    /// Designs of a chunk that has all their positions.
-    fn designs_together(&self) -> usize {
-        (self.size / self.positions).min(CHUNK_OF_DESIGNS)
+    /// Designs per chunk when each has all its positions in the chunk.
+    fn designs_per_chunk(&self) -> usize {
+        (self.size / self.positions).min(MAX_DESIGNS)
     }
 
     fn take(&mut self) -> Option<(Chunk, RowSlices<'a>)> {
@@ -87,35 +87,35 @@ impl<'a> Chunks<'a> {
             self.next = if end == self.positions { (design + 1, 0) } else { (design, end) };
             Chunk { designs: design..design + 1, positions: position..end }
         } else {
-            let end = (design + self.designs_together()).min(self.designs);
+            let end = (design + self.designs_per_chunk()).min(self.designs);
             self.next = (end, 0);
             Chunk { designs: design..end, positions: 0..self.positions }
         };
-        let rows = self.split(chunk.designs.len() * chunk.positions.len());
+        let rows = self.take_rows(chunk.designs.len() * chunk.positions.len());
         Some((chunk, rows))
     }
 
-    fn split(&mut self, rows: usize) -> RowSlices<'a> {
+    fn take_rows(&mut self, rows: usize) -> RowSlices<'a> {
         let columns = self.rest.columns.iter_mut().zip(self.columns);
         RowSlices {
-            columns: columns.map(|(all, column)| front(all, rows * column.width)).collect(),
-            status: front(&mut self.rest.status, rows),
+            columns: columns.map(|(all, column)| split_front(all, rows * column.width)).collect(),
+            status: split_front(&mut self.rest.status, rows),
         }
     }
 }
 
-/// Takes the first `count` off a slice.
+/// Splits the first `count` elements off a slice.
 #[allow(clippy::mut_mut, reason = "the slice itself is moved on")]
-fn front<'a, T>(all: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+fn split_front<'a, T>(all: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     let (front, rest) = std::mem::take(all).split_at_mut(count);
     *all = rest;
     front
 }
 
-/// Stops the other workers when one panics.
-struct Alarm<'a>(&'a AtomicBool);
+/// Makes the other workers stop when one panics.
+struct PanicFlag<'a>(&'a AtomicBool);
 
-impl Drop for Alarm<'_> {
+impl Drop for PanicFlag<'_> {
     fn drop(&mut self) {
         if thread::panicking() {
             self.0.store(true, Ordering::Relaxed);
@@ -124,15 +124,15 @@ impl Drop for Alarm<'_> {
 }
 
 impl Control<'_> {
-    /// Whether the work is no longer wanted.
+    /// Whether the caller has cancelled the work.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
     /// Does all chunks; each thread makes its own worker.
     ///
-    /// Threads are made for the call and gone after it: they cost some ten
-    /// microseconds, nothing is left to break when the process is forked.
+    /// The threads live only during the call: starting them costs some ten microseconds, and no
+    /// idle thread is left that a fork of the process could break.
     pub(crate) fn run<W>(
         &self,
         chunks: Chunks<'_>,
@@ -141,32 +141,32 @@ impl Control<'_> {
     ) -> Result<(), SolveError> {
         let count = chunks.count();
         let threads = match self.threads {
-            // Asking the system how many cores there are takes longer than small work.
+            // Asking the system for the number of cores takes longer than small work.
             _ if count <= 1 => 1,
             Some(threads) => threads.get().min(count),
             None => thread::available_parallelism().map_or(1, NonZeroUsize::get).min(count),
         };
         let queue = Mutex::new(chunks);
         let panicked = AtomicBool::new(false);
-        let one = || {
-            let alarm = Alarm(&panicked);
+        let work_until_done = || {
+            let panic_flag = PanicFlag(&panicked);
             let mut worker = worker();
             while !self.is_cancelled() && !panicked.load(Ordering::Relaxed) {
-                // A worker that panics does not hold the queue.
+                // The lock is not held during the work, so a panic does not poison it.
                 let next = queue.lock().ok().and_then(|mut queue| queue.take());
                 let Some((chunk, rows)) = next else { break };
                 #[cfg(feature = "test-hooks")]
                 super::test_hooks::before_chunk();
                 work(&mut worker, &chunk, rows);
             }
-            drop(alarm);
+            drop(panic_flag);
         };
         thread::scope(|scope| {
-            // Where the system gives no thread, the others do its part.
+            // If the system refuses a thread, the others do its share.
             let others: Vec<_> = (1..threads)
-                .filter_map(|_| thread::Builder::new().spawn_scoped(scope, one).ok())
+                .filter_map(|_| thread::Builder::new().spawn_scoped(scope, work_until_done).ok())
                 .collect();
-            one();
+            work_until_done();
             for other in others {
                 if let Err(panic) = other.join() {
                     resume_unwind(panic);

@@ -1,4 +1,4 @@
-//! From a request (designs, coordinates, wanted outputs) to arrays.
+//! Solves a request (designs, coordinates, outputs) into arrays.
 
 use std::mem::MaybeUninit;
 
@@ -18,14 +18,13 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`SolveError`] for what concerns the whole request (shapes, orders). Single positions that
-    /// cannot be had are NaN and have a
-    /// status of their own.
+    /// [`SolveError`] if the whole request is invalid (shapes, order). Single positions that cannot
+    /// be solved are NaN, each with its own status.
     pub fn solve(&self, request: &Request<'_>) -> Result<Motion, SolveError> {
         self.solve_with(request, &Control::default())
     }
 
-    /// Solves a request on as many threads and with such vector instructions as `control` says.
+    /// Solves a request with the threads and vector instructions that `control` allows.
     ///
     /// # Errors
     ///
@@ -54,7 +53,7 @@ pub(crate) fn solve(
     let columns = request.columns(mechanism);
     let mut values: Vec<Vec<f64>> = columns.iter().map(|c| vec![0.0; rows * c.width]).collect();
     let mut status = vec![0; rows];
-    // SAFETY: `fill` stores nothing but numbers.
+    // SAFETY: `fill` stores only initialised numbers.
     #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
     let arrays = unsafe {
         Arrays {
@@ -74,30 +73,30 @@ pub(crate) fn solve(
         if column.order == 0 {
             list.push(Series { index, derivatives: Vec::new() });
         }
-        if let Some(track) = list.last_mut() {
-            track.derivatives.push(values);
+        if let Some(series) = list.last_mut() {
+            series.derivatives.push(values);
         }
     }
     Ok(motion)
 }
 
-/// Numbers seen as places to be written.
+/// Views initialised numbers as `MaybeUninit`.
 ///
 /// # Safety
 ///
-/// Whoever has the places stores no uninitialised value there.
+/// The caller must not store uninitialised values in the slice.
 #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
 unsafe fn as_unwritten<T: Copy>(values: &mut [T]) -> &mut [MaybeUninit<T>] {
-    // SAFETY: same layout; what is stored there are numbers, as the caller promises.
+    // SAFETY: the layout is the same, and the caller stores only initialised values.
     unsafe { &mut *(std::ptr::from_mut(values) as *mut [MaybeUninit<T>]) }
 }
 
-/// Solves a request into arrays that are given.
+/// Solves a request into the caller's arrays.
 ///
 /// # Errors
 ///
 /// Those of [`Mechanism::solve`], and arrays of other sizes: nothing is written then.
-/// [`SolveError::Interrupted`]: some numbers are written and others not.
+/// After [`SolveError::Interrupted`] only some of the numbers are written.
 pub fn fill(
     mechanism: &Mechanism,
     request: &Request<'_>,
@@ -111,9 +110,9 @@ pub fn fill(
     let numbers = arrays.columns.iter().map(|column| column.len()).sum::<usize>();
     let mut writer = match request.by {
         None => Writer::new(mechanism, &jets, &columns),
-        Some(index) => Writer::of_rates(mechanism, &jets, &columns, index),
+        Some(index) => Writer::for_sensitivity(mechanism, &jets, &columns, index),
     };
-    writer.streams = numbers >= stream::LEAST;
+    writer.streams = numbers >= stream::MIN_NUMBERS;
     let chunks = Chunks::new(arrays, &columns, [shape.designs, shape.positions], shape.drivers);
     let worker = || Worker::new(mechanism, request, &jets, &writer, &columns, control);
     let per_design = shape.positions * shape.drivers;

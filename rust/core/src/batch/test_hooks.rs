@@ -1,12 +1,12 @@
-//! A panic on purpose, to test what becomes of one. Only with the feature `test-hooks`, which no
-//! release has.
+//! A deliberate panic, to test how the library handles one. Only with the feature `test-hooks`,
+//! which no release has.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Chunks of work until the panic; 0: none.
+/// Chunks left until the panic; 0: no panic.
 static CHUNKS: AtomicUsize = AtomicUsize::new(0);
 
-/// Makes the `number`-th chunk of work from now on panic (0: none does).
+/// Makes the `number`-th chunk from now on panic (0: none).
 pub fn panic_in_chunk(number: usize) {
     CHUNKS.store(number, Ordering::SeqCst);
 }

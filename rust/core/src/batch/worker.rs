@@ -1,5 +1,5 @@
-//! The positions of one design into their rows: eight at a time, and one by one
-//! those that need care.
+//! Solves the positions of one design into their rows: eight per vector, and one by one those that
+//! need special care.
 
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -22,44 +22,44 @@ use crate::state::sensitivity::Sensitivity;
 use crate::state::state::State;
 use crate::state::status::Status;
 
-/// Groups of positions worked on at once: as many as stay in the nearest cache.
+/// Vectors of positions solved at once: as many as fit the first-level cache.
 const GROUPS: usize = 4;
 
-/// Work space of one thread.
+/// Workspace of one thread.
 pub(crate) struct Worker<'a> {
     design: Design<'a>,
     writer: &'a Writer<'a>,
     columns: &'a [Column],
     quick: UniformTracer,
     one: State,
-    /// The dimension by which all is differentiated, and work space for that.
+    /// The dimension to differentiate by, with its workspace.
     by: Option<(usize, Sensitivity)>,
     many: State<Lanes, GROUPS>,
-    /// Angles of its classes.
+    /// Angles of the classes.
     lifted: Vec<[Lanes; GROUPS]>,
-    /// Positions of the last job, in groups, and which they were.
+    /// Driver lanes of the last job, and the index of its first shared coordinate.
     turned: Vec<DriverLanes>,
     shared: Option<usize>,
-    /// Their places on the way.
+    /// Locations of these lanes on the branch.
     spots: Vec<BranchLocation<Lanes>>,
-    /// Whether that was a quick one.
+    /// Whether that branch was a uniform one.
     spots_even: bool,
-    /// When true, work stops after the block at hand.
+    /// When true, work stops after the block in progress.
     cancel: Option<&'a AtomicBool>,
 }
 
-/// Some positions of one design, and where they go.
+/// Some positions of one design, and the rows they go to.
 pub(crate) struct Job<'j, 'r> {
     /// Coordinates, drivers fastest, rad or m.
     pub q: &'j [f64],
     pub rows: &'j mut RowSlices<'r>,
     /// Row of the first position.
     pub first: usize,
-    /// Which coordinates these are, if other designs have the same.
+    /// Index of the first of these among the coordinates shared by all designs, if they are shared.
     pub shared: Option<usize>,
 }
 
-/// Eight positions of a driven angle: what does not depend on the design.
+/// Eight positions of a driven angle: the part that does not depend on the design.
 #[derive(Debug, Clone, Copy)]
 struct DriverLanes {
     q: Lanes,
@@ -96,26 +96,26 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Whether work is no longer wanted.
+    /// Whether the caller has cancelled the work.
     fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
-    /// Takes the design with these dimensions; whether they are good. If not, the job is done: its
-    /// rows are left out.
+    /// Loads a design. Returns false if its dimensions are invalid: the job is then done, with its
+    /// rows set to NaN and the status `BadDimension`.
     pub(crate) fn bind(&mut self, values: &[f64], job: &mut Job<'_, '_>) -> bool {
         let mechanism = self.design.mechanism;
         if mechanism.dimensions().first_fault(values).is_some() {
             let count = job.q.len() / mechanism.q0().len();
             let status = Status::BadDimension as u8;
-            job.rows.leave_out(self.columns, job.first, count, status);
+            job.rows.write_failed(self.columns, job.first, count, status);
             return false;
         }
         self.design.bind(values);
         true
     }
 
-    /// Solves positions of the design; called by `dispatch` alone.
+    /// Solves the positions of the design; only `dispatch` calls this.
     #[inline(always)]
     pub(crate) fn run<L: Level>(&mut self, job: &mut Job<'_, '_>) {
         if !self.design.lay_quick::<L>(&mut self.quick) {
@@ -124,7 +124,7 @@ impl<'a> Worker<'a> {
         let drivers = self.design.mechanism.q0().len();
         let count = job.q.len() / drivers;
         if let Some((index, mut by)) = self.by.take() {
-            self.rates_of_rows(job, index, &mut by);
+            self.sensitivities(job, index, &mut by);
             self.by = Some((index, by));
             return;
         }
@@ -133,24 +133,24 @@ impl<'a> Worker<'a> {
                 if self.is_cancelled() {
                     return;
                 }
-                self.one_row(job, row);
+                self.solve_scalar(job, row);
             }
             return;
         }
         let (plan, jets) = (self.design.mechanism.plan(), self.design.jets);
         self.many.prepare(plan, &self.design.bound, jets);
-        self.turn(job);
+        self.load_coordinates(job);
         for row in (0..count).step_by(GROUPS * LANES) {
             if self.is_cancelled() {
                 return;
             }
-            self.block::<L>(job, row, (count - row).min(GROUPS * LANES));
+            self.solve_block::<L>(job, row, (count - row).min(GROUPS * LANES));
         }
     }
 
-    /// Coordinates in groups of eight; sines and cosines of shared ones are kept.
+    /// Loads the coordinates in vectors of eight; sines and cosines of shared ones are kept.
     #[inline(always)]
-    fn turn(&mut self, job: &Job<'_, '_>) {
+    fn load_coordinates(&mut self, job: &Job<'_, '_>) {
         let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
         let track = &self.design.track;
         if !(is_angle && job.shared.is_some() && self.shared == job.shared) {
@@ -164,7 +164,7 @@ impl<'a> Worker<'a> {
                 self.turned.push(DriverLanes { q, unit });
             }
         }
-        // The knots of a quick way are the same for all designs.
+        // Uniform branches have the same knots for all designs.
         if track.even.is_none() || !self.spots_even {
             self.spots.clear();
         }
@@ -176,32 +176,32 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Lanes of a group that must be done by themselves, whatever comes out.
+    /// Lanes that must be solved again by themselves, whatever the vector solution gives.
     #[inline(always)]
-    fn strange(&self, q: Lanes, spot: &BranchLocation<Lanes>) -> <Lanes as Real>::Mask {
+    fn lanes_to_redo(&self, q: Lanes, spot: &BranchLocation<Lanes>) -> <Lanes as Real>::Mask {
         let track = &self.design.track;
-        let strange = |i: usize| {
+        let must_redo = |i: usize| {
             let at = q.lane(i);
             !track.covers(at)
                 || track.hides(spot, i)
                 || track.change_near(at, self.design.bridge.reach).is_some()
         };
-        Lanes::ZERO.lt(Lanes::from_lanes(|i| if strange(i) { 1.0 } else { 0.0 }))
+        Lanes::ZERO.lt(Lanes::from_lanes(|i| if must_redo(i) { 1.0 } else { 0.0 }))
     }
 
-    /// Up to [`GROUPS`] groups of positions from `row` on.
+    /// Solves up to [`GROUPS`] vectors of positions from `row` on.
     #[inline(always)]
-    fn block<L: Level>(&mut self, job: &mut Job<'_, '_>, row: usize, count: usize) {
+    fn solve_block<L: Level>(&mut self, job: &mut Job<'_, '_>, row: usize, count: usize) {
         let (first, groups) = (row / LANES, count.div_ceil(LANES));
         let mut care = [<Lanes as Real>::Mask::NONE; GROUPS];
         for group in 0..groups {
             let DriverLanes { q, unit } = self.turned[first + group];
             let spot = &self.spots[first + group];
             if self.design.track.even.is_none() {
-                care[group] = self.strange(q, spot);
+                care[group] = self.lanes_to_redo(q, spot);
             }
             let track = &self.design.track;
-            // What is done by itself is no matter here.
+            // Lanes to redo are set to NaN: their vector result is not used.
             self.many.q[0][group] = Lanes::select(care[group], Lanes::splat(f64::NAN), q);
             self.many.unit[0][group] = unit;
             for (sign, groups) in self.many.signs.iter_mut().enumerate() {
@@ -220,7 +220,7 @@ impl<'a> Worker<'a> {
         }
         L::solve(&mut self.many, &design.context(design.jets));
         let state = &self.many;
-        // Each by itself, so that one goes on while the other waits.
+        // A separate loop: independent arctangents overlap.
         for &class in &self.writer.classes {
             for g in 0..groups.min(GROUPS) {
                 self.lifted[class][g] = state.class[class][g].angle();
@@ -252,7 +252,7 @@ impl<'a> Worker<'a> {
         }
         if again {
             if self.writer.streams {
-                // These rows are written a second time.
+                // The loop below writes these rows again.
                 stream::fence();
             }
             for place in 0..count {
@@ -260,16 +260,16 @@ impl<'a> Worker<'a> {
                     return;
                 }
                 if care[place / LANES].lane(place % LANES) {
-                    self.one_row(job, row + place);
+                    self.solve_scalar(job, row + place);
                 }
             }
         }
     }
 
-    /// One position by itself.
+    /// Solves one position by itself.
     #[cold]
     #[inline(never)]
-    fn one_row(&mut self, job: &mut Job<'_, '_>, row: usize) {
+    fn solve_scalar(&mut self, job: &mut Job<'_, '_>, row: usize) {
         let drivers = self.design.mechanism.q0().len();
         let q = self.design.scaled(&job.q[row * drivers..][..drivers]);
         let place = self.design.way(&q);
@@ -278,7 +278,7 @@ impl<'a> Worker<'a> {
         let at = job.first + row;
         let solved = matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular);
         let (true, Some(place)) = (solved, &place) else {
-            job.rows.leave_out(self.columns, at, 1, state.status as u8);
+            job.rows.write_failed(self.columns, at, 1, state.status as u8);
             return;
         };
         let near = self.design.near(place, self.lifted.len());
@@ -287,15 +287,15 @@ impl<'a> Worker<'a> {
         let with = (&self.design.bound, &self.design.unit);
         self.writer.write(job.rows, (at, 1), with, state, &lifted);
         if !analogues {
-            job.rows.blank(self.columns, 1, at, 1);
+            job.rows.write_nan(self.columns, 1, at, 1);
         }
         job.rows.status[at] = MaybeUninit::new(state.status as u8);
     }
 
-    /// Derivatives by a dimension, one position after another.
+    /// Differentiates by a dimension, one position after another.
     #[cold]
     #[inline(never)]
-    fn rates_of_rows(&mut self, job: &mut Job<'_, '_>, index: usize, by: &mut Sensitivity) {
+    fn sensitivities(&mut self, job: &mut Job<'_, '_>, index: usize, by: &mut Sensitivity) {
         let design = &self.design;
         let drivers = design.mechanism.q0().len();
         let cx = design.context(design.jets);
@@ -311,10 +311,10 @@ impl<'a> Worker<'a> {
             design.solve(state, &q, place.as_ref());
             let at = job.first + row;
             let status = state.status;
-            job.rows.leave_out(self.columns, at, 1, status as u8);
+            job.rows.write_failed(self.columns, at, 1, status as u8);
             let solved = matches!(status, Status::Ok | Status::NearSingular);
             if solved && by.solve(state, &cx, &rate) {
-                // Where a change of the dimension moves the frame's origin, all goes with it.
+                // A dimension that moves the frame's origin moves all points with it.
                 for point in by.rates.points.chunks_exact_mut(design.jets.len()) {
                     point[0][0] += rate.origin.scale(1.0 / design.bound.scale);
                 }

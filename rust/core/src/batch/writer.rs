@@ -1,4 +1,4 @@
-//! Numbers of a position written to their columns.
+//! Writes the numbers of solved positions to their columns.
 
 use std::mem::MaybeUninit;
 
@@ -21,20 +21,20 @@ pub(crate) struct RowSlices<'a> {
     pub status: &'a mut [MaybeUninit<u8>],
 }
 
-/// One number (or point) of a row: where it goes.
+/// Target and source of one number (or point) of a row.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
     column: usize,
     width: usize,
-    /// Place in the row (of x, for a point).
-    place: usize,
-    /// Place of y behind x.
+    /// Index within the row (of x, for a point).
+    index: usize,
+    /// Offset from x to y.
     y: usize,
-    /// Entry of the jets.
+    /// Index of the derivative in the jets.
     k: usize,
-    /// Where it comes from: the point's, slide's or class's entry, or the link.
-    from: usize,
-    /// What the drivers add to an angle's derivative.
+    /// Source: the entry of the point, slide or class, or the link.
+    source: usize,
+    /// The drivers' contribution to an angle's derivative.
     driven: f64,
 }
 
@@ -45,13 +45,13 @@ pub(crate) struct Writer<'a> {
     slides: Vec<Entry>,
     /// Angles of links.
     angles: Vec<Entry>,
-    /// Derivatives of them.
+    /// Derivatives of links' angles.
     rates: Vec<Entry>,
-    /// Classes whose angle is asked for.
+    /// Classes whose angle is wanted.
     pub classes: Vec<usize>,
-    /// Whether a class's rotation is asked for, or derivatives of its angle.
+    /// For each class, whether its rotation or a derivative of its angle is wanted.
     pub asked: Vec<bool>,
-    /// Whether values of points begin at the frame's origin.
+    /// Whether the frame's origin is added to the points.
     shifted: bool,
     /// Whether points are stored past the caches.
     pub streams: bool,
@@ -81,8 +81,8 @@ impl<'a> Writer<'a> {
         let [mut points, mut slides, mut angles, mut rates] = [const { Vec::new() }; 4];
         for (index, column) in columns.iter().enumerate() {
             let tensor = jets.tensor(column.order);
-            for (place, &k) in tensor.iter().enumerate() {
-                let (list, from, driven) = match column.quantity {
+            for (component, &k) in tensor.iter().enumerate() {
+                let (list, source, driven) = match column.quantity {
                     Quantity::Joint(joint) => (&mut points, point_of_joint(joint), 0),
                     Quantity::Place(link) => (&mut points, plan.reference[link], 0),
                     Quantity::Slide(slide) => (&mut slides, slide, 0),
@@ -93,12 +93,20 @@ impl<'a> Writer<'a> {
                         (&mut rates, rotation.class, turns)
                     }
                 };
-                let from = match column.quantity {
-                    Quantity::Angle(_) if k == 0 => from,
-                    _ => from * jets.len() + k,
+                let source = match column.quantity {
+                    Quantity::Angle(_) if k == 0 => source,
+                    _ => source * jets.len() + k,
                 };
                 let (width, y) = (column.width, tensor.len());
-                list.push(Entry { column: index, width, place, y, k, from, driven: driven.into() });
+                list.push(Entry {
+                    column: index,
+                    width,
+                    index: component,
+                    y,
+                    k,
+                    source,
+                    driven: driven.into(),
+                });
             }
         }
         Self {
@@ -114,9 +122,9 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The same for derivatives by a dimension: angles are numbers as their analogues are, and
-    /// nothing is added to what the state holds.
-    pub(crate) fn of_rates(
+    /// A writer of derivatives by a dimension: it treats angles like their analogues and adds no
+    /// origin to points.
+    pub(crate) fn for_sensitivity(
         mechanism: &'a Mechanism,
         jets: &DerivativeTables,
         columns: &[Column],
@@ -124,16 +132,16 @@ impl<'a> Writer<'a> {
     ) -> Self {
         let mut writer = Self::new(mechanism, jets, columns);
         let plan = mechanism.plan();
-        let mut by = vec![0.0; mechanism.dimensions().len()];
-        by[index] = 1.0;
-        let offsets = offsets(plan, &mechanism.slots, &by);
+        let mut unit_change = vec![0.0; mechanism.dimensions().len()];
+        unit_change[index] = 1.0;
+        let offsets = offsets(plan, &mechanism.slots, &unit_change);
         for entry in &mut writer.rates {
             entry.driven = 0.0;
         }
         for entry in writer.angles.drain(..) {
-            let class = plan.rotation[entry.from].class;
-            let driven = offsets[entry.from];
-            writer.rates.push(Entry { from: class * jets.len(), driven, ..entry });
+            let class = plan.rotation[entry.source].class;
+            let driven = offsets[entry.source];
+            writer.rates.push(Entry { source: class * jets.len(), driven, ..entry });
         }
         Self { shifted: false, classes: Vec::new(), ..writer }
     }
@@ -153,43 +161,43 @@ impl<'a> Writer<'a> {
         for entry in &self.points {
             let scale = R::splat(unit.length[entry.k]);
             let shift = if entry.k == 0 && self.shifted { Some(origin) } else { None };
-            let points = &state.points[entry.from];
+            let points = &state.points[entry.source];
             let out = rows.of(entry, row, count);
-            let place = |point: Vector<R>| {
+            let scaled_point = |point: Vector<R>| {
                 let scaled = point.scale(scale);
                 if let Some(shift) = shift { scaled + shift } else { scaled }
             };
             if entry.width == 2 && count == G * R::LANES {
-                // A position by itself is written again where it has no analogues.
+                // Scalar positions may be written a second time (without analogues): plain stores.
                 let streams = self.streams && R::LANES > 1;
                 for g in 0..G {
                     let out = &mut out[2 * R::LANES * g..][..2 * R::LANES];
                     if streams {
-                        stream::store_pairs(out, place(points[g]));
+                        stream::store_pairs(out, scaled_point(points[g]));
                     } else {
-                        store_pairs(out, place(points[g]));
+                        store_pairs(out, scaled_point(points[g]));
                     }
                 }
                 continue;
             }
             for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
-                let p = place(points[g]);
-                store_some(out, entry.width, entry.place, p.x);
-                store_some(out, entry.width, entry.place + entry.y, p.y);
+                let p = scaled_point(points[g]);
+                store_lanes(out, entry.width, entry.index, p.x);
+                store_lanes(out, entry.width, entry.index + entry.y, p.y);
             }
         }
         for entry in &self.slides {
             let scale = R::splat(unit.length[entry.k]);
-            let slides = &state.slides[entry.from];
+            let slides = &state.slides[entry.source];
             entry.store(rows.of(entry, row, count), |g| slides[g] * scale);
         }
         for entry in &self.angles {
-            let rotation = &self.mechanism.plan().rotation[entry.from];
-            let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.from];
-            let offset = R::splat(bound.offset[entry.from] + whole);
+            let rotation = &self.mechanism.plan().rotation[entry.source];
+            let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.source];
+            let offset = R::splat(bound.offset[entry.source] + whole);
             let lifted = &lifted[rotation.class];
             entry.store(rows.of(entry, row, count), |g| {
-                // Of the class, plus what turns the link against it.
+                // The class's angle, plus the drivers' turns of the link relative to its class.
                 let mut angle = lifted[g];
                 for (&turns, q) in rotation.turns.iter().zip(&state.q) {
                     if turns != 0 {
@@ -201,13 +209,13 @@ impl<'a> Writer<'a> {
         }
         for entry in &self.rates {
             let (driven, scale) = (R::splat(entry.driven), R::splat(unit.angle[entry.k]));
-            let beyond = unit.angle[entry.k].is_infinite();
-            let rates = &state.theta[entry.from];
+            let overflows = unit.angle[entry.k].is_infinite();
+            let rates = &state.theta[entry.source];
             entry.store(rows.of(entry, row, count), |g| {
                 let rate = rates[g] + driven;
                 let scaled = rate * scale;
-                if beyond {
-                    // Beyond the range of numbers, but for what does not turn.
+                if overflows {
+                    // The unit overflows; only a link that does not turn keeps a finite derivative.
                     R::select(rate.abs().le(R::ZERO), rate, scaled)
                 } else {
                     scaled
@@ -218,7 +226,7 @@ impl<'a> Writer<'a> {
 }
 
 impl Entry {
-    /// Writes a number for each lane of each group, as far as there are rows.
+    /// Writes one number for each lane of each group, as far as there are rows.
     #[inline(always)]
     fn store<R: Real>(&self, out: &mut [MaybeUninit<f64>], of: impl Fn(usize) -> R) {
         if self.width == 1 {
@@ -233,31 +241,37 @@ impl Entry {
             }
             let rest = groups.into_remainder();
             if !rest.is_empty() {
-                store_some(rest, 1, 0, of(g));
+                store_lanes(rest, 1, 0, of(g));
             }
             return;
         }
         for (g, group) in out.chunks_mut(self.width * R::LANES).enumerate() {
-            store_some(group, self.width, self.place, of(g));
+            store_lanes(group, self.width, self.index, of(g));
         }
     }
 }
 
 impl RowSlices<'_> {
-    /// An entry's rows.
+    /// The rows of an entry's column.
     #[inline(always)]
     fn of(&mut self, entry: &Entry, row: usize, count: usize) -> &mut [MaybeUninit<f64>] {
         &mut self.columns[entry.column][row * entry.width..(row + count) * entry.width]
     }
 
-    /// Nothing but a status, for `count` rows from `row` on.
-    pub(crate) fn leave_out(&mut self, columns: &[Column], row: usize, count: usize, status: u8) {
-        self.blank(columns, 0, row, count);
+    /// Writes NaN and a status into `count` rows from `row` on.
+    pub(crate) fn write_failed(
+        &mut self,
+        columns: &[Column],
+        row: usize,
+        count: usize,
+        status: u8,
+    ) {
+        self.write_nan(columns, 0, row, count);
         self.status[row..row + count].fill(MaybeUninit::new(status));
     }
 
-    /// No number from some order on.
-    pub(crate) fn blank(&mut self, columns: &[Column], order: usize, row: usize, count: usize) {
+    /// Writes NaN into the derivatives from `order` on.
+    pub(crate) fn write_nan(&mut self, columns: &[Column], order: usize, row: usize, count: usize) {
         for (column, out) in columns.iter().zip(&mut self.columns) {
             if column.order >= order {
                 let rows = row * column.width..(row + count) * column.width;
@@ -267,7 +281,7 @@ impl RowSlices<'_> {
     }
 }
 
-/// The lanes of a point, x and y side by side.
+/// Stores the lanes of a point, x and y side by side.
 #[inline(always)]
 fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
     let out = &mut out[..2 * R::LANES];
@@ -277,10 +291,10 @@ fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
     }
 }
 
-/// One entry of every row: of the first few lanes.
+/// Stores one entry of each row, from as many lanes as there are rows.
 #[inline(always)]
-fn store_some<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, place: usize, x: R) {
+fn store_lanes<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, index: usize, x: R) {
     for (lane, row) in out.chunks_exact_mut(width).enumerate() {
-        row[place] = MaybeUninit::new(x.lane(lane));
+        row[index] = MaybeUninit::new(x.lane(lane));
     }
 }

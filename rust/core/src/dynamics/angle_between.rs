@@ -1,4 +1,4 @@
-//! Acute angles between two lines of a mechanism, as transmission angles are.
+//! Acute angles between two lines of a mechanism, such as transmission angles.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -6,21 +6,21 @@ use super::kinematics::{Point, Pose};
 use crate::math::trig::atan2;
 use crate::math::vector::Vector;
 
-/// A line.
+/// A line of a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Line {
     /// Through two points.
     Through(Point, Point),
-    /// In a direction that turns with a link, at this angle in its frame.
+    /// Fixed to a link, at this angle in the link's frame.
     Along(usize, f64),
 }
 
-/// The acute angle between two lines, or what it lacks of a right angle.
+/// The acute angle between two lines, or its complement to a right angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Angle {
-    /// The lines.
+    /// The two lines.
     pub lines: [Line; 2],
-    /// Whether the complement is meant (as at slides, whose pressure angle it is).
+    /// Whether the complement is meant (at a slide it is the pressure angle).
     pub complement: bool,
 }
 
@@ -29,9 +29,9 @@ impl Angle {
         let [a, b] = self.lines.map(|line| match line {
             Line::Through(from, to) => pose.point(to, 0) - pose.point(from, 0),
             Line::Along(link, angle) => {
-                let at = Vector::at_angle(angle);
-                let place = |at| pose.point(Point::Link { link, at }, 0);
-                place([at.x, at.y]) - place([0.0; 2])
+                let direction = Vector::at_angle(angle);
+                let position = |at| pose.point(Point::Link { link, at }, 0);
+                position([direction.x, direction.y]) - position([0.0; 2])
             }
         });
         let acute = atan2(a.cross(b).abs(), a.dot(b).abs());

@@ -1,8 +1,8 @@
-//! The mass of a link.
+//! Mass and inertia of a link.
 
 use super::kinematics::Point;
 
-/// Mass of a link.
+/// Mass and inertia of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
     /// The link.
@@ -11,6 +11,6 @@ pub struct Body {
     pub at: Point,
     /// Mass, kg.
     pub mass: f64,
-    /// Moment of inertia about that centre, kg·m².
+    /// Moment of inertia about the centre of mass, kg·m².
     pub inertia: f64,
 }

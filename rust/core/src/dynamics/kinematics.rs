@@ -1,4 +1,4 @@
-//! What forces and masses ask of a position: places of points, angles of links, and their
+//! The kinematics that forces and masses need: positions of points, angles of links, and their
 //! derivatives by the drivers, in metres and radians.
 
 use crate::math::derivatives::DerivativeTables;
@@ -6,17 +6,17 @@ use crate::math::vector::Vector;
 use crate::query::evaluator::Position;
 use crate::structure::closure::point_of_joint;
 
-/// Something that moves with a mechanism.
+/// A point that moves with a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Point {
     /// A joint.
     Joint(usize),
-    /// A place in a link's frame (origin at its first joint, x toward its second; the ground's is
-    /// the drawing's), m.
+    /// A point in a link's frame (origin at its first joint, x toward its second; the ground's
+    /// frame is the drawing's), m.
     Link {
         /// The link.
         link: usize,
-        /// The place.
+        /// Its coordinates.
         at: [f64; 2],
     },
 }
@@ -32,31 +32,31 @@ impl<'p> Pose<'p> {
         Self { position, jets }
     }
 
-    /// Entry of the jets: the derivative by one driver.
-    pub(crate) fn first(driver: usize) -> usize {
+    /// Index of the first derivative by a driver.
+    pub(crate) fn first_order(driver: usize) -> usize {
         1 + driver
     }
 
-    /// The derivative by two.
-    pub(crate) fn second(&self, a: usize, b: usize) -> usize {
+    /// Index of the second derivative by two drivers.
+    pub(crate) fn second_order(&self, a: usize, b: usize) -> usize {
         let (a, b) = (a.min(b), a.max(b));
-        let is_it = |k: &usize| {
+        let is_entry = |k: &usize| {
             let (driver, lower) = self.jets.lowered[*k];
             driver == a && self.jets.driver_of[lower] == Some(b)
         };
-        (1 + self.jets.drivers..self.jets.len()).find(is_it).unwrap_or(0)
+        (1 + self.jets.drivers..self.jets.len()).find(is_entry).unwrap_or(0)
     }
 
-    /// Entry `k` of a point's place, m.
+    /// Derivative `k` of a point's position (0: the position), m.
     pub(crate) fn point(&self, point: Point, k: usize) -> Vector {
         let Position { state, plan, bound, units, .. } = &self.position;
-        let own = |point: usize| {
+        let position = |point: usize| {
             let scaled = state.points[point * self.jets.len() + k][0].scale(units.length[k]);
             let origin = Vector::new(bound.origin[0], bound.origin[1]);
             if k == 0 { scaled + origin } else { scaled }
         };
         match point {
-            Point::Joint(joint) => own(point_of_joint(joint)),
+            Point::Joint(joint) => position(point_of_joint(joint)),
             // The ground's frame is the drawing's, wherever its first joint is.
             Point::Link { link, at: [x, y] } if link == plan.ground => {
                 if k == 0 {
@@ -66,12 +66,12 @@ impl<'p> Pose<'p> {
                 }
             }
             Point::Link { link, at } => {
-                own(plan.reference[link]) + self.frame(link, k) * Vector::new(at[0], at[1])
+                position(plan.reference[link]) + self.frame(link, k) * Vector::new(at[0], at[1])
             }
         }
     }
 
-    /// Entry `k` of the unit vector along a link's x, to the second order.
+    /// Derivative `k` of the unit vector along a link's x axis, up to the second order.
     fn frame(&self, link: usize, k: usize) -> Vector {
         let Position { state, plan, bound, .. } = &self.position;
         let o = plan.link_orientation[link];
@@ -81,27 +81,27 @@ impl<'p> Pose<'p> {
         if k == 0 {
             return unit;
         }
-        let top = unit.left().scale(self.angle(link, k));
+        let tangential = unit.left().scale(self.angle(link, k));
         if self.jets.driver_of[k].is_some() {
-            return top;
+            return tangential;
         }
         // ∂∂U = i U ∂∂Θ − U ∂Θ ∂Θ.
         let (driver, lower) = self.jets.lowered[k];
-        let rates = self.angle(link, Self::first(driver)) * self.angle(link, lower);
-        top - unit.scale(rates)
+        let rates = self.angle(link, Self::first_order(driver)) * self.angle(link, lower);
+        tangential - unit.scale(rates)
     }
 
-    /// Entry `k` (not 0) of a link's angle.
+    /// Derivative `k` (not 0) of a link's angle.
     pub(crate) fn angle(&self, link: usize, k: usize) -> f64 {
         let Position { state, plan, units, .. } = &self.position;
         let rotation = &plan.rotation[link];
         let turns = self.jets.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
-        let own = state.theta[rotation.class * self.jets.len() + k][0];
-        (own + f64::from(turns)) * units.angle[k]
+        let class_angle = state.theta[rotation.class * self.jets.len() + k][0];
+        (class_angle + f64::from(turns)) * units.angle[k]
     }
 
-    /// A link's angle itself, rad, continuous along the way from the drawing.
-    pub(crate) fn turned(&self, link: usize) -> f64 {
+    /// A link's angle, rad, continuous along the branch from the drawing.
+    pub(crate) fn total_angle(&self, link: usize) -> f64 {
         self.position.angle(link)
     }
 }

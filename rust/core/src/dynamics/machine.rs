@@ -15,40 +15,40 @@ use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Asked, Evaluator};
 use crate::state::status::Status;
 
-/// What a mechanism carries and what acts on it.
+/// Masses, loads and motors of a mechanism.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Machine {
     /// Its bodies.
     pub bodies: Vec<Body>,
     /// Its loads.
     pub loads: Vec<Load>,
-    /// Acceleration of free fall, m/s².
+    /// Gravitational acceleration, m/s².
     pub gravity: [f64; 2],
-    /// Tables over the first driver's coordinate that loads and motors refer to.
+    /// Tables over the first driver's coordinate, for loads and motors.
     pub tables: Vec<Table>,
-    /// Its motors; their rotors' inertia is part of the machine's, their torque none of its loads.
+    /// Its motors. Their rotors count in the machine's inertia, but their torque is not a load.
     pub motors: Vec<Motor>,
 }
 
-/// A machine referred to its drivers at many positions, one after another; NaN where there is
-/// nothing.
+/// A machine referred to its drivers at many positions, one after another; NaN where a position
+/// could not be solved.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ReducedTable {
     /// Mass matrices.
     pub inertia: Vec<f64>,
-    /// Their derivatives.
-    pub rates: Vec<f64>,
-    /// Reduced forces and moments of all loads.
+    /// Their derivatives by the drivers.
+    pub d_inertia: Vec<f64>,
+    /// Reduced moments (forces, for slides) of all loads.
     pub moment: Vec<f64>,
     /// Potential energies of weights and springs, J.
     pub potential: Vec<f64>,
-    /// How the positions came out.
+    /// Status of each position.
     pub status: Vec<Status>,
 }
 
 impl Machine {
-    /// Refers a design to the drivers at positions (`q`, `speed`: drivers fastest; `given`: the
-    /// numbers from outside of every position, as many each). Ends early once `cancel` is true.
+    /// Refers a design to its drivers at positions (`q`, `speed`: drivers fastest; `external`: the
+    /// callbacks' values, equally many for each position). Ends early once `cancel` is true.
     #[must_use]
     pub fn reduce(
         &self,
@@ -56,14 +56,14 @@ impl Machine {
         dimensions: &[f64],
         q: &[f64],
         speed: &[f64],
-        given: &[f64],
+        external: &[f64],
         cancel: &AtomicBool,
     ) -> ReducedTable {
         let drivers = mechanism.q0().len();
         let jets = DerivativeTables::new(drivers, 2);
         let asked = Asked::These(q);
-        let mut follower = Evaluator::new(mechanism, dimensions, &jets, asked, self.has_torsion());
-        let each = given.len().checked_div(q.len() / drivers).unwrap_or(0);
+        let mut evaluator = Evaluator::new(mechanism, dimensions, &jets, asked, self.has_torsion());
+        let per_position = external.len().checked_div(q.len() / drivers).unwrap_or(0);
         let mut rows = ReducedTable::default();
         let mut reduced = Reduced::new(drivers);
         let (mut tables, mut numbers) = (Vec::new(), Vec::new());
@@ -73,19 +73,28 @@ impl Machine {
             if cancel.load(Ordering::Relaxed) {
                 break;
             }
-            if let Err(status) = follower.solve(q) {
+            if let Err(status) = evaluator.solve(q) {
                 rows.push(None, drivers, status);
                 continue;
             }
-            let pose = Pose::new(follower.position(), &jets);
+            let pose = Pose::new(evaluator.position(), &jets);
             tables.clear();
             tables.extend(self.tables.iter().map(|table| [table.at(q[0]), 0.0]));
             numbers.clear();
-            numbers.extend(given[row * each..(row + 1) * each].iter().map(|&number| [number, 0.0]));
-            self.place(&pose, &mut reduced);
-            self.load(&pose, speed, Numbers { tables: &tables, given: &numbers }, &mut reduced);
+            numbers.extend(
+                external[row * per_position..(row + 1) * per_position]
+                    .iter()
+                    .map(|&number| [number, 0.0]),
+            );
+            self.add_configuration(&pose, &mut reduced);
+            self.add_speed_loads(
+                &pose,
+                speed,
+                Numbers { tables: &tables, external: &numbers },
+                &mut reduced,
+            );
             // At a change point the values are those of the motion through it.
-            let status = match follower.status() {
+            let status = match evaluator.status() {
                 Status::Ok => Status::Ok,
                 _ => Status::NearSingular,
             };
@@ -94,29 +103,29 @@ impl Machine {
         rows
     }
 
-    /// Whether a load asks for angles themselves.
+    /// Whether a load needs the angles of links, not only their derivatives.
     pub(crate) fn has_torsion(&self) -> bool {
         self.loads.iter().any(|load| matches!(load, Load::TorsionSpring { .. }))
     }
 
-    /// Inertia, weights and springs at a position.
-    pub(crate) fn place(&self, pose: &Pose<'_>, out: &mut Reduced) {
+    /// Inertia, weights and springs at a position; replaces those in `out`.
+    pub(crate) fn add_configuration(&self, pose: &Pose<'_>, out: &mut Reduced) {
         out.clear();
-        let n = out.stored.len();
+        let n = out.conservative.len();
         for motor in &self.motors {
             out.inertia[motor.driver * n + motor.driver] += motor.inertia();
         }
         let gravity = Vector::new(self.gravity[0], self.gravity[1]);
         for body in &self.bodies {
-            out.add(pose, body, gravity);
+            out.add_body(pose, body, gravity);
         }
         for load in &self.loads {
-            load.store(pose, out);
+            load.add_conservative(pose, out);
         }
     }
 
-    /// All other loads there, at speeds.
-    pub(crate) fn load(
+    /// All other loads at the same position and the given speeds; replaces those in `out`.
+    pub(crate) fn add_speed_loads(
         &self,
         pose: &Pose<'_>,
         speed: &[f64],
@@ -124,27 +133,27 @@ impl Machine {
         out: &mut Reduced,
     ) {
         out.applied.fill(0.0);
-        out.by_speed = 0.0;
+        out.d_moment_d_speed = 0.0;
         for load in &self.loads {
-            load.apply(pose, speed, numbers, out);
+            load.add_applied(pose, speed, numbers, out);
         }
     }
 }
 
 impl ReducedTable {
-    fn push(&mut self, one: Option<&Reduced>, drivers: usize, status: Status) {
+    fn push(&mut self, reduced: Option<&Reduced>, drivers: usize, status: Status) {
         self.status.push(status);
-        let Some(one) = one else {
-            let nothing = |count| std::iter::repeat_n(f64::NAN, count);
-            self.inertia.extend(nothing(drivers * drivers));
-            self.rates.extend(nothing(drivers * drivers * drivers));
-            self.moment.extend(nothing(drivers));
+        let Some(reduced) = reduced else {
+            let nan = |count| std::iter::repeat_n(f64::NAN, count);
+            self.inertia.extend(nan(drivers * drivers));
+            self.d_inertia.extend(nan(drivers * drivers * drivers));
+            self.moment.extend(nan(drivers));
             self.potential.push(f64::NAN);
             return;
         };
-        self.inertia.extend_from_slice(&one.inertia);
-        self.rates.extend_from_slice(&one.rates);
-        self.moment.extend((0..drivers).map(|driver| one.moment(driver)));
-        self.potential.push(one.potential);
+        self.inertia.extend_from_slice(&reduced.inertia);
+        self.d_inertia.extend_from_slice(&reduced.d_inertia);
+        self.moment.extend((0..drivers).map(|driver| reduced.moment(driver)));
+        self.potential.push(reduced.potential);
     }
 }

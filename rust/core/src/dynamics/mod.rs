@@ -1,18 +1,18 @@
-//! Forces and motion of mechanisms referred to the driver.
+//! Dynamics of mechanisms, referred to the driver: loads, motors, runs, steady states, flywheels.
 //!
 //! # Examples
 //!
-//! The moment's fluctuation of a press, and the flywheel that keeps the speed within 1/8 of 15 rad/s
+//! The flywheel that keeps a press within a fluctuation of 1/8 at 15 rad/s
 //! (I. M. Matsyuk & E. M. Shlyakhov):
 //!
 //! ```
-//! use assur::dynamics::{Ends, Flywheel, Mean, Turn};
+//! use assur::dynamics::{Cycle, EndCondition, Flywheel, Mean};
 //!
 //! let phi: Vec<f64> = (0..9).map(|i| std::f64::consts::FRAC_PI_4 * f64::from(i)).collect();
 //! let moment = [-0.23, -274.4, -950.5, 19.9, 1.26, -300.0, -23.9, -15.9, -0.23];
 //! let inertia = [4.93, 5.07, 5.1, 5.1, 4.93, 5.05, 5.1, 5.14, 4.93];
-//! let turn = Turn::new(&phi, &moment, &inertia, Ends::NotAKnot)?;
-//! let flywheel = Flywheel::sized(turn, 0.125, 15.0, Mean::Extremes)?;
+//! let cycle = Cycle::new(&phi, &moment, &inertia, EndCondition::NotAKnot)?;
+//! let flywheel = Flywheel::for_fluctuation(cycle, 0.125, 15.0, Mean::Extremes)?;
 //! assert!((flywheel.inertia - 19.918150).abs() < 1e-6);
 //! # Ok::<(), assur::dynamics::TableError>(())
 //! ```

@@ -3,41 +3,41 @@
 use super::tables::table::{Cell, Table};
 use super::value::{Numbers, Value};
 
-/// A motor that turns (or moves) a driver through a gear.
+/// A motor that drives a driver through a gear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motor {
     /// The driver.
     pub driver: usize,
-    /// Speed of the motor by that of the driver.
+    /// Gear ratio: speed of the motor / speed of the driver.
     pub ratio: f64,
-    /// Moment of inertia of its rotor, kg·m².
+    /// Moment of inertia of the rotor, kg·m².
     pub rotor_inertia: f64,
-    /// Its torque.
+    /// Torque over speed.
     pub characteristic: Characteristic,
 }
 
 /// Torque of a motor, N·m, over its own speed, rad/s.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Characteristic {
-    /// Whatever the speed.
+    /// A constant, a table over the driver's coordinate, or a callback.
     Value(Value),
     /// A straight line: a direct-current motor at constant voltage.
     Linear {
         /// Torque at rest.
         stall: f64,
-        /// Speed without torque.
+        /// Speed at which the torque is zero.
         no_load: f64,
     },
     /// An induction motor: M. Kloss, Drehmoment und Schlüpfung des Drehstrommotors (1908).
     Induction {
         /// The greatest torque.
         breakdown: f64,
-        /// Slip at that.
+        /// Slip at the greatest torque.
         slip: f64,
-        /// Speed of the field.
+        /// Speed of the rotating field.
         synchronous: f64,
     },
-    /// A table over the speed.
+    /// A table over the motor's speed.
     Table(Table),
 }
 
@@ -45,23 +45,27 @@ impl Motor {
     /// Moment on the driver and its derivative by the driver's speed; a table is read in `cell`.
     #[inline]
     pub(crate) fn moment(&self, speed: f64, cell: Cell, numbers: Numbers<'_>) -> [f64; 2] {
-        let own = self.ratio * speed;
+        let motor_speed = self.ratio * speed;
         let [torque, slope] = match &self.characteristic {
             Characteristic::Value(value) => {
-                // Its function has the driver's speed.
-                let by_driver = value.by_speed(numbers);
-                return [self.ratio * value.at(numbers), self.ratio * by_driver];
+                // The value is a function of the driver's speed, not the motor's.
+                let slope = value.d_speed(numbers);
+                return [self.ratio * value.at(numbers), self.ratio * slope];
             }
             &Characteristic::Linear { stall, no_load } => {
-                [stall * (1.0 - own / no_load), -stall / no_load]
+                [stall * (1.0 - motor_speed / no_load), -stall / no_load]
             }
-            &Characteristic::Induction { breakdown, slip: most, synchronous } => {
-                let slip = 1.0 - own / synchronous;
-                let size = slip * slip + most * most;
-                let by_slip = 2.0 * breakdown * most * (most * most - slip * slip) / (size * size);
-                [2.0 * breakdown * most * slip / size, -by_slip / synchronous]
+            &Characteristic::Induction { breakdown, slip: breakdown_slip, synchronous } => {
+                let slip = 1.0 - motor_speed / synchronous;
+                let sum = slip * slip + breakdown_slip * breakdown_slip;
+                let d_torque_d_slip = 2.0
+                    * breakdown
+                    * breakdown_slip
+                    * (breakdown_slip * breakdown_slip - slip * slip)
+                    / (sum * sum);
+                [2.0 * breakdown * breakdown_slip * slip / sum, -d_torque_d_slip / synchronous]
             }
-            Characteristic::Table(table) => table.read(cell, own),
+            Characteristic::Table(table) => table.read(cell, motor_speed),
         };
         [self.ratio * torque, self.ratio * self.ratio * slope]
     }
@@ -72,7 +76,7 @@ impl Motor {
         self.ratio * self.ratio * self.rotor_inertia
     }
 
-    /// Its table over its own speed.
+    /// The table over the motor's speed, if the characteristic is one.
     pub(crate) fn table(&self) -> Option<&Table> {
         match &self.characteristic {
             Characteristic::Table(table) => Some(table),
@@ -80,16 +84,17 @@ impl Motor {
         }
     }
 
-    /// The driver's speed at which it gives no torque, if its characteristic has one.
+    /// The driver's speed at which the torque is zero (a table: at which it ends); `None` for a
+    /// [`Characteristic::Value`].
     #[must_use]
     pub fn idle_speed(&self) -> Option<f64> {
-        let own = match &self.characteristic {
+        let motor_speed = match &self.characteristic {
             Characteristic::Value(_) => return None,
             Characteristic::Linear { no_load, .. } => *no_load,
             Characteristic::Induction { synchronous, .. } => *synchronous,
             Characteristic::Table(table) => table.range()[1],
         };
-        Some(own / self.ratio)
+        Some(motor_speed / self.ratio)
     }
 }
 
@@ -108,8 +113,8 @@ mod tests {
         };
         let moment = |speed: f64| motor.moment(speed, cell(speed), Numbers::default());
         for &(speed, torque) in points {
-            let [own, slope] = moment(speed);
-            assert!((own - 4.0 * torque).abs() < 1e-12, "{own} at {speed}");
+            let [found, slope] = moment(speed);
+            assert!((found - 4.0 * torque).abs() < 1e-12, "{found} at {speed}");
             let h = 1e-6;
             let difference = (moment(speed + h)[0] - moment(speed - h)[0]) / (2.0 * h);
             assert!((slope - difference).abs() < 1e-7 * (1.0 + slope.abs()), "{slope}");
@@ -125,7 +130,7 @@ mod tests {
         assert_eq!(linear.inertia(), 8.0);
         let induction =
             motor(Characteristic::Induction { breakdown: 40.0, slip: 0.2, synchronous: 100.0 });
-        // Breakdown at a slip of 0.2, nothing at none, 2 · 40 / (5 + 1/5) at rest.
+        // Breakdown at slip 0.2, zero torque at slip 0, 2 · 40 / (5 + 1/5) at rest.
         check(&induction, &[(20.0, 40.0), (25.0, 0.0), (0.0, 80.0 / 5.2), (30.0, -40.0)]);
         let table = Table::new(
             &[-10.0, 0.0, 90.0, 110.0],

@@ -1,4 +1,4 @@
-//! A machine referred to its drivers at one place.
+//! A machine referred to its drivers at one position.
 
 use super::body::Body;
 use super::kinematics::Pose;
@@ -7,40 +7,40 @@ use crate::math::vector::Vector;
 /// Inertia, forces and energy of a machine, referred to its drivers.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Reduced {
-    /// The mass matrix, row after row: of one driver the reduced inertia.
+    /// The mass matrix, row by row; with one driver the reduced inertia.
     pub inertia: Vec<f64>,
-    /// Its derivatives: by every driver one matrix.
-    pub rates: Vec<f64>,
-    /// Reduced forces and moments of weights and springs.
-    pub stored: Vec<f64>,
-    /// Of all other loads.
+    /// Its derivatives: one matrix per driver.
+    pub d_inertia: Vec<f64>,
+    /// Reduced moments (forces, for slides) of weights and springs.
+    pub conservative: Vec<f64>,
+    /// Reduced moments of all other loads.
     pub applied: Vec<f64>,
-    /// Derivative of these by the speed, with one driver.
-    pub by_speed: f64,
+    /// Derivative of the first of these by the speed, for one driver.
+    pub d_moment_d_speed: f64,
     /// Potential energy of weights and springs, J.
     pub potential: f64,
 }
 
 impl Reduced {
-    /// For a number of drivers.
+    /// Zero inertia and loads for a number of drivers.
     #[must_use]
     pub(crate) fn new(drivers: usize) -> Self {
         Self {
             inertia: vec![0.0; drivers * drivers],
-            rates: vec![0.0; drivers * drivers * drivers],
-            stored: vec![0.0; drivers],
+            d_inertia: vec![0.0; drivers * drivers * drivers],
+            conservative: vec![0.0; drivers],
             applied: vec![0.0; drivers],
             ..Self::default()
         }
     }
 
-    /// Reduced force or moment of all loads on a driver.
+    /// Reduced moment of all loads on a driver.
     #[must_use]
     pub(crate) fn moment(&self, driver: usize) -> f64 {
-        self.stored[driver] + self.applied[driver]
+        self.conservative[driver] + self.applied[driver]
     }
 
-    /// Kinetic energy at speeds, J.
+    /// Kinetic energy at these speeds, J.
     #[must_use]
     pub(crate) fn kinetic(&self, speed: &[f64]) -> f64 {
         let n = speed.len();
@@ -48,43 +48,43 @@ impl Reduced {
         0.5 * (0..n).map(|a| speed[a] * row(a)).sum::<f64>()
     }
 
-    /// What the inertia itself asks of a driver at speeds: Σ (∂Mₐᵦ/∂γ − ½ ∂Mᵦᵧ/∂α) vᵦ vᵧ (the
-    /// terms of Lagrange's equations without accelerations; of one driver ½ J′ v²).
+    /// Velocity-dependent inertia moment on a driver: Σ (∂Mₐᵦ/∂γ − ½ ∂Mᵦᵧ/∂α) vᵦ vᵧ (the terms of
+    /// Lagrange's equations without accelerations; for one driver ½ J′ v²).
     #[must_use]
     pub(crate) fn centrifugal(&self, driver: usize, speed: &[f64]) -> f64 {
         if let &[speed] = speed {
-            return 0.5 * self.rates[0] * speed * speed;
+            return 0.5 * self.d_inertia[0] * speed * speed;
         }
         let n = speed.len();
-        let rate = |c: usize, a: usize, b: usize| self.rates[(c * n + a) * n + b];
+        let rate = |c: usize, a: usize, b: usize| self.d_inertia[(c * n + a) * n + b];
         let mut sum = 0.0;
         for b in 0..n {
             for c in 0..n {
-                let own = rate(c, driver, b) - 0.5 * rate(driver, b, c);
-                sum += own * speed[b] * speed[c];
+                let term = rate(c, driver, b) - 0.5 * rate(driver, b, c);
+                sum += term * speed[b] * speed[c];
             }
         }
         sum
     }
 
-    /// Begins a place.
+    /// Sets inertia, weights and springs to zero.
     pub(crate) fn clear(&mut self) {
         self.inertia.fill(0.0);
-        self.rates.fill(0.0);
-        self.stored.fill(0.0);
+        self.d_inertia.fill(0.0);
+        self.conservative.fill(0.0);
         self.potential = 0.0;
     }
 
     /// Adds a body: Σ m ∂S·∂S + I ∂Θ ∂Θ (I. M. Matsyuk & E. M. Shlyakhov, equation 2), its
     /// derivatives from second analogues, and its weight.
-    pub(crate) fn add(&mut self, pose: &Pose<'_>, body: &Body, gravity: Vector) {
-        let n = self.stored.len();
+    pub(crate) fn add_body(&mut self, pose: &Pose<'_>, body: &Body, gravity: Vector) {
+        let n = self.conservative.len();
         let first = |a: usize| {
-            let k = Pose::first(a);
+            let k = Pose::first_order(a);
             (pose.point(body.at, k), pose.angle(body.link, k))
         };
         let second = |a: usize, c: usize| {
-            let k = pose.second(a, c);
+            let k = pose.second_order(a, c);
             (pose.point(body.at, k), pose.angle(body.link, k))
         };
         let product = |(p, u): (Vector, f64), (r, v): (Vector, f64)| {
@@ -95,17 +95,17 @@ impl Reduced {
         if n == 1 {
             let (one, two) = (first(0), second(0, 0));
             self.inertia[0] += product(one, one);
-            self.rates[0] += 2.0 * product(one, two);
-            self.stored[0] += weight.dot(one.0);
+            self.d_inertia[0] += 2.0 * product(one, two);
+            self.conservative[0] += weight.dot(one.0);
             return;
         }
         for a in 0..n {
-            self.stored[a] += weight.dot(first(a).0);
+            self.conservative[a] += weight.dot(first(a).0);
             for b in 0..n {
                 self.inertia[a * n + b] += product(first(a), first(b));
                 for c in 0..n {
                     let rate = product(second(a, c), first(b)) + product(first(a), second(b, c));
-                    self.rates[(c * n + a) * n + b] += rate;
+                    self.d_inertia[(c * n + a) * n + b] += rate;
                 }
             }
         }

@@ -1,39 +1,40 @@
-//! Numbers that loads and motors have.
+//! Values in loads and motors: constant, tabulated or from a callback.
 
-/// A number, or where it is read at every place.
+/// A value in a load or motor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Value {
-    /// Always the same.
+    /// A constant.
     Number(f64),
-    /// Over the first driver's coordinate: which of the machine's tables.
+    /// Index of one of the machine's tables over the first driver's coordinate.
     Table(usize),
-    /// Given from outside at every place: which of the numbers.
+    /// Index of one of the numbers that callbacks give at every evaluation.
     External(usize),
 }
 
-/// What is read at a place.
+/// Values of tables and callbacks at the current state.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Numbers<'a> {
-    /// Value of every table, and its slope.
+    /// Value and slope of every table.
     pub tables: &'a [[f64; 2]],
-    /// Numbers from outside, and their slopes by the speed.
-    pub given: &'a [[f64; 2]],
+    /// Value of every callback and its derivative by the speed.
+    pub external: &'a [[f64; 2]],
 }
 
 impl Value {
     pub(crate) fn at(self, numbers: Numbers<'_>) -> f64 {
-        let of = |list: &[[f64; 2]], which: usize| list.get(which).map_or(f64::NAN, |pair| pair[0]);
+        let value =
+            |list: &[[f64; 2]], index: usize| list.get(index).map_or(f64::NAN, |pair| pair[0]);
         match self {
             Self::Number(number) => number,
-            Self::Table(which) => of(numbers.tables, which),
-            Self::External(which) => of(numbers.given, which),
+            Self::Table(index) => value(numbers.tables, index),
+            Self::External(index) => value(numbers.external, index),
         }
     }
 
-    /// Its derivative by the driver's speed.
-    pub(crate) fn by_speed(self, numbers: Numbers<'_>) -> f64 {
+    /// Derivative by the driver's speed.
+    pub(crate) fn d_speed(self, numbers: Numbers<'_>) -> f64 {
         match self {
-            Self::External(which) => numbers.given.get(which).map_or(f64::NAN, |pair| pair[1]),
+            Self::External(index) => numbers.external.get(index).map_or(f64::NAN, |pair| pair[1]),
             Self::Number(_) | Self::Table(_) => 0.0,
         }
     }

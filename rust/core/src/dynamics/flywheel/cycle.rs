@@ -1,18 +1,19 @@
-//! Inertia and energy over one turn of the driver, as pieces of polynomials.
+//! Reduced inertia and work over one period of the driver, as piecewise polynomials.
 
 use crate::dynamics::tables::error::TableError;
 use crate::dynamics::tables::spline::{EndCondition, Pieces, spline};
 use crate::math::polynomial::{value, zeros};
 
-/// Part of the greatest value by which the ends of a table may differ: tables are rounded.
-const PERIODIC: f64 = 1.0e-9;
+/// Largest difference between the ends of a table, relative to its greatest value: tables are
+/// rounded.
+const PERIODIC_RTOL: f64 = 1.0e-9;
 
-/// Part of the greatest inertia by which the curve may be negative between rows that are not: tables
-/// have three or four digits, and a spline beside rows of zero swings by its own error. What it is
-/// with a flywheel must be positive all the same.
-const UNDERSHOOT: f64 = 1.0e-3;
+/// How far the inertia's curve may fall below zero between rows that do not, relative to the
+/// greatest inertia: tables have three or four digits, and a spline overshoots beside rows of zero.
+/// With the flywheel added the inertia must still be positive.
+const UNDERSHOOT_RTOL: f64 = 1.0e-3;
 
-/// An extreme value and its place.
+/// An extreme value and its coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Extreme {
     /// Coordinate of the driver, rad.
@@ -21,25 +22,25 @@ pub struct Extreme {
     pub value: f64,
 }
 
-/// Reduced inertia and work over one turn, a constant motor among the moments.
+/// Reduced inertia and work over one period, with a constant motor that balances the moments.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cycle {
     knots: Vec<f64>,
     moment: Pieces,
     inertia: Pieces,
-    /// Work from the beginning on, the motor's among it, in powers from each knot.
+    /// Work of all moments, motor included, from the start: in powers from each knot.
     work: Vec<[f64; 5]>,
-    /// Moment of the motor, N·m: with it the work of a turn is none.
+    /// Moment of the motor, N·m: it makes the work of a period zero.
     pub motor: f64,
 }
 
 impl Cycle {
-    /// From a table over one period: coordinates, reduced moment without the motor (N·m), reduced
+    /// Fits a table over one period: coordinates, reduced moment without the motor (N·m), reduced
     /// inertia (kg·m²).
     ///
     /// # Errors
     ///
-    /// A table that is short, not periodic, not growing, or of no positive inertia.
+    /// The table is short, not increasing, not periodic, or its inertia is negative.
     pub fn new(
         knots: &[f64],
         moment: &[f64],
@@ -49,12 +50,12 @@ impl Cycle {
         Self::with_corners(knots, moment, inertia, ends, &[])
     }
 
-    /// The same with corners at some rows (growing; the first and the last row among them are
-    /// nothing new): a curve of its own is laid from each to the next.
+    /// The same with corners at some rows: a separate curve is fitted from each corner to the next.
+    /// The first and the last row may be among them.
     ///
     /// # Errors
     ///
-    /// As of [`Cycle::new`].
+    /// Those of [`Cycle::new`].
     pub fn with_corners(
         knots: &[f64],
         moment: &[f64],
@@ -70,30 +71,30 @@ impl Cycle {
             .collect();
         cuts.sort_unstable();
         cuts.dedup();
-        let lay = |values: &[f64]| -> Result<Pieces, TableError> {
+        let fit = |values: &[f64]| -> Result<Pieces, TableError> {
             let mut all = Pieces::with_capacity(knots.len());
             for cut in cuts.windows(2) {
                 all.append(&mut spline(&knots[cut[0]..=cut[1]], &values[cut[0]..=cut[1]], ends)?);
             }
             Ok(all)
         };
-        let (moment, inertia) = (lay(moment)?, lay(inertia)?);
-        let mut turn =
+        let (moment, inertia) = (fit(moment)?, fit(inertia)?);
+        let mut cycle =
             Self { knots: knots.to_vec(), moment, inertia, work: Vec::new(), motor: 0.0 };
-        turn.lay_work();
-        // The moment's mean, taken off.
-        turn.motor = -turn.work_of_turn() / turn.period();
-        turn.lay_work();
-        let [least, greatest] = turn.extremes(1.0, 0.0);
-        // NaN is refused too.
-        let is_inertia = least.value >= -UNDERSHOOT * greatest.value;
-        if !is_inertia {
+        cycle.integrate_work();
+        // The motor balances the mean moment.
+        cycle.motor = -cycle.total_work() / cycle.period();
+        cycle.integrate_work();
+        let [least, greatest] = cycle.extremes(1.0, 0.0);
+        // NaN must fail too.
+        let is_positive = least.value >= -UNDERSHOOT_RTOL * greatest.value;
+        if !is_positive {
             return Err(TableError::Negative { value: least.value, at: least.at });
         }
-        Ok(turn)
+        Ok(cycle)
     }
 
-    fn lay_work(&mut self) {
+    fn integrate_work(&mut self) {
         self.work.clear();
         let mut sum = 0.0;
         for (piece, ends) in self.moment.iter().zip(self.knots.windows(2)) {
@@ -104,18 +105,18 @@ impl Cycle {
         }
     }
 
-    fn work_of_turn(&self) -> f64 {
+    fn total_work(&self) -> f64 {
         let last = self.knots.len() - 1;
         value(&self.work[last - 1], self.knots[last] - self.knots[last - 1])
     }
 
-    /// Where the table begins, rad.
+    /// Coordinate of the first row, rad.
     #[must_use]
     pub fn start(&self) -> f64 {
         self.knots[0]
     }
 
-    /// What it covers, rad: one period.
+    /// Length of the period, rad.
     #[must_use]
     pub fn period(&self) -> f64 {
         self.knots[self.knots.len() - 1] - self.knots[0]
@@ -127,37 +128,37 @@ impl Cycle {
         &self.knots
     }
 
-    /// The piece that a coordinate is in, how far from its knot, and whole periods before it.
-    pub(crate) fn place(&self, phi: f64) -> (usize, f64, f64) {
-        let [within, whole] = within_period(phi, self.start(), self.period());
-        let after = self.knots.partition_point(|&knot| knot <= within);
+    /// The piece at a coordinate, the distance from its knot, and the whole periods before.
+    pub(crate) fn locate(&self, phi: f64) -> (usize, f64, f64) {
+        let [phi, periods] = wrap_to_period(phi, self.start(), self.period());
+        let after = self.knots.partition_point(|&knot| knot <= phi);
         let piece = after.clamp(1, self.knots.len() - 1) - 1;
-        (piece, within - self.knots[piece], whole)
+        (piece, phi - self.knots[piece], periods)
     }
 
     /// Reduced inertia, kg·m².
     #[must_use]
     pub fn inertia(&self, phi: f64) -> f64 {
-        let (piece, x, _) = self.place(phi);
+        let (piece, x, _) = self.locate(phi);
         value(&self.inertia[piece], x)
     }
 
     /// Reduced moment without the motor, N·m.
     #[must_use]
     pub fn moment(&self, phi: f64) -> f64 {
-        let (piece, x, _) = self.place(phi);
+        let (piece, x, _) = self.locate(phi);
         value(&self.moment[piece], x)
     }
 
-    /// Work of all moments from the beginning of the turn on, J.
+    /// Work of all moments since the start of the period, J.
     #[must_use]
     pub fn work(&self, phi: f64) -> f64 {
-        let (piece, x, _) = self.place(phi);
+        let (piece, x, _) = self.locate(phi);
         value(&self.work[piece], x)
     }
 
     /// Inertia and work in a piece, at a distance from its knot.
-    pub(crate) fn within(&self, piece: usize, x: f64) -> [f64; 2] {
+    pub(crate) fn inertia_and_work(&self, piece: usize, x: f64) -> [f64; 2] {
         [value(&self.inertia[piece], x), value(&self.work[piece], x)]
     }
 
@@ -165,28 +166,28 @@ impl Cycle {
         self.extremes(1.0, 0.0)[0]
     }
 
-    /// Least and greatest value of `speed2 · I − work · W` over the turn: its derivative is a cubic
-    /// in every piece.
+    /// Least and greatest value of `speed2 · I − work · W` over the period: its derivative is a
+    /// cubic in every piece.
     pub(crate) fn extremes(&self, speed2: f64, work: f64) -> [Extreme; 2] {
-        let of = |piece: usize, x: f64| {
-            let [inertia, done] = self.within(piece, x);
-            speed2 * inertia - work * done
+        let combined = |piece: usize, x: f64| {
+            let [inertia, energy] = self.inertia_and_work(piece, x);
+            speed2 * inertia - work * energy
         };
-        let first = Extreme { at: self.start(), value: of(0, 0.0) };
+        let first = Extreme { at: self.start(), value: combined(0, 0.0) };
         let [mut least, mut greatest] = [first; 2];
         for (piece, ends) in self.knots.windows(2).enumerate() {
-            let mut look = |x: f64| {
-                let own = Extreme { at: ends[0] + x, value: of(piece, x) };
-                if own.value < least.value {
-                    least = own;
+            let mut consider = |x: f64| {
+                let here = Extreme { at: ends[0] + x, value: combined(piece, x) };
+                if here.value < least.value {
+                    least = here;
                 }
-                if own.value > greatest.value {
-                    greatest = own;
+                if here.value > greatest.value {
+                    greatest = here;
                 }
             };
             let width = ends[1] - ends[0];
-            // The end of the last piece is the beginning of the first.
-            look(0.0);
+            // The end of the last piece is the start of the first.
+            consider(0.0);
             let ([_, i1, i2, i3], [_, w1, w2, w3, w4]) = (self.inertia[piece], self.work[piece]);
             let slope = [
                 speed2 * i1 - work * w1,
@@ -194,15 +195,15 @@ impl Cycle {
                 3.0 * (speed2 * i3 - work * w3),
                 -4.0 * work * w4,
             ];
-            zeros(&slope, width, look);
+            zeros(&slope, width, consider);
         }
         [least, greatest]
     }
 }
 
-/// A place less whole periods, from `start` on, and how many these are. The remainder of a division
-/// is exact, so a place of any size is found.
-pub(crate) fn within_period(x: f64, start: f64, period: f64) -> [f64; 2] {
+/// Reduces `x` to the period that begins at `start`; returns it and the number of periods taken
+/// off. The remainder of a division is exact, so `x` may be of any size.
+pub(crate) fn wrap_to_period(x: f64, start: f64, period: f64) -> [f64; 2] {
     if (start..start + period).contains(&x) {
         return [x, 0.0];
     }
@@ -220,7 +221,7 @@ fn check(knots: &[f64], columns: [(&'static str, &[f64]); 2]) -> Result<(), Tabl
     Ok(())
 }
 
-/// Refuses columns over coordinates that do not grow, or whose ends differ where they must agree.
+/// Checks that the coordinates increase, and that periodic columns have equal ends.
 pub(crate) fn check_columns(
     knots: &[f64],
     columns: &[(&'static str, &[f64])],
@@ -247,7 +248,7 @@ pub(crate) fn check_columns(
     for &(quantity, column) in columns.iter().filter(|_| periodic) {
         let (first, last) = (column[0], column[count - 1]);
         let greatest = column.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        if (first - last).abs() > PERIODIC * greatest {
+        if (first - last).abs() > PERIODIC_RTOL * greatest {
             return Err(TableError::NotPeriodic { quantity, first, last });
         }
     }

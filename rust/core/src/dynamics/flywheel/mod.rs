@@ -1,4 +1,4 @@
-//! Speed over a period of tables, and the flywheel that evens it, by the energy integral alone.
+//! Speed over a period from tables, and flywheel sizing, by the energy integral alone.
 
 pub(crate) mod cycle;
 pub(crate) mod flywheel;

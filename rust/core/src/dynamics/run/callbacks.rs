@@ -1,16 +1,16 @@
-//! What comes into a run from outside: functions, and the wish that it ends.
+//! The user's functions in a run, and its cancellation.
 
 use std::convert::Infallible;
 
-/// Functions of the time, the coordinates and the speeds, called on the thread of the run.
+/// Functions of time, coordinates and speeds, called on the thread of the run.
 pub trait Callbacks {
-    /// What can go wrong in them.
+    /// Error of a function.
     type Error: std::fmt::Display;
 
-    /// How many numbers loads and motors have from here.
+    /// How many numbers `numbers` gives to loads and motors.
     fn count(&self) -> usize;
 
-    /// These numbers; asked for once in every evaluation of the equation of motion.
+    /// The numbers for loads and motors, evaluated together with the equation of motion.
     ///
     /// # Errors
     ///
@@ -23,7 +23,7 @@ pub trait Callbacks {
         numbers: &mut [f64],
     ) -> Result<(), Self::Error>;
 
-    /// An event function.
+    /// Value of an event function.
     ///
     /// # Errors
     ///
@@ -31,7 +31,7 @@ pub trait Callbacks {
     fn event(&mut self, which: usize, t: f64, q: &[f64], speed: &[f64])
     -> Result<f64, Self::Error>;
 
-    /// Whether the run is to end; asked every few steps.
+    /// Whether to end the run; asked every few steps.
     fn cancelled(&mut self) -> bool {
         false
     }
@@ -63,7 +63,7 @@ impl<O: Callbacks> Callbacks for &mut O {
     }
 }
 
-/// Nothing comes from outside.
+/// No functions and no cancellation.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoCallbacks;
 

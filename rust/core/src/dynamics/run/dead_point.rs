@@ -1,19 +1,19 @@
-//! The last bit of a way to a dead point.
+//! The last part of a motion that ends at a dead point.
 //!
-//! There the driver turns back while the mechanism goes through: with s the root of what is left of
-//! its coordinate, the speed is s b(s) with a smooth b (another link's angle, which goes through the
-//! dead point at a speed of its own, grows like s). So ṡ = −b/2; with b straight over the last 1e-4
-//! or so of s, whose slope the acceleration tells, its square is all that is left out.
+//! There the driver turns back while the mechanism moves on. With s the square root of the
+//! remaining coordinate, the speed is s b(s) with a smooth b (another link's angle, which passes
+//! the dead point at a finite speed, grows like s). So ṡ = −b/2. Over the last 1e-4 or so of s, b
+//! is taken as linear, with the slope from the acceleration; only its quadratic term is neglected.
 
 use super::options::Variable;
 use super::sample::Sample;
 
-/// From the last moment that was integrated to the dead point.
+/// The motion from the last integrated sample to the dead point.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tail {
     last: Sample,
-    fold: f64,
+    dead_point: f64,
     sign: f64,
     root: f64,
     b: f64,
@@ -21,24 +21,24 @@ pub(crate) struct Tail {
 }
 
 impl Tail {
-    /// None if the coordinate is at the dead point already, or does not go to it.
-    pub(crate) fn of(last: &Sample, fold: f64) -> Option<Self> {
-        let (left, sign) = (fold - last.q[0], last.speed[0].signum());
+    /// `None` if the coordinate is already at the dead point, or does not move toward it.
+    pub(crate) fn of(last: &Sample, dead_point: f64) -> Option<Self> {
+        let (left, sign) = (dead_point - last.q[0], last.speed[0].signum());
         let root = (left * sign).sqrt();
         let b = last.speed[0].abs() / root;
         // v̇ = −(b + s b′) b / 2.
         let slope = (-2.0 * sign * last.acceleration[0] / b - b) / root;
-        let is_way = root > 0.0 && b > 0.0 && (slope * root).abs() < 0.5 * b;
-        is_way.then(|| Self { last: last.clone(), fold, sign, root, b, slope })
+        let approaches = root > 0.0 && b > 0.0 && (slope * root).abs() < 0.5 * b;
+        approaches.then(|| Self { last: last.clone(), dead_point, sign, root, b, slope })
     }
 
     fn b(&self, root: f64) -> f64 {
         self.b - self.slope * (self.root - root)
     }
 
-    /// Time from the last moment to a root.
+    /// Time from the last sample to `root`, the square root of the remaining coordinate.
     fn time(&self, root: f64) -> f64 {
-        // ∫ 2/b ds, b straight: by its mean the logarithm is avoided where b hardly changes.
+        // ∫ 2/b ds with b linear. The series avoids the logarithm where b hardly changes.
         let (b, change) = (self.b(root), self.b - self.b(root));
         let part = change / b;
         let mean = if part.abs() < 1e-4 {
@@ -49,11 +49,11 @@ impl Tail {
         2.0 * (self.root - root) / b * mean
     }
 
-    fn moment(&self, root: f64) -> Sample {
+    fn sample(&self, root: f64) -> Sample {
         let b = self.b(root);
         Sample {
             t: self.last.t + self.time(root),
-            q: vec![self.fold - self.sign * root * root],
+            q: vec![self.dead_point - self.sign * root * root],
             speed: vec![self.sign * root * b],
             acceleration: vec![-0.5 * self.sign * (b + root * self.slope) * b],
             work: self.last.work,
@@ -62,28 +62,28 @@ impl Tail {
 
     /// The dead point.
     pub(crate) fn end(&self) -> Sample {
-        self.moment(0.0)
+        self.sample(0.0)
     }
 
-    /// The motion at a time or a coordinate of this bit.
+    /// The motion at a time or a coordinate within this part.
     pub(crate) fn at(&self, along: Variable, x: f64) -> Option<Sample> {
         let root = match along {
-            Variable::Coordinate => ((self.fold - x) * self.sign).sqrt(),
+            Variable::Coordinate => ((self.dead_point - x) * self.sign).sqrt(),
             Variable::Time => {
                 // ṡ = −b(s)/2 is linear in s.
                 let (since, rate) = (x - self.last.t, 0.5 * self.slope);
                 let decay = -libm::expm1(rate * -since);
-                let gone = if rate == 0.0 { since } else { decay / rate };
-                self.root - 0.5 * self.b * gone
+                let decrease = if rate == 0.0 { since } else { decay / rate };
+                self.root - 0.5 * self.b * decrease
             }
         };
         let slack = -1e-9 * self.root;
         (root >= slack && root <= self.root).then(|| {
-            let mut moment = self.moment(root.max(0.0));
+            let mut sample = self.sample(root.max(0.0));
             if along == Variable::Time {
-                moment.t = x;
+                sample.t = x;
             }
-            moment
+            sample
         })
     }
 }
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn the_end_is_reached_smoothly() {
+    fn end_matches_the_exact_motion() {
         let tail = Tail::of(&motion(0.0), 1.0).expect("a way");
         assert!((tail.end().t - 1e-4).abs() < 1e-11, "{}", tail.end().t);
         assert_eq!((tail.end().q[0], tail.end().speed[0]), (1.0, 0.0));

@@ -1,12 +1,12 @@
-//! The equation of motion of a machine at one place: J q̈ + ½ J′ q̇² = M (I. M. Matsyuk & E. M.
-//! Shlyakhov, equation 3, differentiated; of several drivers Lagrange's equations).
+//! The equation of motion of a machine at one state: J q̈ + ½ J′ q̇² = M (I. M. Matsyuk & E. M.
+//! Shlyakhov, equation 3, differentiated; with several drivers Lagrange's equations).
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::callbacks::Callbacks;
-use super::error::{RunError, beyond};
+use super::error::{RunError, outside_table};
 use super::model::ReducedModel;
-use super::table_cursor::Reader;
+use super::table_cursor::TableCursor;
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
 use crate::dynamics::tables::table::{Cell, Table};
@@ -14,125 +14,125 @@ use crate::dynamics::value::Numbers;
 use crate::ode::system::Fault;
 use crate::state::status::Status;
 
-/// Part of the speed by which functions from outside are varied to find their slopes: the cube root
-/// of the unit roundoff, where rounding and curvature are equal.
-const VARIED: f64 = 6.0e-6;
+/// Relative change of the speed for the difference quotient of callbacks: the cube root of the unit
+/// roundoff, which balances rounding and curvature.
+const SLOPE_STEP: f64 = 6.0e-6;
 
-type Stop<E> = Fault<RunError<E>>;
+type EquationFault<E> = Fault<RunError<E>>;
 
-/// The numbers just within two others, ascending.
-pub(crate) fn within(from: f64, to: f64) -> [f64; 2] {
+/// The ends of an interval moved inward by one ulp, ascending.
+pub(crate) fn just_inside(from: f64, to: f64) -> [f64; 2] {
     let (low, high) = (from.min(to).next_up(), from.max(to).next_down());
     [low.min(high), high.max(low)]
 }
 
-/// The machine with everything that is read at a place.
+/// A machine with the values of tables, callbacks and motors at the current state.
 pub(crate) struct Equation<'a, S, O> {
-    pub source: S,
-    pub outside: O,
+    pub model: S,
+    pub callbacks: O,
     pub tables: &'a [Table],
     pub motors: &'a [Motor],
     /// Inertia added to the first driver's, and a constant moment on it.
     pub flywheel: f64,
-    pub extra: f64,
-    pub reader: Reader,
-    /// The piece of every motor's own table.
-    pub cells: Vec<Cell>,
+    pub extra_moment: f64,
+    pub cursor: TableCursor,
+    /// The current piece of each motor's own table.
+    pub motor_cells: Vec<Cell>,
     pub reduced: Reduced,
     /// Moments of the motors on the drivers.
     pub drive: Vec<f64>,
-    /// Derivative of the first by the speed.
-    pub drive_by_speed: f64,
-    /// Between which times or coordinates functions from outside are asked now: just within breaks,
+    /// Derivative of the first driver's by its speed.
+    pub d_drive_d_speed: f64,
+    /// Ranges of time and coordinate in which callbacks are evaluated: just inside the breaks,
     /// where they may jump.
     pub times: [f64; 2],
     pub coordinates: [f64; 2],
-    /// Whether slopes of functions from outside are asked for.
-    pub slopes: bool,
-    /// Why there was nothing at the last place that was refused, and where.
-    pub refused: Option<(Status, Vec<f64>)>,
+    /// Whether derivatives of the callbacks by the speed are needed.
+    pub wants_slopes: bool,
+    /// Status and coordinates of the last position that was rejected.
+    pub rejected: Option<(Status, Vec<f64>)>,
     readings: Vec<[f64; 2]>,
-    given: Vec<[f64; 2]>,
+    external: Vec<[f64; 2]>,
     numbers: Vec<f64>,
     varied: Vec<f64>,
 }
 
 impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     pub(crate) fn new(
-        source: S,
-        outside: O,
+        model: S,
+        callbacks: O,
         tables: &'a [Table],
         motors: &'a [Motor],
         drivers: usize,
     ) -> Self {
-        let count = outside.count();
+        let count = callbacks.count();
         Self {
-            source,
-            outside,
+            model,
+            callbacks,
             tables,
             motors,
             flywheel: 0.0,
-            extra: 0.0,
-            reader: Reader::new(),
-            cells: vec![Cell::default(); motors.len()],
+            extra_moment: 0.0,
+            cursor: TableCursor::new(),
+            motor_cells: vec![Cell::default(); motors.len()],
             reduced: Reduced::new(drivers),
             drive: vec![0.0; drivers],
-            drive_by_speed: 0.0,
+            d_drive_d_speed: 0.0,
             times: [f64::NEG_INFINITY, f64::INFINITY],
             coordinates: [f64::NEG_INFINITY, f64::INFINITY],
-            slopes: false,
-            refused: None,
+            wants_slopes: false,
+            rejected: None,
             readings: vec![[f64::NAN; 2]; tables.len()],
-            given: vec![[0.0; 2]; count],
+            external: vec![[0.0; 2]; count],
             numbers: vec![0.0; count],
             varied: vec![0.0; count],
         }
     }
 
-    /// Looks tables up where a motion begins.
+    /// Looks up the tables at the start of a motion.
     pub(crate) fn begin(&mut self, q: f64, speed: &[f64]) -> Result<(), RunError<O::Error>> {
         self.look_up(q)?;
-        for (motor, cell) in self.motors.iter().zip(&mut self.cells) {
+        for (motor, cell) in self.motors.iter().zip(&mut self.motor_cells) {
             if let Some(table) = motor.table() {
-                let own = motor.ratio * speed[motor.driver];
-                *cell = table
-                    .cell(own)
-                    .ok_or_else(|| beyond("motor's table over its speed", table, own))?;
+                let motor_speed = motor.ratio * speed[motor.driver];
+                *cell = table.cell(motor_speed).ok_or_else(|| {
+                    outside_table("motor's table over its speed", table, motor_speed)
+                })?;
             }
         }
         Ok(())
     }
 
-    /// The motors that have tables over their speed.
-    pub(crate) fn tabled(&self) -> impl Iterator<Item = usize> + use<'a, S, O> {
+    /// Indices of the motors with a table over their speed.
+    pub(crate) fn motors_with_table(&self) -> impl Iterator<Item = usize> + use<'a, S, O> {
         let motors = self.motors;
         (0..motors.len()).filter(move |&motor| motors[motor].table().is_some())
     }
 
-    /// How far these are from the ends of their pieces, two numbers each.
-    pub(crate) fn motor_borders(&self, speed: &[f64], values: &mut [f64]) {
-        for (pair, which) in values.chunks_exact_mut(2).zip(self.tabled()) {
+    /// Distances of these motors' speeds from both ends of their pieces: two numbers per motor.
+    pub(crate) fn motor_table_margins(&self, speed: &[f64], values: &mut [f64]) {
+        for (pair, which) in values.chunks_exact_mut(2).zip(self.motors_with_table()) {
             let motor = &self.motors[which];
-            let ends = motor.table().map(|table| table.ends(self.cells[which]));
-            let own = motor.ratio * speed[motor.driver];
+            let ends = motor.table().map(|table| table.ends(self.motor_cells[which]));
+            let motor_speed = motor.ratio * speed[motor.driver];
             let [low, high] = ends.unwrap_or([f64::NAN; 2]);
-            pair.copy_from_slice(&[own - low, high - own]);
+            pair.copy_from_slice(&[motor_speed - low, high - motor_speed]);
         }
     }
 
-    /// A motor goes on to the next piece of its table: the driver and its speed there, inside that
-    /// piece; none if the table ends.
-    pub(crate) fn pass_motor(&mut self, which: usize, up: bool) -> Option<(usize, f64)> {
+    /// Moves a motor to the next piece of its table. Returns its driver and that driver's speed at
+    /// the knot, inside the new piece; `None` if the table ends.
+    pub(crate) fn advance_motor_table(&mut self, which: usize, up: bool) -> Option<(usize, f64)> {
         let motor = &self.motors[which];
         let table = motor.table()?;
-        let cell = &mut self.cells[which];
+        let cell = &mut self.motor_cells[which];
         let knot = table.ends(*cell)[usize::from(up)];
         *cell = table.next(*cell, up)?;
         let mut speed = knot / motor.ratio;
-        // By its rounding the motor's own speed may be before the knot.
+        // Rounding may leave the motor's speed short of the knot.
         let is_before = |speed: f64| {
-            let own = motor.ratio * speed;
-            if up { own < knot } else { own > knot }
+            let motor_speed = motor.ratio * speed;
+            if up { motor_speed < knot } else { motor_speed > knot }
         };
         while is_before(speed) {
             speed = if up == (motor.ratio > 0.0) { speed.next_up() } else { speed.next_down() };
@@ -140,109 +140,118 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         Some((motor.driver, speed))
     }
 
-    /// Looks tables up in the middle of a stretch between knots.
-    pub(crate) fn enter(&mut self, from: f64, to: f64) -> Result<(), RunError<O::Error>> {
-        self.coordinates = within(from, to);
+    /// Looks up the tables in the middle of an interval between knots.
+    pub(crate) fn enter_interval(&mut self, from: f64, to: f64) -> Result<(), RunError<O::Error>> {
+        self.coordinates = just_inside(from, to);
         self.look_up(0.5 * (from + to))
     }
 
     fn look_up(&mut self, q: f64) -> Result<(), RunError<O::Error>> {
         let tables = self.tables;
-        self.reader.place(tables, q).map_err(|which| beyond("table over q", &tables[which], q))
+        self.cursor
+            .look_up(tables, q)
+            .map_err(|which| outside_table("table over q", &tables[which], q))
     }
 
-    /// Looks tables up at a coordinate, unless they are in their pieces there; whether they are
-    /// there.
-    pub(crate) fn find(&mut self, q: f64) -> bool {
-        (self.reader.low..=self.reader.high).contains(&q)
-            || self.reader.place(self.tables, q).is_ok()
+    /// Looks up the tables at a coordinate, unless their current pieces contain it. Returns false
+    /// if a table does not.
+    pub(crate) fn ensure_tables_at(&mut self, q: f64) -> bool {
+        (self.cursor.low..=self.cursor.high).contains(&q)
+            || self.cursor.look_up(self.tables, q).is_ok()
     }
 
-    /// Whether the last place that was refused is beside a near miss of a change point.
+    /// Whether the last rejected position is beside a near miss of a change point.
     pub(crate) fn is_near_miss(&self) -> bool {
-        matches!(self.refused, Some((Status::NearSingular, _)))
+        matches!(self.rejected, Some((Status::NearSingular, _)))
     }
 
-    /// Inertia, weights and springs at coordinates.
+    /// Reduces inertia, weights and springs at coordinates.
     #[inline]
-    pub(crate) fn place(&mut self, q: &[f64]) -> Result<(), Stop<O::Error>> {
-        self.reader.read(self.tables, q[0], &mut self.readings);
-        let numbers = Numbers { tables: &self.readings, given: &[] };
-        if let Err(status) = self.source.place(q, numbers, &mut self.reduced) {
-            self.refused = Some((status, q.to_vec()));
+    pub(crate) fn set_configuration(&mut self, q: &[f64]) -> Result<(), EquationFault<O::Error>> {
+        self.cursor.read(self.tables, q[0], &mut self.readings);
+        let numbers = Numbers { tables: &self.readings, external: &[] };
+        if let Err(status) = self.model.set_configuration(q, numbers, &mut self.reduced) {
+            self.rejected = Some((status, q.to_vec()));
             return Err(Fault::OutOfDomain);
         }
         self.reduced.inertia[0] += self.flywheel;
         Ok(())
     }
 
-    /// All other loads and motors there, at speeds.
+    /// Reduces all other loads and the motors' moments at these speeds.
     #[inline]
-    pub(crate) fn load(&mut self, t: f64, q: &[f64], speed: &[f64]) -> Result<(), Stop<O::Error>> {
+    pub(crate) fn apply_loads(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        speed: &[f64],
+    ) -> Result<(), EquationFault<O::Error>> {
         if !self.numbers.is_empty() {
-            self.call(t, q, speed).map_err(|error| Fault::Error(RunError::Outside(error)))?;
+            self.evaluate_callbacks(t, q, speed)
+                .map_err(|error| Fault::Error(RunError::Callback(error)))?;
         }
-        let numbers = Numbers { tables: &self.readings, given: &self.given };
-        self.source.load(speed, numbers, &mut self.reduced);
+        let numbers = Numbers { tables: &self.readings, external: &self.external };
+        self.model.apply_loads(speed, numbers, &mut self.reduced);
         self.drive.fill(0.0);
-        self.drive[0] = self.extra;
-        self.drive_by_speed = 0.0;
-        for (motor, &cell) in self.motors.iter().zip(&self.cells) {
+        self.drive[0] = self.extra_moment;
+        self.d_drive_d_speed = 0.0;
+        for (motor, &cell) in self.motors.iter().zip(&self.motor_cells) {
             let [moment, slope] = motor.moment(speed[motor.driver], cell, numbers);
             self.drive[motor.driver] += moment;
-            self.drive_by_speed += slope;
+            self.d_drive_d_speed += slope;
         }
         Ok(())
     }
 
-    fn call(&mut self, t: f64, q: &[f64], speed: &[f64]) -> Result<(), O::Error> {
-        let (one, [from, to]) =
+    fn evaluate_callbacks(&mut self, t: f64, q: &[f64], speed: &[f64]) -> Result<(), O::Error> {
+        let (clamped, [from, to]) =
             ([q[0].clamp(self.coordinates[0], self.coordinates[1])], self.times);
         let t = t.clamp(from, to);
-        let q = if q.len() == 1 { &one } else { q };
-        self.outside.numbers(t, q, speed, &mut self.numbers)?;
-        for (pair, &number) in self.given.iter_mut().zip(&self.numbers) {
+        let q = if q.len() == 1 { &clamped } else { q };
+        self.callbacks.numbers(t, q, speed, &mut self.numbers)?;
+        for (pair, &number) in self.external.iter_mut().zip(&self.numbers) {
             *pair = [number, 0.0];
         }
-        if !self.slopes {
+        if !self.wants_slopes {
             return Ok(());
         }
-        let [low, high] = [1.0 - VARIED, 1.0 + VARIED].map(|part| speed[0] * part);
-        self.outside.numbers(t, q, &[low], &mut self.numbers)?;
-        self.outside.numbers(t, q, &[high], &mut self.varied)?;
-        for ((pair, below), above) in self.given.iter_mut().zip(&self.numbers).zip(&self.varied) {
+        let [low, high] = [1.0 - SLOPE_STEP, 1.0 + SLOPE_STEP].map(|part| speed[0] * part);
+        self.callbacks.numbers(t, q, &[low], &mut self.numbers)?;
+        self.callbacks.numbers(t, q, &[high], &mut self.varied)?;
+        for ((pair, below), above) in self.external.iter_mut().zip(&self.numbers).zip(&self.varied)
+        {
             pair[1] = (above - below) / (high - low);
         }
         Ok(())
     }
 
-    /// Moment of all that acts on a driver, motors among it.
+    /// Moment of all loads and motors on a driver.
     pub(crate) fn moment(&self, driver: usize) -> f64 {
         self.reduced.moment(driver) + self.drive[driver]
     }
 
-    /// Power of all that is not told by the potential energy, W.
+    /// Power of loads and motors that the potential energy does not include, W.
     pub(crate) fn power(&self, speed: &[f64]) -> f64 {
-        let of =
+        let driver_power =
             |(driver, v): (usize, &f64)| (self.reduced.applied[driver] + self.drive[driver]) * v;
-        speed.iter().enumerate().map(of).sum()
+        speed.iter().enumerate().map(driver_power).sum()
     }
 
-    /// The reduced inertia of the one driver.
+    /// The reduced inertia of a single driver.
     #[inline]
-    pub(crate) fn inertia(&self, q: f64) -> Result<f64, Stop<O::Error>> {
+    pub(crate) fn inertia(&self, q: f64) -> Result<f64, EquationFault<O::Error>> {
         let value = self.reduced.inertia[0];
-        // NaN as well is none.
+        // NaN must fail too.
         if value > 0.0 { Ok(value) } else { Err(Fault::Error(RunError::NoInertia { q, value })) }
     }
 
-    /// Accelerations of the drivers there.
+    /// Accelerations of the drivers.
     pub(crate) fn accelerations(
         &self,
         q: &[f64],
         speed: &[f64],
         out: &mut [f64],
-    ) -> Result<(), Stop<O::Error>> {
+    ) -> Result<(), EquationFault<O::Error>> {
         let n = speed.len();
         let net = |driver| self.moment(driver) - self.reduced.centrifugal(driver, speed);
         if n == 1 {

@@ -1,75 +1,75 @@
-//! Why a motion cannot go on.
+//! Errors of a run.
 
 use thiserror::Error;
 
 use crate::dynamics::tables::table::Table;
 
-/// Why a motion could not go on, other than by an end of its own.
+/// Why a run failed, as opposed to how it ended.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError<E> {
-    /// What a function from outside said.
+    /// The error of a callback.
     #[error("{0}")]
-    Outside(E),
-    /// There is nothing to be accelerated.
+    Callback(E),
+    /// The reduced inertia is not positive.
     #[error(
         "the reduced inertia is {value} at q = {q}: it must be positive everywhere (give masses to the links that turn with the driver)"
     )]
     NoInertia {
-        /// Where.
+        /// Coordinate.
         q: f64,
-        /// What is there instead.
+        /// Inertia there, kg·m².
         value: f64,
     },
-    /// There is no position, or no motion, where it begins.
+    /// The mechanism has no valid position at the initial coordinates.
     #[error("there is nothing to begin with at q = {q:?}")]
-    NothingThere {
-        /// Where.
+    NoInitialPosition {
+        /// Initial coordinates.
         q: Vec<f64>,
     },
-    /// Not as many numbers as needed.
+    /// A list of the wrong length.
     #[error("{given} {what} are given: {needed} are needed")]
-    Malformed {
-        /// Of what.
+    WrongCount {
+        /// What the list contains.
         what: &'static str,
-        /// How many are needed.
+        /// Length needed.
         needed: usize,
-        /// How many there are.
+        /// Length given.
         given: usize,
     },
-    /// Knots of tables without number.
+    /// Too many knots of tables.
     #[error("the tables have more than {most:e} knots between q = {from} and {to}")]
-    ManyKnots {
-        /// How many are too many.
+    TooManyKnots {
+        /// The limit.
         most: f64,
-        /// From here.
+        /// Start of the interval.
         from: f64,
-        /// To there.
+        /// End of the interval.
         to: f64,
     },
-    /// A table does not cover the beginning.
+    /// A table does not cover the initial state.
     #[error("a {what} covers {from} to {to}: {q} is not in it")]
     TableEnds {
-        /// What it is a table of.
+        /// The kind of table.
         what: &'static str,
         /// Its first row.
         from: f64,
-        /// Its last.
+        /// Its last row.
         to: f64,
-        /// What was asked of it.
+        /// The initial coordinate or speed.
         q: f64,
     },
 }
 
-/// A table does not go so far.
-pub(crate) fn beyond<E>(what: &'static str, table: &Table, q: f64) -> RunError<E> {
+/// The error for `q` outside a table.
+pub(crate) fn outside_table<E>(what: &'static str, table: &Table, q: f64) -> RunError<E> {
     let [from, to] = table.range();
     RunError::TableEnds { what, from, to, q }
 }
 
-/// Refuses what has not as many numbers as needed.
-pub(crate) fn counted<E>(counts: &[(&'static str, usize, usize)]) -> Result<(), RunError<E>> {
+/// Checks lengths: (name, needed, given) each.
+pub(crate) fn check_counts<E>(counts: &[(&'static str, usize, usize)]) -> Result<(), RunError<E>> {
     match counts.iter().find(|(_, needed, given)| needed != given) {
-        Some(&(what, needed, given)) => Err(RunError::Malformed { what, needed, given }),
+        Some(&(what, needed, given)) => Err(RunError::WrongCount { what, needed, given }),
         None => Ok(()),
     }
 }

@@ -1,16 +1,16 @@
-//! Makes a run.
+//! Integrates the equation of motion into a run.
 
 use super::callbacks::Callbacks;
 use super::dead_point::Tail;
 use super::equation::Equation;
-use super::error::{RunError, counted};
+use super::error::{RunError, check_counts};
 use super::model::{MechanismModel, ReducedModel, TabulatedMachine};
 use super::options::{EventKind, RunOptions, Variable};
 use super::sample::Samples;
 use super::system::{Ended, RunSystem};
-use super::table_cursor::TOGETHER;
+use super::table_cursor::SAME_KNOT_RTOL;
 use super::tolerances::tolerances;
-use super::trajectory::{EventRecord, Run, StopReason, moment};
+use super::trajectory::{EventRecord, Run, StopReason, sample_at};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::tables::table::Table;
 use crate::math::derivatives::DerivativeTables;
@@ -23,111 +23,113 @@ use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::NearMiss;
 use crate::state::status::Status;
 
-/// What a run cannot be made for.
+/// Why a run could not be made.
 pub type IntegrationError<E> = Error<RunError<E>>;
 
 impl Machine {
-    /// Makes a run of a design of the mechanism.
+    /// Integrates the motion of a design of the mechanism.
     ///
     /// # Errors
     ///
-    /// What cannot be begun, and where there is nothing to be accelerated.
+    /// Invalid options or initial state, a reduced inertia that is not positive, or a failed
+    /// callback.
     pub fn run<O: Callbacks>(
         &self,
         mechanism: &Mechanism,
         dimensions: &[f64],
-        task: &RunOptions<'_>,
-        outside: O,
+        options: &RunOptions<'_>,
+        callbacks: O,
     ) -> Result<Run, IntegrationError<O::Error>> {
         let drivers = mechanism.q0().len();
-        task.check(drivers, &self.motors).map_err(Error::System)?;
+        options.check(drivers, &self.motors).map_err(Error::System)?;
         let needed = mechanism.dimensions().len();
-        counted(&[("dimensions", needed, dimensions.len())]).map_err(Error::System)?;
+        check_counts(&[("dimensions", needed, dimensions.len())]).map_err(Error::System)?;
         let jets = DerivativeTables::new(drivers, 2);
-        let source = MechanismModel::new(self, mechanism, dimensions, &jets);
-        let sizes: Vec<f64> = (0..task.q.len()).map(|driver| source.unit(driver)).collect();
-        let equation = Equation::new(source, outside, &self.tables, &self.motors, task.q.len());
-        run(equation, task, &sizes)
+        let model = MechanismModel::new(self, mechanism, dimensions, &jets);
+        let sizes: Vec<f64> = (0..options.q.len()).map(|driver| model.unit(driver)).collect();
+        let equation = Equation::new(model, callbacks, &self.tables, &self.motors, options.q.len());
+        run(equation, options, &sizes)
     }
 }
 
 impl TabulatedMachine {
-    /// Makes a run.
+    /// Integrates the motion of the tabulated machine.
     ///
     /// # Errors
     ///
-    /// As of [`Machine::run`].
+    /// Those of [`Machine::run`].
     pub fn run<O: Callbacks>(
         &self,
-        task: &RunOptions<'_>,
-        outside: O,
+        options: &RunOptions<'_>,
+        callbacks: O,
     ) -> Result<Run, IntegrationError<O::Error>> {
-        task.check(1, &self.motors).map_err(Error::System)?;
+        options.check(1, &self.motors).map_err(Error::System)?;
         self.check().map_err(Error::System)?;
-        run(Equation::new(self, outside, &self.tables, &self.motors, 1), task, &[1.0])
+        run(Equation::new(self, callbacks, &self.tables, &self.motors, 1), options, &[1.0])
     }
 
-    /// Inertia and moment are its first two tables.
+    /// Checks that there are tables of inertia and moment, the first two.
     pub(crate) fn check<E>(&self) -> Result<(), RunError<E>> {
-        counted(&[("tables of inertia and moment", 2, self.tables.len().min(2))])
+        check_counts(&[("tables of inertia and moment", 2, self.tables.len().min(2))])
     }
 }
 
-/// Makes it; `sizes`: what a coordinate's tolerance is a part of.
+/// Integrates the motion; `sizes`: for each driver, the size that its tolerance is relative to.
 pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     mut equation: Equation<'_, S, O>,
-    task: &RunOptions<'_>,
+    options: &RunOptions<'_>,
     sizes: &[f64],
 ) -> Result<Run, IntegrationError<O::Error>> {
-    equation.flywheel = task.flywheel;
-    equation.begin(task.q[0], task.speed).map_err(Error::System)?;
-    let mut way = RunSystem::new(equation, task);
-    way.begin(task).map_err(Error::System)?;
-    let (from, end) = match task.along {
-        Variable::Time => (task.t, task.end),
-        Variable::Coordinate => (task.q[0], task.end),
+    equation.flywheel = options.flywheel;
+    equation.begin(options.q[0], options.speed).map_err(Error::System)?;
+    let mut system = RunSystem::new(equation, options);
+    system.store_initial_energy(options).map_err(Error::System)?;
+    let (from, end) = match options.along {
+        Variable::Time => (options.t, options.end),
+        Variable::Coordinate => (options.q[0], options.end),
     };
-    let (to, clipped) = match task.along {
+    let (to, clipped) = match options.along {
         Variable::Time => (end, None),
-        Variable::Coordinate => clip(way.equation.tables, from, end),
+        Variable::Coordinate => clip_to_tables(system.equation.tables, from, end),
     };
-    let breaks = match task.along {
-        Variable::Time => task.breaks.to_vec(),
+    let breaks = match options.along {
+        Variable::Time => options.breaks.to_vec(),
         Variable::Coordinate => {
-            breaks_of(way.equation.tables, task.breaks, [from, to]).map_err(Error::System)?
+            breaks_of(system.equation.tables, options.breaks, [from, to]).map_err(Error::System)?
         }
     };
-    let [relative, absolute] = tolerances(&mut way, task, sizes).map_err(Error::System)?;
-    let crossings = way.crossings();
-    // A smooth motion in wide steps does not show what the mechanism does on the way.
-    let looks = task.watches.iter().any(|w| matches!(w.occasion, EventKind::Angle(..)));
-    let (mut max_step, mut max_change) = (task.max_step, Vec::new());
-    if looks && task.along == Variable::Coordinate {
-        max_step = max_step.min(LOOK);
-    } else if looks || sizes.len() > 1 {
-        // With several drivers positions are followed from one to the next.
-        let most = if looks { LOOK } else { STRIDE };
-        max_change.extend(sizes.iter().map(|size| most * size));
+    let [relative, absolute] = tolerances(&mut system, options, sizes).map_err(Error::System)?;
+    let crossings = system.crossings();
+    // Wide steps of a smooth motion could skip over an angle's event.
+    let has_angle_events =
+        options.events.iter().any(|event| matches!(event.kind, EventKind::Angle(..)));
+    let (mut max_step, mut max_change) = (options.max_step, Vec::new());
+    if has_angle_events && options.along == Variable::Coordinate {
+        max_step = max_step.min(ANGLE_EVENT_STEP);
+    } else if has_angle_events || sizes.len() > 1 {
+        // With several drivers each position is solved from the one before.
+        let largest = if has_angle_events { ANGLE_EVENT_STEP } else { SEVERAL_DRIVERS_STEP };
+        max_change.extend(sizes.iter().map(|size| largest * size));
     }
-    let options = Options {
+    let ode_options = Options {
         relative: &relative,
         absolute: &absolute,
         first_step: None,
         max_step,
         max_change: &max_change,
-        max_steps: task.max_steps,
+        max_steps: options.max_steps,
         breaks: &breaks,
         events: &crossings,
         keep: Output::Path,
     };
-    let mut integrator = Integrator::new(task.method, way.len());
-    let start = RunSystem::<S, O>::start(task);
-    let solution = integrator.run(&mut way, from, &start, to, &options)?;
-    Ok(finish(way, task, from, solution, clipped))
+    let mut integrator = Integrator::new(options.method, system.len());
+    let start = RunSystem::<S, O>::initial_state(options);
+    let solution = integrator.run(&mut system, from, &start, to, &ode_options)?;
+    Ok(assemble_run(system, options, from, solution, clipped))
 }
 
-/// Where a run along the coordinate must end, as a table does, and which.
-fn clip(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>) {
+/// Clips the end of a run along the coordinate to its tables; returns it and the table that ends.
+fn clip_to_tables(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>) {
     let mut clipped = (end, None);
     if from == end {
         return clipped;
@@ -142,17 +144,17 @@ fn clip(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>) {
     clipped
 }
 
-/// How far (rad, or of the size) a step goes where angles of the mechanism are looked at.
-const LOOK: f64 = 0.1;
-/// The same with several drivers, where nothing is.
-const STRIDE: f64 = 1.0;
-/// Knots on a way along the coordinate, at most: they are all known beforehand.
-const MOST_KNOTS: f64 = 1.0e7;
-/// Coordinates beyond this have no place in a table.
-const FARTHEST: f64 = 1.0e9;
+/// Largest step (rad, or of the size) with events on angles of the mechanism.
+const ANGLE_EVENT_STEP: f64 = 0.1;
+/// The same with several drivers and no such events.
+const SEVERAL_DRIVERS_STEP: f64 = 1.0;
+/// Largest number of table knots in a run along the coordinate: they are all listed beforehand.
+const MAX_KNOTS: f64 = 1.0e7;
+/// Coordinates beyond this are too coarse for a table's knots.
+const MAX_COORDINATE: f64 = 1.0e9;
 
-/// Knots of tables between two coordinates, with breaks that are given; knots of several tables at
-/// one place are one.
+/// Knots of tables between two coordinates, together with given breaks; knots of several tables
+/// that coincide count once.
 pub(crate) fn breaks_of<E>(
     tables: &[Table],
     given: &[f64],
@@ -160,99 +162,101 @@ pub(crate) fn breaks_of<E>(
 ) -> Result<Vec<f64>, RunError<E>> {
     let count: f64 = tables.iter().map(|table| table.knots_in((to - from).abs())).sum();
     let far = from.abs().max(to.abs());
-    // Beyond a table's own accuracy knots are none.
-    if count > MOST_KNOTS || (!tables.is_empty() && far > FARTHEST) {
-        return Err(RunError::ManyKnots { most: MOST_KNOTS, from, to });
+    // Beyond this coordinate rounding exceeds the accuracy of the knots.
+    if count > MAX_KNOTS || (!tables.is_empty() && far > MAX_COORDINATE) {
+        return Err(RunError::TooManyKnots { most: MAX_KNOTS, from, to });
     }
     let range = [from.min(to), from.max(to)];
     let mut breaks = given.to_vec();
     breaks.extend(tables.iter().flat_map(|table| table.knots_within(range)));
     breaks.sort_unstable_by(f64::total_cmp);
-    breaks.dedup_by(|a, b| (*a - *b).abs() <= TOGETHER * b.abs().max(1.0));
+    breaks.dedup_by(|a, b| (*a - *b).abs() <= SAME_KNOT_RTOL * b.abs().max(1.0));
     Ok(breaks)
 }
 
-/// Nothing is beyond: why, and where that was found.
-fn edge<S: ReducedModel, O: Callbacks>(equation: &mut Equation<'_, S, O>) -> StopReason {
-    let (status, q) = equation.refused.take().unwrap_or((Status::Singular, Vec::new()));
+/// Why a motion cannot be continued, and where.
+fn edge_reason<S: ReducedModel, O: Callbacks>(equation: &mut Equation<'_, S, O>) -> StopReason {
+    let (status, q) = equation.rejected.take().unwrap_or((Status::Singular, Vec::new()));
     if let (Status::NearSingular, &[at]) = (status, &q[..])
-        && let Some(NearMiss { dyad, miss, q }) = equation.source.near_miss(at)
+        && let Some(NearMiss { dyad, miss, q }) = equation.model.near_miss(at)
     {
         return StopReason::NearChangePoint { dyad, miss, q };
     }
     StopReason::Edge(status, q)
 }
 
-fn finish<S: ReducedModel, O: Callbacks>(
-    mut way: RunSystem<'_, S, O>,
-    task: &RunOptions<'_>,
+fn assemble_run<S: ReducedModel, O: Callbacks>(
+    mut system: RunSystem<'_, S, O>,
+    options: &RunOptions<'_>,
     from: f64,
     solution: Solution,
     clipped: Option<usize>,
 ) -> Run {
     let Solution { end, events, event_states, path, statistics, y: y_end, .. } = solution;
-    let (along, sign, len) = (way.along, way.sign, way.len());
-    let read = |x: f64, y: &[f64]| moment(along, sign, x, y, &vec![f64::NAN; len]);
-    let happened = |(event, y): (&crate::ode::solution::Event, &[f64])| {
-        let watch = way.watch(event.index)?;
-        let own = read(event.t, y);
-        Some(EventRecord { watch, t: own.t, q: own.q, speed: own.speed })
+    let (along, sign, len) = (system.along, system.sign, system.len());
+    let read = |x: f64, y: &[f64]| sample_at(along, sign, x, y, &vec![f64::NAN; len]);
+    let record = |(event, y): (&crate::ode::solution::Event, &[f64])| {
+        let index = system.event_index(event.index)?;
+        let sample = read(event.t, y);
+        Some(EventRecord { event: index, t: sample.t, q: sample.q, speed: sample.speed })
     };
-    let events = events.iter().zip(event_states.chunks_exact(len)).filter_map(happened).collect();
+    let events = events.iter().zip(event_states.chunks_exact(len)).filter_map(record).collect();
     let last_work = y_end[len - 1];
-    let ending = match (end, way.ended) {
+    let stop_reason = match (end, system.ended) {
         (End::Reached, _) => clipped.map_or(StopReason::Reached, StopReason::TableEnds),
-        (End::Cancelled { .. }, Some(Ended::Late)) => StopReason::Late,
+        (End::Cancelled { .. }, Some(Ended::TimeLimit)) => StopReason::TimeLimit,
         (End::Cancelled { .. }, _) => StopReason::Cancelled,
         (_, Some(Ended::Table(which))) => StopReason::TableEnds(which),
         (_, Some(Ended::Motor(which))) => StopReason::MotorTableEnds(which),
-        (_, Some(Ended::Dead)) => edge(&mut way.equation),
+        (_, Some(Ended::DeadPoint)) => edge_reason(&mut system.equation),
         (End::Event { index, .. }, _) => {
-            way.watch(index).map_or(StopReason::Stalled, StopReason::Event)
+            system.event_index(index).map_or(StopReason::Stalled, StopReason::Event)
         }
         (End::DomainBoundary { t } | End::Stalled { t }, _)
-            if along == Variable::Coordinate && way.is_dead(&[t], last_work) =>
+            if along == Variable::Coordinate && system.is_at_dead_point(&[t], last_work) =>
         {
-            edge(&mut way.equation)
+            edge_reason(&mut system.equation)
         }
-        (End::DomainBoundary { .. }, _) if way.equation.is_near_miss() => edge(&mut way.equation),
+        (End::DomainBoundary { .. }, _) if system.equation.is_near_miss() => {
+            edge_reason(&mut system.equation)
+        }
         (End::DomainBoundary { .. }, _) if along == Variable::Coordinate => StopReason::Rest,
-        (End::DomainBoundary { .. }, _) => edge(&mut way.equation),
+        (End::DomainBoundary { .. }, _) => edge_reason(&mut system.equation),
         (End::StepLimit { stiff, .. }, _) => StopReason::StepLimit(stiff),
         (End::Stalled { .. }, _) => StopReason::Stalled,
     };
-    let mut moments = Samples::default();
+    let mut samples = Samples::default();
     let (mut y, mut rates) = (vec![0.0; len], vec![0.0; len]);
     if path.at(from, &mut y) && path.slope(from, &mut rates) {
-        moments.read(along, sign, from, &y, &rates);
+        samples.push_state(along, sign, from, &y, &rates);
     } else {
-        // A run of no length has its rates too.
-        let start = RunSystem::<S, O>::start(task);
-        if way.rates(from, &start, &mut rates).is_err() {
+        // A run of zero length has no dense output.
+        let start = RunSystem::<S, O>::initial_state(options);
+        if system.rates(from, &start, &mut rates).is_err() {
             rates.fill(f64::NAN);
         }
-        moments.read(along, sign, from, &start, &rates);
+        samples.push_state(along, sign, from, &start, &rates);
     }
-    path.each_end(|x, y, rates| moments.read(along, sign, x, y, rates));
-    let tail = match (&ending, moments.last()) {
+    path.each_end(|x, y, rates| samples.push_state(along, sign, x, y, rates));
+    let tail = match (&stop_reason, samples.last()) {
         (StopReason::Edge(..), Some(last)) if last.q.len() == 1 => {
-            let fold = way.equation.source.fold(last.q[0], last.speed[0]);
-            fold.and_then(|fold| Tail::of(&last, fold))
+            let dead_point = system.equation.model.dead_point_ahead(last.q[0], last.speed[0]);
+            dead_point.and_then(|dead_point| Tail::of(&last, dead_point))
         }
         _ => None,
     };
-    // Backward: with several drivers each place is reached from the one before.
-    let mut energies = vec![[f64::NAN; 2]; moments.len()];
+    // Backward: with several drivers each position is solved from its neighbour.
+    let mut energies = vec![[f64::NAN; 2]; samples.len()];
     for (index, pair) in energies.iter_mut().enumerate().rev() {
-        let (q, speed) = moments.state(index);
-        if way.equation.find(q[0]) && way.equation.place(q).is_ok() {
-            let reduced = &way.equation.reduced;
+        let (q, speed) = samples.state(index);
+        if system.equation.ensure_tables_at(q[0]) && system.equation.set_configuration(q).is_ok() {
+            let reduced = &system.equation.reduced;
             *pair = [reduced.kinetic(speed), reduced.potential];
         }
     }
     if let (Some(tail), Some(&energy)) = (&tail, energies.last()) {
-        moments.push(&tail.end());
+        samples.push(&tail.end());
         energies.push(energy);
     }
-    Run { moments, energies, events, ending, statistics, along, sign, path, tail }
+    Run { samples, energies, events, stop_reason, statistics, along, sign, path, tail }
 }

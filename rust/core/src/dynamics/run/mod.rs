@@ -1,4 +1,4 @@
-//! Motion of machines under their loads and motors.
+//! Runs: motions of machines integrated from an initial state.
 
 pub(crate) mod callbacks;
 pub(crate) mod dead_point;

@@ -1,108 +1,112 @@
-//! What is asked of a run.
+//! Options of a run.
 
 use std::time::Instant;
 
-use super::error::{RunError, counted};
+use super::error::{RunError, check_counts};
 use crate::dynamics::angle_between::Angle;
 use crate::dynamics::motor::Motor;
 use crate::ode::options::Method;
 use crate::ode::system::Crossing;
 
-/// What a run goes along.
+/// Independent variable of a run.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variable {
     /// The time.
     Time,
-    /// The coordinate of the one driver.
+    /// The coordinate of a single driver.
     Coordinate,
 }
 
-/// Something to be looked for on the way.
+/// What an event looks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EventKind {
-    /// A driver's coordinate has a value.
+    /// A driver's coordinate reaches a value.
     Coordinate {
-        /// Which driver.
+        /// Index of the driver.
         driver: usize,
         /// The value.
         value: f64,
     },
-    /// A driver's speed has a value; 0 is rest.
+    /// A driver's speed reaches a value; 0 is rest.
     Speed {
-        /// Which driver.
+        /// Index of the driver.
         driver: usize,
         /// The value.
         value: f64,
     },
-    /// The speed of the one driver is the greatest or the least.
+    /// The speed of a single driver is greatest or least.
     Extreme,
-    /// An angle has a value.
+    /// An angle reaches a value.
     Angle(Angle, f64),
-    /// A function from outside is zero: which one.
-    Outside(usize),
+    /// The callback with this index is zero.
+    Callback(usize),
 }
 
-/// An event.
+/// An event to look for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EventSpec {
-    /// What is looked for.
-    pub occasion: EventKind,
-    /// Which way.
+    /// What to look for.
+    pub kind: EventKind,
+    /// Direction of the crossing.
     pub crossing: Crossing,
     /// Whether the run ends there.
     pub stops: bool,
 }
 
-/// A run.
+/// Options of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct RunOptions<'a> {
-    /// What it goes along.
+    /// Independent variable.
     pub along: Variable,
-    /// Time at the beginning, s.
+    /// Initial time, s.
     pub t: f64,
-    /// Coordinates there.
+    /// Initial coordinates.
     pub q: &'a [f64],
-    /// Speeds there.
+    /// Initial speeds.
     pub speed: &'a [f64],
-    /// Where it ends: a time or a coordinate.
+    /// Final time or coordinate.
     pub end: f64,
-    /// The pair of formulas.
+    /// Runge-Kutta method.
     pub method: Method,
-    /// Relative tolerance of the speeds; that of the coordinates is as much of a radian, or of the
-    /// size of the mechanism.
+    /// Relative tolerance of the speeds; also the absolute tolerance of the coordinates, in rad or
+    /// as a part of the mechanism's size.
     pub relative: f64,
-    /// Absolute tolerances of coordinates and speeds instead.
+    /// Absolute tolerances of coordinates and speeds, if they are given.
     pub absolute: Option<[f64; 2]>,
-    /// The widest step.
+    /// Largest step.
     pub max_step: f64,
-    /// How many steps may be tried.
+    /// Largest number of steps, rejected ones included.
     pub max_steps: u64,
-    /// When it must be over.
+    /// Time limit.
     pub deadline: Option<Instant>,
-    /// Where functions from outside are not smooth (times or coordinates), ascending.
+    /// Times or coordinates where callbacks are not smooth, ascending.
     pub breaks: &'a [f64],
-    /// Events.
-    pub watches: &'a [EventSpec],
+    /// Events to look for.
+    pub events: &'a [EventSpec],
     /// Inertia added to the first driver's.
     pub flywheel: f64,
 }
 
 impl RunOptions<'_> {
-    /// Refuses what is no task of a machine with so many drivers.
+    /// Checks the options against the number of drivers.
     pub(crate) fn check<E>(&self, drivers: usize, motors: &[Motor]) -> Result<(), RunError<E>> {
-        counted(&[("coordinates", drivers, self.q.len()), ("speeds", drivers, self.speed.len())])?;
+        check_counts(&[
+            ("coordinates", drivers, self.q.len()),
+            ("speeds", drivers, self.speed.len()),
+        ])?;
         if self.along == Variable::Coordinate {
-            counted(&[("drivers of a motion along the coordinate", 1, drivers)])?;
+            check_counts(&[("drivers of a motion along the coordinate", 1, drivers)])?;
         }
-        let own = |watch: &EventSpec| match watch.occasion {
+        let driver_of = |event: &EventSpec| match event.kind {
             EventKind::Coordinate { driver, .. } | EventKind::Speed { driver, .. } => driver,
             _ => 0,
         };
-        let watched = self.watches.iter().map(own).chain(motors.iter().map(|motor| motor.driver));
-        match watched.max().filter(|driver| *driver >= drivers) {
+        let drivers_used =
+            self.events.iter().map(driver_of).chain(motors.iter().map(|motor| motor.driver));
+        match drivers_used.max().filter(|driver| *driver >= drivers) {
             Some(driver) => {
-                Err(RunError::Malformed { what: "drivers", needed: driver + 1, given: drivers })
+                Err(RunError::WrongCount { what: "drivers", needed: driver + 1, given: drivers })
             }
             None => Ok(()),
         }

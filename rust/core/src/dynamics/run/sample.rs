@@ -1,7 +1,7 @@
-//! A motion at one time, and at many.
+//! Samples of a motion.
 
 use super::options::Variable;
-/// One moment of a motion.
+/// A motion at one time.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sample {
@@ -13,11 +13,11 @@ pub struct Sample {
     pub speed: Vec<f64>,
     /// Accelerations.
     pub acceleration: Vec<f64>,
-    /// Work done so far by all that is not told by the potential energy, J.
+    /// Work since the start of all that the potential energy does not include, J.
     pub work: f64,
 }
 
-/// Many of them, one after another (of several drivers the drivers fastest).
+/// Samples one after another; with several drivers, drivers fastest.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Samples {
@@ -34,60 +34,67 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// How many there are.
+    /// Number of samples.
     #[must_use]
     pub fn len(&self) -> usize {
         self.t.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no samples.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.t.is_empty()
     }
 
-    /// How many drivers there are.
+    /// Number of drivers.
     pub(crate) fn drivers(&self) -> usize {
         self.q.len().checked_div(self.len()).unwrap_or(0)
     }
 
-    /// Coordinates and speeds of one.
+    /// Coordinates and speeds of a sample.
     pub(crate) fn state(&self, index: usize) -> (&[f64], &[f64]) {
-        let own = index * self.drivers()..(index + 1) * self.drivers();
-        (&self.q[own.clone()], &self.speed[own])
+        let range = index * self.drivers()..(index + 1) * self.drivers();
+        (&self.q[range.clone()], &self.speed[range])
     }
 
-    /// One of them.
+    /// The sample at an index.
     #[must_use]
     pub fn get(&self, index: usize) -> Option<Sample> {
         let n = self.drivers();
-        let own = |all: &[f64]| all.get(index * n..(index + 1) * n).map(<[f64]>::to_vec);
+        let row = |all: &[f64]| all.get(index * n..(index + 1) * n).map(<[f64]>::to_vec);
         Some(Sample {
             t: *self.t.get(index)?,
-            q: own(&self.q)?,
-            speed: own(&self.speed)?,
-            acceleration: own(&self.acceleration)?,
+            q: row(&self.q)?,
+            speed: row(&self.speed)?,
+            acceleration: row(&self.acceleration)?,
             work: *self.work.get(index)?,
         })
     }
 
-    /// The last of them.
+    /// The last sample.
     #[must_use]
     pub fn last(&self) -> Option<Sample> {
         self.get(self.len().checked_sub(1)?)
     }
 
-    /// Adds one.
-    pub fn push(&mut self, moment: &Sample) {
-        self.t.push(moment.t);
-        self.q.extend_from_slice(&moment.q);
-        self.speed.extend_from_slice(&moment.speed);
-        self.acceleration.extend_from_slice(&moment.acceleration);
-        self.work.push(moment.work);
+    /// Appends a sample.
+    pub fn push(&mut self, sample: &Sample) {
+        self.t.push(sample.t);
+        self.q.extend_from_slice(&sample.q);
+        self.speed.extend_from_slice(&sample.speed);
+        self.acceleration.extend_from_slice(&sample.acceleration);
+        self.work.push(sample.work);
     }
 
-    /// Adds what a state and its rates tell.
-    pub(crate) fn read(&mut self, along: Variable, sign: f64, x: f64, y: &[f64], rates: &[f64]) {
+    /// Appends the sample of a state and its rates.
+    pub(crate) fn push_state(
+        &mut self,
+        along: Variable,
+        sign: f64,
+        x: f64,
+        y: &[f64],
+        rates: &[f64],
+    ) {
         let n = y.len() / 2;
         match along {
             Variable::Time => {

@@ -1,129 +1,132 @@
-//! The equation of motion as a system of differential equations, along the time or the coordinate.
+//! The equation of motion as a system of differential equations, in time or in the coordinate.
 
 use std::time::Instant;
 
 use super::callbacks::Callbacks;
-use super::equation::{Equation, within};
+use super::equation::{Equation, just_inside};
 use super::error::RunError;
 use super::model::ReducedModel;
 use super::options::{EventKind, EventSpec, RunOptions, Variable};
 use crate::ode::system::{Action, Crossing, Fault, System};
 use crate::state::status::Status;
 
-/// What ended a run of itself.
+/// What ended a run early.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Ended {
-    /// A table over the coordinate.
+    /// The end of a table over the coordinate.
     Table(usize),
-    /// The table of a motor.
+    /// The end of a motor's table.
     Motor(usize),
     /// A dead point.
-    Dead,
-    /// The clock.
-    Late,
+    DeadPoint,
+    /// The time limit.
+    TimeLimit,
 }
 
-/// A machine on its way. Along the time its state is q, q̇ and the work done by all that is not
-/// told by the potential energy; along the coordinate q̇², the time and that work:
-/// d(q̇²)/dq = (2 M − J′ q̇²)/J.
+/// A machine in motion. In time its state is q, q̇ and the work that the potential energy does not
+/// include; in the coordinate it is q̇², the time and that work: d(q̇²)/dq = (2 M − J′ q̇²)/J.
 pub(crate) struct RunSystem<'a, S, O> {
     pub equation: Equation<'a, S, O>,
     pub along: Variable,
-    pub watches: &'a [EventSpec],
+    pub events: &'a [EventSpec],
     pub deadline: Option<Instant>,
     pub ended: Option<Ended>,
-    /// Sign of the speed, along the coordinate.
+    /// Sign of the speed, for a run along the coordinate.
     pub sign: f64,
     drivers: usize,
-    /// Energy at the beginning, kinetic and potential, if it is known.
+    /// Initial kinetic and potential energy, once known.
     energy: Option<[f64; 2]>,
-    /// What is as near to a dead point may be at it.
-    near: f64,
+    /// Within this distance of a dead point a driver at rest may be at it.
+    reach: f64,
     /// The relative tolerance.
     relative: f64,
-    /// Kinetic and potential energy less work where a step begins, and at the end of the last that
-    /// was tried.
+    /// Kinetic and potential energy less work: at the start of a step, and at the end of the last
+    /// trial step.
     total: f64,
-    tried: f64,
+    trial_total: f64,
 }
 
-/// In so many tolerances the energy may change over a step, as its error is estimated.
-const DRIFT: f64 = 3.0;
-/// Roundings of the energies themselves that are not counted as such.
+/// Largest change of the energy over a step, in tolerances: its error is only estimated.
+const MAX_DRIFT: f64 = 3.0;
+/// Multiples of the energies' rounding that do not count as a change.
 const ROUNDINGS: f64 = 64.0;
 
-/// Part of the energies of a motion below which what is left of the kinetic energy is none: the
-/// balance is kept far better.
+/// Kinetic energy below this part of the energies of a motion counts as zero: the balance is kept
+/// far better.
 const AT_REST: f64 = 1.0e-6;
-/// Distance from a dead point (rad, or of the size) within which one is looked for; with loose
-/// tolerances a thousand of them, up to the second.
-const NEAR: f64 = 1.0e-3;
-const FAR: f64 = 0.05;
-/// How far (rad, or of the size) to both sides the change of a condition is looked for.
-const LOOK: f64 = 1.0e-6;
+/// Bounds of the distance (rad, or of the size) within which to look for a dead point: it is a
+/// thousand relative tolerances.
+const MIN_REACH: f64 = 1.0e-3;
+const MAX_REACH: f64 = 0.05;
+/// Step (rad, or of the size) to both sides for the change of a condition.
+const CONDITION_STEP: f64 = 1.0e-6;
 
 impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
-    pub(crate) fn new(equation: Equation<'a, S, O>, task: &RunOptions<'a>) -> Self {
+    pub(crate) fn new(equation: Equation<'a, S, O>, options: &RunOptions<'a>) -> Self {
         Self {
             equation,
-            along: task.along,
-            watches: task.watches,
-            deadline: task.deadline,
+            along: options.along,
+            events: options.events,
+            deadline: options.deadline,
             ended: None,
-            sign: task.speed[0].signum(),
-            drivers: task.q.len(),
+            sign: options.speed[0].signum(),
+            drivers: options.q.len(),
             energy: None,
-            near: (1.0e3 * task.relative).clamp(NEAR, FAR),
-            relative: task.relative,
+            reach: (1.0e3 * options.relative).clamp(MIN_REACH, MAX_REACH),
+            relative: options.relative,
             total: f64::NAN,
-            tried: f64::NAN,
+            trial_total: f64::NAN,
         }
     }
 
-    /// Takes the energy at the beginning, from which what is kinetic is told later.
-    pub(crate) fn begin(&mut self, task: &RunOptions<'_>) -> Result<(), RunError<O::Error>> {
-        match self.equation.place(task.q) {
+    /// Stores the initial energy, from which `is_at_dead_point` takes the balance.
+    pub(crate) fn store_initial_energy(
+        &mut self,
+        options: &RunOptions<'_>,
+    ) -> Result<(), RunError<O::Error>> {
+        match self.equation.set_configuration(options.q) {
             Ok(()) => {}
             Err(Fault::Error(error)) => return Err(error),
-            Err(Fault::OutOfDomain) => return Err(RunError::NothingThere { q: task.q.to_vec() }),
+            Err(Fault::OutOfDomain) => {
+                return Err(RunError::NoInitialPosition { q: options.q.to_vec() });
+            }
         }
         let reduced = &self.equation.reduced;
-        self.energy = Some([reduced.kinetic(task.speed), reduced.potential]);
+        self.energy = Some([reduced.kinetic(options.speed), reduced.potential]);
         Ok(())
     }
 
-    /// Kinetic and potential energy less work at the place found last, and its tolerance.
+    /// Kinetic and potential energy less work at the last position, and the tolerance of that sum.
     fn balance(&self, y: &[f64]) -> (f64, f64) {
         let n = self.drivers;
-        let alone = [self.sign * y[0].max(0.0).sqrt()];
+        let own_speed = [self.sign * y[0].max(0.0).sqrt()];
         let (speed, work) = match self.along {
             Variable::Time => (&y[n..2 * n], y[2 * n]),
-            Variable::Coordinate => (&alone[..], y[2]),
+            Variable::Coordinate => (&own_speed[..], y[2]),
         };
-        let (reduced, source) = (&self.equation.reduced, &self.equation.source);
+        let (reduced, model) = (&self.equation.reduced, &self.equation.model);
         let kinetic = reduced.kinetic(speed);
-        // Speeds are good to the tolerance, coordinates to as much of their unit.
-        let by_place = |driver: usize| {
-            let change = reduced.centrifugal(driver, speed) - reduced.stored[driver];
-            change.abs() * source.unit(driver)
+        // Speeds are accurate to the relative tolerance, coordinates to that part of their unit.
+        let by_coordinate = |driver: usize| {
+            let change = reduced.centrifugal(driver, speed) - reduced.conservative[driver];
+            change.abs() * model.unit(driver)
         };
-        let by_places: f64 = (0..n).map(by_place).sum();
+        let by_coordinates: f64 = (0..n).map(by_coordinate).sum();
         let size = kinetic.abs() + reduced.potential.abs() + work.abs();
-        let allowed = DRIFT * self.relative * (2.0 * kinetic + by_places)
+        let allowed = MAX_DRIFT * self.relative * (2.0 * kinetic + by_coordinates)
             + ROUNDINGS * f64::EPSILON * size
-            + source.noise() * kinetic;
+            + model.inertia_noise() * kinetic;
         (kinetic + reduced.potential - work, allowed)
     }
 
-    /// Whether a driver that rests at coordinates after some work is at a dead point: there is one
-    /// as near as the coordinates are known, and by the balance kinetic energy is left, as the
-    /// mechanism does not rest.
-    pub(crate) fn is_dead(&mut self, q: &[f64], work: f64) -> bool {
-        if !self.equation.source.is_beside_fold(q, self.near) {
+    /// Whether a driver at rest after some work is at a dead point: one is near, and by the energy
+    /// balance kinetic energy is left, so the mechanism itself still moves.
+    pub(crate) fn is_at_dead_point(&mut self, q: &[f64], work: f64) -> bool {
+        if !self.equation.model.is_near_dead_point(q, self.reach) {
             return false;
         }
         let Some([kinetic, potential]) = self.energy else { return true };
-        if self.equation.place(q).is_err() {
+        if self.equation.set_configuration(q).is_err() {
             return true;
         }
         let change = self.equation.reduced.potential - potential;
@@ -131,92 +134,95 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         kinetic + work - change > AT_REST * size
     }
 
-    /// How many numbers the state has.
+    /// Length of the state.
     pub(crate) fn len(&self) -> usize {
         2 * self.drivers + 1
     }
 
-    /// The state at the beginning.
-    pub(crate) fn start(task: &RunOptions<'_>) -> Vec<f64> {
-        match task.along {
-            Variable::Time => [task.q, task.speed, &[0.0]].concat(),
-            Variable::Coordinate => vec![task.speed[0] * task.speed[0], task.t, 0.0],
+    /// The initial state.
+    pub(crate) fn initial_state(options: &RunOptions<'_>) -> Vec<f64> {
+        match options.along {
+            Variable::Time => [options.q, options.speed, &[0.0]].concat(),
+            Variable::Coordinate => vec![options.speed[0] * options.speed[0], options.t, 0.0],
         }
     }
 
-    /// Events at the borders of pieces come first: those of tables over q (along q they are breaks),
-    /// then those of motors.
-    fn has_table_borders(&self) -> bool {
+    /// Boundaries of table pieces are the first events: those of tables over q (in a run along q
+    /// they are breaks), then those of motors.
+    fn has_table_boundaries(&self) -> bool {
         self.along == Variable::Time && !self.equation.tables.is_empty()
     }
 
-    /// Behind them is the event that may be a dead point: of one driver its rest, of several the
+    /// Next comes the event that may be a dead point: for a single driver its rest, for several the
     /// least distance from a singular position.
     fn has_dead_points(&self) -> bool {
-        self.along == Variable::Time && self.equation.source.has_dead_points()
+        self.along == Variable::Time && self.equation.model.has_dead_points()
     }
 
-    /// What makes each event function an event.
+    /// The direction of crossing of each event function.
     pub(crate) fn crossings(&self) -> Vec<Crossing> {
-        let tables = usize::from(self.has_table_borders()) + self.equation.tabled().count();
-        let turning = if self.drivers == 1 { Crossing::Either } else { Crossing::Rising };
-        let own = self.watches.iter().map(|watch| watch.crossing);
+        let tables =
+            usize::from(self.has_table_boundaries()) + self.equation.motors_with_table().count();
+        let crossing = if self.drivers == 1 { Crossing::Either } else { Crossing::Rising };
+        let directions = self.events.iter().map(|event| event.crossing);
         std::iter::repeat_n(Crossing::Boundary, 2 * tables)
-            .chain(std::iter::repeat_n(turning, usize::from(self.has_dead_points())))
-            .chain(own)
+            .chain(std::iter::repeat_n(crossing, usize::from(self.has_dead_points())))
+            .chain(directions)
             .collect()
     }
 
-    /// How the distance from a singular position grows along the motion.
-    fn receding(&mut self, q: &[f64], speed: &[f64]) -> f64 {
-        let own = speed.iter().enumerate().map(|(i, v)| v.abs() / self.equation.source.unit(i));
-        let fastest = own.fold(0.0_f64, f64::max);
-        let [back, ahead] = [-LOOK, LOOK].map(|part| {
+    /// Whether the distance from a singular position grows (> 0) or falls along the motion.
+    fn singularity_trend(&mut self, q: &[f64], speed: &[f64]) -> f64 {
+        let relative_speeds =
+            speed.iter().enumerate().map(|(i, v)| v.abs() / self.equation.model.unit(i));
+        let fastest = relative_speeds.fold(0.0_f64, f64::max);
+        let [back, ahead] = [-CONDITION_STEP, CONDITION_STEP].map(|step| {
             let beside: Vec<f64> =
-                q.iter().zip(speed).map(|(q, v)| q + part * v / fastest).collect();
-            self.equation.source.flatness(&beside)
+                q.iter().zip(speed).map(|(q, v)| q + step * v / fastest).collect();
+            self.equation.model.inverse_condition(&beside)
         });
         ahead - back
     }
 
-    fn on_turning(&mut self, y: &[f64]) -> Action {
+    fn on_possible_dead_point(&mut self, y: &[f64]) -> Action {
         let n = self.drivers;
-        let dead = if n == 1 {
-            self.is_dead(&y[..1], y[2])
+        let at_dead_point = if n == 1 {
+            self.is_at_dead_point(&y[..1], y[2])
         } else {
-            self.equation.source.is_beside_fold(&y[..n], self.near)
+            self.equation.model.is_near_dead_point(&y[..n], self.reach)
         };
-        if !dead {
+        if !at_dead_point {
             return Action::Continue;
         }
-        self.equation.refused = Some((Status::Singular, y[..n].to_vec()));
-        self.ended = Some(Ended::Dead);
+        self.equation.rejected = Some((Status::Singular, y[..n].to_vec()));
+        self.ended = Some(Ended::DeadPoint);
         Action::Stop
     }
 
-    /// Which watch an event is.
-    pub(crate) fn watch(&self, event: usize) -> Option<usize> {
-        event.checked_sub(self.crossings().len() - self.watches.len())
+    /// Index of the `EventSpec` of an event.
+    pub(crate) fn event_index(&self, event: usize) -> Option<usize> {
+        event.checked_sub(self.crossings().len() - self.events.len())
     }
 
-    fn occasion(
+    fn event_value(
         &mut self,
-        occasion: &EventKind,
+        kind: &EventKind,
         t: f64,
         q: &[f64],
         speed: &[f64],
     ) -> Result<f64, RunError<O::Error>> {
         let equation = &mut self.equation;
-        Ok(match *occasion {
+        Ok(match *kind {
             EventKind::Coordinate { driver, value } => q[driver] - value,
             EventKind::Speed { driver, value } => speed[driver] - value,
-            EventKind::Angle(angle, value) => equation.source.angle(q, &angle) - value,
-            EventKind::Outside(which) => {
-                equation.outside.event(which, t, q, speed).map_err(RunError::Outside)?
+            EventKind::Angle(angle, value) => equation.model.angle(q, &angle) - value,
+            EventKind::Callback(which) => {
+                equation.callbacks.event(which, t, q, speed).map_err(RunError::Callback)?
             }
             EventKind::Extreme => {
-                let there = equation.place(q).and_then(|()| equation.load(t, q, speed));
-                match there {
+                let outcome =
+                    equation.set_configuration(q).and_then(|()| equation.apply_loads(t, q, speed));
+                match outcome {
                     Ok(()) => equation.moment(0) - equation.reduced.centrifugal(0, speed),
                     Err(Fault::OutOfDomain) => f64::NAN,
                     Err(Fault::Error(error)) => return Err(error),
@@ -234,26 +240,27 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         match self.along {
             Variable::Time => {
                 let (q, speed) = (&y[..n], &y[n..2 * n]);
-                equation.place(q)?;
-                equation.load(x, q, speed)?;
+                equation.set_configuration(q)?;
+                equation.apply_loads(x, q, speed)?;
                 rates[..n].copy_from_slice(speed);
                 equation.accelerations(q, speed, &mut rates[n..2 * n])?;
                 rates[2 * n] = equation.power(speed);
             }
             Variable::Coordinate => {
-                // At rest the way ends.
+                // A run along the coordinate ends at rest.
                 let is_moving = y[0] > 0.0;
                 if !is_moving {
-                    equation.refused = None;
+                    equation.rejected = None;
                     return Err(Fault::OutOfDomain);
                 }
                 let speed = [self.sign * y[0].sqrt()];
-                equation.place(&[x])?;
-                equation.load(y[1], &[x], &speed)?;
+                equation.set_configuration(&[x])?;
+                equation.apply_loads(y[1], &[x], &speed)?;
                 let inertia = equation.inertia(x)?;
                 // The quotient does not wait for the state.
                 let inverse = 1.0 / inertia;
-                rates[0] = (2.0 * equation.moment(0) - equation.reduced.rates[0] * y[0]) * inverse;
+                rates[0] =
+                    (2.0 * equation.moment(0) - equation.reduced.d_inertia[0] * y[0]) * inverse;
                 rates[1] = 1.0 / speed[0];
                 rates[2] = equation.reduced.applied[0] + equation.drive[0];
             }
@@ -263,48 +270,48 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
 
     fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
         if self.along == Variable::Coordinate {
-            return self.equation.enter(from, to);
+            return self.equation.enter_interval(from, to);
         }
-        // The pieces of tables were found at the knots.
-        self.equation.times = within(from, to);
+        // The table pieces were set when their knots were crossed.
+        self.equation.times = just_inside(from, to);
         Ok(())
     }
 
     fn events(&mut self, x: f64, y: &[f64], values: &mut [f64]) -> Result<(), Self::Error> {
         let (n, mut values) = (self.drivers, values);
-        let (one, alone) = ([x], [self.sign * y[0].max(0.0).sqrt()]);
+        let (own_q, own_speed) = ([x], [self.sign * y[0].max(0.0).sqrt()]);
         let (t, q, speed) = match self.along {
             Variable::Time => (x, &y[..n], &y[n..2 * n]),
-            Variable::Coordinate => (y[1], &one[..], &alone[..]),
+            Variable::Coordinate => (y[1], &own_q[..], &own_speed[..]),
         };
-        if self.has_table_borders() {
-            let reader = &self.equation.reader;
-            (values[0], values[1]) = (y[0] - reader.low, reader.high - y[0]);
+        if self.has_table_boundaries() {
+            let cursor = &self.equation.cursor;
+            (values[0], values[1]) = (y[0] - cursor.low, cursor.high - y[0]);
             values = &mut values[2..];
         }
-        let (borders, rest) = values.split_at_mut(2 * self.equation.tabled().count());
-        self.equation.motor_borders(speed, borders);
+        let (margins, rest) = values.split_at_mut(2 * self.equation.motors_with_table().count());
+        self.equation.motor_table_margins(speed, margins);
         values = rest;
         if self.has_dead_points() {
-            values[0] = if n == 1 { speed[0] } else { self.receding(q, speed) };
+            values[0] = if n == 1 { speed[0] } else { self.singularity_trend(q, speed) };
             values = &mut values[1..];
         }
-        for (value, watch) in values.iter_mut().zip(self.watches) {
-            *value = self.occasion(&watch.occasion, t, q, speed)?;
+        for (value, spec) in values.iter_mut().zip(self.events) {
+            *value = self.event_value(&spec.kind, t, q, speed)?;
         }
         Ok(())
     }
 
     fn on_event(&mut self, event: usize, _: f64, y: &mut [f64]) -> Result<Action, Self::Error> {
-        if let Some(watch) = self.watch(event) {
-            let stops = self.watches[watch].stops;
+        if let Some(index) = self.event_index(event) {
+            let stops = self.events[index].stops;
             return Ok(if stops { Action::Stop } else { Action::Continue });
         }
         let up = event % 2 == 1;
         let mut event = event;
-        if self.has_table_borders() {
+        if self.has_table_boundaries() {
             if event < 2 {
-                return Ok(match self.equation.reader.pass(self.equation.tables, up) {
+                return Ok(match self.equation.cursor.cross(self.equation.tables, up) {
                     Ok(knot) => {
                         y[0] = knot;
                         Action::Restart
@@ -317,10 +324,10 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
             }
             event -= 2;
         }
-        let Some(which) = self.equation.tabled().nth(event / 2) else {
-            return Ok(self.on_turning(y));
+        let Some(which) = self.equation.motors_with_table().nth(event / 2) else {
+            return Ok(self.on_possible_dead_point(y));
         };
-        let Some((driver, speed)) = self.equation.pass_motor(which, up) else {
+        let Some((driver, speed)) = self.equation.advance_motor_table(which, up) else {
             self.ended = Some(Ended::Motor(which));
             return Ok(Action::Stop);
         };
@@ -337,21 +344,21 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
 
     fn drift(&mut self, _: f64, y: &[f64]) -> f64 {
         let (total, allowed) = self.balance(y);
-        self.tried = total;
-        // Where the energy is not a number nothing is known of it.
+        self.trial_total = total;
+        // Without a finite energy there is nothing to check.
         let drift = (total - self.total).abs() / allowed;
         if drift.is_finite() { drift } else { 0.0 }
     }
 
     fn keep_invariant(&mut self) {
-        self.total = self.tried;
+        self.total = self.trial_total;
     }
 
     fn cancelled(&mut self) -> bool {
         if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
-            self.ended = Some(Ended::Late);
+            self.ended = Some(Ended::TimeLimit);
             return true;
         }
-        self.equation.outside.cancelled()
+        self.equation.callbacks.cancelled()
     }
 }

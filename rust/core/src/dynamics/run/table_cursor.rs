@@ -1,63 +1,63 @@
-//! Tables over the coordinate, read piece by piece: between two knots the equation of motion is
-//! smooth, and steps end at them.
+//! Current pieces of the tables over the coordinate: between two knots the equation of motion is
+//! smooth, and steps end at the knots.
 
 use crate::dynamics::tables::table::{Cell, Table};
 
-/// Knots nearer than this part of their size (or of 1) are one: coordinates that count turns are
-/// not better known.
-pub(crate) const TOGETHER: f64 = 1.0e-12;
+/// Knots closer than this, relative to their size (or to 1), count as one: coordinates that count
+/// turns are no more accurate.
+pub(crate) const SAME_KNOT_RTOL: f64 = 1.0e-12;
 
-/// The pieces that tables are in, and the interval that has no knot inside.
+/// The current piece of every table, and the interval between their nearest knots.
 #[derive(Debug, Clone)]
-pub(crate) struct Reader {
+pub(crate) struct TableCursor {
     cells: Vec<Cell>,
     pub low: f64,
     pub high: f64,
 }
 
-impl Reader {
+impl TableCursor {
     pub(crate) fn new() -> Self {
-        // Nowhere yet.
+        // An empty interval: no piece yet.
         Self { cells: Vec::new(), low: f64::INFINITY, high: f64::NEG_INFINITY }
     }
 
-    /// Looks a coordinate up in all tables.
+    /// Looks up a coordinate in all tables.
     ///
     /// # Errors
     ///
-    /// The table that has nothing there.
-    pub(crate) fn place(&mut self, tables: &[Table], x: f64) -> Result<(), usize> {
+    /// Index of the table that does not cover it.
+    pub(crate) fn look_up(&mut self, tables: &[Table], x: f64) -> Result<(), usize> {
         self.cells.clear();
-        // Of a place that is in no pieces nothing is read.
+        // On an error the interval stays empty.
         (self.low, self.high) = (f64::INFINITY, f64::NEG_INFINITY);
         for (which, table) in tables.iter().enumerate() {
             self.cells.push(table.cell(x).ok_or(which)?);
         }
-        self.bound(tables);
+        self.update_interval(tables);
         Ok(())
     }
 
-    /// Goes on to the next piece of every table that has a knot at this end of the interval, and
-    /// says where that is: inside the next interval.
+    /// Moves every table that has a knot at this end of the interval to its next piece. Returns the
+    /// knot's coordinate, inside the new interval.
     ///
     /// # Errors
     ///
-    /// The table that has nothing beyond.
-    pub(crate) fn pass(&mut self, tables: &[Table], up: bool) -> Result<f64, usize> {
+    /// Index of the table that ends there.
+    pub(crate) fn cross(&mut self, tables: &[Table], up: bool) -> Result<f64, usize> {
         let border = if up { self.high } else { self.low };
-        let near = TOGETHER * border.abs().max(1.0);
+        let near = SAME_KNOT_RTOL * border.abs().max(1.0);
         for (which, (table, cell)) in tables.iter().zip(&mut self.cells).enumerate() {
             let end = table.ends(*cell)[usize::from(up)];
             if (end - border).abs() <= near {
                 *cell = table.next(*cell, up).ok_or(which)?;
             }
         }
-        self.bound(tables);
-        // Knots of several tables that are one may lie apart by a last digit.
+        self.update_interval(tables);
+        // Coinciding knots of several tables may differ by rounding.
         Ok(if up { border.max(self.low) } else { border.min(self.high) })
     }
 
-    fn bound(&mut self, tables: &[Table]) {
+    fn update_interval(&mut self, tables: &[Table]) {
         (self.low, self.high) = (f64::NEG_INFINITY, f64::INFINITY);
         for (table, &cell) in tables.iter().zip(&self.cells) {
             let [low, high] = table.ends(cell);

@@ -1,4 +1,4 @@
-//! How accurate a run is.
+//! Tolerances of a run.
 
 use super::callbacks::Callbacks;
 use super::error::RunError;
@@ -9,60 +9,62 @@ use crate::ode::system::Fault;
 
 /// Relative and absolute tolerances of the state.
 pub(crate) fn tolerances<S: ReducedModel, O: Callbacks>(
-    way: &mut RunSystem<'_, S, O>,
-    task: &RunOptions<'_>,
+    system: &mut RunSystem<'_, S, O>,
+    options: &RunOptions<'_>,
     sizes: &[f64],
 ) -> Result<[Vec<f64>; 2], RunError<O::Error>> {
-    let (n, relative) = (task.q.len(), task.relative);
-    if task.along == Variable::Coordinate {
-        // A thousandth of it is that of a speed; but the motion may begin slowly.
-        let typical = 1e3 * typical_speeds(way, task, sizes)?[0];
-        let of_speed = task.absolute.map_or(relative * typical * 1e-3, |[_, of_speed]| of_speed);
+    let (n, relative) = (options.q.len(), options.relative);
+    if options.along == Variable::Coordinate {
+        // From a thousandth of the typical speed for q̇², from all of it for the time: the initial
+        // speed may be small.
+        let typical = 1e3 * typical_speeds(system, options, sizes)?[0];
+        let of_speed = options.absolute.map_or(relative * typical * 1e-3, |[_, of_speed]| of_speed);
         let absolute =
-            vec![2.0 * of_speed * task.speed[0].abs(), relative / typical, f64::INFINITY];
+            vec![2.0 * of_speed * options.speed[0].abs(), relative / typical, f64::INFINITY];
         return Ok([vec![relative, relative, 0.0], absolute]);
     }
     let mut absolute = Vec::with_capacity(2 * n + 1);
-    if let Some([of_q, of_speed]) = task.absolute {
+    if let Some([of_q, of_speed]) = options.absolute {
         absolute.extend(std::iter::repeat_n(of_q, n));
         absolute.extend(std::iter::repeat_n(of_speed, n));
     } else {
         absolute.extend(sizes.iter().map(|size| relative * size));
-        absolute.extend(typical_speeds(way, task, sizes)?.iter().map(|v| relative * v));
+        absolute.extend(typical_speeds(system, options, sizes)?.iter().map(|v| relative * v));
     }
     absolute.push(f64::INFINITY);
-    // An angle counts turns: its size says nothing.
+    // An angle counts turns, so its size gives no tolerance.
     let relative = [vec![0.0; n], vec![relative; n], vec![0.0]].concat();
     Ok([relative, absolute])
 }
 
-/// A thousandth of the speeds that a motion may be expected to have: those at its beginning, or
-/// what its accelerations there make of them over a radian (the size, of a slide).
+/// A thousandth of the typical speeds: the initial ones, or those that the initial accelerations
+/// reach over a radian (for a slide, over the size).
 fn typical_speeds<S: ReducedModel, O: Callbacks>(
-    way: &mut RunSystem<'_, S, O>,
-    task: &RunOptions<'_>,
+    system: &mut RunSystem<'_, S, O>,
+    options: &RunOptions<'_>,
     sizes: &[f64],
 ) -> Result<Vec<f64>, RunError<O::Error>> {
-    let n = task.q.len();
+    let n = options.q.len();
     let mut accelerations = vec![0.0; n];
-    let equation = &mut way.equation;
-    let there = equation
-        .place(task.q)
-        .and_then(|()| equation.load(task.t, task.q, task.speed))
-        .and_then(|()| equation.accelerations(task.q, task.speed, &mut accelerations));
-    match there {
+    let equation = &mut system.equation;
+    let outcome = equation
+        .set_configuration(options.q)
+        .and_then(|()| equation.apply_loads(options.t, options.q, options.speed))
+        .and_then(|()| equation.accelerations(options.q, options.speed, &mut accelerations));
+    match outcome {
         Err(Fault::Error(error)) => return Err(error),
         // The run will end where it begins.
         Err(Fault::OutOfDomain) => accelerations.fill(0.0),
         Ok(()) => {}
     }
     let typical = |driver: usize| {
-        let own = task.speed[driver].abs();
-        own.max((accelerations[driver].abs() * sizes[driver]).sqrt())
+        let initial = options.speed[driver].abs();
+        initial.max((accelerations[driver].abs() * sizes[driver]).sqrt())
     };
-    let most = (0..n).map(typical).fold(0.0, f64::max);
-    // What rests in balance is measured by a size a second.
-    let of =
-        |driver: usize| if most > 0.0 { typical(driver).max(1e-3 * most) } else { sizes[driver] };
-    Ok((0..n).map(|driver| 1e-3 * of(driver)).collect())
+    let greatest = (0..n).map(typical).fold(0.0, f64::max);
+    // A machine at rest in balance: one radian (or size) per second.
+    let scale = |driver: usize| {
+        if greatest > 0.0 { typical(driver).max(1e-3 * greatest) } else { sizes[driver] }
+    };
+    Ok((0..n).map(|driver| 1e-3 * scale(driver)).collect())
 }

@@ -1,4 +1,4 @@
-//! What comes out of a run.
+//! The result of a run.
 
 use super::dead_point::Tail;
 use super::options::Variable;
@@ -7,49 +7,50 @@ use crate::ode::dense::DenseOutput;
 use crate::ode::solution::Statistics;
 use crate::state::status::Status;
 
-/// How a run ended.
+/// Why a run ended.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum StopReason {
-    /// Where it was to end.
+    /// It reached its end.
     Reached,
-    /// At an event that ends it: which of the watches.
+    /// At an event that stops it: index of the event.
     Event(usize),
-    /// At rest; along the coordinate it cannot go on.
+    /// At rest; a run along the coordinate cannot go on.
     Rest,
-    /// At a dead point, or where the way is not known: why there is nothing, and where that was.
+    /// At a dead point, or where the branch is unknown: status and coordinates of the rejected
+    /// position.
     Edge(Status, Vec<f64>),
-    /// Beside a change point that the lengths of a dyad (its inner joint or slide) miss by so much,
-    /// m: where they are nearest, the motion turns within less than can be integrated.
+    /// Beside a near miss of a change point: the lengths of a dyad miss one by `miss`, and the
+    /// motion turns there within less than can be integrated.
     NearChangePoint {
         /// Inner joint or slide of the dyad.
         dyad: String,
-        /// By how much its lengths miss, m.
+        /// By how much its lengths miss the change point, m.
         miss: f64,
-        /// Where it is nearest to flat.
+        /// Coordinate where the dyad is nearest to collinear.
         q: f64,
     },
-    /// Where a table over the coordinate ends: which.
+    /// At the end of a table over the coordinate: its index.
     TableEnds(usize),
-    /// Where the table of a motor ends: which motor.
+    /// At the end of a motor's table: index of the motor.
     MotorTableEnds(usize),
-    /// Where the tolerance could not be met with any step.
+    /// The tolerance could not be met at any step size.
     Stalled,
-    /// After as many steps as were allowed; whether they were held by stability.
+    /// At the step limit; true if stability limited the steps (the machine is stiff).
     StepLimit(bool),
-    /// When its time was over.
-    Late,
-    /// Because it was asked to.
+    /// At the time limit.
+    TimeLimit,
+    /// Cancelled by a callback.
     Cancelled,
 }
 
-/// An event on the way.
+/// An event that occurred.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventRecord {
-    /// Which of the watches.
-    pub watch: usize,
+    /// Index of its `EventSpec`.
+    pub event: usize,
     /// Time, s.
     pub t: f64,
     /// Coordinates.
@@ -62,46 +63,46 @@ pub struct EventRecord {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// The moments between steps.
-    pub moments: Samples,
-    /// Kinetic and potential energy there, J.
+    /// The samples at the ends of the steps.
+    pub samples: Samples,
+    /// Kinetic and potential energy of each sample, J.
     pub energies: Vec<[f64; 2]>,
-    /// What happened on the way.
+    /// The events that occurred.
     pub events: Vec<EventRecord>,
-    /// How it ended.
-    pub ending: StopReason,
-    /// What it cost.
+    /// Why it ended.
+    pub stop_reason: StopReason,
+    /// Steps and evaluations.
     pub statistics: Statistics,
     pub(crate) along: Variable,
     pub(crate) sign: f64,
     pub(crate) path: DenseOutput,
-    /// The rest of the way to a dead point.
+    /// The last part before a dead point.
     pub(crate) tail: Option<Tail>,
 }
 
 impl Run {
-    /// The motion at a time (or a coordinate, if it went along that); none where it was not.
+    /// The motion at a time (or a coordinate, in a run along it); `None` outside the run.
     #[must_use]
     pub fn at(&self, x: f64) -> Option<Sample> {
-        let len = 2 * self.moments.drivers() + 1;
+        let len = 2 * self.samples.drivers() + 1;
         let (mut y, mut rates) = (vec![0.0; len], vec![0.0; len]);
         if self.path.at(x, &mut y) && self.path.slope(x, &mut rates) {
-            return Some(moment(self.along, self.sign, x, &y, &rates));
+            return Some(sample_at(self.along, self.sign, x, &y, &rates));
         }
         if let Some(tail) = &self.tail {
             return tail.at(self.along, x);
         }
-        // A run of no length is at its place.
-        self.moments.get(0).filter(|one| match self.along {
-            Variable::Time => one.t == x,
-            Variable::Coordinate => one.q.first() == Some(&x),
+        // A run of zero length has one sample.
+        self.samples.get(0).filter(|sample| match self.along {
+            Variable::Time => sample.t == x,
+            Variable::Coordinate => sample.q.first() == Some(&x),
         })
     }
 }
 
-/// Reads a state and its rates.
-pub(crate) fn moment(along: Variable, sign: f64, x: f64, y: &[f64], rates: &[f64]) -> Sample {
-    let mut one = Samples::default();
-    one.read(along, sign, x, y, rates);
-    one.last().unwrap_or_default()
+/// The sample of a state and its rates.
+pub(crate) fn sample_at(along: Variable, sign: f64, x: f64, y: &[f64], rates: &[f64]) -> Sample {
+    let mut samples = Samples::default();
+    samples.push_state(along, sign, x, y, rates);
+    samples.last().unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! Why there is no periodic motion.
+//! Errors of the search for a periodic motion.
 
 use thiserror::Error;
 
@@ -6,7 +6,7 @@ use crate::dynamics::flywheel::flywheel::Mean;
 use crate::dynamics::run::error::RunError;
 use crate::dynamics::tables::error::short;
 
-/// A mean as it is named in Python, and what it is.
+/// A mean as Python names it, with its definition.
 fn mean_named(mean: Mean) -> &'static str {
     match mean {
         Mean::Extremes => "mean=\"extremes\", half the sum of the extreme speeds",
@@ -14,7 +14,7 @@ fn mean_named(mean: Mean) -> &'static str {
     }
 }
 
-/// Why there is no periodic motion.
+/// Why no periodic motion was found.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the sentences say what the fields are")]
@@ -37,12 +37,12 @@ pub enum SteadyError<E> {
         "no periodic motion with a mean speed of {} rad/s was found ({}): at so low a speed the machine stops within the turn (add flywheel=), at so high a speed its variation is below rounding",
         short(*speed), mean_named(*mean)
     )]
-    NotMet { speed: f64, mean: Mean },
+    MeanNotReached { speed: f64, mean: Mean },
     #[error(
         "the speed is hardly told: over a period a change of it dies away by {} alone, which this tolerance (rtol) cannot see",
         short(*part)
     )]
-    Weak { part: f64 },
+    PoorlyDetermined { part: f64 },
     #[error("there is a dead point at q = {}: the driver does not turn fully", short(*q))]
     DeadPoint { q: f64 },
     #[error("near q = {} the mechanism nearly has a change point: its lengths miss one by {} m at dyad {dyad:?}, and the motion turns there within less than can be integrated; draw the change point exactly, or lengths clear of it", short(*q), short(*miss))]
@@ -57,7 +57,7 @@ pub enum SteadyError<E> {
         "the machine is another one a period on: its reduced inertia is {} kg·m² at q = {}, but {} at q = {} (a motion through change points may take two turns: turns=2)",
         short(inertia[0]), short(q[0]), short(inertia[1]), short(q[1])
     )]
-    AnotherOne { q: [f64; 2], inertia: [f64; 2] },
+    InertiaNotPeriodic { q: [f64; 2], inertia: [f64; 2] },
     #[error("the fluctuation is {} without a flywheel, not more than the {} asked for: none is needed", short(*without), short(*wanted))]
     AlreadyMet { without: f64, wanted: f64 },
     #[error("no flywheel gives a fluctuation of {}", short(*wanted))]

@@ -1,4 +1,4 @@
-//! Periodic motions under a motor, by shooting, and the flywheel that evens them.
+//! Steady states under motors, by shooting, and flywheel sizing.
 
 pub(crate) mod error;
 pub(crate) mod flywheel_sizing;

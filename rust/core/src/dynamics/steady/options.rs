@@ -1,30 +1,30 @@
-//! What is asked of a periodic motion.
+//! Options of the search for a periodic motion.
 
 use std::time::Instant;
 
 use crate::dynamics::flywheel::flywheel::Mean;
 use crate::ode::options::Method;
 
-/// What is asked for.
+/// Options of the search for a periodic motion.
 #[derive(Debug, Clone, Copy)]
 pub struct SteadyOptions<'a> {
-    /// Where the period begins.
+    /// Coordinate at the start of the period, rad.
     pub q: f64,
-    /// Its length, negative if the driver turns backward.
+    /// Length of the period, rad; negative if the driver turns backward.
     pub span: f64,
-    /// The mean speed, where motors and loads tell none; else a first guess.
+    /// The mean speed, if motors and loads leave it open; otherwise a first guess.
     pub speed: Option<f64>,
-    /// What that mean is.
+    /// Definition of the mean speed.
     pub mean: Mean,
-    /// The pair of formulas.
+    /// Runge-Kutta method.
     pub method: Method,
     /// Relative tolerance.
     pub relative: f64,
-    /// How many steps a period may have.
+    /// Largest number of steps in a period.
     pub max_steps: u64,
-    /// When it must be over.
+    /// Time limit.
     pub deadline: Option<Instant>,
-    /// Where functions from outside are not smooth, ascending.
+    /// Coordinates where callbacks are not smooth, ascending.
     pub breaks: &'a [f64],
     /// Inertia added to the driver's.
     pub flywheel: f64,

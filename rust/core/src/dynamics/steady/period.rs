@@ -1,9 +1,9 @@
-//! One period of a motion along the coordinate, with its derivatives by what it begins with.
+//! One period of a motion along the coordinate, with its derivatives by the initial values.
 //!
-//! With w = q̇² the equation of motion is w′ = (2 M − J′ w)/J. A change δw at the beginning grows
-//! by the linearised equation δw′ = (∂M/∂q̇ / q̇ − J′)/J δw, a constant moment τ more adds 2 τ/J;
-//! what they make of the time t′ = 1/q̇ is integrated along. So the matrix of the period is exact to
-//! the tolerance (E. Hairer, S. P. Nørsett, G. Wanner I, I.14).
+//! With w = q̇² the equation of motion is w′ = (2 M − J′ w)/J. A perturbation δw grows by the
+//! linearised equation δw′ = (∂M/∂q̇ / q̇ − J′)/J δw, and an additional constant moment τ adds 2
+//! τ/J; their effect on the time, t′ = 1/q̇, is integrated along. So the matrix of the period is
+//! exact to the tolerance (E. Hairer, S. P. Nørsett, G. Wanner I, I.14).
 
 use super::error::SteadyError;
 use super::options::SteadyOptions;
@@ -18,66 +18,66 @@ use crate::ode::solution::{End, Solution};
 use crate::ode::system::{Action, Crossing, Fault, System};
 use crate::query::evaluator::NearMiss;
 
-/// Where a period begins.
+/// Initial values of a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Begin {
+pub(crate) struct PeriodStart {
     /// q̇².
     pub speed2: f64,
-    /// A constant moment on the driver besides its motors.
+    /// A constant moment on the driver besides its motors, N·m.
     pub moment: f64,
-    /// Time.
+    /// Time, s.
     pub t: f64,
 }
 
-/// What a period comes to.
+/// Result of a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Period {
     /// q̇² at its end.
     pub speed2: f64,
-    /// Its time.
+    /// Its duration, s.
     pub time: f64,
-    /// Work of the motors.
+    /// Work of the motors and the constant moment.
     pub drive: f64,
-    /// Work of loads and motors, each counted positive.
+    /// Work of loads and motors, with each power counted positive.
     pub turnover: f64,
-    /// Whether anything depends on the speed.
-    pub depends: bool,
-    /// Derivatives of the first two by `speed2` at the beginning and by the moment.
+    /// Whether loads or motors depend on the speed.
+    pub depends_on_speed: bool,
+    /// Derivatives of `speed2` and `time` by the initial `speed2` and by the moment.
     pub speed2_by: [f64; 2],
     pub time_by: [f64; 2],
 }
 
-/// How a period came out.
+/// Outcome of a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum PeriodOutcome {
     Whole(Period),
-    /// The machine stops on the way.
+    /// The machine stops within the period.
     Stops {
         q: f64,
     },
 }
 
-/// The system of a period.
-struct Cycle<'c, 'a, S, O> {
+/// The differential equations of a period.
+struct PeriodSystem<'c, 'a, S, O> {
     equation: &'c mut Equation<'a, S, O>,
     sign: f64,
     moment: f64,
-    depends: bool,
-    table: bool,
+    depends_on_speed: bool,
+    table_ended: bool,
     deadline: Option<std::time::Instant>,
 }
 
-/// What is left of q̇² where a machine comes to rest, as a part of it at the beginning: the time
-/// grows as its root there, and steps become too narrow before it is none.
+/// The machine counts as stopped when q̇² falls below this part of its initial value: there the
+/// time grows like the square root, and steps become too narrow before q̇² is zero.
 const AT_REST: f64 = 1.0e-4;
 
-/// How far (rad) from a dead point a period that ends there may end.
+/// A period that ends within this distance (rad) of a dead point ends because of it.
 const BESIDE: f64 = 1.0e-3;
 
-/// Numbers of its state: w, t, work of motors, sum of all work, and derivatives.
+/// Length of the state: w, t, work of motors, sum of all work, and four derivatives.
 const LEN: usize = 8;
 
-impl<S: ReducedModel, O: Callbacks> System for Cycle<'_, '_, S, O> {
+impl<S: ReducedModel, O: Callbacks> System for PeriodSystem<'_, '_, S, O> {
     type Error = RunError<O::Error>;
 
     fn rates(&mut self, q: f64, y: &[f64], rates: &mut [f64]) -> Result<(), Fault<Self::Error>> {
@@ -88,18 +88,19 @@ impl<S: ReducedModel, O: Callbacks> System for Cycle<'_, '_, S, O> {
             return Err(Fault::OutOfDomain);
         }
         let speed = self.sign * speed2.sqrt();
-        equation.place(&[q])?;
-        equation.load(t, &[q], &[speed])?;
+        equation.set_configuration(&[q])?;
+        equation.apply_loads(t, &[q], &[speed])?;
         let inertia = equation.inertia(q)?;
         let moment = equation.moment(0) + self.moment;
-        let by_speed = equation.reduced.by_speed + equation.drive_by_speed;
-        self.depends |= by_speed != 0.0;
-        let rate = equation.reduced.rates[0];
-        let growth = (by_speed / speed - rate) / inertia;
-        rates[0] = (2.0 * moment - rate * speed2) / inertia;
+        let d_moment_d_speed = equation.reduced.d_moment_d_speed + equation.d_drive_d_speed;
+        self.depends_on_speed |= d_moment_d_speed != 0.0;
+        let d_inertia = equation.reduced.d_inertia[0];
+        let growth = (d_moment_d_speed / speed - d_inertia) / inertia;
+        rates[0] = (2.0 * moment - d_inertia * speed2) / inertia;
         rates[1] = 1.0 / speed;
         rates[2] = equation.drive[0] + self.moment;
-        let parts = [equation.reduced.stored[0], equation.reduced.applied[0], equation.drive[0]];
+        let parts =
+            [equation.reduced.conservative[0], equation.reduced.applied[0], equation.drive[0]];
         rates[3] = self.sign * parts.map(f64::abs).iter().sum::<f64>();
         rates[4] = growth * by_start;
         rates[5] = growth * by_moment + 2.0 / inertia;
@@ -110,19 +111,19 @@ impl<S: ReducedModel, O: Callbacks> System for Cycle<'_, '_, S, O> {
     }
 
     fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
-        self.equation.enter(from, to)
+        self.equation.enter_interval(from, to)
     }
 
     fn events(&mut self, _: f64, y: &[f64], values: &mut [f64]) -> Result<(), Self::Error> {
         let speed = self.sign * y[0].max(0.0).sqrt();
-        self.equation.motor_borders(&[speed], values);
+        self.equation.motor_table_margins(&[speed], values);
         Ok(())
     }
 
     fn on_event(&mut self, event: usize, _: f64, y: &mut [f64]) -> Result<Action, Self::Error> {
-        let which = self.equation.tabled().nth(event / 2).unwrap_or(0);
-        let Some((_, speed)) = self.equation.pass_motor(which, event % 2 == 1) else {
-            self.table = true;
+        let which = self.equation.motors_with_table().nth(event / 2).unwrap_or(0);
+        let Some((_, speed)) = self.equation.advance_motor_table(which, event % 2 == 1) else {
+            self.table_ended = true;
             return Ok(Action::Stop);
         };
         y[0] = speed * speed;
@@ -131,62 +132,68 @@ impl<S: ReducedModel, O: Callbacks> System for Cycle<'_, '_, S, O> {
 
     fn cancelled(&mut self) -> bool {
         self.deadline.is_some_and(|deadline| std::time::Instant::now() >= deadline)
-            || self.equation.outside.cancelled()
+            || self.equation.callbacks.cancelled()
     }
 }
 
-/// Goes through one period.
+/// Integrates one period.
 pub(crate) fn period<S: ReducedModel, O: Callbacks>(
     equation: &mut Equation<'_, S, O>,
     integrator: &mut Option<Integrator>,
-    search: &SteadyOptions<'_>,
+    options: &SteadyOptions<'_>,
     (from, breaks): (f64, &[f64]),
-    begin: Begin,
+    start: PeriodStart,
 ) -> Result<PeriodOutcome, SteadyError<O::Error>> {
-    let sign = search.span.signum();
-    let speed = sign * begin.speed2.sqrt();
+    let sign = options.span.signum();
+    let speed = sign * start.speed2.sqrt();
     equation.begin(from, &[speed]).map_err(SteadyError::Run)?;
-    let events = vec![Crossing::Boundary; 2 * equation.tabled().count()];
-    let deadline = search.deadline;
-    let mut cycle =
-        Cycle { equation, sign, moment: begin.moment, depends: false, table: false, deadline };
+    let events = vec![Crossing::Boundary; 2 * equation.motors_with_table().count()];
+    let deadline = options.deadline;
+    let mut system = PeriodSystem {
+        equation,
+        sign,
+        moment: start.moment,
+        depends_on_speed: false,
+        table_ended: false,
+        deadline,
+    };
     let free = f64::INFINITY;
-    let r = search.relative;
+    let r = options.relative;
     let relative = [r, r, 0.0, 0.0, r, r, r, r];
     let scale = 1.0 / speed.abs();
-    let absolute = [r * 1e-3 * begin.speed2, r * scale, free, free, r, free, free, free];
-    let options = Options {
+    let absolute = [r * 1e-3 * start.speed2, r * scale, free, free, r, free, free, free];
+    let ode_options = Options {
         relative: &relative,
         absolute: &absolute,
-        max_steps: search.max_steps,
+        max_steps: options.max_steps,
         breaks,
         events: &events,
         keep: Output::End,
         ..Options::default()
     };
-    let start = [begin.speed2, begin.t, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
-    let integrator = integrator.get_or_insert_with(|| Integrator::new(search.method, LEN));
-    let made = integrator.run(&mut cycle, from, &start, from + search.span, &options);
-    let (table, depends) = (cycle.table, cycle.depends);
-    let Solution { t: q, y, end, .. } = made.map_err(|error| match error {
+    let y0 = [start.speed2, start.t, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+    let integrator = integrator.get_or_insert_with(|| Integrator::new(options.method, LEN));
+    let solved = integrator.run(&mut system, from, &y0, from + options.span, &ode_options);
+    let (table_ended, depends_on_speed) = (system.table_ended, system.depends_on_speed);
+    let Solution { t: q, y, end, .. } = solved.map_err(|error| match error {
         Error::System(broken) => SteadyError::Run(broken),
         other => SteadyError::Other(other.to_string()),
     })?;
     match end {
         End::Reached => {}
         End::DomainBoundary { .. } | End::Stalled { .. }
-            if cycle.equation.source.is_beside_fold(&[q], BESIDE) =>
+            if system.equation.model.is_near_dead_point(&[q], BESIDE) =>
         {
             return Err(SteadyError::DeadPoint { q });
         }
-        End::DomainBoundary { .. } | End::Stalled { .. } if y[0] <= AT_REST * begin.speed2 => {
+        End::DomainBoundary { .. } | End::Stalled { .. } if y[0] <= AT_REST * start.speed2 => {
             return Ok(PeriodOutcome::Stops { q });
         }
-        End::Event { .. } if table => {
+        End::Event { .. } if table_ended => {
             return Err(SteadyError::MotorTableEnds { q, speed: sign * y[0].max(0.0).sqrt() });
         }
         End::DomainBoundary { .. } => {
-            let near = cycle.equation.is_near_miss().then(|| cycle.equation.source.near_miss(q));
+            let near = system.equation.is_near_miss().then(|| system.equation.model.near_miss(q));
             return Err(match near.flatten() {
                 Some(NearMiss { dyad, miss, q }) => SteadyError::NearChangePoint { dyad, miss, q },
                 None => SteadyError::DeadPoint { q },
@@ -198,10 +205,10 @@ pub(crate) fn period<S: ReducedModel, O: Callbacks>(
     }
     Ok(PeriodOutcome::Whole(Period {
         speed2: y[0],
-        time: y[1] - begin.t,
+        time: y[1] - start.t,
         drive: y[2],
         turnover: y[3].abs(),
-        depends,
+        depends_on_speed,
         speed2_by: [y[4], y[5]],
         time_by: [y[6], y[7]],
     }))

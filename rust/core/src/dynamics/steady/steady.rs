@@ -1,8 +1,8 @@
-//! The periodic motion of a machine: what is asked, and what is made of the beginning that was found.
+//! Periodic motions: their checks, and the run over one period from the initial speed found.
 
 use super::error::SteadyError;
 use super::options::SteadyOptions;
-use super::period::{Begin, Period, PeriodOutcome, period};
+use super::period::{Period, PeriodOutcome, PeriodStart, period};
 use crate::dynamics::run::callbacks::Callbacks;
 use crate::dynamics::run::equation::Equation;
 use crate::dynamics::run::error::RunError;
@@ -13,29 +13,31 @@ use crate::dynamics::run::trajectory::{Run, StopReason};
 use crate::ode::integrator::Integrator;
 use crate::ode::system::Crossing;
 
-/// Errors of a period, as multiples of the tolerance.
+/// Error of a period, in tolerances.
 pub(crate) const NOISE: f64 = 100.0;
-/// Part of the work of a period that may be lost in them.
-const UNKNOWN: f64 = 0.05;
-/// Part of the work of a period to which it is in balance.
-const BALANCE: f64 = 1.0e-6;
-/// At how many places of a period the machine is compared with itself a period on.
-const LOOKS: u32 = 5;
-/// Part of the greatest inertia that is rounding.
-const NO_INERTIA: f64 = 64.0 * f64::EPSILON;
-/// How far two periods, one after the other, may differ.
-const SAME: f64 = 1.0e-7;
+/// Largest error of a period's energy, as a part of its work.
+const MAX_NOISE: f64 = 0.05;
+/// Largest imbalance of a period, as a part of its work.
+const BALANCE_RTOL: f64 = 1.0e-6;
+/// Number of coordinates at which the machine is compared with itself one period later.
+const SAMPLES: u32 = 5;
+/// Inertia below this part of the greatest is rounding.
+const INERTIA_NOISE: f64 = 64.0 * f64::EPSILON;
+/// Largest relative difference of two successive periods.
+const PERIODIC_RTOL: f64 = 1.0e-7;
 
 /// A periodic motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steady {
-    /// One period, along the coordinate; its events are the extremes of the speed.
+    /// One period along the coordinate; its events are the extremes of the speed.
     pub run: Run,
-    /// What a small change of the energy at the beginning has become at the end: stable below 1.
+    /// Floquet multiplier: factor by which a perturbation of the energy changes each period; stable
+    /// below 1.
     pub multiplier: f64,
-    /// The constant moment on the driver that was found for the speed; 0 if the motors told it.
+    /// The constant moment on the driver that keeps the prescribed speed; 0 if motors and loads
+    /// determine the speed.
     pub moment: f64,
-    /// Work of the motors in a period, J.
+    /// Work of the motors and of that moment in a period, J.
     pub drive: f64,
     /// Inertia added to the driver's, kg·m².
     pub flywheel: f64,
@@ -44,21 +46,21 @@ pub struct Steady {
 }
 
 impl Steady {
-    /// What a search near it begins with.
-    pub(crate) fn begin(&self) -> Begin {
-        let speed = self.run.moments.speed.first().copied().unwrap_or(f64::NAN);
-        Begin { speed2: speed * speed, moment: self.moment, t: 0.0 }
+    /// Initial values for a search near this motion.
+    pub(crate) fn start(&self) -> PeriodStart {
+        let speed = self.run.samples.speed.first().copied().unwrap_or(f64::NAN);
+        PeriodStart { speed2: speed * speed, moment: self.moment, t: 0.0 }
     }
 }
 
-/// A search and its work space.
+/// The search for a periodic motion, with its workspace.
 pub(crate) struct Shooting<'s, 'a, S, O> {
     pub equation: Equation<'a, S, O>,
-    pub search: SteadyOptions<'s>,
-    /// Whether the motion has the mean speed of the search.
+    pub options: SteadyOptions<'s>,
+    /// Whether the motion has the mean speed of the options.
     pub prescribed: bool,
     integrator: Option<Integrator>,
-    /// Where the period at hand begins, and its breaks.
+    /// Start of the current period, and its breaks.
     from: f64,
     breaks: Vec<f64>,
 }
@@ -66,95 +68,102 @@ pub(crate) struct Shooting<'s, 'a, S, O> {
 impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
     pub(crate) fn new(
         mut equation: Equation<'a, S, O>,
-        search: SteadyOptions<'s>,
+        options: SteadyOptions<'s>,
     ) -> Result<Self, SteadyError<O::Error>> {
-        equation.flywheel = search.flywheel;
-        equation.slopes = true;
-        let mut own = Self {
+        equation.flywheel = options.flywheel;
+        equation.wants_slopes = true;
+        let mut shooting = Self {
             equation,
-            search,
+            options,
             prescribed: false,
             integrator: None,
-            from: search.q,
+            from: options.q,
             breaks: Vec::new(),
         };
-        own.begin_at(search.q)?;
-        own.compare()?;
-        Ok(own)
+        shooting.set_start(options.q)?;
+        shooting.check_periodic()?;
+        Ok(shooting)
     }
 
-    /// Refuses a machine that is another one a period on.
-    fn compare(&mut self) -> Result<(), SteadyError<O::Error>> {
-        let SteadyOptions { q: from, span, .. } = self.search;
+    /// Checks that the machine is the same one period later.
+    fn check_periodic(&mut self) -> Result<(), SteadyError<O::Error>> {
+        let SteadyOptions { q: from, span, .. } = self.options;
         let mut inertia = |q: f64| {
-            let is_there = self.equation.find(q) && self.equation.place(&[q]).is_ok();
-            if is_there { self.equation.reduced.inertia[0] } else { f64::NAN }
+            let is_reachable =
+                self.equation.ensure_tables_at(q) && self.equation.set_configuration(&[q]).is_ok();
+            if is_reachable { self.equation.reduced.inertia[0] } else { f64::NAN }
         };
-        let looks = (0..LOOKS).map(|part| {
-            let here = from + span * f64::from(part) / f64::from(LOOKS);
+        let samples = (0..SAMPLES).map(|part| {
+            let here = from + span * f64::from(part) / f64::from(SAMPLES);
             let q = [here, here + span];
             (q, q.map(&mut inertia))
         });
-        let looks: Vec<_> = looks.collect();
-        self.equation.refused = None;
-        if looks[0].1[0].is_nan() {
-            return Err(SteadyError::Run(RunError::NothingThere { q: vec![from] }));
+        let samples: Vec<_> = samples.collect();
+        self.equation.rejected = None;
+        if samples[0].1[0].is_nan() {
+            return Err(SteadyError::Run(RunError::NoInitialPosition { q: vec![from] }));
         }
-        // Where somewhere nothing is, the period will tell; beyond, all may be other.
-        if looks.iter().any(|(_, pair)| pair.iter().any(|value| value.is_nan())) {
+        // The periods themselves report unreachable positions.
+        if samples.iter().any(|(_, pair)| pair.iter().any(|value| value.is_nan())) {
             return Ok(());
         }
-        let most = looks.iter().fold(0.0_f64, |most, (_, [inertia, _])| most.max(inertia.abs()));
-        let none = looks.iter().find(|(_, [inertia, _])| *inertia <= NO_INERTIA * most);
-        if let Some(&([q, _], [value, _])) = none {
+        let greatest =
+            samples.iter().fold(0.0_f64, |greatest, (_, [inertia, _])| greatest.max(inertia.abs()));
+        let massless =
+            samples.iter().find(|(_, [inertia, _])| *inertia <= INERTIA_NOISE * greatest);
+        if let Some(&([q, _], [value, _])) = massless {
             return Err(SteadyError::Run(RunError::NoInertia { q, value }));
         }
-        let other = looks.into_iter().find(|(_, [a, b])| (b - a).abs() > SAME * a.abs());
-        other.map_or(Ok(()), |(q, inertia)| Err(SteadyError::AnotherOne { q, inertia }))
+        let different =
+            samples.into_iter().find(|(_, [a, b])| (b - a).abs() > PERIODIC_RTOL * a.abs());
+        different.map_or(Ok(()), |(q, inertia)| Err(SteadyError::InertiaNotPeriodic { q, inertia }))
     }
 
-    /// Periods begin here from now on.
-    fn begin_at(&mut self, q: f64) -> Result<(), SteadyError<O::Error>> {
-        let SteadyOptions { span, breaks, .. } = self.search;
-        let given: Vec<f64> = breaks.iter().map(|at| at + (q - self.search.q)).collect();
+    /// Sets the coordinate where periods start.
+    fn set_start(&mut self, q: f64) -> Result<(), SteadyError<O::Error>> {
+        let SteadyOptions { span, breaks, .. } = self.options;
+        let given: Vec<f64> = breaks.iter().map(|at| at + (q - self.options.q)).collect();
         self.from = q;
         self.breaks =
             breaks_of(self.equation.tables, &given, [q, q + span]).map_err(SteadyError::Run)?;
         Ok(())
     }
 
-    pub(crate) fn pass(&mut self, begin: Begin) -> Result<PeriodOutcome, SteadyError<O::Error>> {
-        let Self { equation, integrator, search, from, breaks, .. } = self;
-        period(equation, integrator, search, (*from, breaks), begin)
+    pub(crate) fn run_period(
+        &mut self,
+        start: PeriodStart,
+    ) -> Result<PeriodOutcome, SteadyError<O::Error>> {
+        let Self { equation, integrator, options, from, breaks, .. } = self;
+        period(equation, integrator, options, (*from, breaks), start)
     }
 
-    /// The motion found, with all its moments.
+    /// Integrates the motion found, with all its samples.
     pub(crate) fn run(
         mut self,
-        begin: Begin,
+        start: PeriodStart,
         period: &Period,
     ) -> Result<Steady, SteadyError<O::Error>> {
-        // Once more, a period on: there the machine must be the same.
+        // A second period must repeat the first: the machine may depend on the time.
         let SteadyOptions {
             q, span, method, relative, max_steps, deadline, breaks, flywheel, ..
-        } = self.search;
-        self.begin_at(q + span)?;
-        let later = self.pass(Begin { t: begin.t + period.time, ..begin })?;
-        let part = SAME.max(NOISE * relative);
-        let same = matches!(later, PeriodOutcome::Whole(own)
-            if (own.speed2 - period.speed2).abs() <= part * period.speed2
-            && (own.time - period.time).abs() <= part * period.time.abs());
+        } = self.options;
+        self.set_start(q + span)?;
+        let next = self.run_period(PeriodStart { t: start.t + period.time, ..start })?;
+        let rtol = PERIODIC_RTOL.max(NOISE * relative);
+        let same = matches!(next, PeriodOutcome::Whole(own)
+            if (own.speed2 - period.speed2).abs() <= rtol * period.speed2
+            && (own.time - period.time).abs() <= rtol * period.time.abs());
         if !same {
             return Err(SteadyError::NotPeriodic);
         }
-        self.equation.extra = begin.moment;
-        let watches =
-            [EventSpec { occasion: EventKind::Extreme, crossing: Crossing::Either, stops: false }];
-        let task = RunOptions {
+        self.equation.extra_moment = start.moment;
+        let events =
+            [EventSpec { kind: EventKind::Extreme, crossing: Crossing::Either, stops: false }];
+        let run_options = RunOptions {
             along: Variable::Coordinate,
             t: 0.0,
             q: &[q],
-            speed: &[span.signum() * begin.speed2.sqrt()],
+            speed: &[span.signum() * start.speed2.sqrt()],
             end: q + span,
             method,
             relative,
@@ -163,33 +172,35 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
             max_steps,
             deadline,
             breaks,
-            watches: &watches,
+            events: &events,
             flywheel,
         };
-        self.equation.slopes = false;
-        let run = run(self.equation, &task, &[1.0]).map_err(|error| match error {
-            crate::ode::error::Error::System(broken) => SteadyError::Run(broken),
+        self.equation.wants_slopes = false;
+        let run = run(self.equation, &run_options, &[1.0]).map_err(|error| match error {
+            crate::ode::error::Error::System(error) => SteadyError::Run(error),
             other => SteadyError::Other(other.to_string()),
         })?;
-        match run.ending {
+        match run.stop_reason {
             StopReason::Reached => {}
-            StopReason::Late | StopReason::Cancelled => return Err(SteadyError::Cancelled { q }),
+            StopReason::TimeLimit | StopReason::Cancelled => {
+                return Err(SteadyError::Cancelled { q });
+            }
             ref other => {
                 return Err(SteadyError::Other(format!("the period ended early: {other:?}")));
             }
         }
-        let ends = |list: &[f64]| list.last().zip(list.first()).map_or(f64::NAN, |(b, a)| b - a);
+        let change = |list: &[f64]| list.last().zip(list.first()).map_or(f64::NAN, |(b, a)| b - a);
         let stored: Vec<f64> = run.energies.iter().map(|pair| pair[1]).collect();
-        let left = ends(&run.moments.work) - ends(&stored);
-        // At too great a speed the energy's own rounding is more than a period's work.
+        let imbalance = change(&run.samples.work) - change(&stored);
+        // At too high a speed the rounding of the energy exceeds the work of a period.
         let kinetic = run.energies.first().map_or(f64::NAN, |pair| pair[0]);
         let noise = NOISE * relative * kinetic;
         let idle = period.turnover <= 64.0 * f64::EPSILON * kinetic;
-        let balanced = left.abs() <= BALANCE * period.turnover + noise;
-        if !(balanced && (idle || noise <= UNKNOWN * period.turnover)) {
-            return Err(SteadyError::RunsAway { speed: begin.speed2.sqrt() });
+        let balanced = imbalance.abs() <= BALANCE_RTOL * period.turnover + noise;
+        if !(balanced && (idle || noise <= MAX_NOISE * period.turnover)) {
+            return Err(SteadyError::RunsAway { speed: start.speed2.sqrt() });
         }
-        let (multiplier, moment, drive) = (period.speed2_by[0], begin.moment, period.drive);
+        let (multiplier, moment, drive) = (period.speed2_by[0], start.moment, period.drive);
         Ok(Steady { run, multiplier, moment, drive, flywheel, prescribed: self.prescribed })
     }
 }

@@ -1,32 +1,32 @@
-//! Cubic splines through a table, by several conditions at the ends.
+//! Cubic splines through tables, with several end conditions.
 
 use super::error::TableError;
 
-/// Conditions at the ends of a spline.
+/// End conditions of a spline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum EndCondition {
     /// The first two pieces are one cubic, and so are the last two (Mathcad's `cspline`).
     #[default]
     NotAKnot,
-    /// No second derivative.
+    /// Zero second derivative at the ends.
     Natural,
-    /// No first derivative.
+    /// Zero first derivative at the ends.
     Clamped,
-    /// The derivatives of the other end.
+    /// Equal derivatives at both ends.
     Periodic,
-    /// Straight pieces: no spline at all.
+    /// Linear interpolation instead of a spline.
     Linear,
 }
 
-/// Pieces of a spline: of each, coefficients in powers of the distance from its first knot.
+/// Pieces of a spline: for each, coefficients in powers of the distance from its first knot.
 pub type Pieces = Vec<[f64; 4]>;
 
-/// The spline through values at growing knots: C. de Boor, A Practical Guide to Splines (1978),
-/// chapter IV, by its slopes at the knots.
+/// The spline through values at increasing knots, from its slopes at the knots: C. de Boor,
+/// A Practical Guide to Splines (1978), chapter IV.
 ///
 /// # Errors
 ///
-/// Fewer than two knots (periodic: three), or a system without solution.
+/// Fewer than two knots (periodic: three), or a different number of values.
 pub fn spline(knots: &[f64], values: &[f64], ends: EndCondition) -> Result<Pieces, TableError> {
     let n = knots.len();
     let least = if ends == EndCondition::Periodic { 3 } else { 2 };
@@ -47,7 +47,7 @@ pub fn spline(knots: &[f64], values: &[f64], ends: EndCondition) -> Result<Piece
     Ok((0..n - 1).map(piece).collect())
 }
 
-/// Slopes at the knots: second derivatives agree at those between.
+/// Slopes at the knots that make second derivatives continuous.
 fn slopes(width: &[f64], rise: &[f64], ends: EndCondition) -> Vec<f64> {
     let n = width.len() + 1;
     let last = n - 2;
@@ -58,7 +58,7 @@ fn slopes(width: &[f64], rise: &[f64], ends: EndCondition) -> Vec<f64> {
     let ([head, foot], [first, final_]) = match ends {
         EndCondition::NotAKnot if n == 2 => return vec![rise[0]; 2],
         EndCondition::NotAKnot if n == 3 => {
-            // One parabola.
+            // Three points: one parabola.
             let bend = (rise[1] - rise[0]) / (width[0] + width[1]);
             let at = |i: usize, sign: f64| rise[i] + sign * bend * width[i];
             return vec![at(0, -1.0), at(0, 1.0), at(1, 1.0)];
@@ -83,7 +83,7 @@ fn slopes(width: &[f64], rise: &[f64], ends: EndCondition) -> Vec<f64> {
     tridiagonal(&mut rows)
 }
 
-/// Slopes of a periodic spline: the tridiagonal system with corners, by Sherman & Morrison.
+/// Slopes of a periodic spline: a tridiagonal system with corners, by Sherman & Morrison.
 fn periodic(width: &[f64], rise: &[f64]) -> Vec<f64> {
     let n = width.len();
     let row = |i: usize| {
@@ -93,7 +93,7 @@ fn periodic(width: &[f64], rise: &[f64]) -> Vec<f64> {
     };
     let mut rows: Vec<([f64; 3], f64)> = (0..n).map(row).collect();
     let mut slopes = if n == 2 {
-        // Both neighbours are the same one.
+        // Both neighbours are the same slope.
         let ([a, b, c], x) = rows[0];
         let ([d, e, f], y) = rows[1];
         let (p, q) = (a + c, d + f);
@@ -119,8 +119,8 @@ fn periodic(width: &[f64], rise: &[f64]) -> Vec<f64> {
     slopes
 }
 
-/// Solves rows (before, own, behind) = right-hand side; they are diagonally dominant, but for ends
-/// that are not the knot's, where it does no harm (de Boor).
+/// Solves a tridiagonal system of rows (before, own, behind) = right-hand side. It is diagonally
+/// dominant except for the not-a-knot rows, where elimination is still stable (de Boor).
 fn tridiagonal(rows: &mut [([f64; 3], f64)]) -> Vec<f64> {
     for i in 1..rows.len() {
         let ([_, pivot, behind], right) = rows[i - 1];
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn pieces_meet_with_two_derivatives() {
+    fn pieces_join_with_two_derivatives() {
         let values = [1.0, -2.0, 0.5, 3.0, 1.0, 0.0, 1.0];
         for ends in ALL {
             let pieces = spline(&KNOTS, &values, ends).expect("a spline");
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn cubics_are_themselves() {
+    fn not_a_knot_reproduces_cubics() {
         let cubic = |x: f64| 1.0 - x + 0.5 * x * x + 0.25 * x * x * x;
         let values = KNOTS.map(cubic);
         for n in [4, 5, 7] {

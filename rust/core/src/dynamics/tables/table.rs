@@ -1,8 +1,8 @@
-//! Values over a coordinate or a speed.
+//! A function of a coordinate or a speed, given by points.
 
 use super::error::TableError;
 use super::spline::{EndCondition, Pieces, spline};
-use crate::dynamics::flywheel::cycle::within_period;
+use crate::dynamics::flywheel::cycle::wrap_to_period;
 
 /// A table with a curve through its rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,24 +12,24 @@ pub struct Table {
     periodic: bool,
 }
 
-/// Part of its size by which a place may be beyond a table.
-const SLACK: f64 = 1.0e-12;
+/// How far beyond a table its ends still count, relative to its size.
+const RANGE_RTOL: f64 = 1.0e-12;
 
-/// A piece of a table, whole periods on.
+/// A piece of a table, shifted by periods periods.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Cell {
     piece: usize,
-    whole: f64,
-    /// Its first knot, whole periods on.
+    periods: f64,
+    /// Its first knot, shifted by the periods.
     start: f64,
 }
 
 impl Table {
-    /// Lays the curve; `periodic`: one period of it is given.
+    /// Fits the curve; `periodic`: the table is one period.
     ///
     /// # Errors
     ///
-    /// A table that is short, not growing, or no numbers; a period whose ends differ.
+    /// The table is short, not increasing or not finite, or the ends of a period differ.
     pub fn new(
         knots: &[f64],
         values: &[f64],
@@ -40,16 +40,16 @@ impl Table {
         Ok(Self { knots: knots.to_vec(), pieces: spline(knots, values, ends)?, periodic })
     }
 
-    /// The value at a place; no number beyond a table that is not periodic.
+    /// The value at `x`; NaN beyond a table that is not periodic.
     #[must_use]
     pub fn at(&self, x: f64) -> f64 {
         self.value_and_slope(x).map_or(f64::NAN, |pair| pair[0])
     }
 
-    /// Value and slope at a place; none beyond a table that is not periodic.
+    /// Value and slope at `x`; `None` beyond a table that is not periodic.
     pub(crate) fn value_and_slope(&self, x: f64) -> Option<[f64; 2]> {
         let within = if self.periodic && x.is_finite() {
-            within_period(x, self.knots[0], self.width())[0]
+            wrap_to_period(x, self.knots[0], self.width())[0]
         } else {
             x
         };
@@ -62,7 +62,7 @@ impl Table {
         self.periodic.then(|| self.width())
     }
 
-    /// The first and the last of its rows.
+    /// The first and the last knot.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
         [self.knots[0], self.knots[self.knots.len() - 1]]
@@ -73,40 +73,40 @@ impl Table {
         last - first
     }
 
-    /// The piece that a place is in; at a knot the one behind it.
+    /// The piece that contains `x`; at a knot the one behind it.
     pub(crate) fn cell(&self, x: f64) -> Option<Cell> {
         let [first, last] = self.range();
-        // A last digit beyond its end is at it.
-        let slack = SLACK * (last - first).max(first.abs()).max(last.abs());
+        // Rounding beyond an end counts as the end.
+        let slack = RANGE_RTOL * (last - first).max(first.abs()).max(last.abs());
         let within = self.periodic || (first - slack..=last + slack).contains(&x);
         if !x.is_finite() || !within {
             return None;
         }
-        let whole = if self.periodic { ((x - first) / self.width()).floor() } else { 0.0 };
-        let within = x - self.width() * whole;
+        let periods = if self.periodic { ((x - first) / self.width()).floor() } else { 0.0 };
+        let within = x - self.width() * periods;
         let after = self.knots.partition_point(|&knot| knot <= within);
-        Some(self.own(after.clamp(1, self.pieces.len()) - 1, whole))
+        Some(self.cell_of(after.clamp(1, self.pieces.len()) - 1, periods))
     }
 
-    fn own(&self, piece: usize, whole: f64) -> Cell {
-        Cell { piece, whole, start: self.knots[piece] + whole * self.width() }
+    fn cell_of(&self, piece: usize, periods: f64) -> Cell {
+        Cell { piece, periods, start: self.knots[piece] + periods * self.width() }
     }
 
-    /// The knots around a piece: where it ends the next one begins, to the last bit.
+    /// The knots at the ends of a piece; each end is the next piece's start, to the last bit.
     pub(crate) fn ends(&self, cell: Cell) -> [f64; 2] {
         let end = self.next(cell, true).map(|next| next.start);
         [cell.start, end.unwrap_or(self.range()[1])]
     }
 
-    /// The piece behind (`up`) or before another.
+    /// The next piece (`up`) or the previous one.
     pub(crate) fn next(&self, cell: Cell, up: bool) -> Option<Cell> {
         let last = self.pieces.len() - 1;
-        let Cell { piece, whole, .. } = cell;
+        let Cell { piece, periods, .. } = cell;
         match up {
-            true if piece < last => Some(self.own(piece + 1, whole)),
-            false if piece > 0 => Some(self.own(piece - 1, whole)),
-            true => self.periodic.then(|| self.own(0, whole + 1.0)),
-            false => self.periodic.then(|| self.own(last, whole - 1.0)),
+            true if piece < last => Some(self.cell_of(piece + 1, periods)),
+            false if piece > 0 => Some(self.cell_of(piece - 1, periods)),
+            true => self.periodic.then(|| self.cell_of(0, periods + 1.0)),
+            false => self.periodic.then(|| self.cell_of(last, periods - 1.0)),
         }
     }
 
@@ -118,24 +118,24 @@ impl Table {
         [a + x * (b + x * (c + x * d)), b + x * (2.0 * c + x * (3.0 * d))]
     }
 
-    /// About how many knots there are on a way of this length.
+    /// About how many knots an interval of this length has.
     pub(crate) fn knots_in(&self, length: f64) -> f64 {
-        let own = self.knots.len() as f64;
-        if self.periodic { own * (1.0 + length / self.width()) } else { own }
+        let knots = self.knots.len() as f64;
+        if self.periodic { knots * (1.0 + length / self.width()) } else { knots }
     }
 
-    /// Where it is not smooth within an interval, ascending.
+    /// The knots inside an interval, ascending.
     pub(crate) fn knots_within(&self, [low, high]: [f64; 2]) -> Vec<f64> {
         let mut found = Vec::new();
         let [first, last] = self.range();
         let mut cell = self.cell(if self.periodic { low } else { low.clamp(first, last) });
-        while let Some(own) = cell {
-            let [start, end] = self.ends(own);
+        while let Some(current) = cell {
+            let [start, end] = self.ends(current);
             if start > high {
                 break;
             }
             found.push(start);
-            cell = self.next(own, true);
+            cell = self.next(current, true);
             if cell.is_none() {
                 found.push(end);
             }
@@ -150,7 +150,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pieces_follow_each_other() {
+    fn pieces_are_adjacent() {
         let knots = [0.0, 1.0, 3.0];
         let table =
             Table::new(&knots, &[1.0, 2.0, 1.0], EndCondition::Linear, true).expect("a table");
