@@ -80,7 +80,7 @@ impl<'a> Worker<'a> {
         let mut many = State::new(plan, jets);
         many.asked.clone_from(&writer.asked);
         Self {
-            quick: design.quick(),
+            quick: design.uniform_tracer(),
             one: State::new(plan, jets),
             by: request.by.map(|index| (index, Sensitivity::new(plan, jets))),
             many,
@@ -118,8 +118,8 @@ impl<'a> Worker<'a> {
     /// Solves positions of the design; called by `dispatch` alone.
     #[inline(always)]
     pub(crate) fn run<L: Level>(&mut self, job: &mut Job<'_, '_>) {
-        if !self.design.lay_quick::<L>(&mut self.quick) {
-            self.design.lay_way(job.q);
+        if !self.design.trace_uniform::<L>(&mut self.quick) {
+            self.design.trace(job.q);
         }
         let drivers = self.design.mechanism.q0().len();
         let count = job.q.len() / drivers;
@@ -152,7 +152,7 @@ impl<'a> Worker<'a> {
     #[inline(always)]
     fn turn(&mut self, job: &Job<'_, '_>) {
         let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
-        let track = &self.design.track;
+        let track = &self.design.branch;
         if !(is_angle && job.shared.is_some() && self.shared == job.shared) {
             self.shared = job.shared;
             self.turned.clear();
@@ -165,13 +165,13 @@ impl<'a> Worker<'a> {
             }
         }
         // The knots of a quick way are the same for all designs.
-        if track.even.is_none() || !self.spots_even {
+        if track.inverse_width.is_none() || !self.spots_even {
             self.spots.clear();
         }
-        self.spots_even = track.even.is_some();
+        self.spots_even = track.inverse_width.is_some();
         if self.spots.is_empty() {
             for turned in &self.turned {
-                self.spots.push(track.spot(turned.q));
+                self.spots.push(track.locate(turned.q));
             }
         }
     }
@@ -179,12 +179,12 @@ impl<'a> Worker<'a> {
     /// Lanes of a group that must be done by themselves, whatever comes out.
     #[inline(always)]
     fn strange(&self, q: Lanes, spot: &BranchLocation<Lanes>) -> <Lanes as Real>::Mask {
-        let track = &self.design.track;
+        let track = &self.design.branch;
         let strange = |i: usize| {
             let at = q.lane(i);
             !track.covers(at)
-                || track.hides(spot, i)
-                || track.change_near(at, self.design.bridge.reach).is_some()
+                || track.in_untraced_island(spot, i)
+                || track.change_near(at, self.design.change_window.reach).is_some()
         };
         Lanes::ZERO.lt(Lanes::from_lanes(|i| if strange(i) { 1.0 } else { 0.0 }))
     }
@@ -197,15 +197,15 @@ impl<'a> Worker<'a> {
         for group in 0..groups {
             let DriverLanes { q, unit } = self.turned[first + group];
             let spot = &self.spots[first + group];
-            if self.design.track.even.is_none() {
+            if self.design.branch.inverse_width.is_none() {
                 care[group] = self.strange(q, spot);
             }
-            let track = &self.design.track;
+            let track = &self.design.branch;
             // What is done by itself is no matter here.
             self.many.q[0][group] = Lanes::select(care[group], Lanes::splat(f64::NAN), q);
             self.many.unit[0][group] = unit;
             for (sign, groups) in self.many.signs.iter_mut().enumerate() {
-                groups[group] = if track.is_one_stretch() {
+                groups[group] = if track.has_constant_signs() {
                     Lanes::splat(track.signs_at(spot, 0)[sign])
                 } else {
                     Lanes::from_lanes(|i| track.signs_at(spot, i)[sign])
@@ -216,7 +216,7 @@ impl<'a> Worker<'a> {
         self.many.groups = groups;
         for group in 0..groups.min(GROUPS) {
             let spot = &self.spots[first + group];
-            design.guess(group, &mut self.many, &design.track, spot);
+            design.guess(group, &mut self.many, &design.branch, spot);
         }
         L::solve(&mut self.many, &design.context(design.jets));
         let state = &self.many;
@@ -228,7 +228,7 @@ impl<'a> Worker<'a> {
         }
         for &class in &self.writer.classes {
             for (spot, lifted) in self.spots[first..].iter().zip(&mut self.lifted[class]) {
-                *lifted = nearest(*lifted, design.track.near(spot, class));
+                *lifted = nearest(*lifted, design.branch.reference_angle(spot, class));
             }
         }
         let at = job.first + row;
@@ -238,7 +238,7 @@ impl<'a> Worker<'a> {
         let mut again = false;
         for group in 0..groups.min(GROUPS) {
             care[group] = care[group].or(state.care[group]);
-            care[group] = care[group].or(design.track.bends_as(state, group).not());
+            care[group] = care[group].or(design.branch.same_det_sign(state, group).not());
             again |= care[group].any();
             let near = state.near_singular(group);
             if near.any() {
@@ -272,7 +272,7 @@ impl<'a> Worker<'a> {
     fn one_row(&mut self, job: &mut Job<'_, '_>, row: usize) {
         let drivers = self.design.mechanism.q0().len();
         let q = self.design.scaled(&job.q[row * drivers..][..drivers]);
-        let place = self.design.way(&q);
+        let place = self.design.branch_to(&q);
         let state = &mut self.one;
         let analogues = self.design.solve(state, &q, place.as_ref());
         let at = job.first + row;
@@ -281,7 +281,7 @@ impl<'a> Worker<'a> {
             job.rows.leave_out(self.columns, at, 1, state.status as u8);
             return;
         };
-        let near = self.design.near(place, self.lifted.len());
+        let near = self.design.reference_angles(place, self.lifted.len());
         let lift = |class: usize| [nearest(state.class[class][0].angle(), near[class])];
         let lifted: Vec<[f64; 1]> = (0..near.len()).map(lift).collect();
         let with = (&self.design.bound, &self.design.unit);
@@ -306,7 +306,7 @@ impl<'a> Worker<'a> {
                 return;
             }
             let q = design.scaled(q);
-            let place = design.way(&q);
+            let place = design.branch_to(&q);
             let state = &mut self.one;
             design.solve(state, &q, place.as_ref());
             let at = job.first + row;

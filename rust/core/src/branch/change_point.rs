@@ -7,7 +7,7 @@
 //! distance where nothing is singular, tells a change point (0, to rounding) from
 //! a near miss (positive) and from a gap between two dead points (negative).
 
-use super::knot::{ChangePoint, Knot, may_touch};
+use super::knot::{ChangePoint, Knot, may_vanish};
 use super::tracer::BranchTracer;
 use crate::math::tolerance::{
     CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,
@@ -17,29 +17,33 @@ use crate::plan::dyad::Dyad;
 impl BranchTracer<'_, '_> {
     /// Looks for the first change point between two knots and records it; the caller
     /// solves the second knot again with the new sign and asks once more.
-    pub(crate) fn pass(&mut self, a: &Knot, b: &Knot) -> bool {
-        let walker = self;
-        for (place, (step, dyad)) in walker.dyads().enumerate() {
+    pub(crate) fn detect(&mut self, a: &Knot, b: &Knot) -> bool {
+        let tracer = self;
+        for (index, (step, dyad)) in tracer.dyads().enumerate() {
             let Some(sign) = dyad.sign else { continue };
             // A dyad beyond may close only with the sign that is yet to be found.
             if step >= a.solved.min(b.solved) {
                 continue;
             }
-            let here = |c: &ChangePoint| c.sign == sign && (c.at - a.at) * walker.way > 0.0;
-            if walker.changes.iter().any(here) {
+            let known = |c: &ChangePoint| c.sign == sign && (c.at - a.at) * tracer.direction > 0.0;
+            if tracer.changes.iter().any(known) {
                 continue;
             }
-            let ((from, fall), (to, rise)) = (a.spread[place], b.spread[place]);
-            if !may_touch((from, fall), (to, rise), b.at - a.at) {
+            let ((from, fall), (to, rise)) = (a.spread[index], b.spread[index]);
+            if !may_vanish((from, fall), (to, rise), b.at - a.at) {
                 continue;
             }
-            let Some((at, sure)) = locate(walker, (step, dyad), a.at, b.at) else { continue };
+            let Some((at, certain)) = locate(tracer, (step, dyad), a.at, b.at) else { continue };
             // Beside the first knot it may be found on the other side, and would be found again and again.
             let least = (a.at.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
-            let at = if (at - a.at) * walker.way > 0.0 { at } else { a.at + walker.way * least };
+            let at = if (at - a.at) * tracer.direction > 0.0 {
+                at
+            } else {
+                a.at + tracer.direction * least
+            };
             let change = ChangePoint { at, sign };
-            if sure || leads_through(walker, change, [a.at, b.at]) {
-                walker.changes.push(change);
+            if certain || redundant_links_confirm(tracer, change, [a.at, b.at]) {
+                tracer.changes.push(change);
                 return true;
             }
         }
@@ -49,19 +53,23 @@ impl BranchTracer<'_, '_> {
 
 /// How far behind the first of two knots redundant links are looked at, in cells: close to the change
 /// point they fit on both branches.
-const BEHIND: [f64; 3] = [1.0, 4.0, 16.0];
+const CELLS_BEHIND: [f64; 3] = [1.0, 4.0, 16.0];
 
 /// Whether redundant links fit behind a change point and not without it, so that they lead through.
-fn leads_through(walker: &mut BranchTracer<'_, '_>, change: ChangePoint, [a, b]: [f64; 2]) -> bool {
-    let before = walker.changes.len();
-    for cells in BEHIND {
+fn redundant_links_confirm(
+    tracer: &mut BranchTracer<'_, '_>,
+    change: ChangePoint,
+    [a, b]: [f64; 2],
+) -> bool {
+    let count = tracer.changes.len();
+    for cells in CELLS_BEHIND {
         let [with, without] = [&[change][..], &[]].map(|taken| {
-            walker.changes.extend_from_slice(taken);
+            tracer.changes.extend_from_slice(taken);
             // Also where something else is open, within a gap of another dyad.
-            walker.state.forget(&walker.cx);
-            walker.solve(a + cells * (b - a));
-            walker.changes.truncate(before);
-            walker.state.fits(&walker.cx)
+            tracer.state.forget(&tracer.cx);
+            tracer.solve(a + cells * (b - a));
+            tracer.changes.truncate(count);
+            tracer.state.fits(&tracer.cx)
         });
         if let (Some(with), Some(without)) = (with, without)
             && with != without
@@ -79,13 +87,13 @@ const GOLDEN: f64 = 0.381_966_011_250_105;
 const NEAR_ENOUGH: f64 = 1e-6;
 
 /// How often the six points are moved there, at most; twice that for what is not one to rounding.
-const CENTRINGS: u32 = 3;
+const MAX_CENTRINGS: u32 = 3;
 
 /// The change point between `a` and `b`, if there is one, and whether it is one to rounding: where
 /// redundant links miss by what they may, so do the lengths that make a change point.
 fn locate(
-    walker: &mut BranchTracer<'_, '_>,
-    (index, dyad): (usize, &Dyad),
+    tracer: &mut BranchTracer<'_, '_>,
+    (step_index, dyad): (usize, &Dyad),
     a: f64,
     b: f64,
 ) -> Option<(f64, bool)> {
@@ -95,75 +103,75 @@ fn locate(
     // likes to be in the middle.
     while (high - low).abs() > 4.0 * step.abs() {
         let middle = low + GOLDEN * (high - low);
-        if walker.solve(middle) <= index {
+        if tracer.solve(middle) <= step_index {
             return None;
         }
-        let (value, rate) = walker.spread(dyad);
+        let (value, rate) = tracer.spread(dyad);
         if rate.is_nan() {
             (low, high) = (middle - step, middle + step);
             break;
         }
-        if value * rate * walker.way < 0.0 { low = middle } else { high = middle }
+        if value * rate * tracer.direction < 0.0 { low = middle } else { high = middle }
     }
-    let redundant = walker.cx.plan.fits().next().is_some();
+    let redundant = tracer.cx.plan.fits().next().is_some();
     let strict = if redundant { REDUNDANT_ROUNDING } else { CHANGE_SPREAD };
     let mut centre = 0.5 * (low + high);
-    for _ in 0..if redundant { 2 * CENTRINGS } else { CENTRINGS } {
-        let fit = LocalFit::around(walker, (index, dyad), centre, step)?;
+    for _ in 0..if redundant { 2 * MAX_CENTRINGS } else { MAX_CENTRINGS } {
+        let fit = LocalFit::around(tracer, (step_index, dyad), centre, step)?;
         let zero = fit.zero();
-        let own = fit.before.min(CHANGE_CONDITION) * fit.shortness;
+        let own = fit.upstream_condition.min(CHANGE_CONDITION) * fit.length_ratio;
         let noise = strict * own;
         // In a small cell the zero is known no better than the spread there.
         let rise = fit.slope * step;
         if zero.abs() < NEAR_ENOUGH.max(noise / (rise * rise)) {
             let curved = (rise * zero) * (rise * zero);
-            let sure = fit.least.abs() <= noise + curved;
-            let maybe = redundant && fit.least.abs() <= REDUNDANT_CLOSURE * own + curved;
-            return (sure || maybe).then_some((centre + zero * step, sure));
+            let certain = fit.square.abs() <= noise + curved;
+            let possible = redundant && fit.square.abs() <= REDUNDANT_CLOSURE * own + curved;
+            return (certain || possible).then_some((centre + zero * step, certain));
         }
         centre += zero.clamp(-4.0, 4.0) * step;
     }
     None
 }
 
-/// The spread on both sides of a point, as if it were a change point.
+/// The spread on both guide_sides of a point, as if it were a change point.
 struct LocalFit {
     /// N at the centre, by an even polynomial through six points.
     value: f64,
     /// Its rate by the parameter.
     slope: f64,
     /// N² at the centre, likewise.
-    least: f64,
+    square: f64,
     /// Greatest condition of what the dyad hangs on, at the points.
-    before: f64,
+    upstream_condition: f64,
     /// Greatest size by the length of a leg, there.
-    shortness: f64,
+    length_ratio: f64,
     step: f64,
 }
 
 impl LocalFit {
     fn around(
-        walker: &mut BranchTracer<'_, '_>,
-        (index, dyad): (usize, &Dyad),
+        tracer: &mut BranchTracer<'_, '_>,
+        (step_index, dyad): (usize, &Dyad),
         centre: f64,
         step: f64,
     ) -> Option<Self> {
         let sign = dyad.sign?;
         let (mut n, mut square, mut odd) = ([0.0; 3], [0.0; 3], [0.0; 3]);
-        let (mut before, mut shortness) = (1.0_f64, 1.0_f64);
-        for (place, reach) in [1.0, 2.0, 3.0].into_iter().enumerate() {
+        let (mut upstream_condition, mut length_ratio) = (1.0_f64, 1.0_f64);
+        for (index, offset) in [1.0, 2.0, 3.0].into_iter().enumerate() {
             for side in [-1.0, 1.0] {
-                if walker.solve(centre + side * reach * step) <= index {
+                if tracer.solve(centre + side * offset * step) <= step_index {
                     return None;
                 }
-                let (value, _) = walker.spread(dyad);
+                let (value, _) = tracer.spread(dyad);
                 let value = value.abs() * side;
-                n[place] += 0.5 * value;
-                odd[place] += 0.5 * side * value / (reach * step);
-                square[place] += 0.5 * value * value;
-                let state = &*walker.state;
-                before = before.max(state.before[sign][0].sqrt());
-                shortness = shortness.max(state.shortness(&walker.cx, dyad));
+                n[index] += 0.5 * value;
+                odd[index] += 0.5 * side * value / (offset * step);
+                square[index] += 0.5 * value * value;
+                let state = &*tracer.state;
+                upstream_condition = upstream_condition.max(state.before[sign][0].sqrt());
+                length_ratio = length_ratio.max(state.shortness(&tracer.cx, dyad));
             }
         }
         // Even polynomials through ±1, ±2, ±3 steps, at 0: weights 15, −6, 1 of 10.
@@ -171,9 +179,9 @@ impl LocalFit {
         Some(Self {
             value: at_zero(n),
             slope: at_zero(odd),
-            least: at_zero(square),
-            before,
-            shortness,
+            square: at_zero(square),
+            upstream_condition,
+            length_ratio,
             step,
         })
     }

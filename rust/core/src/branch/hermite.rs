@@ -25,18 +25,18 @@ impl HermiteCell {
         let d0 = end - (value + h * (rate + 0.5 * h * second));
         let d1 = h * (end_rate - rate - h * second);
         let d2 = h * h * (end_second - second);
-        let per = 1.0 / h;
-        let per3 = per * per * per;
-        let c3 = (10.0 * d0 - 4.0 * d1 + 0.5 * d2) * per3;
-        let c4 = (-15.0 * d0 + 7.0 * d1 - d2) * (per3 * per);
-        let c5 = (6.0 * d0 - 3.0 * d1 + 0.5 * d2) * (per3 * per * per);
+        let inv_h = 1.0 / h;
+        let inv_h3 = inv_h * inv_h * inv_h;
+        let c3 = (10.0 * d0 - 4.0 * d1 + 0.5 * d2) * inv_h3;
+        let c4 = (-15.0 * d0 + 7.0 * d1 - d2) * (inv_h3 * inv_h);
+        let c5 = (6.0 * d0 - 3.0 * d1 + 0.5 * d2) * (inv_h3 * inv_h * inv_h);
         let with = [value, rate, 0.5 * second, c3, c4, c5];
         let coefficients = if with.iter().all(|c| c.is_finite()) { with } else { coefficients };
         Self { coefficients, unit }
     }
 
     /// Of an unknown between two knots of a walk.
-    pub(crate) fn of(unknown: Unknown, a: &Taylor2, b: Option<&Taylor2>, h: f64) -> Self {
+    pub(crate) fn between(unknown: Unknown, a: &Taylor2, b: Option<&Taylor2>, h: f64) -> Self {
         let unit = match unknown {
             Unknown::Class(_) => Vector::at_angle(a[0]),
             Unknown::Slide(_) => Vector::ONE,
@@ -54,7 +54,7 @@ impl HermiteCell {
 /// (Taylor's polynomials), its length to the last bit (a step of Newton's for 1/√). The iteration
 /// mends directions by the second order, but a wrong length only by the first.
 #[inline(always)]
-pub(crate) fn small_turn<R: Real>(angle: R) -> Vector<R> {
+pub(crate) fn small_rotation<R: Real>(angle: R) -> Vector<R> {
     let x2 = angle * angle;
     let (mut cosine, mut sine) = (R::splat(COSINE[0]), R::splat(SINE[0]));
     for (c, s) in COSINE[1..].iter().zip(&SINE[1..]) {
@@ -76,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cell_meets_both_ends() {
+    fn cell_interpolates_both_ends() {
         // sin and its derivatives at 0.3 and 0.5.
         let seed = |x: f64| [x.sin(), x.cos(), -x.sin()];
         let cell = HermiteCell::new(&seed(0.3), Some(&seed(0.5)), 0.2, Vector::ONE);
@@ -87,9 +87,9 @@ mod tests {
     }
 
     #[test]
-    fn small_turns_are_cosine_and_sine() {
+    fn small_rotations_are_cosine_and_sine() {
         for angle in [0.0_f64, 1e-3, -0.4, 0.785] {
-            let turn = small_turn(angle);
+            let turn = small_rotation(angle);
             assert!((turn.x - angle.cos()).abs() < 2e-10 && (turn.y - angle.sin()).abs() < 2e-10);
             assert!((turn.norm() - 1.0).abs() < 4e-16, "{angle}");
         }

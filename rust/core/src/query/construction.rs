@@ -14,7 +14,7 @@ use crate::state::status::Status;
 
 /// Places each way at which a drawing with redundant links is looked at: a turn, or the size of the
 /// drawing along a slide.
-const LOOKS: u32 = 31;
+const SAMPLES: u32 = 31;
 
 impl Mechanism {
     /// Analyses and compiles a description.
@@ -36,25 +36,28 @@ impl Mechanism {
         description: &Description,
         cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
-        let made = Self::compile(description, cancel)?;
-        let bound = DesignConstants::new(made.plan(), &made.slots, made.drawing());
-        made.refuse_what_fits_here_alone(bound.scale)?;
-        Ok(made)
+        let mechanism = Self::compile(description, cancel)?;
+        let bound = DesignConstants::new(mechanism.plan(), &mechanism.slots, mechanism.drawing());
+        mechanism.check_redundancy_along_motion(bound.scale)?;
+        Ok(mechanism)
     }
 
     /// Refuses a drawing whose redundant links fit beside it and not along all of its motion, as it
     /// would be solved: its lengths do not agree well enough to pass a change point.
-    fn refuse_what_fits_here_alone(&self, scale: f64) -> Result<(), StructureError> {
+    fn check_redundancy_along_motion(&self, scale: f64) -> Result<(), StructureError> {
         let is_slide = self.plan().driven_slide(0).is_some();
         if self.plan().fits().next().is_none() || self.q0().len() > 1 {
             return Ok(());
         }
-        let step = if is_slide { self.linkage().size() } else { TAU } / f64::from(LOOKS);
-        for way in [step, -step] {
-            let looks = (0..=LOOKS).map(f64::from);
-            let places: Vec<f64> = looks.map(|look| self.q0()[0] + way * look).collect();
+        let step = if is_slide { self.linkage().size() } else { TAU } / f64::from(SAMPLES);
+        for step in [step, -step] {
+            let samples = (0..=SAMPLES).map(f64::from);
+            let coordinates: Vec<f64> =
+                samples.map(|sample| self.q0()[0] + step * sample).collect();
             let mut residual = 0.0_f64;
-            for found in self.diagnose(self.drawing(), &places, self.signs()).unwrap_or_default() {
+            for found in
+                self.diagnose(self.drawing(), &coordinates, self.signs()).unwrap_or_default()
+            {
                 if matches!(found.status, Status::Ok | Status::NearSingular | Status::Singular) {
                     residual = residual.max(found.residual);
                     continue;

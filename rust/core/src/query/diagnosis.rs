@@ -11,7 +11,7 @@ use crate::state::status::{Fault, Status};
 /// How far (in sizes) a joint is where a way has ended not for a dead point but for that: the
 /// condition of a group grows with the square of it, so the way to a pole is not followed to its
 /// end.
-const FAR: f64 = 100.0;
+const FAR_JOINT: f64 = 100.0;
 
 /// One position looked at closely.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,13 +69,18 @@ impl Mechanism {
         let jets = DerivativeTables::new(drivers, 0);
         let mut design = Design::new(self, signs, &jets);
         design.bind(dimensions);
-        design.lay_way(q);
+        design.trace(q);
         let mut state = design.state(&jets);
-        let look = |(scaled, q): (&[f64], &[f64])| {
-            let analogues = design.solve(&mut state, scaled, design.way(scaled).as_ref());
+        let diagnose = |(scaled, q): (&[f64], &[f64])| {
+            let analogues = design.solve(&mut state, scaled, design.branch_to(scaled).as_ref());
             self.describe(&design, &state, &jets, q, analogues)
         };
-        Ok(design.scaled(q).chunks_exact(drivers).zip(q.chunks_exact(drivers)).map(look).collect())
+        Ok(design
+            .scaled(q)
+            .chunks_exact(drivers)
+            .zip(q.chunks_exact(drivers))
+            .map(diagnose)
+            .collect())
     }
 
     fn describe(
@@ -86,7 +91,7 @@ impl Mechanism {
         q: &[f64],
         analogues: bool,
     ) -> Diagnosis {
-        let at = &place_of(q);
+        let at = &coordinate_text(q);
         let step = state.fault.map(Fault::step);
         let condition = state.condition2[0].sqrt();
         let named = state.fault.map(|fault| self.step_name(fault));
@@ -101,10 +106,10 @@ impl Mechanism {
                 return Diagnosis::bare(Status::BadInput, format!("q = {at} {why}"));
             }
             Status::Lost => {
-                return Diagnosis::bare(Status::Lost, self.lost(design, q, at));
+                return Diagnosis::bare(Status::Lost, self.lost_sentence(design, q, at));
             }
             Status::Unreachable | Status::NotConverged => {
-                let (name, sentence) = self.unreachable(state, design.bound.scale, at);
+                let (name, sentence) = self.unreachable_sentence(state, design.bound.scale, at);
                 let gap = match state.fault {
                     Some(Fault::NotClosed { gap, .. } | Fault::RedundantMisfit { gap, .. }) => gap,
                     _ => f64::NAN,
@@ -165,7 +170,7 @@ impl Mechanism {
     }
 
     /// Why the way from the drawing does not lead there.
-    fn lost(&self, design: &Design<'_>, q: &[f64], at: &str) -> String {
+    fn lost_sentence(&self, design: &Design<'_>, q: &[f64], at: &str) -> String {
         let groups: Vec<&str> = self.plan().groups().map(|group| group.name.as_str()).collect();
         if groups.is_empty() {
             return format!(
@@ -173,13 +178,13 @@ impl Mechanism {
             );
         }
         let groups = groups.join(" → ");
-        if let Err(part) = design.home {
+        if let Err(part) = design.initial_unknowns {
             return format!(
                 "these dimensions are not reached: on their straight way from the drawing's {groups} comes to a dead point after {:.4} % of it; give them in steps by another way, or draw the mechanism with them",
                 100.0 * part
             );
         }
-        match design.track.covered {
+        match design.branch.covered {
             Some([low, high])
                 if low <= high && low.is_finite() && design.unit.coordinate.len() == 1 =>
             {
@@ -187,8 +192,8 @@ impl Mechanism {
                 let reach = [low, high].map(|end| number(end / unit));
                 let reach = format!("from {} to {}", reach[0], reach[1]);
                 let end = if q[0] * unit < low { low } else { high };
-                let away = design.farthest(end);
-                if away > FAR {
+                let away = design.max_distance(end);
+                if away > FAR_JOINT {
                     return format!(
                         "q = {at} is not reached: from the drawing the motion of {groups} is followed {reach}, where a joint is {away:.0} sizes away: too far to be followed on"
                     );
@@ -203,7 +208,7 @@ impl Mechanism {
         }
     }
 
-    fn unreachable(&self, state: &State, scale: f64, at: &str) -> (String, String) {
+    fn unreachable_sentence(&self, state: &State, scale: f64, at: &str) -> (String, String) {
         let Some(fault) = state.fault else {
             return (String::new(), format!("q = {at} cannot be reached"));
         };
@@ -247,7 +252,7 @@ fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::dyad::
     slides.join("-")
 }
 
-pub(super) fn place_of(q: &[f64]) -> String {
+pub(super) fn coordinate_text(q: &[f64]) -> String {
     match q {
         [one] => number(*one),
         many => format!("({})", many.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", ")),

@@ -220,13 +220,13 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     /// A coordinate that cannot be computed with.
-    pub(crate) fn refuse(&mut self) {
+    pub(crate) fn set_bad_input(&mut self) {
         self.fault = None;
         self.status = Status::BadInput;
     }
 
     /// A place to which the way from the drawing is not known.
-    pub(crate) fn lose(&mut self) {
+    pub(crate) fn set_lost(&mut self) {
         self.fault = None;
         self.status = Status::Lost;
     }

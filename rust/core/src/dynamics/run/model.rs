@@ -10,7 +10,7 @@ use crate::dynamics::value::Numbers;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
 use crate::plan::mechanism::Mechanism;
-use crate::query::evaluator::{Asked, Evaluator, NearMiss};
+use crate::query::evaluator::{Evaluator, NearMiss, Queries};
 use crate::state::status::Status;
 
 /// A machine, place after place.
@@ -71,7 +71,7 @@ impl<'m> MechanismModel<'m> {
     /// How far from here a dead point may be, in the coordinate's unit; not farther than `most` of
     /// it.
     fn reach(&self, driver: usize, most: f64) -> f64 {
-        let (_, condition) = self.follower.condition();
+        let (_, condition) = self.follower.worst_condition();
         (FOLD_WITHIN / (condition * condition)).min(most) * self.follower.unit(driver)
     }
 
@@ -82,7 +82,7 @@ impl<'m> MechanismModel<'m> {
         for (driver, reach) in reaches.into_iter().enumerate() {
             for way in [-reach, reach] {
                 beside[driver] = q[driver] + way;
-                if self.follower.solve_aside(&beside).is_err() {
+                if self.follower.probe(&beside).is_err() {
                     return true;
                 }
                 beside[driver] = q[driver];
@@ -95,7 +95,7 @@ impl<'m> MechanismModel<'m> {
     #[cold]
     #[inline(never)]
     fn look_around(&mut self, q: &[f64]) -> Result<(), Status> {
-        let (step, condition) = self.follower.condition();
+        let (step, condition) = self.follower.worst_condition();
         if condition > GREATEST_CONDITION {
             if self.folds_near(q, f64::INFINITY) {
                 return Err(Status::Singular);
@@ -115,7 +115,7 @@ impl<'m> MechanismModel<'m> {
         jets: &'m DerivativeTables,
     ) -> Self {
         let lifted = machine.has_torsion();
-        let follower = Evaluator::new(mechanism, dimensions, jets, Asked::Any, lifted);
+        let follower = Evaluator::new(mechanism, dimensions, jets, Queries::Any, lifted);
         Self { machine, jets, follower }
     }
 }
@@ -124,7 +124,7 @@ impl ReducedModel for MechanismModel<'_> {
     fn place(&mut self, q: &[f64], _: Numbers<'_>, out: &mut Reduced) -> Result<(), Status> {
         self.follower.solve(q)?;
         // No dyad has more by itself than the whole position.
-        if self.follower.product() > GREATEST_CONDITION {
+        if self.follower.total_condition() > GREATEST_CONDITION {
             self.look_around(q)?;
         }
         self.machine.place(&Pose::new(self.follower.position(), self.jets), out);
@@ -177,13 +177,13 @@ impl ReducedModel for MechanismModel<'_> {
     }
 
     fn noise(&self) -> f64 {
-        let condition = self.follower.product();
+        let condition = self.follower.total_condition();
         ANALOGUE_PER_CONDITION_SQUARED * condition * condition
     }
 
     fn flatness(&mut self, q: &[f64]) -> f64 {
         match self.follower.solve(q) {
-            Ok(()) => 1.0 / self.follower.condition().1,
+            Ok(()) => 1.0 / self.follower.worst_condition().1,
             Err(_) => f64::NAN,
         }
     }
