@@ -1,11 +1,10 @@
-//! The way from the drawing: signs that change at change points, angles followed
-//! continuously.
+//! The branch from the drawing: signs that change at change points, angles followed continuously.
 //!
-//! At a change point a dyad with two solutions is flat and both solutions meet;
-//! the smooth motion goes from one to the other, so its sign changes there. An
-//! angle is known up to whole turns. Both are found along the straight path of q
-//! from the drawing, on knots that depend on the design alone: equal cells, halved
-//! where a link turns fast. So neither depends on which positions are asked for.
+//! At a change point a dyad with two solutions is flat and both solutions meet. The smooth motion
+//! goes from one to the other, so the dyad's sign changes there. An angle is known up to whole
+//! turns. Signs and turns are found by tracing q from the drawing over knots that depend on the
+//! design alone: equal cells, halved where a link turns fast. So the result does not depend on the
+//! positions requested.
 
 use std::f64::consts::TAU;
 
@@ -17,16 +16,16 @@ use crate::math::lanes::{LANES, Real};
 use crate::plan::plan::Plan;
 use crate::state::state::{Context, State};
 
-/// Cells in a turn of a driven angle: knots fill the lanes of four groups, and an odd
-/// number keeps them off the places half a turn from the drawing.
+/// Cells per turn of a driven angle: the knots fill the lanes of four groups, and an odd number of
+/// cells keeps knots off the point half a turn from the drawing.
 pub(crate) const CELLS_PER_TURN: u32 = 31;
-/// Cells in a unit (of the scale, or rad) of a driven slide's way and of a straight one.
+/// Cells per unit (of the scale, or rad) along a driven slide or a segment.
 const CELLS_PER_UNIT: f64 = 16.0;
-/// Steps of a cell in which an island that no knot has seen is measured.
+/// Steps per cell with which the length of an island between two knots is measured.
 const ISLAND_STEPS: f64 = 1024.0;
-/// Cells of a straight way, at most; whoever asks for a place keeps within that.
+/// Cells of a segment, at most; callers keep their coordinates within that.
 const MAX_CELLS: f64 = 1.0e6;
-/// Turns after which the signs have returned, at the latest; a kite needs two.
+/// Turns after which the signs must be those of the drawing again; a kite needs two.
 const MAX_TURNS: u32 = 64;
 
 /// Angles and signs along one path.
@@ -34,52 +33,54 @@ const MAX_TURNS: u32 = 64;
 pub(crate) struct Branch {
     /// Parameters of the knots.
     pub(crate) at: Vec<f64>,
-    /// Whether they can be reached.
+    /// Whether each knot can be reached.
     pub(crate) reached: Vec<bool>,
-    /// Lifted angle of every class at every knot (where not reached: at the last that was).
+    /// Unwrapped angle of every class at every knot (at an unreached knot, that of the last reached
+    /// one).
     pub(crate) angles: Vec<f64>,
     pub(crate) sign_intervals: Vec<SignInterval>,
     pub(crate) changes: Vec<ChangePoint>,
-    /// Gain of every class over a period.
+    /// Change of every class angle over a period.
     pub(crate) gain: Vec<f64>,
     pub(crate) period: Option<f64>,
-    /// Where the way is known; none: everywhere.
+    /// Interval in which the branch is known; `None`: everywhere.
     pub(crate) covered: Option<[f64; 2]>,
-    /// Of every cell after a knot, the groups' unknowns.
+    /// Polynomials of the groups' unknowns, for the cell after each knot.
     pub(crate) cells: Vec<HermiteCell>,
-    /// Signs of the groups' determinants where the way begins.
+    /// Whether each group's determinant is positive at the start of the branch.
     pub(crate) det_signs: Vec<bool>,
-    /// Knots a unit of the parameter, if all are reached and equally spaced.
+    /// Knots per unit of the parameter, if all are reached and equally spaced.
     pub(crate) inverse_width: Option<f64>,
 }
 
-/// Places on a branch, one a lane.
+/// Locations on a branch, one per lane.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct BranchLocation<R = f64> {
-    /// The parameter within the first period.
+    /// The parameter reduced to the first period.
     pub(crate) reduced: R,
-    /// Whole periods before it.
+    /// Whole periods taken off.
     periods: R,
-    /// The knot that tells the angles.
+    /// The knot from which angles are unwrapped.
     pub(crate) knot: [usize; LANES],
-    /// The first and the last of these, if there are no others; and 1 where it is the last.
+    /// The first and last of these knots, if all lanes have one or the other; and 1 in lanes with
+    /// the last.
     pub(crate) pair: Option<[usize; 2]>,
     pub(crate) is_last: R,
 }
 
 impl Branch {
-    /// A path without a single position: the dimensions cannot be followed from the drawing's, or
-    /// it ends where it begins.
+    /// A branch without a single position: the dimensions cannot be followed from the drawing's, or
+    /// the branch ends where it begins.
     ///
-    /// It has the signs of the drawing all the same: lanes are filled with them before a lane's
-    /// coordinate is looked at.
+    /// It still has the signs of the drawing, because lanes are filled with signs before their
+    /// coordinates are checked.
     pub(crate) fn empty(classes: usize, signs: &[f64]) -> Self {
         let covered = Some([f64::INFINITY, f64::NEG_INFINITY]);
         let sign_intervals = vec![SignInterval { from: f64::NEG_INFINITY, signs: signs.to_vec() }];
         Self { gain: vec![0.0; classes], sign_intervals, covered, ..Self::default() }
     }
 
-    /// Along one driven angle, from `q0` on, for ever.
+    /// Traces one driven angle from `q0` upward; covers all q if the motion is periodic.
     pub(crate) fn over_turns(
         cx: &Context<'_>,
         state: &mut State,
@@ -107,7 +108,7 @@ impl Branch {
         let sign_intervals = tracer.sign_intervals();
         let BranchTracer { knots, changes, ended, .. } = tracer;
         if ended {
-            // A group folds; the other way as well then.
+            // A group folds ahead: trace backward as well.
             let cells = f64::from(MAX_TURNS * CELLS_PER_TURN);
             let cells = ([cells; 2], TAU / f64::from(CELLS_PER_TURN));
             let branch = Self::bidirectional(cx, state, q0, cells, start);
@@ -134,8 +135,7 @@ impl Branch {
         }
     }
 
-    /// Along one driven slide, from `q0` both ways to `low` and `high`
-    /// (not farther than `reach` from `q0`).
+    /// Traces one driven slide from `q0` down to `low` and up to `high`, at most `reach` from `q0`.
     pub(crate) fn over_range(
         cx: &Context<'_>,
         state: &mut State,
@@ -148,7 +148,7 @@ impl Branch {
         Self::bidirectional(cx, state, q0, (cells, 1.0 / CELLS_PER_UNIT), start)
     }
 
-    /// From `q0` down and up, so many cells of a width; not beyond where the way ends.
+    /// Traces from `q0` down and up by a number of cells of one width, or to the end of the branch.
     fn bidirectional(
         cx: &Context<'_>,
         state: &mut State,
@@ -179,13 +179,13 @@ impl Branch {
                 knots.reverse();
                 knots.pop();
                 changes.reverse();
-                // Downward a stretch begins where the next change is.
+                // Downward, an interval begins at the next change.
                 for i in 0..sign_intervals.len() {
                     sign_intervals[i].from =
                         sign_intervals.get(i + 1).map_or(f64::NEG_INFINITY, |s| s.from);
                 }
                 sign_intervals.reverse();
-                // The last of them, around q0, is the first of the way up.
+                // The last one, around q0, is also the first one upward.
                 if let (Some(around), true) =
                     (sign_intervals.pop(), branch.sign_intervals.is_empty())
                 {
@@ -207,10 +207,11 @@ impl Branch {
         }
     }
 
-    /// Straight from the drawing to one point of several coordinates; the parameter there.
+    /// Traces straight from the drawing to one point of several coordinates; also returns the
+    /// parameter there.
     ///
-    /// Cells are as wide on every such way, so that two places on one ray from the drawing have the
-    /// same knots before them, and see or miss the same islands.
+    /// The cells have one width on every segment. So two points on one ray from the drawing share
+    /// their first knots, and both see or miss the same islands.
     pub(crate) fn along_segment(
         cx: &Context<'_>,
         state: &mut State,
@@ -237,7 +238,7 @@ impl Branch {
             cell += 1.0;
             at = f64::min(cell * width, end);
             tracer.advance(at);
-            // Only the end is asked for.
+            // Only the end is needed.
             tracer.knots.drain(..tracer.knots.len() - 1);
         }
         let sign_intervals = tracer.sign_intervals();
@@ -247,7 +248,7 @@ impl Branch {
         (Self { sign_intervals, changes, gain, covered, ..Self::from_knots(&knots, cx.plan) }, end)
     }
 
-    /// Keeps what is asked of knots later.
+    /// Keeps the part of the knots that is needed later.
     fn from_knots(knots: &[Knot], plan: &Plan) -> Self {
         let mut cells = Vec::new();
         for (i, a) in knots.iter().enumerate() {
@@ -269,7 +270,7 @@ impl Branch {
         }
     }
 
-    /// The parameter within the first period, and whole periods before it.
+    /// Reduces a parameter to the first period; also returns the whole periods taken off.
     #[inline(always)]
     pub(crate) fn reduce<R: Real>(&self, at: R) -> (R, R) {
         let (Some(&first), Some(period)) = (self.at.first(), self.period) else {
@@ -277,20 +278,20 @@ impl Branch {
         };
         let periods = ((at - R::splat(first)) * R::splat(1.0 / period)).floor();
         if self.inverse_width.is_some() {
-            // Only the whole turns matter.
+            // On the uniform branch only the number of turns must be exact.
             return (at - periods * R::splat(period), periods);
         }
         let turns = (period / TAU).round();
         (R::from_lanes(|lane| less_turns(at.lane(lane), periods.lane(lane) * turns)), periods)
     }
 
-    /// Whether the way to a parameter is known.
+    /// Whether the branch is known at a parameter.
     #[inline(always)]
     pub(crate) fn covers(&self, at: f64) -> bool {
         self.covered.is_none_or(|[low, high]| (low..=high).contains(&at))
     }
 
-    /// Finds a place; with no knots nothing is to be found.
+    /// Locates parameters among the knots; without knots, only reduces them.
     #[inline(always)]
     pub(crate) fn locate<R: Real>(&self, at: R) -> BranchLocation<R> {
         let (reduced, periods) = self.reduce(at);
@@ -317,8 +318,7 @@ impl Branch {
         BranchLocation { reduced, periods, knot, pair: is_pair.then_some(pair), is_last }
     }
 
-    /// The nearest knot before a place that can be reached, or the next one if only
-    /// that can.
+    /// The last knot at or before a parameter; the next knot if only that one can be reached.
     fn knot_before(&self, reduced: f64) -> usize {
         let after = self.at.partition_point(|&k| k <= reduced);
         let left = after.saturating_sub(1);
@@ -326,7 +326,7 @@ impl Branch {
         if ahead && !self.reached[left] { after } else { left }
     }
 
-    /// The assembly signs at a place.
+    /// The assembly signs at a location.
     #[inline(always)]
     pub(crate) fn signs_at<R: Real>(&self, location: &BranchLocation<R>, lane: usize) -> &[f64] {
         let after = match self.sign_intervals.len() {
@@ -347,8 +347,8 @@ impl Branch {
         self.sign_intervals.len() == 1
     }
 
-    /// The change point (of the first period) that a parameter is beside, if there is one, and how
-    /// far from it.
+    /// The change point (of the first period) within `reach` of a parameter, if there is one, and
+    /// the distance from it.
     pub(crate) fn change_near(&self, at: f64, reach: f64) -> Option<(ChangePoint, f64)> {
         if self.changes.is_empty() {
             return None;
@@ -359,7 +359,7 @@ impl Branch {
         self.changes.iter().flat_map(images).find(|(_, distance)| distance.abs() <= reach)
     }
 
-    /// Whether a place lies on an island that no knot has seen.
+    /// Whether a location lies on an island that no knot has seen.
     #[inline(always)]
     pub(crate) fn in_untraced_island<R: Real>(
         &self,
@@ -370,13 +370,13 @@ impl Branch {
         self.inverse_width.is_none() && around().is_some_and(|[a, b]| !a && !b)
     }
 
-    /// Whether the knots on both guide_sides of a place can be reached.
+    /// Whether the knots before and after a parameter can be reached.
     fn reached_around(&self, reduced: f64) -> Option<[bool; 2]> {
         let after = self.at.partition_point(|&k| k <= reduced);
         Some([*self.reached.get(after.checked_sub(1)?)?, *self.reached.get(after)?])
     }
 
-    /// The way along such an island, from its middle to the parameter: at an end a joint may be at
+    /// Traces such an island from its middle to the parameter: at an end of it a joint may be at
     /// infinity, where angles are rounding.
     pub(crate) fn trace_island(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Self {
         let (reduced, periods) = self.reduce(at);
@@ -420,7 +420,7 @@ impl Branch {
         Self { gain: self.gain.clone(), ..Self::from_knots(&knots, cx.plan) }
     }
 
-    /// The angle of a class at the knots of places.
+    /// The angle of a class at the knots of a location.
     #[inline(always)]
     pub(crate) fn reference_angle<R: Real>(&self, location: &BranchLocation<R>, class: usize) -> R {
         let classes = self.gain.len();
@@ -436,14 +436,14 @@ impl Branch {
 mod tests {
     use super::*;
 
-    /// Turns either way leave the angle that was there, to the rounding of the sum itself.
+    /// Removing whole turns leaves the angle, to the rounding of the sum itself.
     #[test]
-    fn turns_taken_off_are_turns_put_on() {
+    fn reducing_turns_restores_the_angle() {
         for turns in [1.0, 2.0, 64.0, 1000.0, 4_194_303.0, 4_194_304.0, 1e9] {
             for part in [0.001, 0.735_422_665_253_286_5, 3.0, 6.2] {
                 for turns in [turns, -turns] {
                     let angle = part + TAU * turns;
-                    // 2π as a double, and what it lacks.
+                    // 2π as a double, and its error.
                     let lost = (angle - TAU * turns) - part;
                     let wanted = part + lost - turns * 2.449_293_598_294_706_4e-16;
                     let rounding = 2.0 * f64::EPSILON * angle.abs().max(TAU);
@@ -454,7 +454,7 @@ mod tests {
         }
     }
 
-    /// Backward as well: a small angle less −1 turn is the sum, rounded once or twice.
+    /// Also backward: a small angle less −1 turn is the sum, rounded once or twice.
     #[test]
     fn small_angles_keep_their_digits() {
         for angle in [-0.735_422_665_253_286_5, -1e-9, 0.1, 3.0] {

@@ -1,11 +1,11 @@
-//! Change points: where both solutions of a dyad meet and the smooth motion goes
-//! from one to the other.
+//! Change points: where both solutions of a dyad meet and the smooth motion goes from one to the
+//! other.
 //!
-//! The signed spread N of the dyad (sine between its legs, or its chord) crosses
-//! zero there; computed with a fixed sign it touches zero from one side. N² is a
-//! smooth function of q either way, so its least value, found from points at a
-//! distance where nothing is singular, tells a change point (0, to rounding) from
-//! a near miss (positive) and from a gap between two dead points (negative).
+//! The signed spread N of the dyad (sine of the angle between its legs, or its chord) crosses zero
+//! there; with a fixed sign it touches zero from one side. N² is a smooth function of q in both
+//! cases. Its least value, found from points far enough away that nothing is singular,
+//! distinguishes a change point (zero, to rounding) from a near miss (positive) and from a gap
+//! between two dead points (negative).
 
 use super::knot::{ChangePoint, Knot, may_vanish};
 use super::tracer::BranchTracer;
@@ -15,13 +15,13 @@ use crate::math::tolerance::{
 use crate::plan::dyad::Dyad;
 
 impl BranchTracer<'_, '_> {
-    /// Looks for the first change point between two knots and records it; the caller
-    /// solves the second knot again with the new sign and asks once more.
+    /// Finds the first change point between two knots and records it. The caller then solves the
+    /// second knot again with the new sign and calls again.
     pub(crate) fn detect(&mut self, a: &Knot, b: &Knot) -> bool {
         let tracer = self;
         for (index, (step, dyad)) in tracer.dyads().enumerate() {
             let Some(sign) = dyad.sign else { continue };
-            // A dyad beyond may close only with the sign that is yet to be found.
+            // A later dyad may close only with the sign that is yet to be found.
             if step >= a.solved.min(b.solved) {
                 continue;
             }
@@ -34,7 +34,8 @@ impl BranchTracer<'_, '_> {
                 continue;
             }
             let Some((at, certain)) = locate(tracer, (step, dyad), a.at, b.at) else { continue };
-            // Beside the first knot it may be found on the other side, and would be found again and again.
+            // It may come out on the wrong side of the first knot, and would be found again and
+            // again.
             let least = (a.at.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
             let at = if (at - a.at) * tracer.direction > 0.0 {
                 at
@@ -51,11 +52,11 @@ impl BranchTracer<'_, '_> {
     }
 }
 
-/// How far behind the first of two knots redundant links are looked at, in cells: close to the change
-/// point they fit on both branches.
+/// How far past the first knot redundant links are checked, in cells: close to the change point
+/// they fit on both branches.
 const CELLS_BEHIND: [f64; 3] = [1.0, 4.0, 16.0];
 
-/// Whether redundant links fit behind a change point and not without it, so that they lead through.
+/// Whether redundant links fit past a change point with the new sign and not with the old one.
 fn redundant_links_confirm(
     tracer: &mut BranchTracer<'_, '_>,
     change: ChangePoint,
@@ -65,7 +66,7 @@ fn redundant_links_confirm(
     for cells in CELLS_BEHIND {
         let [with, without] = [&[change][..], &[]].map(|taken| {
             tracer.changes.extend_from_slice(taken);
-            // Also where something else is open, within a gap of another dyad.
+            // Also in a gap of another dyad, where some steps cannot be solved.
             tracer.state.forget(&tracer.cx);
             tracer.solve(a + cells * (b - a));
             tracer.changes.truncate(count);
@@ -82,15 +83,15 @@ fn redundant_links_confirm(
 
 /// The smaller part of the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105;
-/// How near the middle of the six points must be to a change point, in steps: the
-/// polynomials are then as good as their sixth power.
+/// How near the middle of the six points must be to a change point, in steps: the polynomials
+/// are then good to the sixth power of the step.
 const NEAR_ENOUGH: f64 = 1e-6;
 
-/// How often the six points are moved there, at most; twice that for what is not one to rounding.
+/// Times the six points are centred, at most; twice that with redundant links.
 const MAX_CENTRINGS: u32 = 3;
 
-/// The change point between `a` and `b`, if there is one, and whether it is one to rounding: where
-/// redundant links miss by what they may, so do the lengths that make a change point.
+/// The change point between `a` and `b`, if there is one, and whether it is one to rounding. Where
+/// redundant links may miss by a tolerance, so may the lengths that make a change point.
 fn locate(
     tracer: &mut BranchTracer<'_, '_>,
     (step_index, dyad): (usize, &Dyad),
@@ -99,8 +100,7 @@ fn locate(
 ) -> Option<(f64, bool)> {
     let (mut low, mut high) = (a, b);
     let step = CHANGE_STEP * (b - a);
-    // Halving by the golden section keeps clear of the change point itself, which
-    // likes to be in the middle.
+    // Golden-section search avoids the change point itself, which is often in the middle.
     while (high - low).abs() > 4.0 * step.abs() {
         let middle = low + GOLDEN * (high - low);
         if tracer.solve(middle) <= step_index {
@@ -134,17 +134,17 @@ fn locate(
     None
 }
 
-/// The spread on both guide_sides of a point, as if it were a change point.
+/// The spread on both sides of a point, as if that were a change point.
 struct LocalFit {
     /// N at the centre, by an even polynomial through six points.
     value: f64,
-    /// Its rate by the parameter.
+    /// Derivative of N by the parameter.
     slope: f64,
-    /// N² at the centre, likewise.
+    /// N² at the centre, by the same polynomial.
     square: f64,
-    /// Greatest condition of what the dyad hangs on, at the points.
+    /// Greatest condition upstream of the dyad, at the six points.
     upstream_condition: f64,
-    /// Greatest size by the length of a leg, there.
+    /// Greatest ratio of the triangle's size to its shortest leg, at the six points.
     length_ratio: f64,
     step: f64,
 }
@@ -174,7 +174,7 @@ impl LocalFit {
                 length_ratio = length_ratio.max(state.shortness(&tracer.cx, dyad));
             }
         }
-        // Even polynomials through ±1, ±2, ±3 steps, at 0: weights 15, −6, 1 of 10.
+        // Even polynomials through ±1, ±2, ±3 steps, at 0: weights 15, −6, 1 over 10.
         let at_zero = |e: [f64; 3]| (15.0 * e[0] - 6.0 * e[1] + e[2]) / 10.0;
         Some(Self {
             value: at_zero(n),

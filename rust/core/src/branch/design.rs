@@ -1,5 +1,4 @@
-//! One design ready to be solved: its numbers, its unit of length, its way from
-//! the drawing.
+//! One design ready to be solved: its constants, its unit of length, its branch from the drawing.
 
 use std::borrow::Cow;
 use std::cell::RefCell;
@@ -22,45 +21,45 @@ use crate::state::kernel::Level;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
-/// A place on a way from the drawing.
+/// A point on a branch.
 pub(crate) struct BranchPoint<'a> {
-    /// The way.
+    /// The branch.
     pub branch: Cow<'a, Branch>,
-    /// Its parameter there.
+    /// The parameter there.
     pub at: f64,
 }
 
-/// Farthest coordinate (rad, or units of the scale) from the drawing to which
-/// several drivers are followed: 1000 turns; a position costs time in proportion.
+/// Greatest distance (rad, or units of the scale) from the drawing to which several drivers are
+/// followed: 1000 turns. The time for a position grows with the distance.
 const MAX_DISTANCE: f64 = 1000.0 * std::f64::consts::TAU;
 
-/// One design after another, with the assembly asked for.
+/// One design after another, in the requested assembly.
 pub(crate) struct Design<'a> {
     pub mechanism: &'a Mechanism,
     pub bound: DesignConstants,
     pub unit: Units,
-    /// Tables of the order asked for.
+    /// Tables of the requested order.
     pub jets: &'a DerivativeTables,
-    /// Tables of the first order (with groups above class II: the second), for the way.
+    /// Tables for tracing: of first order, or second with groups above class II.
     tracing_jets: DerivativeTables,
-    /// Dimensions at hand.
+    /// Dimensions of the present design.
     values: Vec<f64>,
-    /// Unknowns of the groups at the drawing's coordinate; or after which part of the way of the
-    /// dimensions from the drawing that folds.
+    /// Unknowns of the groups at the drawing's coordinate; or the part of the path from the
+    /// drawing's dimensions after which a group folds.
     pub(crate) initial_unknowns: Result<Vec<Taylor2>, f64>,
     signs: Vec<f64>,
     /// Scaled coordinates of the drawing.
     q0: Vec<f64>,
-    /// The way from the drawing, if one serves all positions.
+    /// The branch from the drawing, if one serves all positions.
     pub branch: Branch,
-    /// Where the way through a change point is a polynomial.
+    /// Range around a change point within which the motion is interpolated.
     pub change_window: ChangeWindow,
-    /// Those that were asked for, by the place of their change point.
+    /// Interpolants in use, by their change point.
     interpolants: RefCell<Vec<(f64, Option<ChangeInterpolant>)>>,
 }
 
 impl<'a> Design<'a> {
-    /// A design still without numbers.
+    /// A design without dimensions yet.
     pub(crate) fn new(mechanism: &'a Mechanism, signs: &[i8], jets: &'a DerivativeTables) -> Self {
         // Groups are predicted with second derivatives.
         let order = if mechanism.plan().groups().next().is_some() { 2 } else { 1 };
@@ -80,7 +79,7 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Takes the dimensions of a design; its way is yet to be laid.
+    /// Sets the dimensions; the branch is yet to be traced.
     pub(crate) fn bind(&mut self, values: &[f64]) {
         let mechanism = self.mechanism;
         self.interpolants.get_mut().clear();
@@ -92,18 +91,18 @@ impl<'a> Design<'a> {
         self.values.extend_from_slice(values);
     }
 
-    /// How the fixed vectors change with a dimension.
+    /// Rates of the fixed vectors by a dimension.
     pub(crate) fn rate(&self, index: usize) -> BoundRate {
         let mechanism = self.mechanism;
         BoundRate::new(mechanism.plan(), &mechanism.slots, &self.bound, &self.values, index)
     }
 
-    /// What a position is solved with; the signs are those at the drawing.
+    /// The context of a position; its signs are those at the drawing.
     pub(crate) fn context<'b>(&'b self, jets: &'b DerivativeTables) -> Context<'b> {
         Context { plan: self.mechanism.plan(), bound: &self.bound, jets, signs: &self.signs }
     }
 
-    /// Tables for the way.
+    /// Tables for tracing.
     pub(crate) fn tracing_jets(&self) -> &DerivativeTables {
         &self.tracing_jets
     }
@@ -114,7 +113,7 @@ impl<'a> Design<'a> {
         q.iter().zip(units).map(|(q, unit)| q * unit).collect()
     }
 
-    /// Work space of some order.
+    /// Work space of the order of `jets`.
     pub(crate) fn state(&self, jets: &DerivativeTables) -> State {
         let mut state = State::new(self.mechanism.plan(), jets);
         state.prepare(self.mechanism.plan(), &self.bound, jets);
@@ -126,12 +125,13 @@ impl<'a> Design<'a> {
         UniformTracer::new(self.mechanism.plan(), &self.tracing_jets)
     }
 
-    /// Whether one way serves all positions and is that of an angle.
+    /// Whether one branch serves all positions, and its driver is an angle.
     fn has_one_rotary_driver(&self) -> bool {
         self.q0.len() == 1 && self.mechanism.plan().driven_slide(0).is_none()
     }
 
-    /// The unknowns of the groups at a place of the way, as the iteration's first guess.
+    /// Sets the groups' unknowns to those of the branch at a location, as first guess of the
+    /// iteration.
     #[inline(always)]
     pub(crate) fn guess<R: Real, const G: usize>(
         &self,
@@ -155,14 +155,13 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Solves a position again that came out on the other_side side of a fold, or did not come out.
+    /// Solves again a position that was not found or came out beyond a fold.
     #[cold]
     fn resolve_from_knot(&self, state: &mut State, q: &[f64], (branch, at): (&Branch, f64)) {
-        let first = self.context(&self.tracing_jets);
+        let cx = self.context(&self.tracing_jets);
         if let [_] = *q {
-            let Some(taylor) = branch.retrace(&first, &mut self.state(&self.tracing_jets), at)
-            else {
-                // Nothing can be told from the fold where the way ends.
+            let Some(taylor) = branch.retrace(&cx, &mut self.state(&self.tracing_jets), at) else {
+                // Too near the fold at the end of the branch to find the unknowns.
                 state.set_lost();
                 return;
             };
@@ -188,7 +187,7 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// The quick way, where there is one.
+    /// Traces the uniform branch; false if the design has none.
     #[inline(always)]
     pub(crate) fn trace_uniform<L: Level>(&mut self, uniform: &mut UniformTracer) -> bool {
         if !self.has_one_rotary_driver() {
@@ -205,7 +204,7 @@ impl<'a> Design<'a> {
         done
     }
 
-    /// The drawing's own way, from which those of other_side designs are told.
+    /// The branch of the drawing, from which those of other designs start.
     #[cold]
     #[inline(never)]
     fn reference_branch(&self) -> Option<ReferenceBranch> {
@@ -226,7 +225,7 @@ impl<'a> Design<'a> {
         self.mechanism.plan().groups().next().is_some()
     }
 
-    /// Walks the way along the coordinates `q` (all positions, rad or m).
+    /// Traces the branch over the coordinates `q` (all positions, rad or m).
     #[cold]
     #[inline(never)]
     pub(crate) fn trace(&mut self, q: &[f64]) {
@@ -247,7 +246,7 @@ impl<'a> Design<'a> {
         } else {
             let scaled = || q.iter().map(|q| q * self.unit.coordinate[0]).filter(|q| q.is_finite());
             let range = [scaled().fold(start, f64::min), scaled().fold(start, f64::max)];
-            // Beyond the sum of all lengths no slide reaches.
+            // No slide goes farther than the sum of all lengths.
             let paired = cx.plan.edges.iter().zip(&cx.bound.rigid).filter(|(e, _)| e.paired);
             let lengths = paired.map(|(_, w)| w).chain(&cx.bound.fixed).map(|w| w.norm());
             let reach = 2.0 * lengths.sum::<f64>() + 1.0;
@@ -255,8 +254,8 @@ impl<'a> Design<'a> {
         };
     }
 
-    /// The signs at the drawing from which the straight way leads to these at `q`
-    /// (scaled); walked backward.
+    /// The signs at the drawing that lead straight to the signs given at `q` (scaled); traced
+    /// backward.
     pub(crate) fn signs_at_drawing(&self, signs: &[f64], q: &[f64]) -> Vec<i8> {
         let cx = Context { signs, ..self.context(&self.tracing_jets) };
         let angles = &self.mechanism.class_angle;
@@ -266,13 +265,13 @@ impl<'a> Design<'a> {
         branch.signs(at).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
     }
 
-    /// Whether a place (scaled) is too far from the drawing to be followed straight.
+    /// Whether coordinates (scaled) are too far from the drawing to be followed.
     pub(crate) fn is_too_far(&self, q: &[f64]) -> bool {
         q.iter().zip(&self.q0).any(|(a, b)| (a - b).abs() > MAX_DISTANCE)
     }
 
-    /// The way to one position (scaled coordinates); none if it is no number or too
-    /// far to be followed.
+    /// The branch to one position (scaled coordinates); `None` if a coordinate is not finite or too
+    /// far.
     pub(crate) fn branch_to(&self, q: &[f64]) -> Option<BranchPoint<'_>> {
         if q.iter().any(|x| !x.is_finite()) {
             return None;
@@ -294,7 +293,8 @@ impl<'a> Design<'a> {
         })
     }
 
-    /// How far (in sizes) the max_distance joint is at a place of the way (0 if it cannot be solved).
+    /// Distance (in sizes) of the farthest joint at a parameter of the branch; 0 if it cannot be
+    /// solved.
     pub(crate) fn max_distance(&self, at: f64) -> f64 {
         let mut state = self.state(self.jets);
         let point = BranchPoint { branch: Cow::Borrowed(&self.branch), at };
@@ -306,11 +306,11 @@ impl<'a> Design<'a> {
         values.fold(0.0, |max, jet| max.max(jet[0][0].norm()))
     }
 
-    /// Angles of classes near those at a place, by which whole turns are told.
+    /// Class angles near those at a point, from which whole turns are counted.
     pub(crate) fn reference_angles(&self, point: &BranchPoint<'_>, classes: usize) -> Vec<f64> {
         let location = point.branch.locate(point.at);
         if point.branch.in_untraced_island(&location, 0) {
-            // An island that the way has not seen.
+            // An island that the tracer has not seen.
             let cx = self.context(&self.tracing_jets);
             let own = point.branch.trace_island(&cx, &mut self.state(&self.tracing_jets), point.at);
             let location = own.locate(point.at);
@@ -319,7 +319,7 @@ impl<'a> Design<'a> {
         (0..classes).map(|class| point.branch.reference_angle(&location, class)).collect()
     }
 
-    /// The smooth motion beside a change point.
+    /// The interpolated motion beside a change point.
     #[cold]
     #[inline(never)]
     fn at_change_point(
@@ -334,14 +334,14 @@ impl<'a> Design<'a> {
         let known = known.unwrap_or_else(|| {
             let solve = |jets: &DerivativeTables, distance: f64| {
                 let at = change.at + distance;
-                // Nothing of the position that asks first.
+                // A fresh state, so that nothing depends on the position that comes first.
                 let mut trial = self.state(jets);
                 self.guess(0, &mut trial, branch, &branch.locate(at));
                 trial.solve(&Context { signs: branch.signs(at), ..self.context(jets) }, &[at]);
                 let lost = trial.fault.is_some() || trial.points.iter().any(|p| p[0].x.is_nan());
                 (!lost).then_some(trial)
             };
-            // Values must not depend on the analogues asked for.
+            // Values must not depend on the order requested.
             let judge = DerivativeTables::new(1, ChangeInterpolant::JUDGED_ORDER);
             let interpolant =
                 ChangeInterpolant::fit(self.change_window, |distance| solve(&judge, distance));
@@ -355,8 +355,7 @@ impl<'a> Design<'a> {
         (smooth.residual(&self.context(self.jets)) <= SMOOTH_CLOSURE).then_some(smooth)
     }
 
-    /// Solves one position with the signs of its place on the way; true if the
-    /// analogues exist.
+    /// Solves one position with the signs of its branch there; true if the analogues exist.
     pub(crate) fn solve(
         &self,
         state: &mut State,
@@ -380,8 +379,8 @@ impl<'a> Design<'a> {
         if not_converged || solved && !branch.same_det_sign(state, 0) {
             self.resolve_from_knot(state, q, (branch, *at));
         }
-        // At a change point a dyad is flat, and beside it little is left of the
-        // analogues: the smooth motion through the point is known better.
+        // At a change point a dyad is flat, and beside it few digits of the analogues remain: the
+        // interpolant is more accurate.
         let solved = matches!(state.status, Status::Ok | Status::NearSingular);
         if q.len() == 1
             && state.status != Status::BadInput

@@ -1,22 +1,22 @@
-//! What is told of an unknown of a group between two knots of the way.
+//! Hermite interpolation of a group's unknown between two knots.
 
 use super::knot::Taylor2;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::dyad::Unknown;
 
-/// A polynomial in the distance from a knot, of the fifth degree.
+/// A polynomial of the fifth degree in the distance from a knot.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HermiteCell {
-    /// From the constant on.
+    /// Coefficients, the constant first.
     pub coefficients: [f64; 6],
     /// Unit vector at the knot's angle.
     pub unit: Vector,
 }
 
 impl HermiteCell {
-    /// Through values and two derivatives at both ends of a cell of width `h` (Hermite's); of the
-    /// second degree if nothing is beyond.
+    /// The Hermite polynomial through values and two derivatives at both ends of a cell of width
+    /// `h`; Taylor's of the second degree without a second end.
     #[inline(always)]
     pub(crate) fn new(a: &Taylor2, b: Option<&Taylor2>, h: f64, unit: Vector) -> Self {
         let &[value, rate, second] = a;
@@ -35,7 +35,7 @@ impl HermiteCell {
         Self { coefficients, unit }
     }
 
-    /// Of an unknown between two knots of a walk.
+    /// The cell of an unknown between two knots of a trace.
     pub(crate) fn between(unknown: Unknown, a: &Taylor2, b: Option<&Taylor2>, h: f64) -> Self {
         let unit = match unknown {
             Unknown::Class(_) => Vector::at_angle(a[0]),
@@ -50,9 +50,9 @@ impl HermiteCell {
     }
 }
 
-/// A unit vector at an angle of less than a quarter turn: its direction good to 1e-9 at π/4
-/// (Taylor's polynomials), its length to the last bit (a step of Newton's for 1/√). The iteration
-/// mends directions by the second order, but a wrong length only by the first.
+/// A unit vector at an angle of less than a quarter turn. Its direction is good to 1e-9 at π/4
+/// (Taylor polynomials), its length to the last bit (one Newton step for 1/√). The iteration
+/// corrects a direction to second order, but a wrong length only to first.
 #[inline(always)]
 pub(crate) fn small_rotation<R: Real>(angle: R) -> Vector<R> {
     let x2 = angle * angle;

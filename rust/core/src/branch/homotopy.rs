@@ -1,7 +1,7 @@
-//! Where the way of a design begins: the groups above class II at the drawing's coordinate.
+//! Homotopy in the dimensions: follows the groups above class II, at the drawing's coordinate, from
+//! the drawing's dimensions straight to those of the design.
 //!
-//! Their assembly is the one that is reached from the drawing when its dimensions go straight to
-//! the design's.
+//! This defines the assembly of a design.
 
 use super::design::Design;
 use super::knot::{MAX_FIRST_STEP, MAX_LATER_STEPS, Taylor2};
@@ -12,23 +12,23 @@ use crate::plan::dyad::Unknown;
 use crate::plan::plan::Step;
 use crate::state::status::{Fault, Status};
 
-/// Parts of the way from the drawing's dimensions, at least.
+/// Least step, as a part of the path.
 const MIN_PART: f64 = 1.0 / 1_099_511_627_776.0;
-/// And how many are trials: along a fold the least parts would go on for hours.
+/// Steps tried, at most: along a fold the smallest steps would take hours.
 const MAX_TRIALS: u32 = 10_000;
 
 impl Design<'_> {
-    /// Unknowns of the groups at the drawing's coordinate, for dimensions `values` that are bound.
+    /// Unknowns of the groups at the drawing's coordinate, for the bound dimensions `values`.
     ///
     /// # Errors
     ///
-    /// The way to them folds, or goes along a fold: after that part of it.
+    /// A group folds on the path, or the path runs along a fold: the part of it that was done.
     pub(crate) fn homotopy(&self, values: &[f64]) -> Result<Vec<Taylor2>, f64> {
         let (mechanism, plan) = (self.mechanism, self.mechanism.plan());
         let unknowns: Vec<Unknown> = plan.groups().flat_map(|g| g.unknowns.clone()).collect();
         let last = plan.steps.iter().rposition(|step| matches!(step, Step::Group(_)));
         let Some(last) = last else { return Ok(Vec::new()) };
-        // rad and m, until the end.
+        // In rad and m, because the scale changes along the path.
         let mut values_here: Vec<f64> = unknowns
             .iter()
             .map(|&unknown| match unknown {
@@ -88,7 +88,7 @@ impl Design<'_> {
                 state.first_step[0] <= MAX_FIRST_STEP && state.later_steps[0] <= MAX_LATER_STEPS;
             let now: Vec<bool> = state.determinants.iter().map(|d| d[0] > 0.0).collect();
             if solved && close && det_signs.as_ref().is_none_or(|det_signs| *det_signs == now) {
-                // The drawing itself comes first: it tells the det_signs.
+                // The first step solves the drawing itself, which gives the signs.
                 (done, part) = if det_signs.is_some() { (next, 2.0 * part) } else { (0.0, 1.0) };
                 values_here = next_values;
                 det_signs = Some(now);
@@ -101,10 +101,10 @@ impl Design<'_> {
             }
         }
         let scale = self.bound.scale;
-        let seed = |(&unknown, &value): (&Unknown, &f64)| match unknown {
+        let initial = |(&unknown, &value): (&Unknown, &f64)| match unknown {
             Unknown::Class(_) => [value, 0.0, 0.0],
             Unknown::Slide(_) => [value / scale, 0.0, 0.0],
         };
-        Ok(unknowns.iter().zip(&values_here).map(seed).collect())
+        Ok(unknowns.iter().zip(&values_here).map(initial).collect())
     }
 }

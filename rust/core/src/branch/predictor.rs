@@ -1,4 +1,4 @@
-//! The unknowns of groups along a way: where the iteration for a position begins.
+//! The groups' unknowns along a branch: first guesses of the iteration.
 
 use super::branch::{Branch, BranchLocation};
 use super::hermite::small_rotation;
@@ -9,7 +9,7 @@ use crate::math::vector::Vector;
 use crate::state::state::{Context, State};
 
 impl Branch {
-    /// Whether the groups of a state are on this way's side of their folds.
+    /// Whether the groups of a state are on the branch's side of their folds.
     #[inline(always)]
     pub(crate) fn same_det_sign<R: Real, const G: usize>(
         &self,
@@ -24,8 +24,8 @@ impl Branch {
         other.not()
     }
 
-    /// The unknowns of groups at a parameter, walked to from the knot before: where the
-    /// polynomial between two knots is too rough.
+    /// The groups' unknowns at a parameter, traced anew from the knot before: for cells whose
+    /// polynomial is too rough.
     #[cold]
     pub(crate) fn retrace(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Option<Vec<f64>> {
         let (reduced, _) = self.reduce(at);
@@ -43,15 +43,14 @@ impl Branch {
         Some(last.taylor.iter().map(|seed| seed[0]).collect())
     }
 
-    /// The unknowns of groups at a place in the cell after a knot.
+    /// The groups' unknowns at a parameter in the cell after a knot.
     pub(crate) fn unknowns_at(&self, knot: usize, reduced: f64) -> Vec<Taylor2> {
         let count = self.cells.len() / self.at.len().max(1);
         let step = reduced - self.at[knot];
         self.cells[knot * count..][..count].iter().map(|cell| [cell.at(step), 0.0, 0.0]).collect()
     }
 
-    /// An unknown slide of the groups (of so many unknowns) at places; 0 where the way does not
-    /// even begin (nothing on it is covered).
+    /// An unknown slide at a location, the `index`-th of `count` unknowns; 0 on an empty branch.
     #[inline(always)]
     pub(crate) fn slide<R: Real>(
         &self,
@@ -63,7 +62,7 @@ impl Branch {
         cell.coefficients[0] + cell.change(location.reduced)
     }
 
-    /// An unknown rotation likewise.
+    /// An unknown rotation at a location; 1 on an empty branch.
     #[inline(always)]
     pub(crate) fn rotation<R: Real>(
         &self,
@@ -124,7 +123,7 @@ struct LaneCells<R> {
 }
 
 impl<R: Real> LaneCells<R> {
-    /// How far an unknown is from that at the knot.
+    /// Change of the unknown since the knot.
     #[inline(always)]
     fn change(&self, reduced: R) -> R {
         let step = reduced - self.at;

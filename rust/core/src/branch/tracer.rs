@@ -1,5 +1,5 @@
-//! Walking from the drawing: knots close enough together to see every change point
-//! and to tell every angle.
+//! Traces a branch from the drawing, with knots close enough together to show every change point
+//! and to count the turns of every angle.
 
 use super::hermite::HermiteCell;
 use super::knot::{
@@ -14,61 +14,62 @@ use crate::plan::plan::Step;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
-/// Halvings where a stretch that can be reached begins or ends: what is left of
-/// the turn there goes with the square root of the cell.
+/// Halvings at an end of an interval that can be reached: the turn left there goes with the square
+/// root of the cell.
 const EDGE_HALVINGS: u32 = 14;
-/// How fast (of the size, by unit of the path) the gap of a dyad that does not close
-/// may shrink; between two knots where it is greater no island is looked for.
+/// How fast (of the size, per unit of the path) the gap of a dyad that does not close may shrink.
+/// Between two knots with a greater gap no island is searched for.
 const MAX_GAP_RATE: f64 = 8.0;
 /// Halvings in search of an island: down to a tenth of a degree.
 const ISLAND_HALVINGS: u32 = 7;
-/// The same where different dyads do not close at the two ends.
+/// The same if different dyads do not close at the two ends.
 const MIXED_GAP_HALVINGS: u32 = 4;
-/// Knots after which cells are no longer halved: where angles are nothing but
-/// rounding (a link of 1e-17 of the size) no cell would ever be fine enough.
+/// Knots beyond which cells are no longer halved: if angles are all rounding (a link of 1e-17 of
+/// the size), no cell would ever be fine enough.
 const MAX_KNOTS: usize = 100_000;
-/// Part of a cell by which a knot that falls on a flat dyad is put off.
+/// Part of a cell by which a knot is moved off a flat dyad.
 const NUDGE: f64 = 0.0625;
-/// How often: change points of several dyads seldom follow so closely.
+/// Number of such moves: change points of several dyads are seldom so close together.
 const MAX_NUDGES: u32 = 4;
-/// How near to a change point (rad, or units of the scale) rates are more than rounding:
-/// 64 u κ² of them are, κ about 1/distance.
+/// Nearest distance (rad, or units of the scale) to a change point at which rates are more than
+/// rounding: their error is 64 u κ², with κ about 1/distance.
 const MIN_PROBE: f64 = 1.0 / 1048576.0;
-/// How near to a change point, in cells, it is looked for a link that turns_fast.
+/// Distances from a change point, in cells, at which links are checked for a fast turn.
 const PROBES: [f64; 3] = [1.0 / 128.0, 1.0 / 16384.0, 1.0 / 1048576.0];
 
-/// Halvings toward the place where a group folds: down to the spacing of q.
+/// Halvings toward a fold: down to the spacing of q.
 const FOLD_HALVINGS: u32 = 52;
-/// Halvings from which on a cell is looked at in its middle. Beside two folds close together an unknown
+/// Halvings from which the middle of a cell is checked. Beside two folds close together an unknown
 /// goes with the cube root of q, which coarser cells do not follow.
 const JUMP_HALVINGS: u32 = 4;
-/// What an unknown in the middle of a cell may be off Hermite's polynomial: as a part of how far the
-/// ends are from each other's Taylor polynomials (half of it, were it a leap) …
+/// Distance that an unknown in the middle of a cell may have from the Hermite polynomial: as a part
+/// of the prediction error between the ends (a jump would give half of that) …
 const JUMP: f64 = 1.0 / 64.0;
-/// … and the rounding beside two folds that meet, ∛u and a margin.
+/// … and the rounding beside two folds that meet: ∛u with a margin.
 const JUMP_ROUNDING: f64 = 1.0 / 65536.0;
 
-/// Walks along a path and lays knots.
+/// Follows a branch along a path and sets its knots.
 pub(crate) struct BranchTracer<'a, 'b> {
     pub cx: Context<'b>,
     pub state: &'a mut State,
     /// Writes q at a parameter.
     point: &'a dyn Fn(f64, &mut [f64]),
-    /// Derivatives of q by the parameter (constant: paths are straight).
+    /// Derivatives of q by the parameter (constant, because paths are straight).
     rates: &'a [f64],
-    /// +1 or −1: the way along the parameter.
+    /// +1 or −1: direction along the parameter.
     pub direction: f64,
     q: Vec<f64>,
     pub knots: Vec<Knot>,
-    /// Change points passed, in the order of passing.
+    /// Change points passed, in that order.
     pub changes: Vec<ChangePoint>,
     pub start_signs: Vec<f64>,
     /// Unknowns of the groups, in order, and the step of the last group.
     unknowns: Vec<Unknown>,
     last_group: Option<usize>,
-    /// Their values where the way begins.
+    /// Their values at the start.
     initial: Vec<Taylor2>,
-    /// Whether the way has ended: beyond is a fold of a group, or what it hangs on is open.
+    /// Whether the branch has ended: a group folds ahead, or something upstream of it does not
+    /// close.
     pub ended: bool,
 }
 
@@ -110,7 +111,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         })
     }
 
-    /// Signs at a parameter, after the changes on the way there.
+    /// Signs at a parameter, after the change points before it.
     pub(crate) fn signs_at(&self, at: f64) -> Vec<f64> {
         let mut signs = self.start_signs.clone();
         for change in self.changes.iter().filter(|c| (at - c.at) * self.direction > 0.0) {
@@ -119,12 +120,12 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         signs
     }
 
-    /// Solves at a parameter; whether it was reached.
+    /// Solves at a parameter; whether that can be reached.
     pub(crate) fn visit(&mut self, at: f64) -> bool {
         self.solve(at) == usize::MAX
     }
 
-    /// Solves at a parameter; how many steps could be.
+    /// Solves at a parameter; the number of steps solved, `usize::MAX` for all.
     pub(crate) fn solve(&mut self, at: f64) -> usize {
         let signs = self.signs_at(at);
         (self.point)(at, &mut self.q);
@@ -140,8 +141,8 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             (Status::BadInput, _) => 0,
             (Status::Unreachable, Some(Fault::NotClosed { step, .. }))
             | (Status::NotConverged, Some(Fault::NotConverged { step })) => step,
-            // A redundant link that does not fit is no matter of the way: beyond a change
-            // point it fits only with the sign that is yet to be found.
+            // Redundant links do not count here: beyond a change point they fit only with the sign
+            // that is yet to be found.
             _ => usize::MAX,
         }
     }
@@ -151,11 +152,11 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         self.rates.iter().enumerate().map(|(d, rate)| rate * first(d)).sum()
     }
 
-    /// The knot at `at`, its angles nearest to those of `from`.
+    /// The knot at `at`, with angles nearest to `from`.
     pub(crate) fn solve_knot(&mut self, at: f64, from: &[f64]) -> Knot {
         let solved = self.solve(at);
         let reached = solved == usize::MAX;
-        // Before the step that does not close all is as if it did.
+        // Dyads before the step that does not close are solved all the same.
         let spread = self
             .dyads()
             .map(|(step, dyad)| if step < solved { self.spread(dyad) } else { (0.0, 0.0) })
@@ -210,7 +211,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         }
     }
 
-    /// An unknown of a group at a parameter, by its Taylor polynomial at the last knot.
+    /// An unknown of a group at a parameter, predicted from the last knot.
     fn predicted(&self, index: usize, at: f64) -> f64 {
         match self.knots.last() {
             Some(knot) => predict(&knot.taylor[index], at - knot.at),
@@ -218,8 +219,8 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         }
     }
 
-    /// Unknowns of the groups at the position just visited, and signs of the determinants; nothing
-    /// where a group cannot be told from a folded one.
+    /// Unknowns of the groups at the position just solved, and whether each determinant is
+    /// positive; empty if a group is folded or not solved.
     fn group_unknowns(&self, at: f64, solved: usize) -> (Vec<Taylor2>, Vec<bool>) {
         let is_group = |step: usize| matches!(self.cx.plan.steps[step], Step::Group(_));
         let folded = matches!(self.state.fault, Some(Fault::Singular { step }) if is_group(step));
@@ -249,26 +250,27 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         (taylor, self.state.determinants.iter().map(|d| d[0] > 0.0).collect())
     }
 
-    /// Whether the groups at the second knot are not surely where the way from the first leads.
+    /// Whether the groups at the second knot may have left the branch of the first.
     fn prediction_failed(&self, from: &Knot, knot: &Knot) -> bool {
         let Some(step) = self.last_group else { return false };
         if knot.solved <= step || knot.det_signs != from.det_signs {
-            // Not there, another side of the fold, or too near to it.
+            // Not solved, on the other side of a fold, or too near to it.
             return true;
         }
         let cell = knot.at - from.at;
         from.taylor.iter().zip(&knot.taylor).any(|(a, b)| prediction_failed(a, b, cell))
     }
 
-    /// Whether a group jumps from one branch to another between two knots: where two folds nearly
-    /// meet, the branch behind both continues the one before, and the determinant has its old sign.
+    /// Whether a group jumps from one branch to another between two knots. If two folds nearly
+    /// meet, the branch beyond both continues the one before them, with a determinant of the same
+    /// sign.
     fn jumps(&mut self, from: &Knot, knot: &Knot) -> bool {
         if self.last_group.is_none() {
             return false;
         }
         let cell = knot.at - from.at;
         let ends = || from.taylor.iter().zip(&knot.taylor);
-        // A leap shows as half of itself in the middle.
+        // In the middle of the cell half of a jump shows.
         if ends().all(|(a, b)| prediction_error(a, b, cell) <= 2.0 * JUMP_ROUNDING) {
             return false;
         }
@@ -283,14 +285,14 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         })
     }
 
-    /// Spread of a dyad at the position just visited, and its rate along the path.
+    /// Spread of a dyad at the position just solved, and its rate along the path.
     pub(crate) fn spread(&self, dyad: &Dyad) -> (f64, f64) {
         let at = |driver: usize| self.state.spread(0, &self.cx, dyad, driver + 1);
         (at(0).0, self.rate_along(|driver| at(driver).1))
     }
 
-    /// Lays knots from the last one to `to`, close enough to tell the angles and
-    /// to see every change point.
+    /// Sets knots from the last one to `to`, close enough to count turns and to show every change
+    /// point.
     pub(crate) fn advance(&mut self, to: f64) {
         let mut ends = vec![(to, 0_u32)];
         while let Some((end, depth)) = ends.pop() {
@@ -300,7 +302,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             let Some(from) = self.knots.last().cloned() else { return };
             let mut end = end;
             let mut knot = self.solve_knot(end, &from.angles);
-            // A change point shows from both guide_sides, not from where it is.
+            // A change point is found from both sides of it, not from a knot at it.
             for _ in 0..MAX_NUDGES {
                 if !knot.is_flat() {
                     break;
@@ -322,7 +324,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
                 depth >= JUMP_HALVINGS && !prediction_failed && !coarse && self.jumps(&from, &knot);
             let prediction_failed = prediction_failed || jumps;
             if can_halve && (coarse || prediction_failed && depth < FOLD_HALVINGS) {
-                // The halves find what was found on the whole again.
+                // The halves find these change points again.
                 self.changes.retain(|c| (c.at - from.at) * self.direction <= 0.0);
                 ends.push((end, depth + 1));
                 ends.push((middle, depth + 1));
@@ -335,7 +337,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         }
     }
 
-    /// The last parameter that is reached between one that is and one that is not.
+    /// The last parameter that can be reached, between one that can be and one that cannot.
     pub(crate) fn find_edge(&mut self, [mut inside, mut outside]: [f64; 2]) -> f64 {
         loop {
             let middle = 0.5 * (inside + outside);
@@ -346,9 +348,9 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         }
     }
 
-    /// A knot with its angles lifted at the very edge of a gap between the one before and it: of
-    /// several drivers every position has a way and knots of its own, and angles that differ by
-    /// about half a turn across a gap would be lifted now this way, now that.
+    /// Unwraps the angles of a knot at the very edge of the gap between it and the knot before.
+    /// With several drivers every position has a branch and knots of its own: an angle that differs
+    /// by about half a turn across a gap would otherwise be unwrapped to either side.
     fn unwrap_across_gap(&mut self, from: &Knot, mut knot: Knot) -> Knot {
         if self.rates.len() == 1 || from.reached == knot.reached {
             return knot;
@@ -369,9 +371,9 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         knot
     }
 
-    /// Whether a link turns fast beside a change point between two parameters: where the
-    /// outer joints of a dyad nearly coincide it may swing round within much less than
-    /// the cell, and stand as before at both ends.
+    /// Whether a link turns fast beside a change point between two parameters. If the outer joints
+    /// of a dyad nearly coincide, it may turn round within much less than the cell and stand at
+    /// both ends as before.
     fn turns_fast(&mut self, from: f64, end: f64) -> bool {
         let within = |c: &&ChangePoint| {
             (c.at - from) * self.direction > 0.0 && (end - c.at) * self.direction > 0.0
@@ -401,7 +403,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         same && self.signs_at(f64::INFINITY) == self.start_signs
     }
 
-    /// Signs between the changes, in the direction of growing parameter.
+    /// Signs between the change points, for growing parameters.
     pub(crate) fn sign_intervals(&self) -> Vec<SignInterval> {
         let mut signs = self.start_signs.clone();
         let mut sign_intervals =
@@ -423,16 +425,16 @@ fn must_refine(a: &Knot, b: &Knot, depth: u32) -> bool {
         return may_hide_island(a, b, cell, depth);
     }
     let turned = a.angles.iter().zip(&b.angles).any(|(x, y)| (x - y).abs() > LIFT_TURN);
-    // Near a dead point rates grow without bound while the angle does not.
+    // Near a dead point rates grow without bound, but the angle does not.
     let fast =
         depth < EDGE_HALVINGS && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > LIFT_TURN);
     let through_infinity = depth < EDGE_HALVINGS && a.guide_sides != b.guide_sides;
-    // Beside a near miss of a change point a link may swing round between the knots.
+    // Beside a near miss of a change point a link may turn round between the knots.
     let missed = || a.spread.iter().zip(&b.spread).any(|(&x, &y)| may_vanish(x, y, b.at - a.at));
     turned || fast || through_infinity || missed()
 }
 
-/// Whether a stretch that can be reached may lie between two knots that cannot.
+/// Whether an island may lie between two knots that cannot be reached.
 fn may_hide_island(a: &Knot, b: &Knot, cell: f64, depth: u32) -> bool {
     match (a.open_step, b.open_step) {
         (Some((i, g)), Some((j, h))) if i == j => {

@@ -1,12 +1,11 @@
-//! The way of a driven angle where nothing happens, eight knots at a time: no dead
-//! point, no change point, no link that turns fast. Whatever is else is left to the
-//! walk; both lay the same knots.
+//! The uniform branch: the branch of a driven angle on an even grid, eight knots at a time. It
+//! needs a full turn without dead points, change points and links that turn fast; any other branch
+//! is left to [`BranchTracer`](super::tracer::BranchTracer). Both use the same knots.
 //!
-//! The quick way of groups above class II: their unknowns at all knots from those of the drawing.
-//!
-//! A design near the drawing moves nearly as it does; so the iteration starts, at all knots at
-//! once, where the drawing is. What it comes to is held to what the walk holds its knots to: from
-//! each knot the next is predicted, and the first is told from the drawing.
+//! With groups above class II, a design near the drawing moves much like the drawing. So the
+//! iteration starts at all knots at once from the drawing's unknowns. Its results must pass the
+//! same checks as the tracer's knots: each is predicted from the one before, and the first must be
+//! near the drawing's.
 
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
@@ -26,37 +25,36 @@ use crate::plan::plan::Plan;
 use crate::state::kernel::Level;
 use crate::state::state::{Context, State};
 
-/// Knots of a turn, its end included.
+/// Knots of a turn, including its end.
 pub(crate) const KNOTS: usize = CELLS_PER_TURN as usize + 1;
-/// Groups of them.
+/// Vectors of knots.
 pub(crate) const GROUPS: usize = KNOTS / LANES;
-/// One cell.
+/// Width of a cell.
 pub(crate) const CELL: f64 = TAU / CELLS_PER_TURN as f64;
 
-/// Work space: for every knot what the walk asks of it.
+/// Work space: at every knot what the checks need.
 #[derive(Debug)]
 pub(crate) struct UniformTracer {
     /// All knots.
     pub(crate) state: State<Lanes, GROUPS>,
-    /// Drawing's angle that the knots below are for, the same for all designs.
+    /// Drawing's angle for which the knots below are set; the same for all designs.
     q0: f64,
-    /// Angles of the driver, eight a group, and their unit vectors.
+    /// Angles of the driver, eight per group, and their unit vectors.
     knots: Vec<(Lanes, Vector<Lanes>)>,
     /// Spread and rate of every dyad with a sign at the last knot.
     spread: Vec<(f64, f64)>,
-    /// Angle of every class at the last knot, and its whole turns until there.
+    /// Angle of every class at the last knot, and its whole turns up to there.
     pub(crate) last_angles: Vec<(f64, f64)>,
-    /// On which side of parallel the guides of every dyad of two known directions are, at
-    /// the knots before.
+    /// For every dyad of two guides: on which side of parallel these are at the knots before.
     guide_sides: Vec<bool>,
-    /// Unknowns of groups at the knots of the drawing's way; asked for once.
+    /// Unknowns of groups at the knots of the drawing's branch; computed once.
     pub(crate) reference: OnceCell<Option<ReferenceBranch>>,
-    /// Unknowns of groups at the knots, one after another.
+    /// Unknowns of groups at the knots, knot by knot.
     pub(crate) taylor: Vec<Taylor2>,
 }
 
 impl UniformTracer {
-    /// Work space for a plan; `jets` are of order 1 in one driver.
+    /// Work space for a plan; `jets` are for one driver.
     pub(crate) fn new(plan: &Plan, jets: &DerivativeTables) -> Self {
         Self {
             state: State::new(plan, jets),
@@ -70,13 +68,12 @@ impl UniformTracer {
         }
     }
 
-    /// Whether the drawing has a way from which others are told.
+    /// Whether the drawing has a branch from which others can start.
     pub(crate) fn has_reference(&self, make: impl FnOnce() -> Option<ReferenceBranch>) -> bool {
         self.reference.get_or_init(make).is_some()
     }
 
-    /// Lays the knots of a turn from `q0` on into `branch`; false if the way needs
-    /// walking.
+    /// Traces a turn from `q0` into `branch`; false if the tracer is needed.
     #[inline(always)]
     pub(crate) fn trace<L: Level>(
         &mut self,
@@ -102,7 +99,7 @@ impl UniformTracer {
         self.guess(cx);
         L::solve(&mut self.state, cx);
         branch.angles.resize(KNOTS * start.len(), 0.0);
-        // Nothing is before the first knot but the drawing.
+        // Before the first knot there is only the drawing.
         self.spread.fill((0.0, 0.0));
         for (last, &angle) in self.last_angles.iter_mut().zip(start) {
             *last = (angle, 0.0);
@@ -145,7 +142,7 @@ impl UniformTracer {
         }
     }
 
-    /// Looks at eight knots, one after another; false if something may happen between them.
+    /// Checks eight knots, one after another; false if something may happen between them.
     #[inline(always)]
     fn check_knots(&mut self, cx: &Context<'_>, group: usize) -> bool {
         let state = &self.state;
@@ -177,7 +174,7 @@ impl UniformTracer {
         !suspect.any()
     }
 
-    /// Lays the angles of eight knots; false if a link turns fast there.
+    /// Unwraps the angles of eight knots; false if a link turns fast there.
     #[inline(always)]
     fn unwrap(&mut self, group: usize, angles: &mut [f64]) -> bool {
         let classes = self.last_angles.len();
@@ -185,7 +182,7 @@ impl UniformTracer {
         let Some(angles) = angles.get_mut(first..first + LANES * classes) else { return false };
         let mut max_turn = Lanes::splat(LIFT_TURN);
         if group == 0 {
-            // To the drawing's own angle it may be far.
+            // The first knot may be far from the drawing's own angle.
             max_turn.0[0] = f64::INFINITY;
         }
         let mut fast = <Lanes as Real>::Mask::NONE;
@@ -207,7 +204,7 @@ impl UniformTracer {
     }
 }
 
-/// Eight knots of the way from `q0`, from one on.
+/// Eight knots of a turn from `q0`, beginning with knot `first`.
 #[inline(always)]
 pub(crate) fn knots_at(q0: f64, first: usize) -> Lanes {
     Lanes::from_lanes(|lane| {
@@ -216,23 +213,24 @@ pub(crate) fn knots_at(q0: f64, first: usize) -> Lanes {
     })
 }
 
-/// Each lane's neighbour before it; that of the first is given.
+/// Each lane's predecessor; `last` is that of the first lane.
 #[inline(always)]
 fn previous(last: f64, lanes: Lanes) -> Lanes {
     Lanes::from_lanes(|i| if i == 0 { last } else { lanes.lane(i - 1) })
 }
 
-/// Unknowns of groups at the knots of the drawing's way.
+/// Unknowns of groups at the knots of the drawing's branch.
 #[derive(Debug)]
 pub(crate) struct ReferenceBranch {
-    /// Rotations, or slides (m) in the place of their x.
+    /// Rotations; of slides the value (m) as x.
     unknowns: Vec<[Vector<Lanes>; GROUPS]>,
-    /// Signs of the groups' determinants.
+    /// Whether each group's determinant is positive.
     det_signs: Vec<bool>,
 }
 
 impl ReferenceBranch {
-    /// From a way from `q0` that closes after one turn, of a design of this scale.
+    /// From a branch of a design with this scale; `None` if it does not close after one turn from
+    /// `q0`.
     pub(crate) fn new(plan: &Plan, branch: &Branch, q0: f64, scale: f64) -> Option<Self> {
         if branch.period != Some(TAU) {
             return None;
@@ -256,7 +254,7 @@ impl ReferenceBranch {
 }
 
 impl UniformTracer {
-    /// The unknowns of groups where the drawing has them, as the iteration's first guess.
+    /// Sets the groups' unknowns to those of the drawing, as first guess of the iteration.
     #[inline(always)]
     pub(crate) fn guess(&mut self, cx: &Context<'_>) {
         let Some(Some(reference)) = self.reference.get() else { return };
@@ -272,8 +270,8 @@ impl UniformTracer {
         }
     }
 
-    /// Lays the polynomials of the groups' unknowns; false if one is not surely the same
-    /// assembly as at the knot before, or as in the drawing.
+    /// Builds the polynomials of the groups' unknowns; false if one may belong to another assembly
+    /// than the knot before, or than the drawing.
     #[inline(always)]
     pub(crate) fn build_cells(&mut self, cx: &Context<'_>, branch: &mut Branch) -> bool {
         branch.cells.clear();
