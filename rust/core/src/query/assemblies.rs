@@ -12,18 +12,21 @@ use crate::state::state::Context;
 use crate::state::status::Status;
 
 impl Mechanism {
-    /// Every assembly that exists at `q`, as signs in the order of
-    /// [`Mechanism::dyad_names`], each as it is at the drawing (on the way
-    /// from there a sign may change at change points).
+    /// Every assembly that exists at `q`, as signs in the order of [`Mechanism::dyad_names`].
+    ///
+    /// The signs are those at the drawing; on the branch from there a sign may change at change
+    /// points.
     ///
     /// # Errors
     ///
-    /// A group of higher class, or slices of the wrong length.
+    /// A group above class II, slices of the wrong length, or a coordinate too far from the
+    /// drawing.
     pub fn assemblies(&self, dimensions: &[f64], q: &[f64]) -> Result<Vec<Vec<i8>>, SolveError> {
         self.assemblies_unless(dimensions, q, None)
     }
 
-    /// The same, which stops once `cancel` is true: each dyad may double their number.
+    /// [`Mechanism::assemblies`], stopping once `cancel` is true: each dyad may double their
+    /// number.
     ///
     /// # Errors
     ///
@@ -53,7 +56,7 @@ impl Mechanism {
         }
         let mut state = design.state(&jets);
         let mut found: Vec<Vec<f64>> = vec![Vec::new()];
-        // Sign by sign: a choice that already fails needs no completion.
+        // Sign by sign, so that a choice that fails early is not completed.
         for index in 0..count.max(1) {
             let choices: &[f64] = if count == 0 { &[] } else { &[1.0, -1.0] };
             let mut longer = Vec::new();
@@ -90,7 +93,7 @@ impl Mechanism {
         found.iter().map(at_drawing).collect()
     }
 
-    /// Whether a step comes after the dyad with sign number `place`.
+    /// Whether a step comes after the dyad with this sign.
     fn is_beyond(&self, step: usize, sign_index: usize) -> bool {
         match &self.plan().steps[step] {
             Step::Dyad(dyad) => dyad.sign.is_none_or(|s| s > sign_index),

@@ -1,4 +1,4 @@
-//! Why a position is what it is: status, residual, condition, a sentence.
+//! Why a position came out as it did: status, residual, condition and a sentence.
 
 use crate::branch::design::Design;
 use crate::description::error::{SolveError, number};
@@ -8,34 +8,33 @@ use crate::plan::plan::{EdgeSlide, Plan, Step};
 use crate::state::state::State;
 use crate::state::status::{Fault, Status};
 
-/// How far (in sizes) a joint is where a way has ended not for a dead point but for that: the
-/// condition of a group grows with the square of it, so the way to a pole is not followed to its
-/// end.
+/// Distance (in sizes) of a joint at the end of a branch from which on not a dead point but the
+/// distance ended it: the condition of a group grows with its square, so a branch is not followed
+/// all the way to a pole.
 const FAR_JOINT: f64 = 100.0;
 
-/// One position looked at closely.
+/// A position examined closely.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// How it came out.
+    /// How the position came out.
     pub status: Status,
-    /// Greatest misfit of a closure equation at the coordinates returned, as a
-    /// part of the size; NaN where there is no position.
+    /// Greatest misfit of a closure equation at the computed position, relative to the size; NaN
+    /// without a position.
     pub residual: f64,
-    /// Product of the conditions along the worst chain of dyads; NaN where there
-    /// is no position.
+    /// Product of the conditions along the worst chain of dyads; NaN without a position.
     pub condition: f64,
-    /// By how much a dyad or redundant link does not close, as a part of the size; NaN where all do.
+    /// Gap of the dyad or redundant link that does not close, relative to the size; NaN if all do.
     pub gap: f64,
-    /// The dyad (inner joint or slide), redundant link or dimension concerned.
+    /// The dyad (inner joint or slide), group, redundant link or dimension concerned.
     pub name: Option<String>,
     /// The step of the plan concerned.
     pub step: Option<usize>,
-    /// What happened, with the numbers.
+    /// What happened, with numbers.
     pub sentence: String,
 }
 
 impl Diagnosis {
-    /// Nothing but a status and a sentence.
+    /// Only a status and a sentence.
     fn bare(status: Status, sentence: String) -> Self {
         let nothing = f64::NAN;
         let (residual, condition, gap) = (nothing, nothing, nothing);
@@ -44,11 +43,11 @@ impl Diagnosis {
 }
 
 impl Mechanism {
-    /// Looks closely at every position of one design (`q`: drivers fastest).
+    /// Examines every position of one design closely (`q`: drivers fastest).
     ///
     /// # Errors
     ///
-    /// A group of higher class, or slices of the wrong length.
+    /// Slices of the wrong length.
     pub fn diagnose(
         &self,
         dimensions: &[f64],
@@ -133,7 +132,7 @@ impl Mechanism {
         Diagnosis { status: state.status, residual, condition, gap, name: named, step, sentence }
     }
 
-    /// Refuses slices that do not fit this mechanism.
+    /// Refuses slices whose lengths do not fit this mechanism.
     pub(super) fn check(
         &self,
         dimensions: &[f64],
@@ -169,7 +168,7 @@ impl Mechanism {
         }
     }
 
-    /// Why the way from the drawing does not lead there.
+    /// Why the branch from the drawing does not lead to a position.
     fn lost_sentence(&self, design: &Design<'_>, q: &[f64], at: &str) -> String {
         let groups: Vec<&str> = self.plan().groups().map(|group| group.name.as_str()).collect();
         if groups.is_empty() {

@@ -1,4 +1,4 @@
-//! One design, one position after another: what a motion in time asks for.
+//! One design, one position after another: what a motion in time needs.
 
 use std::borrow::Cow;
 
@@ -16,52 +16,54 @@ use crate::plan::plan::{Plan, Step};
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
-/// Which positions will be queries for.
+/// The positions that will be requested.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Queries<'a> {
-    /// Listed; each is reached straight from the drawing.
+    /// These; each is traced straight from the drawing.
     Listed(&'a [f64]),
-    /// Any, each reference_angles the one before: with several drivers it is reached from there.
+    /// Any, each near the one before; with several drivers it is traced from there.
     Any,
 }
 
-/// A slide is followed as far as it goes: farther than this many sizes it is refused anyway.
+/// A slide's branch is traced to its end, or over this many sizes: beyond, the slide is refused
+/// anyway.
 const MAX_SLIDE: f64 = 1.0e9;
 
-/// With several drivers the way from one position to the next is walked: not farther at once (rad,
-/// or sizes) than takes a millisecond or so.
+/// Longest step (rad, or sizes) between positions with several drivers: the branch between them is
+/// traced, which must not take more than about a millisecond.
 const MAX_STEP: f64 = 50.0;
 
-/// A mechanism of one design with its way laid, and work space for a position.
+/// A mechanism of one design with its branch traced, and work space for a position.
 pub(crate) struct Evaluator<'m> {
     design: Design<'m>,
     state: State,
     q: Vec<f64>,
-    /// Angles of classes reference_angles those of the position, if they are queries for.
+    /// Class angles near those of the position, if angles are needed.
     reference_angles: Vec<f64>,
     needs_angles: bool,
-    /// Where the last position was, if the next one is reached from there.
+    /// The last position, if the next one is traced from it.
     last: Option<LastPosition>,
     continues_from_last: bool,
 }
 
-/// Where a dyad is nearly flat: a change point, if its lengths were a little others.
+/// A position where a dyad is nearly flat: with slightly other lengths it would be a change point.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NearMiss {
     /// Inner joint or slide of the dyad.
     pub dyad: String,
-    /// By how much its lengths miss, m.
+    /// Error of its lengths, m.
     pub miss: f64,
-    /// Where it is nearest to flat.
+    /// Coordinate where the dyad is nearest to flat.
     pub q: f64,
 }
 
-/// How far (rad, or of the size) by the condition a reference_angles miss is from a position beside it.
+/// Greatest distance (rad, or of the size) of a near miss from a position beside it, times the
+/// condition there.
 const NEAR_MISS_REACH: f64 = 64.0;
-/// Steps in which it is narrowed down, each to two thirds.
+/// Steps of the search for it, each to two thirds.
 const NARROWINGS: u32 = 60;
 
-/// A position from which another is reached straight.
+/// A position from which the next one is traced.
 #[derive(Clone)]
 struct LastPosition {
     q: Vec<f64>,
@@ -70,7 +72,7 @@ struct LastPosition {
     taylor: Vec<Taylor2>,
 }
 
-/// A position just solved.
+/// The position solved last.
 #[derive(Clone, Copy)]
 pub(crate) struct Position<'p> {
     pub state: &'p State,
@@ -83,7 +85,8 @@ pub(crate) struct Position<'p> {
 }
 
 impl<'m> Evaluator<'m> {
-    /// Binds dimensions and lays the way; `needs_angles`: whether angles themselves will be queries for.
+    /// Binds dimensions and traces the branch; `needs_angles`: whether angles themselves are
+    /// needed.
     pub(crate) fn new(
         mechanism: &'m Mechanism,
         dimensions: &[f64],
@@ -112,24 +115,24 @@ impl<'m> Evaluator<'m> {
         }
     }
 
-    /// What a driver's coordinate is measured in: the size of a slide, of an angle 1.
+    /// Unit of a driver's coordinate: the size for a slide, 1 for an angle.
     pub(crate) fn unit(&self, driver: usize) -> f64 {
         1.0 / self.design.unit.coordinate[driver]
     }
 
-    /// How the last position came out.
+    /// Status of the last position.
     pub(crate) fn status(&self) -> Status {
         self.state.status
     }
 
-    /// The condition of the last position: the total_condition along its worst chain.
+    /// Condition of the last position: the product along its worst chain.
     pub(crate) fn total_condition(&self) -> f64 {
         self.state.condition2[0].sqrt()
     }
 
-    /// The greatest condition of a dyad or group of the last position by itself, and the step of the
-    /// plan if that is a dyad with two solutions. (Beside a change point the position is a
-    /// polynomial's, and the condition is that of its nodes.)
+    /// The greatest condition of a single dyad or group at the last position, and its step of the
+    /// plan if that is a dyad with two solutions. (Beside a change point the position is
+    /// interpolated, and the condition is that of the nodes.)
     pub(crate) fn worst_condition(&self) -> (Option<usize>, f64) {
         let beside_change = match *self.q {
             [q] => self.design.branch.change_near(q, self.design.change_window.reach).is_some(),
@@ -145,7 +148,7 @@ impl<'m> Evaluator<'m> {
         (Some(step).filter(|&step| has_two_solutions(&steps[step])), condition)
     }
 
-    /// Solves at a coordinate without leaving the position from which the next one is reached.
+    /// Solves at a coordinate; the next position is still traced from the one before.
     ///
     /// # Errors
     ///
@@ -157,8 +160,7 @@ impl<'m> Evaluator<'m> {
         solved
     }
 
-    /// The reference_angles miss of a change point beside a coordinate of one driver: the name of the dyad, by
-    /// how much its lengths miss (m), and the coordinate where they are nearest.
+    /// The near miss of a change point beside a coordinate of one driver.
     pub(crate) fn near_miss(&mut self, q: f64) -> Option<NearMiss> {
         self.solve(&[q]).ok()?;
         let (step, condition) = self.worst_condition();
@@ -166,22 +168,22 @@ impl<'m> Evaluator<'m> {
         let plan = self.design.mechanism.plan();
         let Step::Dyad(dyad) = &plan.steps[step] else { return None };
         let name = plan.dyad_names.get(dyad.sign?)?;
-        // A dyad is as flat as its distance from there, up to a factor.
+        // A dyad's sine is its distance from the flat position, up to a factor.
         let reach = NEAR_MISS_REACH / condition * self.unit(0);
         let (mut low, mut high) = (q - reach, q + reach);
         for _ in 0..NARROWINGS {
             let third = (high - low) / 3.0;
-            let [a, b] = [low + third, high - third].map(|at| self.flat_error(dyad, at));
+            let [a, b] = [low + third, high - third].map(|at| self.excess_to_flat(dyad, at));
             if a < b { high -= third } else { low += third }
         }
         let at = 0.5 * (low + high);
-        let miss = self.flat_error(dyad, at).abs() * self.design.bound.scale;
+        let miss = self.excess_to_flat(dyad, at).abs() * self.design.bound.scale;
         miss.is_finite().then(|| NearMiss { dyad: name.clone(), miss, q: at })
     }
 
-    /// By how much the sides of a dyad's triangle at a coordinate miss those of a flat one, of the
-    /// size; negative where it does not close.
-    fn flat_error(&mut self, dyad: &Dyad, at: f64) -> f64 {
+    /// How far the sides of a dyad's triangle at a coordinate are from those of a flat one,
+    /// relative to the size; negative if it does not close.
+    fn excess_to_flat(&mut self, dyad: &Dyad, at: f64) -> f64 {
         let solved = self.solve(&[at]).is_ok();
         match self.state.fault {
             Some(Fault::NotClosed { gap, .. }) if !solved => -gap,
@@ -193,7 +195,7 @@ impl<'m> Evaluator<'m> {
     ///
     /// # Errors
     ///
-    /// The status of a place that has no position, or no analogues.
+    /// The status of a coordinate without a position or without analogues.
     pub(crate) fn solve(&mut self, q: &[f64]) -> Result<(), Status> {
         self.q.clear();
         self.q.extend(q.iter().zip(&self.design.unit.coordinate).map(|(q, unit)| q * unit));
@@ -224,7 +226,7 @@ impl<'m> Evaluator<'m> {
         Ok(())
     }
 
-    /// The position that was solved last.
+    /// The position solved last.
     pub(crate) fn position(&self) -> Position<'_> {
         Position {
             state: &self.state,
@@ -260,7 +262,7 @@ impl LastPosition {
         }
     }
 
-    /// The straight way from here.
+    /// The segment from here to `q`.
     fn branch_to(&self, design: &Design<'_>, q: &[f64]) -> BranchPoint<'static> {
         let jets = design.tracing_jets();
         let cx = Context { signs: &self.signs, ..design.context(jets) };
@@ -271,7 +273,7 @@ impl LastPosition {
 }
 
 impl Position<'_> {
-    /// Angle of a link, rad, continuous along the way.
+    /// Angle of a link, rad, continuous along the branch.
     pub(crate) fn angle(&self, link: usize) -> f64 {
         let rotation = &self.plan.rotation[link];
         let class = self.state.class[rotation.class][0].angle();
