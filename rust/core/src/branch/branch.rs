@@ -255,9 +255,9 @@ impl Branch {
             let b = knots.get(i + 1);
             let width = b.map_or(0.0, |b| b.at - a.at);
             let unknowns = plan.groups().flat_map(|group| &group.unknowns);
-            for (index, (&unknown, seed)) in unknowns.zip(&a.taylor).enumerate() {
+            for (index, (&unknown, start)) in unknowns.zip(&a.taylor).enumerate() {
                 let end = b.and_then(|b| b.taylor.get(index));
-                cells.push(HermiteCell::between(unknown, seed, end, width));
+                cells.push(HermiteCell::between(unknown, start, end, width));
             }
         }
         Self {

@@ -123,7 +123,7 @@ impl ChangeInterpolant {
 
     /// The state at a distance from the change point, if that is well inside; `like` is any state
     /// of the same plan.
-    pub(crate) fn at(&self, distance: f64, like: &State) -> Option<State> {
+    pub(crate) fn state_at(&self, distance: f64, like: &State) -> Option<State> {
         (distance.abs() <= INNER * self.reach).then(|| self.interpolate(distance, like))
     }
 

@@ -351,7 +351,7 @@ impl<'a> Design<'a> {
             interpolants.push((change.at, interpolant));
             interpolants.len() - 1
         });
-        let smooth = interpolants[known].1.as_ref()?.at(distance, state)?;
+        let smooth = interpolants[known].1.as_ref()?.state_at(distance, state)?;
         (smooth.residual(&self.context(self.jets)) <= SMOOTH_CLOSURE).then_some(smooth)
     }
 

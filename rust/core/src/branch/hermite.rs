@@ -45,7 +45,7 @@ impl HermiteCell {
     }
 
     /// The unknown at a distance from the knot.
-    pub(crate) fn at(&self, step: f64) -> f64 {
+    pub(crate) fn value(&self, step: f64) -> f64 {
         self.coefficients.iter().rev().fold(0.0, |sum, c| sum * step + c)
     }
 }
@@ -78,12 +78,12 @@ mod tests {
     #[test]
     fn cell_interpolates_both_ends() {
         // sin and its derivatives at 0.3 and 0.5.
-        let seed = |x: f64| [x.sin(), x.cos(), -x.sin()];
-        let cell = HermiteCell::new(&seed(0.3), Some(&seed(0.5)), 0.2, Vector::ONE);
+        let sine = |x: f64| [x.sin(), x.cos(), -x.sin()];
+        let cell = HermiteCell::new(&sine(0.3), Some(&sine(0.5)), 0.2, Vector::ONE);
         for part in [0.0, 0.05, 0.1, 0.2] {
-            assert!((cell.at(part) - (0.3_f64 + part).sin()).abs() < 2e-9, "{part}");
+            assert!((cell.value(part) - (0.3_f64 + part).sin()).abs() < 2e-9, "{part}");
         }
-        assert!((cell.at(0.2) - 0.5_f64.sin()).abs() < 1e-15);
+        assert!((cell.value(0.2) - 0.5_f64.sin()).abs() < 1e-15);
     }
 
     #[test]

@@ -80,8 +80,8 @@ pub(crate) struct ChangePoint {
     pub sign: usize,
 }
 
-/// How many times its fall over the whole cell the spread at an end may be for the cell still to be
-/// searched: with a change point in the cell it is at most one, as long as the spread is about
+/// A cell is searched if the spread at both ends is less than this many times its fall over the
+/// cell. With a change point in the cell the ratio is at most 1, as long as the spread is about
 /// straight.
 const MAX_FALLS: f64 = 4.0;
 
@@ -89,7 +89,7 @@ const MAX_FALLS: f64 = 4.0;
 /// step, negative if backward).
 #[inline(always)]
 pub(crate) fn may_vanish<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell: R) -> R::Mask {
-    // N| falls at one end and rises at the other, both fast enough.
+    // |N| falls at one end and rises at the other, both fast enough.
     let fall = -(R::ONE.copysign(from) * fall * cell);
     let rise = R::ONE.copysign(to) * rise * cell;
     let same_side = R::ZERO.lt(from * to);

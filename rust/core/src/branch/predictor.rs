@@ -17,9 +17,9 @@ impl Branch {
         g: usize,
     ) -> R::Mask {
         let mut other = R::Mask::NONE;
-        for (groups, &bend) in state.bends.iter().zip(&self.det_signs) {
+        for (groups, &expected) in state.bends.iter().zip(&self.det_signs) {
             let positive = R::ZERO.lt(groups[g]);
-            other = other.or(if bend { positive.not() } else { positive });
+            other = other.or(if expected { positive.not() } else { positive });
         }
         other.not()
     }
@@ -40,14 +40,17 @@ impl Branch {
         tracer.advance(reduced);
         let is_there = |knot: &&Knot| knot.at >= reduced && !knot.taylor.is_empty();
         let last = tracer.knots.last().filter(is_there)?;
-        Some(last.taylor.iter().map(|seed| seed[0]).collect())
+        Some(last.taylor.iter().map(|unknown| unknown[0]).collect())
     }
 
     /// The groups' unknowns at a parameter in the cell after a knot.
     pub(crate) fn unknowns_at(&self, knot: usize, reduced: f64) -> Vec<Taylor2> {
         let count = self.cells.len() / self.at.len().max(1);
         let step = reduced - self.at[knot];
-        self.cells[knot * count..][..count].iter().map(|cell| [cell.at(step), 0.0, 0.0]).collect()
+        self.cells[knot * count..][..count]
+            .iter()
+            .map(|cell| [cell.value(step), 0.0, 0.0])
+            .collect()
     }
 
     /// An unknown slide at a location, the `index`-th of `count` unknowns; 0 on an empty branch.

@@ -14,7 +14,7 @@ use crate::plan::plan::Step;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
-/// Halvings at an end of an interval that can be reached: the turn left there goes with the square
+/// Halvings at an end of an interval that can be reached: the turn left there varies as the square
 /// root of the cell.
 const EDGE_HALVINGS: u32 = 14;
 /// How fast (of the size, per unit of the path) the gap of a dyad that does not close may shrink.
@@ -40,11 +40,11 @@ const PROBES: [f64; 3] = [1.0 / 128.0, 1.0 / 16384.0, 1.0 / 1048576.0];
 /// Halvings toward a fold: down to the spacing of q.
 const FOLD_HALVINGS: u32 = 52;
 /// Halvings from which the middle of a cell is checked. Beside two folds close together an unknown
-/// goes with the cube root of q, which coarser cells do not follow.
+/// varies as the cube root of q, which coarser cells do not follow.
 const JUMP_HALVINGS: u32 = 4;
 /// Distance that an unknown in the middle of a cell may have from the Hermite polynomial: as a part
 /// of the prediction error between the ends (a jump would give half of that) …
-const JUMP: f64 = 1.0 / 64.0;
+const JUMP_RATIO: f64 = 1.0 / 64.0;
 /// … and the rounding beside two folds that meet: ∛u with a margin.
 const JUMP_ROUNDING: f64 = 1.0 / 65536.0;
 
@@ -228,7 +228,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             return (Vec::new(), Vec::new());
         }
         let len = self.state.len;
-        let seed = |(index, &unknown): (usize, &Unknown)| {
+        let expand = |(index, &unknown): (usize, &Unknown)| {
             let (value, jet) = match unknown {
                 Unknown::Class(class) => {
                     let angle = self.state.class[class][0].angle();
@@ -246,7 +246,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             });
             [value, self.rate_along(|driver| jet[1 + driver][0]), pairs.sum()]
         };
-        let taylor = self.unknowns.iter().enumerate().map(seed).collect();
+        let taylor = self.unknowns.iter().enumerate().map(expand).collect();
         (taylor, self.state.determinants.iter().map(|d| d[0] > 0.0).collect())
     }
 
@@ -279,8 +279,8 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             return true;
         }
         ends().zip(&middle.taylor).any(|((a, b), actual)| {
-            let interpolated = HermiteCell::new(a, Some(b), cell, Vector::ONE).at(0.5 * cell);
-            let allowed = (JUMP * prediction_error(a, b, cell)).max(JUMP_ROUNDING);
+            let interpolated = HermiteCell::new(a, Some(b), cell, Vector::ONE).value(0.5 * cell);
+            let allowed = (JUMP_RATIO * prediction_error(a, b, cell)).max(JUMP_ROUNDING);
             (interpolated - actual[0]).abs() > allowed
         })
     }
@@ -315,8 +315,8 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             }
             let turns_fast = self.turns_fast(from.at, end);
             let middle = 0.5 * (from.at + end);
-            let room = self.knots.len() < MAX_KNOTS;
-            let can_halve = room && middle != from.at && middle != end;
+            let has_room = self.knots.len() < MAX_KNOTS;
+            let can_halve = has_room && middle != from.at && middle != end;
             let prediction_failed = self.prediction_failed(&from, &knot);
             let coarse = depth < LIFT_HALVINGS
                 && (turns_fast || (!prediction_failed && must_refine(&from, &knot, depth)));

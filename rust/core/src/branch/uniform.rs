@@ -283,8 +283,8 @@ impl UniformTracer {
         {
             return false;
         }
-        for (groups, &bend) in state.determinants.iter().zip(&reference.det_signs) {
-            if groups.iter().any(|lanes| lanes.0.iter().any(|&d| (d > 0.0) != bend)) {
+        for (groups, &expected) in state.determinants.iter().zip(&reference.det_signs) {
+            if groups.iter().any(|lanes| lanes.0.iter().any(|&d| (d > 0.0) != expected)) {
                 return false;
             }
         }

@@ -160,7 +160,7 @@ impl Mechanism {
         match &self.plan().steps[fault.step()] {
             Step::Dyad(dyad) => match dyad.sign {
                 Some(sign) => self.plan().dyad_names[sign].clone(),
-                None => two_lines_name(self.plan(), self, dyad),
+                None => guides_name(self.plan(), self, dyad),
             },
             Step::Group(group) => group.name.clone(),
             Step::Redundant(fit) => fit.name.clone(),
@@ -239,7 +239,7 @@ impl Mechanism {
     }
 }
 
-fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::dyad::Dyad) -> String {
+fn guides_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::dyad::Dyad) -> String {
     let slides: Vec<&str> = dyad
         .path
         .iter()

@@ -249,7 +249,7 @@ impl LastPosition {
         reference_angles: &[f64],
     ) -> Self {
         let angle = |class: usize| nearest(state.class[class][0].angle(), reference_angles[class]);
-        let seed = |&unknown: &Unknown| match unknown {
+        let unknown_value = |&unknown: &Unknown| match unknown {
             Unknown::Class(class) => [angle(class), 0.0, 0.0],
             Unknown::Slide(slide) => [state.slides[slide * state.len][0], 0.0, 0.0],
         };
@@ -258,7 +258,7 @@ impl LastPosition {
             q: q.to_vec(),
             signs: point.branch.signs(point.at).to_vec(),
             angles: (0..state.class.len()).map(angle).collect(),
-            taylor: groups.flat_map(|group| &group.unknowns).map(seed).collect(),
+            taylor: groups.flat_map(|group| &group.unknowns).map(unknown_value).collect(),
         }
     }
 
