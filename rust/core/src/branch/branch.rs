@@ -47,7 +47,7 @@ pub(crate) struct Branch {
     pub(crate) covered: Option<[f64; 2]>,
     /// Polynomials of the groups' unknowns, for the cell after each knot.
     pub(crate) cells: Vec<HermiteCell>,
-    /// Whether each group's determinant is positive at the start of the branch.
+    /// Whether each group's determinant is positive on the branch.
     pub(crate) det_signs: Vec<bool>,
     /// Knots per unit of the parameter, if all are reached and equally spaced.
     pub(crate) inverse_width: Option<f64>,
@@ -60,7 +60,7 @@ pub(crate) struct BranchLocation<R = f64> {
     pub(crate) reduced: R,
     /// Whole periods taken off.
     periods: R,
-    /// The knot from which angles are unwrapped.
+    /// The knot whose angles and cells are used.
     pub(crate) knot: [usize; LANES],
     /// The first and last of these knots, if all lanes have one or the other; and 1 in lanes with
     /// the last.
@@ -80,7 +80,8 @@ impl Branch {
         Self { gain: vec![0.0; classes], sign_intervals, covered, ..Self::default() }
     }
 
-    /// Traces one driven angle from `q0` upward; covers all q if the motion is periodic.
+    /// Traces one driven angle from `q0` upward. A periodic motion covers all q; if a group folds, it
+    /// is traced downward too.
     pub(crate) fn over_turns(
         cx: &Context<'_>,
         state: &mut State,

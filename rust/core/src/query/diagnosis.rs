@@ -8,9 +8,9 @@ use crate::plan::plan::{EdgeSlide, Plan, Step};
 use crate::state::state::State;
 use crate::state::status::{Fault, Status};
 
-/// Distance (in sizes) of a joint at the end of a branch from which on not a dead point but the
-/// distance ended it: the condition of a group grows with its square, so a branch is not followed
-/// all the way to a pole.
+/// If a joint is farther (in sizes) than this at the end of a branch, the distance ended it, not a
+/// dead point: the condition of a group grows with its square, so no branch is followed all the way
+/// to a pole.
 const FAR_JOINT: f64 = 100.0;
 
 /// A position examined closely.
@@ -18,8 +18,8 @@ const FAR_JOINT: f64 = 100.0;
 pub struct Diagnosis {
     /// How the position came out.
     pub status: Status,
-    /// Greatest misfit of a closure equation at the computed position, relative to the size; NaN
-    /// without a position.
+    /// Greatest loop-closure error at the computed position, relative to the size; NaN without a
+    /// position.
     pub residual: f64,
     /// Product of the conditions along the worst chain of dyads; NaN without a position.
     pub condition: f64,
