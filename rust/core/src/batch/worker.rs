@@ -80,7 +80,7 @@ impl<'a> Worker<'a> {
         let mut many = State::new(plan, jets);
         many.angle_wanted.clone_from(&writer.asked);
         Self {
-            quick: design.quick(),
+            quick: design.uniform_tracer(),
             one: State::new(plan, jets),
             by: request.by.map(|index| (index, Sensitivity::new(plan, jets))),
             many,
@@ -118,8 +118,8 @@ impl<'a> Worker<'a> {
     /// Solves the positions of the design; only `dispatch` calls this.
     #[inline(always)]
     pub(crate) fn run<L: Level>(&mut self, job: &mut Job<'_, '_>) {
-        if !self.design.lay_quick::<L>(&mut self.quick) {
-            self.design.lay_way(job.q);
+        if !self.design.trace_uniform::<L>(&mut self.quick) {
+            self.design.trace(job.q);
         }
         let drivers = self.design.mechanism.q0().len();
         let count = job.q.len() / drivers;
@@ -152,7 +152,7 @@ impl<'a> Worker<'a> {
     #[inline(always)]
     fn load_coordinates(&mut self, job: &Job<'_, '_>) {
         let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
-        let track = &self.design.track;
+        let branch = &self.design.branch;
         if !(is_angle && job.shared.is_some() && self.shared == job.shared) {
             self.shared = job.shared;
             self.turned.clear();
@@ -165,13 +165,13 @@ impl<'a> Worker<'a> {
             }
         }
         // Uniform branches have the same knots for all designs.
-        if track.even.is_none() || !self.spots_even {
+        if branch.inverse_width.is_none() || !self.spots_even {
             self.spots.clear();
         }
-        self.spots_even = track.even.is_some();
+        self.spots_even = branch.inverse_width.is_some();
         if self.spots.is_empty() {
             for turned in &self.turned {
-                self.spots.push(track.spot(turned.q));
+                self.spots.push(branch.locate(turned.q));
             }
         }
     }
@@ -179,12 +179,12 @@ impl<'a> Worker<'a> {
     /// Lanes that must be solved again by themselves, whatever the vector solution gives.
     #[inline(always)]
     fn lanes_to_redo(&self, q: Lanes, spot: &BranchLocation<Lanes>) -> <Lanes as Real>::Mask {
-        let track = &self.design.track;
+        let branch = &self.design.branch;
         let must_redo = |i: usize| {
             let at = q.lane(i);
-            !track.covers(at)
-                || track.hides(spot, i)
-                || track.change_near(at, self.design.bridge.reach).is_some()
+            !branch.covers(at)
+                || branch.in_untraced_island(spot, i)
+                || branch.change_near(at, self.design.change_window.reach).is_some()
         };
         Lanes::ZERO.lt(Lanes::from_lanes(|i| if must_redo(i) { 1.0 } else { 0.0 }))
     }
@@ -197,18 +197,18 @@ impl<'a> Worker<'a> {
         for group in 0..groups {
             let DriverLanes { q, unit } = self.turned[first + group];
             let spot = &self.spots[first + group];
-            if self.design.track.even.is_none() {
+            if self.design.branch.inverse_width.is_none() {
                 care[group] = self.lanes_to_redo(q, spot);
             }
-            let track = &self.design.track;
+            let branch = &self.design.branch;
             // Lanes to redo are set to NaN: their vector result is not used.
             self.many.q[0][group] = Lanes::select(care[group], Lanes::splat(f64::NAN), q);
             self.many.unit[0][group] = unit;
             for (sign, groups) in self.many.signs.iter_mut().enumerate() {
-                groups[group] = if track.is_one_stretch() {
-                    Lanes::splat(track.signs_at(spot, 0)[sign])
+                groups[group] = if branch.has_constant_signs() {
+                    Lanes::splat(branch.signs_at(spot, 0)[sign])
                 } else {
-                    Lanes::from_lanes(|i| track.signs_at(spot, i)[sign])
+                    Lanes::from_lanes(|i| branch.signs_at(spot, i)[sign])
                 };
             }
         }
@@ -216,7 +216,7 @@ impl<'a> Worker<'a> {
         self.many.groups = groups;
         for group in 0..groups.min(GROUPS) {
             let spot = &self.spots[first + group];
-            design.guess(group, &mut self.many, &design.track, spot);
+            design.guess(group, &mut self.many, &design.branch, spot);
         }
         L::solve(&mut self.many, &design.context(design.jets));
         let state = &self.many;
@@ -228,7 +228,7 @@ impl<'a> Worker<'a> {
         }
         for &class in &self.writer.classes {
             for (spot, lifted) in self.spots[first..].iter().zip(&mut self.lifted[class]) {
-                *lifted = nearest(*lifted, design.track.near(spot, class));
+                *lifted = nearest(*lifted, design.branch.reference_angle(spot, class));
             }
         }
         let at = job.first + row;
@@ -238,7 +238,7 @@ impl<'a> Worker<'a> {
         let mut again = false;
         for group in 0..groups.min(GROUPS) {
             care[group] = care[group].or(state.needs_scalar[group]);
-            care[group] = care[group].or(design.track.bends_as(state, group).not());
+            care[group] = care[group].or(design.branch.same_det_sign(state, group).not());
             again |= care[group].any();
             let near = state.near_singular(group);
             if near.any() {
@@ -272,7 +272,7 @@ impl<'a> Worker<'a> {
     fn solve_scalar(&mut self, job: &mut Job<'_, '_>, row: usize) {
         let drivers = self.design.mechanism.q0().len();
         let q = self.design.scaled(&job.q[row * drivers..][..drivers]);
-        let place = self.design.way(&q);
+        let place = self.design.branch_to(&q);
         let state = &mut self.one;
         let analogues = self.design.solve(state, &q, place.as_ref());
         let at = job.first + row;
@@ -281,7 +281,7 @@ impl<'a> Worker<'a> {
             job.rows.write_failed(self.columns, at, 1, state.status as u8);
             return;
         };
-        let near = self.design.near(place, self.lifted.len());
+        let near = self.design.reference_angles(place, self.lifted.len());
         let lift = |class: usize| [nearest(state.class[class][0].angle(), near[class])];
         let lifted: Vec<[f64; 1]> = (0..near.len()).map(lift).collect();
         let with = (&self.design.bound, &self.design.unit);
@@ -306,7 +306,7 @@ impl<'a> Worker<'a> {
                 return;
             }
             let q = design.scaled(q);
-            let place = design.way(&q);
+            let place = design.branch_to(&q);
             let state = &mut self.one;
             design.solve(state, &q, place.as_ref());
             let at = job.first + row;

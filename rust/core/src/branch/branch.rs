@@ -1,11 +1,10 @@
-//! The way from the drawing: signs that change at change points, angles followed
-//! continuously.
+//! The branch from the drawing: signs that change at change points, angles followed continuously.
 //!
-//! At a change point a dyad with two solutions is flat and both solutions meet;
-//! the smooth motion goes from one to the other, so its sign changes there. An
-//! angle is known up to whole turns. Both are found along the straight path of q
-//! from the drawing, on knots that depend on the design alone: equal cells, halved
-//! where a link turns fast. So neither depends on which positions are asked for.
+//! At a change point a dyad with two solutions is flat and both solutions meet. The smooth motion
+//! goes from one to the other, so the dyad's sign changes there. An angle is known up to whole
+//! turns. Signs and turns are found by tracing q from the drawing over knots that depend on the
+//! design alone: equal cells, halved where a link turns fast. So the result does not depend on the
+//! positions requested.
 
 use std::f64::consts::TAU;
 
@@ -17,102 +16,105 @@ use crate::math::lanes::{LANES, Real};
 use crate::plan::plan::Plan;
 use crate::state::state::{Context, State};
 
-/// Cells in a turn of a driven angle: knots fill the lanes of four groups, and an odd
-/// number keeps them off the places half a turn from the drawing.
-pub(crate) const CELLS_A_TURN: u32 = 31;
-/// Cells in a unit (of the scale, or rad) of a driven slide's way and of a straight one.
-const CELLS_A_LENGTH: f64 = 16.0;
-/// Steps of a cell in which an island that no knot has seen is measured.
+/// Cells per turn of a driven angle: the knots fill the lanes of four groups, and an odd number of
+/// cells keeps knots off the point half a turn from the drawing.
+pub(crate) const CELLS_PER_TURN: u32 = 31;
+/// Cells per unit (of the scale, or rad) along a driven slide or a segment.
+const CELLS_PER_UNIT: f64 = 16.0;
+/// Steps per cell with which the length of an island between two knots is measured.
 const ISLAND_STEPS: f64 = 1024.0;
-/// Cells of a straight way, at most; whoever asks for a place keeps within that.
-const MOST_CELLS: f64 = 1.0e6;
-/// Turns after which the signs have returned, at the latest; a kite needs two.
-const MOST_TURNS: u32 = 64;
+/// Cells of a segment, at most; callers keep their coordinates within that.
+const MAX_CELLS: f64 = 1.0e6;
+/// Turns after which the signs must be those of the drawing again; a kite needs two.
+const MAX_TURNS: u32 = 64;
 
 /// Angles and signs along one path.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Branch {
     /// Parameters of the knots.
     pub(crate) at: Vec<f64>,
-    /// Whether they can be reached.
+    /// Whether each knot can be reached.
     pub(crate) reached: Vec<bool>,
-    /// Lifted angle of every class at every knot (where not reached: at the last that was).
+    /// Unwrapped angle of every class at every knot (at an unreached knot, that of the last reached
+    /// one).
     pub(crate) angles: Vec<f64>,
-    pub(crate) stretches: Vec<SignInterval>,
+    pub(crate) sign_intervals: Vec<SignInterval>,
     pub(crate) changes: Vec<ChangePoint>,
-    /// Gain of every class over a period.
+    /// Change of every class angle over a period.
     pub(crate) gain: Vec<f64>,
     pub(crate) period: Option<f64>,
-    /// Where the way is known; none: everywhere.
+    /// Interval in which the branch is known; `None`: everywhere.
     pub(crate) covered: Option<[f64; 2]>,
-    /// Of every cell after a knot, the groups' unknowns.
+    /// Polynomials of the groups' unknowns, for the cell after each knot.
     pub(crate) cells: Vec<HermiteCell>,
-    /// Signs of the groups' determinants where the way begins.
-    pub(crate) bends: Vec<bool>,
-    /// Knots a unit of the parameter, if all are reached and equally spaced.
-    pub(crate) even: Option<f64>,
+    /// Whether each group's determinant is positive on the branch.
+    pub(crate) det_signs: Vec<bool>,
+    /// Knots per unit of the parameter, if all are reached and equally spaced.
+    pub(crate) inverse_width: Option<f64>,
 }
 
-/// Places on a track, one a lane.
+/// Locations on a branch, one per lane.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct BranchLocation<R = f64> {
-    /// The parameter within the first period.
-    pub(crate) place: R,
-    /// Whole periods before it.
-    whole: R,
-    /// The knot that tells the angles.
+    /// The parameter reduced to the first period.
+    pub(crate) reduced: R,
+    /// Whole periods taken off.
+    periods: R,
+    /// The knot whose angles and cells are used.
     pub(crate) knot: [usize; LANES],
-    /// The first and the last of these, if there are no others; and 1 where it is the last.
+    /// The first and last of these knots, if all lanes have one or the other; and 1 in lanes with
+    /// the last.
     pub(crate) pair: Option<[usize; 2]>,
     pub(crate) is_last: R,
 }
 
 impl Branch {
-    /// A path without a single position: the dimensions cannot be followed from the drawing's, or
-    /// it ends where it begins.
+    /// A branch without a single position: the dimensions cannot be followed from the drawing's, or
+    /// the branch ends where it begins.
     ///
-    /// It has the signs of the drawing all the same: lanes are filled with them before a lane's
-    /// coordinate is looked at.
-    pub(crate) fn nowhere(classes: usize, signs: &[f64]) -> Self {
+    /// It still has the signs of the drawing, because lanes are filled with signs before their
+    /// coordinates are checked.
+    pub(crate) fn empty(classes: usize, signs: &[f64]) -> Self {
         let covered = Some([f64::INFINITY, f64::NEG_INFINITY]);
-        let stretches = vec![SignInterval { from: f64::NEG_INFINITY, signs: signs.to_vec() }];
-        Self { gain: vec![0.0; classes], stretches, covered, ..Self::default() }
+        let sign_intervals = vec![SignInterval { from: f64::NEG_INFINITY, signs: signs.to_vec() }];
+        Self { gain: vec![0.0; classes], sign_intervals, covered, ..Self::default() }
     }
 
-    /// Along one driven angle, from `q0` on, for ever.
-    pub(crate) fn turning(
+    /// Traces one driven angle from `q0` upward. A periodic motion covers all q; if a group folds, it
+    /// is traced downward too.
+    pub(crate) fn over_turns(
         cx: &Context<'_>,
         state: &mut State,
         q0: f64,
         start: &InitialGuess<'_>,
     ) -> Self {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
-        let mut walker = BranchTracer::new(cx, state, &point, &[1.0], (q0, 1.0), start);
-        if walker.ended {
-            return Self::nowhere(start.angles.len(), cx.signs);
+        let mut tracer = BranchTracer::new(cx, state, &point, &[1.0], (q0, 1.0), start);
+        if tracer.ended {
+            return Self::empty(start.angles.len(), cx.signs);
         }
         let mut turns = 0;
         let mut returned = false;
-        while turns < MOST_TURNS && !returned {
-            for cell in 1..=CELLS_A_TURN {
-                let turned = f64::from(turns) + f64::from(cell) / f64::from(CELLS_A_TURN);
-                walker.advance(q0 + TAU * turned);
+        while turns < MAX_TURNS && !returned {
+            for cell in 1..=CELLS_PER_TURN {
+                let turned = f64::from(turns) + f64::from(cell) / f64::from(CELLS_PER_TURN);
+                tracer.advance(q0 + TAU * turned);
             }
-            if walker.ended {
+            if tracer.ended {
                 break;
             }
             turns += 1;
-            returned = walker.has_returned();
+            returned = tracer.has_returned();
         }
-        let stretches = walker.stretches();
-        let BranchTracer { knots, changes, ended, .. } = walker;
+        let sign_intervals = tracer.sign_intervals();
+        let BranchTracer { knots, changes, ended, .. } = tracer;
         if ended {
-            // A group folds; the other way as well then.
-            let most = f64::from(MOST_TURNS * CELLS_A_TURN);
-            let cells = ([most; 2], TAU / f64::from(CELLS_A_TURN));
-            let track = Self::both_ways(cx, state, q0, cells, start);
-            let ends = [track.at.first(), track.at.last()].map(|end| end.copied().unwrap_or(q0));
-            return Self { covered: Some(ends), ..track };
+            // A group folds ahead: trace backward as well.
+            let cells = f64::from(MAX_TURNS * CELLS_PER_TURN);
+            let cells = ([cells; 2], TAU / f64::from(CELLS_PER_TURN));
+            let branch = Self::bidirectional(cx, state, q0, cells, start);
+            let ends = [branch.at.first(), branch.at.last()].map(|end| end.copied().unwrap_or(q0));
+            return Self { covered: Some(ends), ..branch };
         }
         let gain = match (knots.iter().find(|k| k.reached), knots.last()) {
             (Some(first), Some(last)) => {
@@ -125,18 +127,17 @@ impl Branch {
         let end = if returned { f64::INFINITY } else { q0 + TAU * f64::from(turns) };
         let covered = [if returned { f64::NEG_INFINITY } else { q0 }, end];
         Self {
-            stretches,
+            sign_intervals,
             changes,
             gain,
             period,
             covered: Some(covered),
-            ..Self::of(&knots, cx.plan)
+            ..Self::from_knots(&knots, cx.plan)
         }
     }
 
-    /// Along one driven slide, from `q0` both ways to `low` and `high`
-    /// (not farther than `reach` from `q0`).
-    pub(crate) fn sliding(
+    /// Traces one driven slide from `q0` down to `low` and up to `high`, at most `reach` from `q0`.
+    pub(crate) fn over_range(
         cx: &Context<'_>,
         state: &mut State,
         q0: f64,
@@ -144,12 +145,12 @@ impl Branch {
         reach: f64,
         start: &InitialGuess<'_>,
     ) -> Self {
-        let cells = [q0 - low, high - q0].map(|way| (way.min(reach) * CELLS_A_LENGTH).ceil());
-        Self::both_ways(cx, state, q0, (cells, 1.0 / CELLS_A_LENGTH), start)
+        let cells = [q0 - low, high - q0].map(|length| (length.min(reach) * CELLS_PER_UNIT).ceil());
+        Self::bidirectional(cx, state, q0, (cells, 1.0 / CELLS_PER_UNIT), start)
     }
 
-    /// From `q0` down and up, so many cells of a width; not beyond where the way ends.
-    fn both_ways(
+    /// Traces from `q0` down and up by a number of cells of one width, or to the end of the branch.
+    fn bidirectional(
         cx: &Context<'_>,
         state: &mut State,
         q0: f64,
@@ -158,146 +159,150 @@ impl Branch {
     ) -> Self {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
         let mut all: Vec<Knot> = Vec::new();
-        let mut track = Self { gain: vec![0.0; start.angles.len()], ..Self::default() };
+        let mut branch = Self { gain: vec![0.0; start.angles.len()], ..Self::default() };
         let mut covered = [f64::NEG_INFINITY, f64::INFINITY];
-        for (cells, way) in cells.into_iter().zip([-1.0, 1.0]) {
-            let mut walker = BranchTracer::new(cx, state, &point, &[1.0], (q0, way), start);
-            if walker.ended {
-                return Self::nowhere(start.angles.len(), cx.signs);
+        for (cells, direction) in cells.into_iter().zip([-1.0, 1.0]) {
+            let mut tracer = BranchTracer::new(cx, state, &point, &[1.0], (q0, direction), start);
+            if tracer.ended {
+                return Self::empty(start.angles.len(), cx.signs);
             }
             let mut cell = 0.0;
-            while cell < cells && !walker.ended {
+            while cell < cells && !tracer.ended {
                 cell += 1.0;
-                walker.advance(q0 + way * cell * width);
+                tracer.advance(q0 + direction * cell * width);
             }
-            let mut stretches = walker.stretches();
-            let BranchTracer { mut knots, mut changes, ended, .. } = walker;
+            let mut sign_intervals = tracer.sign_intervals();
+            let BranchTracer { mut knots, mut changes, ended, .. } = tracer;
             if ended && let Some(last) = knots.last() {
-                covered[usize::from(way > 0.0)] = last.at;
+                covered[usize::from(direction > 0.0)] = last.at;
             }
-            if way < 0.0 {
+            if direction < 0.0 {
                 knots.reverse();
                 knots.pop();
                 changes.reverse();
-                // Downward a stretch begins where the next change is.
-                for i in 0..stretches.len() {
-                    stretches[i].from = stretches.get(i + 1).map_or(f64::NEG_INFINITY, |s| s.from);
+                // Downward, an interval begins at the next change.
+                for i in 0..sign_intervals.len() {
+                    sign_intervals[i].from =
+                        sign_intervals.get(i + 1).map_or(f64::NEG_INFINITY, |s| s.from);
                 }
-                stretches.reverse();
-                // The last of them, around q0, is the first of the way up.
-                if let (Some(around), true) = (stretches.pop(), track.stretches.is_empty()) {
-                    track.stretches = stretches;
-                    track.stretches.push(around);
+                sign_intervals.reverse();
+                // The last one, around q0, is also the first one upward.
+                if let (Some(around), true) =
+                    (sign_intervals.pop(), branch.sign_intervals.is_empty())
+                {
+                    branch.sign_intervals = sign_intervals;
+                    branch.sign_intervals.push(around);
                 }
             } else {
-                track.stretches.extend(stretches.into_iter().skip(1));
+                branch.sign_intervals.extend(sign_intervals.into_iter().skip(1));
             }
             all.append(&mut knots);
-            track.changes.append(&mut changes);
+            branch.changes.append(&mut changes);
         }
         Self {
-            changes: track.changes,
-            stretches: track.stretches,
-            gain: track.gain,
+            changes: branch.changes,
+            sign_intervals: branch.sign_intervals,
+            gain: branch.gain,
             covered: Some(covered),
-            ..Self::of(&all, cx.plan)
+            ..Self::from_knots(&all, cx.plan)
         }
     }
 
-    /// Straight from the drawing to one point of several coordinates; the parameter there.
+    /// Traces straight from the drawing to one point of several coordinates; also returns the
+    /// parameter there.
     ///
-    /// Cells are as wide on every such way, so that two places on one ray from the drawing have the
-    /// same knots before them, and see or miss the same islands.
-    pub(crate) fn straight(
+    /// The cells have one width on every segment. So two points on one ray from the drawing share
+    /// their first knots, and both see or miss the same islands.
+    pub(crate) fn along_segment(
         cx: &Context<'_>,
         state: &mut State,
         q0: &[f64],
         q1: &[f64],
         start: &InitialGuess<'_>,
     ) -> (Self, f64) {
-        let way = || q0.iter().zip(q1).map(|(a, b)| b - a);
-        let end = way().fold(0.0_f64, |most, change| most.max(change.abs()));
+        let differences = || q0.iter().zip(q1).map(|(a, b)| b - a);
+        let end = differences().fold(0.0_f64, |max, change| max.max(change.abs()));
         let rates: Vec<f64> =
-            way().map(|change| if end > 0.0 { change / end } else { 0.0 }).collect();
+            differences().map(|change| if end > 0.0 { change / end } else { 0.0 }).collect();
         let point = |at: f64, q: &mut [f64]| {
             for ((x, &a), &rate) in q.iter_mut().zip(q0).zip(&rates) {
                 *x = a + at * rate;
             }
         };
-        let width = (end / MOST_CELLS).max(1.0 / CELLS_A_LENGTH);
-        let mut walker = BranchTracer::new(cx, state, &point, &rates, (0.0, 1.0), start);
-        if walker.ended {
-            return (Self::nowhere(start.angles.len(), cx.signs), end);
+        let width = (end / MAX_CELLS).max(1.0 / CELLS_PER_UNIT);
+        let mut tracer = BranchTracer::new(cx, state, &point, &rates, (0.0, 1.0), start);
+        if tracer.ended {
+            return (Self::empty(start.angles.len(), cx.signs), end);
         }
         let (mut cell, mut at) = (0.0, 0.0);
         while at < end {
             cell += 1.0;
             at = f64::min(cell * width, end);
-            walker.advance(at);
-            // Only the end is asked for.
-            walker.knots.drain(..walker.knots.len() - 1);
+            tracer.advance(at);
+            // Only the end is needed.
+            tracer.knots.drain(..tracer.knots.len() - 1);
         }
-        let stretches = walker.stretches();
-        let BranchTracer { knots, changes, ended, .. } = walker;
+        let sign_intervals = tracer.sign_intervals();
+        let BranchTracer { knots, changes, ended, .. } = tracer;
         let gain = vec![0.0; start.angles.len()];
         let covered = ended.then_some([0.0, 0.0]);
-        (Self { stretches, changes, gain, covered, ..Self::of(&knots, cx.plan) }, end)
+        (Self { sign_intervals, changes, gain, covered, ..Self::from_knots(&knots, cx.plan) }, end)
     }
 
-    /// Keeps what is asked of knots later.
-    fn of(knots: &[Knot], plan: &Plan) -> Self {
+    /// Keeps the part of the knots that is needed later.
+    fn from_knots(knots: &[Knot], plan: &Plan) -> Self {
         let mut cells = Vec::new();
         for (i, a) in knots.iter().enumerate() {
             let b = knots.get(i + 1);
             let width = b.map_or(0.0, |b| b.at - a.at);
             let unknowns = plan.groups().flat_map(|group| &group.unknowns);
-            for (place, (&unknown, seed)) in unknowns.zip(&a.seeds).enumerate() {
-                let end = b.and_then(|b| b.seeds.get(place));
-                cells.push(HermiteCell::of(unknown, seed, end, width));
+            for (index, (&unknown, start)) in unknowns.zip(&a.taylor).enumerate() {
+                let end = b.and_then(|b| b.taylor.get(index));
+                cells.push(HermiteCell::between(unknown, start, end, width));
             }
         }
         Self {
             at: knots.iter().map(|k| k.at).collect(),
             reached: knots.iter().map(|k| k.reached).collect(),
             angles: knots.iter().flat_map(|k| k.angles.iter().copied()).collect(),
-            bends: knots.first().map(|knot| knot.bends.clone()).unwrap_or_default(),
+            det_signs: knots.first().map(|knot| knot.det_signs.clone()).unwrap_or_default(),
             cells,
             ..Self::default()
         }
     }
 
-    /// The parameter within the first period, and whole periods before it.
+    /// Reduces a parameter to the first period; also returns the whole periods taken off.
     #[inline(always)]
-    pub(crate) fn reduced<R: Real>(&self, at: R) -> (R, R) {
+    pub(crate) fn reduce<R: Real>(&self, at: R) -> (R, R) {
         let (Some(&first), Some(period)) = (self.at.first(), self.period) else {
             return (at, R::ZERO);
         };
-        let whole = ((at - R::splat(first)) * R::splat(1.0 / period)).floor();
-        if self.even.is_some() {
-            // Only the whole turns matter.
-            return (at - whole * R::splat(period), whole);
+        let periods = ((at - R::splat(first)) * R::splat(1.0 / period)).floor();
+        if self.inverse_width.is_some() {
+            // On the uniform branch only the number of turns must be exact.
+            return (at - periods * R::splat(period), periods);
         }
         let turns = (period / TAU).round();
-        (R::from_lanes(|lane| less_turns(at.lane(lane), whole.lane(lane) * turns)), whole)
+        (R::from_lanes(|lane| less_turns(at.lane(lane), periods.lane(lane) * turns)), periods)
     }
 
-    /// Whether the way to a parameter is known.
+    /// Whether the branch is known at a parameter.
     #[inline(always)]
     pub(crate) fn covers(&self, at: f64) -> bool {
         self.covered.is_none_or(|[low, high]| (low..=high).contains(&at))
     }
 
-    /// Finds a place; with no knots nothing is to be found.
+    /// Locates parameters among the knots; without knots, only reduces them.
     #[inline(always)]
-    pub(crate) fn spot<R: Real>(&self, at: R) -> BranchLocation<R> {
-        let (place, whole) = self.reduced(at);
+    pub(crate) fn locate<R: Real>(&self, at: R) -> BranchLocation<R> {
+        let (reduced, periods) = self.reduce(at);
         let mut knot = [0; LANES];
         let last = self.at.len().saturating_sub(1);
         if self.at.is_empty() {
-            return BranchLocation { place, whole, knot, ..BranchLocation::default() };
+            return BranchLocation { reduced, periods, knot, ..BranchLocation::default() };
         }
-        if let Some(per) = self.even {
-            let cells = (place - R::splat(self.at[0])) * R::splat(per);
+        if let Some(inverse_width) = self.inverse_width {
+            let cells = (reduced - R::splat(self.at[0])) * R::splat(inverse_width);
             for lane in 0..R::LANES {
                 // At the edge of a cell either knot will do.
                 let cell = whole_part(cells.lane(lane));
@@ -305,123 +310,126 @@ impl Branch {
             }
         } else {
             for lane in 0..R::LANES {
-                knot[lane] = self.knot_before(place.lane(lane)).min(last);
+                knot[lane] = self.knot_before(reduced.lane(lane)).min(last);
             }
         }
         let pair = [knot[0], knot[R::LANES - 1]];
         let is_pair = knot[..R::LANES].iter().all(|knot| pair.contains(knot));
         let is_last = R::from_lanes(|lane| if knot[lane] == pair[1] { 1.0 } else { 0.0 });
-        BranchLocation { place, whole, knot, pair: is_pair.then_some(pair), is_last }
+        BranchLocation { reduced, periods, knot, pair: is_pair.then_some(pair), is_last }
     }
 
-    /// The nearest knot before a place that can be reached, or the next one if only
-    /// that can.
-    fn knot_before(&self, place: f64) -> usize {
-        let after = self.at.partition_point(|&k| k <= place);
+    /// The last knot at or before a parameter; the next knot if only that one can be reached.
+    fn knot_before(&self, reduced: f64) -> usize {
+        let after = self.at.partition_point(|&k| k <= reduced);
         let left = after.saturating_sub(1);
         let ahead = self.reached.get(after).copied().unwrap_or(false);
         if ahead && !self.reached[left] { after } else { left }
     }
 
-    /// The assembly signs at a place.
+    /// The assembly signs at a location.
     #[inline(always)]
-    pub(crate) fn signs_at<R: Real>(&self, spot: &BranchLocation<R>, lane: usize) -> &[f64] {
-        let after = match self.stretches.len() {
+    pub(crate) fn signs_at<R: Real>(&self, location: &BranchLocation<R>, lane: usize) -> &[f64] {
+        let after = match self.sign_intervals.len() {
             1 => 1,
-            _ => self.stretches.partition_point(|s| s.from <= spot.place.lane(lane)),
+            _ => self.sign_intervals.partition_point(|s| s.from <= location.reduced.lane(lane)),
         };
-        self.stretches.get(after.saturating_sub(1)).map_or(&[], |s| &s.signs)
+        self.sign_intervals.get(after.saturating_sub(1)).map_or(&[], |s| &s.signs)
     }
 
     /// The assembly signs at a parameter.
     pub(crate) fn signs(&self, at: f64) -> &[f64] {
-        self.signs_at(&self.spot(at), 0)
+        self.signs_at(&self.locate(at), 0)
     }
 
     /// Whether the signs are the same everywhere.
     #[inline(always)]
-    pub(crate) fn is_one_stretch(&self) -> bool {
-        self.stretches.len() == 1
+    pub(crate) fn has_constant_signs(&self) -> bool {
+        self.sign_intervals.len() == 1
     }
 
-    /// The change point (of the first period) that a parameter is beside, if there is one, and how
-    /// far from it.
+    /// The change point (of the first period) within `reach` of a parameter, if there is one, and
+    /// the distance from it.
     pub(crate) fn change_near(&self, at: f64, reach: f64) -> Option<(ChangePoint, f64)> {
         if self.changes.is_empty() {
             return None;
         }
-        let (place, _) = self.reduced(at);
+        let (reduced, _) = self.reduce(at);
         let period = self.period.unwrap_or(0.0);
-        let images = |c: &ChangePoint| [0.0, -period, period].map(|by| (*c, place - (c.at + by)));
+        let images = |c: &ChangePoint| [0.0, -period, period].map(|by| (*c, reduced - (c.at + by)));
         self.changes.iter().flat_map(images).find(|(_, distance)| distance.abs() <= reach)
     }
 
-    /// Whether a place lies on an island that no knot has seen.
+    /// Whether a location lies on an island that no knot has seen.
     #[inline(always)]
-    pub(crate) fn hides<R: Real>(&self, spot: &BranchLocation<R>, lane: usize) -> bool {
-        let around = || self.around(spot.place.lane(lane));
-        self.even.is_none() && around().is_some_and(|[a, b]| !a && !b)
+    pub(crate) fn in_untraced_island<R: Real>(
+        &self,
+        location: &BranchLocation<R>,
+        lane: usize,
+    ) -> bool {
+        let around = || self.reached_around(location.reduced.lane(lane));
+        self.inverse_width.is_none() && around().is_some_and(|[a, b]| !a && !b)
     }
 
-    /// Whether the knots on both sides of a place can be reached.
-    fn around(&self, place: f64) -> Option<[bool; 2]> {
-        let after = self.at.partition_point(|&k| k <= place);
+    /// Whether the knots before and after a parameter can be reached.
+    fn reached_around(&self, reduced: f64) -> Option<[bool; 2]> {
+        let after = self.at.partition_point(|&k| k <= reduced);
         Some([*self.reached.get(after.checked_sub(1)?)?, *self.reached.get(after)?])
     }
 
-    /// The way along such an island, from its middle to the parameter: at an end a joint may be at
+    /// Traces such an island from its middle to the parameter: at an end of it a joint may be at
     /// infinity, where angles are rounding.
-    pub(crate) fn island(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Self {
-        let (place, whole) = self.reduced(at);
-        let after = self.at.partition_point(|&k| k <= place);
+    pub(crate) fn trace_island(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Self {
+        let (reduced, periods) = self.reduce(at);
+        let after = self.at.partition_point(|&k| k <= reduced);
         let Some(left) = after.checked_sub(1).filter(|_| after < self.at.len()) else {
             return Self::default();
         };
         let angles = &self.angles[left * self.gain.len()..][..self.gain.len()];
-        let seeds = self.seeds(left, place);
-        let start = InitialGuess { angles, seeds: &seeds };
+        let taylor = self.unknowns_at(left, reduced);
+        let start = InitialGuess { angles, taylor: &taylor };
         let (left, right) = (self.at[left], self.at[after]);
         let cx = Context { signs: self.signs(at), ..*cx };
         let point = |at: f64, q: &mut [f64]| q[0] = at;
-        let mut walker = BranchTracer::new(&cx, state, &point, &[1.0], (place, 1.0), &start);
+        let mut tracer = BranchTracer::new(&cx, state, &point, &[1.0], (reduced, 1.0), &start);
         let step = (right - left) / ISLAND_STEPS;
-        let mut end = |way: f64, limit: f64| {
-            let (mut inside, mut outside) = (place, limit);
-            while (limit - inside) * way > step {
-                if !walker.visit(inside + way * step) {
-                    outside = inside + way * step;
+        let mut end = |direction: f64, limit: f64| {
+            let (mut inside, mut outside) = (reduced, limit);
+            while (limit - inside) * direction > step {
+                if !tracer.visit(inside + direction * step) {
+                    outside = inside + direction * step;
                     break;
                 }
-                inside += way * step;
+                inside += direction * step;
             }
-            walker.edge([inside, outside])
+            tracer.find_edge([inside, outside])
         };
         let middle = 0.5 * (end(-1.0, left) + end(1.0, right));
-        let way = if place < middle { -1.0 } else { 1.0 };
-        let mut walker = BranchTracer::new(&cx, state, &point, &[1.0], (middle, way), &start);
-        walker.advance(place);
-        let BranchTracer { mut knots, .. } = walker;
-        if way < 0.0 {
+        let direction = if reduced < middle { -1.0 } else { 1.0 };
+        let mut tracer = BranchTracer::new(&cx, state, &point, &[1.0], (middle, direction), &start);
+        tracer.advance(reduced);
+        let BranchTracer { mut knots, .. } = tracer;
+        if direction < 0.0 {
             knots.reverse();
         }
         for knot in &mut knots {
-            knot.at += at - place;
+            knot.at += at - reduced;
             for (angle, gain) in knot.angles.iter_mut().zip(&self.gain) {
-                *angle += whole * gain;
+                *angle += periods * gain;
             }
         }
-        Self { gain: self.gain.clone(), ..Self::of(&knots, cx.plan) }
+        Self { gain: self.gain.clone(), ..Self::from_knots(&knots, cx.plan) }
     }
 
-    /// The angle of a class at the knots of places.
+    /// The angle of a class at the knots of a location.
     #[inline(always)]
-    pub(crate) fn near<R: Real>(&self, spot: &BranchLocation<R>, class: usize) -> R {
+    pub(crate) fn reference_angle<R: Real>(&self, location: &BranchLocation<R>, class: usize) -> R {
         let classes = self.gain.len();
         if self.at.is_empty() {
             return R::ZERO;
         }
-        let near = R::from_lanes(|lane| self.angles[spot.knot[lane] * classes + class]);
-        near + spot.whole * R::splat(self.gain[class])
+        let angle = R::from_lanes(|lane| self.angles[location.knot[lane] * classes + class]);
+        angle + location.periods * R::splat(self.gain[class])
     }
 }
 
@@ -429,14 +437,14 @@ impl Branch {
 mod tests {
     use super::*;
 
-    /// Turns either way leave the angle that was there, to the rounding of the sum itself.
+    /// Removing whole turns leaves the angle, to the rounding of the sum itself.
     #[test]
-    fn turns_taken_off_are_turns_put_on() {
+    fn reducing_turns_restores_the_angle() {
         for turns in [1.0, 2.0, 64.0, 1000.0, 4_194_303.0, 4_194_304.0, 1e9] {
             for part in [0.001, 0.735_422_665_253_286_5, 3.0, 6.2] {
                 for turns in [turns, -turns] {
                     let angle = part + TAU * turns;
-                    // 2π as a double, and what it lacks.
+                    // 2π as a double, and its error.
                     let lost = (angle - TAU * turns) - part;
                     let wanted = part + lost - turns * 2.449_293_598_294_706_4e-16;
                     let rounding = 2.0 * f64::EPSILON * angle.abs().max(TAU);
@@ -447,7 +455,7 @@ mod tests {
         }
     }
 
-    /// Backward as well: a small angle less −1 turn is the sum, rounded once or twice.
+    /// Also backward: a small angle less −1 turn is the sum, rounded once or twice.
     #[test]
     fn small_angles_keep_their_digits() {
         for angle in [-0.735_422_665_253_286_5, -1e-9, 0.1, 3.0] {

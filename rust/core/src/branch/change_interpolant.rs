@@ -1,127 +1,133 @@
-//! The smooth motion through a change point, where a dyad by itself knows too little.
+//! The smooth motion through a change point, near which a dyad alone gives too few digits.
 
 use crate::math::tolerance::CHANGE_REACH;
 use crate::math::trig::sin_cos;
 use crate::state::state::State;
 
-/// Where the polynomial through a change point is taken.
+/// The range around a change point within which the motion is interpolated.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ChangeWindow {
-    /// How near to the change point (rad, or units of the scale).
+    /// The interpolant is used within this distance of the change point (rad, or units of the
+    /// scale).
     pub reach: f64,
-    /// How far around it the polynomial is laid at first.
-    widest: f64,
-    /// Nodes of the polynomial: Chebyshev's, of an even number, so that none is at the change
-    /// point.
-    nodes: u32,
-    /// Whether the condition told is that of the nodes, not that of the dyad.
-    is_known: bool,
+    /// Half-width of the first polynomial tried.
+    max_reach: f64,
+    /// Chebyshev nodes of the polynomial; an even number, so that none is at the change point.
+    node_count: u32,
+    /// Whether the reported condition is that of the nodes, not that of the dyad.
+    uses_node_condition: bool,
 }
 
 impl ChangeWindow {
-    /// Of positions by themselves: where too few digits remain.
+    /// For single positions: where too few digits remain.
     pub(crate) const SHORT: Self =
-        Self { reach: CHANGE_REACH, widest: 0.1, nodes: 16, is_known: false };
-    /// Of positions that are integrated over: beside a change point second analogues are off by
-    /// u κ³, which no step is narrow enough for. Nodes, the nearest at 0.03, are good to 1e-12 or
-    /// so.
-    pub(crate) const LONG: Self = Self { reach: 0.03, widest: 0.5, nodes: 24, is_known: true };
+        Self { reach: CHANGE_REACH, max_reach: 0.1, node_count: 16, uses_node_condition: false };
+    /// For integration: beside a change point second analogues are off by u κ³, and no step of an
+    /// integrator is short enough for that. States at the nodes, the nearest at 0.03, are good to
+    /// about 1e-12.
+    pub(crate) const LONG: Self =
+        Self { reach: 0.03, max_reach: 0.5, node_count: 24, uses_node_condition: true };
 }
 
-/// How far around the polynomial is laid at least: nodes, the nearest at a fifteenth of that, are
-/// hardly known there.
-const NARROWEST: f64 = 2.0e-4;
-/// Part of its misfit that half a polynomial has at most if the whole one is truncated.
-const GAIN: f64 = 0.25;
-/// It is used within this part of that, far from its ends.
+/// Least half-width of the polynomial: its nearest nodes, at a fifteenth of that, have hardly any
+/// digits.
+const MIN_REACH: f64 = 2.0e-4;
+/// If a polynomial is truncated, one of half its width has at most this part of its error.
+const TRUNCATION_GAIN: f64 = 0.25;
+/// The polynomial is used within this part of its half-width, away from its ends.
 const INNER: f64 = 0.5;
 
-/// The polynomial through states around a change point, as far around as it is the motion.
+/// The polynomial through states around a change point, as wide as it represents the motion.
 #[derive(Debug, Clone)]
 pub(crate) struct ChangeInterpolant {
     reach: f64,
-    /// Places, from the change point, with their weights.
+    /// Distances of the nodes from the change point, with their weights.
     nodes: Vec<(f64, f64)>,
     states: Vec<State>,
-    /// The greatest condition (squared) of these, if that is what is told.
+    /// Greatest squared condition of the nodes, if that is reported.
     condition2: Option<f64>,
 }
 
 impl ChangeInterpolant {
-    /// Analogues by which the misfit is judged.
-    pub(crate) const JUDGED: usize = 2;
+    /// Order of analogues by which the error is judged.
+    pub(crate) const JUDGED_ORDER: usize = 2;
 
-    /// Lays it; `solve` gives the state at a distance from the change point. None if there is no
-    /// room.
+    /// Fits the polynomial; `solve` gives the state at a distance from the change point. `None` if
+    /// no width is good enough.
     ///
-    /// As long as the polynomial is truncated, half as far around it fits far better; once it is
-    /// the motion only rounding grows. That is told without knowing how large the rounding is.
-    pub(crate) fn lay(wide: ChangeWindow, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
-        let mut best: Option<(Misfit, Self)> = None;
-        let mut reach = wide.widest;
-        while reach > NARROWEST {
-            if let Some(span) = Self::of(reach, wide, &solve)
-                && let Some(misfit) = span.misfit(&solve)
-                && misfit.is_small()
+    /// While a polynomial is truncated, one of half the width fits far better; once it represents
+    /// the motion, only rounding grows. This finds the width without knowing how large the rounding
+    /// is.
+    pub(crate) fn fit(window: ChangeWindow, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
+        let mut best: Option<(FitError, Self)> = None;
+        let mut reach = window.max_reach;
+        while reach > MIN_REACH {
+            if let Some(interpolant) = Self::through(reach, window, &solve)
+                && let Some(error) = interpolant.error(&solve)
+                && error.is_small()
             {
                 if let Some((before, _)) = &best
-                    && !misfit.is_far_below(before)
+                    && !error.is_far_below(before)
                 {
                     break;
                 }
-                best = Some((misfit, span));
+                best = Some((error, interpolant));
             }
             reach *= 0.5;
         }
-        best.map(|(_, span)| span)
+        best.map(|(_, interpolant)| interpolant)
     }
 
-    /// Through states of another order.
-    pub(crate) fn again(
+    /// Interpolates states of another order at the same nodes.
+    pub(crate) fn refit(
         &self,
-        wide: ChangeWindow,
+        window: ChangeWindow,
         solve: impl Fn(f64) -> Option<State>,
     ) -> Option<Self> {
-        Self::of(self.reach, wide, solve)
+        Self::through(self.reach, window, solve)
     }
 
-    fn of(reach: f64, wide: ChangeWindow, solve: impl Fn(f64) -> Option<State>) -> Option<Self> {
-        // Weights of Chebyshev's nodes of the first kind (Berrut & Trefethen 2004, 5.3).
-        let nodes: Vec<_> = (0..wide.nodes)
+    fn through(
+        reach: f64,
+        window: ChangeWindow,
+        solve: impl Fn(f64) -> Option<State>,
+    ) -> Option<Self> {
+        // Weights of Chebyshev nodes of the first kind (Berrut & Trefethen 2004, 5.3).
+        let nodes: Vec<_> = (0..window.node_count)
             .map(|node| {
-                let (at, sine) = place(f64::from(node) + 0.5, wide.nodes);
+                let (at, sine) = chebyshev(f64::from(node) + 0.5, window.node_count);
                 (reach * at, if node % 2 == 0 { sine } else { -sine })
             })
             .collect();
         let states = nodes.iter().map(|(at, _)| solve(*at)).collect::<Option<Vec<_>>>()?;
         let condition2 = states.iter().map(|state| state.condition2[0]).fold(0.0, f64::max);
-        let condition2 = wide.is_known.then_some(condition2);
+        let condition2 = window.uses_node_condition.then_some(condition2);
         Some(Self { reach, nodes, states, condition2 })
     }
 
-    /// How far from the motion it is between nodes, near its ends. (At the change point itself
-    /// nothing tells: a flat dyad closes whatever its angle.)
-    fn misfit(&self, solve: impl Fn(f64) -> Option<State>) -> Option<Misfit> {
+    /// Distance from the motion between nodes, near the ends. (The change point itself is no test:
+    /// a flat dyad closes at any angle.)
+    fn error(&self, solve: impl Fn(f64) -> Option<State>) -> Option<FitError> {
         let count = u32::try_from(self.nodes.len()).unwrap_or(u32::MAX);
-        let mut most = Misfit::default();
+        let mut max = FitError::default();
         for part in [1, 2, 3, count - 3, count - 2, count - 1] {
-            let at = self.reach * place(f64::from(part), count).0;
+            let at = self.reach * chebyshev(f64::from(part), count).0;
             let own = solve(at)?;
-            let smooth = self.blend(at, &own);
-            for (order, most) in most.0.iter_mut().enumerate() {
-                *most = most.max(smooth.distance(&own, order));
+            let smooth = self.interpolate(at, &own);
+            for (order, max) in max.0.iter_mut().enumerate() {
+                *max = max.max(smooth.distance(&own, order));
             }
         }
-        Some(most)
+        Some(max)
     }
 
-    /// The state at a distance from the change point, if it is well inside; `like` a state of the
-    /// same plan.
-    pub(crate) fn at(&self, distance: f64, like: &State) -> Option<State> {
-        (distance.abs() <= INNER * self.reach).then(|| self.blend(distance, like))
+    /// The state at a distance from the change point, if that is well inside; `like` is any state
+    /// of the same plan.
+    pub(crate) fn state_at(&self, distance: f64, like: &State) -> Option<State> {
+        (distance.abs() <= INNER * self.reach).then(|| self.interpolate(distance, like))
     }
 
-    fn blend(&self, distance: f64, like: &State) -> State {
+    fn interpolate(&self, distance: f64, like: &State) -> State {
         let mut state = like.clone();
         if let Some(node) = self.nodes.iter().position(|(at, _)| *at == distance) {
             return self.states[node].clone();
@@ -137,28 +143,29 @@ impl ChangeInterpolant {
     }
 }
 
-/// How far points and their first two analogues are from the motion, in sizes or of themselves.
+/// Distance of points and their first two analogues from the motion, relative to the size or to
+/// themselves.
 #[derive(Debug, Clone, Copy, Default)]
-struct Misfit([f64; 3]);
+struct FitError([f64; 3]);
 
-impl Misfit {
-    /// What may be left at most.
-    const MOST: [f64; 3] = [1.0e-9, 1.0e-6, 1.0e-4];
-    /// Less is rounding, which may be smaller by chance.
+impl FitError {
+    /// Greatest error allowed.
+    const MAX: [f64; 3] = [1.0e-9, 1.0e-6, 1.0e-4];
+    /// Smaller errors are rounding, which may be small by chance.
     const ROUNDING: [f64; 3] = [1.0e-14, 1.0e-13, 1.0e-12];
 
     fn is_small(&self) -> bool {
-        self.0.iter().zip(Self::MOST).all(|(own, most)| *own <= most)
+        self.0.iter().zip(Self::MAX).all(|(own, max)| *own <= max)
     }
 
     fn is_far_below(&self, other: &Self) -> bool {
         let mut pairs = self.0.iter().zip(other.0).zip(Self::ROUNDING);
-        pairs.any(|((own, other), rounding)| *own <= GAIN * other && other > rounding)
+        pairs.any(|((own, other), rounding)| *own <= TRUNCATION_GAIN * other && other > rounding)
     }
 }
 
-/// A place of Chebyshev's angles, in parts of their number: from 1 to -1; and its sine.
-fn place(part: f64, count: u32) -> (f64, f64) {
+/// Cosine and sine of the angle π `part`/`count`: a Chebyshev point, from 1 to −1.
+fn chebyshev(part: f64, count: u32) -> (f64, f64) {
     let angle = std::f64::consts::PI * part / f64::from(count);
     let (sin, cos) = sin_cos(angle);
     (cos, sin)

@@ -1,5 +1,4 @@
-//! One design ready to be solved: its numbers, its unit of length, its way from
-//! the drawing.
+//! One design ready to be solved: its constants, its unit of length, its branch from the drawing.
 
 use std::borrow::Cow;
 use std::cell::RefCell;
@@ -22,68 +21,68 @@ use crate::state::kernel::Level;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
-/// A place on a way from the drawing.
+/// A point on a branch.
 pub(crate) struct BranchPoint<'a> {
-    /// The way.
-    pub track: Cow<'a, Branch>,
-    /// Its parameter there.
+    /// The branch.
+    pub branch: Cow<'a, Branch>,
+    /// The parameter there.
     pub at: f64,
 }
 
-/// Farthest coordinate (rad, or units of the scale) from the drawing to which
-/// several drivers are followed: 1000 turns; a position costs time in proportion.
-const FARTHEST: f64 = 1000.0 * std::f64::consts::TAU;
+/// Greatest distance (rad, or units of the scale) from the drawing to which several drivers are
+/// followed: 1000 turns. The time for a position grows with the distance.
+const MAX_DISTANCE: f64 = 1000.0 * std::f64::consts::TAU;
 
-/// One design after another, with the assembly asked for.
+/// One design after another, in the requested assembly.
 pub(crate) struct Design<'a> {
     pub mechanism: &'a Mechanism,
     pub bound: DesignConstants,
     pub unit: Units,
-    /// Tables of the order asked for.
+    /// Tables of the requested order.
     pub jets: &'a DerivativeTables,
-    /// Tables of the first order (with groups above class II: the second), for the way.
-    first: DerivativeTables,
-    /// Dimensions at hand.
+    /// Tables for tracing: of first order, or second with groups above class II.
+    tracing_jets: DerivativeTables,
+    /// Dimensions of the present design.
     values: Vec<f64>,
-    /// Unknowns of the groups at the drawing's coordinate; or after which part of the way of the
-    /// dimensions from the drawing that folds.
-    pub(crate) home: Result<Vec<Taylor2>, f64>,
+    /// Unknowns of the groups at the drawing's coordinate; or the part of the path from the
+    /// drawing's dimensions after which a group folds.
+    pub(crate) initial_unknowns: Result<Vec<Taylor2>, f64>,
     signs: Vec<f64>,
     /// Scaled coordinates of the drawing.
     q0: Vec<f64>,
-    /// The way from the drawing, if one serves all positions.
-    pub track: Branch,
-    /// Where the way through a change point is a polynomial.
-    pub bridge: ChangeWindow,
-    /// Those that were asked for, by the place of their change point.
-    spans: RefCell<Vec<(f64, Option<ChangeInterpolant>)>>,
+    /// The branch from the drawing, if one serves all positions.
+    pub branch: Branch,
+    /// Range around a change point within which the motion is interpolated.
+    pub change_window: ChangeWindow,
+    /// Interpolants in use, by their change point.
+    interpolants: RefCell<Vec<(f64, Option<ChangeInterpolant>)>>,
 }
 
 impl<'a> Design<'a> {
-    /// A design still without numbers.
+    /// A design without dimensions yet.
     pub(crate) fn new(mechanism: &'a Mechanism, signs: &[i8], jets: &'a DerivativeTables) -> Self {
-        // Groups are foretold with second derivatives.
+        // Groups are predicted with second derivatives.
         let order = if mechanism.plan().groups().next().is_some() { 2 } else { 1 };
         Self {
             mechanism,
             bound: DesignConstants::default(),
             unit: Units::default(),
             jets,
-            first: DerivativeTables::new(mechanism.q0().len(), order),
+            tracing_jets: DerivativeTables::new(mechanism.q0().len(), order),
             values: Vec::new(),
-            home: Ok(Vec::new()),
+            initial_unknowns: Ok(Vec::new()),
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
             q0: Vec::new(),
-            track: Branch::default(),
-            bridge: ChangeWindow::SHORT,
-            spans: RefCell::default(),
+            branch: Branch::default(),
+            change_window: ChangeWindow::SHORT,
+            interpolants: RefCell::default(),
         }
     }
 
-    /// Takes the dimensions of a design; its way is yet to be laid.
+    /// Sets the dimensions; the branch is yet to be traced.
     pub(crate) fn bind(&mut self, values: &[f64]) {
         let mechanism = self.mechanism;
-        self.spans.get_mut().clear();
+        self.interpolants.get_mut().clear();
         self.bound.bind(mechanism.plan(), &mechanism.slots, values);
         self.unit.set(mechanism, self.bound.scale, self.jets);
         self.q0.clear();
@@ -92,20 +91,20 @@ impl<'a> Design<'a> {
         self.values.extend_from_slice(values);
     }
 
-    /// How the fixed vectors change with a dimension.
+    /// Rates of the fixed vectors by a dimension.
     pub(crate) fn rate(&self, index: usize) -> ConstantsRate {
         let mechanism = self.mechanism;
         ConstantsRate::new(mechanism.plan(), &mechanism.slots, &self.bound, &self.values, index)
     }
 
-    /// What a position is solved with; the signs are those at the drawing.
+    /// The context of a position; its signs are those at the drawing.
     pub(crate) fn context<'b>(&'b self, jets: &'b DerivativeTables) -> Context<'b> {
         Context { plan: self.mechanism.plan(), bound: &self.bound, jets, signs: &self.signs }
     }
 
-    /// Tables for the way.
-    pub(crate) fn first_jets(&self) -> &DerivativeTables {
-        &self.first
+    /// Tables for tracing.
+    pub(crate) fn tracing_jets(&self) -> &DerivativeTables {
+        &self.tracing_jets
     }
 
     /// Coordinates in the design's own unit of length.
@@ -114,70 +113,73 @@ impl<'a> Design<'a> {
         q.iter().zip(units).map(|(q, unit)| q * unit).collect()
     }
 
-    /// Work space of some order.
+    /// Work space of the order of `jets`.
     pub(crate) fn state(&self, jets: &DerivativeTables) -> State {
         let mut state = State::new(self.mechanism.plan(), jets);
         state.prepare(self.mechanism.plan(), &self.bound, jets);
         state
     }
 
-    /// Work space for [`Design::lay_quick`].
-    pub(crate) fn quick(&self) -> UniformTracer {
-        UniformTracer::new(self.mechanism.plan(), &self.first)
+    /// Work space for [`Design::trace_uniform`].
+    pub(crate) fn uniform_tracer(&self) -> UniformTracer {
+        UniformTracer::new(self.mechanism.plan(), &self.tracing_jets)
     }
 
-    /// Whether one way serves all positions and is that of an angle.
-    fn is_turning(&self) -> bool {
+    /// Whether one branch serves all positions, and its driver is an angle.
+    fn has_one_rotary_driver(&self) -> bool {
         self.q0.len() == 1 && self.mechanism.plan().driven_slide(0).is_none()
     }
 
-    /// The unknowns of the groups at a place of the way, as the iteration's first guess.
+    /// Sets the groups' unknowns to those of the branch at a location, as first guess of the
+    /// iteration.
     #[inline(always)]
     pub(crate) fn guess<R: Real, const G: usize>(
         &self,
         g: usize,
         state: &mut State<R, G>,
-        track: &Branch,
-        spot: &BranchLocation<R>,
+        branch: &Branch,
+        location: &BranchLocation<R>,
     ) {
         let plan = self.mechanism.plan();
         let count = plan.groups().map(|group| group.unknowns.len()).sum();
         let unknowns = plan.groups().flat_map(|group| &group.unknowns);
-        for (place, &unknown) in unknowns.enumerate() {
+        for (index, &unknown) in unknowns.enumerate() {
             match unknown {
-                Unknown::Class(class) => state.class[class][g] = track.rotation(spot, place, count),
+                Unknown::Class(class) => {
+                    state.class[class][g] = branch.rotation(location, index, count)
+                }
                 Unknown::Slide(slide) => {
-                    state.slides[slide * state.len][g] = track.slide(spot, place, count);
+                    state.slides[slide * state.len][g] = branch.slide(location, index, count);
                 }
             }
         }
     }
 
-    /// Solves a position again that came out on the other side of a fold, or did not come out.
+    /// Solves again a position that was not found or came out beyond a fold.
     #[cold]
-    fn solve_again(&self, state: &mut State, q: &[f64], (track, at): (&Branch, f64)) {
-        let first = self.context(&self.first);
+    fn resolve_from_knot(&self, state: &mut State, q: &[f64], (branch, at): (&Branch, f64)) {
+        let cx = self.context(&self.tracing_jets);
         if let [_] = *q {
-            let Some(seeds) = track.approach(&first, &mut self.state(&self.first), at) else {
-                // Nothing can be told from the fold where the way ends.
+            let Some(taylor) = branch.retrace(&cx, &mut self.state(&self.tracing_jets), at) else {
+                // Too near the fold at the end of the branch to find the unknowns.
                 state.set_lost();
                 return;
             };
             let unknowns = self.mechanism.plan().groups().flat_map(|group| &group.unknowns);
-            for (&unknown, value) in unknowns.zip(seeds) {
+            for (&unknown, value) in unknowns.zip(taylor) {
                 match unknown {
                     Unknown::Class(class) => state.class[class][0] = Vector::at_angle(value),
                     Unknown::Slide(slide) => state.slides[slide * state.len][0] = value,
                 }
             }
-            state.solve(&Context { signs: track.signs(at), ..self.context(self.jets) }, q);
+            state.solve(&Context { signs: branch.signs(at), ..self.context(self.jets) }, q);
         }
-        let is_astray = state.status == Status::NotConverged;
-        let other =
-            matches!(state.status, Status::Ok | Status::NearSingular) && !track.bends_as(state, 0);
-        if (is_astray || other) && q.len() == 1 {
+        let not_converged = state.status == Status::NotConverged;
+        let other_side = matches!(state.status, Status::Ok | Status::NearSingular)
+            && !branch.same_det_sign(state, 0);
+        if (not_converged || other_side) && q.len() == 1 {
             state.set_lost();
-        } else if other {
+        } else if other_side {
             let steps = &self.mechanism.plan().steps;
             let last = steps.iter().rposition(|step| matches!(step, Step::Group(_)));
             state.fault = last.map(|step| Fault::NotConverged { step });
@@ -185,34 +187,35 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// The quick way, where there is one.
+    /// Traces the uniform branch; false if the design has none.
     #[inline(always)]
-    pub(crate) fn lay_quick<L: Level>(&mut self, quick: &mut UniformTracer) -> bool {
-        if !self.is_turning() {
+    pub(crate) fn trace_uniform<L: Level>(&mut self, uniform: &mut UniformTracer) -> bool {
+        if !self.has_one_rotary_driver() {
             return false;
         }
-        if self.has_groups() && !quick.has_template(|| self.template()) {
+        if self.has_groups() && !uniform.has_reference(|| self.reference_branch()) {
             return false;
         }
-        let mut track = std::mem::take(&mut self.track);
+        let mut branch = std::mem::take(&mut self.branch);
         let start = &self.mechanism.class_angle;
-        let done = quick.turn::<L>(&self.context(&self.first), self.q0[0], start, &mut track);
-        self.track = track;
+        let done =
+            uniform.trace::<L>(&self.context(&self.tracing_jets), self.q0[0], start, &mut branch);
+        self.branch = branch;
         done
     }
 
-    /// The drawing's own way, from which those of other designs are told.
+    /// The branch of the drawing, from which those of other designs start.
     #[cold]
     #[inline(never)]
-    fn template(&self) -> Option<ReferenceBranch> {
+    fn reference_branch(&self) -> Option<ReferenceBranch> {
         let jets = DerivativeTables::new(1, 0);
         let mut drawing = Design::new(self.mechanism, &[], &jets);
         drawing.signs.clone_from(&self.signs);
         drawing.bind(self.mechanism.drawing());
-        drawing.lay_way(&[]);
-        ReferenceBranch::of(
+        drawing.trace(&[]);
+        ReferenceBranch::new(
             self.mechanism.plan(),
-            &drawing.track,
+            &drawing.branch,
             drawing.q0[0],
             drawing.bound.scale,
         )
@@ -222,164 +225,167 @@ impl<'a> Design<'a> {
         self.mechanism.plan().groups().next().is_some()
     }
 
-    /// Walks the way along the coordinates `q` (all positions, rad or m).
+    /// Traces the branch over the coordinates `q` (all positions, rad or m).
     #[cold]
     #[inline(never)]
-    pub(crate) fn lay_way(&mut self, q: &[f64]) {
+    pub(crate) fn trace(&mut self, q: &[f64]) {
         if self.has_groups() {
-            self.home = self.home(&self.values);
+            self.initial_unknowns = self.homotopy(&self.values);
         }
         let [start] = self.q0[..] else { return };
-        let mut state = self.state(&self.first);
-        let cx = self.context(&self.first);
+        let mut state = self.state(&self.tracing_jets);
+        let cx = self.context(&self.tracing_jets);
         let angles = &self.mechanism.class_angle;
-        let Ok(seeds) = &self.home else {
-            self.track = Branch::nowhere(angles.len(), &self.signs);
+        let Ok(taylor) = &self.initial_unknowns else {
+            self.branch = Branch::empty(angles.len(), &self.signs);
             return;
         };
-        let from = &InitialGuess { angles, seeds };
-        self.track = if self.is_turning() {
-            Branch::turning(&cx, &mut state, start, from)
+        let from = &InitialGuess { angles, taylor };
+        self.branch = if self.has_one_rotary_driver() {
+            Branch::over_turns(&cx, &mut state, start, from)
         } else {
             let scaled = || q.iter().map(|q| q * self.unit.coordinate[0]).filter(|q| q.is_finite());
             let range = [scaled().fold(start, f64::min), scaled().fold(start, f64::max)];
-            // Beyond the sum of all lengths no slide reaches.
+            // No slide goes farther than the sum of all lengths.
             let paired = cx.plan.edges.iter().zip(&cx.bound.edge_vector).filter(|(e, _)| e.paired);
             let lengths = paired.map(|(_, w)| w).chain(&cx.bound.fixed).map(|w| w.norm());
             let reach = 2.0 * lengths.sum::<f64>() + 1.0;
-            Branch::sliding(&cx, &mut state, start, range, reach, from)
+            Branch::over_range(&cx, &mut state, start, range, reach, from)
         };
     }
 
-    /// The signs at the drawing from which the straight way leads to these at `q`
-    /// (scaled); walked backward.
-    pub(crate) fn at_drawing(&self, signs: &[f64], q: &[f64]) -> Vec<i8> {
-        let cx = Context { signs, ..self.context(&self.first) };
+    /// The signs at the drawing that lead straight to the signs given at `q` (scaled); traced
+    /// backward.
+    pub(crate) fn signs_at_drawing(&self, signs: &[f64], q: &[f64]) -> Vec<i8> {
+        let cx = Context { signs, ..self.context(&self.tracing_jets) };
         let angles = &self.mechanism.class_angle;
-        let mut state = self.state(&self.first);
-        let start = &InitialGuess { angles, seeds: &[] };
-        let (track, at) = Branch::straight(&cx, &mut state, q, &self.q0, start);
-        track.signs(at).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
+        let mut state = self.state(&self.tracing_jets);
+        let start = &InitialGuess { angles, taylor: &[] };
+        let (branch, at) = Branch::along_segment(&cx, &mut state, q, &self.q0, start);
+        branch.signs(at).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
     }
 
-    /// Whether a place (scaled) is too far from the drawing to be followed straight.
+    /// Whether coordinates (scaled) are too far from the drawing to be followed.
     pub(crate) fn is_too_far(&self, q: &[f64]) -> bool {
-        q.iter().zip(&self.q0).any(|(a, b)| (a - b).abs() > FARTHEST)
+        q.iter().zip(&self.q0).any(|(a, b)| (a - b).abs() > MAX_DISTANCE)
     }
 
-    /// The way to one position (scaled coordinates); none if it is no number or too
-    /// far to be followed.
-    pub(crate) fn way(&self, q: &[f64]) -> Option<BranchPoint<'_>> {
+    /// The branch to one position (scaled coordinates); `None` if a coordinate is not finite or too
+    /// far.
+    pub(crate) fn branch_to(&self, q: &[f64]) -> Option<BranchPoint<'_>> {
         if q.iter().any(|x| !x.is_finite()) {
             return None;
         }
         if let [at] = *q {
-            return Some(BranchPoint { track: Cow::Borrowed(&self.track), at });
+            return Some(BranchPoint { branch: Cow::Borrowed(&self.branch), at });
         }
         (!self.is_too_far(q)).then(|| {
-            let cx = self.context(&self.first);
+            let cx = self.context(&self.tracing_jets);
             let angles = &self.mechanism.class_angle;
-            let mut state = self.state(&self.first);
-            let (track, at) = if let Ok(seeds) = &self.home {
-                let start = &InitialGuess { angles, seeds };
-                Branch::straight(&cx, &mut state, &self.q0, q, start)
+            let mut state = self.state(&self.tracing_jets);
+            let (branch, at) = if let Ok(taylor) = &self.initial_unknowns {
+                let start = &InitialGuess { angles, taylor };
+                Branch::along_segment(&cx, &mut state, &self.q0, q, start)
             } else {
-                (Branch::nowhere(angles.len(), &self.signs), 0.0)
+                (Branch::empty(angles.len(), &self.signs), 0.0)
             };
-            BranchPoint { track: Cow::Owned(track), at }
+            BranchPoint { branch: Cow::Owned(branch), at }
         })
     }
 
-    /// How far (in sizes) the farthest joint is at a place of the way (0 if it cannot be solved).
-    pub(crate) fn farthest(&self, at: f64) -> f64 {
+    /// Distance (in sizes) of the farthest joint at a parameter of the branch; 0 if it cannot be
+    /// solved.
+    pub(crate) fn max_distance(&self, at: f64) -> f64 {
         let mut state = self.state(self.jets);
-        let place = BranchPoint { track: Cow::Borrowed(&self.track), at };
-        self.solve(&mut state, &[at], Some(&place));
+        let point = BranchPoint { branch: Cow::Borrowed(&self.branch), at };
+        self.solve(&mut state, &[at], Some(&point));
         if state.has_failed() {
             return 0.0;
         }
         let values = state.points.chunks_exact(state.len);
-        values.fold(0.0, |most, jet| most.max(jet[0][0].norm()))
+        values.fold(0.0, |max, jet| max.max(jet[0][0].norm()))
     }
 
-    /// Angles of classes near those at a place, by which whole turns are told.
-    pub(crate) fn near(&self, place: &BranchPoint<'_>, classes: usize) -> Vec<f64> {
-        let spot = place.track.spot(place.at);
-        if place.track.hides(&spot, 0) {
-            // An island that the way has not seen.
-            let cx = self.context(&self.first);
-            let own = place.track.island(&cx, &mut self.state(&self.first), place.at);
-            let spot = own.spot(place.at);
-            return (0..classes).map(|class| own.near(&spot, class)).collect();
+    /// Class angles near those at a point, from which whole turns are counted.
+    pub(crate) fn reference_angles(&self, point: &BranchPoint<'_>, classes: usize) -> Vec<f64> {
+        let location = point.branch.locate(point.at);
+        if point.branch.in_untraced_island(&location, 0) {
+            // An island that the tracer has not seen.
+            let cx = self.context(&self.tracing_jets);
+            let own = point.branch.trace_island(&cx, &mut self.state(&self.tracing_jets), point.at);
+            let location = own.locate(point.at);
+            return (0..classes).map(|class| own.reference_angle(&location, class)).collect();
         }
-        (0..classes).map(|class| place.track.near(&spot, class)).collect()
+        (0..classes).map(|class| point.branch.reference_angle(&location, class)).collect()
     }
 
-    /// The smooth motion beside a change point.
+    /// The interpolated motion beside a change point.
     #[cold]
     #[inline(never)]
-    fn smooth(
+    fn at_change_point(
         &self,
         state: &State,
-        track: &Branch,
+        branch: &Branch,
         change: &ChangePoint,
         distance: f64,
     ) -> Option<State> {
-        let mut spans = self.spans.borrow_mut();
-        let known = spans.iter().position(|(at, _)| *at == change.at);
+        let mut interpolants = self.interpolants.borrow_mut();
+        let known = interpolants.iter().position(|(at, _)| *at == change.at);
         let known = known.unwrap_or_else(|| {
             let solve = |jets: &DerivativeTables, distance: f64| {
                 let at = change.at + distance;
-                // Nothing of the position that asks first.
+                // A fresh state, so that nothing depends on the position that comes first.
                 let mut trial = self.state(jets);
-                self.guess(0, &mut trial, track, &track.spot(at));
-                trial.solve(&Context { signs: track.signs(at), ..self.context(jets) }, &[at]);
+                self.guess(0, &mut trial, branch, &branch.locate(at));
+                trial.solve(&Context { signs: branch.signs(at), ..self.context(jets) }, &[at]);
                 let lost = trial.fault.is_some() || trial.points.iter().any(|p| p[0].x.is_nan());
                 (!lost).then_some(trial)
             };
-            // Values must not depend on the analogues asked for.
-            let judge = DerivativeTables::new(1, ChangeInterpolant::JUDGED);
-            let span = ChangeInterpolant::lay(self.bridge, |distance| solve(&judge, distance));
-            let span = span.and_then(|span| span.again(self.bridge, |at| solve(self.jets, at)));
-            spans.push((change.at, span));
-            spans.len() - 1
+            // Values must not depend on the order requested.
+            let judge = DerivativeTables::new(1, ChangeInterpolant::JUDGED_ORDER);
+            let interpolant =
+                ChangeInterpolant::fit(self.change_window, |distance| solve(&judge, distance));
+            let interpolant = interpolant.and_then(|interpolant| {
+                interpolant.refit(self.change_window, |at| solve(self.jets, at))
+            });
+            interpolants.push((change.at, interpolant));
+            interpolants.len() - 1
         });
-        let smooth = spans[known].1.as_ref()?.at(distance, state)?;
+        let smooth = interpolants[known].1.as_ref()?.state_at(distance, state)?;
         (smooth.residual(&self.context(self.jets)) <= SMOOTH_CLOSURE).then_some(smooth)
     }
 
-    /// Solves one position with the signs of its place on the way; true if the
-    /// analogues exist.
+    /// Solves one position with the signs of its branch there; true if the analogues exist.
     pub(crate) fn solve(
         &self,
         state: &mut State,
         q: &[f64],
-        place: Option<&BranchPoint<'_>>,
+        point: Option<&BranchPoint<'_>>,
     ) -> bool {
-        let Some(BranchPoint { track, at }) = place else {
+        let Some(BranchPoint { branch, at }) = point else {
             state.set_bad_input();
             return false;
         };
-        if !track.covers(*at) {
+        if !branch.covers(*at) {
             state.set_lost();
             return false;
         }
         let cx = self.context(self.jets);
         state.prepare(cx.plan, cx.bound, cx.jets);
-        self.guess(0, state, track, &track.spot(*at));
-        state.solve(&Context { signs: track.signs(*at), ..cx }, q);
-        let is_astray = state.status == Status::NotConverged;
+        self.guess(0, state, branch, &branch.locate(*at));
+        state.solve(&Context { signs: branch.signs(*at), ..cx }, q);
+        let not_converged = state.status == Status::NotConverged;
         let solved = matches!(state.status, Status::Ok | Status::NearSingular);
-        if is_astray || solved && !track.bends_as(state, 0) {
-            self.solve_again(state, q, (track, *at));
+        if not_converged || solved && !branch.same_det_sign(state, 0) {
+            self.resolve_from_knot(state, q, (branch, *at));
         }
-        // At a change point a dyad is flat, and beside it little is left of the
-        // analogues: the smooth motion through the point is known better.
+        // At a change point a dyad is flat, and beside it few digits of the analogues remain: the
+        // interpolant is more accurate.
         let solved = matches!(state.status, Status::Ok | Status::NearSingular);
         if q.len() == 1
             && state.status != Status::BadInput
-            && let Some((change, distance)) = track.change_near(*at, self.bridge.reach)
-            && let Some(smooth) = self.smooth(state, track, &change, distance)
+            && let Some((change, distance)) = branch.change_near(*at, self.change_window.reach)
+            && let Some(smooth) = self.at_change_point(state, branch, &change, distance)
             && (!solved || smooth.is_near(state))
         {
             let at_change = !solved || distance.abs() <= CHANGE_WIDTH;

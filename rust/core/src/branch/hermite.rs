@@ -1,22 +1,22 @@
-//! What is told of an unknown of a group between two knots of the way.
+//! Hermite interpolation of a group's unknown between two knots.
 
 use super::knot::Taylor2;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::dyad::Unknown;
 
-/// A polynomial in the distance from a knot, of the fifth degree.
+/// A polynomial of the fifth degree in the distance from a knot.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HermiteCell {
-    /// From the constant on.
+    /// Coefficients, the constant first.
     pub coefficients: [f64; 6],
     /// Unit vector at the knot's angle.
     pub unit: Vector,
 }
 
 impl HermiteCell {
-    /// Through values and two derivatives at both ends of a cell of width `h` (Hermite's); of the
-    /// second degree if nothing is beyond.
+    /// The Hermite polynomial through values and two derivatives at both ends of a cell of width
+    /// `h`; Taylor's of the second degree without a second end.
     #[inline(always)]
     pub(crate) fn new(a: &Taylor2, b: Option<&Taylor2>, h: f64, unit: Vector) -> Self {
         let &[value, rate, second] = a;
@@ -25,18 +25,18 @@ impl HermiteCell {
         let d0 = end - (value + h * (rate + 0.5 * h * second));
         let d1 = h * (end_rate - rate - h * second);
         let d2 = h * h * (end_second - second);
-        let per = 1.0 / h;
-        let per3 = per * per * per;
-        let c3 = (10.0 * d0 - 4.0 * d1 + 0.5 * d2) * per3;
-        let c4 = (-15.0 * d0 + 7.0 * d1 - d2) * (per3 * per);
-        let c5 = (6.0 * d0 - 3.0 * d1 + 0.5 * d2) * (per3 * per * per);
+        let inv_h = 1.0 / h;
+        let inv_h3 = inv_h * inv_h * inv_h;
+        let c3 = (10.0 * d0 - 4.0 * d1 + 0.5 * d2) * inv_h3;
+        let c4 = (-15.0 * d0 + 7.0 * d1 - d2) * (inv_h3 * inv_h);
+        let c5 = (6.0 * d0 - 3.0 * d1 + 0.5 * d2) * (inv_h3 * inv_h * inv_h);
         let with = [value, rate, 0.5 * second, c3, c4, c5];
         let coefficients = if with.iter().all(|c| c.is_finite()) { with } else { coefficients };
         Self { coefficients, unit }
     }
 
-    /// Of an unknown between two knots of a walk.
-    pub(crate) fn of(unknown: Unknown, a: &Taylor2, b: Option<&Taylor2>, h: f64) -> Self {
+    /// The cell of an unknown between two knots of a trace.
+    pub(crate) fn between(unknown: Unknown, a: &Taylor2, b: Option<&Taylor2>, h: f64) -> Self {
         let unit = match unknown {
             Unknown::Class(_) => Vector::at_angle(a[0]),
             Unknown::Slide(_) => Vector::ONE,
@@ -45,16 +45,16 @@ impl HermiteCell {
     }
 
     /// The unknown at a distance from the knot.
-    pub(crate) fn at(&self, step: f64) -> f64 {
+    pub(crate) fn value(&self, step: f64) -> f64 {
         self.coefficients.iter().rev().fold(0.0, |sum, c| sum * step + c)
     }
 }
 
-/// A unit vector at an angle of less than a quarter turn: its direction good to 1e-9 at π/4
-/// (Taylor's polynomials), its length to the last bit (a step of Newton's for 1/√). The iteration
-/// mends directions by the second order, but a wrong length only by the first.
+/// A unit vector at an angle of less than a quarter turn. Its direction is good to 1e-9 at π/4
+/// (Taylor polynomials), its length to the last bit (one Newton step for 1/√). The iteration
+/// corrects a direction to second order, but a wrong length only to first.
 #[inline(always)]
-pub(crate) fn small_turn<R: Real>(angle: R) -> Vector<R> {
+pub(crate) fn small_rotation<R: Real>(angle: R) -> Vector<R> {
     let x2 = angle * angle;
     let (mut cosine, mut sine) = (R::splat(COSINE[0]), R::splat(SINE[0]));
     for (c, s) in COSINE[1..].iter().zip(&SINE[1..]) {
@@ -76,20 +76,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cell_meets_both_ends() {
+    fn cell_interpolates_both_ends() {
         // sin and its derivatives at 0.3 and 0.5.
-        let seed = |x: f64| [x.sin(), x.cos(), -x.sin()];
-        let cell = HermiteCell::new(&seed(0.3), Some(&seed(0.5)), 0.2, Vector::ONE);
+        let sine = |x: f64| [x.sin(), x.cos(), -x.sin()];
+        let cell = HermiteCell::new(&sine(0.3), Some(&sine(0.5)), 0.2, Vector::ONE);
         for part in [0.0, 0.05, 0.1, 0.2] {
-            assert!((cell.at(part) - (0.3_f64 + part).sin()).abs() < 2e-9, "{part}");
+            assert!((cell.value(part) - (0.3_f64 + part).sin()).abs() < 2e-9, "{part}");
         }
-        assert!((cell.at(0.2) - 0.5_f64.sin()).abs() < 1e-15);
+        assert!((cell.value(0.2) - 0.5_f64.sin()).abs() < 1e-15);
     }
 
     #[test]
-    fn small_turns_are_cosine_and_sine() {
+    fn small_rotations_are_cosine_and_sine() {
         for angle in [0.0_f64, 1e-3, -0.4, 0.785] {
-            let turn = small_turn(angle);
+            let turn = small_rotation(angle);
             assert!((turn.x - angle.cos()).abs() < 2e-10 && (turn.y - angle.sin()).abs() < 2e-10);
             assert!((turn.norm() - 1.0).abs() < 4e-16, "{angle}");
         }

@@ -1,10 +1,10 @@
-//! Where the way of a design begins: the groups above class II at the drawing's coordinate.
+//! Homotopy in the dimensions: follows the groups above class II, at the drawing's coordinate, from
+//! the drawing's dimensions straight to those of the design.
 //!
-//! Their assembly is the one that is reached from the drawing when its dimensions go straight to
-//! the design's.
+//! This defines the assembly of a design.
 
 use super::design::Design;
-use super::knot::{FIRST_STEP, LATER_STEPS, Taylor2};
+use super::knot::{MAX_FIRST_STEP, MAX_LATER_STEPS, Taylor2};
 use crate::description::Driver;
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
@@ -12,24 +12,24 @@ use crate::plan::dyad::Unknown;
 use crate::plan::plan::Step;
 use crate::state::status::{Fault, Status};
 
-/// Parts of the way from the drawing's dimensions, at least.
-const LEAST_PART: f64 = 1.0 / 1_099_511_627_776.0;
-/// And how many are tried: along a fold the least parts would go on for hours.
-const MOST_PARTS: u32 = 10_000;
+/// Least step, as a part of the path.
+const MIN_PART: f64 = 1.0 / 1_099_511_627_776.0;
+/// Steps tried, at most: along a fold the smallest steps would take hours.
+const MAX_TRIALS: u32 = 10_000;
 
 impl Design<'_> {
-    /// Unknowns of the groups at the drawing's coordinate, for dimensions `values` that are bound.
+    /// Unknowns of the groups at the drawing's coordinate, for the bound dimensions `values`.
     ///
     /// # Errors
     ///
-    /// The way to them folds, or goes along a fold: after that part of it.
-    pub(crate) fn home(&self, values: &[f64]) -> Result<Vec<Taylor2>, f64> {
+    /// A group folds on the path, or the path runs along a fold: the part of it that was done.
+    pub(crate) fn homotopy(&self, values: &[f64]) -> Result<Vec<Taylor2>, f64> {
         let (mechanism, plan) = (self.mechanism, self.mechanism.plan());
         let unknowns: Vec<Unknown> = plan.groups().flat_map(|g| g.unknowns.clone()).collect();
         let last = plan.steps.iter().rposition(|step| matches!(step, Step::Group(_)));
         let Some(last) = last else { return Ok(Vec::new()) };
-        // rad and m, until the end.
-        let mut here: Vec<f64> = unknowns
+        // In rad and m, because the scale changes along the path.
+        let mut values_here: Vec<f64> = unknowns
             .iter()
             .map(|&unknown| match unknown {
                 Unknown::Class(class) => mechanism.class_angle[class],
@@ -38,11 +38,11 @@ impl Design<'_> {
                 }
             })
             .collect();
-        let mut sides: Option<Vec<bool>> = None;
-        let (mut done, mut part, mut tried) = (0.0, 1.0, 0);
+        let mut det_signs: Option<Vec<bool>> = None;
+        let (mut done, mut part, mut trials) = (0.0, 1.0, 0);
         let drawing = mechanism.drawing();
         while done < 1.0 {
-            let next = if sides.is_some() { f64::min(done + part, 1.0) } else { 0.0 };
+            let next = if det_signs.is_some() { f64::min(done + part, 1.0) } else { 0.0 };
             let between: Vec<f64> = if next < 1.0 {
                 drawing.iter().zip(values).map(|(a, b)| a + next * (b - a)).collect()
             } else {
@@ -56,10 +56,10 @@ impl Design<'_> {
                 })
                 .collect();
             let cx =
-                crate::state::state::Context { bound: &bound, ..self.context(self.first_jets()) };
-            let mut state = self.state(self.first_jets());
+                crate::state::state::Context { bound: &bound, ..self.context(self.tracing_jets()) };
+            let mut state = self.state(self.tracing_jets());
             state.prepare(plan, &bound, cx.jets);
-            for (&unknown, &value) in unknowns.iter().zip(&here) {
+            for (&unknown, &value) in unknowns.iter().zip(&values_here) {
                 match unknown {
                     Unknown::Class(c) => state.class[c][0] = Vector::at_angle(value),
                     Unknown::Slide(s) => state.slides[s * state.len][0] = value / bound.scale,
@@ -74,9 +74,9 @@ impl Design<'_> {
                 ) => step > last,
                 _ => true,
             };
-            let there: Vec<f64> = unknowns
+            let next_values: Vec<f64> = unknowns
                 .iter()
-                .zip(&here)
+                .zip(&values_here)
                 .map(|(&unknown, &from)| match unknown {
                     Unknown::Class(c) => {
                         crate::math::angle::nearest(state.class[c][0].angle(), from)
@@ -84,26 +84,27 @@ impl Design<'_> {
                     Unknown::Slide(s) => state.slides[s * state.len][0] * bound.scale,
                 })
                 .collect();
-            let near = state.first_step[0] <= FIRST_STEP && state.later_steps[0] <= LATER_STEPS;
+            let close =
+                state.first_step[0] <= MAX_FIRST_STEP && state.later_steps[0] <= MAX_LATER_STEPS;
             let now: Vec<bool> = state.determinants.iter().map(|d| d[0] > 0.0).collect();
-            if solved && near && sides.as_ref().is_none_or(|sides| *sides == now) {
-                // The drawing itself comes first: it tells the sides.
-                (done, part) = if sides.is_some() { (next, 2.0 * part) } else { (0.0, 1.0) };
-                here = there;
-                sides = Some(now);
+            if solved && close && det_signs.as_ref().is_none_or(|det_signs| *det_signs == now) {
+                // The first step solves the drawing itself, which gives the signs.
+                (done, part) = if det_signs.is_some() { (next, 2.0 * part) } else { (0.0, 1.0) };
+                values_here = next_values;
+                det_signs = Some(now);
             } else {
                 part *= 0.5;
             }
-            tried += 1;
-            if part < LEAST_PART || tried == MOST_PARTS && done < 1.0 {
+            trials += 1;
+            if part < MIN_PART || trials == MAX_TRIALS && done < 1.0 {
                 return Err(done);
             }
         }
         let scale = self.bound.scale;
-        let seed = |(&unknown, &value): (&Unknown, &f64)| match unknown {
+        let initial = |(&unknown, &value): (&Unknown, &f64)| match unknown {
             Unknown::Class(_) => [value, 0.0, 0.0],
             Unknown::Slide(_) => [value / scale, 0.0, 0.0],
         };
-        Ok(unknowns.iter().zip(&here).map(seed).collect())
+        Ok(unknowns.iter().zip(&values_here).map(initial).collect())
     }
 }

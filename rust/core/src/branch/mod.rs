@@ -1,4 +1,5 @@
-//! The assembly, continued along q from the drawing: which sign a dyad has and where a group is.
+//! The assembly continued along q from the drawing: the sign of each dyad, the unknowns of each
+//! group.
 
 pub(crate) mod branch;
 pub(crate) mod change_interpolant;

@@ -1,7 +1,7 @@
-//! The unknowns of groups along a way: where the iteration for a position begins.
+//! The groups' unknowns along a branch: first guesses of the iteration.
 
 use super::branch::{Branch, BranchLocation};
-use super::hermite::small_turn;
+use super::hermite::small_rotation;
 use super::knot::{InitialGuess, Knot, Taylor2};
 use super::tracer::BranchTracer;
 use crate::math::lanes::{LANES, Mask, Real};
@@ -9,87 +9,89 @@ use crate::math::vector::Vector;
 use crate::state::state::{Context, State};
 
 impl Branch {
-    /// Whether the groups of a state are on this way's side of their folds.
+    /// Whether the groups of a state are on the branch's side of their folds.
     #[inline(always)]
-    pub(crate) fn bends_as<R: Real, const G: usize>(
+    pub(crate) fn same_det_sign<R: Real, const G: usize>(
         &self,
         state: &State<R, G>,
         g: usize,
     ) -> R::Mask {
         let mut other = R::Mask::NONE;
-        for (groups, &bend) in state.det_sign.iter().zip(&self.bends) {
+        for (groups, &expected) in state.det_sign.iter().zip(&self.det_signs) {
             let positive = R::ZERO.lt(groups[g]);
-            other = other.or(if bend { positive.not() } else { positive });
+            other = other.or(if expected { positive.not() } else { positive });
         }
         other.not()
     }
 
-    /// The unknowns of groups at a parameter, walked to from the knot before: where the
-    /// polynomial between two knots is too rough.
+    /// The groups' unknowns at a parameter, traced anew from the knot before: for cells whose
+    /// polynomial is too rough.
     #[cold]
-    pub(crate) fn approach(
-        &self,
-        cx: &Context<'_>,
-        state: &mut State,
-        at: f64,
-    ) -> Option<Vec<f64>> {
-        let (place, _) = self.reduced(at);
-        let left = self.at.partition_point(|&k| k <= place).checked_sub(1)?;
+    pub(crate) fn retrace(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Option<Vec<f64>> {
+        let (reduced, _) = self.reduce(at);
+        let left = self.at.partition_point(|&k| k <= reduced).checked_sub(1)?;
         let angles = &self.angles[left * self.gain.len()..][..self.gain.len()];
-        let seeds = self.seeds(left, self.at[left]);
-        let start = InitialGuess { angles, seeds: &seeds };
+        let taylor = self.unknowns_at(left, self.at[left]);
+        let start = InitialGuess { angles, taylor: &taylor };
         let cx = Context { signs: self.signs(at), ..*cx };
         let point = |at: f64, q: &mut [f64]| q[0] = at;
-        let mut walker =
+        let mut tracer =
             BranchTracer::new(&cx, state, &point, &[1.0], (self.at[left], 1.0), &start);
-        walker.advance(place);
-        let there = |knot: &&Knot| knot.at >= place && !knot.seeds.is_empty();
-        let last = walker.knots.last().filter(there)?;
-        Some(last.seeds.iter().map(|seed| seed[0]).collect())
+        tracer.advance(reduced);
+        let is_there = |knot: &&Knot| knot.at >= reduced && !knot.taylor.is_empty();
+        let last = tracer.knots.last().filter(is_there)?;
+        Some(last.taylor.iter().map(|unknown| unknown[0]).collect())
     }
 
-    /// The unknowns of groups at a place in the cell after a knot.
-    pub(crate) fn seeds(&self, knot: usize, place: f64) -> Vec<Taylor2> {
+    /// The groups' unknowns at a parameter in the cell after a knot.
+    pub(crate) fn unknowns_at(&self, knot: usize, reduced: f64) -> Vec<Taylor2> {
         let count = self.cells.len() / self.at.len().max(1);
-        let step = place - self.at[knot];
-        self.cells[knot * count..][..count].iter().map(|cell| [cell.at(step), 0.0, 0.0]).collect()
+        let step = reduced - self.at[knot];
+        self.cells[knot * count..][..count]
+            .iter()
+            .map(|cell| [cell.value(step), 0.0, 0.0])
+            .collect()
     }
 
-    /// An unknown slide of the groups (of so many unknowns) at places; 0 where the way does not
-    /// even begin (nothing on it is covered).
+    /// An unknown slide at a location, the `index`-th of `count` unknowns; 0 on an empty branch.
     #[inline(always)]
-    pub(crate) fn slide<R: Real>(&self, spot: &BranchLocation<R>, place: usize, count: usize) -> R {
-        let Some(cell) = self.cell(spot, place, count) else { return R::ZERO };
-        cell.coefficients[0] + cell.change(spot.place)
+    pub(crate) fn slide<R: Real>(
+        &self,
+        location: &BranchLocation<R>,
+        index: usize,
+        count: usize,
+    ) -> R {
+        let Some(cell) = self.cell_at(location, index, count) else { return R::ZERO };
+        cell.coefficients[0] + cell.change(location.reduced)
     }
 
-    /// An unknown rotation likewise.
+    /// An unknown rotation at a location; 1 on an empty branch.
     #[inline(always)]
     pub(crate) fn rotation<R: Real>(
         &self,
-        spot: &BranchLocation<R>,
-        place: usize,
+        location: &BranchLocation<R>,
+        index: usize,
         count: usize,
     ) -> Vector<R> {
-        let Some(cell) = self.cell(spot, place, count) else { return Vector::ONE };
-        cell.unit * small_turn(cell.change(spot.place))
+        let Some(cell) = self.cell_at(location, index, count) else { return Vector::ONE };
+        cell.unit * small_rotation(cell.change(location.reduced))
     }
 
     /// The cell of each lane; neighbouring positions are mostly in one cell or two.
     #[inline(always)]
-    fn cell<R: Real>(
+    fn cell_at<R: Real>(
         &self,
-        spot: &BranchLocation<R>,
-        place: usize,
+        location: &BranchLocation<R>,
+        index: usize,
         count: usize,
-    ) -> Option<CellAt<R>> {
+    ) -> Option<LaneCells<R>> {
         if self.cells.len() < self.at.len() * count {
             return None;
         }
-        let cell = |knot: usize| self.cells.get(knot * count + place);
-        if let Some([first, last]) = spot.pair {
+        let cell = |knot: usize| self.cells.get(knot * count + index);
+        if let Some([first, last]) = location.pair {
             let (a, b) = (cell(first)?, cell(last)?);
-            let later = R::ZERO.lt(spot.is_last);
+            let later = R::ZERO.lt(location.is_last);
             let of = |a: f64, b: f64| R::select(later, R::splat(b), R::splat(a));
             let mut coefficients = [R::ZERO; 6];
             for (own, (&a, &b)) in
@@ -98,11 +100,11 @@ impl Branch {
                 *own = of(a, b);
             }
             let unit = Vector::new(of(a.unit.x, b.unit.x), of(a.unit.y, b.unit.y));
-            return Some(CellAt { at: of(self.at[first], self.at[last]), coefficients, unit });
+            return Some(LaneCells { at: of(self.at[first], self.at[last]), coefficients, unit });
         }
-        let mut cells = [cell(spot.knot[0])?; LANES];
+        let mut cells = [cell(location.knot[0])?; LANES];
         for lane in 1..R::LANES {
-            cells[lane] = cell(spot.knot[lane])?;
+            cells[lane] = cell(location.knot[lane])?;
         }
         let mut coefficients = [R::ZERO; 6];
         for (k, own) in coefficients.iter_mut().enumerate() {
@@ -110,24 +112,24 @@ impl Branch {
         }
         let x = R::from_lanes(|lane| cells[lane].unit.x);
         let y = R::from_lanes(|lane| cells[lane].unit.y);
-        let at = R::from_lanes(|lane| self.at[spot.knot[lane]]);
-        Some(CellAt { at, coefficients, unit: Vector::new(x, y) })
+        let at = R::from_lanes(|lane| self.at[location.knot[lane]]);
+        Some(LaneCells { at, coefficients, unit: Vector::new(x, y) })
     }
 }
 
 /// A cell for each lane.
-struct CellAt<R> {
+struct LaneCells<R> {
     /// The knot before it.
     at: R,
     coefficients: [R; 6],
     unit: Vector<R>,
 }
 
-impl<R: Real> CellAt<R> {
-    /// How far an unknown is from that at the knot.
+impl<R: Real> LaneCells<R> {
+    /// Change of the unknown since the knot.
     #[inline(always)]
-    fn change(&self, place: R) -> R {
-        let step = place - self.at;
+    fn change(&self, reduced: R) -> R {
+        let step = reduced - self.at;
         let mut sum = R::ZERO;
         for coefficient in self.coefficients[1..].iter().rev() {
             sum = sum * step + *coefficient;

@@ -1,10 +1,10 @@
-//! Walking from the drawing: knots close enough together to see every change point
-//! and to tell every angle.
+//! Traces a branch from the drawing, with knots close enough together to show every change point
+//! and to count the turns of every angle.
 
 use super::hermite::HermiteCell;
 use super::knot::{
-    ChangePoint, InitialGuess, Knot, SignInterval, Taylor2, apart, foretell, may_touch, returns,
-    strays,
+    ChangePoint, InitialGuess, Knot, SignInterval, Taylor2, closes, may_vanish, predict,
+    prediction_error, prediction_failed,
 };
 use crate::math::angle::nearest;
 use crate::math::tolerance::{LIFT_HALVINGS, LIFT_TURN};
@@ -14,61 +14,62 @@ use crate::plan::plan::Step;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
-/// Halvings where a stretch that can be reached begins or ends: what is left of
-/// the turn there goes with the square root of the cell.
+/// Halvings at an end of an interval that can be reached: the turn left there varies as the square
+/// root of the cell.
 const EDGE_HALVINGS: u32 = 14;
-/// How fast (of the size, by unit of the path) the gap of a dyad that does not close
-/// may shrink; between two knots where it is greater no island is looked for.
-const ISLAND_RATE: f64 = 8.0;
+/// How fast (of the size, per unit of the path) the gap of a dyad that does not close may shrink.
+/// Between two knots with a greater gap no island is searched for.
+const MAX_GAP_RATE: f64 = 8.0;
 /// Halvings in search of an island: down to a tenth of a degree.
 const ISLAND_HALVINGS: u32 = 7;
-/// The same where different dyads do not close at the two ends.
-const UNLIKE_HALVINGS: u32 = 4;
-/// Knots after which cells are no longer halved: where angles are nothing but
-/// rounding (a link of 1e-17 of the size) no cell would ever be fine enough.
-const MOST_KNOTS: usize = 100_000;
-/// Part of a cell by which a knot that falls on a flat dyad is put off.
+/// The same if different dyads do not close at the two ends.
+const MIXED_GAP_HALVINGS: u32 = 4;
+/// Knots beyond which cells are no longer halved: if angles are all rounding (a link of 1e-17 of
+/// the size), no cell would ever be fine enough.
+const MAX_KNOTS: usize = 100_000;
+/// Part of a cell by which a knot is moved off a flat dyad.
 const NUDGE: f64 = 0.0625;
-/// How often: change points of several dyads seldom follow so closely.
-const NUDGES: u32 = 4;
-/// How near to a change point (rad, or units of the scale) rates are more than rounding:
-/// 64 u κ² of them are, κ about 1/distance.
-const LEAST_PROBE: f64 = 1.0 / 1048576.0;
-/// How near to a change point, in cells, it is looked for a link that swings.
+/// Number of such moves: change points of several dyads are seldom so close together.
+const MAX_NUDGES: u32 = 4;
+/// Nearest distance (rad, or units of the scale) to a change point at which rates are more than
+/// rounding: their error is 64 u κ², with κ about 1/distance.
+const MIN_PROBE: f64 = 1.0 / 1048576.0;
+/// Distances from a change point, in cells, at which links are checked for a fast turn.
 const PROBES: [f64; 3] = [1.0 / 128.0, 1.0 / 16384.0, 1.0 / 1048576.0];
 
-/// Halvings toward the place where a group folds: down to the spacing of q.
+/// Halvings toward a fold: down to the spacing of q.
 const FOLD_HALVINGS: u32 = 52;
-/// Halvings from which on a cell is looked at in its middle. Beside two folds close together an unknown
-/// goes with the cube root of q, which coarser cells do not follow.
-const LEAP_HALVINGS: u32 = 4;
-/// What an unknown in the middle of a cell may be off Hermite's polynomial: as a part of how far the
-/// ends are from each other's Taylor polynomials (half of it, were it a leap) …
-const LEAP: f64 = 1.0 / 64.0;
-/// … and the rounding beside two folds that meet, ∛u and a margin.
-const LEAP_ROUNDING: f64 = 1.0 / 65536.0;
+/// Halvings from which the middle of a cell is checked. Beside two folds close together an unknown
+/// varies as the cube root of q, which coarser cells do not follow.
+const JUMP_HALVINGS: u32 = 4;
+/// Distance that an unknown in the middle of a cell may have from the Hermite polynomial: as a part
+/// of the prediction error between the ends (a jump would give half of that) …
+const JUMP_RATIO: f64 = 1.0 / 64.0;
+/// … and the rounding beside two folds that meet: ∛u with a margin.
+const JUMP_ROUNDING: f64 = 1.0 / 65536.0;
 
-/// Walks along a path and lays knots.
+/// Follows a branch along a path and sets its knots.
 pub(crate) struct BranchTracer<'a, 'b> {
     pub cx: Context<'b>,
     pub state: &'a mut State,
     /// Writes q at a parameter.
     point: &'a dyn Fn(f64, &mut [f64]),
-    /// Derivatives of q by the parameter (constant: paths are straight).
+    /// Derivatives of q by the parameter (constant, because paths are straight).
     rates: &'a [f64],
-    /// +1 or −1: the way along the parameter.
-    pub way: f64,
+    /// +1 or −1: direction along the parameter.
+    pub direction: f64,
     q: Vec<f64>,
     pub knots: Vec<Knot>,
-    /// Change points passed, in the order of passing.
+    /// Change points passed, in that order.
     pub changes: Vec<ChangePoint>,
     pub start_signs: Vec<f64>,
     /// Unknowns of the groups, in order, and the step of the last group.
     unknowns: Vec<Unknown>,
     last_group: Option<usize>,
-    /// Their values where the way begins.
-    first: Vec<Taylor2>,
-    /// Whether the way has ended: beyond is a fold of a group, or what it hangs on is open.
+    /// Their values at the start.
+    initial: Vec<Taylor2>,
+    /// Whether the branch has ended: a group folds ahead, or something upstream of it does not
+    /// close.
     pub ended: bool,
 }
 
@@ -78,28 +79,28 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         state: &'a mut State,
         point: &'a dyn Fn(f64, &mut [f64]),
         rates: &'a [f64],
-        (at, way): (f64, f64),
+        (at, direction): (f64, f64),
         start: &InitialGuess<'_>,
     ) -> Self {
-        let mut walker = Self {
+        let mut tracer = Self {
             cx: *cx,
             state,
             point,
             rates,
-            way,
+            direction,
             q: vec![0.0; rates.len()],
             knots: Vec::new(),
             changes: Vec::new(),
             start_signs: cx.signs.to_vec(),
             unknowns: cx.plan.groups().flat_map(|group| group.unknowns.clone()).collect(),
             last_group: cx.plan.steps.iter().rposition(|step| matches!(step, Step::Group(_))),
-            first: start.seeds.to_vec(),
+            initial: start.taylor.to_vec(),
             ended: false,
         };
-        let knot = walker.knot(at, start.angles);
-        walker.ended = walker.last_group.is_some() && knot.seeds.is_empty();
-        walker.knots.push(knot);
-        walker
+        let knot = tracer.solve_knot(at, start.angles);
+        tracer.ended = tracer.last_group.is_some() && knot.taylor.is_empty();
+        tracer.knots.push(knot);
+        tracer
     }
 
     /// The dyads with a sign, in order, each with its step of the plan.
@@ -110,26 +111,26 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         })
     }
 
-    /// Signs at a parameter, after the changes on the way there.
+    /// Signs at a parameter, after the change points before it.
     pub(crate) fn signs_at(&self, at: f64) -> Vec<f64> {
         let mut signs = self.start_signs.clone();
-        for change in self.changes.iter().filter(|c| (at - c.at) * self.way > 0.0) {
+        for change in self.changes.iter().filter(|c| (at - c.at) * self.direction > 0.0) {
             signs[change.sign] = -signs[change.sign];
         }
         signs
     }
 
-    /// Solves at a parameter; whether it was reached.
+    /// Solves at a parameter; whether that can be reached.
     pub(crate) fn visit(&mut self, at: f64) -> bool {
         self.solve(at) == usize::MAX
     }
 
-    /// Solves at a parameter; how many steps could be.
+    /// Solves at a parameter; the number of steps solved, `usize::MAX` for all.
     pub(crate) fn solve(&mut self, at: f64) -> usize {
         let signs = self.signs_at(at);
         (self.point)(at, &mut self.q);
-        for (place, &unknown) in self.unknowns.iter().enumerate() {
-            let value = self.foretold(place, at);
+        for (index, &unknown) in self.unknowns.iter().enumerate() {
+            let value = self.predicted(index, at);
             match unknown {
                 Unknown::Class(class) => self.state.class[class][0] = Vector::at_angle(value),
                 Unknown::Slide(slide) => self.state.slides[slide * self.state.len][0] = value,
@@ -140,35 +141,46 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             (Status::BadInput, _) => 0,
             (Status::Unreachable, Some(Fault::NotClosed { step, .. }))
             | (Status::NotConverged, Some(Fault::NotConverged { step })) => step,
-            // A redundant link that does not fit is no matter of the way: beyond a change
-            // point it fits only with the sign that is yet to be found.
+            // Redundant links do not count here: beyond a change point they fit only with the sign
+            // that is yet to be found.
             _ => usize::MAX,
         }
     }
 
     /// Rate of a jet along the path, from its first-order entries.
-    pub(crate) fn along(&self, first: impl Fn(usize) -> f64) -> f64 {
+    pub(crate) fn rate_along(&self, first: impl Fn(usize) -> f64) -> f64 {
         self.rates.iter().enumerate().map(|(d, rate)| rate * first(d)).sum()
     }
 
-    /// The knot at `at`, its angles nearest to those of `from`.
-    pub(crate) fn knot(&mut self, at: f64, from: &[f64]) -> Knot {
+    /// The knot at `at`, with angles nearest to `from`.
+    pub(crate) fn solve_knot(&mut self, at: f64, from: &[f64]) -> Knot {
         let solved = self.solve(at);
         let reached = solved == usize::MAX;
-        // Before the step that does not close all is as if it did.
+        // Dyads before the step that does not close are solved all the same.
         let spread = self
             .dyads()
             .map(|(step, dyad)| if step < solved { self.spread(dyad) } else { (0.0, 0.0) })
             .collect();
         if !reached {
             let rates = vec![0.0; from.len()];
-            let open = match self.state.fault {
+            let open_step = match self.state.fault {
                 Some(Fault::NotClosed { step, gap }) => Some((step, gap)),
                 _ => None,
             };
-            let (angles, sides) = (from.to_vec(), Vec::new());
-            let (seeds, bends) = self.seeds(at, solved);
-            return Knot { at, reached, angles, rates, spread, sides, open, solved, seeds, bends };
+            let (angles, guide_sides) = (from.to_vec(), Vec::new());
+            let (taylor, det_signs) = self.group_unknowns(at, solved);
+            return Knot {
+                at,
+                reached,
+                angles,
+                rates,
+                spread,
+                guide_sides,
+                open_step,
+                solved,
+                taylor,
+                det_signs,
+            };
         }
         let angles = self
             .state
@@ -179,36 +191,48 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             .collect();
         let len = self.state.len;
         let rates = (0..from.len())
-            .map(|c| self.along(|d| self.state.theta[c * len + 1 + d][0]).abs())
+            .map(|c| self.rate_along(|d| self.state.theta[c * len + 1 + d][0]).abs())
             .collect();
         let lines = self.cx.plan.dyads().filter(|dyad| dyad.form == Form::TwoLines);
-        let sides = lines.map(|dyad| self.state.determinant(0, &self.cx, dyad) > 0.0).collect();
-        let (seeds, bends) = self.seeds(at, solved);
-        Knot { at, reached, angles, rates, spread, sides, open: None, solved, seeds, bends }
-    }
-
-    /// An unknown of a group at a parameter, by its Taylor polynomial at the last knot.
-    fn foretold(&self, place: usize, at: f64) -> f64 {
-        match self.knots.last() {
-            Some(knot) => foretell(&knot.seeds[place], at - knot.at),
-            None => self.first[place][0],
+        let guide_sides =
+            lines.map(|dyad| self.state.determinant(0, &self.cx, dyad) > 0.0).collect();
+        let (taylor, det_signs) = self.group_unknowns(at, solved);
+        Knot {
+            at,
+            reached,
+            angles,
+            rates,
+            spread,
+            guide_sides,
+            open_step: None,
+            solved,
+            taylor,
+            det_signs,
         }
     }
 
-    /// Unknowns of the groups at the position just visited, and signs of the determinants; nothing
-    /// where a group cannot be told from a folded one.
-    fn seeds(&self, at: f64, solved: usize) -> (Vec<Taylor2>, Vec<bool>) {
+    /// An unknown of a group at a parameter, predicted from the last knot.
+    fn predicted(&self, index: usize, at: f64) -> f64 {
+        match self.knots.last() {
+            Some(knot) => predict(&knot.taylor[index], at - knot.at),
+            None => self.initial[index][0],
+        }
+    }
+
+    /// Unknowns of the groups at the position just solved, and whether each determinant is
+    /// positive; empty if a group is folded or not solved.
+    fn group_unknowns(&self, at: f64, solved: usize) -> (Vec<Taylor2>, Vec<bool>) {
         let is_group = |step: usize| matches!(self.cx.plan.steps[step], Step::Group(_));
         let folded = matches!(self.state.fault, Some(Fault::Singular { step }) if is_group(step));
         if folded || self.last_group.is_none_or(|step| solved <= step) {
             return (Vec::new(), Vec::new());
         }
         let len = self.state.len;
-        let seed = |(place, &unknown): (usize, &Unknown)| {
+        let expand = |(index, &unknown): (usize, &Unknown)| {
             let (value, jet) = match unknown {
                 Unknown::Class(class) => {
                     let angle = self.state.class[class][0].angle();
-                    (nearest(angle, self.foretold(place, at)), &self.state.theta[class * len..])
+                    (nearest(angle, self.predicted(index, at)), &self.state.theta[class * len..])
                 }
                 Unknown::Slide(slide) => {
                     let jet = &self.state.slides[slide * len..];
@@ -220,54 +244,55 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             let pairs = second.iter().enumerate().map(|(pair, &k)| {
                 self.rates[pair / drivers] * self.rates[pair % drivers] * jet[k][0]
             });
-            [value, self.along(|driver| jet[1 + driver][0]), pairs.sum()]
+            [value, self.rate_along(|driver| jet[1 + driver][0]), pairs.sum()]
         };
-        let seeds = self.unknowns.iter().enumerate().map(seed).collect();
-        (seeds, self.state.determinants.iter().map(|d| d[0] > 0.0).collect())
+        let taylor = self.unknowns.iter().enumerate().map(expand).collect();
+        (taylor, self.state.determinants.iter().map(|d| d[0] > 0.0).collect())
     }
 
-    /// Whether the groups at the second knot are not surely where the way from the first leads.
-    fn strays(&self, from: &Knot, knot: &Knot) -> bool {
+    /// Whether the groups at the second knot may have left the branch of the first.
+    fn prediction_failed(&self, from: &Knot, knot: &Knot) -> bool {
         let Some(step) = self.last_group else { return false };
-        if knot.solved <= step || knot.bends != from.bends {
-            // Not there, another side of the fold, or too near to it.
+        if knot.solved <= step || knot.det_signs != from.det_signs {
+            // Not solved, on the other side of a fold, or too near to it.
             return true;
         }
         let cell = knot.at - from.at;
-        from.seeds.iter().zip(&knot.seeds).any(|(a, b)| strays(a, b, cell))
+        from.taylor.iter().zip(&knot.taylor).any(|(a, b)| prediction_failed(a, b, cell))
     }
 
-    /// Whether a group leaps from one branch to another between two knots: where two folds nearly
-    /// meet, the branch behind both continues the one before, and the determinant has its old sign.
-    fn leaps(&mut self, from: &Knot, knot: &Knot) -> bool {
+    /// Whether a group jumps from one branch to another between two knots. If two folds nearly
+    /// meet, the branch beyond both continues the one before them, with a determinant of the same
+    /// sign.
+    fn jumps(&mut self, from: &Knot, knot: &Knot) -> bool {
         if self.last_group.is_none() {
             return false;
         }
         let cell = knot.at - from.at;
-        let ends = || from.seeds.iter().zip(&knot.seeds);
-        // A leap shows as half of itself in the middle.
-        if ends().all(|(a, b)| apart(a, b, cell) <= 2.0 * LEAP_ROUNDING) {
+        let ends = || from.taylor.iter().zip(&knot.taylor);
+        // In the middle of the cell half of a jump shows.
+        if ends().all(|(a, b)| prediction_error(a, b, cell) <= 2.0 * JUMP_ROUNDING) {
             return false;
         }
-        let middle = self.knot(from.at + 0.5 * cell, &from.angles);
-        if middle.bends != from.bends || middle.seeds.len() != from.seeds.len() {
+        let middle = self.solve_knot(from.at + 0.5 * cell, &from.angles);
+        if middle.det_signs != from.det_signs || middle.taylor.len() != from.taylor.len() {
             return true;
         }
-        ends().zip(&middle.seeds).any(|((a, b), there)| {
-            let between = HermiteCell::new(a, Some(b), cell, Vector::ONE).at(0.5 * cell);
-            let allowed = (LEAP * apart(a, b, cell)).max(LEAP_ROUNDING);
-            (between - there[0]).abs() > allowed
+        ends().zip(&middle.taylor).any(|((a, b), actual)| {
+            let interpolated = HermiteCell::new(a, Some(b), cell, Vector::ONE).value(0.5 * cell);
+            let allowed = (JUMP_RATIO * prediction_error(a, b, cell)).max(JUMP_ROUNDING);
+            (interpolated - actual[0]).abs() > allowed
         })
     }
 
-    /// Spread of a dyad at the position just visited, and its rate along the path.
+    /// Spread of a dyad at the position just solved, and its rate along the path.
     pub(crate) fn spread(&self, dyad: &Dyad) -> (f64, f64) {
         let at = |driver: usize| self.state.discriminant(0, &self.cx, dyad, driver + 1);
-        (at(0).0, self.along(|driver| at(driver).1))
+        (at(0).0, self.rate_along(|driver| at(driver).1))
     }
 
-    /// Lays knots from the last one to `to`, close enough to tell the angles and
-    /// to see every change point.
+    /// Sets knots from the last one to `to`, close enough to count turns and to show every change
+    /// point.
     pub(crate) fn advance(&mut self, to: f64) {
         let mut ends = vec![(to, 0_u32)];
         while let Some((end, depth)) = ends.pop() {
@@ -276,43 +301,44 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             }
             let Some(from) = self.knots.last().cloned() else { return };
             let mut end = end;
-            let mut knot = self.knot(end, &from.angles);
-            // A change point shows from both sides, not from where it is.
-            for _ in 0..NUDGES {
+            let mut knot = self.solve_knot(end, &from.angles);
+            // A change point is found from both sides of it, not from a knot at it.
+            for _ in 0..MAX_NUDGES {
                 if !knot.is_flat() {
                     break;
                 }
                 end += NUDGE * (end - from.at);
-                knot = self.knot(end, &from.angles);
+                knot = self.solve_knot(end, &from.angles);
             }
-            while self.pass(&from, &knot) {
-                knot = self.knot(end, &from.angles);
+            while self.detect(&from, &knot) {
+                knot = self.solve_knot(end, &from.angles);
             }
-            let swings = self.swings(from.at, end);
+            let turns_fast = self.turns_fast(from.at, end);
             let middle = 0.5 * (from.at + end);
-            let room = self.knots.len() < MOST_KNOTS;
-            let can_halve = room && middle != from.at && middle != end;
-            let strays = self.strays(&from, &knot);
-            let coarse =
-                depth < LIFT_HALVINGS && (swings || (!strays && too_far(&from, &knot, depth)));
-            let leaps = depth >= LEAP_HALVINGS && !strays && !coarse && self.leaps(&from, &knot);
-            let strays = strays || leaps;
-            if can_halve && (coarse || strays && depth < FOLD_HALVINGS) {
-                // The halves find what was found on the whole again.
-                self.changes.retain(|c| (c.at - from.at) * self.way <= 0.0);
+            let has_room = self.knots.len() < MAX_KNOTS;
+            let can_halve = has_room && middle != from.at && middle != end;
+            let prediction_failed = self.prediction_failed(&from, &knot);
+            let coarse = depth < LIFT_HALVINGS
+                && (turns_fast || (!prediction_failed && must_refine(&from, &knot, depth)));
+            let jumps =
+                depth >= JUMP_HALVINGS && !prediction_failed && !coarse && self.jumps(&from, &knot);
+            let prediction_failed = prediction_failed || jumps;
+            if can_halve && (coarse || prediction_failed && depth < FOLD_HALVINGS) {
+                // The halves find these change points again.
+                self.changes.retain(|c| (c.at - from.at) * self.direction <= 0.0);
                 ends.push((end, depth + 1));
                 ends.push((middle, depth + 1));
-            } else if strays {
+            } else if prediction_failed {
                 self.ended = true;
             } else {
-                let knot = self.lifted(&from, knot);
+                let knot = self.unwrap_across_gap(&from, knot);
                 self.knots.push(knot);
             }
         }
     }
 
-    /// The last parameter that is reached between one that is and one that is not.
-    pub(crate) fn edge(&mut self, [mut inside, mut outside]: [f64; 2]) -> f64 {
+    /// The last parameter that can be reached, between one that can be and one that cannot.
+    pub(crate) fn find_edge(&mut self, [mut inside, mut outside]: [f64; 2]) -> f64 {
         loop {
             let middle = 0.5 * (inside + outside);
             if middle == inside || middle == outside {
@@ -322,15 +348,15 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         }
     }
 
-    /// A knot with its angles lifted at the very edge of a gap between the one before and it: of
-    /// several drivers every position has a way and knots of its own, and angles that differ by
-    /// about half a turn across a gap would be lifted now this way, now that.
-    fn lifted(&mut self, from: &Knot, mut knot: Knot) -> Knot {
+    /// Unwraps the angles of a knot at the very edge of the gap between it and the knot before.
+    /// With several drivers every position has a branch and knots of its own: an angle that differs
+    /// by about half a turn across a gap would otherwise be unwrapped to either side.
+    fn unwrap_across_gap(&mut self, from: &Knot, mut knot: Knot) -> Knot {
         if self.rates.len() == 1 || from.reached == knot.reached {
             return knot;
         }
         let ends = if from.reached { [from.at, knot.at] } else { [knot.at, from.at] };
-        let edge = self.edge(ends);
+        let edge = self.find_edge(ends);
         if !self.visit(edge) {
             return knot;
         }
@@ -345,21 +371,22 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         knot
     }
 
-    /// Whether a link turns fast beside a change point between two parameters: where the
-    /// outer joints of a dyad nearly coincide it may swing round within much less than
-    /// the cell, and stand as before at both ends.
-    fn swings(&mut self, from: f64, end: f64) -> bool {
-        let within =
-            |c: &&ChangePoint| (c.at - from) * self.way > 0.0 && (end - c.at) * self.way > 0.0;
+    /// Whether a link turns fast beside a change point between two parameters. If the outer joints
+    /// of a dyad nearly coincide, it may turn round within much less than the cell and stand at
+    /// both ends as before.
+    fn turns_fast(&mut self, from: f64, end: f64) -> bool {
+        let within = |c: &&ChangePoint| {
+            (c.at - from) * self.direction > 0.0 && (end - c.at) * self.direction > 0.0
+        };
         let changes: Vec<f64> = self.changes.iter().filter(within).map(|c| c.at).collect();
         changes.into_iter().any(|change| {
             let reaches = PROBES.iter().map(|part| part * (end - from).abs());
-            let probes = reaches.filter(|&reach| reach > LEAST_PROBE).flat_map(|r| [-r, r]);
+            let probes = reaches.filter(|&reach| reach > MIN_PROBE).flat_map(|r| [-r, r]);
             probes.map(|reach| change + reach).any(|at| {
                 let len = self.state.len;
                 self.visit(at)
                     && (0..self.state.class.len()).any(|c| {
-                        let rate = self.along(|d| self.state.theta[c * len + 1 + d][0]);
+                        let rate = self.rate_along(|d| self.state.theta[c * len + 1 + d][0]);
                         (rate * (end - from)).abs() > LIFT_TURN
                     })
             })
@@ -371,24 +398,25 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         let [Some(first), Some(last)] = [self.knots.first(), self.knots.last()] else {
             return false;
         };
-        let mut pairs = self.unknowns.iter().zip(first.seeds.iter().zip(&last.seeds));
-        let same = pairs.all(|(&unknown, (a, b))| returns(unknown, a, b));
+        let mut pairs = self.unknowns.iter().zip(first.taylor.iter().zip(&last.taylor));
+        let same = pairs.all(|(&unknown, (a, b))| closes(unknown, a, b));
         same && self.signs_at(f64::INFINITY) == self.start_signs
     }
 
-    /// Signs between the changes, in the direction of growing parameter.
-    pub(crate) fn stretches(&self) -> Vec<SignInterval> {
+    /// Signs between the change points, for growing parameters.
+    pub(crate) fn sign_intervals(&self) -> Vec<SignInterval> {
         let mut signs = self.start_signs.clone();
-        let mut stretches = vec![SignInterval { from: f64::NEG_INFINITY, signs: signs.clone() }];
+        let mut sign_intervals =
+            vec![SignInterval { from: f64::NEG_INFINITY, signs: signs.clone() }];
         for change in &self.changes {
             signs[change.sign] = -signs[change.sign];
-            stretches.push(SignInterval { from: change.at, signs: signs.clone() });
+            sign_intervals.push(SignInterval { from: change.at, signs: signs.clone() });
         }
-        stretches
+        sign_intervals
     }
 }
 
-fn too_far(a: &Knot, b: &Knot, depth: u32) -> bool {
+fn must_refine(a: &Knot, b: &Knot, depth: u32) -> bool {
     if a.reached != b.reached {
         return depth < EDGE_HALVINGS;
     }
@@ -397,21 +425,21 @@ fn too_far(a: &Knot, b: &Knot, depth: u32) -> bool {
         return may_hide_island(a, b, cell, depth);
     }
     let turned = a.angles.iter().zip(&b.angles).any(|(x, y)| (x - y).abs() > LIFT_TURN);
-    // Near a dead point rates grow without bound while the angle does not.
+    // Near a dead point rates grow without bound, but the angle does not.
     let fast =
         depth < EDGE_HALVINGS && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > LIFT_TURN);
-    let through_infinity = depth < EDGE_HALVINGS && a.sides != b.sides;
-    // Beside a near miss of a change point a link may swing round between the knots.
-    let missed = || a.spread.iter().zip(&b.spread).any(|(&x, &y)| may_touch(x, y, b.at - a.at));
+    let through_infinity = depth < EDGE_HALVINGS && a.guide_sides != b.guide_sides;
+    // Beside a near miss of a change point a link may turn round between the knots.
+    let missed = || a.spread.iter().zip(&b.spread).any(|(&x, &y)| may_vanish(x, y, b.at - a.at));
     turned || fast || through_infinity || missed()
 }
 
-/// Whether a stretch that can be reached may lie between two knots that cannot.
+/// Whether an island may lie between two knots that cannot be reached.
 fn may_hide_island(a: &Knot, b: &Knot, cell: f64, depth: u32) -> bool {
-    match (a.open, b.open) {
+    match (a.open_step, b.open_step) {
         (Some((i, g)), Some((j, h))) if i == j => {
-            depth < ISLAND_HALVINGS && g + h < ISLAND_RATE * cell
+            depth < ISLAND_HALVINGS && g + h < MAX_GAP_RATE * cell
         }
-        _ => depth < UNLIKE_HALVINGS,
+        _ => depth < MIXED_GAP_HALVINGS,
     }
 }

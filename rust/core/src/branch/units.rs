@@ -3,7 +3,7 @@
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
 
-/// Powers of two between the design's own unit of length and the metre.
+/// Factors between the design's own unit of length and the metre: powers of two.
 #[derive(Debug, Default)]
 pub(crate) struct Units {
     /// Factor of every coordinate, into the design's unit.
@@ -24,8 +24,8 @@ impl Units {
         self.angle.clear();
         self.length.clear();
         for power in &jets.powers {
-            // One factor after another: a length's third analogue stays within the range
-            // where the cube of the unit does not.
+            // Multiplied one by one: a length's third analogue stays in range where the cube of the
+            // unit does not.
             let (mut angle, mut length) = (1.0, scale);
             for (&power, &unit) in power.iter().zip(&self.coordinate) {
                 for _ in 0..power {

@@ -12,7 +12,7 @@ use super::value::Numbers;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
-use crate::query::evaluator::{Asked, Evaluator};
+use crate::query::evaluator::{Evaluator, Queries};
 use crate::state::status::Status;
 
 /// Masses, loads and motors of a mechanism.
@@ -61,7 +61,7 @@ impl Machine {
     ) -> ReducedTable {
         let drivers = mechanism.q0().len();
         let jets = DerivativeTables::new(drivers, 2);
-        let asked = Asked::These(q);
+        let asked = Queries::Listed(q);
         let mut evaluator = Evaluator::new(mechanism, dimensions, &jets, asked, self.has_torsion());
         let per_position = external.len().checked_div(q.len() / drivers).unwrap_or(0);
         let mut rows = ReducedTable::default();

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::diagnosis::place_of;
+use super::diagnosis::coordinate_text;
 use crate::branch::design::Design;
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
@@ -12,18 +12,21 @@ use crate::state::state::Context;
 use crate::state::status::Status;
 
 impl Mechanism {
-    /// Every assembly that exists at `q`, as signs in the order of
-    /// [`Mechanism::dyad_names`], each as it is at the drawing (on the way
-    /// from there a sign may change at change points).
+    /// Every assembly that exists at `q`, as signs in the order of [`Mechanism::dyad_names`].
+    ///
+    /// The signs are those at the drawing; on the branch from there a sign may change at change
+    /// points.
     ///
     /// # Errors
     ///
-    /// A group of higher class, or slices of the wrong length.
+    /// A group above class II, slices of the wrong length, or a coordinate too far from the
+    /// drawing.
     pub fn assemblies(&self, dimensions: &[f64], q: &[f64]) -> Result<Vec<Vec<i8>>, SolveError> {
         self.assemblies_unless(dimensions, q, None)
     }
 
-    /// The same, which stops once `cancel` is true: each dyad may double their number.
+    /// [`Mechanism::assemblies`], stopping once `cancel` is true: each dyad may double their
+    /// number.
     ///
     /// # Errors
     ///
@@ -48,13 +51,13 @@ impl Mechanism {
         if design.is_too_far(&scaled) {
             return Err(SolveError::Shape(format!(
                 "q = {} is too far from the drawing to be followed: take off whole turns (at most 1000, or a slide 3000 times the size)",
-                place_of(q)
+                coordinate_text(q)
             )));
         }
         let mut state = design.state(&jets);
         let mut found: Vec<Vec<f64>> = vec![Vec::new()];
-        // Sign by sign: a choice that already fails needs no completion.
-        for place in 0..count.max(1) {
+        // Sign by sign, so that a choice that fails early is not completed.
+        for index in 0..count.max(1) {
             let choices: &[f64] = if count == 0 { &[] } else { &[1.0, -1.0] };
             let mut longer = Vec::new();
             for head in &found {
@@ -75,7 +78,7 @@ impl Mechanism {
                 state.solve(&Context { signs: &trial, ..design.context(&jets) }, &scaled);
                 match (state.status, state.fault) {
                     (Status::Unreachable, Some(fault)) => {
-                        place + 1 < count && self.is_beyond(fault.step(), place)
+                        index + 1 < count && self.is_beyond(fault.step(), index)
                     }
                     (Status::Unreachable | Status::BadInput, _) => false,
                     _ => true,
@@ -85,15 +88,15 @@ impl Mechanism {
         }
         let at_drawing = |signs: &Vec<f64>| {
             let goes_on = !is_cancelled();
-            goes_on.then(|| design.at_drawing(signs, &scaled)).ok_or(SolveError::Interrupted)
+            goes_on.then(|| design.signs_at_drawing(signs, &scaled)).ok_or(SolveError::Interrupted)
         };
         found.iter().map(at_drawing).collect()
     }
 
-    /// Whether a step comes after the dyad with sign number `place`.
-    fn is_beyond(&self, step: usize, place: usize) -> bool {
+    /// Whether a step comes after the dyad with this sign.
+    fn is_beyond(&self, step: usize, sign_index: usize) -> bool {
         match &self.plan().steps[step] {
-            Step::Dyad(dyad) => dyad.sign.is_none_or(|s| s > place),
+            Step::Dyad(dyad) => dyad.sign.is_none_or(|s| s > sign_index),
             _ => true,
         }
     }

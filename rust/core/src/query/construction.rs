@@ -1,5 +1,5 @@
-//! A mechanism from its description. A drawing with redundant links is looked at along its motion,
-//! for which it has to be solved: that is why this is not done where it is compiled.
+//! A mechanism from its description. A drawing with redundant links is checked along its motion.
+//! That needs the solver, so it is not done in `plan`.
 
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
@@ -12,22 +12,22 @@ use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
 use crate::state::status::Status;
 
-/// Places each way at which a drawing with redundant links is looked at: a turn, or the size of the
-/// drawing along a slide.
-const LOOKS: u32 = 31;
+/// Positions in each direction at which a drawing with redundant links is checked: over a turn, or
+/// the size of the drawing along a slide.
+const SAMPLES: u32 = 31;
 
 impl Mechanism {
     /// Analyses and compiles a description.
     ///
     /// # Errors
     ///
-    /// [`StructureError`]: whatever keeps the description from being a mechanism
-    /// with as many drivers as freedoms and a definite assembly.
+    /// [`StructureError`]: what keeps the description from being a mechanism with as many drivers
+    /// as freedoms and a definite assembly.
     pub fn new(description: &Description) -> Result<Self, StructureError> {
         Self::new_unless(description, None)
     }
 
-    /// The same, which stops once `cancel` is true: thousands of links take seconds.
+    /// [`Mechanism::new`], stopping once `cancel` is true: thousands of links take seconds.
     ///
     /// # Errors
     ///
@@ -36,33 +36,36 @@ impl Mechanism {
         description: &Description,
         cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
-        let made = Self::compile(description, cancel)?;
-        let bound = DesignConstants::new(made.plan(), &made.slots, made.drawing());
-        made.refuse_what_fits_here_alone(bound.scale)?;
-        Ok(made)
+        let mechanism = Self::compile(description, cancel)?;
+        let bound = DesignConstants::new(mechanism.plan(), &mechanism.slots, mechanism.drawing());
+        mechanism.check_redundancy_along_motion(bound.scale)?;
+        Ok(mechanism)
     }
 
-    /// Refuses a drawing whose redundant links fit beside it and not along all of its motion, as it
-    /// would be solved: its lengths do not agree well enough to pass a change point.
-    fn refuse_what_fits_here_alone(&self, scale: f64) -> Result<(), StructureError> {
+    /// Refuses a drawing whose redundant links fit near it but not along all of its motion: its
+    /// lengths do not agree well enough to pass a change point.
+    fn check_redundancy_along_motion(&self, scale: f64) -> Result<(), StructureError> {
         let is_slide = self.plan().driven_slide(0).is_some();
         if self.plan().redundant_links().next().is_none() || self.q0().len() > 1 {
             return Ok(());
         }
-        let step = if is_slide { self.linkage().size() } else { TAU } / f64::from(LOOKS);
-        for way in [step, -step] {
-            let looks = (0..=LOOKS).map(f64::from);
-            let places: Vec<f64> = looks.map(|look| self.q0()[0] + way * look).collect();
+        let step = if is_slide { self.linkage().size() } else { TAU } / f64::from(SAMPLES);
+        for step in [step, -step] {
+            let samples = (0..=SAMPLES).map(f64::from);
+            let coordinates: Vec<f64> =
+                samples.map(|sample| self.q0()[0] + step * sample).collect();
             let mut residual = 0.0_f64;
-            for found in self.diagnose(self.drawing(), &places, self.signs()).unwrap_or_default() {
+            for found in
+                self.diagnose(self.drawing(), &coordinates, self.signs()).unwrap_or_default()
+            {
                 if matches!(found.status, Status::Ok | Status::NearSingular | Status::Singular) {
                     residual = residual.max(found.residual);
                     continue;
                 }
                 let steps = &self.plan().steps;
                 let fit = found.step.is_some_and(|step| matches!(steps[step], Step::Redundant(_)));
-                // A wide gap is that of another assembly, behind a change point that was missed or
-                // behind a gap of another dyad; what was missed by then shows before.
+                // A wide gap belongs to another assembly, beyond a change point that was missed or
+                // a gap of another dyad; the misfit shows in the residual before.
                 let part = if found.gap < NEARLY_REDUNDANT { found.gap } else { residual };
                 if fit && part > REDUNDANT_ROUNDING {
                     let links = format!("{:?} and others", found.name.unwrap_or_default());

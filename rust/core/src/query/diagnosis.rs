@@ -1,4 +1,4 @@
-//! Why a position is what it is: status, residual, condition, a sentence.
+//! Why a position came out as it did: status, residual, condition and a sentence.
 
 use crate::branch::design::Design;
 use crate::description::error::{SolveError, number};
@@ -8,34 +8,33 @@ use crate::plan::plan::{EdgeSlide, Plan, Step};
 use crate::state::state::State;
 use crate::state::status::{Fault, Status};
 
-/// How far (in sizes) a joint is where a way has ended not for a dead point but for that: the
-/// condition of a group grows with the square of it, so the way to a pole is not followed to its
-/// end.
-const FAR: f64 = 100.0;
+/// If a joint is farther (in sizes) than this at the end of a branch, the distance ended it, not a
+/// dead point: the condition of a group grows with its square, so no branch is followed all the way
+/// to a pole.
+const FAR_JOINT: f64 = 100.0;
 
-/// One position looked at closely.
+/// A position examined closely.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// How it came out.
+    /// How the position came out.
     pub status: Status,
-    /// Greatest misfit of a closure equation at the coordinates returned, as a
-    /// part of the size; NaN where there is no position.
+    /// Greatest loop-closure error at the computed position, relative to the size; NaN without a
+    /// position.
     pub residual: f64,
-    /// Product of the conditions along the worst chain of dyads; NaN where there
-    /// is no position.
+    /// Product of the conditions along the worst chain of dyads; NaN without a position.
     pub condition: f64,
-    /// By how much a dyad or redundant link does not close, as a part of the size; NaN where all do.
+    /// Gap of the dyad or redundant link that does not close, relative to the size; NaN if all do.
     pub gap: f64,
-    /// The dyad (inner joint or slide), redundant link or dimension concerned.
+    /// The dyad (inner joint or slide), group, redundant link or dimension concerned.
     pub name: Option<String>,
     /// The step of the plan concerned.
     pub step: Option<usize>,
-    /// What happened, with the numbers.
+    /// What happened, with numbers.
     pub sentence: String,
 }
 
 impl Diagnosis {
-    /// Nothing but a status and a sentence.
+    /// Only a status and a sentence.
     fn bare(status: Status, sentence: String) -> Self {
         let nothing = f64::NAN;
         let (residual, condition, gap) = (nothing, nothing, nothing);
@@ -44,11 +43,11 @@ impl Diagnosis {
 }
 
 impl Mechanism {
-    /// Looks closely at every position of one design (`q`: drivers fastest).
+    /// Examines every position of one design closely (`q`: drivers fastest).
     ///
     /// # Errors
     ///
-    /// A group of higher class, or slices of the wrong length.
+    /// Slices of the wrong length.
     pub fn diagnose(
         &self,
         dimensions: &[f64],
@@ -69,13 +68,18 @@ impl Mechanism {
         let jets = DerivativeTables::new(drivers, 0);
         let mut design = Design::new(self, signs, &jets);
         design.bind(dimensions);
-        design.lay_way(q);
+        design.trace(q);
         let mut state = design.state(&jets);
-        let look = |(scaled, q): (&[f64], &[f64])| {
-            let analogues = design.solve(&mut state, scaled, design.way(scaled).as_ref());
+        let diagnose = |(scaled, q): (&[f64], &[f64])| {
+            let analogues = design.solve(&mut state, scaled, design.branch_to(scaled).as_ref());
             self.describe(&design, &state, &jets, q, analogues)
         };
-        Ok(design.scaled(q).chunks_exact(drivers).zip(q.chunks_exact(drivers)).map(look).collect())
+        Ok(design
+            .scaled(q)
+            .chunks_exact(drivers)
+            .zip(q.chunks_exact(drivers))
+            .map(diagnose)
+            .collect())
     }
 
     fn describe(
@@ -86,7 +90,7 @@ impl Mechanism {
         q: &[f64],
         analogues: bool,
     ) -> Diagnosis {
-        let at = &place_of(q);
+        let at = &coordinate_text(q);
         let step = state.fault.map(Fault::step);
         let condition = state.condition2[0].sqrt();
         let named = state.fault.map(|fault| self.step_name(fault));
@@ -101,10 +105,10 @@ impl Mechanism {
                 return Diagnosis::bare(Status::BadInput, format!("q = {at} {why}"));
             }
             Status::Lost => {
-                return Diagnosis::bare(Status::Lost, self.lost(design, q, at));
+                return Diagnosis::bare(Status::Lost, self.lost_sentence(design, q, at));
             }
             Status::Unreachable | Status::NotConverged => {
-                let (name, sentence) = self.unreachable(state, design.bound.scale, at);
+                let (name, sentence) = self.unreachable_sentence(state, design.bound.scale, at);
                 let gap = match state.fault {
                     Some(Fault::NotClosed { gap, .. } | Fault::RedundantMisfit { gap, .. }) => gap,
                     _ => f64::NAN,
@@ -128,7 +132,7 @@ impl Mechanism {
         Diagnosis { status: state.status, residual, condition, gap, name: named, step, sentence }
     }
 
-    /// Refuses slices that do not fit this mechanism.
+    /// Refuses slices whose lengths do not fit this mechanism.
     pub(super) fn check(
         &self,
         dimensions: &[f64],
@@ -156,7 +160,7 @@ impl Mechanism {
         match &self.plan().steps[fault.step()] {
             Step::Dyad(dyad) => match dyad.sign {
                 Some(sign) => self.plan().dyad_names[sign].clone(),
-                None => two_lines_name(self.plan(), self, dyad),
+                None => guides_name(self.plan(), self, dyad),
             },
             Step::Group(group) => group.name.clone(),
             Step::Redundant(fit) => fit.name.clone(),
@@ -164,8 +168,8 @@ impl Mechanism {
         }
     }
 
-    /// Why the way from the drawing does not lead there.
-    fn lost(&self, design: &Design<'_>, q: &[f64], at: &str) -> String {
+    /// Why the branch from the drawing does not lead to a position.
+    fn lost_sentence(&self, design: &Design<'_>, q: &[f64], at: &str) -> String {
         let groups: Vec<&str> = self.plan().groups().map(|group| group.name.as_str()).collect();
         if groups.is_empty() {
             return format!(
@@ -173,13 +177,13 @@ impl Mechanism {
             );
         }
         let groups = groups.join(" → ");
-        if let Err(part) = design.home {
+        if let Err(part) = design.initial_unknowns {
             return format!(
                 "these dimensions are not reached: on their straight way from the drawing's {groups} comes to a dead point after {:.4} % of it; give them in steps by another way, or draw the mechanism with them",
                 100.0 * part
             );
         }
-        match design.track.covered {
+        match design.branch.covered {
             Some([low, high])
                 if low <= high && low.is_finite() && design.unit.coordinate.len() == 1 =>
             {
@@ -187,8 +191,8 @@ impl Mechanism {
                 let reach = [low, high].map(|end| number(end / unit));
                 let reach = format!("from {} to {}", reach[0], reach[1]);
                 let end = if q[0] * unit < low { low } else { high };
-                let away = design.farthest(end);
-                if away > FAR {
+                let away = design.max_distance(end);
+                if away > FAR_JOINT {
                     return format!(
                         "q = {at} is not reached: from the drawing the motion of {groups} is followed {reach}, where a joint is {away:.0} sizes away: too far to be followed on"
                     );
@@ -203,7 +207,7 @@ impl Mechanism {
         }
     }
 
-    fn unreachable(&self, state: &State, scale: f64, at: &str) -> (String, String) {
+    fn unreachable_sentence(&self, state: &State, scale: f64, at: &str) -> (String, String) {
         let Some(fault) = state.fault else {
             return (String::new(), format!("q = {at} cannot be reached"));
         };
@@ -235,7 +239,7 @@ impl Mechanism {
     }
 }
 
-fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::dyad::Dyad) -> String {
+fn guides_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::dyad::Dyad) -> String {
     let slides: Vec<&str> = dyad
         .path
         .iter()
@@ -247,7 +251,7 @@ fn two_lines_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::dyad::
     slides.join("-")
 }
 
-pub(super) fn place_of(q: &[f64]) -> String {
+pub(super) fn coordinate_text(q: &[f64]) -> String {
     match q {
         [one] => number(*one),
         many => format!("({})", many.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", ")),

@@ -1,13 +1,13 @@
-//! What is read off a motion with one driver: curvature, instant centres,
-//! transmission angles.
+//! Geometric quantities of a motion with one driver: curvature, instant centres, transmission
+//! angles.
 
 use crate::math::trig;
 use crate::math::vector::Vector;
 
 /// Signed curvature of a path, 1/m: positive where it turns left as q grows.
 ///
-/// `(x′ y″ − y′ x″)/|r′|³` (Uicker, Pennock & Shigley 2017, 4.17). Not a number
-/// where the point stands still.
+/// `(x′ y″ − y′ x″)/|r′|³` (Uicker, Pennock & Shigley 2017, 4.17). NaN where the point stands
+/// still.
 #[must_use]
 pub fn curvature(first: Vector, second: Vector) -> f64 {
     let speed = first.norm();
@@ -16,10 +16,10 @@ pub fn curvature(first: Vector, second: Vector) -> f64 {
 
 /// Instant centre of two links, in the frame of the drawing, m.
 ///
-/// Each link is given by one of its points, that point's first analogue and the
-/// link's angular one. The centre is where both links have the same velocity
-/// (Kennedy 1886): at infinity, across the motion, when they only translate relative
-/// to each other; not a number when they do not move relative to each other.
+/// Each link is given by one of its points, that point's first analogue and the link's angular
+/// analogue. At the centre both links have the same velocity (Kennedy 1886). It is at infinity,
+/// across the motion, if they only translate relative to each other, and NaN if they do not move
+/// relative to each other.
 #[must_use]
 pub fn instant_centre(a: (Vector, Vector, f64), b: (Vector, Vector, f64)) -> Vector {
     // a' + ωa J (p − a) = b' + ωb J (p − b).

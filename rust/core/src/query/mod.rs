@@ -1,4 +1,4 @@
-//! One design, asked: what happened at a position, which assemblies there are, positions in sequence.
+//! Questions about one design: a diagnosis of a position, its assemblies, positions in sequence.
 pub(crate) mod assemblies;
 pub(crate) mod construction;
 pub(crate) mod diagnosis;

@@ -10,7 +10,7 @@ use crate::dynamics::value::Numbers;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
 use crate::plan::mechanism::Mechanism;
-use crate::query::evaluator::{Asked, Evaluator, NearMiss};
+use crate::query::evaluator::{Evaluator, NearMiss, Queries};
 use crate::state::status::Status;
 
 /// A machine referred to its drivers, at one position after another.
@@ -76,7 +76,7 @@ impl<'m> MechanismModel<'m> {
     /// How far a dead point may be from here, in the coordinate's unit; at most `most` times that
     /// unit.
     fn reach(&self, driver: usize, most: f64) -> f64 {
-        let (_, condition) = self.evaluator.condition();
+        let (_, condition) = self.evaluator.worst_condition();
         (DEAD_POINT_WITHIN / (condition * condition)).min(most) * self.evaluator.unit(driver)
     }
 
@@ -87,7 +87,7 @@ impl<'m> MechanismModel<'m> {
         for (driver, reach) in reaches.into_iter().enumerate() {
             for offset in [-reach, reach] {
                 beside[driver] = q[driver] + offset;
-                if self.evaluator.solve_aside(&beside).is_err() {
+                if self.evaluator.probe(&beside).is_err() {
                     return true;
                 }
                 beside[driver] = q[driver];
@@ -100,7 +100,7 @@ impl<'m> MechanismModel<'m> {
     #[cold]
     #[inline(never)]
     fn check_singularity(&mut self, q: &[f64]) -> Result<(), Status> {
-        let (step, condition) = self.evaluator.condition();
+        let (step, condition) = self.evaluator.worst_condition();
         if condition > MAX_CONDITION {
             if self.has_dead_point_near(q, f64::INFINITY) {
                 return Err(Status::Singular);
@@ -120,7 +120,7 @@ impl<'m> MechanismModel<'m> {
         jets: &'m DerivativeTables,
     ) -> Self {
         let lifted = machine.has_torsion();
-        let evaluator = Evaluator::new(mechanism, dimensions, jets, Asked::Any, lifted);
+        let evaluator = Evaluator::new(mechanism, dimensions, jets, Queries::Any, lifted);
         Self { machine, jets, evaluator }
     }
 }
@@ -134,7 +134,7 @@ impl ReducedModel for MechanismModel<'_> {
     ) -> Result<(), Status> {
         self.evaluator.solve(q)?;
         // The product bounds the condition of each dyad.
-        if self.evaluator.product() > MAX_CONDITION {
+        if self.evaluator.total_condition() > MAX_CONDITION {
             self.check_singularity(q)?;
         }
         self.machine.add_configuration(&Pose::new(self.evaluator.position(), self.jets), out);
@@ -188,13 +188,13 @@ impl ReducedModel for MechanismModel<'_> {
     }
 
     fn inertia_noise(&self) -> f64 {
-        let condition = self.evaluator.product();
+        let condition = self.evaluator.total_condition();
         ANALOGUE_PER_CONDITION_SQUARED * condition * condition
     }
 
     fn inverse_condition(&mut self, q: &[f64]) -> f64 {
         match self.evaluator.solve(q) {
-            Ok(()) => 1.0 / self.evaluator.condition().1,
+            Ok(()) => 1.0 / self.evaluator.worst_condition().1,
             Err(_) => f64::NAN,
         }
     }
