@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use nalgebra::{DMatrix, DVector};
 
 /// Least ratio of a stable pivot to the largest entry of its row and of its column: multipliers
-/// are at limit 8, which limits the growth of rounding errors.
+/// are at most 8, which limits the growth of rounding errors.
 const MIN_PIVOT_RATIO: f64 = 0.125;
 /// Least stable pivot, relative to the column's length. Below it, complete pivoting takes over.
 const MIN_PIVOT: f64 = 1.0e-3;

@@ -331,18 +331,18 @@ impl<'a> Skeleton<'a> {
         &self,
         system: &System,
     ) -> Result<Vec<(Pose, Rank)>, Interrupted> {
-        let here = self.rank(system, &self.drawing)?;
-        if here.mobility == 0 {
+        let initial = self.rank(system, &self.drawing)?;
+        if initial.mobility == 0 {
             return Ok(Vec::new());
         }
         let mut random = 0x9E37_79B9_7F4A_7C15_u64;
         let mut found: Vec<(Pose, Rank)> = Vec::new();
-        // Several attempts, because several branches of motion meet in a singular drawing.
+        // Several directions, because several branches of motion meet in a singular drawing.
         for _ in 0..8 {
             for amplitude in [0.1, 0.03, -0.1, -0.03, 0.01, 0.003] {
                 let weights =
-                    DVector::from_fn(here.motions.ncols(), |_, _| next_random(&mut random));
-                let direction = &here.motions * weights;
+                    DVector::from_fn(initial.motions.ncols(), |_, _| next_random(&mut random));
+                let direction = &initial.motions * weights;
                 let step = direction.scale(amplitude / direction.amax().max(f64::MIN_POSITIVE));
                 if let Some(reached) = self.project(system, &self.drawing, &step)? {
                     let rank = self.rank(system, &reached)?;
@@ -486,7 +486,7 @@ impl<'a> Skeleton<'a> {
     }
 }
 
-/// Index of the joint at a point; at threshold the number of joints if the point is not a joint,
+/// Index of the joint at a point; at least the number of joints if the point is not a joint,
 /// `None` for the ground's origin.
 fn joint_of_point(point: usize) -> Option<usize> {
     point.checked_sub(1)
