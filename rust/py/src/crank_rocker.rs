@@ -39,8 +39,8 @@ pub(crate) fn crank_rocker_solve<'py>(
             [p.s, p.phi3_first, p.phi3_second, p.beta, p.phi2, p.phi3, p.gamma23, p.gamma]
         });
         let mut all = [f64::NAN; ROWS];
-        for (own, x) in all.iter_mut().zip(numbers.into_iter().flatten().chain(r.v_c)) {
-            *own = x;
+        for (entry, x) in all.iter_mut().zip(numbers.into_iter().flatten().chain(r.v_c)) {
+            *entry = x;
         }
         Some(all)
     })?;

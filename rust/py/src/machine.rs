@@ -57,12 +57,12 @@ impl Machine {
         let Some(mechanism) = mechanism else {
             return Ok(Self(Inner::Tables(TabulatedMachine { tables, motors })));
         };
-        let own = &mechanism.bind(py).get().inner;
+        let core = &mechanism.bind(py).get().inner;
         let inner = catch_panic(|| {
             let bodies =
-                bodies.into_iter().map(|one| convert::body(own, one)).collect::<PyResult<_>>()?;
+                bodies.into_iter().map(|one| convert::body(core, one)).collect::<PyResult<_>>()?;
             let loads =
-                loads.into_iter().map(|one| convert::load(own, one)).collect::<PyResult<_>>()?;
+                loads.into_iter().map(|one| convert::load(core, one)).collect::<PyResult<_>>()?;
             Ok(assur::dynamics::Machine { bodies, loads, gravity, tables, motors })
         })?;
         Ok(Self(Inner::Mechanism(mechanism, inner)))
@@ -81,9 +81,9 @@ impl Machine {
     ) -> PyResult<Arrays<'py>> {
         let (mechanism, machine) = match &self.0 {
             Inner::Mechanism(mechanism, machine) => (mechanism, machine),
-            Inner::Tables(sheet) => {
+            Inner::Tables(tabulated) => {
                 let q = q.as_slice()?;
-                return catch_panic(|| Ok(arrays(py, &[sheet.reduce(q)])));
+                return catch_panic(|| Ok(arrays(py, &[tabulated.reduce(q)])));
             }
         };
         let mechanism = &mechanism.get().inner;
@@ -133,17 +133,17 @@ impl Machine {
         watches: Vec<EventArguments>,
         functions: (Vec<Py<PyAny>>, Vec<Py<PyAny>>),
     ) -> PyResult<Run> {
-        let own = match &self.0 {
+        let core = match &self.0 {
             Inner::Mechanism(mechanism, _) => Some(&mechanism.get().inner),
             Inner::Tables(_) => None,
         };
         let watches = watches
             .into_iter()
-            .map(|one| convert::event(own, one))
+            .map(|one| convert::event(core, one))
             .collect::<PyResult<Vec<_>>>()?;
         let (t, q, speed) = start;
         let (max_step, max_steps, seconds) = limits;
-        let task = RunOptions {
+        let options = RunOptions {
             along: if along_q { Variable::Coordinate } else { Variable::Time },
             t,
             q: &q,
@@ -161,9 +161,9 @@ impl Machine {
         };
         let run = with_callbacks(py, functions, |calls| match &self.0 {
             Inner::Mechanism(mechanism, machine) => {
-                machine.run(&mechanism.get().inner, &dimensions, &task, calls)
+                machine.run(&mechanism.get().inner, &dimensions, &options, calls)
             }
-            Inner::Tables(sheet) => sheet.run(&task, calls),
+            Inner::Tables(tabulated) => tabulated.run(&options, calls),
         })?;
         run.map(Run::new).map_err(run_error)
     }
@@ -190,7 +190,7 @@ impl Machine {
     ) -> PyResult<(Run, Vec<f64>)> {
         let [q, span] = places;
         let mean = if mean == "period" { Mean::Period } else { Mean::Extremes };
-        let search = SteadyOptions {
+        let options = SteadyOptions {
             q,
             span,
             speed,
@@ -205,9 +205,9 @@ impl Machine {
         let wanted = wanted.map(|fluctuation| FluctuationTarget { fluctuation, mean });
         let steady = with_callbacks(py, (functions, Vec::new()), |calls| match &self.0 {
             Inner::Mechanism(mechanism, machine) => {
-                machine.steady(&mechanism.get().inner, &dimensions, &search, wanted, calls)
+                machine.steady(&mechanism.get().inner, &dimensions, &options, wanted, calls)
             }
-            Inner::Tables(sheet) => sheet.steady(&search, wanted, calls),
+            Inner::Tables(tabulated) => tabulated.steady(&options, wanted, calls),
         })?;
         let steady = steady.map_err(steady_error)?;
         let [least, greatest] = steady.extremes();

@@ -294,16 +294,16 @@ impl Mechanism {
         let small = drivers == 1 && designs * (positions + 1) < POSITIONS_PER_CHECK;
         let chunk =
             if drivers == 1 { POSITIONS_PER_CHECK } else { POSITIONS_PER_CHECK / 1024 } * drivers;
-        let both = detach::run(py, small, |cancel| {
+        let diagnostics = detach::run(py, small, |cancel| {
             let (mut residual, mut condition) = (Vec::new(), Vec::new());
             for design in 0..designs {
                 let values = &dimensions[design * size..][..size];
-                let own = if per_design { design * positions * drivers } else { 0 };
-                for some in q[own..][..positions * drivers].chunks(chunk) {
+                let first = if per_design { design * positions * drivers } else { 0 };
+                for coordinates in q[first..][..positions * drivers].chunks(chunk) {
                     if cancel.load(Ordering::Relaxed) {
                         return Ok((residual, condition));
                     }
-                    for d in self.inner.diagnose(values, some, &signs)? {
+                    for d in self.inner.diagnose(values, coordinates, &signs)? {
                         residual.push(d.residual);
                         condition.push(d.condition);
                     }
@@ -312,7 +312,7 @@ impl Mechanism {
             Ok((residual, condition))
         })?
         .map_err(error::solve)?;
-        Ok((PyArray1::from_vec(py, both.0), PyArray1::from_vec(py, both.1)))
+        Ok((PyArray1::from_vec(py, diagnostics.0), PyArray1::from_vec(py, diagnostics.1)))
     }
 
     /// Diagnosis of one position: status, name concerned, message.

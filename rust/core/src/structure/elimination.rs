@@ -177,21 +177,21 @@ impl Elimination {
     /// Basis of the null space: columns scaled to a largest entry of 1.
     pub(crate) fn null_space(&self) -> DMatrix<f64> {
         let free = complement(self.pivots.iter().map(|pivot| pivot.column), self.shape.1);
-        let mut all = DMatrix::zeros(self.shape.1, free.len());
+        let mut basis = DMatrix::zeros(self.shape.1, free.len());
         let zero = DVector::zeros(self.pivots.len());
-        for (mut vector, free) in all.column_iter_mut().zip(free) {
+        for (mut vector, free) in basis.column_iter_mut().zip(free) {
             vector[free] = 1.0;
             self.substitute_back(&zero, vector.as_mut_slice());
             vector /= vector.amax();
         }
-        all
+        basis
     }
 
     /// Basis of the left null space: columns scaled to a largest entry of 1.
     pub(crate) fn left_null_space(&self) -> DMatrix<f64> {
         let free = complement(self.pivots.iter().map(|pivot| pivot.row), self.shape.0);
-        let mut all = DMatrix::zeros(self.shape.0, free.len());
-        for (mut vector, free) in all.column_iter_mut().zip(free) {
+        let mut basis = DMatrix::zeros(self.shape.0, free.len());
+        for (mut vector, free) in basis.column_iter_mut().zip(free) {
             vector[free] = 1.0;
             for pivot in self.pivots.iter().rev() {
                 let sum: f64 = pivot.multipliers.iter().map(|&(row, m)| m * vector[row]).sum();
@@ -199,7 +199,7 @@ impl Elimination {
             }
             vector /= vector.amax();
         }
-        all
+        basis
     }
 
     /// The solution with zero for the free unknowns. Equations that depend on others are ignored.
@@ -212,16 +212,16 @@ impl Elimination {
         }
         let of_pivots =
             DVector::from_iterator(self.pivots.len(), self.pivots.iter().map(|p| rhs[p.row]));
-        let mut all = DVector::zeros(self.shape.1);
-        self.substitute_back(&of_pivots, all.as_mut_slice());
-        all
+        let mut solution = DVector::zeros(self.shape.1);
+        self.substitute_back(&of_pivots, solution.as_mut_slice());
+        solution
     }
 
     /// Computes the unknowns of the pivots from the right-hand sides and the free unknowns.
-    fn substitute_back(&self, rhs: &DVector<f64>, all: &mut [f64]) {
+    fn substitute_back(&self, rhs: &DVector<f64>, solution: &mut [f64]) {
         for (pivot, rhs) in self.pivots.iter().zip(rhs.iter()).rev() {
-            let known: f64 = pivot.entries.iter().map(|&(c, value)| value * all[c]).sum();
-            all[pivot.column] = (rhs - known) / pivot.value;
+            let known: f64 = pivot.entries.iter().map(|&(c, value)| value * solution[c]).sum();
+            solution[pivot.column] = (rhs - known) / pivot.value;
         }
     }
 }

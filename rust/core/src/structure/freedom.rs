@@ -67,10 +67,10 @@ pub(crate) struct System {
     pub unknowns: Vec<Unknown>,
     /// Class of every link in this system.
     class_of: Vec<usize>,
-    /// Columns of each point (its x), class and slide.
-    of_point: Vec<Option<usize>>,
-    of_class: Vec<Option<usize>>,
-    of_slide: Vec<Option<usize>>,
+    /// Column of each point (its x), class and slide that is unknown.
+    column_of_point: Vec<Option<usize>>,
+    column_of_class: Vec<Option<usize>>,
+    column_of_slide: Vec<Option<usize>>,
 }
 
 impl System {
@@ -110,18 +110,18 @@ impl System {
                 unknowns.push(Unknown::Slide(slide));
             }
         }
-        let mut of_point = vec![None; closure.points];
-        let mut of_class = vec![None; linkage.links.len()];
-        let mut of_slide = vec![None; linkage.slides.len()];
+        let mut column_of_point = vec![None; closure.points];
+        let mut column_of_class = vec![None; linkage.links.len()];
+        let mut column_of_slide = vec![None; linkage.slides.len()];
         for (column, unknown) in unknowns.iter().enumerate() {
             match *unknown {
-                Unknown::Point { point, axis: 0 } => of_point[point] = Some(column),
+                Unknown::Point { point, axis: 0 } => column_of_point[point] = Some(column),
                 Unknown::Point { .. } => {}
-                Unknown::Class(class) => of_class[class] = Some(column),
-                Unknown::Slide(slide) => of_slide[slide] = Some(column),
+                Unknown::Class(class) => column_of_class[class] = Some(column),
+                Unknown::Slide(slide) => column_of_slide[slide] = Some(column),
             }
         }
-        Self { edges, unknowns, class_of, of_point, of_class, of_slide }
+        Self { edges, unknowns, class_of, column_of_point, column_of_class, column_of_slide }
     }
 
     /// Number of scalar equations.
@@ -238,13 +238,13 @@ impl<'a> Skeleton<'a> {
         for &e in &system.edges {
             let edge = &self.closure.edges[e];
             let (v, d) = self.edge_vectors(pose, e);
-            let class = system.of_class[system.class_of[edge.link]];
-            let slide = edge.slide().and_then(|slide| system.of_slide[slide]);
+            let class = system.column_of_class[system.class_of[edge.link]];
+            let slide = edge.slide().and_then(|slide| system.column_of_slide[slide]);
             for (axis, by_angle) in [v[1], -v[0]].into_iter().enumerate() {
                 let mut row = Vec::with_capacity(4);
                 if edge.from != edge.to {
-                    row.extend(system.of_point[edge.to].map(|x| (x + axis, 1.0)));
-                    row.extend(system.of_point[edge.from].map(|x| (x + axis, -1.0)));
+                    row.extend(system.column_of_point[edge.to].map(|x| (x + axis, 1.0)));
+                    row.extend(system.column_of_point[edge.from].map(|x| (x + axis, -1.0)));
                 }
                 row.extend(class.map(|column| (column, by_angle)));
                 row.extend(slide.map(|column| (column, -d[axis])));
@@ -336,7 +336,7 @@ impl<'a> Skeleton<'a> {
             return Ok(Vec::new());
         }
         let mut random = 0x9E37_79B9_7F4A_7C15_u64;
-        let mut found: Vec<(Pose, Rank)> = Vec::new();
+        let mut poses: Vec<(Pose, Rank)> = Vec::new();
         // Several directions, because several branches of motion meet in a singular drawing.
         for _ in 0..8 {
             for amplitude in [0.1, 0.03, -0.1, -0.03, 0.01, 0.003] {
@@ -346,13 +346,13 @@ impl<'a> Skeleton<'a> {
                 let step = direction.scale(amplitude / direction.amax().max(f64::MIN_POSITIVE));
                 if let Some(reached) = self.project(system, &self.drawing, &step)? {
                     let rank = self.rank(system, &reached)?;
-                    found.push((reached, rank));
+                    poses.push((reached, rank));
                     break;
                 }
             }
         }
-        found.sort_by_key(|(_, rank)| rank.mobility);
-        Ok(found)
+        poses.sort_by_key(|(_, rank)| rank.mobility);
+        Ok(poses)
     }
 
     /// Takes a step and returns onto the closure by Gauss-Newton. `None` if that fails or undoes

@@ -62,27 +62,32 @@ impl Pattern {
         if self.unknown_size.iter().sum::<usize>() != self.equation_size.iter().sum::<usize>() {
             return None;
         }
-        let mut of_unknown: Vec<Vec<usize>> = vec![Vec::new(); self.unknown_size.len()];
+        let mut matched_equations: Vec<Vec<usize>> = vec![Vec::new(); self.unknown_size.len()];
         for equation in 0..self.unknowns_in.len() {
             for _ in 0..self.equation_size[equation] {
                 let mut seen = vec![false; self.unknown_size.len()];
-                if !self.augment(equation, &mut of_unknown, &mut seen) {
+                if !self.augment(equation, &mut matched_equations, &mut seen) {
                     return None;
                 }
             }
         }
-        let mut of_equation = vec![Vec::new(); self.unknowns_in.len()];
-        for (unknown, equations) in of_unknown.iter().enumerate() {
+        let mut matched_unknowns = vec![Vec::new(); self.unknowns_in.len()];
+        for (unknown, equations) in matched_equations.iter().enumerate() {
             for &equation in equations {
-                of_equation[equation].push(unknown);
+                matched_unknowns[equation].push(unknown);
             }
         }
-        Some(of_equation)
+        Some(matched_unknowns)
     }
 
     /// Matches one more scalar of an equation along an augmenting path. The path can be as long as
     /// the linkage, so it is kept in a list instead of the thread's stack.
-    fn augment(&self, equation: usize, of_unknown: &mut [Vec<usize>], seen: &mut [bool]) -> bool {
+    fn augment(
+        &self,
+        equation: usize,
+        matched_equations: &mut [Vec<usize>],
+        seen: &mut [bool],
+    ) -> bool {
         /// An equation on the path: it tries to match its unknown number `trial`, from which its
         /// partner number `slot` would have to move.
         struct Search {
@@ -105,17 +110,17 @@ impl Pattern {
                     continue;
                 }
                 seen[unknown] = true;
-                if of_unknown[unknown].len() < self.unknown_size[unknown] {
-                    of_unknown[unknown].push(top.equation);
+                if matched_equations[unknown].len() < self.unknown_size[unknown] {
+                    matched_equations[unknown].push(top.equation);
                     path.pop();
                     for search in path {
                         let unknown = self.unknowns_in[search.equation][search.trial];
-                        of_unknown[unknown][search.slot] = search.equation;
+                        matched_equations[unknown][search.slot] = search.equation;
                     }
                     return true;
                 }
             }
-            if let Some(&equation) = of_unknown[unknown].get(top.slot) {
+            if let Some(&equation) = matched_equations[unknown].get(top.slot) {
                 path.push(Search { equation, trial: 0, slot: 0 });
             } else {
                 (top.trial, top.slot) = (top.trial + 1, 0);
@@ -126,10 +131,10 @@ impl Pattern {
 
     /// Strongly connected components of "the equation that determines `u` contains `v`", numbered
     /// in solving order (Tarjan 1972).
-    fn components(&self, of_equation: &[Vec<usize>]) -> Vec<usize> {
+    fn components(&self, matched_unknowns: &[Vec<usize>]) -> Vec<usize> {
         let n = self.unknown_size.len();
         let mut needs = vec![Vec::new(); n];
-        for (equation, partners) in of_equation.iter().enumerate() {
+        for (equation, partners) in matched_unknowns.iter().enumerate() {
             for &unknown in partners {
                 needs[unknown].extend(self.unknowns_in[equation].iter().copied());
             }
