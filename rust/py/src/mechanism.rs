@@ -108,7 +108,7 @@ impl Mechanism {
         names.zip(self.inner.signs().iter().copied()).collect()
     }
 
-    /// Greatest change of a joint's coordinate that makes redundant links fit, m.
+    /// Greatest change of a joint's coordinate by the adjustment for redundant links, m.
     #[getter]
     fn adjustment(&self) -> f64 {
         self.inner.adjustment()

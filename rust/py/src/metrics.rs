@@ -20,7 +20,7 @@ pub(crate) fn check_same_length(a: usize, b: usize) -> PyResult<()> {
     }
 }
 
-/// Acute angles between vectors of directions (flat x, y).
+/// Acute angles between pairs of directions (flat x, y).
 #[pyfunction]
 pub(crate) fn acute<'py>(
     py: Python<'py>,

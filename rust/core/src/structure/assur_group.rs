@@ -99,8 +99,8 @@ enum Node {
     Joint(usize),
 }
 
-/// The groups of a linkage without its redundant links. `None` if the system is not
-/// structurally square and regular, although its rank is full (the caller has checked it).
+/// The groups of a linkage without its redundant links. `None` if the pattern of the equations is
+/// not structurally square and regular (the caller has checked their rank).
 #[must_use]
 pub(crate) fn groups(linkage: &Linkage, left_out: &LeftOut) -> Option<Vec<Group>> {
     let bodies = Bodies::new(linkage);

@@ -84,8 +84,8 @@ impl Structure {
                 Err(StructureError::Interrupted) => Err(StructureError::Interrupted),
                 Err(_) => Ok(false),
             };
-        // A drawing whose equations are all independent is regular. Otherwise take a displaced
-        // pose, preferably on a branch along which the drivers move the linkage.
+        // Take the drawing if all its equations are independent and the drivers control its motion;
+        // otherwise a displaced pose, preferably on a branch along which they do.
         let drawing = (skeleton.drawing().clone(), at_drawing.clone());
         let chosen = if at_drawing.excess == 0 && at_drawing.mobility > 0 && drives(&drawing.0)? {
             Some(drawing)

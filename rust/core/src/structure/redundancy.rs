@@ -7,7 +7,7 @@ use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
 
 /// Leaves out links (last listed first), then slides, until no equation depends on others.
-/// What is left out must not change the mobility.
+/// Leaving them out must not change the mobility.
 ///
 /// Returns what it left out and how many dependent equations remain.
 ///
