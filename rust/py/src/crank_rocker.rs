@@ -1,11 +1,11 @@
-//! The crank-rocker with friction over flat arrays; Python checks, broadcasts and reshapes.
+//! The crank-rocker with friction on flat arrays. Python checks, broadcasts and reshapes them.
 
 use assur::papers::crank_rocker as core;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::gate;
-use crate::metrics::same;
+use crate::detach;
+use crate::metrics::check_same_length;
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -13,8 +13,8 @@ type Array<'py> = Bound<'py, PyArray1<f64>>;
 /// Rows of `crank_rocker_solve`.
 const ROWS: usize = 18;
 
-/// Positions (8 rows), rates (8 rows) and speeds of C (2 rows), one row after another; NaN where
-/// the coupler does not reach. `lengths`: crank, coupler, rocker, ground, one after another.
+/// Positions (8 rows), rates (8 rows) and velocities of C (2 rows), one row after another; NaN
+/// where the linkage cannot be assembled. `lengths`: crank, coupler, rocker, ground.
 #[pyfunction]
 pub(crate) fn crank_rocker_solve<'py>(
     py: Python<'py>,
@@ -27,11 +27,11 @@ pub(crate) fn crank_rocker_solve<'py>(
     let mut columns = Vec::new();
     for column in lengths.iter().chain(&rates) {
         let column = column.as_slice()?.to_vec();
-        same(phi1.len(), column.len())?;
+        check_same_length(phi1.len(), column.len())?;
         columns.push(column);
     }
     let assembly = if printed { core::Assembly::Printed } else { core::Assembly::Other };
-    let found = gate::each(py, phi1.len(), |i| {
+    let found = detach::map(py, phi1.len(), |i| {
         let at = |column: usize| columns[column][i];
         let lengths = [at(0), at(1), at(2), at(3)];
         let (p, r) = core::position(phi1[i], lengths, assembly, [at(4), at(5)])?;
@@ -39,8 +39,8 @@ pub(crate) fn crank_rocker_solve<'py>(
             [p.s, p.phi3_first, p.phi3_second, p.beta, p.phi2, p.phi3, p.gamma23, p.gamma]
         });
         let mut all = [f64::NAN; ROWS];
-        for (own, x) in all.iter_mut().zip(numbers.into_iter().flatten().chain(r.v_c)) {
-            *own = x;
+        for (entry, x) in all.iter_mut().zip(numbers.into_iter().flatten().chain(r.v_c)) {
+            *entry = x;
         }
         Some(all)
     })?;
@@ -48,17 +48,17 @@ pub(crate) fn crank_rocker_solve<'py>(
     Ok(PyArray1::from_vec(py, (0..ROWS).flat_map(row).collect()))
 }
 
-/// Rows of lengths, one design after another.
+/// The four lengths of each design.
 fn designs(lengths: &[Flat<'_>; 4]) -> PyResult<Vec<core::Lengths>> {
     let mut columns = Vec::new();
     for column in lengths {
         columns.push(column.as_slice()?);
-        same(columns[0].len(), column.as_slice()?.len())?;
+        check_same_length(columns[0].len(), column.as_slice()?.len())?;
     }
     Ok((0..columns[0].len()).map(|i| [0, 1, 2, 3].map(|column| columns[column][i])).collect())
 }
 
-/// Types by Grashof, as the field names them.
+/// Grashof types by name.
 #[pyfunction]
 pub(crate) fn crank_rocker_grashof(
     py: Python<'_>,
@@ -74,23 +74,23 @@ pub(crate) fn crank_rocker_grashof(
         core::Grashof::ChangePoint => "change-point",
     };
     let designs = designs(&lengths)?;
-    gate::each(py, designs.len(), |i| name(&designs[i]))
+    detach::map(py, designs.len(), |i| name(&designs[i]))
 }
 
-/// The three margins of each design, and whether its crank turns.
+/// The three margins of each design, and whether its crank makes full turns.
 #[pyfunction]
 pub(crate) fn crank_rocker_turns<'py>(
     py: Python<'py>,
     lengths: [Flat<'py>; 4],
 ) -> PyResult<(Array<'py>, Bound<'py, PyArray1<bool>>)> {
     let designs = designs(&lengths)?;
-    let margins = gate::each(py, designs.len(), |i| core::margins(designs[i]))?;
-    let turns = gate::each(py, designs.len(), |i| core::crank_turns(designs[i]))?;
+    let margins = detach::map(py, designs.len(), |i| core::margins(designs[i]))?;
+    let turns = detach::map(py, designs.len(), |i| core::crank_turns(designs[i]))?;
     let margins = margins.into_iter().flatten().collect();
     Ok((PyArray1::from_vec(py, margins), PyArray1::from_vec(py, turns)))
 }
 
-/// Least and greatest relative ground of each pair of coupler and rocker.
+/// Least and greatest relative ground length for each pair of coupler and rocker.
 #[pyfunction]
 pub(crate) fn crank_rocker_ground_range<'py>(
     py: Python<'py>,
@@ -101,15 +101,15 @@ pub(crate) fn crank_rocker_ground_range<'py>(
 ) -> PyResult<Array<'py>> {
     let (coupler, rocker) = (coupler.as_slice()?.to_vec(), rocker.as_slice()?.to_vec());
     let gamma_min = gamma_min.as_slice()?.to_vec();
-    same(coupler.len(), rocker.len())?;
-    same(coupler.len(), gamma_min.len())?;
-    let ends = gate::each(py, coupler.len(), |i| {
+    check_same_length(coupler.len(), rocker.len())?;
+    check_same_length(coupler.len(), gamma_min.len())?;
+    let ends = detach::map(py, coupler.len(), |i| {
         core::ground_range(coupler[i], rocker[i], margins, gamma_min[i])
     })?;
     Ok(PyArray1::from_vec(py, ends.into_iter().flatten().collect()))
 }
 
-/// Least and greatest transmission angle over a turn; NaN where the crank does not turn.
+/// Least and greatest transmission angle over a turn; NaN if the crank makes no full turn.
 #[pyfunction]
 pub(crate) fn crank_rocker_extremes<'py>(
     py: Python<'py>,
@@ -121,21 +121,21 @@ pub(crate) fn crank_rocker_extremes<'py>(
         found.unwrap_or([f64::NAN; 2])
     };
     let designs = designs(&lengths)?;
-    let all = gate::each(py, designs.len(), |i| ends(&designs[i]))?;
+    let all = detach::map(py, designs.len(), |i| ends(&designs[i]))?;
     Ok(PyArray1::from_vec(py, all.into_iter().flatten().collect()))
 }
 
-/// Crank angles of one mechanism at which motion is not passed on, from and to.
+/// Intervals of the crank angle with a transmission angle below `gamma_min`.
 #[pyfunction]
 pub(crate) fn crank_rocker_blocked(
     lengths: core::Lengths,
     gamma_min: f64,
 ) -> PyResult<Vec<[f64; 2]>> {
-    gate::guard(|| Ok(core::blocked(lengths, gamma_min)))
+    detach::catch_panic(|| Ok(core::blocked(lengths, gamma_min)))
 }
 
-/// Least transmission angles that friction allows; NaN where nothing is passed on. `friction`:
-/// coefficient and radius at C, at D.
+/// Least transmission angles that friction allows; NaN where friction prevents all motion.
+/// `friction`: coefficient and radius at C, then at D.
 #[pyfunction]
 pub(crate) fn crank_rocker_least_gamma<'py>(
     py: Python<'py>,
@@ -143,17 +143,18 @@ pub(crate) fn crank_rocker_least_gamma<'py>(
     rocker: Flat<'py>,
 ) -> PyResult<Array<'py>> {
     let (rows, rocker) = (designs(&friction)?, rocker.as_slice()?.to_vec());
-    same(rows.len(), rocker.len())?;
+    check_same_length(rows.len(), rocker.len())?;
     let least = |i: usize| core::least_gamma(rows[i], rocker[i]).unwrap_or(f64::NAN);
-    Ok(PyArray1::from_vec(py, gate::each(py, rows.len(), least)?))
+    Ok(PyArray1::from_vec(py, detach::map(py, rows.len(), least)?))
 }
 
-/// Kind, whether outer, and t, φ₁, l₄, ground, speeds of D and of the rod before and after.
+/// Kind, whether at the outer side, and t, φ₁, l₄, ground, speeds of D and of the rod (each before
+/// and after).
 type Event = (&'static str, bool, [f64; 8]);
-/// Rows of t, l₄, γ, sliding, B, C (8 numbers each), and events; or why there is none.
+/// Rows of t, l₄, γ, sliding, B, C (8 numbers each), and events; or why the run cannot start.
 type Run<'py> = (Array<'py>, Vec<Event>, Option<(&'static str, f64)>);
 
-/// Follows a crank-rocker that jams. `ground`: a function of the time. `case`: l₁, l₂, l₃, the least
+/// Simulates a crank-rocker that jams. `ground`: a function of time. `case`: l₁, l₂, l₃, the least
 /// transmission angle, speed, φ₀, turns.
 #[pyfunction]
 pub(crate) fn crank_rocker_run<'py>(
@@ -164,9 +165,8 @@ pub(crate) fn crank_rocker_run<'py>(
     let [l1, l2, l3, gamma_min, speed, phi0, turns] = case;
     let case = core::Case { lengths: [l1, l2, l3], gamma_min, speed, phi0, turns };
     let mut calls = 0_u32;
-    let mut follow = || {
+    let mut simulate = || {
         core::run(&case, |t| {
-            // Signals are heard in between.
             calls = calls.wrapping_add(1);
             if calls.is_multiple_of(4096) {
                 py.check_signals()?;
@@ -174,14 +174,14 @@ pub(crate) fn crank_rocker_run<'py>(
             ground.call1((t,))?.extract::<f64>()
         })
     };
-    let found = gate::guard(|| Ok(follow()))?;
-    let nothing =
+    let found = detach::catch_panic(|| Ok(simulate()))?;
+    let refused =
         |why, value| Ok((PyArray1::from_vec(py, Vec::new()), Vec::new(), Some((why, value))));
     match found {
         Err(core::Refused::Ground(error)) => Err(error),
-        Err(core::Refused::OutOfReach(s)) => nothing("reach", s),
-        Err(core::Refused::Blocked(core::Side::Outer, gamma)) => nothing("outer", gamma),
-        Err(core::Refused::Blocked(core::Side::Inner, gamma)) => nothing("inner", gamma),
+        Err(core::Refused::OutOfReach(s)) => refused("reach", s),
+        Err(core::Refused::Blocked(core::Side::Outer, gamma)) => refused("outer", gamma),
+        Err(core::Refused::Blocked(core::Side::Inner, gamma)) => refused("inner", gamma),
         Ok((rows, events)) => {
             let flat = rows.iter().flat_map(|row| {
                 let [[bx, by], [cx, cy]] = row.places;

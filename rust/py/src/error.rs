@@ -1,4 +1,4 @@
-//! Core errors to the exceptions of `assur.errors`, with their fields.
+//! Converts errors of the core into the exceptions of `assur.errors`, with their fields.
 
 use assur::{Named, SolveError, StructureError};
 use pyo3::prelude::*;
@@ -26,7 +26,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-fn raise(class: &str, message: String, fields: &Fields<'_>) -> PyErr {
+fn exception(class: &str, message: String, fields: &Fields<'_>) -> PyErr {
     Python::attach(|py| {
         let build = || -> PyResult<PyErr> {
             let class = py.import("assur.errors")?.getattr(class)?;
@@ -43,7 +43,7 @@ fn raise(class: &str, message: String, fields: &Fields<'_>) -> PyErr {
     })
 }
 
-/// A `StructureError` of the core as Python's.
+/// The Python exception for a `StructureError` of the core.
 pub(crate) fn structure(error: StructureError) -> PyErr {
     use StructureError as E;
     let fields = match &error {
@@ -96,46 +96,46 @@ pub(crate) fn structure(error: StructureError) -> PyErr {
         }
         _ => Fields::default(),
     };
-    raise("StructureError", error.to_string(), &fields)
+    exception("StructureError", error.to_string(), &fields)
 }
 
-/// A `SolveError` of the core as Python's.
+/// The Python exception for a `SolveError` of the core.
 pub(crate) fn solve(error: SolveError) -> PyErr {
     let message = error.to_string();
     match &error {
         SolveError::HigherClass { group, .. } => {
             // "III(a, b, c)": the first link.
             let inner = group.split(['(', ',', ')']).nth(1);
-            raise("StructureError", message, &Fields { link: inner, ..Fields::default() })
+            exception("StructureError", message, &Fields { link: inner, ..Fields::default() })
         }
         SolveError::BadDimension { name, value, .. } => {
             let fields = Fields { dimension: Some(name), value: Some(*value), ..Fields::default() };
-            raise("DimensionError", message, &fields)
+            exception("DimensionError", message, &fields)
         }
         SolveError::Redundant { name } => {
-            raise("InputError", message, &Fields { link: Some(name), ..Fields::default() })
+            exception("InputError", message, &Fields { link: Some(name), ..Fields::default() })
         }
         SolveError::Unknown { kind, name, .. } => {
-            raise("InputError", message, &Fields::named(*kind, name))
+            exception("InputError", message, &Fields::named(*kind, name))
         }
-        _ => raise("InputError", message, &Fields::default()),
+        _ => exception("InputError", message, &Fields::default()),
     }
 }
 
-/// An `InputError`, with the number that is wrong.
+/// An `InputError` with the wrong number.
 pub(crate) fn input(message: String, value: Option<f64>) -> PyErr {
-    raise("InputError", message, &Fields { value, ..Fields::default() })
+    exception("InputError", message, &Fields { value, ..Fields::default() })
 }
 
-/// An `AssurError` for what should not happen.
+/// An `AssurError` for a fault of the library.
 pub(crate) fn internal(what: &str, place: &str) -> PyErr {
     let message = format!(
         "a fault of assur, not of your input: {what} ({place}); please report it with the call that led to it"
     );
-    raise("AssurError", message, &Fields::default())
+    exception("AssurError", message, &Fields::default())
 }
 
-/// Whether an exception is [`internal`]'s: an `AssurError` and none of its kinds.
+/// Whether an exception comes from [`internal`]: an `AssurError`, but no subclass of it.
 pub(crate) fn is_internal(py: Python<'_>, error: &PyErr) -> bool {
     let base = py.import("assur.errors").and_then(|module| module.getattr("AssurError"));
     base.is_ok_and(|base| error.get_type(py).is(&base))
@@ -143,10 +143,10 @@ pub(crate) fn is_internal(py: Python<'_>, error: &PyErr) -> bool {
 
 /// A `PositionError`.
 pub(crate) fn position(message: String) -> PyErr {
-    raise("PositionError", message, &Fields::default())
+    exception("PositionError", message, &Fields::default())
 }
 
-/// The first name in quotes of a list made for a sentence.
+/// The first quoted name in a message.
 fn first_quoted(text: &str) -> Option<&str> {
     text.split('"').nth(1)
 }

@@ -1,27 +1,27 @@
-//! Flywheels of many tables; Python checks, broadcasts and reshapes.
+//! Flywheels of many tables. Python checks, broadcasts and reshapes the arrays.
 
 use assur::dynamics::{Cycle, EndCondition, Flywheel, Mean, TableError};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::spread::spread;
-use crate::{error, gate};
+use crate::parallel_map::parallel_map;
+use crate::{detach, error};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
-type One = Result<Flywheel, TableError>;
+type Outcome = Result<Flywheel, TableError>;
 
-/// Tables a thread takes at once, and below which one thread does all.
-const TOGETHER: usize = 64;
+/// Tables per thread; up to this number one thread does all.
+const TABLES_PER_THREAD: usize = 64;
 
-/// What is asked of every table.
+/// What to solve for each table.
 #[derive(Clone, Copy)]
 enum Task {
-    /// A fluctuation at a mean speed.
+    /// The flywheel for a fluctuation at a mean speed.
     Sized(Mean),
-    /// A flywheel at a mean speed.
+    /// The motion with a flywheel at a mean speed.
     Driven(Mean),
-    /// A flywheel with a speed at the beginning.
+    /// The motion with a flywheel from an initial speed.
     Given,
 }
 
@@ -37,7 +37,7 @@ impl Task {
         })
     }
 
-    fn solve(self, turn: Cycle, [first, second]: [f64; 2]) -> One {
+    fn solve(self, turn: Cycle, [first, second]: [f64; 2]) -> Outcome {
         match self {
             Self::Sized(mean) => Flywheel::for_fluctuation(turn, first, second, mean),
             Self::Driven(mean) => Flywheel::for_mean_speed(turn, first, second, mean),
@@ -57,14 +57,14 @@ pub(crate) fn ends(name: &str) -> PyResult<EndCondition> {
     })
 }
 
-/// The flywheels of some tables with the same angles.
+/// The flywheels of several tables with the same angles.
 #[pyclass(frozen, module = "assur._core")]
-pub(crate) struct Flywheels(Vec<One>);
+pub(crate) struct Flywheels(Vec<Outcome>);
 
 #[pymethods]
 impl Flywheels {
-    /// `moment` and `inertia`: table after table; `first` and `second`: two numbers a table, what
-    /// they are is told by `task`.
+    /// `moment` and `inertia`: table after table. `first` and `second`: two numbers for each table;
+    /// `task` sets their meaning.
     #[new]
     #[pyo3(signature = (phi, moment, inertia, spline, task, first, second, threads=None, corners=None))]
     #[allow(clippy::too_many_arguments, reason = "flat arrays")]
@@ -90,18 +90,20 @@ impl Flywheels {
         }
         let corners = corners.unwrap_or_default();
         let one = |i: usize| {
-            let of = |all: &[f64]| all[i * rows..(i + 1) * rows].to_vec();
-            Cycle::with_corners(&phi, &of(&moment), &of(&inertia), ends, &corners)
+            let table = |all: &[f64]| all[i * rows..(i + 1) * rows].to_vec();
+            Cycle::with_corners(&phi, &table(&moment), &table(&inertia), ends, &corners)
                 .and_then(|turn| task.solve(turn, [first[i], second[i]]))
         };
-        gate::run(py, count <= TOGETHER, |cancel| spread(count, TOGETHER, threads, cancel, &one))
-            .map(Self)
+        detach::run(py, count <= TABLES_PER_THREAD, |cancel| {
+            parallel_map(count, TABLES_PER_THREAD, threads, cancel, &one)
+        })
+        .map(Self)
     }
 
-    /// Of every table: flywheel, speed at the beginning, motor, place and value of the greatest
-    /// speed and of the least, time of a turn. NaN where there is none.
+    /// For each table: flywheel, initial speed, moment of the motor, angle and value of the
+    /// greatest speed and of the least, period. NaN for a table without a flywheel.
     fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Vec<Array<'py>>> {
-        let of: [fn(&Flywheel) -> f64; 8] = [
+        let columns: [fn(&Flywheel) -> f64; 8] = [
             |f| f.inertia,
             |f| f.speed0,
             |f| f.cycle.motor,
@@ -111,20 +113,22 @@ impl Flywheels {
             |f| f.least.value,
             Flywheel::period,
         ];
-        let all = |of: fn(&Flywheel) -> f64| {
-            self.0.iter().map(|one| one.as_ref().map_or(f64::NAN, of)).collect()
+        let values = |column: fn(&Flywheel) -> f64| {
+            self.0.iter().map(|one| one.as_ref().map_or(f64::NAN, column)).collect()
         };
-        gate::guard(|| Ok(of.into_iter().map(|of| PyArray1::from_vec(py, all(of))).collect()))
+        detach::catch_panic(|| {
+            Ok(columns.into_iter().map(|column| PyArray1::from_vec(py, values(column))).collect())
+        })
     }
 
-    /// Why a table has none.
+    /// Why a table has no flywheel.
     fn problem(&self, index: usize) -> Option<String> {
         self.0.get(index)?.as_ref().err().map(ToString::to_string)
     }
 
-    /// A quantity of every table at as many places, table after table.
+    /// A quantity of every table at the same number of angles, table after table.
     fn curve<'py>(&self, py: Python<'py>, what: &str, places: Flat<'py>) -> PyResult<Array<'py>> {
-        let of: fn(&Flywheel, f64) -> f64 = match what {
+        let quantity: fn(&Flywheel, f64) -> f64 = match what {
             "speed" => Flywheel::speed,
             "time" => Flywheel::time,
             "angle" => Flywheel::angle,
@@ -134,10 +138,10 @@ impl Flywheels {
             _ => return Err(error::input(format!("no such curve: {what:?}"), None)),
         };
         let places = places.as_slice()?.to_vec();
-        let each = places.len().checked_div(self.0.len()).unwrap_or(0).max(1);
-        let values = gate::each(py, places.len(), |i| {
-            let (x, one) = (places[i], self.0.get(i / each).and_then(|one| one.as_ref().ok()));
-            one.filter(|_| x.is_finite()).map_or(f64::NAN, |f| of(f, x))
+        let per_table = places.len().checked_div(self.0.len()).unwrap_or(0).max(1);
+        let values = detach::map(py, places.len(), |i| {
+            let (x, one) = (places[i], self.0.get(i / per_table).and_then(|one| one.as_ref().ok()));
+            one.filter(|_| x.is_finite()).map_or(f64::NAN, |f| quantity(f, x))
         })?;
         Ok(PyArray1::from_vec(py, values))
     }

@@ -1,17 +1,17 @@
-//! Python binding of `assur`: converts, releases the GIL, maps errors; nothing else.
+//! Python binding of `assur`: converts arguments, releases the GIL and maps errors.
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
+mod convert;
 mod crank_rocker;
+mod detach;
 mod error;
 mod flywheel;
-mod gate;
 mod machine;
 mod mechanism;
 mod metrics;
-mod parts;
+mod parallel_map;
 mod run;
 mod slider_crank;
-mod spread;
 #[cfg(feature = "test-hooks")]
 mod test_hooks;
 mod trig;
@@ -48,16 +48,16 @@ mod _core {
     use super::test_hooks::panic_in_chunk;
     #[pymodule_export]
     use super::trig::{asin, atan2, sin_cos};
-    use super::{Bound, PyModule, PyResult, gate, pyfunction};
+    use super::{Bound, PyModule, PyResult, detach, pyfunction};
 
     #[pymodule_init]
     #[allow(clippy::unnecessary_wraps, reason = "PyO3 asks for a result")]
     fn init(_module: &Bound<'_, PyModule>) -> PyResult<()> {
-        gate::keep_places_of_panics();
+        detach::record_panic_locations();
         Ok(())
     }
 
-    /// The vector instructions that are used: "baseline", "avx2" or "avx512".
+    /// The vector instructions in use: "baseline", "avx2" or "avx512".
     #[pyfunction]
     fn simd_level() -> &'static str {
         assur::Simd::allowed().name()

@@ -1,4 +1,4 @@
-//! Machines: names in, reduced inertias, moments and motions out.
+//! Machines for Python: reduced inertias and moments, runs and steady states.
 
 use std::time::{Duration, Instant};
 
@@ -10,62 +10,66 @@ use assur::ode::Method;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
+use crate::convert::{
+    self, BodyArguments, EventArguments, LoadArguments, MotorArguments, TableArguments,
+};
+use crate::detach::{self, catch_panic};
 use crate::error;
-use crate::gate::{self, guard};
 use crate::mechanism::Mechanism;
-use crate::parts::{self, BodyParts, LoadParts, MotorParts, TableParts, WatchParts};
-use crate::run::{Calls, Run, broken, unsteady};
-use crate::spread::spread;
+use crate::parallel_map::parallel_map;
+use crate::run::{PythonCallbacks, Run, run_error, steady_error};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 /// Mass matrices, their derivatives, moments, potential energies, statuses.
 type Arrays<'py> = (Array<'py>, Array<'py>, Array<'py>, Array<'py>, Bound<'py, PyArray1<u8>>);
 
-/// Positions below which a call is not to be interrupted.
-const SMALL: usize = 20_000;
+/// Positions up to which a call need not check for signals.
+const FEW_POSITIONS: usize = 20_000;
 
-/// Where a machine's inertia and loads come from.
+/// Source of a machine's inertia and loads.
 enum Inner {
     Mechanism(Py<Mechanism>, assur::dynamics::Machine),
     Tables(TabulatedMachine),
 }
 
-/// A mechanism with bodies and loads, or tables of inertia and moment; and motors.
+/// A machine: a mechanism with bodies and loads, or tables of inertia and moment; and motors.
 #[pyclass(frozen, module = "assur._core")]
 pub(crate) struct Machine(Inner);
 
 #[pymethods]
 impl Machine {
-    /// Without a mechanism the first two tables are inertia and moment.
+    /// Without a mechanism, the first two tables are inertia and moment.
     #[new]
     fn new(
         py: Python<'_>,
         mechanism: Option<Py<Mechanism>>,
-        bodies: Vec<BodyParts>,
-        loads: Vec<LoadParts>,
+        bodies: Vec<BodyArguments>,
+        loads: Vec<LoadArguments>,
         gravity: [f64; 2],
-        tables: Vec<TableParts>,
-        motors: Vec<MotorParts>,
+        tables: Vec<TableArguments>,
+        motors: Vec<MotorArguments>,
     ) -> PyResult<Self> {
-        let tables = guard(|| tables.into_iter().map(parts::table).collect::<PyResult<_>>())?;
-        let motors = guard(|| motors.into_iter().map(parts::motor).collect::<PyResult<_>>())?;
+        let tables =
+            catch_panic(|| tables.into_iter().map(convert::table).collect::<PyResult<_>>())?;
+        let motors =
+            catch_panic(|| motors.into_iter().map(convert::motor).collect::<PyResult<_>>())?;
         let Some(mechanism) = mechanism else {
             return Ok(Self(Inner::Tables(TabulatedMachine { tables, motors })));
         };
-        let own = &mechanism.bind(py).get().inner;
-        let inner = guard(|| {
+        let core = &mechanism.bind(py).get().inner;
+        let inner = catch_panic(|| {
             let bodies =
-                bodies.into_iter().map(|one| parts::body(own, one)).collect::<PyResult<_>>()?;
+                bodies.into_iter().map(|one| convert::body(core, one)).collect::<PyResult<_>>()?;
             let loads =
-                loads.into_iter().map(|one| parts::load(own, one)).collect::<PyResult<_>>()?;
+                loads.into_iter().map(|one| convert::load(core, one)).collect::<PyResult<_>>()?;
             Ok(assur::dynamics::Machine { bodies, loads, gravity, tables, motors })
         })?;
         Ok(Self(Inner::Mechanism(mechanism, inner)))
     }
 
-    /// Refers designs to the drivers, each at as many positions; `given`: the values from outside
-    /// of every position.
+    /// Reduces the inertia and loads of designs to the drivers, each at the same number of
+    /// positions. `given`: the values of Python functions at every position.
     fn reduce<'py>(
         &self,
         py: Python<'py>,
@@ -77,9 +81,9 @@ impl Machine {
     ) -> PyResult<Arrays<'py>> {
         let (mechanism, machine) = match &self.0 {
             Inner::Mechanism(mechanism, machine) => (mechanism, machine),
-            Inner::Tables(sheet) => {
+            Inner::Tables(tabulated) => {
                 let q = q.as_slice()?;
-                return guard(|| Ok(arrays(py, &[sheet.reduce(q)])));
+                return catch_panic(|| Ok(arrays(py, &[tabulated.reduce(q)])));
             }
         };
         let mechanism = &mechanism.get().inner;
@@ -87,33 +91,33 @@ impl Machine {
         let [dimensions, q, speed, given] =
             [&dimensions, &q, &speed, &given].map(|a| a.as_slice().map(<[f64]>::to_vec));
         let (dimensions, q, speed, given) = (dimensions?, q?, speed?, given?);
-        let each = mechanism.dimensions().len();
-        let designs = dimensions.len() / each;
-        let whole = |all: &[f64]| designs > 0 && all.len().is_multiple_of(designs);
-        let fits = dimensions.len().is_multiple_of(each)
+        let size = mechanism.dimensions().len();
+        let designs = dimensions.len() / size;
+        let divides = |all: &[f64]| designs > 0 && all.len().is_multiple_of(designs);
+        let fits = dimensions.len().is_multiple_of(size)
             && q.len() == speed.len()
-            && [&q, &given].iter().all(|all| whole(all))
+            && [&q, &given].iter().all(|all| divides(all))
             && (q.len() / designs.max(1)).is_multiple_of(drivers);
         if !fits {
             return Err(error::solve(SolveError::Shape("the arrays do not fit".into())));
         }
-        let part = |all: &[f64], design: usize| {
-            let own = all.len() / designs;
-            all[design * own..(design + 1) * own].to_vec()
+        let part_of = |all: &[f64], design: usize| {
+            let share = all.len() / designs;
+            all[design * share..(design + 1) * share].to_vec()
         };
-        let all = gate::run(py, q.len() <= SMALL, |cancel| {
+        let all = detach::run(py, q.len() <= FEW_POSITIONS, |cancel| {
             let one = |design: usize| {
                 let [dimensions, q, speed, given] =
-                    [&dimensions, &q, &speed, &given].map(|all| part(all, design));
+                    [&dimensions, &q, &speed, &given].map(|all| part_of(all, design));
                 machine.reduce(mechanism, &dimensions, &q, &speed, &given, cancel)
             };
-            spread(designs, 1, threads, cancel, &one)
+            parallel_map(designs, 1, threads, cancel, &one)
         })?;
         Ok(arrays(py, &all))
     }
 
-    /// A motion along the time or (`along_q`) the coordinate; `functions`: those of loads and
-    /// motors, then of events.
+    /// Integrates a run over time or, with `along_q`, over the coordinate. `functions`: those of
+    /// loads and motors, then those of events.
     #[allow(clippy::too_many_arguments, reason = "what is asked of a run")]
     fn run(
         &self,
@@ -126,18 +130,20 @@ impl Machine {
         tolerances: (f64, Option<[f64; 2]>),
         limits: (f64, u64, Option<f64>),
         breaks: Vec<f64>,
-        watches: Vec<WatchParts>,
+        watches: Vec<EventArguments>,
         functions: (Vec<Py<PyAny>>, Vec<Py<PyAny>>),
     ) -> PyResult<Run> {
-        let own = match &self.0 {
+        let core = match &self.0 {
             Inner::Mechanism(mechanism, _) => Some(&mechanism.get().inner),
             Inner::Tables(_) => None,
         };
-        let watches =
-            watches.into_iter().map(|one| parts::watch(own, one)).collect::<PyResult<Vec<_>>>()?;
+        let watches = watches
+            .into_iter()
+            .map(|one| convert::event(core, one))
+            .collect::<PyResult<Vec<_>>>()?;
         let (t, q, speed) = start;
         let (max_step, max_steps, seconds) = limits;
-        let task = RunOptions {
+        let options = RunOptions {
             along: if along_q { Variable::Coordinate } else { Variable::Time },
             t,
             q: &q,
@@ -153,18 +159,19 @@ impl Machine {
             events: &watches,
             flywheel: 0.0,
         };
-        let made = called(py, functions, |calls| match &self.0 {
+        let run = with_callbacks(py, functions, |calls| match &self.0 {
             Inner::Mechanism(mechanism, machine) => {
-                machine.run(&mechanism.get().inner, &dimensions, &task, calls)
+                machine.run(&mechanism.get().inner, &dimensions, &options, calls)
             }
-            Inner::Tables(sheet) => sheet.run(&task, calls),
+            Inner::Tables(tabulated) => tabulated.run(&options, calls),
         })?;
-        made.map(Run::new).map_err(broken)
+        run.map(Run::new).map_err(run_error)
     }
 
-    /// The periodic motion from `q` over `span`, with a flywheel or one for a fluctuation
-    /// (`wanted`); `mean`: what the mean speed is. A period along the coordinate; multiplier,
-    /// moment, work of the motors, flywheel, least and greatest speed.
+    /// The steady state, with a given flywheel or one sized for a fluctuation (`wanted`).
+    /// `places`: initial q and span; `mean`: definition of the mean speed. Returns the run over one
+    /// period, and: multiplier, moment, work of the motors, flywheel, coordinate and value of the
+    /// least and of the greatest speed.
     #[allow(clippy::too_many_arguments, reason = "what is asked of it")]
     fn steady(
         &self,
@@ -183,7 +190,7 @@ impl Machine {
     ) -> PyResult<(Run, Vec<f64>)> {
         let [q, span] = places;
         let mean = if mean == "period" { Mean::Period } else { Mean::Extremes };
-        let search = SteadyOptions {
+        let options = SteadyOptions {
             q,
             span,
             speed,
@@ -196,13 +203,13 @@ impl Machine {
             flywheel,
         };
         let wanted = wanted.map(|fluctuation| FluctuationTarget { fluctuation, mean });
-        let made = called(py, (functions, Vec::new()), |calls| match &self.0 {
+        let steady = with_callbacks(py, (functions, Vec::new()), |calls| match &self.0 {
             Inner::Mechanism(mechanism, machine) => {
-                machine.steady(&mechanism.get().inner, &dimensions, &search, wanted, calls)
+                machine.steady(&mechanism.get().inner, &dimensions, &options, wanted, calls)
             }
-            Inner::Tables(sheet) => sheet.steady(&search, wanted, calls),
+            Inner::Tables(tabulated) => tabulated.steady(&options, wanted, calls),
         })?;
-        let steady = made.map_err(unsteady)?;
+        let steady = steady.map_err(steady_error)?;
         let [least, greatest] = steady.extremes();
         let numbers = vec![
             steady.multiplier,
@@ -218,17 +225,22 @@ impl Machine {
     }
 }
 
-/// Does something with functions, which need Python's lock all the time; then signals are heard.
-fn called<T: Send>(
+/// Does work with Python functions. The GIL is held throughout if there are any. Raises what a
+/// signal handler raised meanwhile.
+fn with_callbacks<T: Send>(
     py: Python<'_>,
     functions: (Vec<Py<PyAny>>, Vec<Py<PyAny>>),
-    work: impl FnOnce(&mut Calls) -> T + Send,
+    work: impl FnOnce(&mut PythonCallbacks) -> T + Send,
 ) -> PyResult<T> {
-    let mut calls = Calls::new(functions.0, functions.1);
-    let done = guard(|| {
-        Ok(if calls.are_many() { work(&mut calls) } else { py.detach(|| work(&mut calls)) })
+    let mut callbacks = PythonCallbacks::new(functions.0, functions.1);
+    let result = catch_panic(|| {
+        Ok(if callbacks.need_gil() {
+            work(&mut callbacks)
+        } else {
+            py.detach(|| work(&mut callbacks))
+        })
     })?;
-    calls.signal.map_or(Ok(done), Err)
+    callbacks.signal.map_or(Ok(result), Err)
 }
 
 fn method(low_order: bool) -> Method {
@@ -236,8 +248,8 @@ fn method(low_order: bool) -> Method {
 }
 
 fn deadline(seconds: Option<f64>) -> Option<Instant> {
-    let wait = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())?;
-    Instant::now().checked_add(wait)
+    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())?;
+    Instant::now().checked_add(duration)
 }
 
 fn arrays<'py>(py: Python<'py>, all: &[ReducedTable]) -> Arrays<'py> {

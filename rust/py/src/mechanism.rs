@@ -1,4 +1,4 @@
-//! The mechanism as Python sees it: names in, arrays out.
+//! The mechanism for Python: takes names, returns arrays.
 
 use std::mem::MaybeUninit;
 use std::num::NonZeroUsize;
@@ -14,28 +14,27 @@ use pyo3::exceptions::{PyMemoryError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice};
 
+use crate::detach::{self, catch_panic};
 use crate::error;
-use crate::gate::{self, guard};
 
-/// Positions below which a call with one driver ends sooner than a person can interrupt
-/// it: some milliseconds. (With several drivers a single position may take that.)
-const SMALL: usize = 100_000;
-/// Dyads with two solutions below which all assemblies are found as soon.
+/// Positions below which a call with one driver takes only milliseconds and need not check for
+/// signals. (With several drivers a single position may take as long.)
+const FEW_POSITIONS: usize = 100_000;
+/// Dyads with two solutions below which finding all assemblies need not check for signals.
 const FEW_SIGNS: usize = 12;
-/// Links below which a mechanism is built sooner than a person can interrupt it.
+/// Links below which building a mechanism need not check for signals.
 const FEW_LINKS: usize = 64;
-/// Positions that take as long as one way from the drawing.
-const WAY: usize = 1000;
-/// Positions (with several drivers a part of them) that are looked at closely before
-/// signals are.
-const LOOK: usize = 8192;
+/// Positions that take as long as tracing one branch from the drawing.
+const POSITIONS_PER_BRANCH: usize = 1000;
+/// Positions to diagnose between two checks for cancellation; fewer with several drivers.
+const POSITIONS_PER_CHECK: usize = 8192;
 
 /// Arrays by kind ("joint", "link", "place", "slide"), index and order; statuses.
-type Solved<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>);
+type Solution<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>);
 /// Residuals and conditions.
 type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 type SlideArguments = (String, String, String, f64, Option<String>);
-type GroupParts =
+type GroupFields =
     (usize, usize, Option<&'static str>, Option<usize>, Vec<String>, Vec<String>, Vec<String>);
 
 /// A compiled mechanism.
@@ -78,7 +77,7 @@ impl Mechanism {
             assembly,
         };
         let small = description.links.len() < FEW_LINKS;
-        let built = gate::run(py, small, |cancel| {
+        let built = detach::run(py, small, |cancel| {
             assur::Mechanism::new_unless(&description, Some(cancel))
         })?;
         Ok(Self { inner: built.map_err(error::structure)? })
@@ -102,14 +101,14 @@ impl Mechanism {
         self.inner.q0().to_vec()
     }
 
-    /// Inner pairs of the dyads with two solutions, with the drawing's signs.
+    /// Inner pairs of the dyads with two solutions, and their signs in the drawing.
     #[getter]
     fn assembly(&self) -> Vec<(String, i8)> {
         let names = self.inner.dyad_names().iter().cloned();
         names.zip(self.inner.signs().iter().copied()).collect()
     }
 
-    /// How far the joints of the drawing were moved, at most, for redundant links to fit, m.
+    /// Greatest change of a joint's coordinate by the adjustment for redundant links, m.
     #[getter]
     fn adjustment(&self) -> f64 {
         self.inner.adjustment()
@@ -118,10 +117,10 @@ impl Mechanism {
     /// The structural formula.
     #[getter]
     fn formula(&self) -> PyResult<String> {
-        guard(|| Ok(self.inner.structure().formula()))
+        catch_panic(|| Ok(self.inner.structure().formula()))
     }
 
-    /// Mobility by rank, at the drawing, and counted.
+    /// Mobility: by rank, at the drawing, and by counting.
     #[getter]
     fn mobility(&self) -> (usize, usize, i64) {
         let s = self.inner.structure();
@@ -141,12 +140,12 @@ impl Mechanism {
         let linkage = self.inner.linkage();
         let links = || redundant.links.iter().map(|&l| linkage.links[l].name.clone()).collect();
         let slides = || redundant.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect();
-        guard(|| Ok((links(), slides())))
+        catch_panic(|| Ok((links(), slides())))
     }
 
     /// Groups: class, order, kind, Artobolevsky's number, links, joints, slides.
     #[getter]
-    fn groups(&self) -> PyResult<Vec<GroupParts>> {
+    fn groups(&self) -> PyResult<Vec<GroupFields>> {
         let linkage = self.inner.linkage();
         let parts = |g: &assur::Group| {
             (
@@ -159,34 +158,34 @@ impl Mechanism {
                 g.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect(),
             )
         };
-        guard(|| Ok(self.inner.structure().groups.iter().map(parts).collect()))
+        catch_panic(|| Ok(self.inner.structure().groups.iter().map(parts).collect()))
     }
 
-    /// Place of a dimension; an unknown name is refused with the nearest ones.
+    /// Index of a dimension. Raises `InputError` with similar names if the name is unknown.
     fn dimension(&self, name: &str) -> PyResult<usize> {
-        guard(|| self.inner.dimensions().position(name).map_err(error::solve))
+        catch_panic(|| self.inner.dimensions().position(name).map_err(error::solve))
     }
 
-    /// Refuses a name that is no joint, link or slide.
+    /// Index of a joint, link or slide. Raises `InputError` if the name is unknown.
     fn require(&self, kind: &str, name: &str) -> PyResult<usize> {
-        let found = || match kind {
+        let index = || match kind {
             "joint" => self.inner.joint(name),
             "link" => self.inner.link(name),
             _ => self.inner.slide(name),
         };
-        guard(|| found().map_err(error::solve))
+        catch_panic(|| index().map_err(error::solve))
     }
 
-    /// Refuses the first value that is no dimension.
+    /// Raises `DimensionError` for the first invalid value.
     fn check_dimensions(&self, values: Vec<f64>) -> PyResult<()> {
         let fault = || self.inner.dimensions().first_fault(&values);
-        guard(|| fault().map_or(Ok(()), |e| Err(error::solve(e))))
+        catch_panic(|| fault().map_or(Ok(()), |e| Err(error::solve(e))))
     }
 
-    /// Solves designs at positions; see `assur.Mechanism.solve`. Outputs: indices of
-    /// joints, links, links whose places are wanted, slides. `kept`: arrays of an earlier
-    /// call (`columns`, `status`), written again; it is not `complete` while they are. `by`: the
-    /// dimension by which all is differentiated.
+    /// Solves designs at positions; see `assur.Mechanism.solve`. `outputs`: indices of joints,
+    /// links (angles), links (points) and slides. `kept`: an earlier result whose arrays
+    /// (`columns`, `status`) are overwritten; its `complete` is false meanwhile. `by`: the
+    /// dimension by which the results are differentiated.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     fn solve<'py>(
         &self,
@@ -200,7 +199,7 @@ impl Mechanism {
         threads: Option<NonZeroUsize>,
         kept: Option<Bound<'py, PyAny>>,
         by: Option<usize>,
-    ) -> PyResult<Solved<'py>> {
+    ) -> PyResult<Solution<'py>> {
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
         let [joints, links, places, slides] = outputs;
         let outputs = Outputs { joints, links, places, slides };
@@ -215,35 +214,36 @@ impl Mechanism {
             by,
         };
         let shape = || request.shape(&self.inner).map_err(error::solve);
-        let [designs, positions] = guard(shape)?;
+        let [designs, positions] = catch_panic(shape)?;
         let columns = request.columns(&self.inner);
-        let rows = designs.saturating_mul(positions);
+        let count = designs.saturating_mul(positions);
         let (values, status): (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>) =
             if let Some(kept) = &kept {
                 (kept.getattr("columns")?.extract()?, kept.getattr("status")?.extract()?)
             } else {
-                let status = unwritten::<u8>(py, rows, 1)?;
-                let new = columns.iter().map(|column| unwritten::<f64>(py, rows, column.width));
+                let status = uninitialized::<u8>(py, count, 1)?;
+                let new =
+                    columns.iter().map(|column| uninitialized::<f64>(py, count, column.width));
                 (new.collect::<PyResult<_>>()?, status)
             };
         // Two calls cannot write the same arrays at once.
-        let mut held = Vec::new();
+        let mut borrowed = Vec::new();
         for array in &values {
-            held.push(array.try_readwrite().map_err(in_use)?);
+            borrowed.push(array.try_readwrite().map_err(in_use)?);
         }
-        let mut held_status = status.try_readwrite().map_err(in_use)?;
+        let mut borrowed_status = status.try_readwrite().map_err(in_use)?;
         let arrays = Arrays {
-            columns: held.iter_mut().map(places_of).collect::<PyResult<_>>()?,
-            status: places_of(&mut held_status)?,
+            columns: borrowed.iter_mut().map(as_uninitialized).collect::<PyResult<_>>()?,
+            status: as_uninitialized(&mut borrowed_status)?,
         };
         request.check_arrays(&self.inner, &arrays).map_err(error::solve)?;
         let arrays = Mutex::new(Some(arrays));
-        let quick = rows.saturating_add(designs.saturating_mul(WAY)) < SMALL;
-        let small = self.inner.q0().len() == 1 && quick;
+        let cost = count.saturating_add(designs.saturating_mul(POSITIONS_PER_BRANCH));
+        let small = self.inner.q0().len() == 1 && cost < FEW_POSITIONS;
         if let Some(kept) = &kept {
             kept.setattr("complete", false)?;
         }
-        let solved = gate::run(py, small, |cancel| {
+        let solved = detach::run(py, small, |cancel| {
             let control = Control { threads, cancel: Some(cancel), ..Control::default() };
             let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
             arrays.map_or(Err(SolveError::Interrupted), |arrays| {
@@ -254,17 +254,17 @@ impl Mechanism {
         if let (Some(_), Err(error)) = (&kept, &solved)
             && error::is_internal(py, error)
         {
-            // Whoever took arrays from the earlier motion reads no mixture of it and this one.
-            for array in &mut held {
+            // The user may still hold these arrays: they must not mix two motions.
+            for array in &mut borrowed {
                 array.as_slice_mut()?.fill(f64::NAN);
             }
-            held_status.as_slice_mut()?.fill(Status::Lost as u8);
+            borrowed_status.as_slice_mut()?.fill(Status::Lost as u8);
         }
         solved?.map_err(error::solve)?;
         if let Some(kept) = &kept {
             kept.setattr("complete", true)?;
         }
-        drop((held, held_status));
+        drop((borrowed, borrowed_status));
         let dict = PyDict::new(py);
         for (column, values) in columns.iter().zip(values) {
             let (kind, index) = match column.quantity {
@@ -291,18 +291,19 @@ impl Mechanism {
         let (size, drivers) = (self.inner.dimensions().len(), self.inner.q0().len());
         let designs = dimensions.len().checked_div(size).unwrap_or(1);
         let positions = q.len() / drivers / if per_design { designs.max(1) } else { 1 };
-        let small = drivers == 1 && designs * (positions + 1) < LOOK;
-        let together = if drivers == 1 { LOOK } else { LOOK / 1024 } * drivers;
-        let both = gate::run(py, small, |cancel| {
+        let small = drivers == 1 && designs * (positions + 1) < POSITIONS_PER_CHECK;
+        let chunk =
+            if drivers == 1 { POSITIONS_PER_CHECK } else { POSITIONS_PER_CHECK / 1024 } * drivers;
+        let diagnostics = detach::run(py, small, |cancel| {
             let (mut residual, mut condition) = (Vec::new(), Vec::new());
             for design in 0..designs {
                 let values = &dimensions[design * size..][..size];
-                let own = if per_design { design * positions * drivers } else { 0 };
-                for some in q[own..][..positions * drivers].chunks(together) {
+                let first = if per_design { design * positions * drivers } else { 0 };
+                for coordinates in q[first..][..positions * drivers].chunks(chunk) {
                     if cancel.load(Ordering::Relaxed) {
                         return Ok((residual, condition));
                     }
-                    for d in self.inner.diagnose(values, some, &signs)? {
+                    for d in self.inner.diagnose(values, coordinates, &signs)? {
                         residual.push(d.residual);
                         condition.push(d.condition);
                     }
@@ -311,17 +312,17 @@ impl Mechanism {
             Ok((residual, condition))
         })?
         .map_err(error::solve)?;
-        Ok((PyArray1::from_vec(py, both.0), PyArray1::from_vec(py, both.1)))
+        Ok((PyArray1::from_vec(py, diagnostics.0), PyArray1::from_vec(py, diagnostics.1)))
     }
 
-    /// One position looked at closely: status, name concerned, sentence.
+    /// Diagnosis of one position: status, name concerned, message.
     fn explain(
         &self,
         dimensions: Vec<f64>,
         q: Vec<f64>,
         signs: Vec<i8>,
     ) -> PyResult<(u8, Option<String>, String)> {
-        guard(|| {
+        catch_panic(|| {
             let found = self.inner.diagnose(&dimensions, &q, &signs).map_err(error::solve)?;
             let one = found.into_iter().next();
             one.map(|d| (d.status as u8, d.name, d.sentence))
@@ -329,7 +330,7 @@ impl Mechanism {
         })
     }
 
-    /// Every assembly that exists at `q`, as signs.
+    /// Signs of every assembly that exists at `q`.
     fn assemblies(
         &self,
         py: Python<'_>,
@@ -337,7 +338,7 @@ impl Mechanism {
         q: Vec<f64>,
     ) -> PyResult<Vec<Vec<i8>>> {
         let small = self.inner.signs().len() < FEW_SIGNS;
-        let found = gate::run(py, small, |cancel| {
+        let found = detach::run(py, small, |cancel| {
             self.inner.assemblies_unless(&dimensions, &q, Some(cancel))
         })?;
         found.map_err(error::solve)
@@ -361,34 +362,35 @@ impl Mechanism {
     }
 }
 
-/// A NumPy array whose numbers are yet to be written; `MemoryError` where there is no room.
-fn unwritten<T: numpy::Element>(
+/// An uninitialized NumPy array; `MemoryError` if it does not fit in memory.
+fn uninitialized<T: numpy::Element>(
     py: Python<'_>,
     rows: usize,
     width: usize,
 ) -> PyResult<Bound<'_, PyArray1<T>>> {
-    let len = rows.checked_mul(width).and_then(|len| len.checked_add(LINE)).ok_or_else(|| {
+    let len = rows.checked_mul(width).and_then(|len| len.checked_add(CACHE_LINE)).ok_or_else(|| {
         PyMemoryError::new_err(
             "the result has more numbers than can be counted: ask for fewer designs or positions",
         )
     })?;
     let array = py.import("numpy")?.call_method1("empty", (len, T::get_dtype(py)))?;
     let array: Bound<'_, PyArray1<T>> = array.cast_into()?;
-    // Rows of eight numbers that begin with a line of the cache are written quicker.
-    let first = array.data().align_offset(LINE).min(LINE);
-    let some = PySlice::new(py, first.cast_signed(), (first + len - LINE).cast_signed(), 1);
-    Ok(array.get_item(some)?.cast_into()?)
+    // Rows of eight numbers are written faster if they start at a cache line.
+    let first = array.data().align_offset(CACHE_LINE).min(CACHE_LINE);
+    let aligned =
+        PySlice::new(py, first.cast_signed(), (first + len - CACHE_LINE).cast_signed(), 1);
+    Ok(array.get_item(aligned)?.cast_into()?)
 }
 
-/// Bytes of a line of the cache, and more than its numbers.
-const LINE: usize = 64;
+/// Bytes of a cache line. As a number of extra entries it is more than enough to align an array.
+const CACHE_LINE: usize = 64;
 
 fn in_use(error: numpy::BorrowError) -> PyErr {
     PyRuntimeError::new_err(format!("the arrays given to out= are in use: {error}"))
 }
 
-/// The places of an array that is held for writing.
-fn places_of<'a, T: numpy::Element>(
+/// The memory of an array borrowed for writing.
+fn as_uninitialized<'a, T: numpy::Element>(
     array: &'a mut PyReadwriteArray1<'_, T>,
 ) -> PyResult<&'a mut [MaybeUninit<T>]> {
     let data: *mut T = array.data();
@@ -397,9 +399,9 @@ fn places_of<'a, T: numpy::Element>(
         return Err(error::input(message.into(), None));
     }
     #[allow(unsafe_code, reason = "NumPy knows no places that are not written")]
-    // SAFETY: one-dimensional, contiguous and aligned (looked at above), of this length; the
-    // exclusive borrow keeps other calls away. `fill` writes every number, or nobody reads them:
-    // new arrays are dropped, those of a motion are marked as not complete.
-    let places = unsafe { std::slice::from_raw_parts_mut(data.cast(), array.len()) };
-    Ok(places)
+    // SAFETY: the array is one-dimensional, contiguous and aligned (checked above) and has this
+    // length; the exclusive borrow excludes other calls. `fill` writes every entry, or nobody reads
+    // them: new arrays are dropped, and those of a motion are marked as incomplete.
+    let slice = unsafe { std::slice::from_raw_parts_mut(data.cast(), array.len()) };
+    Ok(slice)
 }

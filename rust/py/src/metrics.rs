@@ -1,18 +1,18 @@
-//! Point-wise metrics over flat arrays; Python reshapes.
+//! Pointwise metrics of flat arrays; Python reshapes them.
 
 use assur::{Vector, metrics};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::gate;
+use crate::detach;
 
-/// Pairs of a flat array of x, y.
-fn pairs(array: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<Vector>> {
+/// Vectors of a flat array of x, y.
+fn vectors(array: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<Vector>> {
     Ok(array.as_slice()?.as_chunks::<2>().0.iter().map(|&[x, y]| Vector::new(x, y)).collect())
 }
 
-pub(crate) fn same(a: usize, b: usize) -> PyResult<()> {
+pub(crate) fn check_same_length(a: usize, b: usize) -> PyResult<()> {
     if a == b {
         Ok(())
     } else {
@@ -27,9 +27,9 @@ pub(crate) fn acute<'py>(
     a: PyReadonlyArray1<'py, f64>,
     b: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let (a, b) = (pairs(&a)?, pairs(&b)?);
-    same(a.len(), b.len())?;
-    let angles = gate::each(py, a.len(), |i| metrics::acute(a[i], b[i]))?;
+    let (a, b) = (vectors(&a)?, vectors(&b)?);
+    check_same_length(a.len(), b.len())?;
+    let angles = detach::map(py, a.len(), |i| metrics::acute(a[i], b[i]))?;
     Ok(PyArray1::from_vec(py, angles))
 }
 
@@ -40,14 +40,14 @@ pub(crate) fn curvature<'py>(
     d1: PyReadonlyArray1<'py, f64>,
     d2: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let (d1, d2) = (pairs(&d1)?, pairs(&d2)?);
-    same(d1.len(), d2.len())?;
-    let values = gate::each(py, d1.len(), |i| metrics::curvature(d1[i], d2[i]))?;
+    let (d1, d2) = (vectors(&d1)?, vectors(&d2)?);
+    check_same_length(d1.len(), d2.len())?;
+    let values = detach::map(py, d1.len(), |i| metrics::curvature(d1[i], d2[i]))?;
     Ok(PyArray1::from_vec(py, values))
 }
 
-/// Instant centres (flat x, y) of two links, each by a point, its first
-/// analogue and the link's.
+/// Instant centres (flat x, y) of two links. Each link is given by a point, the point's first
+/// analogue and the link's first analogue.
 #[pyfunction]
 pub(crate) fn instant_centre<'py>(
     py: Python<'py>,
@@ -55,16 +55,16 @@ pub(crate) fn instant_centre<'py>(
     b: [PyReadonlyArray1<'py, f64>; 3],
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let read = |link: &[PyReadonlyArray1<'py, f64>; 3]| -> PyResult<_> {
-        let [place, rate, turn] = link;
-        Ok((pairs(place)?, pairs(rate)?, turn.as_slice()?.to_vec()))
+        let [point, point_rate, angle_rate] = link;
+        Ok((vectors(point)?, vectors(point_rate)?, angle_rate.as_slice()?.to_vec()))
     };
     let (a, b) = (read(&a)?, read(&b)?);
-    same(a.2.len(), b.2.len())?;
-    for (places, rates, turns) in [&a, &b] {
-        same(places.len(), turns.len())?;
-        same(rates.len(), turns.len())?;
+    check_same_length(a.2.len(), b.2.len())?;
+    for (points, point_rates, angle_rates) in [&a, &b] {
+        check_same_length(points.len(), angle_rates.len())?;
+        check_same_length(point_rates.len(), angle_rates.len())?;
     }
-    let centres = gate::each(py, a.2.len(), |i| {
+    let centres = detach::map(py, a.2.len(), |i| {
         metrics::instant_centre((a.0[i], a.1[i], a.2[i]), (b.0[i], b.1[i], b.2[i]))
     })?;
     Ok(PyArray1::from_vec(py, centres.into_iter().flat_map(|p| [p.x, p.y]).collect()))

@@ -1,4 +1,4 @@
-//! Motions of machines: functions from Python in, arrays out.
+//! Runs of machines for Python: calls functions, returns arrays.
 
 use std::time::{Duration, Instant};
 
@@ -10,42 +10,43 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyFloat, PyTuple};
 
+use crate::detach::{self, catch_panic};
 use crate::error;
-use crate::gate::{self, guard};
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
-/// Watch, time, coordinates, speeds.
-type EventParts = (usize, f64, Vec<f64>, Vec<f64>);
+/// Index of the event, time, coordinates, speeds.
+type EventFields = (usize, f64, Vec<f64>, Vec<f64>);
 
-/// How often signals are looked for.
-const PATIENCE: Duration = Duration::from_millis(50);
+/// Time between two checks for signals.
+const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Python's functions of (t, q, speed), and its signals.
-pub(crate) struct Calls {
+/// Python functions of (t, q, speed), and checks for signals.
+pub(crate) struct PythonCallbacks {
     loads: Vec<Py<PyAny>>,
     events: Vec<Py<PyAny>>,
-    looked: Instant,
+    last_check: Instant,
+    /// What a signal handler raised.
     pub(crate) signal: Option<PyErr>,
 }
 
-impl Calls {
+impl PythonCallbacks {
     pub(crate) fn new(loads: Vec<Py<PyAny>>, events: Vec<Py<PyAny>>) -> Self {
-        Self { loads, events, looked: Instant::now(), signal: None }
+        Self { loads, events, last_check: Instant::now(), signal: None }
     }
 
-    /// Whether Python's lock is needed all the time.
-    pub(crate) fn are_many(&self) -> bool {
+    /// Whether the work needs the GIL throughout.
+    pub(crate) fn need_gil(&self) -> bool {
         !(self.loads.is_empty() && self.events.is_empty())
     }
 }
 
-/// A number, by the package's own rules: text and dates are none.
-fn number(given: &Bound<'_, PyAny>) -> PyResult<f64> {
-    if let Ok(float) = given.cast_exact::<PyFloat>() {
+/// Converts to a number by the rules of the package, which reject text and dates.
+fn number(object: &Bound<'_, PyAny>) -> PyResult<f64> {
+    if let Ok(float) = object.cast_exact::<PyFloat>() {
         return Ok(float.value());
     }
-    let read = given.py().import("assur._arrays")?.getattr("real_number")?;
-    read.call1((given, "it"))?.extract()
+    let real_number = object.py().import("assur._arrays")?.getattr("real_number")?;
+    real_number.call1((object, "it"))?.extract()
 }
 
 fn call(
@@ -54,19 +55,19 @@ fn call(
     what: &str,
     (t, q, speed): (f64, &[f64], &[f64]),
 ) -> PyResult<f64> {
-    let given = match (q, speed) {
+    let result = match (q, speed) {
         (&[q], &[speed]) => function.call1(py, (t, q, speed))?,
         _ => function.call1(py, (t, PyTuple::new(py, q)?, PyTuple::new(py, speed)?))?,
     };
-    let given = given.bind(py);
-    match number(given) {
+    let result = result.bind(py);
+    match number(result) {
         Ok(number) if number.is_finite() => Ok(number),
         _ => {
             let name = function.bind(py).getattr("__name__").map_or_else(
                 |_| function.bind(py).repr().map_or_else(|_| "?".into(), |text| text.to_string()),
                 |name| name.to_string(),
             );
-            let shown = given.repr()?;
+            let shown = result.repr()?;
             let message = format!(
                 "the {what} {name}(t, q, speed) gave {shown} at t = {t}, q = {}: a finite number is needed",
                 q.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
@@ -76,7 +77,7 @@ fn call(
     }
 }
 
-impl Callbacks for Calls {
+impl Callbacks for PythonCallbacks {
     type Error = PyErr;
 
     fn count(&self) -> usize {
@@ -109,22 +110,22 @@ impl Callbacks for Calls {
         if self.signal.is_some() {
             return true;
         }
-        if self.looked.elapsed() < PATIENCE {
+        if self.last_check.elapsed() < SIGNAL_INTERVAL {
             return false;
         }
-        self.looked = Instant::now();
+        self.last_check = Instant::now();
         #[allow(
             clippy::redundant_closure_for_method_calls,
             reason = "the method by itself is not general over the lifetime"
         )]
-        let heard = Python::attach(|py| py.check_signals());
-        self.signal = heard.err();
+        let checked = Python::attach(|py| py.check_signals());
+        self.signal = checked.err();
         self.signal.is_some()
     }
 }
 
-/// What a run could not be made for, as Python's.
-pub(crate) fn broken(error: IntegrationError<PyErr>) -> PyErr {
+/// The Python exception for a failed run.
+pub(crate) fn run_error(error: IntegrationError<PyErr>) -> PyErr {
     match error {
         Error::System(RunError::Callback(error)) => error,
         Error::System(nothing @ RunError::NoInitialPosition { .. }) => {
@@ -135,8 +136,8 @@ pub(crate) fn broken(error: IntegrationError<PyErr>) -> PyErr {
     }
 }
 
-/// Why there is no periodic motion, as Python's.
-pub(crate) fn unsteady(error: SteadyError<PyErr>) -> PyErr {
+/// The Python exception for a steady state that was not found.
+pub(crate) fn steady_error(error: SteadyError<PyErr>) -> PyErr {
     match error {
         SteadyError::Run(RunError::Callback(error)) => error,
         SteadyError::Run(nothing @ RunError::NoInitialPosition { .. }) => {
@@ -146,7 +147,7 @@ pub(crate) fn unsteady(error: SteadyError<PyErr>) -> PyErr {
     }
 }
 
-/// A motion.
+/// A run of a machine.
 #[pyclass(frozen, module = "assur._core")]
 pub(crate) struct Run(assur::dynamics::Run);
 
@@ -158,10 +159,11 @@ impl Run {
 
 #[pymethods]
 impl Run {
-    /// Between steps: time, coordinates, speeds, accelerations, work, kinetic and potential energy.
+    /// At the ends of steps: time, coordinates, speeds, accelerations, work, kinetic and potential
+    /// energy.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Vec<Array<'py>>> {
         let energy = |which: usize| self.0.energies.iter().map(|pair| pair[which]).collect();
-        guard(|| {
+        catch_panic(|| {
             let mut arrays = arrays(py, self.0.samples.clone());
             arrays.push(PyArray1::from_vec(py, energy(0)));
             arrays.push(PyArray1::from_vec(py, energy(1)));
@@ -169,7 +171,8 @@ impl Run {
         })
     }
 
-    /// The same without energies at times (or coordinates, if it went along these); NaN beyond.
+    /// The same without energies at given times, or coordinates for a run over the coordinate; NaN
+    /// outside the run.
     fn at<'py>(&self, py: Python<'py>, places: Vec<f64>) -> PyResult<Vec<Array<'py>>> {
         let own = &self.0.samples;
         let nan = vec![f64::NAN; own.q.len() / own.len().max(1)];
@@ -180,7 +183,7 @@ impl Run {
             acceleration: nan,
             work: f64::NAN,
         };
-        let found = gate::each(py, places.len(), |i| self.0.at(places[i]))?;
+        let found = detach::map(py, places.len(), |i| self.0.at(places[i]))?;
         let mut all = Samples::default();
         for one in &found {
             all.push(one.as_ref().unwrap_or(&nothing));
@@ -188,19 +191,19 @@ impl Run {
         Ok(arrays(py, all))
     }
 
-    /// Everything in bytes, for this version alone.
+    /// The run as bytes, readable only by the same version.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        guard(|| {
+        catch_panic(|| {
             let bytes =
                 postcard::to_stdvec(&self.0).map_err(|e| error::input(e.to_string(), None))?;
             Ok(PyBytes::new(py, &bytes))
         })
     }
 
-    /// The same again.
+    /// The run from these bytes.
     #[staticmethod]
     fn from_bytes(written: &[u8]) -> PyResult<Self> {
-        guard(|| match postcard::take_from_bytes(written) {
+        catch_panic(|| match postcard::take_from_bytes(written) {
             Ok((run, [])) => Ok(Self(run)),
             Ok((_, rest)) => {
                 let message = format!("these bytes are no run: {} too many", rest.len());
@@ -210,14 +213,14 @@ impl Run {
         })
     }
 
-    /// What happened on the way.
+    /// Events of the run.
     #[getter]
-    fn events(&self) -> Vec<EventParts> {
+    fn events(&self) -> Vec<EventFields> {
         let of = |one: &EventRecord| (one.event, one.t, one.q.clone(), one.speed.clone());
         self.0.events.iter().map(of).collect()
     }
 
-    /// The near miss of a change point at which it ended: dyad, by how much its lengths miss,
+    /// The near miss of a change point at which the run ended: dyad, misfit of its lengths (m),
     /// coordinate.
     #[getter]
     fn near_change_point(&self) -> Option<(String, f64, f64)> {
@@ -227,7 +230,8 @@ impl Run {
         }
     }
 
-    /// How it ended: kind, number of an event, table or motor (or code of a status), coordinates.
+    /// End of the run: kind, index of the event, table or motor (or code of the status),
+    /// coordinates.
     #[getter]
     fn ending(&self) -> (&'static str, usize, Vec<f64>) {
         let plain = |kind| (kind, 0, Vec::new());
@@ -246,18 +250,18 @@ impl Run {
         }
     }
 
-    /// What it cost.
+    /// Statistics of the integration.
     #[getter]
     fn statistics<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let own = &self.0.statistics;
-        let told = PyDict::new(py);
-        told.set_item("steps", own.steps)?;
-        told.set_item("rejected", own.rejected)?;
-        told.set_item("evaluations", own.evaluations)?;
-        told.set_item("restarts", own.restarts)?;
-        told.set_item("smallest_step", own.smallest)?;
-        told.set_item("largest_step", own.largest)?;
-        Ok(told)
+        let statistics = &self.0.statistics;
+        let dict = PyDict::new(py);
+        dict.set_item("steps", statistics.steps)?;
+        dict.set_item("rejected", statistics.rejected)?;
+        dict.set_item("evaluations", statistics.evaluations)?;
+        dict.set_item("restarts", statistics.restarts)?;
+        dict.set_item("smallest_step", statistics.smallest)?;
+        dict.set_item("largest_step", statistics.largest)?;
+        Ok(dict)
     }
 }
 

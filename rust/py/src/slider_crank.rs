@@ -1,4 +1,4 @@
-//! The slider-crank of the papers over flat arrays; Python checks, broadcasts and reshapes.
+//! The slider-crank of the papers on flat arrays. Python checks, broadcasts and reshapes them.
 
 use std::sync::atomic::Ordering;
 
@@ -7,64 +7,64 @@ use assur::papers::slider_crank::{Jet, Quantity, Series, SlowSeries};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::metrics::same;
-use crate::{error, gate};
+use crate::metrics::check_same_length;
+use crate::{detach, error};
 
-/// Numbers below which a series is summed sooner than a person can interrupt it.
-const SMALL: usize = 4096;
+/// Values below which summing a series need not check for signals.
+const FEW_VALUES: usize = 4096;
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
-/// Value and two analogues.
-type Three<'py> = (Array<'py>, Array<'py>, Array<'py>);
-/// Places and values.
-type Two<'py> = (Array<'py>, Array<'py>);
+/// Values, first and second analogues.
+type Orders<'py> = (Array<'py>, Array<'py>, Array<'py>);
+/// Angles and values.
+type AnglesAndValues<'py> = (Array<'py>, Array<'py>);
 
-fn three<'py>(py: Python<'py>, jets: &[Jet]) -> Three<'py> {
+fn orders<'py>(py: Python<'py>, jets: &[Jet]) -> Orders<'py> {
     let of = |k: usize| PyArray1::from_vec(py, jets.iter().map(|jet| jet.order(k)).collect());
     (of(0), of(1), of(2))
 }
 
-fn two(py: Python<'_>, places: Vec<f64>, values: Vec<f64>) -> Two<'_> {
-    (PyArray1::from_vec(py, places), PyArray1::from_vec(py, values))
+fn angles_and_values(py: Python<'_>, angles: Vec<f64>, values: Vec<f64>) -> AnglesAndValues<'_> {
+    (PyArray1::from_vec(py, angles), PyArray1::from_vec(py, values))
 }
 
-fn slow(error: SlowSeries) -> PyErr {
+fn series_error(error: SlowSeries) -> PyErr {
     error::input(error.to_string(), Some(error.k))
 }
 
-/// Of every pair of angle and ratio.
-fn each<'py>(
+/// Evaluates a function for each pair of angle and ratio.
+fn map_pairs<'py>(
     py: Python<'py>,
     phi: &Flat<'py>,
     ratio: &Flat<'py>,
     of: impl Fn(f64, f64) -> Jet + Sync,
-) -> PyResult<Three<'py>> {
+) -> PyResult<Orders<'py>> {
     let (phi, ratio) = (phi.as_slice()?.to_vec(), ratio.as_slice()?.to_vec());
-    same(phi.len(), ratio.len())?;
-    let jets = gate::each(py, phi.len(), |i| of(phi[i], ratio[i]))?;
-    Ok(three(py, &jets))
+    check_same_length(phi.len(), ratio.len())?;
+    let jets = detach::map(py, phi.len(), |i| of(phi[i], ratio[i]))?;
+    Ok(orders(py, &jets))
 }
 
-/// Exact strokes per crank length.
+/// Exact strokes divided by the crank length.
 #[pyfunction]
 pub(crate) fn slider_crank_stroke<'py>(
     py: Python<'py>,
     phi: Flat<'py>,
     lambda_: Flat<'py>,
-) -> PyResult<Three<'py>> {
-    each(py, &phi, &lambda_, core::stroke)
+) -> PyResult<Orders<'py>> {
+    map_pairs(py, &phi, &lambda_, core::stroke)
 }
 
-/// Strokes by the fraction's approximation.
+/// Strokes by the approximation with a fraction.
 #[pyfunction]
 pub(crate) fn slider_crank_fraction<'py>(
     py: Python<'py>,
     phi: Flat<'py>,
     lambda_: Flat<'py>,
     n: u32,
-) -> PyResult<Three<'py>> {
-    each(py, &phi, &lambda_, |phi, lambda| core::stroke_by_fraction(phi, lambda, n))
+) -> PyResult<Orders<'py>> {
+    map_pairs(py, &phi, &lambda_, |phi, lambda| core::stroke_by_fraction(phi, lambda, n))
 }
 
 /// Angles of the rod.
@@ -73,8 +73,8 @@ pub(crate) fn slider_crank_rod_angle<'py>(
     py: Python<'py>,
     phi: Flat<'py>,
     lambda_: Flat<'py>,
-) -> PyResult<Three<'py>> {
-    each(py, &phi, &lambda_, core::rod_angle)
+) -> PyResult<Orders<'py>> {
+    map_pairs(py, &phi, &lambda_, core::rod_angle)
 }
 
 /// Strokes by the series.
@@ -85,16 +85,16 @@ pub(crate) fn slider_crank_series<'py>(
     k: Flat<'py>,
     harmonics: usize,
     terms: Option<usize>,
-) -> PyResult<Three<'py>> {
+) -> PyResult<Orders<'py>> {
     let (phi, k) = (phi.as_slice()?.to_vec(), k.as_slice()?.to_vec());
-    same(phi.len(), k.len())?;
-    let jets = gate::run(py, phi.len() < SMALL, |cancel| {
-        // Designs mostly have their angles side by side.
+    check_same_length(phi.len(), k.len())?;
+    let jets = detach::run(py, phi.len() < FEW_VALUES, |cancel| {
+        // Neighbouring values mostly belong to one design, with the same k.
         let mut last: Option<(f64, Series)> = None;
         let mut jets = Vec::with_capacity(phi.len());
         for (&phi, &k) in phi.iter().zip(&k).take_while(|_| !cancel.load(Ordering::Relaxed)) {
             let series = match last.take() {
-                Some((own, series)) if own.to_bits() == k.to_bits() => series,
+                Some((last_k, series)) if last_k.to_bits() == k.to_bits() => series,
                 _ => Series::new(k, harmonics, terms)?,
             };
             jets.push(series.stroke(phi));
@@ -102,10 +102,10 @@ pub(crate) fn slider_crank_series<'py>(
         }
         Ok(jets)
     })?;
-    Ok(three(py, &jets.map_err(slow)?))
+    Ok(orders(py, &jets.map_err(series_error)?))
 }
 
-/// Coefficients, one k after another.
+/// Fourier coefficients, one k after another.
 #[pyfunction]
 pub(crate) fn slider_crank_fourier<'py>(
     py: Python<'py>,
@@ -114,7 +114,7 @@ pub(crate) fn slider_crank_fourier<'py>(
     terms: Option<usize>,
 ) -> PyResult<Array<'py>> {
     let k = k.as_slice()?.to_vec();
-    let all = gate::run(py, k.len() < SMALL, |cancel| {
+    let all = detach::run(py, k.len() < FEW_VALUES, |cancel| {
         let mut all = Vec::new();
         for &k in k.iter().take_while(|_| !cancel.load(Ordering::Relaxed)) {
             let series = Series::new(k, harmonics.max(1), terms)?;
@@ -122,10 +122,10 @@ pub(crate) fn slider_crank_fourier<'py>(
         }
         Ok(all)
     })?;
-    Ok(PyArray1::from_vec(py, all.map_err(slow)?))
+    Ok(PyArray1::from_vec(py, all.map_err(series_error)?))
 }
 
-/// Places of points of the rod, flat x, y, by order.
+/// Coordinates (flat x, y) of points of the rod and their analogues.
 #[pyfunction]
 pub(crate) fn slider_crank_rod_point<'py>(
     py: Python<'py>,
@@ -133,47 +133,47 @@ pub(crate) fn slider_crank_rod_point<'py>(
     lambda_: Flat<'py>,
     along: Flat<'py>,
     across: Flat<'py>,
-) -> PyResult<Three<'py>> {
+) -> PyResult<Orders<'py>> {
     let (phi, lambda) = (phi.as_slice()?.to_vec(), lambda_.as_slice()?.to_vec());
     let (along, across) = (along.as_slice()?.to_vec(), across.as_slice()?.to_vec());
-    same(phi.len(), lambda.len())?;
-    same(along.len(), across.len())?;
-    same(phi.len(), along.len())?;
+    check_same_length(phi.len(), lambda.len())?;
+    check_same_length(along.len(), across.len())?;
+    check_same_length(phi.len(), along.len())?;
     let jets =
-        gate::each(py, phi.len(), |i| core::rod_point(phi[i], lambda[i], along[i], across[i]))?;
-    Ok(three(py, &jets.into_iter().flatten().collect::<Vec<_>>()))
+        detach::map(py, phi.len(), |i| core::rod_point(phi[i], lambda[i], along[i], across[i]))?;
+    Ok(orders(py, &jets.into_iter().flatten().collect::<Vec<_>>()))
 }
 
-/// Angles of greatest speed, and the speeds; exactly, or by three terms of the series.
+/// Angles and values of the greatest speed, exact or by three terms of the series.
 #[pyfunction]
 pub(crate) fn slider_crank_greatest_speed<'py>(
     py: Python<'py>,
     k: Flat<'py>,
     exact: bool,
-) -> PyResult<Two<'py>> {
+) -> PyResult<AnglesAndValues<'py>> {
     let k = k.as_slice()?.to_vec();
     let of = |k: f64| {
         if exact { Ok(core::greatest_speed(k)) } else { core::greatest_speed_by_series(k) }
     };
-    let found = gate::each(py, k.len(), |i| of(k[i]))?;
-    let found = found.into_iter().collect::<Result<Vec<_>, _>>().map_err(slow)?;
-    let (places, values) = found.iter().map(|g| (g.at, g.value)).unzip();
-    Ok(two(py, places, values))
+    let found = detach::map(py, k.len(), |i| of(k[i]))?;
+    let found = found.into_iter().collect::<Result<Vec<_>, _>>().map_err(series_error)?;
+    let (angles, values) = found.iter().map(|g| (g.at, g.value)).unzip();
+    Ok(angles_and_values(py, angles, values))
 }
 
-/// Angles of the most negative acceleration, and the accelerations.
+/// Angles and values of the most negative acceleration.
 #[pyfunction]
 pub(crate) fn slider_crank_greatest_acceleration<'py>(
     py: Python<'py>,
     k: Flat<'py>,
-) -> PyResult<Two<'py>> {
+) -> PyResult<AnglesAndValues<'py>> {
     let k = k.as_slice()?.to_vec();
-    let found = gate::each(py, k.len(), |i| core::greatest_acceleration(k[i]))?;
-    let (places, values) = found.iter().map(|g| (g.at, g.value)).unzip();
-    Ok(two(py, places, values))
+    let found = detach::map(py, k.len(), |i| core::greatest_acceleration(k[i]))?;
+    let (angles, values) = found.iter().map(|g| (g.at, g.value)).unzip();
+    Ok(angles_and_values(py, angles, values))
 }
 
-/// Largest deviations of an approximation: relative, where, absolute, where.
+/// Largest deviations of an approximation: relative, its angle, absolute, its angle.
 #[pyfunction]
 pub(crate) fn slider_crank_deviation<'py>(
     py: Python<'py>,
@@ -183,7 +183,7 @@ pub(crate) fn slider_crank_deviation<'py>(
 ) -> PyResult<(Array<'py>, Array<'py>, Array<'py>, Array<'py>)> {
     let quantity = [Quantity::Stroke, Quantity::First, Quantity::Second][order.min(2)];
     let lambda = lambda_.as_slice()?.to_vec();
-    let found = gate::each(py, lambda.len(), |i| core::deviation(lambda[i], n, quantity))?;
+    let found = detach::map(py, lambda.len(), |i| core::deviation(lambda[i], n, quantity))?;
     let relative = |of: fn(&core::Greatest) -> f64| {
         let one = |d: &core::Deviation| d.relative.as_ref().map_or(f64::NAN, of);
         PyArray1::from_vec(py, found.iter().map(one).collect())

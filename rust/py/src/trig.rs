@@ -1,12 +1,12 @@
-//! The lanes' trigonometry over flat arrays: eight at a time, the rest one by one.
+//! The core's trigonometry on flat arrays: whole groups of lanes, then the rest one by one.
 
 use assur::lanes::{LANES, Lanes, Real};
 use assur::trig;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::gate;
-use crate::metrics::same;
+use crate::detach;
+use crate::metrics::check_same_length;
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 
@@ -17,7 +17,7 @@ pub(crate) fn sin_cos<'py>(
     x: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<(Array<'py>, Array<'py>)> {
     let x = x.as_slice()?;
-    gate::guard(|| {
+    detach::catch_panic(|| {
         let (mut sines, mut cosines) = (Vec::new(), Vec::new());
         let (groups, rest) = x.as_chunks::<LANES>();
         for &group in groups {
@@ -42,12 +42,12 @@ pub(crate) fn atan2<'py>(
     x: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Array<'py>> {
     let (y, x) = (y.as_slice()?, x.as_slice()?);
-    same(y.len(), x.len())?;
-    gate::guard(|| {
+    check_same_length(y.len(), x.len())?;
+    detach::catch_panic(|| {
         let mut angles = Vec::new();
         for (y, x) in y.chunks(LANES).zip(x.chunks(LANES)) {
             if y.len() == LANES {
-                let lanes = |of: &[f64]| Lanes::from_lanes(|i| of[i]);
+                let lanes = |x: &[f64]| Lanes::from_lanes(|i| x[i]);
                 angles.extend(trig::atan2(lanes(y), lanes(x)).0);
             } else {
                 angles.extend(y.iter().zip(x).map(|(&y, &x)| trig::atan2(y, x)));
@@ -61,7 +61,7 @@ pub(crate) fn atan2<'py>(
 #[pyfunction]
 pub(crate) fn asin<'py>(py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Array<'py>> {
     let (groups, rest) = x.as_slice()?.as_chunks::<LANES>();
-    gate::guard(|| {
+    detach::catch_panic(|| {
         let mut angles: Vec<f64> = groups.iter().flat_map(|&g| trig::asin(Lanes(g)).0).collect();
         angles.extend(rest.iter().map(|&one| trig::asin(one)));
         Ok(PyArray1::from_vec(py, angles))

@@ -1,4 +1,4 @@
-//! The mechanism of class IV of V. M. Dvorzhak's paper, by its joints.
+//! The class IV mechanism of V. M. Dvorzhak's paper, with given joints.
 
 use super::Description;
 
@@ -22,7 +22,7 @@ use super::Description;
 pub struct ClassIv;
 
 impl ClassIv {
-    /// The linkage, drawn with joints 1 to 10 at these places, m.
+    /// The linkage, drawn with joints 1 to 10 at these coordinates, m.
     #[must_use]
     pub fn description(joints: [[f64; 2]; 10]) -> Description {
         let named = joints.into_iter().enumerate();

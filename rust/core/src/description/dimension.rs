@@ -1,9 +1,9 @@
-//! The numbers that make one design: names, kinds, and values in the drawing.
+//! Dimensions of a linkage: names, kinds, and values in the drawing.
 
 use super::Linkage;
 use super::error::{Named, SolveError};
 use super::frame::{Axis, polar};
-use super::names::nearest;
+use super::names::suggest;
 use crate::math::tolerance::{GREATEST_LENGTH, LEAST_LENGTH};
 use crate::math::trig::sin_cos;
 
@@ -17,9 +17,9 @@ pub enum Dimension {
     GroundY { joint: usize },
     /// Distance from first to second joint, m; positive.
     Length { link: usize },
-    /// x of a further joint in the link's frame, m.
+    /// x of a third or later joint in the link's frame, m.
     JointX { link: usize, joint: usize },
-    /// y of a further joint in the link's frame, m.
+    /// y of a third or later joint in the link's frame, m.
     JointY { link: usize, joint: usize },
     /// Direction of a guide in the frame of the link that carries it, rad.
     SlideAngle { slide: usize },
@@ -28,20 +28,22 @@ pub enum Dimension {
     /// Distance of the sliding point's path from the origin, m, positive to the
     /// left of the guide.
     SlideOffset { slide: usize },
-    /// x of the value 0 in the frame of the link that carries the guide, m.
+    /// x of the point where the slide's value is 0, in the frame of the link that carries
+    /// the guide, m.
     SlideOriginX { slide: usize },
-    /// y of the value 0 in the frame of the link that carries the guide, m.
+    /// y of the point where the slide's value is 0, in the frame of the link that carries
+    /// the guide, m.
     SlideOriginY { slide: usize },
 }
 
 impl Dimension {
-    /// Whether the dimension is a length (scaled with the size), not an angle.
+    /// Whether the dimension is a length, which scales with the mechanism, and not an angle.
     #[must_use]
     pub fn is_length(self) -> bool {
         !matches!(self, Self::SlideAngle { .. } | Self::SlideLinkAngle { .. })
     }
 
-    /// What is wrong with this value, if anything.
+    /// What is wrong with a value of this dimension; `None` if it is valid.
     #[must_use]
     pub fn fault(self, value: f64) -> Option<&'static str> {
         if !value.is_finite() {
@@ -73,14 +75,14 @@ impl Dimensions {
             entries.push((format!("{owner}.{what}"), dimension));
         };
         for (index, link) in linkage.links.iter().enumerate() {
-            for (place, &joint) in link.joints.iter().enumerate() {
+            for (position, &joint) in link.joints.iter().enumerate() {
                 let name = &linkage.joints[joint].name;
                 if index == linkage.ground {
                     add(&link.name, &format!("{name}.x"), Dimension::GroundX { joint });
                     add(&link.name, &format!("{name}.y"), Dimension::GroundY { joint });
-                } else if place == 1 {
+                } else if position == 1 {
                     add(&link.name, "length", Dimension::Length { link: index });
-                } else if place > 1 {
+                } else if position > 1 {
                     add(&link.name, &format!("{name}.x"), Dimension::JointX { link: index, joint });
                     add(&link.name, &format!("{name}.y"), Dimension::JointY { link: index, joint });
                 }
@@ -102,13 +104,13 @@ impl Dimensions {
         Self { entries }
     }
 
-    /// How many there are.
+    /// Number of dimensions.
     #[must_use]
     pub fn len(&self) -> usize {
         self.entries.len()
     }
 
-    /// Whether there are none.
+    /// Whether the linkage has no dimensions.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
@@ -116,19 +118,19 @@ impl Dimensions {
 
     /// Names and kinds in order.
     pub fn iter(&self) -> impl Iterator<Item = (&str, Dimension)> {
-        self.entries.iter().map(|(n, d)| (n.as_str(), *d))
+        self.entries.iter().map(|(name, kind)| (name.as_str(), *kind))
     }
 
-    /// Place of a dimension by name.
+    /// Index of the dimension with this name.
     ///
     /// # Errors
     ///
-    /// [`SolveError::Unknown`], with the nearest names.
+    /// [`SolveError::Unknown`], with similar names.
     pub fn position(&self, name: &str) -> Result<usize, SolveError> {
         self.entries.iter().position(|(n, _)| n == name).ok_or_else(|| SolveError::Unknown {
             kind: Named::Dimension,
             name: name.into(),
-            hint: nearest(name, self.entries.iter().map(|(n, _)| n.as_str())),
+            hint: suggest(name, self.entries.iter().map(|(n, _)| n.as_str())),
         })
     }
 
@@ -138,7 +140,7 @@ impl Dimensions {
         self.entries.iter().map(|(_, d)| drawing_value(linkage, *d)).collect()
     }
 
-    /// The first dimension whose value is no dimension.
+    /// The error of the first invalid value, if any.
     #[must_use]
     pub fn first_fault(&self, values: &[f64]) -> Option<SolveError> {
         self.entries.iter().zip(values).find_map(|((name, d), &value)| {
@@ -147,8 +149,8 @@ impl Dimensions {
     }
 }
 
-/// `point` in the drawing, seen in the frame of a link.
-fn in_frame(linkage: &Linkage, link: usize, point: [f64; 2]) -> [f64; 2] {
+/// Coordinates of a point of the drawing in the frame of a link.
+fn to_link_frame(linkage: &Linkage, link: usize, point: [f64; 2]) -> [f64; 2] {
     let origin = if link == linkage.ground {
         [0.0; 2]
     } else {
@@ -157,7 +159,7 @@ fn in_frame(linkage: &Linkage, link: usize, point: [f64; 2]) -> [f64; 2] {
     let (x, y) = (point[0] - origin[0], point[1] - origin[1]);
     let joints = &linkage.links[link].joints;
     let (c, s) = if linkage.axis(link) == Axis::Joints {
-        // The joints' own unit vector, not their angle: exact along the axes.
+        // A unit vector instead of the angle is exact where the joints lie along an axis.
         let (a, b) = (linkage.joints[joints[0]].at, linkage.joints[joints[1]].at);
         let length = polar(a, b).0;
         ((b[0] - a[0]) / length, (b[1] - a[1]) / length)
@@ -178,16 +180,20 @@ fn drawing_value(linkage: &Linkage, dimension: Dimension) -> f64 {
             let joints = &linkage.links[link].joints;
             polar(linkage.joints[joints[0]].at, linkage.joints[joints[1]].at).0
         }
-        Dimension::JointX { link, joint } => in_frame(linkage, link, linkage.joints[joint].at)[0],
-        Dimension::JointY { link, joint } => in_frame(linkage, link, linkage.joints[joint].at)[1],
+        Dimension::JointX { link, joint } => {
+            to_link_frame(linkage, link, linkage.joints[joint].at)[0]
+        }
+        Dimension::JointY { link, joint } => {
+            to_link_frame(linkage, link, linkage.joints[joint].at)[1]
+        }
         Dimension::SlideAngle { slide } => guide_angle(slide, linkage.slides[slide].on),
         Dimension::SlideLinkAngle { slide } => guide_angle(slide, linkage.slides[slide].link),
         Dimension::SlideOffset { slide } => linkage.drawing_slide(slide).1,
         Dimension::SlideOriginX { slide } => {
-            in_frame(linkage, linkage.slides[slide].on, linkage.slide_origin(slide))[0]
+            to_link_frame(linkage, linkage.slides[slide].on, linkage.slide_origin(slide))[0]
         }
         Dimension::SlideOriginY { slide } => {
-            in_frame(linkage, linkage.slides[slide].on, linkage.slide_origin(slide))[1]
+            to_link_frame(linkage, linkage.slides[slide].on, linkage.slide_origin(slide))[1]
         }
     }
 }

@@ -1,18 +1,18 @@
-//! The four-bar linkage, by its lengths.
+//! The four-bar linkage with given lengths.
 
 use super::Description;
 
-/// Which way a four-bar is assembled.
+/// The assembly of a four-bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum FourBarMode {
     /// C to the right of the ray from D to B.
     #[default]
     Open,
-    /// C to the left of it.
+    /// C to the left of that ray.
     Crossed,
 }
 
-/// A four-bar by its lengths: joints A, B, C, D, the ground along +x from A to D.
+/// A four-bar with given lengths: joints A, B, C, D, the ground along +x from A to D.
 ///
 /// # Examples
 ///
@@ -40,8 +40,8 @@ pub struct FourBar {
 }
 
 impl FourBar {
-    /// The linkage, drawn with lengths of its own, the crank upright: the assembly
-    /// and the starting position do not depend on the dimensions of any design.
+    /// The linkage, drawn with the crank upright and lengths independent of any design,
+    /// so that the assembly and the starting position are always the same.
     #[must_use]
     pub fn description(mode: FourBarMode) -> Description {
         // Right and left of the ray from D to B, which points along (−3, 1).

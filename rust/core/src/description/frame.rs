@@ -1,15 +1,15 @@
 //! Frames of links in the drawing.
 //!
 //! A link with two joints or more has its frame at the first, x toward the
-//! second. A link with one joint, or none, takes the direction of the first
-//! slide it takes part in; a link without joints is placed where those two of its
-//! guides cross that do so most squarely.
+//! second. A link with one joint or none takes its direction from its first slide.
+//! A link without joints has its origin where two of its guides intersect: the two
+//! closest to perpendicular.
 
 use super::{Driver, Linkage};
 use crate::math::tolerance::PARALLEL;
 use crate::math::trig::{atan2, sin_cos};
 
-/// What the x axis of a link's frame follows.
+/// What sets the direction of the x axis of a link's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
     /// The axes of the drawing (the ground).
@@ -18,7 +18,7 @@ pub enum Axis {
     Joints,
     /// The guide of this slide.
     Slide(usize),
-    /// Nothing: one joint and no slide; the drawing's x axis is taken.
+    /// The drawing's x axis, because the link has at most one joint and no slide.
     Free,
 }
 
@@ -29,7 +29,7 @@ pub(crate) fn polar(a: [f64; 2], b: [f64; 2]) -> (f64, f64) {
     (libm::hypot(x, y), atan2(y, x))
 }
 
-/// The same angle in (−π, π].
+/// The angle reduced to (−π, π].
 fn principal(angle: f64) -> f64 {
     if angle > -std::f64::consts::PI && angle <= std::f64::consts::PI {
         return angle;
@@ -39,7 +39,7 @@ fn principal(angle: f64) -> f64 {
 }
 
 impl Linkage {
-    /// What the x axis of the link's frame follows.
+    /// What sets the direction of the x axis of the link's frame.
     #[must_use]
     pub fn axis(&self, link: usize) -> Axis {
         if link == self.ground {
@@ -67,8 +67,8 @@ impl Linkage {
         }
     }
 
-    /// The point of the link that carries its place: the first joint, or, for a
-    /// link without joints, where its guides cross. None if they do not.
+    /// The point that locates the link: its first joint or, without joints, the
+    /// intersection of its guides. `None` if they do not intersect.
     #[must_use]
     pub fn reference_point(&self, link: usize) -> Option<[f64; 2]> {
         if let Some(&joint) = self.links[link].joints.first() {
@@ -81,30 +81,30 @@ impl Linkage {
             .filter(|s| s.link == link || s.on == link)
             .map(|s| (self.guide_point(s, link), s.angle))
             .collect();
-        // The pair that crosses most squarely; of equals the first.
+        // The pair closest to perpendicular; among equals the first.
         let mut best: Option<(usize, usize)> = None;
         let mut sine = PARALLEL;
         for i in 0..guides.len() {
             for j in i + 1..guides.len() {
-                let here = sin_cos(guides[j].1 - guides[i].1).0.abs();
-                if here > 1.01 * sine {
-                    (best, sine) = (Some((i, j)), here);
+                let pair_sine = sin_cos(guides[j].1 - guides[i].1).0.abs();
+                if pair_sine > 1.01 * sine {
+                    (best, sine) = (Some((i, j)), pair_sine);
                 }
             }
         }
         let ((p, alpha), (r, beta)) = best.map(|(i, j)| (guides[i], guides[j]))?;
-        // p + t (cos α, sin α) on the line through r along β (Cramer).
+        // Intersection p + t (cos α, sin α) with the line through r along β (Cramer's rule).
         let (sin_alpha, cos_alpha) = sin_cos(alpha);
         let (sin_beta, cos_beta) = sin_cos(beta);
         let t = ((r[0] - p[0]) * sin_beta - (r[1] - p[1]) * cos_beta) / sin_cos(beta - alpha).0;
         Some([p[0] + t * cos_alpha, p[1] + t * sin_alpha])
     }
 
-    /// A point of a guide of a link without joints, in the drawing.
+    /// A point, in the drawing, of a guide of a link without joints.
     fn guide_point(&self, slide: &super::Slide, link: usize) -> [f64; 2] {
         let other = if slide.link == link { slide.on } else { slide.link };
-        // A guide carried by the jointless link passes through the place of the
-        // other link's first joint; one it slides on passes through its origin.
+        // A guide carried by this link passes through the first joint of the sliding
+        // link; a guide along which this link slides passes through the slide's origin.
         let joint = match slide.origin {
             Some(origin) if slide.link == link => Some(origin),
             _ => self.links[other].joints.first().copied(),
@@ -112,14 +112,14 @@ impl Linkage {
         joint.map_or([0.0; 2], |j| self.joints[j].at)
     }
 
-    /// Point of the drawing whose path is the slide's: the sliding link's first
+    /// The point, in the drawing, that moves along the guide: the sliding link's first
     /// joint, or its reference point.
     #[must_use]
     pub fn sliding_point(&self, slide: usize) -> [f64; 2] {
         self.reference_point(self.slides[slide].link).unwrap_or([0.0; 2])
     }
 
-    /// Point of the drawing where the slide's value is 0.
+    /// The point, in the drawing, where the slide's value is 0.
     #[must_use]
     pub fn slide_origin(&self, slide: usize) -> [f64; 2] {
         match self.slides[slide].origin {
@@ -137,7 +137,7 @@ impl Linkage {
         (x * cos + y * sin, y * cos - x * sin)
     }
 
-    /// Coordinate of a driver in the drawing: rad or m.
+    /// Coordinate of a driver in the drawing, rad or m.
     #[must_use]
     pub fn drawing_coordinate(&self, driver: Driver) -> f64 {
         match driver {

@@ -1,8 +1,8 @@
-//! What a mechanism is: joints, links, slides, drivers. No numerics.
+//! The description of a mechanism: joints, links, slides, drivers. No numerics.
 //!
-//! [`Description`] is what a user writes; [`Linkage`] is the same with every
-//! name resolved and every simple mistake refused. The drawing's coordinates
-//! give the dimensions and the assembly.
+//! [`Description`] is what the user writes. [`Linkage`] is the same, validated
+//! and with names resolved to indices. The drawing's coordinates set the
+//! dimensions and the assembly.
 
 pub(crate) mod class_iv;
 pub(crate) mod dimension;
@@ -13,12 +13,12 @@ pub(crate) mod names;
 pub(crate) mod slider_crank;
 pub(crate) mod validate;
 
-/// A point of the drawing where links turn about each other.
+/// A point where links turn about each other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
     /// Its name.
     pub name: String,
-    /// Its place in the drawing, m.
+    /// Its coordinates in the drawing, m.
     pub at: [f64; 2],
 }
 
@@ -53,7 +53,7 @@ pub enum Driver {
     Angle {
         /// The driven link.
         link: usize,
-        /// The link against which its angle is measured (the ground: its own angle).
+        /// The link from which its angle is measured (usually the ground).
         relative_to: usize,
     },
     /// Value of a slide, m.
@@ -71,7 +71,8 @@ pub struct SlideDescription {
     pub on: String,
     /// The guide's direction in the drawing, rad.
     pub angle: f64,
-    /// The joint of `on` from which the value is measured; none: from the drawing's place.
+    /// The joint of `on` from which the value is measured; `None`: from where the drawing
+    /// shows the sliding point.
     pub origin: Option<String>,
 }
 
@@ -112,7 +113,7 @@ pub enum DriverDescription {
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Description {
-    /// Joints and their places in the drawing, m.
+    /// Joints and their coordinates in the drawing, m.
     pub joints: Vec<(String, [f64; 2])>,
     /// Links and the names of their joints.
     pub links: Vec<(String, Vec<String>)>,
@@ -120,8 +121,8 @@ pub struct Description {
     pub slides: Vec<SlideDescription>,
     /// Driven coordinates, in the order of `q`.
     pub drivers: Vec<DriverDescription>,
-    /// Signs for dyads that the drawing leaves open (or that shall be assembled
-    /// the other way), keyed by the dyad's inner joint or slide.
+    /// Signs of dyads that the drawing shows flat, or that are to be assembled
+    /// differently from the drawing; keyed by the dyad's inner joint or slide.
     pub assembly: Vec<(String, i64)>,
 }
 
@@ -132,7 +133,7 @@ impl Description {
         Self::default()
     }
 
-    /// Adds a joint at its place in the drawing, m.
+    /// Adds a joint with its coordinates in the drawing, m.
     #[must_use]
     pub fn joint(mut self, name: &str, at: [f64; 2]) -> Self {
         self.joints.push((name.into(), at));
@@ -183,7 +184,7 @@ impl Description {
         self
     }
 
-    /// Names the assembly of a dyad by its inner joint or slide (+1 or −1).
+    /// Sets the sign (+1 or −1) of the dyad with this inner joint or slide.
     #[must_use]
     pub fn assembly(mut self, name: &str, sign: i64) -> Self {
         self.assembly.push((name.into(), sign));
@@ -196,7 +197,7 @@ impl Description {
 pub struct Linkage {
     /// Joints in the user's order.
     pub joints: Vec<Joint>,
-    /// Links in the user's order, the ground among them.
+    /// Links in the user's order, including the ground.
     pub links: Vec<Link>,
     /// Slides in the user's order.
     pub slides: Vec<Slide>,
@@ -204,12 +205,12 @@ pub struct Linkage {
     pub drivers: Vec<Driver>,
     /// Index of the link `ground`.
     pub ground: usize,
-    /// Signs named by the user, by inner joint or slide.
+    /// Signs given by the user, by inner joint or slide.
     pub assembly: Vec<(String, i8)>,
 }
 
 impl Linkage {
-    /// Largest extent of the drawing: the size against which lengths are judged.
+    /// Larger side of the drawing's bounding box, m: the scale for comparing lengths.
     #[must_use]
     pub fn size(&self) -> f64 {
         let mut low = [f64::INFINITY; 2];
@@ -238,7 +239,7 @@ impl Linkage {
         }
     }
 
-    /// The links, other than the ground, that a joint is on.
+    /// The links, including the ground, that have this joint.
     pub fn links_at(&self, joint: usize) -> impl Iterator<Item = usize> + '_ {
         (0..self.links.len()).filter(move |&l| self.links[l].joints.contains(&joint))
     }

@@ -1,22 +1,22 @@
-//! Names near to a misspelt one.
+//! Suggestions for misspelt names.
 
-/// `; did you mean …?` with the (at most three) nearest of `known`, or the
-/// whole list if it is short, or nothing.
+/// The end of a message about an unknown name: `; did you mean …?` with up to three similar
+/// names, else the first twelve of `known` in order of distance. Empty if `known` is.
 #[must_use]
-pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn suggest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let mut ranked: Vec<(usize, &str)> = known.map(|k| (distance(name, k), k)).collect();
     ranked.sort_unstable();
     if ranked.is_empty() {
         return String::new();
     }
     let limit = name.chars().count().div_ceil(2).max(2);
-    let near: Vec<String> =
+    let similar: Vec<String> =
         ranked.iter().take(3).filter(|(d, _)| *d <= limit).map(|(_, k)| format!("{k:?}")).collect();
-    if !near.is_empty() {
-        return format!("; did you mean {}?", near.join(" or "));
+    if !similar.is_empty() {
+        return format!("; did you mean {}?", similar.join(" or "));
     }
-    let some: Vec<String> = ranked.iter().take(12).map(|(_, k)| format!("{k:?}")).collect();
-    format!("; there are {}{}", some.join(", "), if ranked.len() > 12 { " …" } else { "" })
+    let first: Vec<String> = ranked.iter().take(12).map(|(_, k)| format!("{k:?}")).collect();
+    format!("; there are {}{}", first.join(", "), if ranked.len() > 12 { " …" } else { "" })
 }
 
 /// Levenshtein distance (Wagner and Fischer 1974), case ignored.
@@ -40,15 +40,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn distances_of_textbook_words() {
+    fn distance_of_textbook_words() {
         assert_eq!(distance("kitten", "sitting"), 3);
         assert_eq!(distance("Crank", "crank"), 0);
         assert_eq!(distance("", "ab"), 2);
     }
 
     #[test]
-    fn nearest_names_come_first() {
-        let hint = nearest("cuopler.length", ["coupler.length", "rocker.length"].into_iter());
+    fn similar_names_come_first() {
+        let hint = suggest("cuopler.length", ["coupler.length", "rocker.length"].into_iter());
         assert!(hint.starts_with("; did you mean \"coupler.length\""), "{hint}");
     }
 }

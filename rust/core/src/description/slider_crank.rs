@@ -1,9 +1,9 @@
-//! The slider-crank, by its lengths.
+//! The slider-crank with given lengths.
 
 use super::Description;
 
-/// A slider-crank by its lengths: joints O, A, B; the bore along +x, its line
-/// `offset` to the left of O; B ahead of A.
+/// A slider-crank with given lengths: joints O, A, B; the bore parallel to +x,
+/// its line `offset` to the left of O; B ahead of A.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SliderCrank {
     /// O to A, m.
@@ -15,7 +15,7 @@ pub struct SliderCrank {
 }
 
 impl SliderCrank {
-    /// The linkage, drawn with lengths of its own (crank 1 at 0°, rod 3).
+    /// The linkage, drawn with lengths independent of any design (crank 1 at 0°, rod 3).
     #[must_use]
     pub fn description() -> Description {
         Description::new()

@@ -1,30 +1,31 @@
-//! From a [`Description`] to a [`Linkage`]: names resolved, mistakes refused.
+//! Turns a [`Description`] into a [`Linkage`]: resolves names and rejects mistakes.
 
 use std::collections::HashMap;
 
 use super::error::{Named, StructureError};
-use super::names::nearest;
+use super::names::suggest;
 use super::{Description, Driver, DriverDescription, Joint, Link, Linkage, Slide};
 use crate::math::tolerance::{GREATEST_LENGTH, LEAST_LENGTH, ZERO_LENGTH};
 
 impl Linkage {
-    /// Resolves every name of a description.
+    /// Validates a description and resolves its names.
     ///
     /// # Errors
     ///
-    /// The first mistake found: bad, doubled or unknown names, coordinates that
-    /// are not finite, joints on no link, links of length zero, a slide or driver
-    /// that relates a link to itself, no ground, no driver.
+    /// The first mistake found: a bad, repeated or unknown name, a coordinate that
+    /// is not finite or out of range, a joint without a link, a link of length zero or
+    /// without a reference point, a slide or driver that relates a link to itself, a bad
+    /// assembly sign, no ground, no driver.
     pub fn new(description: &Description) -> Result<Self, StructureError> {
         check_names(description)?;
-        let joints = joints(description)?;
+        let joints = resolve_joints(description)?;
         let joint_index: HashMap<&str, usize> =
             joints.iter().enumerate().map(|(i, j)| (j.name.as_str(), i)).collect();
-        let links = links(description, &joint_index)?;
+        let links = resolve_links(description, &joint_index)?;
         let link_index: HashMap<&str, usize> =
             links.iter().enumerate().map(|(i, l)| (l.name.as_str(), i)).collect();
         let ground = *link_index.get("ground").ok_or(StructureError::NoGround)?;
-        let slides = slides(description, &joint_index, &link_index, &links)?;
+        let slides = resolve_slides(description, &joint_index, &link_index, &links)?;
         let mut linkage = Self {
             joints: joints.clone(),
             links: links.clone(),
@@ -33,36 +34,36 @@ impl Linkage {
             ground,
             assembly: Vec::new(),
         };
-        linkage.refuse_loose_joints()?;
-        linkage.refuse_zero_lengths()?;
-        linkage.refuse_unplaced_links()?;
-        linkage.drivers = drivers(description, &linkage)?;
-        linkage.assembly = assembly(description)?;
+        linkage.check_joints_have_links()?;
+        linkage.check_lengths()?;
+        linkage.check_reference_points()?;
+        linkage.drivers = resolve_drivers(description, &linkage)?;
+        linkage.assembly = check_assembly(description)?;
         Ok(linkage)
     }
 
-    fn refuse_loose_joints(&self) -> Result<(), StructureError> {
+    fn check_joints_have_links(&self) -> Result<(), StructureError> {
         match (0..self.joints.len()).find(|&j| self.links_at(j).next().is_none()) {
             Some(j) => Err(StructureError::LooseJoint { joint: self.joints[j].name.clone() }),
             None => Ok(()),
         }
     }
 
-    fn refuse_zero_lengths(&self) -> Result<(), StructureError> {
+    fn check_lengths(&self) -> Result<(), StructureError> {
         for (index, link) in self.links.iter().enumerate() {
             let [first, second, ..] = link.joints[..] else { continue };
             let (a, b) = (&self.joints[first], &self.joints[second]);
-            let span = libm::hypot(b.at[0] - a.at[0], b.at[1] - a.at[1]);
-            let size = a.at.iter().chain(&b.at).fold(0.0_f64, |m, x| m.max(x.abs()));
-            if index != self.ground && span > ZERO_LENGTH * size && span < LEAST_LENGTH {
+            let length = libm::hypot(b.at[0] - a.at[0], b.at[1] - a.at[1]);
+            let extent = a.at.iter().chain(&b.at).fold(0.0_f64, |m, x| m.max(x.abs()));
+            if index != self.ground && length > ZERO_LENGTH * extent && length < LEAST_LENGTH {
                 return Err(StructureError::OutOfRange {
                     kind: Named::Link,
                     name: link.name.clone(),
                     what: "length",
-                    value: span,
+                    value: length,
                 });
             }
-            if index != self.ground && span <= ZERO_LENGTH * size {
+            if index != self.ground && length <= ZERO_LENGTH * extent {
                 return Err(StructureError::ZeroLength {
                     link: link.name.clone(),
                     first: a.name.clone(),
@@ -75,7 +76,7 @@ impl Linkage {
         Ok(())
     }
 
-    fn refuse_unplaced_links(&self) -> Result<(), StructureError> {
+    fn check_reference_points(&self) -> Result<(), StructureError> {
         for slide in &self.slides {
             if self.links[slide.link].joints.is_empty() && slide.origin.is_none() {
                 return Err(StructureError::GuideNowhere {
@@ -94,7 +95,7 @@ impl Linkage {
     }
 }
 
-/// Dots, slashes, quotes, brackets, and what cannot be seen (besides blanks).
+/// Dots, slashes, quotes, brackets, and invisible characters other than blanks.
 const FORBIDDEN: &str = "./\\'\"`()[]{}<>‘’‚“”„«»‹›（）［］｛｝〈〉《》「」『』【】\u{ad}\u{200b}\u{200c}\u{200d}\u{200e}\u{200f}\u{2060}\u{feff}";
 
 fn check_names(description: &Description) -> Result<(), StructureError> {
@@ -115,7 +116,12 @@ fn check_names(description: &Description) -> Result<(), StructureError> {
     Ok(())
 }
 
-fn finite(value: f64, kind: Named, name: &str, what: &'static str) -> Result<(), StructureError> {
+fn check_range(
+    value: f64,
+    kind: Named,
+    name: &str,
+    what: &'static str,
+) -> Result<(), StructureError> {
     if !value.is_finite() {
         return Err(StructureError::NotFinite { kind, name: name.into(), what, value });
     }
@@ -125,33 +131,33 @@ fn finite(value: f64, kind: Named, name: &str, what: &'static str) -> Result<(),
     Ok(())
 }
 
-fn joints(description: &Description) -> Result<Vec<Joint>, StructureError> {
+fn resolve_joints(description: &Description) -> Result<Vec<Joint>, StructureError> {
     description
         .joints
         .iter()
         .map(|(name, at)| {
-            finite(at[0], Named::Joint, name, "x coordinate")?;
-            finite(at[1], Named::Joint, name, "y coordinate")?;
+            check_range(at[0], Named::Joint, name, "x coordinate")?;
+            check_range(at[1], Named::Joint, name, "y coordinate")?;
             Ok(Joint { name: name.clone(), at: *at })
         })
         .collect()
 }
 
-fn find(
+fn resolve(
     index: &HashMap<&str, usize>,
     kind: Named,
     name: &str,
-    place: impl FnOnce() -> String,
+    context: impl FnOnce() -> String,
 ) -> Result<usize, StructureError> {
     index.get(name).copied().ok_or_else(|| StructureError::Unknown {
         kind,
         name: name.into(),
-        place: place(),
-        hint: nearest(name, index.keys().copied()),
+        place: context(),
+        hint: suggest(name, index.keys().copied()),
     })
 }
 
-fn links(
+fn resolve_links(
     description: &Description,
     joint_index: &HashMap<&str, usize>,
 ) -> Result<Vec<Link>, StructureError> {
@@ -159,7 +165,7 @@ fn links(
     for (name, members) in &description.links {
         let mut joints = Vec::new();
         for member in members {
-            let joint = find(joint_index, Named::Joint, member, || format!("link {name:?}"))?;
+            let joint = resolve(joint_index, Named::Joint, member, || format!("link {name:?}"))?;
             if joints.contains(&joint) {
                 return Err(StructureError::DoubledJoint {
                     link: name.clone(),
@@ -173,7 +179,7 @@ fn links(
     Ok(links)
 }
 
-fn slides(
+fn resolve_slides(
     description: &Description,
     joint_index: &HashMap<&str, usize>,
     link_index: &HashMap<&str, usize>,
@@ -181,17 +187,17 @@ fn slides(
 ) -> Result<Vec<Slide>, StructureError> {
     let mut slides = Vec::new();
     for s in &description.slides {
-        let place = || format!("slide {:?}", s.name);
-        finite(s.angle, Named::Slide, &s.name, "angle")?;
-        let link = find(link_index, Named::Link, &s.link, place)?;
-        let on = find(link_index, Named::Link, &s.on, place)?;
+        let context = || format!("slide {:?}", s.name);
+        check_range(s.angle, Named::Slide, &s.name, "angle")?;
+        let link = resolve(link_index, Named::Link, &s.link, context)?;
+        let on = resolve(link_index, Named::Link, &s.on, context)?;
         if link == on {
-            return Err(StructureError::SameLink { place: place(), link: s.link.clone() });
+            return Err(StructureError::SameLink { place: context(), link: s.link.clone() });
         }
         let origin = match &s.origin {
             None => None,
             Some(name) => {
-                let joint = find(joint_index, Named::Joint, name, place)?;
+                let joint = resolve(joint_index, Named::Joint, name, context)?;
                 if !links[on].joints.contains(&joint) {
                     return Err(StructureError::OriginNotOnLink {
                         slide: s.name.clone(),
@@ -207,34 +213,37 @@ fn slides(
     Ok(slides)
 }
 
-fn drivers(description: &Description, linkage: &Linkage) -> Result<Vec<Driver>, StructureError> {
+fn resolve_drivers(
+    description: &Description,
+    linkage: &Linkage,
+) -> Result<Vec<Driver>, StructureError> {
     let link_index: HashMap<&str, usize> =
         linkage.links.iter().enumerate().map(|(i, l)| (l.name.as_str(), i)).collect();
     let mut drivers: Vec<Driver> = Vec::new();
     for d in &description.drivers {
         let driver = match d {
             DriverDescription::Named(name) => {
-                let names = linkage.slides.iter().map(|s| s.name.as_str());
-                let by_link = || link_index.get(name.as_str()).copied();
-                if let Some(slide) = names.clone().position(|s| s == name) {
+                let slide_names = linkage.slides.iter().map(|s| s.name.as_str());
+                let link_of_name = || link_index.get(name.as_str()).copied();
+                if let Some(slide) = slide_names.clone().position(|s| s == name) {
                     Driver::Slide(slide)
-                } else if let Some(link) = by_link() {
+                } else if let Some(link) = link_of_name() {
                     Driver::Angle { link, relative_to: linkage.ground }
                 } else {
                     return Err(StructureError::Unknown {
                         kind: Named::Link,
                         name: name.clone(),
                         place: "driver".into(),
-                        hint: nearest(name, link_index.keys().copied().chain(names)),
+                        hint: suggest(name, link_index.keys().copied().chain(slide_names)),
                     });
                 }
             }
             DriverDescription::Relative { link, relative_to } => {
-                let place = || "Drive".to_string();
-                let a = find(&link_index, Named::Link, link, place)?;
-                let b = find(&link_index, Named::Link, relative_to, place)?;
+                let context = || "Drive".to_string();
+                let a = resolve(&link_index, Named::Link, link, context)?;
+                let b = resolve(&link_index, Named::Link, relative_to, context)?;
                 if a == b {
-                    return Err(StructureError::SameLink { place: place(), link: link.clone() });
+                    return Err(StructureError::SameLink { place: context(), link: link.clone() });
                 }
                 Driver::Angle { link: a, relative_to: b }
             }
@@ -256,7 +265,7 @@ fn drivers(description: &Description, linkage: &Linkage) -> Result<Vec<Driver>, 
     Ok(drivers)
 }
 
-fn assembly(description: &Description) -> Result<Vec<(String, i8)>, StructureError> {
+fn check_assembly(description: &Description) -> Result<Vec<(String, i8)>, StructureError> {
     description
         .assembly
         .iter()

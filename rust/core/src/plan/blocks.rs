@@ -9,7 +9,7 @@ use crate::description::Linkage;
 use crate::description::error::StructureError;
 use crate::structure::Structure;
 use crate::structure::assur_group::roman;
-use crate::structure::closure::list;
+use crate::structure::closure::quoted_list;
 use crate::structure::matching::Pattern;
 
 /// Adds the steps of all blocks; returns for every point whether it is fixed or a step places it.
@@ -22,7 +22,7 @@ pub(crate) fn add_steps(
     let nodes = Nodes::new(plan, linkage, structure, kept);
     let blocks = nodes.pattern.blocks().ok_or_else(|| StructureError::OverConstrained {
         excess: 1,
-        links: list(linkage.links.iter().map(|l| l.name.as_str())),
+        links: quoted_list(linkage.links.iter().map(|l| l.name.as_str())),
     })?;
     let mut known = plan.fixed.clone();
     for block in &blocks {
@@ -101,14 +101,14 @@ impl Nodes {
             if let EdgeSlide::Slide(s) = edge.along {
                 touched.push(nodes.add(1, Some(Unknown::Slide(s))));
             }
-            nodes.pattern.equation(2, touched);
+            nodes.pattern.add_equation(2, touched);
         }
         nodes
     }
 
     fn add(&mut self, size: usize, unknown: Option<Unknown>) -> usize {
         self.unknowns.push(unknown);
-        self.pattern.unknown(size)
+        self.pattern.add_unknown(size)
     }
 
     fn unknown(&self, node: usize) -> Option<Unknown> {

@@ -8,7 +8,7 @@ use super::dyad::{Dyad, Form};
 use super::plan::Plan;
 use crate::description::dimension::Dimensions;
 use crate::description::error::{Named, SolveError, StructureError};
-use crate::description::names::nearest;
+use crate::description::names::suggest;
 use crate::description::{Description, Linkage};
 use crate::math::tolerance::FLAT_SINE;
 use crate::math::vector::Vector;
@@ -193,7 +193,7 @@ fn find<'a>(
     names.clone().position(|n| n == name).ok_or_else(|| SolveError::Unknown {
         kind,
         name: name.into(),
-        hint: nearest(name, names),
+        hint: suggest(name, names),
     })
 }
 
@@ -216,7 +216,7 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
                 kind: Named::Dyad,
                 name: name.clone(),
                 place: "assembly".into(),
-                hint: nearest(name, plan.dyad_names.iter().map(String::as_str)),
+                hint: suggest(name, plan.dyad_names.iter().map(String::as_str)),
             });
         }
     }

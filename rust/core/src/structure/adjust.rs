@@ -1,55 +1,57 @@
-//! Drawings of linkages with redundant links: adjusted until these fit at every position.
+//! Adjusts drawings of linkages with redundant links so that these fit at every position.
 //!
-//! Redundant links move only if some lengths agree, and typed coordinates agree to the digits they
-//! have. Moved along its motion, such a linkage misses its closure by `r`; the self-stress `ω` of
-//! the pose (`ωᵀ J = 0`) says that no displacement makes up for the part `ωᵀ r`. To first order a
-//! change `δ` of the drawing does where `ωᵀ (r + ∂r/∂δ · δ) = 0` at all poses: the least such
-//! change is found (minimum norm), and that again until nothing but rounding is left.
+//! A linkage with redundant links moves only if some lengths agree, and typed coordinates agree
+//! only to their digits. Along its motion such a linkage leaves a residual `r`; the self-stress `ω`
+//! of the pose (`ωᵀ J = 0`) shows that no displacement removes the part `ωᵀ r`. To first order, a
+//! change `δ` of the drawing removes it if `ωᵀ (r + ∂r/∂δ · δ) = 0` at all poses. The smallest such
+//! change (minimum norm) is applied repeatedly until only rounding remains.
 
 use std::sync::atomic::AtomicBool;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::closure::{Closure, LeftOut, list, rotations};
+use super::closure::{Closure, LeftOut, quoted_list, rotations};
 use super::freedom::{Pose, Skeleton, System};
 use super::least_norm::least_norm;
 use crate::description::Linkage;
 use crate::description::error::StructureError;
 use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
 
-/// A misfit that is nothing but the rounding of coordinates, of the size.
+/// Misfit, relative to the size, up to which a drawing is exact: the rounding of coordinates.
 const EXACT: f64 = 16.0 * UNIT_ROUNDOFF;
-/// Misfit of a pose that is on another branch, of the size.
-const FAR_OFF: f64 = 100.0 * NEARLY_REDUNDANT;
-/// What may be left after an adjustment: change points are missed by more.
-const FITS: f64 = 64.0 * UNIT_ROUNDOFF;
-/// Where nothing is left to be adjusted.
-const DONE: f64 = 2.0 * UNIT_ROUNDOFF;
-/// Length of a step along the motion (rad, or of the size), and steps each way.
+/// Misfit, relative to the size, above which a pose is on another branch.
+const OTHER_BRANCH: f64 = 100.0 * NEARLY_REDUNDANT;
+/// Misfit allowed after an adjustment: with more, change points are missed.
+const ACCEPTED: f64 = 64.0 * UNIT_ROUNDOFF;
+/// Misfit below which further adjustment is useless.
+const CONVERGED: f64 = 2.0 * UNIT_ROUNDOFF;
+/// Length of a step along the motion (rad, or relative to the size), and number of steps in each
+/// sense.
 const STEP: f64 = 0.2;
 const STEPS: usize = 16;
-/// Poses that nearly fit before one that does not, for a drawing to be one that should.
-const LEAST_POSES: usize = 4;
-/// Directions that are tried where the drawing does not show which way it moves.
+/// Number of nearly fitting poses from which on a drawing is taken as meant to fit, although it
+/// stops fitting along its motion.
+const MIN_POSES: usize = 4;
+/// Directions to try if the drawing has several motions.
 const DIRECTIONS: usize = 4;
-/// Part of the poses at which a link must be redundant to be so everywhere.
-const MOSTLY: f64 = 0.75;
-/// Rounds, at most: each leaves the square of what the one before left.
-const ROUNDS: usize = 8;
+/// Least share of poses with a self-stress for links to be redundant everywhere.
+const MIN_STRESSED_SHARE: f64 = 0.75;
+/// Limit of iterations: each squares the error of the one before.
+const MAX_ITERATIONS: usize = 8;
 
-/// A drawing that was looked at.
+/// Result of an adjustment.
 #[derive(Debug)]
 pub(crate) enum Adjusted {
-    /// It fits, or nothing is redundant.
+    /// The drawing fits, or nothing is redundant.
     AsDrawn,
-    /// Another drawing that fits, and how far its joints were moved at most, m.
+    /// A drawing that fits, and the greatest change of a coordinate of its joints, m.
     By(Box<Linkage>, f64),
-    /// Lengths that should agree do not: the links concerned, by how much they miss (m), and what
-    /// part of the size that is.
+    /// Lengths that should agree do not: the links concerned and their misfit, in m and relative
+    /// to the size.
     TooFar { links: String, gap: f64, part: f64 },
 }
 
-/// Adjusts a drawing.
+/// Adjusts a drawing so that its redundant links fit.
 ///
 /// # Errors
 ///
@@ -59,18 +61,18 @@ pub(crate) fn adjust(
     closure: &Closure,
     cancel: Option<&AtomicBool>,
 ) -> Result<Adjusted, StructureError> {
-    let Some(first) = Conditions::of(linkage, closure, cancel)? else {
+    let Some(initial) = Conditions::of(linkage, closure, cancel)? else {
         return Ok(Adjusted::AsDrawn);
     };
-    if first.misfit() <= EXACT {
+    if initial.misfit() <= EXACT {
         return Ok(Adjusted::AsDrawn);
     }
-    let (part, size) = (first.misfit(), first.size);
-    let too_far = Adjusted::TooFar { links: first.links.clone(), gap: part * size, part };
-    let (mut best, mut conditions) = (linkage.clone(), first);
-    for _ in 0..ROUNDS {
-        let next = conditions.met(&best);
-        if moved(linkage, &next) > REDUNDANT_CLOSURE * size {
+    let (part, size) = (initial.misfit(), initial.size);
+    let too_far = Adjusted::TooFar { links: initial.links.clone(), gap: part * size, part };
+    let (mut best, mut conditions) = (linkage.clone(), initial);
+    for _ in 0..MAX_ITERATIONS {
+        let next = conditions.adjusted(&best);
+        if max_change(linkage, &next) > REDUNDANT_CLOSURE * size {
             return Ok(too_far);
         }
         match Conditions::of(&next, closure, cancel)? {
@@ -79,83 +81,88 @@ pub(crate) fn adjust(
             }
             _ => break,
         }
-        if conditions.misfit() <= DONE {
+        if conditions.misfit() <= CONVERGED {
             break;
         }
     }
-    if conditions.misfit() > FITS {
+    if conditions.misfit() > ACCEPTED {
         return Ok(too_far);
     }
-    let by = moved(linkage, &best);
-    Ok(Adjusted::By(Box::new(best), by))
+    let change = max_change(linkage, &best);
+    Ok(Adjusted::By(Box::new(best), change))
 }
 
-/// How far the joints of one drawing are from those of another, at most.
-fn moved(one: &Linkage, other: &Linkage) -> f64 {
+/// Greatest difference between coordinates of joints in two drawings.
+fn max_change(one: &Linkage, other: &Linkage) -> f64 {
     let pairs = one.joints.iter().zip(&other.joints);
     pairs.flat_map(|(a, b)| [0, 1].map(|k| (a.at[k] - b.at[k]).abs())).fold(0.0, f64::max)
 }
 
-/// What a drawing must meet for its redundant links to fit: a row for every pose and self-stress.
+/// Linear conditions on a change of the drawing for its redundant links to fit: a row for each
+/// pose and self-stress.
 struct Conditions {
     size: f64,
-    /// Names of links and slides that are under stress.
+    /// Names of the links and slides in a self-stress.
     links: String,
-    /// Derivatives by the coordinates of all joints (of the size), then by the angles of guides.
+    /// Derivatives by the coordinates of all joints (relative to the size), then by the angles of
+    /// guides.
     rows: DMatrix<f64>,
-    /// Misfits, of the size.
+    /// Misfits relative to the size.
     misfits: DVector<f64>,
 }
 
 impl Conditions {
-    /// None if nothing is redundant.
+    /// `None` if nothing is redundant, or if it does not nearly fit along the motion.
     fn of(
         linkage: &Linkage,
         closure: &Closure,
         cancel: Option<&AtomicBool>,
     ) -> Result<Option<Self>, StructureError> {
-        let everything = LeftOut::default();
-        let (free, classes) = rotations(linkage, &everything, false)?;
+        let none_left_out = LeftOut::default();
+        let (free, classes) = rotations(linkage, &none_left_out, false)?;
         let skeleton = Skeleton::new(linkage, closure, &free, classes, cancel);
-        let system = System::new(linkage, closure, &everything, &free, false);
-        let here = skeleton.nearly_rank(&system, skeleton.drawing())?;
-        if here.excess == 0 || here.mobility == 0 {
+        let system = System::new(linkage, closure, &none_left_out, &free, false);
+        let rank = skeleton.tolerant_rank(&system, skeleton.drawing())?;
+        if rank.excess == 0 || rank.mobility == 0 {
             return Ok(None);
         }
-        let (under_stress, _) = skeleton.under_stress(&system, &here.stresses);
+        let (stressed, _) = skeleton.stressed_parts(&system, &rank.stresses);
         let others = (0..linkage.links.len())
-            .filter(|l| *l != linkage.ground && !under_stress.contains(l))
+            .filter(|l| *l != linkage.ground && !stressed.contains(l))
             .collect();
-        // What is not under stress would only end the walk sooner.
-        let rest = LeftOut { links: others, slides: Vec::new() };
-        let (free, classes) = rotations(linkage, &rest, false)?;
+        // Other links are left out: they could only limit the motion.
+        let left_out = LeftOut { links: others, slides: Vec::new() };
+        let (free, classes) = rotations(linkage, &left_out, false)?;
         let part = Skeleton::new(linkage, closure, &free, classes, cancel);
-        let of_part = System::new(linkage, closure, &rest, &free, false);
-        let found = match Self::along(&part, &of_part)? {
+        let part_system = System::new(linkage, closure, &left_out, &free, false);
+        let found = match Self::along_motion(&part, &part_system)? {
             Some(found) => Some(found),
-            // Alone it may have other motions, along which it does not fit.
-            None => Self::along(&skeleton, &system)?,
+            // The stressed part by itself may have other motions, along which it does not fit.
+            None => Self::along_motion(&skeleton, &system)?,
         };
-        let links = skeleton.stressed(&system, &here.stresses);
-        let links = list(links.iter().map(String::as_str));
+        let links = skeleton.stressed_names(&system, &rank.stresses);
+        let links = quoted_list(links.iter().map(String::as_str));
         Ok(found.map(|found| Self { links, ..found }))
     }
 
-    /// Those along the motions of a system; none if it does not nearly fit there.
-    fn along(skeleton: &Skeleton<'_>, system: &System) -> Result<Option<Self>, StructureError> {
+    /// The conditions along the motions of a system; `None` if it does not nearly fit there.
+    fn along_motion(
+        skeleton: &Skeleton<'_>,
+        system: &System,
+    ) -> Result<Option<Self>, StructureError> {
         let (mut rows, mut misfits) = (Vec::new(), Vec::new());
-        let (mut poses, mut stressed) = (0, 0);
-        for pose in walk(skeleton, system)? {
-            let rank = skeleton.nearly_rank(system, &pose)?;
+        let (mut poses, mut with_stress) = (0, 0);
+        for pose in poses_along_motion(skeleton, system)? {
+            let rank = skeleton.tolerant_rank(system, &pose)?;
             poses += 1;
-            stressed += usize::from(rank.excess > 0);
+            with_stress += usize::from(rank.excess > 0);
             let residual = skeleton.residual(system, &pose);
             for stress in rank.stresses.column_iter() {
                 misfits.push(stress.dot(&residual));
-                rows.push(skeleton.by_drawing(system, &pose, &stress.into_owned()));
+                rows.push(skeleton.drawing_gradient(system, &pose, &stress.into_owned()));
             }
         }
-        if poses == 0 || (stressed as f64) < MOSTLY * f64::from(poses) {
+        if poses == 0 || (with_stress as f64) < MIN_STRESSED_SHARE * f64::from(poses) {
             return Ok(None);
         }
         Ok(Some(Self {
@@ -170,8 +177,8 @@ impl Conditions {
         self.misfits.amax()
     }
 
-    /// The drawing with the least change that meets them.
-    fn met(&self, linkage: &Linkage) -> Linkage {
+    /// The drawing after the smallest change that meets the conditions.
+    fn adjusted(&self, linkage: &Linkage) -> Linkage {
         let change = least_norm(self.rows.clone(), &self.misfits);
         let mut next = linkage.clone();
         for (j, joint) in next.joints.iter_mut().enumerate() {
@@ -186,43 +193,45 @@ impl Conditions {
     }
 }
 
-/// Poses along the motion, both ways from the drawing, as far as it nearly fits; none if it does not at
-/// more than a few.
-fn walk(skeleton: &Skeleton<'_>, system: &System) -> Result<Vec<Pose>, StructureError> {
-    let start = skeleton.nearly_rank(system, skeleton.drawing())?;
-    let (mut found, mut ends) = (Vec::new(), false);
+/// Poses along the motion, in both senses from the drawing, while the linkage nearly fits. Empty
+/// if it stops fitting after fewer than [`MIN_POSES`] poses.
+fn poses_along_motion(
+    skeleton: &Skeleton<'_>,
+    system: &System,
+) -> Result<Vec<Pose>, StructureError> {
+    let start = skeleton.tolerant_rank(system, skeleton.drawing())?;
+    let (mut found, mut stops_fitting) = (Vec::new(), false);
     let directions = if start.mobility == 1 { 1 } else { DIRECTIONS };
     for direction in 0..directions {
-        // Any mixture; the same one in every run.
+        // Arbitrary weights, but the same in every run.
         let weights = DVector::from_fn(start.motions.ncols(), |k, _| {
             (1.0 + 2.3 * (k + 3 * direction) as f64) % 1.7 - 0.83
         });
-        for way in [1.0, -1.0] {
+        for sense in [1.0, -1.0] {
             let mut pose = skeleton.drawing().clone();
-            let mut along = (&start.motions * &weights).scale(way);
+            let mut tangent = (&start.motions * &weights).scale(sense);
             for _ in 0..STEPS {
-                let step = along.scale(STEP / along.amax().max(f64::MIN_POSITIVE));
-                let Some((next, misfit)) = skeleton.project_nearly(system, &pose, &step)? else {
+                let step = tangent.scale(STEP / tangent.amax().max(f64::MIN_POSITIVE));
+                let Some((next, misfit)) = skeleton.project_tolerant(system, &pose, &step)? else {
                     break;
                 };
-                if misfit > FAR_OFF {
-                    // Another branch, where they do not fit at all.
+                if misfit > OTHER_BRANCH {
                     break;
                 }
                 if misfit > NEARLY_REDUNDANT {
-                    ends = true;
+                    stops_fitting = true;
                     break;
                 }
-                let motions = skeleton.nearly_rank(system, &next)?.motions;
-                // The motion there that goes on as before.
+                let motions = skeleton.tolerant_rank(system, &next)?.motions;
+                // Continue in the direction closest to the previous one.
                 let Some(gram) = motions.tr_mul(&motions).cholesky() else { break };
-                along = &motions * gram.solve(&motions.tr_mul(&along));
+                tangent = &motions * gram.solve(&motions.tr_mul(&tangent));
                 found.push(next.clone());
                 pose = next;
             }
         }
     }
-    // Beside a change point the root of what they miss by shows; beside a drawing that is singular by
-    // chance they miss at once.
-    Ok(if ends && found.len() < LEAST_POSES { Vec::new() } else { found })
+    // Near a change point the square root of the misfit appears, after several poses that nearly
+    // fit. A drawing that is only singular by chance stops fitting at once.
+    Ok(if stops_fitting && found.len() < MIN_POSES { Vec::new() } else { found })
 }

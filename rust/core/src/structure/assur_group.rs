@@ -1,8 +1,9 @@
 //! Assur groups: the smallest parts of zero mobility, in solving order.
 //!
-//! With the drivers locked every link counts 3 unknowns, every joint 2, every
-//! joint on a link 2 equations and every sliding pair 2; the smallest sets of
-//! links that close in themselves are the groups (Assur 1914, Artobolevsky 1975).
+//! With the drivers locked, every link has 3 unknowns and every joint 2; every joint
+//! on a link gives 2 equations, and so does every sliding pair. The groups are the
+//! smallest sets of links whose equations determine their unknowns (Assur 1914,
+//! Artobolevsky 1975).
 
 use std::collections::BTreeSet;
 
@@ -18,7 +19,7 @@ pub struct Group {
     pub class: usize,
     /// Order: number of external pairs.
     pub order: usize,
-    /// The five dyads `RRR`, `RRP`, `RPR`, `PRP`, `RPP`; none for higher groups.
+    /// Kind of dyad: `RRR`, `RRP`, `RPR`, `PRP` or `RPP`; `None` for higher groups.
     pub kind: Option<&'static str>,
     /// Its links, in the description's order.
     pub links: Vec<usize>,
@@ -37,7 +38,7 @@ impl Group {
     }
 }
 
-/// Roman numeral of a class (small numbers only).
+/// Roman numeral of a class, below 90.
 #[must_use]
 pub(crate) fn roman(mut number: usize) -> String {
     let mut text = String::new();
@@ -52,51 +53,54 @@ pub(crate) fn roman(mut number: usize) -> String {
     text
 }
 
-/// Links as rigid bodies: what a locked driver joins is one body.
+/// Rigid bodies: links that a locked driver joins rigidly are one body.
 struct Bodies<'a> {
     linkage: &'a Linkage,
-    /// Representative link of every link's body.
-    of: Vec<usize>,
-    /// Links whose angle is locked to a link they share no joint with.
-    loose: Vec<(usize, usize)>,
+    /// For each link, the link that represents its body.
+    of_link: Vec<usize>,
+    /// Pairs of links with a locked angle between them but no common joint.
+    locked_angles: Vec<(usize, usize)>,
 }
 
 impl<'a> Bodies<'a> {
     fn new(linkage: &'a Linkage) -> Self {
-        let mut of: Vec<usize> = (0..linkage.links.len()).collect();
-        let mut loose = Vec::new();
+        let mut of_link: Vec<usize> = (0..linkage.links.len()).collect();
+        let mut locked_angles = Vec::new();
         for driver in &linkage.drivers {
             let (a, b) = match *driver {
                 Driver::Slide(s) => (linkage.slides[s].link, linkage.slides[s].on),
                 Driver::Angle { link, relative_to } => (link, relative_to),
             };
-            let shares =
+            let share_a_joint =
                 linkage.links[a].joints.iter().any(|j| linkage.links[b].joints.contains(j));
-            if matches!(driver, Driver::Slide(_)) || shares {
-                let (keep, drop) =
-                    if of[a] == of[linkage.ground] { (of[a], of[b]) } else { (of[b], of[a]) };
-                of.iter_mut().filter(|x| **x == drop).for_each(|x| *x = keep);
+            if matches!(driver, Driver::Slide(_)) || share_a_joint {
+                let (keep, drop) = if of_link[a] == of_link[linkage.ground] {
+                    (of_link[a], of_link[b])
+                } else {
+                    (of_link[b], of_link[a])
+                };
+                of_link.iter_mut().filter(|x| **x == drop).for_each(|x| *x = keep);
             } else {
-                loose.push((a, b));
+                locked_angles.push((a, b));
             }
         }
-        Self { linkage, of, loose }
+        Self { linkage, of_link, locked_angles }
     }
 
     fn on_ground(&self, link: usize) -> bool {
-        self.of[link] == self.of[self.linkage.ground]
+        self.of_link[link] == self.of_link[self.linkage.ground]
     }
 }
 
-/// What an unknown of the counting pattern stands for.
+/// What an unknown of the pattern stands for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Node {
     Body(usize),
     Joint(usize),
 }
 
-/// The groups of a linkage without its redundant links; None if the count does
-/// not come out (the caller has checked the ranks before).
+/// The groups of a linkage without its redundant links. `None` if the pattern of the equations is
+/// not structurally square and regular (the caller has checked their rank).
 #[must_use]
 pub(crate) fn groups(linkage: &Linkage, left_out: &LeftOut) -> Option<Vec<Group>> {
     let bodies = Bodies::new(linkage);
@@ -106,74 +110,77 @@ pub(crate) fn groups(linkage: &Linkage, left_out: &LeftOut) -> Option<Vec<Group>
     let mut nodes: Vec<Node> = Vec::new();
     let mut body_node = vec![None; linkage.links.len()];
     for &l in &kept {
-        if bodies.of[l] == l && !bodies.on_ground(l) {
-            body_node[l] = Some(pattern.unknown(3));
+        if bodies.of_link[l] == l && !bodies.on_ground(l) {
+            body_node[l] = Some(pattern.add_unknown(3));
             nodes.push(Node::Body(l));
         }
     }
-    let node_of = |l: usize| body_node[bodies.of[l]];
-    let mut touching: Vec<(BTreeSet<usize>, bool)> = Vec::new();
+    let node_of = |l: usize| body_node[bodies.of_link[l]];
+    let mut bodies_at: Vec<(BTreeSet<usize>, bool)> = Vec::new();
     let mut joint_node = vec![None; linkage.joints.len()];
     for j in 0..linkage.joints.len() {
         let on: Vec<usize> = linkage.links_at(j).filter(|l| kept.contains(l)).collect();
         let grounded = on.iter().any(|&l| bodies.on_ground(l));
         let moving: BTreeSet<usize> =
-            on.iter().filter(|&&l| !bodies.on_ground(l)).map(|&l| bodies.of[l]).collect();
+            on.iter().filter(|&&l| !bodies.on_ground(l)).map(|&l| bodies.of_link[l]).collect();
         if !grounded && !moving.is_empty() {
-            joint_node[j] = Some(pattern.unknown(2));
+            joint_node[j] = Some(pattern.add_unknown(2));
             nodes.push(Node::Joint(j));
         }
-        touching.push((moving, grounded));
+        bodies_at.push((moving, grounded));
     }
-    for (j, (moving, _)) in touching.iter().enumerate() {
+    for (j, (moving, _)) in bodies_at.iter().enumerate() {
         for &body in moving {
-            pattern.equation(2, body_node[body].into_iter().chain(joint_node[j]).collect());
+            pattern.add_equation(2, body_node[body].into_iter().chain(joint_node[j]).collect());
         }
     }
     let driven = |s: usize| linkage.drivers.contains(&Driver::Slide(s));
     for (s, slide) in linkage.slides.iter().enumerate() {
         if !driven(s) && !left_out.has_slide(linkage, s) {
-            pattern.equation(2, node_of(slide.link).into_iter().chain(node_of(slide.on)).collect());
+            pattern.add_equation(
+                2,
+                node_of(slide.link).into_iter().chain(node_of(slide.on)).collect(),
+            );
         }
     }
-    for &(a, b) in &bodies.loose {
-        pattern.equation(1, node_of(a).into_iter().chain(node_of(b)).collect());
+    for &(a, b) in &bodies.locked_angles {
+        pattern.add_equation(1, node_of(a).into_iter().chain(node_of(b)).collect());
     }
     let blocks = pattern.blocks()?;
     let mut groups = Vec::new();
-    let mut solved: BTreeSet<usize> = BTreeSet::from([bodies.of[linkage.ground]]);
+    let mut solved: BTreeSet<usize> = BTreeSet::from([bodies.of_link[linkage.ground]]);
     for block in &blocks {
         let members = Members::of(block, &nodes, &bodies, &solved);
-        solved.extend(members.bodies.iter().chain(&members.points));
+        solved.extend(members.bodies.iter().chain(&members.point_bodies));
         if !members.bodies.is_empty() {
-            groups.push(members.group(&bodies, left_out, &touching, &solved));
+            groups.push(members.group(&bodies, left_out, &bodies_at, &solved));
         }
     }
     Some(groups)
 }
 
-/// The bodies and joints that one block determines.
+/// Bodies and joints that one block determines.
 struct Members {
     /// Bodies of the group.
     bodies: Vec<usize>,
-    /// Bodies with a driven angle: with their orientation known they are points.
-    points: Vec<usize>,
+    /// Bodies whose orientation follows from a driven angle: they count as points.
+    point_bodies: Vec<usize>,
     /// Inner joints.
     joints: Vec<usize>,
 }
 
 impl Members {
     fn of(block: &Block, nodes: &[Node], bodies: &Bodies<'_>, solved: &BTreeSet<usize>) -> Self {
-        let mut members = Self { bodies: vec![], points: vec![], joints: vec![] };
+        let mut members = Self { bodies: vec![], point_bodies: vec![], joints: vec![] };
         for &u in &block.unknowns {
             match nodes[u] {
                 Node::Joint(j) => members.joints.push(j),
                 Node::Body(b) => {
-                    let is_point = bodies.loose.iter().any(|&(x, y)| {
-                        (bodies.of[x] == b && solved.contains(&bodies.of[y]))
-                            || (bodies.of[y] == b && solved.contains(&bodies.of[x]))
+                    let is_point = bodies.locked_angles.iter().any(|&(x, y)| {
+                        (bodies.of_link[x] == b && solved.contains(&bodies.of_link[y]))
+                            || (bodies.of_link[y] == b && solved.contains(&bodies.of_link[x]))
                     });
-                    if is_point { members.points.push(b) } else { members.bodies.push(b) }
+                    if is_point { members.point_bodies.push(b) } else { members.bodies.push(b) }
                 }
             }
         }
@@ -184,36 +191,40 @@ impl Members {
         &self,
         bodies: &Bodies<'_>,
         left_out: &LeftOut,
-        touching: &[(BTreeSet<usize>, bool)],
+        bodies_at: &[(BTreeSet<usize>, bool)],
         solved: &BTreeSet<usize>,
     ) -> Group {
         let linkage = bodies.linkage;
-        // A point body (driven angle) gathers all its joints into one pair element.
-        let element = |joint: usize| {
-            let holder = self.points.iter().position(|p| touching[joint].0.contains(p));
+        // All joints of a point body count as one pair.
+        let pair_element = |joint: usize| {
+            let holder = self.point_bodies.iter().position(|p| bodies_at[joint].0.contains(p));
             holder.map_or(joint, |p| linkage.joints.len() + p)
         };
         let mut inner: Vec<(usize, BTreeSet<usize>)> = Vec::new();
         let mut outer: Vec<(usize, char)> = Vec::new();
         let (mut joints, mut slides) = (Vec::new(), Vec::new());
-        for (j, (on, grounded)) in touching.iter().enumerate() {
-            let here: Vec<usize> = self.bodies.iter().copied().filter(|b| on.contains(b)).collect();
+        for (j, (on, grounded)) in bodies_at.iter().enumerate() {
+            let members: Vec<usize> =
+                self.bodies.iter().copied().filter(|b| on.contains(b)).collect();
             let is_inner = self.joints.contains(&j);
-            let others = on.iter().any(|b| self.points.contains(b));
-            let before = |b: &usize| solved.contains(b) && !self.bodies.contains(b);
-            let hangs = *grounded || on.iter().any(before);
-            if here.is_empty() || (is_inner && here.len() < 2 && !others) || !(is_inner || hangs) {
+            let others = on.iter().any(|b| self.point_bodies.contains(b));
+            let solved_before = |b: &usize| solved.contains(b) && !self.bodies.contains(b);
+            let is_outer = *grounded || on.iter().any(solved_before);
+            if members.is_empty()
+                || (is_inner && members.len() < 2 && !others)
+                || !(is_inner || is_outer)
+            {
                 continue;
             }
             joints.push(j);
             if is_inner {
-                let e = element(j);
+                let e = pair_element(j);
                 match inner.iter_mut().find(|(x, _)| *x == e) {
-                    Some((_, set)) => set.extend(here),
-                    None => inner.push((e, here.into_iter().collect())),
+                    Some((_, set)) => set.extend(members),
+                    None => inner.push((e, members.into_iter().collect())),
                 }
             } else {
-                outer.extend(here.into_iter().map(|b| (b, 'R')));
+                outer.extend(members.into_iter().map(|b| (b, 'R')));
             }
         }
         let mut inner: Vec<(char, BTreeSet<usize>)> =
@@ -222,7 +233,7 @@ impl Members {
             if left_out.has_slide(linkage, s) || linkage.drivers.contains(&Driver::Slide(s)) {
                 continue;
             }
-            let (a, b) = (bodies.of[slide.link], bodies.of[slide.on]);
+            let (a, b) = (bodies.of_link[slide.link], bodies.of_link[slide.on]);
             match (self.bodies.contains(&a), self.bodies.contains(&b)) {
                 (true, true) => inner.push(('P', BTreeSet::from([a, b]))),
                 (true, false) if solved.contains(&b) => outer.push((a, 'P')),
@@ -231,14 +242,16 @@ impl Members {
             }
             slides.push(s);
         }
-        // An angle locked between two bodies of the group closes a contour like a pair.
-        let locked =
-            bodies.loose.iter().map(|&(x, y)| BTreeSet::from([bodies.of[x], bodies.of[y]]));
+        // A locked angle between two bodies of the group closes a contour, as a pair does.
+        let locked_pairs = bodies
+            .locked_angles
+            .iter()
+            .map(|&(x, y)| BTreeSet::from([bodies.of_link[x], bodies.of_link[y]]));
         let contours: Vec<BTreeSet<usize>> = (inner.iter().map(|(_, set)| set.clone()))
-            .chain(locked.filter(|set| set.iter().all(|b| self.bodies.contains(b))))
+            .chain(locked_pairs.filter(|set| set.iter().all(|b| self.bodies.contains(b))))
             .collect();
         let mut links: Vec<usize> = (0..linkage.links.len())
-            .filter(|&l| !left_out.links.contains(&l) && self.bodies.contains(&bodies.of[l]))
+            .filter(|&l| !left_out.links.contains(&l) && self.bodies.contains(&bodies.of_link[l]))
             .collect();
         links.sort_unstable();
         Group {
@@ -255,14 +268,14 @@ impl Members {
         if self.bodies.len() <= 2 {
             return 2;
         }
-        let place = |b: usize| self.bodies.iter().position(|&x| x == b);
+        let node = |b: usize| self.bodies.iter().position(|&x| x == b);
         let mut edges = Vec::new();
         for (e, set) in inner.iter().enumerate() {
-            edges.extend(set.iter().filter_map(|&b| place(b)).map(|b| (b, self.bodies.len() + e)));
+            edges.extend(set.iter().filter_map(|&b| node(b)).map(|b| (b, self.bodies.len() + e)));
         }
         let contours = minimum_cycle_basis(self.bodies.len() + inner.len(), &edges);
         let longest = contours.into_iter().map(|length| length / 2).max().unwrap_or(0);
-        // More than two links close no dyad: at least a link with three pairs stands there.
+        // With more than two links, at least one has three pairs: class III or above.
         longest.max(3)
     }
 
@@ -272,11 +285,12 @@ impl Members {
         outer: &[(usize, char)],
     ) -> Option<&'static str> {
         let [first, second] = self.bodies[..] else { return None };
-        let end = |b: usize| outer.iter().find(|(x, _)| *x == b).map(|(_, c)| *c);
+        let outer_pair = |b: usize| outer.iter().find(|(x, _)| *x == b).map(|(_, c)| *c);
         let letters = if let [(middle, _)] = inner {
-            [end(first)?, *middle, end(second)?]
+            [outer_pair(first)?, *middle, outer_pair(second)?]
         } else {
-            // Both ends hang on one link that a driven angle leaves no turn of its own.
+            // Both outer pairs are on one link, to which a driven angle leaves no rotation of its
+            // own.
             let mut all: Vec<char> = outer.iter().map(|(_, c)| *c).collect();
             all.extend(inner.iter().map(|(c, _)| *c));
             let slides = inner.iter().filter(|(c, _)| *c == 'P').count();

@@ -1,7 +1,7 @@
-//! The linkage as a graph of points: its closure equations.
+//! Closure equations of the linkage, as a graph of points.
 //!
 //! Vertices are points (joints, reference points of links without joints, the
-//! origin of the ground); every edge is one vector equation
+//! origin of the ground). Every edge is one vector equation
 //!
 //! ```text
 //! P_to − P_from = U_link · (w + s·d)
@@ -9,9 +9,9 @@
 //!
 //! where `U_link` is the link's orientation (a unit complex number), `w` and `d`
 //! are fixed in the link's frame and `s` is the value of a slide (absent on a
-//! rigid edge). A loop of edges is a loop closure. Links that only translate
-//! relative to each other (sliding pairs) share one unknown rotation, their
-//! *class*; a driven angle puts two links into one class with a known offset.
+//! rigid edge). A loop of edges gives a loop closure. Links joined by sliding
+//! pairs only translate relative to each other and share one unknown rotation,
+//! their *class*. A driven angle joins two links into one class with a known offset.
 
 use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
@@ -19,26 +19,26 @@ use crate::description::{Driver, Linkage};
 /// Index of the ground's origin among the points.
 pub(crate) const GROUND_POINT: usize = 0;
 
-/// What an edge spans in its link's frame.
+/// The vector of an edge in its link's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Span {
     /// From the link's first joint to another of its joints.
     Joint { link: usize, joint: usize },
-    /// Along a guide: from its origin (or from the reference point of the link
-    /// that carries it) to the sliding point.
+    /// Along a guide: from the slide's origin (or the reference point of the link
+    /// that carries the guide) to the sliding point.
     Guide { slide: usize },
 }
 
-/// One vector equation of the closure.
+/// One vector equation of closure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Edge {
     /// Point where it starts.
     pub from: usize,
     /// Point where it ends.
     pub to: usize,
-    /// Link whose orientation turns it.
+    /// Link with whose orientation the vector turns.
     pub link: usize,
-    /// What it spans.
+    /// Its vector in the link's frame.
     pub span: Span,
 }
 
@@ -59,18 +59,18 @@ impl Edge {
 pub(crate) struct Rotation {
     /// The class; 0 is the ground's.
     pub class: usize,
-    /// Slides passed on the way from the class's first link, with sign.
+    /// Slides on the path from the first link of the class to this one, with sign.
     pub slides: Vec<(usize, i8)>,
-    /// Multiples of each driven coordinate.
+    /// Factor of each driven coordinate: −1, 0 or +1.
     pub turns: Vec<i8>,
 }
 
-/// What is taken part of the linkage.
+/// Links and slides left out of a linkage.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct LeftOut {
     /// Links left out with all their pairs.
     pub links: Vec<usize>,
-    /// Slides left out.
+    /// Slides left out by themselves.
     pub slides: Vec<usize>,
 }
 
@@ -83,7 +83,7 @@ impl LeftOut {
     }
 }
 
-/// All edges of a linkage, whatever is left out.
+/// Points and edges of the whole linkage, including what may be left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Closure {
     /// Number of points.
@@ -149,8 +149,8 @@ impl Closure {
         Self { points, reference, edges, fixed }
     }
 
-    /// Whether anything but its link knows the far end of an edge: if not (a
-    /// coupler point), the edge says nothing about the motion.
+    /// Whether the end of an edge is a pair. If not (a coupler point), the edge
+    /// does not constrain the motion.
     #[must_use]
     pub fn is_paired(&self, linkage: &Linkage, edge: usize) -> bool {
         match self.edges[edge].span {
@@ -159,7 +159,7 @@ impl Closure {
         }
     }
 
-    /// Whether a joint is one of several links, or where a slide begins.
+    /// Whether a joint connects several links or is an end of a guide's edge.
     #[must_use]
     pub fn is_pair(&self, linkage: &Linkage, joint: usize) -> bool {
         let point = point_of_joint(joint);
@@ -180,12 +180,13 @@ impl Closure {
     }
 }
 
-/// Rotations of all links; with `locked`, driven angles join classes.
+/// Rotations of all links, and the number of classes; with `locked`, driven angles join classes.
 ///
 /// # Errors
 ///
-/// A closed chain of sliding pairs, or a driven angle between two links that
-/// cannot turn relative to each other.
+/// [`StructureError::SlidesOnly`] for a closed chain of sliding pairs;
+/// [`StructureError::CannotDrive`] for a driven angle between two links that cannot turn
+/// relative to each other.
 pub(crate) fn rotations(
     linkage: &Linkage,
     left_out: &LeftOut,
@@ -205,13 +206,13 @@ pub(crate) fn rotations(
         rotation[root] = Some(Rotation { class: classes, slides: vec![], turns: turns.clone() });
         classes += 1;
         let mut queue = std::collections::VecDeque::from([root]);
-        while let Some(here) = queue.pop_front() {
-            let Some(base) = rotation[here].clone() else { continue };
+        while let Some(current) = queue.pop_front() {
+            let Some(base) = rotation[current].clone() else { continue };
             for (slide, s) in linkage.slides.iter().enumerate() {
                 // From the carrier to the sliding link: + angle − link_angle.
-                let (next, sign) = match here {
-                    h if h == s.on => (s.link, 1),
-                    h if h == s.link => (s.on, -1),
+                let (next, sign) = match current {
+                    l if l == s.on => (s.link, 1),
+                    l if l == s.link => (s.on, -1),
                     _ => continue,
                 };
                 if used_slides[slide] || left_out.has_slide(linkage, slide) {
@@ -229,9 +230,9 @@ pub(crate) fn rotations(
             }
             for (index, driver) in drivers.iter().enumerate() {
                 let Driver::Angle { link, relative_to } = *driver else { continue };
-                let (next, sign) = match here {
-                    h if h == relative_to => (link, 1),
-                    h if h == link => (relative_to, -1),
+                let (next, sign) = match current {
+                    l if l == relative_to => (link, 1),
+                    l if l == link => (relative_to, -1),
                     _ => continue,
                 };
                 if used_drivers[index] {
@@ -257,8 +258,8 @@ pub(crate) fn rotations(
     Ok((rotation.into_iter().map(Option::unwrap_or_default).collect(), classes))
 }
 
-/// A slide that closes a cycle of slides: two between the same links may be a
-/// doubled guide (ranks decide); three or more are PPP.
+/// Checks a slide that closes a cycle of slides. Two slides between the same links may be a
+/// doubled guide, about which the rank decides; three or more are the invalid chain PPP.
 fn check_slide_cycle(
     linkage: &Linkage,
     rotation: &[Option<Rotation>],
@@ -281,11 +282,11 @@ fn check_slide_cycle(
     }
     cycle.push(slide);
     cycle.sort_unstable();
-    let slides = list(cycle.iter().map(|&c| linkage.slides[c].name.as_str()));
+    let slides = quoted_list(cycle.iter().map(|&c| linkage.slides[c].name.as_str()));
     Err(StructureError::SlidesOnly { slides })
 }
 
 /// Names in quotes, separated by commas.
-pub(crate) fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn quoted_list<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.map(|n| format!("{n:?}")).collect::<Vec<_>>().join(", ")
 }

@@ -4,9 +4,8 @@ use std::collections::{HashSet, VecDeque};
 
 /// Lengths of the cycles of a minimum cycle basis of an undirected graph.
 ///
-/// Candidates are, for every vertex and every edge, the edge closed by shortest
-/// paths from the vertex; a greedy choice of independent ones (over GF(2)) is a
-/// minimum basis.
+/// Each vertex and edge give one candidate: the edge, closed by shortest paths from the
+/// vertex. Taking independent candidates (over GF(2)), shortest first, gives a minimum basis.
 #[must_use]
 pub(crate) fn minimum_cycle_basis(vertices: usize, edges: &[(usize, usize)]) -> Vec<usize> {
     let mut candidates: Vec<HashSet<usize>> = Vec::new();
@@ -25,21 +24,21 @@ pub(crate) fn minimum_cycle_basis(vertices: usize, edges: &[(usize, usize)]) -> 
     let mut lengths = Vec::new();
     for candidate in candidates {
         let length = candidate.len();
-        let mut rest = candidate;
+        let mut remainder = candidate;
         for (pivot, reduced) in &basis {
-            if rest.contains(pivot) {
-                rest = rest.symmetric_difference(reduced).copied().collect();
+            if remainder.contains(pivot) {
+                remainder = remainder.symmetric_difference(reduced).copied().collect();
             }
         }
-        if let Some(&pivot) = rest.iter().min() {
-            basis.push((pivot, rest));
+        if let Some(&pivot) = remainder.iter().min() {
+            basis.push((pivot, remainder));
             lengths.push(length);
         }
     }
     lengths
 }
 
-/// Edge sets of shortest paths from `root` to every vertex it reaches.
+/// Edges of a shortest path from `root` to each vertex that it reaches.
 fn shortest_paths(
     vertices: usize,
     edges: &[(usize, usize)],
@@ -48,15 +47,15 @@ fn shortest_paths(
     let mut paths: Vec<Option<HashSet<usize>>> = vec![None; vertices];
     paths[root] = Some(HashSet::new());
     let mut queue = VecDeque::from([root]);
-    while let Some(here) = queue.pop_front() {
+    while let Some(current) = queue.pop_front() {
         for (e, &(a, b)) in edges.iter().enumerate() {
-            let next = match here {
-                h if h == a => b,
-                h if h == b => a,
+            let next = match current {
+                v if v == a => b,
+                v if v == b => a,
                 _ => continue,
             };
             if paths[next].is_none() {
-                let mut path = paths[here].clone().unwrap_or_default();
+                let mut path = paths[current].clone().unwrap_or_default();
                 path.insert(e);
                 paths[next] = Some(path);
                 queue.push_back(next);
@@ -85,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tree_has_none() {
+    fn a_tree_has_no_cycle() {
         assert!(minimum_cycle_basis(3, &[(0, 1), (1, 2)]).is_empty());
     }
 }

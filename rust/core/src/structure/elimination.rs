@@ -1,22 +1,22 @@
 //! Sparse Gaussian elimination of closure equations: rank, null spaces, solutions.
 //!
-//! Pivots are chosen by Markowitz's count (1957) among entries that are large in their row and
-//! column (threshold pivoting; Duff, Erisman & Reid 2017, 5.3 and 7.2); where none is safe, the
-//! greatest entry that is left (complete pivoting). What is then left is zero: elimination with
-//! complete pivoting shows the rank. The closure of a linkage is a tree of small groups, so that
-//! rows stay short and the work grows little faster than the number of links.
+//! Markowitz's count (1957) chooses pivots among entries that are large in their row and column
+//! (threshold pivoting; Duff, Erisman & Reid 2017, 5.3 and 7.2). If there are none, the largest
+//! remaining entry is the pivot (complete pivoting), so that the elimination reveals the rank:
+//! what remains at its end counts as zero. The closure of a linkage is a tree of small groups:
+//! rows stay short, and the work grows little faster than the number of links.
 
 use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, DVector};
 
-/// A pivot is at least this part of the greatest entry of its row and of its column: no multiplier
-/// is above 8, so rounding does not grow.
-const RELATIVE: f64 = 0.125;
-/// And at least this part of a column's length: below, complete pivoting decides.
-const ABSOLUTE: f64 = 1.0e-3;
+/// Least ratio of a stable pivot to the largest entry of its row and of its column: multipliers
+/// are at most 8, which limits the growth of rounding errors.
+const MIN_PIVOT_RATIO: f64 = 0.125;
+/// Least stable pivot, relative to the column's length. Below it, complete pivoting takes over.
+const MIN_PIVOT: f64 = 1.0e-3;
 
-/// A sparse matrix by rows: column and value of every entry.
+/// A sparse matrix by rows: column and value of each entry, in the order of columns.
 pub(crate) type SparseRows = Vec<Vec<(usize, f64)>>;
 
 /// One step of the elimination.
@@ -25,141 +25,143 @@ struct Pivot {
     row: usize,
     column: usize,
     value: f64,
-    /// The other entries of the row when it was chosen.
+    /// The other entries of its row at that step.
     entries: Vec<(usize, f64)>,
-    /// How often the row was subtracted from others.
+    /// The rows from which its row was subtracted, with the factors.
     multipliers: Vec<(usize, f64)>,
 }
 
-/// A matrix after elimination.
+/// The pivots of a completed elimination.
 #[derive(Debug)]
 pub(crate) struct Elimination {
     shape: (usize, usize),
     pivots: Vec<Pivot>,
 }
 
-/// Rows under elimination, with the rows that each column touches.
+/// The rows not yet eliminated.
 struct Active {
     rows: SparseRows,
-    touched_by: Vec<BTreeSet<usize>>,
+    /// For each column, the rows with an entry in it.
+    rows_with: Vec<BTreeSet<usize>>,
     /// Rows by number of entries.
     by_count: BTreeSet<(usize, usize)>,
 }
 
 impl Active {
     fn new(rows: SparseRows, columns: usize) -> Self {
-        let mut touched_by = vec![BTreeSet::new(); columns];
+        let mut rows_with = vec![BTreeSet::new(); columns];
         let mut by_count = BTreeSet::new();
         for (row, entries) in rows.iter().enumerate() {
             by_count.insert((entries.len(), row));
             for &(column, _) in entries {
-                touched_by[column].insert(row);
+                rows_with[column].insert(row);
             }
         }
-        Self { rows, touched_by, by_count }
+        Self { rows, rows_with, by_count }
     }
 
     fn entry(&self, row: usize, column: usize) -> f64 {
         let entries = &self.rows[row];
-        entries.binary_search_by_key(&column, |e| e.0).map_or(0.0, |place| entries[place].1)
+        entries.binary_search_by_key(&column, |e| e.0).map_or(0.0, |index| entries[index].1)
     }
 
-    /// The next pivot; none if no entry is above `least`.
-    fn choose(&self, least: f64) -> Option<(usize, usize)> {
-        self.safe(least.max(ABSOLUTE)).or_else(|| {
+    /// The next pivot; `None` if no entry is above `threshold`.
+    fn choose_pivot(&self, threshold: f64) -> Option<(usize, usize)> {
+        self.stable_pivot(threshold.max(MIN_PIVOT)).or_else(|| {
             let row_of = |&(_, row): &(usize, usize)| {
                 self.rows[row].iter().map(move |&(column, value)| (value.abs(), row, column))
             };
-            let greatest = self.by_count.iter().flat_map(row_of).max_by(|a, b| a.0.total_cmp(&b.0));
-            greatest.filter(|x| x.0 > least).map(|(_, row, column)| (row, column))
+            let largest = self.by_count.iter().flat_map(row_of).max_by(|a, b| a.0.total_cmp(&b.0));
+            largest.filter(|x| x.0 > threshold).map(|(_, row, column)| (row, column))
         })
     }
 
-    /// The sparsest row that has a safe entry, and of its safe entries that in the sparsest column.
-    fn safe(&self, least: f64) -> Option<(usize, usize)> {
+    /// The stable entry in the sparsest row that has one and, within it, the sparsest column.
+    fn stable_pivot(&self, threshold: f64) -> Option<(usize, usize)> {
         self.by_count.iter().find_map(|&(_, row)| {
             let entries = &self.rows[row];
-            let greatest = entries.iter().fold(0.0_f64, |most, e| most.max(e.1.abs()));
-            let least = least.max(RELATIVE * greatest);
-            let is_safe = |&(column, value): &(usize, f64)| {
-                let most = value.abs() / RELATIVE;
-                value.abs() >= least
-                    && self.touched_by[column].iter().all(|&r| self.entry(r, column).abs() <= most)
+            let largest = entries.iter().fold(0.0_f64, |greatest, e| greatest.max(e.1.abs()));
+            let threshold = threshold.max(MIN_PIVOT_RATIO * largest);
+            let is_stable = |&(column, value): &(usize, f64)| {
+                let limit = value.abs() / MIN_PIVOT_RATIO;
+                value.abs() >= threshold
+                    && self.rows_with[column].iter().all(|&r| self.entry(r, column).abs() <= limit)
             };
-            let safe = entries.iter().copied().filter(is_safe);
-            safe.map(|(column, _)| (self.touched_by[column].len(), column))
+            let stable = entries.iter().copied().filter(is_stable);
+            stable
+                .map(|(column, _)| (self.rows_with[column].len(), column))
                 .min()
                 .map(|x| (row, x.1))
         })
     }
 
-    /// Takes a row out and its column out of all others.
+    /// Removes the pivot's row and eliminates its column from the other rows.
     fn eliminate(&mut self, row: usize, column: usize) -> Pivot {
-        let own = std::mem::take(&mut self.rows[row]);
-        self.by_count.remove(&(own.len(), row));
-        for &(c, _) in &own {
-            self.touched_by[c].remove(&row);
+        let pivot_row = std::mem::take(&mut self.rows[row]);
+        self.by_count.remove(&(pivot_row.len(), row));
+        for &(c, _) in &pivot_row {
+            self.rows_with[c].remove(&row);
         }
-        let value = own.iter().find(|e| e.0 == column).map_or(1.0, |e| e.1);
-        let entries: Vec<_> = own.into_iter().filter(|e| e.0 != column).collect();
+        let value = pivot_row.iter().find(|e| e.0 == column).map_or(1.0, |e| e.1);
+        let entries: Vec<_> = pivot_row.into_iter().filter(|e| e.0 != column).collect();
         let mut multipliers = Vec::new();
-        for other in std::mem::take(&mut self.touched_by[column]) {
+        for other in std::mem::take(&mut self.rows_with[column]) {
             let multiplier = self.entry(other, column) / value;
             multipliers.push((other, multiplier));
             self.by_count.remove(&(self.rows[other].len(), other));
-            let rest = subtracted(&self.rows[other], &entries, multiplier, column);
-            for &(c, _) in &rest {
-                self.touched_by[c].insert(other);
+            let updated = subtract_multiple(&self.rows[other], &entries, multiplier, column);
+            for &(c, _) in &updated {
+                self.rows_with[c].insert(other);
             }
-            self.by_count.insert((rest.len(), other));
-            self.rows[other] = rest;
+            self.by_count.insert((updated.len(), other));
+            self.rows[other] = updated;
         }
         Pivot { row, column, value, entries, multipliers }
     }
 }
 
-/// A row without a column, less a multiple of another (both in the order of columns).
-fn subtracted(
+/// `row − multiplier · other`, without the entry in `column`.
+fn subtract_multiple(
     row: &[(usize, f64)],
     other: &[(usize, f64)],
     multiplier: f64,
     column: usize,
 ) -> Vec<(usize, f64)> {
-    let mut rest = Vec::with_capacity(row.len() + other.len());
+    let mut result = Vec::with_capacity(row.len() + other.len());
     let (mut i, mut j) = (0, 0);
     while i < row.len() || j < other.len() {
         let (a, b) = (row.get(i), other.get(j));
-        let at = a.map_or(usize::MAX, |e| e.0).min(b.map_or(usize::MAX, |e| e.0));
+        let current = a.map_or(usize::MAX, |e| e.0).min(b.map_or(usize::MAX, |e| e.0));
         let mut value = 0.0;
-        if let Some(&(_, own)) = a.filter(|e| e.0 == at) {
-            value += own;
+        if let Some(&(_, entry)) = a.filter(|e| e.0 == current) {
+            value += entry;
             i += 1;
         }
-        if let Some(&(_, taken)) = b.filter(|e| e.0 == at) {
-            value -= multiplier * taken;
+        if let Some(&(_, entry)) = b.filter(|e| e.0 == current) {
+            value -= multiplier * entry;
             j += 1;
         }
-        if at != column {
-            rest.push((at, value));
+        if current != column {
+            result.push((current, value));
         }
     }
-    rest
+    result
 }
 
 impl Elimination {
-    /// Eliminates until no entry is above `least`; `stop` is asked before each pivot, None if it
-    /// says so.
+    /// Eliminates until no entry is above `threshold`. `None` once `cancelled`, called before
+    /// each pivot, returns true.
     pub(crate) fn of(
         rows: SparseRows,
         columns: usize,
-        least: f64,
-        stop: impl Fn() -> bool,
+        threshold: f64,
+        cancelled: impl Fn() -> bool,
     ) -> Option<Self> {
         let shape = (rows.len(), columns);
         let mut active = Active::new(rows, columns);
         let mut pivots = Vec::new();
-        while let Some((row, column)) = active.choose(least) {
-            if stop() {
+        while let Some((row, column)) = active.choose_pivot(threshold) {
+            if cancelled() {
                 return None;
             }
             pivots.push(active.eliminate(row, column));
@@ -167,29 +169,29 @@ impl Elimination {
         Some(Self { shape, pivots })
     }
 
-    /// The rank.
+    /// Rank of the matrix.
     pub(crate) fn rank(&self) -> usize {
         self.pivots.len()
     }
 
-    /// Columns that span what the matrix maps to zero, with greatest entry 1.
+    /// Basis of the null space: columns scaled to a largest entry of 1.
     pub(crate) fn null_space(&self) -> DMatrix<f64> {
-        let free = without(self.pivots.iter().map(|pivot| pivot.column), self.shape.1);
-        let mut all = DMatrix::zeros(self.shape.1, free.len());
+        let free = complement(self.pivots.iter().map(|pivot| pivot.column), self.shape.1);
+        let mut basis = DMatrix::zeros(self.shape.1, free.len());
         let zero = DVector::zeros(self.pivots.len());
-        for (mut vector, free) in all.column_iter_mut().zip(free) {
+        for (mut vector, free) in basis.column_iter_mut().zip(free) {
             vector[free] = 1.0;
             self.substitute_back(&zero, vector.as_mut_slice());
             vector /= vector.amax();
         }
-        all
+        basis
     }
 
-    /// Columns that span what maps the matrix to zero from the left, with greatest entry 1.
+    /// Basis of the left null space: columns scaled to a largest entry of 1.
     pub(crate) fn left_null_space(&self) -> DMatrix<f64> {
-        let free = without(self.pivots.iter().map(|pivot| pivot.row), self.shape.0);
-        let mut all = DMatrix::zeros(self.shape.0, free.len());
-        for (mut vector, free) in all.column_iter_mut().zip(free) {
+        let free = complement(self.pivots.iter().map(|pivot| pivot.row), self.shape.0);
+        let mut basis = DMatrix::zeros(self.shape.0, free.len());
+        for (mut vector, free) in basis.column_iter_mut().zip(free) {
             vector[free] = 1.0;
             for pivot in self.pivots.iter().rev() {
                 let sum: f64 = pivot.multipliers.iter().map(|&(row, m)| m * vector[row]).sum();
@@ -197,36 +199,35 @@ impl Elimination {
             }
             vector /= vector.amax();
         }
-        all
+        basis
     }
 
-    /// A solution for a right-hand side, with zero for the unknowns that are free; equations that
-    /// depend on others are left unmet.
-    pub(crate) fn solve(&self, right: &DVector<f64>) -> DVector<f64> {
-        let mut right = right.clone();
+    /// The solution with zero for the free unknowns. Equations that depend on others are ignored.
+    pub(crate) fn solve(&self, rhs: &DVector<f64>) -> DVector<f64> {
+        let mut rhs = rhs.clone();
         for pivot in &self.pivots {
             for &(row, multiplier) in &pivot.multipliers {
-                right[row] -= multiplier * right[pivot.row];
+                rhs[row] -= multiplier * rhs[pivot.row];
             }
         }
         let of_pivots =
-            DVector::from_iterator(self.pivots.len(), self.pivots.iter().map(|p| right[p.row]));
-        let mut all = DVector::zeros(self.shape.1);
-        self.substitute_back(&of_pivots, all.as_mut_slice());
-        all
+            DVector::from_iterator(self.pivots.len(), self.pivots.iter().map(|p| rhs[p.row]));
+        let mut solution = DVector::zeros(self.shape.1);
+        self.substitute_back(&of_pivots, solution.as_mut_slice());
+        solution
     }
 
-    /// The unknowns of the pivots, from their right-hand sides and the other unknowns.
-    fn substitute_back(&self, right: &DVector<f64>, all: &mut [f64]) {
-        for (pivot, right) in self.pivots.iter().zip(right.iter()).rev() {
-            let known: f64 = pivot.entries.iter().map(|&(c, value)| value * all[c]).sum();
-            all[pivot.column] = (right - known) / pivot.value;
+    /// Computes the unknowns of the pivots from the right-hand sides and the free unknowns.
+    fn substitute_back(&self, rhs: &DVector<f64>, solution: &mut [f64]) {
+        for (pivot, rhs) in self.pivots.iter().zip(rhs.iter()).rev() {
+            let known: f64 = pivot.entries.iter().map(|&(c, value)| value * solution[c]).sum();
+            solution[pivot.column] = (rhs - known) / pivot.value;
         }
     }
 }
 
-/// The numbers below `count` that are not among some.
-fn without(some: impl Iterator<Item = usize>, count: usize) -> Vec<usize> {
-    let some: BTreeSet<usize> = some.collect();
-    (0..count).filter(|i| !some.contains(i)).collect()
+/// The numbers below `count` that are not among `excluded`.
+fn complement(excluded: impl Iterator<Item = usize>, count: usize) -> Vec<usize> {
+    let excluded: BTreeSet<usize> = excluded.collect();
+    (0..count).filter(|i| !excluded.contains(i)).collect()
 }

@@ -1,11 +1,11 @@
-//! Real mobility: ranks of the closure equations, at the drawing and at a
-//! random regular position.
+//! Mobility by rank: ranks of the closure equations at the drawing and at
+//! displaced, regular positions.
 //!
-//! A drawing can be singular by chance (a four-bar drawn in line), and special
+//! A drawing can be singular by chance (a four-bar drawn collinear), and special
 //! dimensions can make a counted structure move (a parallelogram with a third
-//! bar). The two are told apart by moving the linkage: from the drawing along
-//! its null space, back onto the closure by Gauss-Newton, and taking the rank
-//! there. A shaky structure does not move and has mobility 0.
+//! bar). Moving the linkage distinguishes the two: a step from the drawing along
+//! the null space, Gauss-Newton back onto the closure, and the rank there. A shaky
+//! structure does not move: its mobility is 0.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -23,8 +23,8 @@ use crate::math::tolerance::{
 use crate::math::trig::sin_cos;
 use crate::math::vector::Vector;
 
-/// A displaced linkage: every point, the turn of every free class since the
-/// drawing, the displacement of every slide. Lengths in units of the size.
+/// A displaced linkage: points, and rotations of the free classes and displacements
+/// of the slides since the drawing. Lengths are relative to the size.
 #[derive(Debug, Clone)]
 pub(crate) struct Pose {
     points: Vec<[f64; 2]>,
@@ -34,7 +34,7 @@ pub(crate) struct Pose {
 
 impl Pose {
     /// The pose after a step in the unknowns of a system.
-    fn moved(&self, step: &DVector<f64>, system: &System) -> Self {
+    fn after_step(&self, step: &DVector<f64>, system: &System) -> Self {
         let mut next = self.clone();
         for (unknown, delta) in system.unknowns.iter().zip(step.iter()) {
             match *unknown {
@@ -58,7 +58,7 @@ pub(crate) enum Unknown {
     Slide(usize),
 }
 
-/// The closure equations of the kept part, with their unknowns.
+/// Closure equations of the kept links and slides, with their unknowns.
 #[derive(Debug, Clone)]
 pub(crate) struct System {
     /// Kept edges, two rows each.
@@ -67,14 +67,14 @@ pub(crate) struct System {
     pub unknowns: Vec<Unknown>,
     /// Class of every link in this system.
     class_of: Vec<usize>,
-    /// Columns by point (that of x), class and slide.
-    of_point: Vec<Option<usize>>,
-    of_class: Vec<Option<usize>>,
-    of_slide: Vec<Option<usize>>,
+    /// Column of each point (its x), class and slide that is unknown.
+    column_of_point: Vec<Option<usize>>,
+    column_of_class: Vec<Option<usize>>,
+    column_of_slide: Vec<Option<usize>>,
 }
 
 impl System {
-    /// Sets up the equations; `locked` takes the driven slides as known.
+    /// Sets up the equations. With `locked`, driven slides are known.
     #[must_use]
     pub(crate) fn new(
         linkage: &Linkage,
@@ -110,18 +110,18 @@ impl System {
                 unknowns.push(Unknown::Slide(slide));
             }
         }
-        let mut of_point = vec![None; closure.points];
-        let mut of_class = vec![None; linkage.links.len()];
-        let mut of_slide = vec![None; linkage.slides.len()];
+        let mut column_of_point = vec![None; closure.points];
+        let mut column_of_class = vec![None; linkage.links.len()];
+        let mut column_of_slide = vec![None; linkage.slides.len()];
         for (column, unknown) in unknowns.iter().enumerate() {
             match *unknown {
-                Unknown::Point { point, axis: 0 } => of_point[point] = Some(column),
+                Unknown::Point { point, axis: 0 } => column_of_point[point] = Some(column),
                 Unknown::Point { .. } => {}
-                Unknown::Class(class) => of_class[class] = Some(column),
-                Unknown::Slide(slide) => of_slide[slide] = Some(column),
+                Unknown::Class(class) => column_of_class[class] = Some(column),
+                Unknown::Slide(slide) => column_of_slide[slide] = Some(column),
             }
         }
-        Self { edges, unknowns, class_of, of_point, of_class, of_slide }
+        Self { edges, unknowns, class_of, column_of_point, column_of_class, column_of_slide }
     }
 
     /// Number of scalar equations.
@@ -131,23 +131,26 @@ impl System {
     }
 }
 
-/// The geometry of the drawing, ready to be displaced.
+/// The geometry of the drawing, from which poses are computed.
 #[derive(Debug)]
 pub(crate) struct Skeleton<'a> {
     linkage: &'a Linkage,
     closure: &'a Closure,
+    /// Rotations with no driver locked.
     free: &'a [Rotation],
+    /// Edge vectors in the drawing.
     vector: Vec<[f64; 2]>,
+    /// Guide directions in the drawing; zero for edges without a guide.
     direction: Vec<[f64; 2]>,
-    start: Pose,
+    drawing: Pose,
     /// Unit of all lengths here, m.
     size: f64,
-    /// When true, work stops.
+    /// Stops the work once true.
     cancel: Option<&'a AtomicBool>,
 }
 
 impl<'a> Skeleton<'a> {
-    /// Takes the drawing; `free` are the rotations with no driver locked.
+    /// Takes over the drawing; `free` are the rotations with no driver locked.
     #[must_use]
     pub(crate) fn new(
         linkage: &'a Linkage,
@@ -158,15 +161,15 @@ impl<'a> Skeleton<'a> {
     ) -> Self {
         let size = paired_size(linkage);
         let origin = linkage.joints.first().map_or([0.0; 2], |j| j.at);
-        let place = |at: [f64; 2]| [(at[0] - origin[0]) / size, (at[1] - origin[1]) / size];
+        let scaled = |at: [f64; 2]| [(at[0] - origin[0]) / size, (at[1] - origin[1]) / size];
         let mut points = vec![[0.0; 2]; closure.points];
-        points[0] = place([0.0; 2]);
+        points[0] = scaled([0.0; 2]);
         for (j, joint) in linkage.joints.iter().enumerate() {
-            points[super::closure::point_of_joint(j)] = place(joint.at);
+            points[super::closure::point_of_joint(j)] = scaled(joint.at);
         }
         for (l, &p) in closure.reference.iter().enumerate() {
             if let Some(at) = linkage.reference_point(l).filter(|_| p != 0) {
-                points[p] = place(at);
+                points[p] = scaled(at);
             }
         }
         let vector = (closure.edges.iter())
@@ -181,15 +184,15 @@ impl<'a> Skeleton<'a> {
                 Span::Joint { .. } => [0.0; 2],
             })
             .collect();
-        let start =
+        let drawing =
             Pose { points, turn: vec![0.0; classes], slide: vec![0.0; linkage.slides.len()] };
-        Self { linkage, closure, free, vector, direction, start, size, cancel }
+        Self { linkage, closure, free, vector, direction, drawing, size, cancel }
     }
 
     /// The drawing itself.
     #[must_use]
     pub(crate) fn drawing(&self) -> &Pose {
-        &self.start
+        &self.drawing
     }
 
     /// Unit of all lengths here, m.
@@ -198,30 +201,30 @@ impl<'a> Skeleton<'a> {
         self.size
     }
 
-    /// How far the link of an edge has turned since the drawing.
-    fn turn(&self, pose: &Pose, e: usize) -> Vector {
+    /// Rotation of an edge's link since the drawing, as a unit vector.
+    fn edge_rotation(&self, pose: &Pose, e: usize) -> Vector {
         Vector::at_angle(pose.turn[self.free[self.closure.edges[e].link].class])
     }
 
     /// Edge vector and guide direction in a pose.
-    fn edge(&self, pose: &Pose, e: usize) -> ([f64; 2], [f64; 2]) {
+    fn edge_vectors(&self, pose: &Pose, e: usize) -> ([f64; 2], [f64; 2]) {
         let edge = &self.closure.edges[e];
-        let turn = self.turn(pose, e);
+        let turn = self.edge_rotation(pose, e);
         let (sin, cos) = (turn.y, turn.x);
-        let turned = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
-        let d = turned(self.direction[e]);
+        let rotated = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
+        let d = rotated(self.direction[e]);
         let s = edge.slide().map_or(0.0, |s| pose.slide[s]);
-        let v = turned(self.vector[e]);
+        let v = rotated(self.vector[e]);
         ([v[0] + s * d[0], v[1] + s * d[1]], d)
     }
 
-    /// How far every equation of a system is from being met in a pose.
+    /// Residual of each equation of a system in a pose.
     #[must_use]
     pub(crate) fn residual(&self, system: &System, pose: &Pose) -> DVector<f64> {
         let mut rows = Vec::with_capacity(system.rows());
         for &e in &system.edges {
             let edge = &self.closure.edges[e];
-            let (v, _) = self.edge(pose, e);
+            let (v, _) = self.edge_vectors(pose, e);
             for (k, component) in v.iter().enumerate() {
                 rows.push(pose.points[edge.to][k] - pose.points[edge.from][k] - component);
             }
@@ -229,21 +232,21 @@ impl<'a> Skeleton<'a> {
         DVector::from_vec(rows)
     }
 
-    /// Derivatives of the closure equations: entries of every row, in the order of columns.
+    /// Jacobian of the closure equations: the entries of each row in the order of columns.
     fn jacobian(&self, system: &System, pose: &Pose) -> SparseRows {
         let mut rows = Vec::with_capacity(system.rows());
         for &e in &system.edges {
             let edge = &self.closure.edges[e];
-            let (v, d) = self.edge(pose, e);
-            let class = system.of_class[system.class_of[edge.link]];
-            let slide = edge.slide().and_then(|slide| system.of_slide[slide]);
-            for (axis, turned) in [v[1], -v[0]].into_iter().enumerate() {
+            let (v, d) = self.edge_vectors(pose, e);
+            let class = system.column_of_class[system.class_of[edge.link]];
+            let slide = edge.slide().and_then(|slide| system.column_of_slide[slide]);
+            for (axis, by_angle) in [v[1], -v[0]].into_iter().enumerate() {
                 let mut row = Vec::with_capacity(4);
                 if edge.from != edge.to {
-                    row.extend(system.of_point[edge.to].map(|x| (x + axis, 1.0)));
-                    row.extend(system.of_point[edge.from].map(|x| (x + axis, -1.0)));
+                    row.extend(system.column_of_point[edge.to].map(|x| (x + axis, 1.0)));
+                    row.extend(system.column_of_point[edge.from].map(|x| (x + axis, -1.0)));
                 }
-                row.extend(class.map(|column| (column, turned)));
+                row.extend(class.map(|column| (column, by_angle)));
                 row.extend(slide.map(|column| (column, -d[axis])));
                 row.sort_unstable_by_key(|entry| entry.0);
                 rows.push(row);
@@ -261,143 +264,152 @@ impl<'a> Skeleton<'a> {
         self.rank_above(RANK, system, pose)
     }
 
-    /// The same, where what nearly depends on others counts as dependent.
+    /// [`Self::rank`], counting nearly dependent equations as dependent.
     ///
     /// # Errors
     ///
     /// [`Interrupted`].
-    pub(crate) fn nearly_rank(&self, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
+    pub(crate) fn tolerant_rank(&self, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
         self.rank_above(NEARLY_DEPENDENT, system, pose)
     }
 
-    fn rank_above(&self, least: f64, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
-        self.go_on()?;
+    fn rank_above(
+        &self,
+        threshold: f64,
+        system: &System,
+        pose: &Pose,
+    ) -> Result<Rank, Interrupted> {
+        self.check_cancelled()?;
         let (jacobian, unknowns) = (self.jacobian(system, pose), system.unknowns.len());
-        rank::rank(jacobian, unknowns, least, || self.go_on().is_err())
+        rank::rank(jacobian, unknowns, threshold, || self.check_cancelled().is_err())
     }
 
-    /// Derivatives of a weighted sum of the closure equations by the drawing: the coordinates of
-    /// all joints (of the size), then the angles of all guides.
+    /// Gradient of a weighted sum of the closure equations by the coordinates of all joints in the
+    /// drawing (relative to the size), then by the angles of all guides.
     #[must_use]
-    pub(crate) fn by_drawing(
+    pub(crate) fn drawing_gradient(
         &self,
         system: &System,
         pose: &Pose,
         weights: &DVector<f64>,
     ) -> Vec<f64> {
         let joints = self.linkage.joints.len();
-        let mut all = vec![0.0; 2 * joints + self.linkage.slides.len()];
+        let mut gradient = vec![0.0; 2 * joints + self.linkage.slides.len()];
         for (row, &e) in system.edges.iter().enumerate() {
             let edge = &self.closure.edges[e];
             let weight = Vector::new(weights[2 * row], weights[2 * row + 1]);
             // The equation is P_to − P_from − U · (w + s d), with w = P_to − P_from as drawn.
-            let turned = self.turn(pose, e).conj() * weight;
+            let unrotated = self.edge_rotation(pose, e).conj() * weight;
             for (point, sign) in [(edge.to, 1.0), (edge.from, -1.0)] {
                 let Some(joint) = joint_of_point(point).filter(|&j| j < joints) else { continue };
                 let own = if self.closure.fixed[point] { weight } else { Vector::ZERO };
-                let change = (own - turned).scale(sign);
-                all[2 * joint] += change.x;
-                all[2 * joint + 1] += change.y;
+                let change = (own - unrotated).scale(sign);
+                gradient[2 * joint] += change.x;
+                gradient[2 * joint + 1] += change.y;
             }
             if let Some(slide) = edge.slide() {
                 let guide = Vector::new(self.direction[e][0], self.direction[e][1]);
-                all[2 * joints + slide] -= pose.slide[slide] * guide.left().dot(turned);
+                gradient[2 * joints + slide] -= pose.slide[slide] * guide.left().dot(unrotated);
             }
         }
-        all
+        gradient
     }
 
-    fn go_on(&self) -> Result<(), Interrupted> {
+    fn check_cancelled(&self) -> Result<(), Interrupted> {
         let stop = self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
         if stop { Err(Interrupted) } else { Ok(()) }
     }
 
-    /// Positions to which the linkage lets itself be displaced from the drawing, along
-    /// its null space in fixed pseudo-random directions, the most regular first.
-    /// Empty: it is rigid.
+    /// Poses displaced from the drawing along its null space in pseudo-random directions, in
+    /// ascending order of mobility, so that the most regular come first. Empty if the linkage
+    /// is rigid.
     ///
     /// # Errors
     ///
     /// [`Interrupted`].
-    pub(crate) fn displaced(&self, system: &System) -> Result<Vec<(Pose, Rank)>, Interrupted> {
-        let here = self.rank(system, &self.start)?;
-        if here.mobility == 0 {
+    pub(crate) fn displaced_poses(
+        &self,
+        system: &System,
+    ) -> Result<Vec<(Pose, Rank)>, Interrupted> {
+        let initial = self.rank(system, &self.drawing)?;
+        if initial.mobility == 0 {
             return Ok(Vec::new());
         }
         let mut random = 0x9E37_79B9_7F4A_7C15_u64;
-        let mut found: Vec<(Pose, Rank)> = Vec::new();
-        // Several, because a singular drawing lies on several branches of motion.
+        let mut poses: Vec<(Pose, Rank)> = Vec::new();
+        // Several directions, because several branches of motion meet in a singular drawing.
         for _ in 0..8 {
-            for reach in [0.1, 0.03, -0.1, -0.03, 0.01, 0.003] {
+            for amplitude in [0.1, 0.03, -0.1, -0.03, 0.01, 0.003] {
                 let weights =
-                    DVector::from_fn(here.motions.ncols(), |_, _| next_random(&mut random));
-                let direction = &here.motions * weights;
-                let step = direction.scale(reach / direction.amax().max(f64::MIN_POSITIVE));
-                if let Some(reached) = self.project(system, &self.start, &step)? {
+                    DVector::from_fn(initial.motions.ncols(), |_, _| next_random(&mut random));
+                let direction = &initial.motions * weights;
+                let step = direction.scale(amplitude / direction.amax().max(f64::MIN_POSITIVE));
+                if let Some(reached) = self.project(system, &self.drawing, &step)? {
                     let rank = self.rank(system, &reached)?;
-                    found.push((reached, rank));
+                    poses.push((reached, rank));
                     break;
                 }
             }
         }
-        found.sort_by_key(|(_, rank)| rank.mobility);
-        Ok(found)
+        poses.sort_by_key(|(_, rank)| rank.mobility);
+        Ok(poses)
     }
 
-    /// Gauss-Newton back onto the closure; None if it fails or goes back.
+    /// Takes a step and returns onto the closure by Gauss-Newton. `None` if that fails or undoes
+    /// most of the step.
     fn project(
         &self,
         system: &System,
         from: &Pose,
         step: &DVector<f64>,
     ) -> Result<Option<Pose>, Interrupted> {
-        let mut pose = from.moved(step, system);
+        let mut pose = from.after_step(step, system);
         let mut total = step.clone();
         for _ in 0..30 {
             let residual = self.residual(system, &pose);
             if residual.amax() < REGULAR_CLOSURE {
                 return Ok((total.amax() > 0.25 * step.amax()).then_some(pose));
             }
-            let correction = self.correction(system, &pose, &residual, TRUNCATED)?;
+            let correction = self.gauss_newton_step(system, &pose, &residual, TRUNCATED)?;
             if !correction.amax().is_finite() || correction.amax() > 1.0 {
                 return Ok(None);
             }
             total += &correction;
-            pose = pose.moved(&correction, system);
+            pose = pose.after_step(&correction, system);
         }
         Ok(None)
     }
 
-    /// The same where equations that nearly depend on others are left as they are; and by how much
-    /// these miss.
+    /// [`Self::project`], ignoring nearly dependent equations. Also returns the greatest residual,
+    /// which these equations leave.
     ///
     /// # Errors
     ///
     /// [`Interrupted`].
-    pub(crate) fn project_nearly(
+    pub(crate) fn project_tolerant(
         &self,
         system: &System,
         from: &Pose,
         step: &DVector<f64>,
     ) -> Result<Option<(Pose, f64)>, Interrupted> {
-        let mut pose = from.moved(step, system);
+        let mut pose = from.after_step(step, system);
         let mut total = step.clone();
-        let mut before = f64::INFINITY;
+        let mut previous = f64::INFINITY;
         for _ in 0..30 {
             let residual = self.residual(system, &pose);
-            let correction = self.correction(system, &pose, &residual, NEARLY_DEPENDENT)?;
+            let correction = self.gauss_newton_step(system, &pose, &residual, NEARLY_DEPENDENT)?;
             let length = correction.amax();
             if !length.is_finite() || length > 1.0 {
                 return Ok(None);
             }
             total += &correction;
-            pose = pose.moved(&correction, system);
-            // Which of the equations are left unmet may change from step to step: then steps stay
-            // as long as what these miss.
-            let ends =
-                length < REGULAR_CLOSURE || (length < NEARLY_REDUNDANT && length > 0.5 * before);
-            before = length;
-            if ends {
+            pose = pose.after_step(&correction, system);
+            // Which equations are ignored may change from step to step. The steps then remain as
+            // long as the residuals of these equations.
+            let converged =
+                length < REGULAR_CLOSURE || (length < NEARLY_REDUNDANT && length > 0.5 * previous);
+            previous = length;
+            if converged {
                 let misfit = self.residual(system, &pose).amax();
                 return Ok((total.amax() > 0.25 * step.amax()).then_some((pose, misfit)));
             }
@@ -405,24 +417,26 @@ impl<'a> Skeleton<'a> {
         Ok(None)
     }
 
-    /// A step of Gauss-Newton.
-    fn correction(
+    /// One step of Gauss-Newton.
+    fn gauss_newton_step(
         &self,
         system: &System,
         pose: &Pose,
         residual: &DVector<f64>,
-        least: f64,
+        threshold: f64,
     ) -> Result<DVector<f64>, Interrupted> {
-        self.go_on()?;
+        self.check_cancelled()?;
         let (jacobian, unknowns) = (self.jacobian(system, pose), system.unknowns.len());
-        Ok(-rank::solve(jacobian, unknowns, least, residual, || self.go_on().is_err())?)
+        Ok(-rank::solve(jacobian, unknowns, threshold, residual, || {
+            self.check_cancelled().is_err()
+        })?)
     }
 
-    /// The links that a motion (a vector over the unknowns) moves.
+    /// Links that any of the motions (columns over the unknowns) moves.
     #[must_use]
     pub(crate) fn moving_links(&self, system: &System, motions: &DMatrix<f64>) -> Vec<usize> {
-        let moves = |wanted: &dyn Fn(Unknown) -> bool| {
-            let rows = system.unknowns.iter().enumerate().filter(|(_, u)| wanted(**u));
+        let moves = |selected: &dyn Fn(Unknown) -> bool| {
+            let rows = system.unknowns.iter().enumerate().filter(|(_, u)| selected(**u));
             rows.map(|(row, _)| motions.row(row).amax()).fold(0.0, f64::max)
                 > 1e-6 * motions.amax().max(f64::MIN_POSITIVE)
         };
@@ -439,17 +453,17 @@ impl<'a> Skeleton<'a> {
             .collect()
     }
 
-    /// The links and slides whose equations take part in a self-stress, by name.
+    /// Names of the links and slides with equations in a self-stress.
     #[must_use]
-    pub(crate) fn stressed(&self, system: &System, stresses: &DMatrix<f64>) -> Vec<String> {
-        let (links, slides) = self.under_stress(system, stresses);
+    pub(crate) fn stressed_names(&self, system: &System, stresses: &DMatrix<f64>) -> Vec<String> {
+        let (links, slides) = self.stressed_parts(system, stresses);
         let links = links.into_iter().map(|l| self.linkage.links[l].name.clone());
         links.chain(slides.into_iter().map(|s| self.linkage.slides[s].name.clone())).collect()
     }
 
-    /// The same by index: moving links, then slides.
+    /// Indices of the moving links, and of the slides, with equations in a self-stress.
     #[must_use]
-    pub(crate) fn under_stress(
+    pub(crate) fn stressed_parts(
         &self,
         system: &System,
         stresses: &DMatrix<f64>,
@@ -472,12 +486,13 @@ impl<'a> Skeleton<'a> {
     }
 }
 
-/// The joint at a point; what is no joint has a greater index than there are joints.
+/// Index of the joint at a point; at least the number of joints if the point is not a joint,
+/// `None` for the ground's origin.
 fn joint_of_point(point: usize) -> Option<usize> {
     point.checked_sub(1)
 }
 
-/// Greatest extent of the joints that are pairs.
+/// Size of the linkage, from the joints that are pairs.
 fn paired_size(linkage: &Linkage) -> f64 {
     let mut trimmed = linkage.clone();
     let paired = |j: usize| linkage.links_at(j).nth(1).is_some();
@@ -488,14 +503,14 @@ fn paired_size(linkage: &Linkage) -> f64 {
     if trimmed.joints.len() > 1 { trimmed.size() } else { linkage.size() }
 }
 
-/// xorshift64* in (−1, 1) (Marsaglia 2003, Vigna 2016); fixed seed, so that
-/// the same description always gives the same answer.
+/// xorshift64* in (−1, 1) (Marsaglia 2003, Vigna 2016). The seed is fixed, so that
+/// the same description always gives the same result.
 fn next_random(state: &mut u64) -> f64 {
     *state ^= *state >> 12;
     *state ^= *state << 25;
     *state ^= *state >> 27;
     let bits = state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11;
-    // 53 bits fit a double exactly.
+    // 53 bits are exact in a double.
     let unit = bits as f64 / (1_u64 << 53) as f64;
     2.0 * unit - 1.0
 }

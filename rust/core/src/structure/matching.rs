@@ -1,8 +1,8 @@
 //! Which equations determine which unknowns, and in what order: the fine
 //! Dulmage-Mendelsohn decomposition of a square system (Dulmage & Mendelsohn
-//! 1958; Pothen & Fan 1990), on nodes that stand for several scalars each.
+//! 1958; Pothen & Fan 1990). Each node stands for several scalars.
 
-/// A set of unknowns that is solved together, from a set of equations.
+/// Unknowns that must be solved together, with their equations.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Block {
     /// Indices of unknowns.
@@ -11,32 +11,32 @@ pub(crate) struct Block {
     pub equations: Vec<usize>,
 }
 
-/// A system of equations: `touches[e]` are the unknowns in equation `e`.
+/// Structure of a system: which unknowns appear in which equations.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Pattern {
-    /// Scalars in every unknown.
+    /// Number of scalars of each unknown.
     pub unknown_size: Vec<usize>,
-    /// Scalars in every equation.
+    /// Number of scalars of each equation.
     pub equation_size: Vec<usize>,
-    /// Unknowns that appear in every equation.
-    pub touches: Vec<Vec<usize>>,
+    /// For each equation, the unknowns in it.
+    pub unknowns_in: Vec<Vec<usize>>,
 }
 
 impl Pattern {
-    /// Adds an unknown of `size` scalars.
-    pub(crate) fn unknown(&mut self, size: usize) -> usize {
+    /// Adds an unknown of `size` scalars and returns its index.
+    pub(crate) fn add_unknown(&mut self, size: usize) -> usize {
         self.unknown_size.push(size);
         self.unknown_size.len() - 1
     }
 
-    /// Adds an equation of `size` scalars.
-    pub(crate) fn equation(&mut self, size: usize, touches: Vec<usize>) -> usize {
+    /// Adds an equation of `size` scalars and returns its index.
+    pub(crate) fn add_equation(&mut self, size: usize, unknowns: Vec<usize>) -> usize {
         self.equation_size.push(size);
-        self.touches.push(touches);
-        self.touches.len() - 1
+        self.unknowns_in.push(unknowns);
+        self.unknowns_in.len() - 1
     }
 
-    /// Blocks in solving order; None if the system is not structurally square
+    /// Blocks in solving order; `None` if the system is not structurally square
     /// and regular.
     #[must_use]
     pub(crate) fn blocks(&self) -> Option<Vec<Block>> {
@@ -48,7 +48,7 @@ impl Pattern {
             blocks[component].unknowns.push(unknown);
         }
         for (equation, partners) in matched.iter().enumerate() {
-            // All partners of one equation share a block: the equation touches each of them.
+            // All partners of an equation are in one block, since it contains each of them.
             if let Some(&unknown) = partners.first() {
                 blocks[components[unknown]].equations.push(equation);
             }
@@ -56,82 +56,87 @@ impl Pattern {
         Some(blocks)
     }
 
-    /// For every equation, the unknowns its scalars are matched to (Kuhn's
-    /// augmenting paths). None unless every scalar is matched.
+    /// For every equation, the unknowns to which its scalars are matched (Kuhn's
+    /// augmenting paths). `None` unless every scalar is matched.
     fn matching(&self) -> Option<Vec<Vec<usize>>> {
         if self.unknown_size.iter().sum::<usize>() != self.equation_size.iter().sum::<usize>() {
             return None;
         }
-        let mut of_unknown: Vec<Vec<usize>> = vec![Vec::new(); self.unknown_size.len()];
-        for equation in 0..self.touches.len() {
+        let mut matched_equations: Vec<Vec<usize>> = vec![Vec::new(); self.unknown_size.len()];
+        for equation in 0..self.unknowns_in.len() {
             for _ in 0..self.equation_size[equation] {
                 let mut seen = vec![false; self.unknown_size.len()];
-                if !self.augment(equation, &mut of_unknown, &mut seen) {
+                if !self.augment(equation, &mut matched_equations, &mut seen) {
                     return None;
                 }
             }
         }
-        let mut of_equation = vec![Vec::new(); self.touches.len()];
-        for (unknown, equations) in of_unknown.iter().enumerate() {
+        let mut matched_unknowns = vec![Vec::new(); self.unknowns_in.len()];
+        for (unknown, equations) in matched_equations.iter().enumerate() {
             for &equation in equations {
-                of_equation[equation].push(unknown);
+                matched_unknowns[equation].push(unknown);
             }
         }
-        Some(of_equation)
+        Some(matched_unknowns)
     }
 
-    /// Matches one scalar more of an equation, along an augmenting path. (The path is as long as
-    /// the linkage, so it is kept in a list and not on the thread's stack.)
-    fn augment(&self, equation: usize, of_unknown: &mut [Vec<usize>], seen: &mut [bool]) -> bool {
-        /// An equation that looks for a place at the unknowns it touches, from `touch` on; `slot`:
-        /// which of that unknown's partners is asked to move.
+    /// Matches one more scalar of an equation along an augmenting path. The path can be as long as
+    /// the linkage, so it is kept in a list instead of the thread's stack.
+    fn augment(
+        &self,
+        equation: usize,
+        matched_equations: &mut [Vec<usize>],
+        seen: &mut [bool],
+    ) -> bool {
+        /// An equation on the path: it tries to match its unknown number `trial`, from which its
+        /// partner number `slot` would have to move.
         struct Search {
             equation: usize,
-            touch: usize,
+            trial: usize,
             slot: usize,
         }
-        let mut path = vec![Search { equation, touch: 0, slot: 0 }];
+        let mut path = vec![Search { equation, trial: 0, slot: 0 }];
         while let Some(top) = path.last_mut() {
-            let Some(&unknown) = self.touches[top.equation].get(top.touch) else {
+            let Some(&unknown) = self.unknowns_in[top.equation].get(top.trial) else {
                 path.pop();
-                if let Some(before) = path.last_mut() {
-                    before.slot += 1;
+                if let Some(previous) = path.last_mut() {
+                    previous.slot += 1;
                 }
                 continue;
             };
             if top.slot == 0 {
                 if seen[unknown] {
-                    top.touch += 1;
+                    top.trial += 1;
                     continue;
                 }
                 seen[unknown] = true;
-                if of_unknown[unknown].len() < self.unknown_size[unknown] {
-                    of_unknown[unknown].push(top.equation);
+                if matched_equations[unknown].len() < self.unknown_size[unknown] {
+                    matched_equations[unknown].push(top.equation);
                     path.pop();
                     for search in path {
-                        let unknown = self.touches[search.equation][search.touch];
-                        of_unknown[unknown][search.slot] = search.equation;
+                        let unknown = self.unknowns_in[search.equation][search.trial];
+                        matched_equations[unknown][search.slot] = search.equation;
                     }
                     return true;
                 }
             }
-            if let Some(&equation) = of_unknown[unknown].get(top.slot) {
-                path.push(Search { equation, touch: 0, slot: 0 });
+            if let Some(&equation) = matched_equations[unknown].get(top.slot) {
+                path.push(Search { equation, trial: 0, slot: 0 });
             } else {
-                (top.touch, top.slot) = (top.touch + 1, 0);
+                (top.trial, top.slot) = (top.trial + 1, 0);
             }
         }
         false
     }
 
-    /// Strongly connected components of "to solve `u`, its equation needs `v`",
-    /// numbered so that what is needed comes first (Tarjan 1972).
-    fn components(&self, of_equation: &[Vec<usize>]) -> Vec<usize> {
+    /// Strongly connected components of "the equation that determines `u` contains `v`", numbered
+    /// in solving order (Tarjan 1972).
+    fn components(&self, matched_unknowns: &[Vec<usize>]) -> Vec<usize> {
         let n = self.unknown_size.len();
         let mut needs = vec![Vec::new(); n];
-        for (equation, partners) in of_equation.iter().enumerate() {
+        for (equation, partners) in matched_unknowns.iter().enumerate() {
             for &unknown in partners {
-                needs[unknown].extend(self.touches[equation].iter().copied());
+                needs[unknown].extend(self.unknowns_in[equation].iter().copied());
             }
         }
         let mut tarjan = Tarjan {
@@ -152,6 +157,7 @@ impl Pattern {
     }
 }
 
+/// State of Tarjan's algorithm.
 struct Tarjan<'a> {
     needs: &'a [Vec<usize>],
     index: Vec<usize>,
@@ -163,16 +169,16 @@ struct Tarjan<'a> {
 }
 
 impl Tarjan<'_> {
-    /// Visits what can be reached from an unknown, depth first. (The depth is that of the linkage:
-    /// the path is kept in a list and not on the thread's stack.)
+    /// Visits the unknowns reachable from `root`, depth first. The path can be as long as the
+    /// linkage, so it is kept in a list instead of the thread's stack.
     fn visit_from(&mut self, root: usize) {
-        // Every unknown on the path, with how many of those it needs have been looked at.
+        // Each unknown on the path, with the number of its `needs` visited so far.
         let mut path = vec![(root, 0)];
         self.enter(root);
-        while let Some((u, looked)) = path.last_mut() {
+        while let Some((u, visited)) = path.last_mut() {
             let u = *u;
-            if let Some(&v) = self.needs[u].get(*looked) {
-                *looked += 1;
+            if let Some(&v) = self.needs[u].get(*visited) {
+                *visited += 1;
                 if self.index[v] == usize::MAX {
                     self.enter(v);
                     path.push((v, 0));
@@ -182,8 +188,8 @@ impl Tarjan<'_> {
                 continue;
             }
             path.pop();
-            if let Some(&(before, _)) = path.last() {
-                self.low[before] = self.low[before].min(self.low[u]);
+            if let Some(&(previous, _)) = path.last() {
+                self.low[previous] = self.low[previous].min(self.low[u]);
             }
             self.leave(u);
         }
@@ -196,7 +202,7 @@ impl Tarjan<'_> {
         self.stack.push(u);
     }
 
-    /// Closes the component of which an unknown is the root.
+    /// Completes the component whose root is `u`, if `u` is a root.
     fn leave(&mut self, u: usize) {
         if self.low[u] == self.index[u] {
             while let Some(v) = self.stack.pop() {

@@ -1,64 +1,65 @@
-//! Rank of a system of closure equations, with the motions it allows and its self-stresses.
+//! Rank of a system of closure equations, with its motions and self-stresses.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::elimination::{Elimination, SparseRows};
 use crate::description::error::Interrupted;
 
-/// A rank with the spaces that belong to it.
+/// Rank and null spaces of a system.
 #[derive(Debug, Clone)]
 pub(crate) struct Rank {
     /// Unknowns minus rank.
     pub mobility: usize,
     /// Equations minus rank.
     pub excess: usize,
-    /// Columns that span the motions the equations allow (rows: unknowns).
+    /// Basis of the motions that the equations allow: a column each (rows: unknowns).
     pub motions: DMatrix<f64>,
-    /// Columns that span the self-stresses, the dependent equations (rows: equations).
+    /// Basis of the self-stresses, the dependencies of equations: a column each (rows:
+    /// equations).
     pub stresses: DMatrix<f64>,
 }
 
-/// Rank of a matrix, its columns scaled to length 1; what is not above `least` counts as zero.
+/// Rank of a matrix with columns scaled to length 1; entries up to `threshold` count as zero.
 ///
 /// # Errors
 ///
-/// [`Interrupted`] when `stop` says so.
+/// [`Interrupted`] once `cancelled` returns true.
 pub(crate) fn rank(
     mut matrix: SparseRows,
     unknowns: usize,
-    least: f64,
-    stop: impl Fn() -> bool,
+    threshold: f64,
+    cancelled: impl Fn() -> bool,
 ) -> Result<Rank, Interrupted> {
     let equations = matrix.len();
     let scale = scale_columns(&mut matrix, unknowns);
-    let eliminated = Elimination::of(matrix, unknowns, least, stop).ok_or(Interrupted)?;
-    let rank = eliminated.rank();
-    let mut motions = eliminated.null_space();
+    let elimination = Elimination::of(matrix, unknowns, threshold, cancelled).ok_or(Interrupted)?;
+    let rank = elimination.rank();
+    let mut motions = elimination.null_space();
     for (mut row, factor) in motions.row_iter_mut().zip(scale) {
         row *= factor;
     }
-    let stresses = eliminated.left_null_space();
+    let stresses = elimination.left_null_space();
     Ok(Rank { mobility: unknowns - rank, excess: equations - rank, motions, stresses })
 }
 
-/// A solution of `matrix · x = right` but for equations that depend on others; what is not above
-/// `least` counts as zero.
+/// Solves `matrix · x = rhs`, ignoring equations that depend on others; entries up to `threshold`
+/// count as zero.
 ///
 /// # Errors
 ///
-/// [`Interrupted`] when `stop` says so.
+/// [`Interrupted`] once `cancelled` returns true.
 pub(crate) fn solve(
     matrix: SparseRows,
     unknowns: usize,
-    least: f64,
-    right: &DVector<f64>,
-    stop: impl Fn() -> bool,
+    threshold: f64,
+    rhs: &DVector<f64>,
+    cancelled: impl Fn() -> bool,
 ) -> Result<DVector<f64>, Interrupted> {
-    let eliminated = Elimination::of(matrix, unknowns, least, stop).ok_or(Interrupted)?;
-    Ok(eliminated.solve(right))
+    let elimination = Elimination::of(matrix, unknowns, threshold, cancelled).ok_or(Interrupted)?;
+    Ok(elimination.solve(rhs))
 }
 
-/// Scales columns to length 1; returns the factors.
+/// Scales columns to length 1 and returns the factors.
 fn scale_columns(matrix: &mut SparseRows, unknowns: usize) -> Vec<f64> {
     let mut squares = vec![0.0; unknowns];
     for &(column, value) in matrix.iter().flatten() {
@@ -77,8 +78,8 @@ mod tests {
     use super::*;
     use crate::math::tolerance::RANK;
 
-    /// A sparse matrix with entries of size 1, some rows and columns sums of others; the same
-    /// numbers for the same seed.
+    /// A sparse pseudo-random matrix with entries of order 1; some rows and columns are sums of
+    /// others.
     fn matrix(seed: u64) -> (SparseRows, usize) {
         let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
         let mut next = move |below: usize| {
@@ -121,7 +122,7 @@ mod tests {
         all
     }
 
-    /// Singular values of the columns, each scaled to length 1, that are above [`RANK`].
+    /// Number of singular values above [`RANK`] after scaling the columns to length 1.
     fn rank_by_singular_values(mut all: DMatrix<f64>) -> usize {
         for mut column in all.column_iter_mut() {
             let norm = column.norm();
@@ -129,22 +130,22 @@ mod tests {
                 column /= norm;
             }
         }
-        // The squares' eigenvalues would lose half the digits; the matrix beside its transpose
-        // has the singular values and their negatives as eigenvalues (Golub & Van Loan 8.6).
+        // Eigenvalues of AᵀA would lose half the digits. Those of [0 A; Aᵀ 0] are the singular
+        // values of A and their negatives (Golub & Van Loan 8.6).
         let (m, n) = all.shape();
-        let mut both = DMatrix::zeros(m + n, m + n);
-        both.view_mut((0, m), (m, n)).copy_from(&all);
-        both.view_mut((m, 0), (n, m)).copy_from(&all.transpose());
-        both.symmetric_eigenvalues().iter().filter(|&&value| value > RANK).count()
+        let mut symmetric = DMatrix::zeros(m + n, m + n);
+        symmetric.view_mut((0, m), (m, n)).copy_from(&all);
+        symmetric.view_mut((m, 0), (n, m)).copy_from(&all.transpose());
+        symmetric.symmetric_eigenvalues().iter().filter(|&&value| value > RANK).count()
     }
 
     #[test]
-    fn elimination_finds_the_rank_that_singular_values_find() {
+    fn elimination_finds_the_same_rank_as_singular_values() {
         let mut deficient = 0;
         for seed in 1..400 {
             let (rows, n) = matrix(seed);
             let (all, m) = (dense(&rows, n), rows.len());
-            let found = rank(rows, n, RANK, || false).expect("goes on");
+            let found = rank(rows, n, RANK, || false).expect("not cancelled");
             let wanted = rank_by_singular_values(all.clone());
             assert_eq!((found.mobility, found.excess), (n - wanted, m - wanted), "{seed}");
             deficient += usize::from(found.mobility.min(found.excess) > 0);
@@ -161,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn elimination_can_be_stopped() {
+    fn elimination_can_be_cancelled() {
         let (rows, n) = matrix(1);
         assert_eq!(rank(rows, n, RANK, || true).err(), Some(Interrupted));
     }

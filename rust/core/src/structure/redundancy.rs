@@ -1,4 +1,4 @@
-//! Redundant links and slides: those without which the linkage moves just the same.
+//! Redundant links and slides: the linkage moves in the same way without them.
 
 use super::closure::{Closure, LeftOut, rotations};
 use super::freedom::{Pose, Skeleton, System};
@@ -6,15 +6,15 @@ use super::rank::Rank;
 use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
 
-/// Leaves out links (the last listed first), then slides, until no equation is
-/// dependent any more. Leaving one out must free nothing.
+/// Leaves out links (last listed first), then slides, until no equation depends on others.
+/// Leaving them out must not change the mobility.
 ///
-/// Returns what was left out and how many dependent equations remain.
+/// Returns what it left out and how many dependent equations remain.
 ///
 /// # Errors
 ///
-/// None of its own; those of [`rotations`].
-pub(crate) fn leave_out(
+/// Those of [`rotations`], and [`StructureError::Interrupted`].
+pub(crate) fn find_redundant(
     linkage: &Linkage,
     closure: &Closure,
     skeleton: &Skeleton<'_>,
@@ -29,7 +29,7 @@ pub(crate) fn leave_out(
         for candidate in candidates(linkage, &left_out) {
             let (rotation, _) = rotations(linkage, &candidate, false)?;
             let system = System::new(linkage, closure, &candidate, &rotation, false);
-            if !still_placed(linkage, closure, &candidate) {
+            if !position_is_known(linkage, closure, &candidate) {
                 continue;
             }
             let rank = skeleton.rank(&system, pose)?;
@@ -39,14 +39,14 @@ pub(crate) fn leave_out(
             }
         }
         match found {
-            Some((candidate, rest)) => (left_out, excess) = (candidate, rest),
+            Some((candidate, remaining)) => (left_out, excess) = (candidate, remaining),
             None => break,
         }
     }
     Ok((left_out, excess))
 }
 
-/// One more link or slide left out; drivers and the ground stay.
+/// `left_out` with one more link or slide. Drivers, driven links and the ground stay.
 fn candidates<'a>(
     linkage: &'a Linkage,
     left_out: &'a LeftOut,
@@ -79,9 +79,9 @@ fn candidates<'a>(
     links.chain(slides)
 }
 
-/// A link left out is placed again afterwards by two of its joints (or a joint
-/// and a guide) that other, kept links carry.
-fn still_placed(linkage: &Linkage, closure: &Closure, left_out: &LeftOut) -> bool {
+/// Whether the position of the link left out last still follows from the kept links: from two of
+/// its joints, or a joint and a guide.
+fn position_is_known(linkage: &Linkage, closure: &Closure, left_out: &LeftOut) -> bool {
     let Some(&link) = left_out.links.last() else { return true };
     let kept = |l: usize| l != link && !left_out.links.contains(&l);
     let joints = linkage.links[link]

@@ -1,0 +1,124 @@
+//! Wrappers for all calls of the core: they turn a panic into an `AssurError`, release the GIL, and
+//! let signals stop long work.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind, set_hook};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+
+use crate::error;
+
+/// Time between two checks for signals.
+const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
+/// Items between two checks whether the work is cancelled.
+const ITEMS_PER_CHECK: usize = 256;
+/// Length from which a list takes long enough to check for signals.
+const LONG_LIST: usize = 16_384;
+
+/// Source location of the last panic.
+static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
+
+/// Records the location of a panic for the exception instead of printing it. The hook affects only
+/// this extension module, which has its own copy of the standard library.
+pub(crate) fn record_panic_locations() {
+    set_hook(Box::new(|info| {
+        let location = info.location().map(ToString::to_string);
+        if let Ok(mut last) = LAST_PANIC.lock() {
+            *last = location;
+        }
+    }));
+}
+
+/// Does short work and turns a panic into an `AssurError`.
+pub(crate) fn catch_panic<T>(work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+    // Unwind safety: what a panic leaves incomplete is dropped with the closure, or its owner
+    // marks it.
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(panic_error(&*panic)))
+}
+
+fn panic_error(panic: &(dyn Any + Send)) -> PyErr {
+    let text = panic
+        .downcast_ref::<&str>()
+        .map(ToString::to_string)
+        .or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "unknown".into());
+    let location = LAST_PANIC.lock().ok().and_then(|mut last| last.take());
+    error::internal(&text, location.as_deref().unwrap_or("unknown place"))
+}
+
+/// Runs `work` without the GIL. Unless it is `small`, the calling thread checks for signals in the
+/// meantime. After a signal it sets the flag, waits for `work` to return and drops its result.
+pub(crate) fn run<T: Send>(
+    py: Python<'_>,
+    small: bool,
+    work: impl Fn(&AtomicBool) -> T + Sync,
+) -> PyResult<T> {
+    catch_panic(|| run_unguarded(py, small, work))
+}
+
+/// Results of `one` for every index below `count`, computed as by [`run`].
+pub(crate) fn map<T: Send>(
+    py: Python<'_>,
+    count: usize,
+    one: impl Fn(usize) -> T + Sync,
+) -> PyResult<Vec<T>> {
+    run(py, count < LONG_LIST, |cancel| {
+        let mut results = Vec::with_capacity(count);
+        for index in 0..count {
+            if index.is_multiple_of(ITEMS_PER_CHECK) && cancel.load(Ordering::Relaxed) {
+                break;
+            }
+            results.push(one(index));
+        }
+        results
+    })
+}
+
+fn run_unguarded<T: Send>(
+    py: Python<'_>,
+    small: bool,
+    work: impl Fn(&AtomicBool) -> T + Sync,
+) -> PyResult<T> {
+    let cancel = AtomicBool::new(false);
+    if small {
+        return Ok(py.detach(|| work(&cancel)));
+    }
+    py.detach(|| {
+        let (done, finished) = channel();
+        thread::scope(|scope| {
+            let job = || {
+                let result = work(&cancel);
+                // This only wakes the caller; `join` returns the result.
+                let _ = done.send(());
+                result
+            };
+            let Ok(worker) = thread::Builder::new().spawn_scoped(scope, job) else {
+                // Without a thread the work cannot be interrupted.
+                return Ok(work(&cancel));
+            };
+            let mut signal = Ok(());
+            while let Err(RecvTimeoutError::Timeout) = finished.recv_timeout(SIGNAL_INTERVAL)
+                && !worker.is_finished()
+            {
+                if signal.is_ok() {
+                    #[allow(
+                        clippy::redundant_closure_for_method_calls,
+                        reason = "the method by itself is not general over the lifetime"
+                    )]
+                    let checked = Python::attach(|py| py.check_signals());
+                    signal = checked;
+                    cancel.store(signal.is_err(), Ordering::Relaxed);
+                }
+            }
+            match worker.join() {
+                Ok(result) => signal.map(|()| result),
+                Err(panic) => resume_unwind(panic),
+            }
+        })
+    })
+}
