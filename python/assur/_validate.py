@@ -22,9 +22,9 @@ __all__ = [
 ]
 
 # More would only take memory; no machine has them.
-MOST_THREADS = 4096
+MAX_THREADS = 4096
 # What the core can name in its own refusal of a sign: it takes whole numbers of 64 bits.
-MOST_SIGN = 2**53
+MAX_SIGN = 2**53
 
 
 def one_of(value: Any, known: tuple[str, ...], what: str) -> str:
@@ -65,7 +65,7 @@ def _sign(name: str, sign: Any, strict: bool) -> int:
         number = real_number(sign, f"assembly[{name!r}]")
     except InputError:
         number = math.nan
-    whole = number.is_integer() and abs(number) <= MOST_SIGN
+    whole = number.is_integer() and abs(number) <= MAX_SIGN
     if whole and (number in (1.0, -1.0) or not strict):
         return int(number)
     message = f"assembly[{name!r}] is {short(sign)}: it must be +1 or -1"
@@ -109,7 +109,7 @@ def checked_threads(threads: Any) -> int | None:
         number = operator.index(threads)
     except TypeError:
         number = 0
-    if isinstance(threads, bool) or not 1 <= number <= MOST_THREADS:
-        message = f"threads is {short(threads)}: a whole number from 1 to {MOST_THREADS} is needed"
+    if isinstance(threads, bool) or not 1 <= number <= MAX_THREADS:
+        message = f"threads is {short(threads)}: a whole number from 1 to {MAX_THREADS} is needed"
         raise InputError(message)
     return number

@@ -20,7 +20,7 @@ Direction: TypeAlias = Literal["either", "rising", "falling"]
 SIGNS = {"either": 0, "rising": 1, "falling": -1}
 
 # Kind, driver or function, value, lines, whether their complement, sign, whether it stops.
-WatchParts: TypeAlias = tuple[str, int, float, list[Any], bool, int, bool]
+EncodedEvent: TypeAlias = tuple[str, int, float, list[Any], bool, int, bool]
 
 
 @dataclass(frozen=True)
@@ -123,9 +123,9 @@ class Crossing:
 Event: TypeAlias = Rest | Position | Speed | TransmissionAngle | Crossing
 
 
-def parts(
+def encode(
     event: Any, mechanism: Mechanism | None, drivers: int, functions: list[Function]
-) -> WatchParts:
+) -> EncodedEvent:
     """What the core is told of an event; its function goes to the list."""
     if not isinstance(event, Event):
         message = (

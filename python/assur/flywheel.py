@@ -29,7 +29,7 @@ from assur.errors import AssurWarning, InputError
 if TYPE_CHECKING:
     from os import PathLike
 
-__all__ = ["Flywheel", "Place", "Table", "evaluate", "from_table", "read_table"]
+__all__ = ["Extremum", "Flywheel", "Table", "evaluate", "from_table", "read_table"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
 Mean: TypeAlias = Literal["extremes", "period"]
@@ -38,12 +38,12 @@ Spline: TypeAlias = Literal["not-a-knot", "natural", "clamped", "periodic", "lin
 MEANS = ("extremes", "period")
 SPLINES = ("not-a-knot", "natural", "clamped", "periodic", "linear")
 # Part of it by which a period may differ from turns: tables are typed with four digits.
-WHOLE = 1e-3
+WHOLE_TURNS_RTOL = 1e-3
 # Places of a curve in a picture.
-DRAWN = 721
+PLOT_POINTS = 721
 
 
-class Place(NamedTuple):
+class Extremum(NamedTuple):
     """An extreme speed: where, rad, and its value, rad/s."""
 
     at: Any
@@ -73,7 +73,7 @@ class Flywheel:
         Coefficient of speed fluctuation: (greatest − least) / `mean_speed`.
     mean_speed : float or array
         Mean speed by the definition chosen, rad/s.
-    greatest, least : Place
+    greatest, least : Extremum
         The extreme speeds and where they are.
     motor_moment : float or array
         Moment of the constant motor, N·m.
@@ -92,7 +92,7 @@ class Flywheel:
         self._span = float(phi[0]), float(phi[-1])
         numbers = [_shaped(one, shape) for one in self._core.numbers()]
         self.inertia, self.speed0, self.motor_moment = numbers[:3]
-        self.greatest, self.least = Place(*numbers[3:5]), Place(*numbers[5:7])
+        self.greatest, self.least = Extremum(*numbers[3:5]), Extremum(*numbers[5:7])
         self.period = numbers[7]
         width = self._span[1] - self._span[0]
         half = (self.greatest.value + self.least.value) / 2.0
@@ -167,17 +167,17 @@ class Flywheel:
         Parameters
         ----------
         index : int or tuple of int
-            Place in the batch; nothing for one table.
+            Extremum in the batch; nothing for one table.
         """
         place = checked_index(index, self.shape, "explain")
         flat = int(np.ravel_multi_index(place, self.shape)) if self.shape else 0
-        told = self._core.problem(flat)
-        if told is not None:
-            return str(told)
+        problem = self._core.problem(flat)
+        if problem is not None:
+            return str(problem)
         inertia = np.asarray(self.inertia)[place]
         return f"a flywheel of {inertia:.9g} kg·m², δ = {np.asarray(self.delta)[place]:.6g}"
 
-    def energy_mass(self, points: int = DRAWN) -> tuple[Float, Float]:
+    def energy_mass(self, points: int = PLOT_POINTS) -> tuple[Float, Float]:
         """Return Wittenbauer's diagram of one turn.
 
         Parameters
@@ -218,7 +218,7 @@ class Flywheel:
             message = "plot is for one table, this is a batch"
             raise InputError(message)
         one_of(what, ("speed", "time", "energy-mass"), "what")
-        return flywheel_picture(self, what, self._span, DRAWN, ax)
+        return flywheel_picture(self, what, self._span, PLOT_POINTS, ax)
 
     def _curve(self, what: str, places: npt.ArrayLike, name: str) -> Any:
         x = real_array(places, name)
@@ -481,7 +481,7 @@ def _flywheel(
     if x.size < 2:
         message = f"the table has {x.size} rows: at least 2 are needed"
         raise InputError(message)
-    doubt(float(x[-1] - x[0]))
+    warn_if_degrees(float(x[-1] - x[0]))
     if i.ndim == 0:
         i = np.full(x.shape, i)
     for column, name in ((m, "moment"), (i, "inertia")):
@@ -505,22 +505,22 @@ def _flywheel(
     failed = np.flatnonzero(np.isnan(np.asarray(result.inertia)).ravel())
     if on_error == "raise" and failed.size:
         first_failed = int(failed[0])
-        told = str(result._core.problem(first_failed))
+        problem = str(result._core.problem(first_failed))
         if shape:
             place = tuple(int(k) for k in np.unravel_index(first_failed, shape))
             more = f" (and {failed.size - 1} more)" if failed.size > 1 else ""
-            told = f"table {place}{more}: {told}"
-        raise InputError(told)
+            problem = f"table {place}{more}: {problem}"
+        raise InputError(problem)
     return result
 
 
-def doubt(span: float, periodic: bool = True) -> None:
+def warn_if_degrees(span: float, periodic: bool = True) -> None:
     """Warn of a period that is neither turns nor a part of one: most likely degrees."""
     if not periodic:
         return
     turns = span / (2.0 * np.pi)
     ratio = max(turns, 1.0 / turns) if turns > 0.0 else 1.0
-    if abs(ratio - round(ratio)) > WHOLE * ratio:
+    if abs(ratio - round(ratio)) > WHOLE_TURNS_RTOL * ratio:
         message = (
             f"phi covers {span:g} rad, {turns:.6g} turns: a period is mostly a number of turns or "
             "a part of one. Is phi in degrees?"

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 
 # Places of a curve in time.
-RUN_DRAWN = 1001
+RUN_PLOT_POINTS = 1001
 
 
 def _axes(ax: Any) -> Any:
@@ -115,7 +115,7 @@ def _guide(
     """Draw a guide through the sliding point, and the block on it."""
     slide = motion.mechanism.slides[name]
     joints = motion.mechanism.links[slide.link]
-    place = motion.joint(joints[0]) if joints else motion._place(slide.link)
+    place = motion.joint(joints[0]) if joints else motion._reference_point(slide.link)
     middle = place.value[index]
     own = motion.mechanism.dimensions.get(f"{name}.angle", 0.0)
     angle = float(motion.link(on).value[index]) + float(own)
@@ -173,13 +173,13 @@ def run_picture(run: Run, what: str, ax: Any) -> Any:
             ax.plot(run.t, getattr(run.energy, name), label=name)
         ax.legend()
     else:
-        t = np.linspace(run.t[0], run.t[-1], RUN_DRAWN)
+        t = np.linspace(run.t[0], run.t[-1], RUN_PLOT_POINTS)
         own = run.t if run._along_q else t
         values = getattr(run if run._along_q else run.at(t), what)
         ax.plot(own, values, color=_COLOURS[0] if np.ndim(values) == 1 else None)
     for one in run.events:
         ax.axvline(one.t, color="0.7", linewidth=0.8, zorder=0)
-    unit = _unit(run._made[1])
+    unit = _unit(run._init_args[1])
     units = {"q": unit, "speed": f"{unit}/s", "acceleration": f"{unit}/s²", "energy": "J"}
     ax.set(xlabel="t, s", ylabel=f"{what}, {units[what]}")
     return ax
@@ -212,7 +212,7 @@ def _mark(ax: Any, x: float, y: float, above: bool) -> None:
 def steady_picture(steady: SteadyState, ax: Any) -> Any:
     """See `SteadyState.plot`."""
     ax = _axes(ax)
-    q = np.linspace(steady.q[0], steady.q[-1], RUN_DRAWN)
+    q = np.linspace(steady.q[0], steady.q[-1], RUN_PLOT_POINTS)
     ax.plot(q, steady.at(q).speed, color=_COLOURS[0])
     for place in (steady.greatest, steady.least):
         value = float(np.copysign(place.value, steady.speed[0]))

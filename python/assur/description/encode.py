@@ -14,7 +14,7 @@ from assur.description.words import Drive, Slide
 from assur.errors import InputError
 
 DriverLike: TypeAlias = str | Drive
-Parts: TypeAlias = tuple[
+Description: TypeAlias = tuple[
     tuple[tuple[str, float, float], ...],
     tuple[tuple[str, tuple[str, ...]], ...],
     tuple[tuple[str, Slide], ...],
@@ -23,9 +23,9 @@ Parts: TypeAlias = tuple[
 ]
 
 
-def core_of(parts: Parts) -> Core:
+def core_of(description: Description) -> Core:
     """Return the compiled core of a description."""
-    joints, links, slides, drivers, assembly = parts
+    joints, links, slides, drivers, assembly = description
     return Core(
         joints=list(joints),
         links=[(name, list(on)) for name, on in links],

@@ -12,7 +12,7 @@ from assur._arrays import Float, real_array, real_number, short
 from assur.dynamics.table import Rows, Table
 from assur.errors import InputError
 
-__all__ = ["Function", "Outside", "Value", "checked"]
+__all__ = ["CallbackTable", "Function", "Value", "checked_value"]
 
 # As the core takes a value: a number, or which table or function.
 Encoded: TypeAlias = float | tuple[str, int]
@@ -22,7 +22,7 @@ Function: TypeAlias = Callable[[float, Any, Any], float]
 Value: TypeAlias = float | Table | Function
 
 
-def checked(value: Any, what: str = "the value of a load") -> Value:
+def checked_value(value: Any, what: str = "the value of a load") -> Value:
     """A value that cannot change any more: a float, a table, or a function."""
     if isinstance(value, Table):
         if value.ratio != 1.0 or value.rotor_inertia != 0.0:
@@ -36,13 +36,13 @@ def checked(value: Any, what: str = "the value of a load") -> Value:
 
 
 @dataclass
-class Outside:
+class CallbackTable:
     """The tables and functions among the values, in order."""
 
     tables: list[Rows] = field(default_factory=list)
     functions: list[Function] = field(default_factory=list)
     # How many of the functions are loads; those of motors come behind.
-    loads: int = 0
+    load_count: int = 0
 
     def encode(self, value: Value) -> Encoded:
         """Encode a value for the core; tables and functions go to the lists."""
@@ -54,9 +54,9 @@ class Outside:
             return "function", len(self.functions) - 1
         return float(value)
 
-    def numbers(self, q: Float, speed: Float) -> Float:
+    def load_values(self, q: Float, speed: Float) -> Float:
         """The loads' functions' values at positions (rows of coordinates), at the time 0."""
-        functions = self.functions[: self.loads]
+        functions = self.functions[: self.load_count]
         if not functions:
             return np.empty(0)
         one = q.shape[1] == 1

@@ -9,7 +9,7 @@ import numpy as np
 
 from assur._arrays import not_negative, real_array, real_number, short, two_numbers
 from assur._validate import checked_name
-from assur.dynamics.callbacks import Encoded, Outside, Value, checked
+from assur.dynamics.callbacks import CallbackTable, Encoded, Value, checked_value
 from assur.dynamics.table import Table, replace_fields
 from assur.errors import InputError
 
@@ -25,9 +25,9 @@ __all__ = [
     "TorsionSpring",
 ]
 
-Place: TypeAlias = str | tuple[str, tuple[float, float]]
+PointLike: TypeAlias = str | tuple[str, tuple[float, float]]
 # As the core takes a load: kind, places, links, numbers, values.
-Parts: TypeAlias = tuple[str, list[Any], list[str], list[float], list[Encoded]]
+EncodedLoad: TypeAlias = tuple[str, list[Any], list[str], list[float], list[Encoded]]
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class Force:
         The link along whose frame fx and fy are; the drawing's axes by default.
     """
 
-    at: Place
+    at: PointLike
     force: tuple[Value, Value]
     axes: str | None = None
 
@@ -106,14 +106,14 @@ class Force:
             raise InputError(message)
         replace_fields(
             self,
-            at=_place(self.at, "Force at"),
-            force=tuple(checked(value) for value in force),
+            at=_checked_point(self.at, "Force at"),
+            force=tuple(checked_value(value) for value in force),
             axes=None if self.axes is None else _link(self.axes, "Force axes"),
         )
 
-    def _parts(self, outside: Outside) -> Parts:
+    def _encode(self, callbacks: CallbackTable) -> EncodedLoad:
         links = [] if self.axes is None else [self.axes]
-        return "force", [self.at], links, [], [outside.encode(value) for value in self.force]
+        return "force", [self.at], links, [], [callbacks.encode(value) for value in self.force]
 
 
 @dataclass(frozen=True)
@@ -136,10 +136,10 @@ class Torque:
 
     def __post_init__(self) -> None:
         _check_links(self)
-        replace_fields(self, torque=checked(self.torque))
+        replace_fields(self, torque=checked_value(self.torque))
 
-    def _parts(self, outside: Outside) -> Parts:
-        return "torque", [], [self.link, self.on], [], [outside.encode(self.torque)]
+    def _encode(self, callbacks: CallbackTable) -> EncodedLoad:
+        return "torque", [], [self.link, self.on], [], [callbacks.encode(self.torque)]
 
 
 @dataclass(frozen=True)
@@ -158,8 +158,8 @@ class Spring:
         Tension at that length, N.
     """
 
-    first: Place
-    second: Place
+    first: PointLike
+    second: PointLike
     stiffness: float
     length: float
     preload: float = 0.0
@@ -168,7 +168,7 @@ class Spring:
         _check_ends(self)
         _check_numbers(self, "stiffness", "length", "preload")
 
-    def _parts(self, _: Outside) -> Parts:
+    def _encode(self, _: CallbackTable) -> EncodedLoad:
         return (
             "spring",
             [self.first, self.second],
@@ -206,7 +206,7 @@ class TorsionSpring:
         _check_links(self)
         _check_numbers(self, "stiffness", "angle", "preload")
 
-    def _parts(self, _: Outside) -> Parts:
+    def _encode(self, _: CallbackTable) -> EncodedLoad:
         return (
             "torsion spring",
             [],
@@ -220,15 +220,15 @@ class TorsionSpring:
 class Damper:
     """A damper between two points, N·s/m."""
 
-    first: Place
-    second: Place
+    first: PointLike
+    second: PointLike
     damping: float
 
     def __post_init__(self) -> None:
         _check_ends(self)
         _check_numbers(self, "damping")
 
-    def _parts(self, _: Outside) -> Parts:
+    def _encode(self, _: CallbackTable) -> EncodedLoad:
         return "damper", [self.first, self.second], [], [self.damping], []
 
 
@@ -244,7 +244,7 @@ class TorsionDamper:
         _check_links(self)
         _check_numbers(self, "damping")
 
-    def _parts(self, _: Outside) -> Parts:
+    def _encode(self, _: CallbackTable) -> EncodedLoad:
         return "torsion damper", [], [self.link, self.on], [self.damping], []
 
 
@@ -273,14 +273,17 @@ def _check_links(load: Any) -> None:
 
 def _check_ends(load: Any) -> None:
     kind = type(load).__name__
-    first, second = _place(load.first, f"{kind} first"), _place(load.second, f"{kind} second")
+    first, second = (
+        _checked_point(load.first, f"{kind} first"),
+        _checked_point(load.second, f"{kind} second"),
+    )
     if first == second:
         message = f"{kind}: both ends are {first!r}: it has no length"
         raise InputError(message)
     replace_fields(load, first=first, second=second)
 
 
-def _place(at: Any, what: str) -> Place:
+def _checked_point(at: Any, what: str) -> PointLike:
     if isinstance(at, str):
         return checked_name(at, what)
     if isinstance(at, tuple | list) and len(at) == 2 and isinstance(at[0], str):

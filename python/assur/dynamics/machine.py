@@ -13,15 +13,12 @@ import numpy.typing as npt
 from assur import _core
 from assur._arrays import real_array, short
 from assur._validate import checked_name, one_of
-from assur.dynamics import integrate as _drive
-from assur.dynamics import motors
-from assur.dynamics import reduce as _reduce
-from assur.dynamics import size_flywheel as _even
-from assur.dynamics.callbacks import Outside
+from assur.dynamics import integrate, motors, reduce, size_flywheel
+from assur.dynamics.callbacks import CallbackTable
 from assur.dynamics.loads import Body, Gravity
-from assur.dynamics.options import listed
+from assur.dynamics.options import as_list
 from assur.errors import InputError
-from assur.flywheel import SPLINES, doubt
+from assur.flywheel import SPLINES, warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -108,37 +105,42 @@ class Machine:
         _check(mechanism, bodies)
         self.mechanism = mechanism
         self.bodies = MappingProxyType(dict(bodies))
-        self.loads = tuple(listed(loads, "loads"))
+        self.loads = tuple(as_list(loads, "loads"))
         self._drivers = int(np.size(mechanism.q0))
         # Of one driver the motor itself.
         self.motor: Any = tuple(motor) if isinstance(motor, list | tuple) else motor
         if isinstance(self.motor, tuple) and len(self.motor) == 1 == self._drivers:
             self.motor = self.motor[0]
-        self._made: tuple[Any, ...] = (
+        self._rebuild_with: tuple[Any, ...] = (
             Machine,
             (mechanism, dict(bodies), self.loads, self.motor),
         )
-        outside = Outside()
+        callbacks = CallbackTable()
         gravity = np.zeros(2)
-        parts = []
+        encoded_loads = []
         for load in self.loads:
             if isinstance(load, Gravity):
                 gravity = gravity + load.acceleration
-            elif hasattr(load, "_parts"):
-                parts.append(load._parts(outside))
+            elif hasattr(load, "_encode"):
+                encoded_loads.append(load._encode(callbacks))
             else:
                 message = f"{short(load)} is no load: Gravity, Force, Torque, Spring, Damper …"
                 raise InputError(message)
-        outside.loads = len(outside.functions)
+        callbacks.load_count = len(callbacks.functions)
         masses = [_body(mechanism, link, body) for link, body in self.bodies.items()]
-        turning = _motors(self.motor, self._drivers, outside)
-        self._outside = outside
+        encoded_motors = _motors(self.motor, self._drivers, callbacks)
+        self._callbacks = callbacks
         self._core = _core.Machine(
-            mechanism._core, masses, parts, gravity.tolist(), outside.tables, turning
+            mechanism._core,
+            masses,
+            encoded_loads,
+            gravity.tolist(),
+            callbacks.tables,
+            encoded_motors,
         )
         if mechanism.driver not in mechanism.slides:
-            for rows, _, _, periodic in outside.tables:
-                doubt(rows[-1] - rows[0], periodic)
+            for rows, _, _, periodic in callbacks.tables:
+                warn_if_degrees(rows[-1] - rows[0], periodic)
 
     @classmethod
     def from_table(
@@ -186,17 +188,17 @@ class Machine:
         self.mechanism, self.loads, self.motor = None, (), motor
         self.bodies = MappingProxyType({})
         self._drivers = 1
-        outside = Outside()
+        callbacks = CallbackTable()
         x, columns = _columns(phi, moment, inertia)
         one_of(spline, SPLINES, "spline")
-        doubt(float(x[-1] - x[0]), periodic)
+        warn_if_degrees(float(x[-1] - x[0]), periodic)
         for column in (columns["inertia"], columns["moment"]):
-            outside.tables.append((x.tolist(), column.tolist(), spline, bool(periodic)))
+            callbacks.tables.append((x.tolist(), column.tolist(), spline, bool(periodic)))
         table = x, columns["moment"], columns["inertia"]
-        self._made = Machine.from_table, (*table, motor, spline, periodic)
-        turning = _motors(motor, 1, outside)
-        self._outside = outside
-        self._core = _core.Machine(None, [], [], [0.0, 0.0], outside.tables, turning)
+        self._rebuild_with = Machine.from_table, (*table, motor, spline, periodic)
+        encoded_motors = _motors(motor, 1, callbacks)
+        self._callbacks = callbacks
+        self._core = _core.Machine(None, [], [], [0.0, 0.0], callbacks.tables, encoded_motors)
         return self
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -211,7 +213,7 @@ class Machine:
         raise AttributeError(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return self._made
+        return self._rebuild_with
 
     def __repr__(self) -> str:
         if self.mechanism is None:
@@ -358,7 +360,7 @@ class Machine:
         >>> machine.flywheel(fluctuation=0.05, mean_speed=20.0).delta.__round__(6)
         0.05
         """
-        return _even.flywheel(self, fluctuation, mean_speed, mean, on_error)
+        return size_flywheel.flywheel(self, fluctuation, mean_speed, mean, on_error)
 
     def run(
         self,
@@ -453,7 +455,7 @@ class Machine:
         >>> run.at(1.0).speed.round(4)
         np.float64(16.1541)
         """
-        return _drive.run(
+        return integrate.run(
             self,
             t_end,
             q0,
@@ -542,7 +544,7 @@ class Machine:
         >>> print(f"{steady.mean_speed:.4f} rad/s, δ = {steady.delta:.4f}, {steady.power:.3f} W")
         8.9681 rad/s, δ = 0.1755, 179.363 W
         """
-        return _drive.steady_state(
+        return integrate.steady_state(
             self,
             speed,
             turns,
@@ -560,10 +562,10 @@ class Machine:
     def _reduce(
         self, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
     ) -> tuple[Float, Float, Float, Float]:
-        return _reduce.reduce(self, q, speed, on_error)
+        return reduce.reduce(self, q, speed, on_error)
 
 
-def _motors(motor: Any, drivers: int, outside: Outside) -> list[motors.MotorParts]:
+def _motors(motor: Any, drivers: int, callbacks: CallbackTable) -> list[motors.EncodedMotor]:
     if motor is None:
         return []
     many = [motor] if drivers == 1 and not isinstance(motor, list | tuple) else motor
@@ -572,7 +574,7 @@ def _motors(motor: Any, drivers: int, outside: Outside) -> list[motors.MotorPart
         message = f"motor is {short(motor)}: {wanted}"
         raise InputError(message)
     pairs = enumerate(many)
-    return [motors.parts(one, driver, outside) for driver, one in pairs if one is not None]
+    return [motors.encode(one, driver, callbacks) for driver, one in pairs if one is not None]
 
 
 def _check(mechanism: Any, bodies: Any) -> None:

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from assur._arrays import not_negative, real_number, short
-from assur.dynamics.callbacks import Encoded, Outside, Value, checked
+from assur.dynamics.callbacks import CallbackTable, Encoded, Value, checked_value
 from assur.dynamics.table import Rows, Table, checked_ratio, replace_fields
 from assur.errors import InputError
 
 __all__ = ["ConstantTorque", "InductionMotor", "LinearMotor"]
 
 # Driver, ratio, rotor's inertia, kind, numbers, values, table over the speed.
-MotorParts: TypeAlias = tuple[int, float, float, str, list[float], list[Encoded], Rows | None]
+EncodedMotor: TypeAlias = tuple[int, float, float, str, list[float], list[Encoded], Rows | None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +42,7 @@ class ConstantTorque:
 
     def __post_init__(self) -> None:
         _check_shaft(self)
-        replace_fields(self, torque=checked(self.torque, "ConstantTorque torque"))
+        replace_fields(self, torque=checked_value(self.torque, "ConstantTorque torque"))
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ class InductionMotor:
 Motor: TypeAlias = ConstantTorque | LinearMotor | InductionMotor | Table
 
 
-def parts(motor: Any, driver: int, outside: Outside) -> MotorParts:
+def encode(motor: Any, driver: int, callbacks: CallbackTable) -> EncodedMotor:
     """Encode a motor for the core; its table and functions go to the lists."""
     if not isinstance(motor, Motor):
         message = (
@@ -125,7 +125,7 @@ def parts(motor: Any, driver: int, outside: Outside) -> MotorParts:
         raise InputError(message)
     common = driver, motor.ratio, motor.rotor_inertia
     if isinstance(motor, ConstantTorque):
-        return (*common, "value", [], [outside.encode(motor.torque)], None)
+        return (*common, "value", [], [callbacks.encode(motor.torque)], None)
     if isinstance(motor, Table):
         return (*common, "table", [], [], motor._rows(periodic=False))
     if isinstance(motor, LinearMotor):

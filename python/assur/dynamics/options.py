@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 METHODS = ("DOP853", "RK45")
 # Errors below cannot be told from rounding (`assur::ode`).
-LEAST_RTOL = 2.3e-15
+MIN_RTOL = 2.3e-15
 # Part of a period by which a table's may differ from it: tables end with typed numbers.
-FITS = 1e-9
+PERIOD_RTOL = 1e-9
 
 
 def one_design(machine: Machine, what: str) -> None:
@@ -27,7 +27,7 @@ def one_design(machine: Machine, what: str) -> None:
         raise InputError(message)
 
 
-def turning(machine: Machine, what: str) -> None:
+def require_rotary_driver(machine: Machine, what: str) -> None:
     """Refuse what does not turn."""
     driver = None if machine.mechanism is None else machine.mechanism.driver
     slides = {} if machine.mechanism is None else machine.mechanism.slides
@@ -36,20 +36,20 @@ def turning(machine: Machine, what: str) -> None:
         raise InputError(message)
 
 
-def fits(period: float | None, span: float) -> None:
+def require_whole_periods(period: float | None, span: float) -> None:
     """Refuse a table that is another one a period on."""
     if period is None:
         message = "a table that is not periodic is among the loads: there is no periodic motion"
         raise InputError(message)
     ratio = span / period
-    if abs(ratio - round(ratio)) > FITS * ratio or round(ratio) < 1:
+    if abs(ratio - round(ratio)) > PERIOD_RTOL * ratio or round(ratio) < 1:
         message = (
             f"a table's period of {period:g} rad does not fit {span:g} rad a whole number of times"
         )
         raise InputError(message, value=period)
 
 
-def listed(value: Any, name: str) -> list[Any]:
+def as_list(value: Any, name: str) -> list[Any]:
     """A sequence as a list, or an error that names it."""
     if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
         message = f"{name} is {short(value)}: a sequence of them is needed"
@@ -60,7 +60,7 @@ def listed(value: Any, name: str) -> list[Any]:
     return list(value)
 
 
-def positive(value: Any, name: str) -> float:
+def positive_number(value: Any, name: str) -> float:
     """A positive number, infinite too."""
     number = real_number(value, name, finite=False)
     if not number > 0.0:
@@ -69,16 +69,16 @@ def positive(value: Any, name: str) -> float:
     return number
 
 
-def relative(rtol: Any) -> float:
+def relative_tolerance(rtol: Any) -> float:
     """A relative tolerance."""
     number = real_number(rtol, "rtol")
-    if not LEAST_RTOL <= number < 1.0:
-        message = f"rtol is {short(rtol)}: it must be from {LEAST_RTOL} to below 1"
+    if not MIN_RTOL <= number < 1.0:
+        message = f"rtol is {short(rtol)}: it must be from {MIN_RTOL} to below 1"
         raise InputError(message, value=number)
     return number
 
 
-def is_low(method: Any) -> bool:
+def is_low_order(method: Any) -> bool:
     """Whether the method is the one of lower order."""
     if not isinstance(method, str) or method not in METHODS:
         message = f"method is {short(method)}: one of {', '.join(map(repr, METHODS))}"
@@ -86,7 +86,7 @@ def is_low(method: Any) -> bool:
     return bool(method == "RK45")
 
 
-def pair(atol: Any) -> list[float] | None:
+def tolerance_pair(atol: Any) -> list[float] | None:
     """Absolute tolerances of coordinate and speed."""
     if atol is None:
         return None
@@ -102,7 +102,7 @@ def pair(atol: Any) -> list[float] | None:
     return both
 
 
-def given_breaks(breaks: Any) -> list[float]:
+def checked_breaks(breaks: Any) -> list[float]:
     """Places, ascending."""
     array = real_array(() if breaks is None else breaks, "breaks")
     if not np.isfinite(array).all():
@@ -112,7 +112,7 @@ def given_breaks(breaks: Any) -> list[float]:
     return ordered
 
 
-def whole(turns: Any) -> int:
+def turn_count(turns: Any) -> int:
     """Turns of a period."""
     try:
         number = operator.index(turns)
@@ -124,7 +124,7 @@ def whole(turns: Any) -> int:
     return number
 
 
-def count(steps: Any) -> int:
+def step_count(steps: Any) -> int:
     """A number of steps."""
     try:
         number = operator.index(steps)
@@ -136,7 +136,7 @@ def count(steps: Any) -> int:
     return number
 
 
-def given_seconds(seconds: Any) -> float | None:
+def checked_seconds(seconds: Any) -> float | None:
     """A limit of time."""
     if seconds is None:
         return None

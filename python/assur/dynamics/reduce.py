@@ -44,7 +44,7 @@ def reduce(
     flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
     given = np.empty(0)
     if speed is not None:
-        given = machine._outside.numbers(flat.reshape(-1, n), speeds.reshape(-1, n))
+        given = machine._callbacks.load_values(flat.reshape(-1, n), speeds.reshape(-1, n))
     values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
     dimensions = np.ascontiguousarray(values).ravel()
     *arrays, status = machine._core.reduce(dimensions, flat, speeds, given, None)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from assur.kinematics.mechanism import Mechanism
 
-__all__ = ["Energy", "Happened", "NearChangePoint", "Run", "State", "Statistics"]
+__all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statistics"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
@@ -74,7 +74,7 @@ class NearChangePoint(str):
         return event
 
 
-class Happened(NamedTuple):
+class EventRecord(NamedTuple):
     """An event of a run.
 
     Attributes
@@ -154,7 +154,7 @@ class Run:
         Times between the steps, s.
     q, speed, acceleration : ndarray
         Of the driver there.
-    events : list of Happened
+    events : list of EventRecord
         What happened on the way, in order.
     end : str
         How it ended: "reached", "event", "rest", "dead point", "near_change_point", "lost",
@@ -184,7 +184,7 @@ class Run:
         events: list[Any],
         along_q: bool,
     ) -> None:
-        self._made = core, mechanism, drivers, events, along_q
+        self._init_args = core, mechanism, drivers, events, along_q
         self._core, self._along_q, self._drivers = core, along_q, drivers
         self.t, *arrays = core.arrays()
         for array in (self.t, *arrays):
@@ -193,17 +193,17 @@ class Run:
         self._energies = arrays[3:]
         self.statistics = Statistics(**core.statistics)
         self.events = [
-            Happened(events[which], t, self._one(q), self._one(speed))
+            EventRecord(events[which], t, self._per_driver(q), self._per_driver(speed))
             for which, t, q, speed in core.events
         ]
-        self.end, self.message = self._ending(mechanism, events)
+        self.end, self.message = self._end_and_message(mechanism, events)
         if self.end in ("dead point", "rest", "near_change_point"):
             near = core.near_change_point
             event = self.end if near is None else NearChangePoint(*near)
-            self.events.append(Happened(event, float(self.t[-1]), self.q[-1], self.speed[-1]))
+            self.events.append(EventRecord(event, float(self.t[-1]), self.q[-1], self.speed[-1]))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        core, *others = self._made
+        core, *others = self._init_args
         return _rebuild, (core.to_bytes(), *others)
 
     def __repr__(self) -> str:
@@ -237,7 +237,7 @@ class Run:
         if own is None or other is not None:
             message = f"this run goes along {name}: ask for at({name}=...)"
             raise InputError(message)
-        x = self._within(real_array(own, name), name)
+        x = self._clip_to_run(real_array(own, name), name)
         arrays = self._core.at(x.ravel().tolist())
         tail = () if self._drivers == 1 else (self._drivers,)
         return State(
@@ -245,7 +245,7 @@ class Run:
             *(one.reshape((*x.shape, *tail))[()] for one in arrays[1:4]),
         )
 
-    def _within(self, x: Float, name: str) -> Float:
+    def _clip_to_run(self, x: Float, name: str) -> Float:
         """Refuse places outside the run; a few last digits beyond an end are at it."""
         first, last = (float(end) for end in (self.q if self._along_q else self.t)[[0, -1]])
         low, high = min(first, last), max(first, last)
@@ -296,14 +296,14 @@ class Run:
     def _shaped(self, array: Float) -> Float:
         return array if self._drivers == 1 else array.reshape(-1, self._drivers)
 
-    def _one(self, numbers: list[float]) -> Any:
+    def _per_driver(self, numbers: list[float]) -> Any:
         return numbers[0] if self._drivers == 1 else np.array(numbers)
 
-    def _ending(self, mechanism: Mechanism | None, events: list[Any]) -> tuple[str, str]:
+    def _end_and_message(self, mechanism: Mechanism | None, events: list[Any]) -> tuple[str, str]:
         kind, which, q = self._core.ending
         place = f"t = {self.t[-1]:.9g} s, q = {self.q[-1]}"
         if kind == "edge":
-            return self._edge(mechanism, Status(which), q, place)
+            return self._domain_end(mechanism, Status(which), q, place)
         if self._core.near_change_point is not None:
             dyad, miss, at = self._core.near_change_point
             return kind, (
@@ -325,14 +325,14 @@ class Run:
         }
         return kind, sentences[kind]
 
-    def _edge(
+    def _domain_end(
         self, mechanism: Mechanism | None, status: Status, q: list[float], place: str
     ) -> tuple[str, str]:
         if status not in (Status.LOST, Status.NOT_CONVERGED):
             return "dead point", f"a dead point at {place}: this assembly has no motion beyond it"
         why = ""
         if mechanism is not None:
-            why = ": " + mechanism.solve(self._one(q), order=1, on_error="nan").explain()
+            why = ": " + mechanism.solve(self._per_driver(q), order=1, on_error="nan").explain()
         return "lost", f"the way beyond {place} is not known{why}"
 
 

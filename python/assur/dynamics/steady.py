@@ -11,7 +11,7 @@ from assur import _core
 from assur._arrays import real_array
 from assur.dynamics.run import Run
 from assur.errors import InputError
-from assur.flywheel import Place
+from assur.flywheel import Extremum
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -39,7 +39,7 @@ class SteadyState:
         Coordinate and speed between its steps, rad and rad/s.
     period : float
         Time of a period, s.
-    greatest, least : Place
+    greatest, least : Extremum
         The extreme speeds (without their sign) and where they are.
     mean_speed : float
         By the definition chosen, rad/s; the speed asked for, where neither motor nor loads set one.
@@ -68,12 +68,12 @@ class SteadyState:
         mechanism: Mechanism | None,
         mean: Literal["extremes", "period"],
     ) -> None:
-        self._made = core, numbers, mechanism, mean
+        self._init_args = core, numbers, mechanism, mean
         self.run = Run(core, mechanism, 1, [EXTREME], along_q=True)
         multiplier, found, work, inertia, least_at, least, greatest_at, greatest = numbers
         self.q, self.speed = self.run.q, self.run.speed
         self.period = float(self.run.t[-1] - self.run.t[0])
-        self.greatest, self.least = Place(greatest_at, greatest), Place(least_at, least)
+        self.greatest, self.least = Extremum(greatest_at, greatest), Extremum(least_at, least)
         span = abs(float(self.q[-1] - self.q[0]))
         self.mean = mean
         self.mean_speed = span / self.period if mean == "period" else 0.5 * (least + greatest)
@@ -83,7 +83,7 @@ class SteadyState:
         self.motor_moment = work / math.copysign(span, float(self.q[-1] - self.q[0]))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        core, *others = self._made
+        core, *others = self._init_args
         return _rebuild, (core.to_bytes(), *others)
 
     def __repr__(self) -> str:

@@ -43,9 +43,9 @@ def _columns(motion: Motion, taken: set[str]) -> dict[str, Any]:
 
     Names have no blanks, so "link q" is no other's.
     """
-    tracks, drivers = motion._tracks, motion._drivers
-    named = [(f"{n}.{xy}", a, k, 2) for n, a in tracks.joints.items() for k, xy in enumerate("xy")]
-    for kind, held in (("link", tracks.links), ("slide", tracks.slides)):
+    results, drivers = motion._results, motion._drivers
+    named = [(f"{n}.{xy}", a, k, 2) for n, a in results.joints.items() for k, xy in enumerate("xy")]
+    for kind, held in (("link", results.links), ("slide", results.slides)):
         for name, arrays in held.items():
             named.append((f"{kind} {name}" if name in taken else name, arrays, 0, 1))
     columns: dict[str, Any] = {}

@@ -11,17 +11,17 @@ import numpy.typing as npt
 
 from assur._arrays import short
 from assur._validate import checked_index, checked_name, checked_signs, real_array
-from assur.description import encode as _parts
+from assur.description import encode
 from assur.description.structure import Group, Structure
 from assur.description.words import Assembly, Slide
 from assur.errors import InputError
-from assur.kinematics import solve as _solve
+from assur.kinematics import solve as solver
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from assur._core import Mechanism as Core
-    from assur.description.encode import DriverLike, Parts
+    from assur.description.encode import Description, DriverLike
     from assur.kinematics.motion import Motion
 
 __all__ = ["Mechanism"]
@@ -71,9 +71,9 @@ class Mechanism:
     array([4.368934, 3.247181])
     """
 
-    __slots__ = ("__weakref__", "_core", "_joints", "_parts", "_structure", "_values")
+    __slots__ = ("__weakref__", "_core", "_description", "_joints", "_structure", "_values")
     _core: Core
-    _parts: Parts
+    _description: Description
     _values: Float
     _structure: Structure | None
     _joints: MappingProxyType[str, Any] | None
@@ -86,25 +86,27 @@ class Mechanism:
         slides: Mapping[str, Slide] | None = None,
         assembly: Mapping[str, int] | None = None,
     ) -> None:
-        parts: Parts = (
-            tuple(_parts.joint(name, at) for name, at in _parts.items(joints, "joints")),
-            tuple((name, _parts.members(name, on)) for name, on in _parts.items(links, "links")),
+        description: Description = (
+            tuple(encode.joint(name, at) for name, at in encode.items(joints, "joints")),
+            tuple((name, encode.members(name, on)) for name, on in encode.items(links, "links")),
             tuple(
-                (name, _parts.slide(name, s))
-                for name, s in _parts.items({} if slides is None else slides, "slides")
+                (name, encode.slide(name, s))
+                for name, s in encode.items({} if slides is None else slides, "slides")
             ),
-            _parts.drivers(driver),
+            encode.drivers(driver),
             checked_signs(assembly, strict=False),
         )
-        self._begin(parts, None)
+        self._initialise(description, None)
 
-    def _begin(self, parts: Parts, values: Float | None, core: Core | None = None) -> None:
-        core = core or _parts.core_of(parts)
+    def _initialise(
+        self, description: Description, values: Float | None, core: Core | None = None
+    ) -> None:
+        core = core or encode.core_of(description)
         array = np.array(core.drawing if values is None else values, dtype=np.float64, order="C")
         array.flags.writeable = False
         for name, value in (
             ("_core", core),
-            ("_parts", parts),
+            ("_description", description),
             ("_values", array),
             ("_structure", None),
             ("_joints", None),
@@ -112,9 +114,11 @@ class Mechanism:
             object.__setattr__(self, name, value)
 
     @classmethod
-    def _make(cls, parts: Parts, values: Float | None, core: Core | None = None) -> Mechanism:
+    def _make(
+        cls, description: Description, values: Float | None, core: Core | None = None
+    ) -> Mechanism:
         mechanism = object.__new__(Mechanism)
-        mechanism._begin(parts, values, core)
+        mechanism._initialise(description, values, core)
         return mechanism
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -126,19 +130,19 @@ class Mechanism:
         raise AttributeError(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_rebuild, (self._parts, np.array(self._values)))
+        return (_rebuild, (self._description, np.array(self._values)))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mechanism):
             return NotImplemented
         return (
-            self._parts == other._parts
+            self._description == other._description
             and self._values.shape == other._values.shape
             and self._values.tobytes() == other._values.tobytes()
         )
 
     def __hash__(self) -> int:
-        return hash((self._parts, self._values.shape, self._values.tobytes()))
+        return hash((self._description, self._values.shape, self._values.tobytes()))
 
     def __repr__(self) -> str:
         batch = f", {self.shape} designs" if self.shape else ""
@@ -158,11 +162,11 @@ class Mechanism:
         NaN where a design cannot stand at `q0`.
         """
         if self._joints is None:
-            drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._parts[0]}
+            drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._description[0]}
             # A named assembly may be other than the drawing's; redundant links adjust a drawing.
             as_drawn = (
                 self._values.tolist() == self._core.drawing
-                and not self._parts[4]
+                and not self._description[4]
                 and self._core.adjustment == 0.0
             )
             if not as_drawn:
@@ -177,17 +181,17 @@ class Mechanism:
     @property
     def links(self) -> Mapping[str, tuple[str, ...]]:
         """Joints of every link."""
-        return MappingProxyType(dict(self._parts[1]))
+        return MappingProxyType(dict(self._description[1]))
 
     @property
     def slides(self) -> Mapping[str, Slide]:
         """The sliding pairs."""
-        return MappingProxyType(dict(self._parts[2]))
+        return MappingProxyType(dict(self._description[2]))
 
     @property
     def driver(self) -> DriverLike | tuple[DriverLike, ...]:
         """The driver, or a tuple of them."""
-        drivers = self._parts[3]
+        drivers = self._description[3]
         return drivers[0] if len(drivers) == 1 else drivers
 
     @property
@@ -296,7 +300,7 @@ class Mechanism:
             values[..., place] = array
         if not shape:
             self._core.check_dimensions(values.tolist())
-        return self._make(self._parts, values, self._core)
+        return self._make(self._description, values, self._core)
 
     def with_driver(
         self,
@@ -319,9 +323,9 @@ class Mechanism:
         >>> assur.FourBar(1.0, 3.0, 2.5, 3.0).with_driver("rocker").structure.formula
         'I(rocker) → II(crank, coupler)'
         """
-        joints, links, slides, _, _ = self._parts
+        joints, links, slides, _, _ = self._description
         return self._make(
-            (joints, links, slides, _parts.drivers(driver), checked_signs(assembly, strict=False)),
+            (joints, links, slides, encode.drivers(driver), checked_signs(assembly, strict=False)),
             np.array(self._values),
         )
 
@@ -330,7 +334,7 @@ class Mechanism:
         place = checked_index(index, self.shape, "design")
         values = np.array(self._values[place])
         self._core.check_dimensions(values.tolist())
-        return self._make(self._parts, values, self._core)
+        return self._make(self._description, values, self._core)
 
     # -- moving -------------------------------------------------------------
 
@@ -384,7 +388,7 @@ class Mechanism:
         >>> motion.slide("bore").value.round(4)
         array([0.25  , 0.1936, 0.15  , 0.1936, 0.25  ])
         """
-        return _solve.solve(self, q, order, outputs, assembly, on_error, threads, out)
+        return solver.solve(self, q, order, outputs, assembly, on_error, threads, out)
 
     def assemblies(self, q: npt.ArrayLike) -> list[Assembly]:
         """Every real assembly at one position, usable as ``solve(q, assembly=a)``.
@@ -428,5 +432,5 @@ class Mechanism:
         return plot.mechanism(self, q, ax)
 
 
-def _rebuild(parts: Parts, values: Float) -> Mechanism:
-    return Mechanism._make(parts, values)
+def _rebuild(description: Description, values: Float) -> Mechanism:
+    return Mechanism._make(description, values)

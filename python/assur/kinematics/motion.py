@@ -16,7 +16,7 @@ from assur.kinematics.quantity import Analogues
 from assur.kinematics.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
-    from assur.kinematics.request import Call, Tracks
+    from assur.kinematics.request import Results, SolveRequest
 
 __all__ = ["Motion"]
 
@@ -36,28 +36,32 @@ class Motion:
         Highest order of the analogues.
     """
 
-    def __init__(self, call: Call, tracks: Tracks, status: npt.NDArray[np.uint8]) -> None:
-        self._become(call, tracks, status)
+    def __init__(
+        self, request: SolveRequest, results: Results, status: npt.NDArray[np.uint8]
+    ) -> None:
+        self._replace_with(request, results, status)
 
-    def _become(self, call: Call, tracks: Tracks, status: npt.NDArray[np.uint8]) -> None:
-        self.mechanism = call.mechanism
-        self.q = call.q
-        self.order = call.order
+    def _replace_with(
+        self, request: SolveRequest, results: Results, status: npt.NDArray[np.uint8]
+    ) -> None:
+        self.mechanism = request.mechanism
+        self.q = request.q
+        self.order = request.order
         self._status = status
-        self._call = call
-        self._stored = tracks
-        self._drivers = len(call.mechanism._core.q0)
-        self._places: dict[str, tuple[Float, ...]] = {}
+        self._request = request
+        self._stored = results
+        self._drivers = len(request.mechanism._core.q0)
+        self._reference_points: dict[str, tuple[Float, ...]] = {}
         self._diagnostics: tuple[Float, Float] | None = None
 
     @property
-    def _tracks(self) -> Tracks:
+    def _results(self) -> Results:
         """What it holds."""
-        self._checked()
+        self._require_complete()
         return self._stored
 
-    def _checked(self) -> None:
-        """Refuse to be read after a call that was to overwrite it and did not come to its end."""
+    def _require_complete(self) -> None:
+        """Raise if a solve(out=) overwrites this motion or was stopped while doing so."""
         buffers = self._stored.buffers
         if buffers is not None and not buffers.complete:
             message = (
@@ -69,17 +73,17 @@ class Motion:
     @property
     def status(self) -> npt.NDArray[np.uint8]:
         """One `Status` a position, S + (N,)."""
-        self._checked()
+        self._require_complete()
         return self._status
 
     def __getstate__(self) -> dict[str, Any]:
         # Only the motion that was made may be overwritten.
-        return {**self.__dict__, "_stored": replace(self._tracks, buffers=None)}
+        return {**self.__dict__, "_stored": replace(self._results, buffers=None)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         stored = self._stored
-        held = (stored.joints, stored.links, stored.slides, self._places)
+        held = (stored.joints, stored.links, stored.slides, self._reference_points)
         for array in (a for kind in held for arrays in kind.values() for a in arrays):
             array.flags.writeable = False
         for array in (self.q, self._status, *(self._diagnostics or ())):
@@ -89,7 +93,9 @@ class Motion:
         # In arrays of its own: those of this motion may be overwritten, its q is not.
         own = Motion.__new__(Motion)
         state = self.__getstate__()
-        own.__setstate__({**state, "_stored": self._tracks.copied(), "_status": self.status.copy()})
+        own.__setstate__(
+            {**state, "_stored": self._results.copied(), "_status": self.status.copy()}
+        )
         return own
 
     @property
@@ -110,19 +116,21 @@ class Motion:
 
     def joint(self, name: str) -> Analogues:
         """Place of a joint, m, and its analogues."""
-        return Analogues(name, self._find("joint", self._tracks.joints, name), self._drivers, True)
+        return Analogues(name, self._find("joint", self._results.joints, name), self._drivers, True)
 
     def link(self, name: str) -> Analogues:
         """Angle of a link, rad, continuous along q, and its analogues."""
-        return Analogues(name, self._find("link", self._tracks.links, name), self._drivers, False)
+        return Analogues(name, self._find("link", self._results.links, name), self._drivers, False)
 
     def slide(self, name: str) -> Analogues:
         """Value of a slide, m, and its analogues."""
-        return Analogues(name, self._find("slide", self._tracks.slides, name), self._drivers, False)
+        return Analogues(
+            name, self._find("slide", self._results.slides, name), self._drivers, False
+        )
 
-    def _names(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
+    def _held_indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
         """Indices of the joints, links and slides that are held."""
-        held = (self._tracks.joints, self._tracks.links, self._tracks.slides)
+        held = (self._results.joints, self._results.links, self._results.slides)
         require = self.mechanism._core.require
         joints, links, slides = (
             {name: require(kind, name) for name in of}
@@ -130,14 +138,14 @@ class Motion:
         )
         return joints, links, slides
 
-    def _place(self, link: str) -> Analogues:
+    def _reference_point(self, link: str) -> Analogues:
         checked_name(link, "link")
         # Seldom asked for, so solved for then.
-        if link not in self._places:
-            self._places[link] = self._call.place(link)
-        return Analogues(link, self._places[link], self._drivers, True)
+        if link not in self._reference_points:
+            self._reference_points[link] = self._request.reference_point(link)
+        return Analogues(link, self._reference_points[link], self._drivers, True)
 
-    def _one_driver(self, what: str) -> None:
+    def _require_one_driver(self, what: str) -> None:
         if self._drivers > 1:
             message = f"{what} is defined for one driver; this mechanism has {self._drivers}"
             raise InputError(message)
@@ -147,7 +155,7 @@ class Motion:
 
         NaN where the joint stands still (a cusp or a dwell).
         """
-        self._one_driver("curvature")
+        self._require_one_driver("curvature")
         point = self.joint(joint)
         values = _core.curvature(point.d1.reshape(-1), point.d2.reshape(-1))
         return values.reshape(self.shape)
@@ -158,11 +166,11 @@ class Motion:
         Infinite where the links only translate relative to each other, NaN where
         they do not move relative to each other.
         """
-        self._one_driver("instant_centre")
+        self._require_one_driver("instant_centre")
         parts = [
             (
-                self._place(name).value.reshape(-1),
-                self._place(name).d1.reshape(-1),
+                self._reference_point(name).value.reshape(-1),
+                self._reference_point(name).d1.reshape(-1),
                 self.link(name).d1.reshape(-1),
             )
             for name in (link, other)
@@ -175,7 +183,7 @@ class Motion:
         By equal power the inverse of the output's first analogue: infinite at its
         dead points.
         """
-        self._one_driver("mechanical_advantage")
+        self._require_one_driver("mechanical_advantage")
         is_slide = checked_name(name, "mechanical_advantage") in self.mechanism.slides
         output = self.slide(name) if is_slide else self.link(name)
         with np.errstate(divide="ignore"):
@@ -258,7 +266,7 @@ class Motion:
     def _diagnose(self) -> tuple[Float, Float]:
         if self._diagnostics is None:
             residual, condition = self.mechanism._core.diagnostics(
-                *self._call.flat(), self._call.signs
+                *self._request.flat(), self._request.signs
             )
             self._diagnostics = (residual.reshape(self.shape), condition.reshape(self.shape))
             for array in self._diagnostics:
@@ -268,8 +276,8 @@ class Motion:
     def coordinate(self, index: int | tuple[int, ...]) -> float | tuple[float, ...]:
         """Return the coordinate at an index of `shape`; a tuple for several drivers."""
         place = checked_index(index, self.shape, "index")
-        designs = 0 if self._call.per_design else len(self.mechanism.shape)
-        q = self.q[place[designs:]] if self._call.positions else self.q
+        designs = 0 if self._request.per_design else len(self.mechanism.shape)
+        q = self.q[place[designs:]] if self._request.positions else self.q
         return float(q) if self._drivers == 1 else tuple(float(x) for x in q)
 
     def explain(self, index: int | tuple[int, ...] = ()) -> str:
@@ -289,7 +297,7 @@ class Motion:
         q = self.coordinate(place)
         values = self.mechanism._values[place[: len(self.mechanism.shape)]]
         one = [q] if isinstance(q, float) else list(q)
-        return self.mechanism._core.explain(values.tolist(), one, self._call.signs)
+        return self.mechanism._core.explain(values.tolist(), one, self._request.signs)
 
     def to_dataframe(self) -> Any:
         """Return a pandas DataFrame, one row a position (needs pandas).

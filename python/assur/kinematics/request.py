@@ -31,7 +31,7 @@ class Buffers:
 
 
 @dataclass(frozen=True, eq=False)
-class Tracks:
+class Results:
     """What a motion holds, by name: arrays by order."""
 
     joints: Held
@@ -40,17 +40,17 @@ class Tracks:
     # The same as the core wrote them; none in a copy.
     buffers: Buffers | None = None
 
-    def copied(self) -> Tracks:
+    def copied(self) -> Results:
         """The same numbers in arrays of their own."""
 
         def own(held: Held) -> Held:
             return {name: tuple(a.copy() for a in arrays) for name, arrays in held.items()}
 
-        return Tracks(own(self.joints), own(self.links), own(self.slides))
+        return Results(own(self.joints), own(self.links), own(self.slides))
 
 
 @dataclass(frozen=True, eq=False)
-class Call:
+class SolveRequest:
     """Everything a motion depends on."""
 
     mechanism: Mechanism
@@ -71,27 +71,27 @@ class Call:
         joints: dict[str, int],
         links: dict[str, int],
         slides: dict[str, int],
-        kept: Buffers | None = None,
+        buffers: Buffers | None = None,
         by: int | None = None,
-    ) -> tuple[Tracks, npt.NDArray[np.uint8]]:
-        """Solve for these joints, angles of links, and slides; into the arrays kept.
+    ) -> tuple[Results, npt.NDArray[np.uint8]]:
+        """Solve for these joints, angles of links, and slides; into the arrays buffers.
 
         All of it differentiated by the dimension of this index, if one is given.
         """
         wanted = [list(of.values()) for of in (joints, links, slides)]
-        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]), kept, by)
+        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]), buffers, by)
         shape = self.shape
-        tracks = Tracks(
+        results = Results(
             joints=self._named("joint", joints, found, (*shape, 2)),
             links=self._named("link", links, found, shape),
             slides=self._named("slide", slides, found, shape),
-            buffers=kept or Buffers(list(found.values()), status),
+            buffers=buffers or Buffers(list(found.values()), status),
         )
         status = status.reshape(shape)
         status.flags.writeable = False
-        return tracks, status
+        return results, status
 
-    def place(self, link: str) -> tuple[Float, ...]:
+    def reference_point(self, link: str) -> tuple[Float, ...]:
         """Solve for the place of a link's first joint (or slide)."""
         index = self.mechanism._core.require("link", link)
         found, _ = self._solve(([], [], [index], []))
@@ -109,11 +109,11 @@ class Call:
     def _solve(
         self,
         outputs: Outputs,
-        kept: Buffers | None = None,
+        buffers: Buffers | None = None,
         by: int | None = None,
     ) -> tuple[dict[tuple[str, int, int], Float], npt.NDArray[np.uint8]]:
         return self.mechanism._core.solve(
-            *self.flat(), self.signs, self.order, outputs, self.threads, kept, by
+            *self.flat(), self.signs, self.order, outputs, self.threads, buffers, by
         )
 
     def _named(

@@ -101,13 +101,13 @@ class ClassIV(Mechanism):
     ) -> None:
         paper = (lengths, angles, pivots, start)
         if joints is not None and all(part is None for part in paper):
-            _named(joints, JOINTS, "joints")
-            _adopt(self, Mechanism({name: joints[name] for name in JOINTS}, LINKS, "crank"))
+            _require_names(joints, JOINTS, "joints")
+            _copy_from(self, Mechanism({name: joints[name] for name in JOINTS}, LINKS, "crank"))
             return
         if joints is not None or any(part is None for part in paper):
             message = "ClassIV needs joints=, or lengths=, angles=, pivots= and start= together"
             raise InputError(message)
-        _adopt(self, _from_paper(lengths, angles, pivots, start))
+        _copy_from(self, _from_paper(lengths, angles, pivots, start))
 
     def paper_equations(self, motion: Motion) -> npt.NDArray[np.float64]:
         """Return what the paper's four equations miss at every position of a motion, m².
@@ -164,11 +164,11 @@ def _complex(points: npt.NDArray[np.float64]) -> npt.NDArray[np.complex128]:
     return np.asarray(points[..., 0] + 1j * points[..., 1])
 
 
-def _adopt(mechanism: Mechanism, made: Mechanism) -> None:
-    mechanism._begin(made._parts, made._values, made._core)
+def _copy_from(mechanism: Mechanism, made: Mechanism) -> None:
+    mechanism._initialise(made._description, made._values, made._core)
 
 
-def _named(given: Any, names: Iterable[str], what: str) -> None:
+def _require_names(given: Any, names: Iterable[str], what: str) -> None:
     """Refuse names that are missing or unknown."""
     try:
         missing, unknown = [n for n in names if n not in given], set(given) - set(names)
@@ -183,7 +183,7 @@ def _named(given: Any, names: Iterable[str], what: str) -> None:
 
 
 def _numbers(given: Any, names: Sequence[str], what: str) -> dict[str, float]:
-    _named(given, names, what)
+    _require_names(given, names, what)
     numbers = {}
     for name in names:
         array = real_array(given[name], f"{what}[{name!r}]")
@@ -198,7 +198,7 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
     """Drawn at the starting angles, then brought to the lengths, then drawn as found."""
     length, angle = _numbers(lengths, LENGTHS, "lengths"), _numbers(angles, ANGLES, "angles")
     first = _numbers(start, STARTS, "start")
-    _named(pivots, PIVOTS, "pivots")
+    _require_names(pivots, PIVOTS, "pivots")
     for name, value in length.items():
         if value <= 0.0:
             message = f"lengths[{name!r}] is {value!r}: a length must be positive"

@@ -72,7 +72,7 @@ class FourBar(Mechanism):
             },
             driver="crank",
         )
-        _adopt(
+        _copy_from(
             self,
             drawn,
             {
@@ -116,9 +116,11 @@ class SliderCrank(Mechanism):
             slides={"bore": Slide("piston", on="ground", angle=0.0, origin="O")},
             driver="crank",
         )
-        _adopt(self, drawn, {"crank.length": crank, "rod.length": rod, "bore.offset": offset})
+        _copy_from(self, drawn, {"crank.length": crank, "rod.length": rod, "bore.offset": offset})
 
 
-def _adopt(mechanism: Mechanism, drawn: Mechanism, dimensions: dict[str, npt.ArrayLike]) -> None:
+def _copy_from(
+    mechanism: Mechanism, drawn: Mechanism, dimensions: dict[str, npt.ArrayLike]
+) -> None:
     sized = drawn.with_dimensions(dimensions)
-    mechanism._begin(sized._parts, sized._values, sized._core)
+    mechanism._initialise(sized._description, sized._values, sized._core)

@@ -146,7 +146,7 @@ def solve(
     arrays = [_finite(value, name) for name, value in named]
     for name, array in zip(LENGTHS, arrays[1:5], strict=True):
         _positive(array, name)
-    flat, shape = _together(*arrays)
+    flat, shape = _broadcast(*arrays)
     rows = _core.crank_rocker_solve(flat[0], flat[1:5], flat[5:], assembly == "printed")
     parts = rows.reshape((18, *shape))
     v_b = np.where(np.isnan(parts[0]), np.nan, np.abs(flat[1] * flat[5]).reshape(shape))
@@ -256,7 +256,7 @@ def ground_range(
     for name in ("coupler", "rocker"):
         _positive(arrays[name], name)
     _angle(arrays["gamma_min"], "gamma_min")
-    flat, shape = _together(*arrays.values())
+    flat, shape = _broadcast(*arrays.values())
     both = np.broadcast_to(margins, (2,)).tolist()
     ends = _core.crank_rocker_ground_range(flat[0], flat[1], both, flat[2]).reshape((*shape, 2))
     least, greatest = ends[..., 0], ends[..., 1]
@@ -303,7 +303,7 @@ def least_transmission_angle(
             message = f"{name} is {wrong!r}: it must not be negative"
             raise InputError(message, value=wrong)
     _positive(arrays["rocker"], "rocker")
-    flat, shape = _together(*arrays.values())
+    flat, shape = _broadcast(*arrays.values())
     found = _core.crank_rocker_least_gamma(flat[:4], flat[4])
     if shape:
         return found.reshape(shape)
@@ -413,7 +413,7 @@ def _angle(value: Any, name: str) -> None:
         raise InputError(message, value=wrong)
 
 
-def _together(*arrays: Float) -> tuple[list[Float], tuple[int, ...]]:
+def _broadcast(*arrays: Float) -> tuple[list[Float], tuple[int, ...]]:
     """Arrays broadcast and laid flat, and their shape."""
     try:
         wide = np.broadcast_arrays(*arrays)
@@ -428,4 +428,4 @@ def _designs(*lengths: Any) -> tuple[list[Float], tuple[int, ...]]:
     arrays = [_finite(value, name) for name, value in zip(LENGTHS, lengths, strict=True)]
     for name, array in zip(LENGTHS, arrays, strict=True):
         _positive(array, name)
-    return _together(*arrays)
+    return _broadcast(*arrays)

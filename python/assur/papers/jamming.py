@@ -28,7 +28,7 @@ Float: TypeAlias = npt.NDArray[np.float64]
 Ground: TypeAlias = float | Callable[[float], float]
 
 # More would fill the memory: 720 positions each.
-MOST_TURNS = 10_000
+MAX_TURNS = 10_000
 
 
 @dataclass(frozen=True)
@@ -155,10 +155,10 @@ def run(
     if not 0.0 < values["gamma_min"] < math.pi / 2:
         message = f"gamma_min is {gamma_min!r}: an angle above 0 and below π/2 rad is needed"
         raise InputError(message)
-    if values["speed"] == 0.0 or not 0.0 < values["turns"] <= MOST_TURNS:
+    if values["speed"] == 0.0 or not 0.0 < values["turns"] <= MAX_TURNS:
         message = (
             f"speed is {speed!r} and turns {turns!r}: the crank must turn, "
-            f"at most {MOST_TURNS} turns"
+            f"at most {MAX_TURNS} turns"
         )
         raise InputError(message)
 
@@ -175,7 +175,7 @@ def run(
     given = place if fixed is None else lambda _: fixed
     flat, events, refused = _core.crank_rocker_run(case, given)
     if refused is not None:
-        raise _refusal(*refused, values)
+        raise _start_error(*refused, values)
     rows = flat.reshape(-1, 8)
     t, l4, gamma = (np.ascontiguousarray(column) for column in rows.T[:3])
     d = np.stack([-l4, np.zeros_like(l4)], axis=-1)
@@ -192,7 +192,7 @@ def run(
     )
 
 
-def _refusal(why: str, value: float, case: dict[str, float]) -> PositionError:
+def _start_error(why: str, value: float, case: dict[str, float]) -> PositionError:
     if why == "reach":
         low, high = abs(case["l2"] - case["l3"]), case["l2"] + case["l3"]
         message = (

@@ -44,7 +44,7 @@ __all__ = [
 
 Float: TypeAlias = npt.NDArray[np.float64]
 # Beyond that no approximation differs from the exact value in any digit (k = 1.001 needs some 400).
-MOST_TERMS = 100_000
+MAX_TERMS = 100_000
 
 
 class Extreme(NamedTuple):
@@ -243,7 +243,7 @@ def rod_point(
     a, b = real_array(along, "along"), real_array(across, "across")
     for name, array in (("along", a), ("across", b)):
         _finite(array, name)
-    angles, cranks, rods, a, b = _together(angles, cranks, rods, a, b)
+    angles, cranks, rods, a, b = _broadcast(angles, cranks, rods, a, b)
     with in_range("place / crank"):
         flat = _flat(angles, cranks / rods, a / cranks, b / cranks)
     found = _core.slider_crank_rod_point(*flat)
@@ -408,7 +408,7 @@ def _lengths(phi: Any, crank: Any, rod: Any) -> tuple[Float, Float, Float]:
             value = float(array[array <= 0.0].flat[0])
             message = f"{name} is {value!r}: a length must be positive"
             raise DimensionError(message, dimension=name, value=value)
-    angles, cranks, rods = _together(angles, cranks, rods)
+    angles, cranks, rods = _broadcast(angles, cranks, rods)
     short = rods <= cranks
     if short.any():
         length, other = float(rods[short].flat[0]), float(cranks[short].flat[0])
@@ -420,7 +420,7 @@ def _lengths(phi: Any, crank: Any, rod: Any) -> tuple[Float, Float, Float]:
     return angles, cranks, rods
 
 
-def _together(*arrays: Float) -> tuple[Any, ...]:
+def _broadcast(*arrays: Float) -> tuple[Any, ...]:
     try:
         return tuple(np.broadcast_arrays(*arrays))
     except ValueError as error:
@@ -444,8 +444,8 @@ def _whole(value: Any, name: str, least: int) -> int:
         number = operator.index(value)
     except TypeError:
         number = least - 1
-    if isinstance(value, bool) or not least <= number <= MOST_TERMS:
-        message = f"{name} is {value!r}: a whole number from {least} to {MOST_TERMS} is needed"
+    if isinstance(value, bool) or not least <= number <= MAX_TERMS:
+        message = f"{name} is {value!r}: a whole number from {least} to {MAX_TERMS} is needed"
         raise InputError(message)
     return number
 
