@@ -1,4 +1,4 @@
-"""Drawing mechanisms and paths with matplotlib."""
+"""Draw mechanisms, paths and curves with matplotlib."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
-# Okabe and Ito's colours (2008): told apart in print and by colour-blind eyes.
+# Okabe and Ito's colours (2008): distinct in print and for colour-blind readers.
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 
-# Places of a curve in time.
+# Points of a curve over a run.
 RUN_PLOT_POINTS = 1001
 
 
@@ -103,7 +103,7 @@ def _size(points: list[Any]) -> float:
 
 
 def _hull(points: Any) -> Any:
-    """Corners in order around their middle (links are drawn as polygons)."""
+    """Return the corners in order around their middle: links are drawn as polygons."""
     middle = points.mean(axis=0)
     order = np.argsort(np.arctan2(*(points - middle).T[::-1]))
     return points[order]
@@ -121,7 +121,7 @@ def _guide(
     angle = float(motion.link(on).value[index]) + float(own)
     along = np.array([np.cos(angle), np.sin(angle)])
     across = np.array([-along[1], along[0]])
-    # The guide as far as the joint it is measured from, or that carries it.
+    # The guide reaches to its origin, or to the joint that carries it.
     carriers = motion.mechanism.links[on]
     base = slide.origin or (carriers[0] if carriers and on != "ground" else None)
     to_base = 0.0 if base is None else float(along @ (motion.joint(base).value[index] - middle))
@@ -144,7 +144,7 @@ def flywheel_picture(
     if what == "energy-mass":
         inertia, energy = flywheel.energy_mass(points)
         ax.plot(inertia, energy, color=_COLOURS[0])
-        # Both tangents meet where the energy and inertia of the flywheel are taken off.
+        # Both tangents meet at minus the flywheel's inertia and energy.
         start = -flywheel.inertia * flywheel.speed0**2 / 2.0
         reach = np.array([-flywheel.inertia, inertia.max()])
         extremes = (("greatest", flywheel.greatest.value), ("least", flywheel.least.value))
@@ -186,7 +186,7 @@ def run_picture(run: Run, what: str, ax: Any) -> Any:
 
 
 def _unit(mechanism: Mechanism | None) -> str:
-    """What drivers are measured in."""
+    """Return the unit of the drivers' coordinates."""
     if mechanism is None:
         return "rad"
     driver = mechanism.driver
@@ -196,7 +196,7 @@ def _unit(mechanism: Mechanism | None) -> str:
 
 
 def _mark(ax: Any, x: float, y: float, above: bool) -> None:
-    """A place on a curve with its number, where the curve is not."""
+    """Mark a point of a curve, its value on the side away from the curve."""
     ax.plot(x, y, "o", color=_COLOURS[1], markersize=5)
     ax.annotate(
         f"{y:.4g}",

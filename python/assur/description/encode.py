@@ -1,4 +1,4 @@
-"""A description as plain tuples: checked, hashable, ready for the core."""
+"""Encode a description as plain tuples: checked, hashable, ready for the core."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Description: TypeAlias = tuple[
 
 
 def core_of(description: Description) -> Core:
-    """Return the compiled core of a description."""
+    """Compile a description."""
     joints, links, slides, drivers, assembly = description
     return Core(
         joints=list(joints),
@@ -46,7 +46,7 @@ def items(mapping: Any, what: str) -> list[tuple[str, Any]]:
 
 
 def joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
-    """Return a joint as the core takes it: its name and its place."""
+    """Return a joint for the core: its name and coordinates."""
     try:
         place = real_array(at, f"joint {name!r}")
     except InputError as error:
@@ -59,7 +59,7 @@ def joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
 
 
 def slide(name: str, slide: Any) -> Slide:
-    """Return a slide whose link, guide and origin are names."""
+    """Check a slide: link, guide and origin are names, the angle is a number."""
     if not isinstance(slide, Slide):
         message = f"slide {name!r} is {short(slide)}: an assur.Slide is needed"
         raise InputError(message, slide=name)
@@ -77,7 +77,7 @@ def slide(name: str, slide: Any) -> Slide:
 
 
 def _checked(word: Any, what: str, **field: str) -> None:
-    """Refuse what is not a name, with the field of the part that holds it."""
+    """Check a name; the error carries the joint, link or slide it belongs to."""
     try:
         checked_name(word, what)
     except InputError as error:
@@ -100,7 +100,7 @@ def drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]
 
 
 def members(name: str, joints: Any) -> tuple[str, ...]:
-    """Return the joints of a link."""
+    """Return the joints of a link as a tuple of names."""
     try:
         members = tuple(joints)
     except TypeError as error:
