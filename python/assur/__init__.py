@@ -12,7 +12,7 @@ array([-5.    ,  1.9536,  4.0563])
 (3, 3, 2)
 >>> machine = assur.Machine(fourbar, {"rocker": assur.Body(inertia=0.5)}, [assur.Gravity()])
 >>> machine.reduced_inertia(1.0).value.round(4)                               # kg·m²
-np.float64(0.0104)
+np.float64(0.0191)
 """
 
 from assur import events, flywheel

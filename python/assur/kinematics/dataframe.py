@@ -1,4 +1,4 @@
-"""Motions as tables (pandas)."""
+"""Motions as pandas DataFrames."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 def dataframe(motion: Motion) -> Any:
     """See `Motion.to_dataframe`.
 
-    A link or slide that is called as a column of the designs, coordinates or statuses ("q",
-    "status", "design") keeps its own columns under "link q", "slide status" and so on.
+    A link or slide named like a column of designs, coordinates or statuses ("q", "status",
+    "design") appears as "link q", "slide status" and so on.
     """
     try:
         import pandas as pd
@@ -39,9 +39,9 @@ def dataframe(motion: Motion) -> Any:
 
 
 def _columns(motion: Motion, taken: set[str]) -> dict[str, Any]:
-    """Quantities by column; a link or slide of a name that is taken is called what it is as well.
+    """Return quantities by column name; "link" or "slide" is prefixed to names already taken.
 
-    Names have no blanks, so "link q" is no other's.
+    Names have no blanks, so "link q" cannot clash.
     """
     results, drivers = motion._results, motion._drivers
     named = [(f"{n}.{xy}", a, k, 2) for n, a in results.joints.items() for k, xy in enumerate("xy")]

@@ -1,4 +1,4 @@
-"""Mechanisms: described once, solved anywhere."""
+"""Mechanisms: described once, compiled, solved at any coordinate."""
 
 from __future__ import annotations
 
@@ -35,27 +35,27 @@ class Mechanism:
     Parameters
     ----------
     joints : mapping of str to (x, y)
-        A drawing, m: it gives the dimensions and the assembly.
+        A drawing, m: its coordinates set the dimensions and the assembly.
     links : mapping of str to sequence of str
-        The joints of every link; ``"ground"`` is the frame.
+        The joints of each link; ``"ground"`` is the frame.
     driver : str, Drive or sequence of them
         A link (q is its angle, rad), a slide (q is its value, m) or a `Drive`;
-        several make a mechanism of higher mobility.
+        a sequence gives a mechanism of higher mobility.
     slides : mapping of str to Slide, optional
-        Sliding pairs.
+        Sliding pairs (prismatic joints).
     assembly : mapping of str to int, optional
-        +1 or −1 for dyads that the drawing leaves open because it shows them
-        flat, by inner joint or slide.
+        +1 or −1 by inner joint or slide, for dyads drawn with their links
+        collinear: the drawing does not show their assembly.
 
     Raises
     ------
     StructureError
-        If this is not a mechanism with as many drivers as freedoms; the sentence
-        names the joint, link or slide.
+        If the linkage is invalid or its mobility differs from the number of
+        drivers; the message names the joint, link or slide.
 
     Notes
     -----
-    Mechanisms do not change; they can be hashed, compared and pickled.
+    Mechanisms are immutable; they can be hashed, compared and pickled.
 
     Examples
     --------
@@ -157,13 +157,13 @@ class Mechanism:
 
     @property
     def joints(self) -> Mapping[str, Any]:
-        """Places of the joints at `q0`, m: (x, y), or arrays S + (2,) of a batch.
+        """Positions of the joints at `q0`, m: (x, y), or arrays S + (2,) for a batch.
 
-        NaN where a design cannot stand at `q0`.
+        NaN for designs that cannot be assembled at `q0`.
         """
         if self._joints is None:
             drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._description[0]}
-            # A named assembly may be other than the drawing's; redundant links adjust a drawing.
+            # The drawing holds unless another assembly is named or redundant links adjusted it.
             as_drawn = (
                 self._values.tolist() == self._core.drawing
                 and not self._description[4]
@@ -180,23 +180,23 @@ class Mechanism:
 
     @property
     def links(self) -> Mapping[str, tuple[str, ...]]:
-        """Joints of every link."""
+        """Joints of each link."""
         return MappingProxyType(dict(self._description[1]))
 
     @property
     def slides(self) -> Mapping[str, Slide]:
-        """The sliding pairs."""
+        """Sliding pairs by name."""
         return MappingProxyType(dict(self._description[2]))
 
     @property
     def driver(self) -> DriverLike | tuple[DriverLike, ...]:
-        """The driver, or a tuple of them."""
+        """The driver, or a tuple of drivers."""
         drivers = self._description[3]
         return drivers[0] if len(drivers) == 1 else drivers
 
     @property
     def q0(self) -> float | Float:
-        """Coordinate of the drawing, rad or m; an array (n,) for n drivers."""
+        """Coordinate of the driver in the drawing, rad or m; an array (n,) for n drivers."""
         q0 = self._q0_array()
         return float(q0) if q0.ndim == 0 else q0
 
@@ -230,12 +230,12 @@ class Mechanism:
 
     @property
     def assembly(self) -> Assembly:
-        """The assembly of the drawing."""
+        """The assembly shown by the drawing."""
         return Assembly(dict(self._core.assembly))
 
     @property
     def dimensions(self) -> Mapping[str, Any]:
-        """The dimensions by name: floats, or arrays of shape S.
+        """The dimensions by name, m or rad: floats, or arrays of shape S.
 
         Examples
         --------
@@ -260,19 +260,22 @@ class Mechanism:
         ----------
         dimensions : mapping of str to array_like
             New values, m or rad; arrays broadcast by NumPy's rules, with each
-            other and with the designs there are, to the design shape S.
+            other and with the designs of this mechanism, to the design shape S.
+        **by_name : array_like
+            The same by keyword, for names without a dot.
 
         Returns
         -------
         Mechanism
-            Of design shape S.
+            With design shape S.
 
         Raises
         ------
         InputError
-            If a name is unknown (the nearest are named) or shapes do not broadcast.
+            If a name is unknown (the message suggests similar ones) or shapes do not
+            broadcast.
         DimensionError
-            If this is one mechanism and a value is no dimension; in a batch such
+            If a value is out of range and this is one mechanism; in a batch such
             designs get ``Status.BAD_DIMENSION``.
 
         Examples
@@ -307,15 +310,15 @@ class Mechanism:
         driver: DriverLike | Sequence[DriverLike],
         assembly: Mapping[str, int] | None = None,
     ) -> Mechanism:
-        """Return the same linkage, driven at another coordinate.
+        """Return the same linkage with another driver.
 
         Parameters
         ----------
         driver : str, Drive or sequence of them
-            As for the mechanism itself.
+            As in the constructor.
         assembly : mapping of str to int, optional
-            Signs of dyads that the drawing shows flat; which dyads there are
-            depends on the driver.
+            Signs of dyads drawn with their links collinear; the dyads depend on the
+            driver.
 
         Examples
         --------
@@ -330,7 +333,7 @@ class Mechanism:
         )
 
     def design(self, index: int | tuple[int, ...]) -> Mechanism:
-        """Return one design of a batch as a mechanism of its own."""
+        """Return one design of a batch as a single mechanism."""
         place = checked_index(index, self.shape, "design")
         values = np.array(self._values[place])
         self._core.check_dimensions(values.tolist())
@@ -360,16 +363,16 @@ class Mechanism:
         outputs : iterable of str, optional
             Names of joints, links and slides to keep; all by default.
         assembly : mapping of str to int, optional
-            Signs of dyads other than the drawing's (see `assemblies`).
+            Signs of dyads where they differ from the drawing's (see `assemblies`).
         on_error : {"raise", "nan"}
-            What to do with positions that cannot be had: raise for the first of
-            them, or leave NaN with a status in its place.
+            For unreachable positions: raise an error for the first one, or return NaN,
+            each with its own status code.
         threads : int, optional
-            Threads at most; by default as many as there are cores, and one for small
-            work. The numbers do not depend on it.
+            Maximum number of threads; by default one per core, and one for small
+            work. Results do not depend on it.
         out : Motion, optional
-            A motion of the same shape, order and outputs. It is overwritten, with all
-            arrays taken from it, and returned: new memory is spared.
+            A motion of the same shape, order and outputs. It and every array obtained
+            from it are overwritten; avoids allocation.
 
         Returns
         -------
@@ -379,7 +382,7 @@ class Mechanism:
         Raises
         ------
         PositionError, DimensionError, InputError
-            With ``on_error="raise"``: the first position that cannot be had.
+            With ``on_error="raise"``: for the first position that has no solution.
 
         Examples
         --------
@@ -391,7 +394,7 @@ class Mechanism:
         return solver.solve(self, q, order, outputs, assembly, on_error, threads, out)
 
     def assemblies(self, q: npt.ArrayLike) -> list[Assembly]:
-        """Every real assembly at one position, usable as ``solve(q, assembly=a)``.
+        """Return every real assembly at one position, for use as ``solve(q, assembly=a)``.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""From ``Mechanism.solve`` to the core and back: shapes, names, errors."""
+"""The implementation of ``Mechanism.solve``: checks arguments, calls the core, raises errors."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def solve(
 
 
 def _overwritten(motion: Any, request: SolveRequest, wanted: Names) -> Motion:
-    """The request's motion in the arrays of another, which becomes it."""
+    """Solve into the arrays of an existing motion, which takes over the request."""
     if not isinstance(motion, Motion):
         message = f"out is {short(motion)}: a motion is needed"
         raise InputError(message)
@@ -77,13 +77,13 @@ def _overwritten(motion: Any, request: SolveRequest, wanted: Names) -> Motion:
     if held.buffers is None:
         message = "out: a copy cannot be overwritten, only a motion as solve returned it"
         raise InputError(message)
-    # Interrupted, it is neither the one motion nor the other: its buffers stay incomplete.
+    # If interrupted, the arrays mix both motions: the buffers stay marked incomplete.
     motion._replace_with(request, *request.arrays(*wanted, held.buffers))
     return motion
 
 
 def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[int, ...], bool]:
-    """Coordinates, the shape of positions, and whether each design has its own."""
+    """Return coordinates, the shape of positions, and whether each design has its own."""
     array = np.array(real_array(q, "q"), order="C")
     drivers = len(mechanism._core.q0)
     shape = array.shape
@@ -176,7 +176,7 @@ def _raise_first(motion: Motion) -> None:
 
 
 def _no_analogues(motion: Motion, singular: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """Where a flat dyad leaves none; at a change point there are."""
+    """Singular positions with NaN analogues: all but change points."""
     held = motion._results
     missing = np.zeros(motion.shape, dtype=np.bool_)
     for arrays in (a for kind in (held.joints, held.links, held.slides) for a in kind.values()):
