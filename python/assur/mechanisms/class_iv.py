@@ -1,4 +1,4 @@
-"""The mechanism of class IV of V. M. Dvorzhak's paper."""
+"""The class IV mechanism of V. M. Dvorzhak's paper."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ LINKS = {
     "l95": ["9", "5"],
     "l107": ["10", "7"],
 }
-# The paper's words: lengths l, angles U (from the first leg to the last, at the middle joint),
-# fixed pivots, and the angles f that its iteration starts from (the crank's is its own).
+# The paper's names: lengths l, angles U (from the first leg to the last, at the middle joint),
+# fixed pivots, and the starting angles f of its iteration (that of "1-2" is the crank's).
 LENGTHS = ("1-2", "2-3", "2-4", "3-5", "3-6", "4-8", "6-8", "7-8", "5-9", "7-10")
 ANGLES = ("4-2-3", "6-3-5", "7-8-6")
 PIVOTS = ("1", "9", "10")
@@ -41,7 +41,7 @@ STARTS = ("1-2", "2-4", "3-6", "4-8", "7-8")
 
 
 class ClassIV(Mechanism):
-    """The paper's mechanism of class IV: by its joints, or by its lengths and angles.
+    """The paper's class IV mechanism, from its joints or from lengths and angles.
 
     Crank 1-2; ternary links 2-3-4, 3-6-5 and 8-7-6; bar 4-8; rockers 9-5 and 10-7; fixed pivots
     1, 9 and 10. Links 2-3-4, 4-8, 8-7-6 and 3-6-5 form the closed quadrilateral. Links are called
@@ -52,29 +52,30 @@ class ClassIV(Mechanism):
     joints : mapping of str to (x, y), optional
         A drawing, m: joints ``"1"`` to ``"10"``.
     lengths : mapping, optional
-        Instead of `joints`, in the paper's words: lengths, m, ``"1-2"``, ``"2-3"``, ``"2-4"``,
+        Instead of `joints`, with the paper's names: lengths, m, ``"1-2"``, ``"2-3"``, ``"2-4"``,
         ``"3-5"``, ``"3-6"``, ``"4-8"``, ``"6-8"``, ``"7-8"``, ``"5-9"`` and ``"7-10"``.
     angles : mapping, optional
-        The angles U of the ternary links, rad: ``"4-2-3"``, ``"6-3-5"`` and ``"7-8-6"``, counted
+        The angles U of the ternary links, rad: ``"4-2-3"``, ``"6-3-5"`` and ``"7-8-6"``, measured
         counter-clockwise from the leg named first.
     pivots : mapping, optional
-        Places of ``"1"``, ``"9"`` and ``"10"``, m.
+        Positions of ``"1"``, ``"9"`` and ``"10"``, m.
     start : mapping, optional
-        Angles that the iteration starts from, rad: of 2→4, 3→6, 4→8 and 8→7 (``"2-4"``, ``"3-6"``,
-        ``"4-8"``, ``"7-8"``) where the crank is at ``"1-2"``. They tell the assembly.
+        Starting angles of the iteration, rad: of 2→4, 3→6, 4→8 and 8→7 (``"2-4"``, ``"3-6"``,
+        ``"4-8"``, ``"7-8"``) with the crank at ``"1-2"``. They select the assembly.
 
     Raises
     ------
     InputError
-        Names that are missing or unknown, or starting angles from which no assembly is reached.
+        Missing or unknown names, or starting angles from which no assembly is found.
     DimensionError
         Lengths that are not positive.
 
     Notes
     -----
-    The paper's four equations state two distances along two routes each, not that the routes
+    The paper's four equations state two distances along two routes each, but not that the routes
     meet: they have roots where the quadrilateral is open, and are singular where the rockers are
-    parallel. Here the quadrilateral itself is closed; `paper_equations` checks a solution by them.
+    parallel. This class closes the quadrilateral itself; `paper_equations` evaluates the paper's
+    equations for a solution.
 
     Examples
     --------
@@ -110,9 +111,10 @@ class ClassIV(Mechanism):
         _copy_from(self, _from_paper(lengths, angles, pivots, start))
 
     def paper_equations(self, motion: Motion) -> npt.NDArray[np.float64]:
-        """Return what the paper's four equations miss at every position of a motion, m².
+        """Return the residuals of the paper's four equations at every position of a motion, m².
 
-        |5−9|² by 3 and by 6, |7−10|² by 8 and by 6, each less the length squared.
+        |5−9|² through 3 and through 6, |7−10|² through 8 and through 6, each minus the length
+        squared.
 
         Parameters
         ----------
@@ -122,7 +124,7 @@ class ClassIV(Mechanism):
         Returns
         -------
         numpy.ndarray
-            Shape S + (N, 4).
+            Residuals, m², of shape S + (N, 4).
 
         References
         ----------
@@ -169,7 +171,7 @@ def _copy_from(mechanism: Mechanism, made: Mechanism) -> None:
 
 
 def _require_names(given: Any, names: Iterable[str], what: str) -> None:
-    """Refuse names that are missing or unknown."""
+    """Raise InputError for missing or unknown names."""
     try:
         missing, unknown = [n for n in names if n not in given], set(given) - set(names)
     except TypeError as error:
@@ -195,7 +197,7 @@ def _numbers(given: Any, names: Sequence[str], what: str) -> dict[str, float]:
 
 
 def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism:
-    """Drawn at the starting angles, then brought to the lengths, then drawn as found."""
+    """Draw at the starting angles, solve with the given lengths, draw the position found."""
     length, angle = _numbers(lengths, LENGTHS, "lengths"), _numbers(angles, ANGLES, "angles")
     first = _numbers(start, STARTS, "start")
     _require_names(pivots, PIVOTS, "pivots")
