@@ -1,4 +1,4 @@
-"""What `Machine` does in time: arguments checked, the core called."""
+"""The implementation of `Machine.run` and `Machine.steady_state`: checks, then the core."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ if TYPE_CHECKING:
     from assur.dynamics.callbacks import Function
     from assur.dynamics.machine import Machine
 
-# A period that is less accurate tells no speed.
+# Less accurate periods do not determine the speed.
 LOOSEST_RTOL = 1e-4
-# Ends of a run that nobody asked for.
+# Ends of a run that the user did not ask for: they warn.
 EARLY_ENDS = ("lost", "table ends", "motor table ends", "stalled", "step limit", "time limit")
-# Imbalance of energy that is told: as a part of the greatest energy, and in tolerances.
+# Warn of an energy imbalance above both: relative to the greatest energy, and in units of rtol.
 IMBALANCE_WARN_FLOOR, IMBALANCE_WARN_RTOLS = 1e-6, 1e3
-# Part of the motor's moment from which on it is told that it was mended.
+# Warn when the balancing moment exceeds this fraction of the motor's.
 BALANCE_WARN_RTOL = 1e-6
 
 
@@ -101,7 +101,7 @@ def run(
     made = Run(core, machine.mechanism, n, watched, along_q)
     if made.end in EARLY_ENDS:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)
-    # Tables alone have no position that is badly known.
+    # A machine from a table has no singular positions.
     off = 0.0 if machine.mechanism is None else made.energy.error
     if off > max(IMBALANCE_WARN_FLOOR, IMBALANCE_WARN_RTOLS * float(options["rtol"])):
         message = (
@@ -115,7 +115,7 @@ def run(
 def steady_state(
     machine: Machine, speed: Any, turns: Any, q0: Any, wanted: float | None, **options: Any
 ) -> SteadyState:
-    """See `Machine.steady_state`; `wanted`: the fluctuation that a flywheel gives."""
+    """See `Machine.steady_state`; with `wanted`, size a flywheel for this fluctuation."""
     one_design(machine, "steady_state")
     require_rotary_driver(machine, "a periodic motion")
     mean = one_of(options["mean"], flywheels.MEANS, "mean")

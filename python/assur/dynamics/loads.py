@@ -1,4 +1,4 @@
-"""What a machine carries and what acts on it: bodies, weight, forces, springs, dampers."""
+"""Bodies and loads of machines: masses, weight, forces, torques, springs, dampers."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ __all__ = [
 ]
 
 PointLike: TypeAlias = str | tuple[str, tuple[float, float]]
-# As the core takes a load: kind, places, links, numbers, values.
+# A load for the core: kind, points, links, numbers, values.
 EncodedLoad: TypeAlias = tuple[str, list[Any], list[str], list[float], list[Encoded]]
 
 
 @dataclass(frozen=True)
 class Body:
-    """Mass of a link.
+    """Mass and moment of inertia of a link.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class Body:
     inertia : float
         Moment of inertia about the centre of mass, kg·m², not negative.
     at : str or (x, y), optional
-        Centre of mass: a joint, or a place in the link's frame (origin at its first joint, x
+        Centre of mass: a joint, or coordinates in the link's frame (origin at its first joint, x
         toward its second), m. The link's first joint by default.
 
     Examples
@@ -70,7 +70,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Gravity:
-    """Free fall, (x, y), m/s²; bodies have weight by it."""
+    """Gravitational acceleration (x, y), m/s²; gives every body its weight."""
 
     acceleration: tuple[float, float] = (0.0, -9.81)
 
@@ -85,11 +85,11 @@ class Force:
     Parameters
     ----------
     at : str or (link, (x, y))
-        A joint, or a place in a link's frame, m.
+        A joint, or a point in a link's frame, m.
     force : (fx, fy)
         N; each a number, a `Table` over q, or a function of (t, q, speed).
     axes : str, optional
-        The link along whose frame fx and fy are; the drawing's axes by default.
+        The link whose frame gives the directions of fx and fy; the drawing's axes by default.
     """
 
     at: PointLike
@@ -118,16 +118,16 @@ class Force:
 
 @dataclass(frozen=True)
 class Torque:
-    """A torque on a link, N·m, counter-clockwise; its reaction is on another (the frame).
+    """A torque on a link, N·m, counter-clockwise; its reaction acts on another (the frame).
 
     Parameters
     ----------
     link : str
-        The link.
+        The link on which it acts.
     torque : float, Table or callable
         N·m: a number, a `Table` over q, or a function of (t, q, speed).
     on : str
-        The link that has the reaction.
+        The link on which the reaction acts.
     """
 
     link: str
@@ -149,13 +149,13 @@ class Spring:
     Parameters
     ----------
     first, second : str or (link, (x, y))
-        Its ends.
+        Its ends: joints, or points in links' frames, m.
     stiffness : float
         N/m.
     length : float
         Free length, m.
     preload : float
-        Tension at that length, N.
+        Tension at the free length, N.
     """
 
     first: PointLike
@@ -180,20 +180,20 @@ class Spring:
 
 @dataclass(frozen=True)
 class TorsionSpring:
-    """A spring between two links.
+    """A torsion spring between two links.
 
     Parameters
     ----------
     link : str
-        The link that it turns back.
+        The link on which its torque acts.
     stiffness : float
         N·m/rad.
     angle : float
-        Difference of the two links' angles without load, rad.
+        Difference of the two links' angles at which the torque is `preload`, rad.
     on : str
         The other link.
     preload : float
-        Torque back at that angle, N·m.
+        Restoring torque at that angle, N·m.
     """
 
     link: str
@@ -234,7 +234,7 @@ class Damper:
 
 @dataclass(frozen=True)
 class TorsionDamper:
-    """A damper between two links, N·m·s/rad."""
+    """A torsion damper between two links, N·m·s/rad."""
 
     link: str
     damping: float

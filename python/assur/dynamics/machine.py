@@ -526,7 +526,7 @@ class Machine:
         Warns
         -----
         AssurWarning
-            A constant motor that balances the loads only to 1 %: the difference is added.
+            A constant motor that is out of balance by up to 1 %: the missing moment is added.
 
         Notes
         -----

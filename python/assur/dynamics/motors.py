@@ -1,4 +1,4 @@
-"""Motors: what turns a driver, and how its torque falls with the speed."""
+"""Motors: the torque on a driver as a function of its speed."""
 
 from __future__ import annotations
 
@@ -18,17 +18,18 @@ EncodedMotor: TypeAlias = tuple[int, float, float, str, list[float], list[Encode
 
 @dataclass(frozen=True, eq=False)
 class ConstantTorque:
-    """A motor of one torque at any speed.
+    """A motor whose torque does not depend on its speed.
 
     Parameters
     ----------
     torque : float, Table or callable
-        Of the motor, N·m (on a driven slide N); also a `Table` over q or a function of
+        Torque of the motor, N·m (driven slide: N); also a `Table` over q or a function of
         (t, q, speed), with the driver's coordinate and speed.
     ratio : float
-        Speed of the motor by that of the driver; negative if they turn opposite ways.
+        Speed of the motor divided by that of the driver; negative if they turn in opposite
+        directions.
     rotor_inertia : float
-        Moment of inertia of the rotor, kg·m²; on the driver it counts times ratio².
+        Moment of inertia of the rotor, kg·m²; referred to the driver, times ratio².
 
     Examples
     --------
@@ -47,18 +48,18 @@ class ConstantTorque:
 
 @dataclass(frozen=True)
 class LinearMotor:
-    """A motor whose torque falls from `stall` at rest to none at `no_load`.
+    """A motor whose torque falls linearly from `stall` at rest to 0 at `no_load`.
 
-    A direct-current motor at constant voltage: torque = stall · (1 − speed / no_load).
+    For example a direct-current motor at constant voltage: torque = stall · (1 − speed / no_load).
 
     Parameters
     ----------
     stall : float
         Torque at rest, N·m.
     no_load : float
-        Speed without torque, rad/s.
+        Speed at which the torque is 0, rad/s.
     ratio, rotor_inertia : float
-        As of `ConstantTorque`.
+        See `ConstantTorque`.
 
     Examples
     --------
@@ -83,13 +84,13 @@ class InductionMotor:
     Parameters
     ----------
     breakdown : float
-        The greatest torque, N·m.
+        Greatest torque, N·m.
     slip : float
         Slip at that torque.
     synchronous : float
-        Speed of the field, rad/s.
+        Speed of the rotating field, rad/s.
     ratio, rotor_inertia : float
-        As of `ConstantTorque`.
+        See `ConstantTorque`.
 
     References
     ----------
@@ -116,7 +117,7 @@ Motor: TypeAlias = ConstantTorque | LinearMotor | InductionMotor | Table
 
 
 def encode(motor: Any, driver: int, callbacks: CallbackTable) -> EncodedMotor:
-    """Encode a motor for the core; its table and functions go to the lists."""
+    """Encode a motor for the core; its functions are added to `callbacks`."""
     if not isinstance(motor, Motor):
         message = (
             f"{short(motor)} is no motor: ConstantTorque, LinearMotor, InductionMotor, or a Table "

@@ -1,4 +1,4 @@
-"""Options of motions and what a machine must be for them: checked, with errors that name them."""
+"""Checks of the options of motions, and of machines that they require."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ if TYPE_CHECKING:
     from assur.dynamics.machine import Machine
 
 METHODS = ("DOP853", "RK45")
-# Errors below cannot be told from rounding (`assur::ode`).
+# Below it, errors drown in rounding (`assur::ode`).
 MIN_RTOL = 2.3e-15
-# Part of a period by which a table's may differ from it: tables end with typed numbers.
+# Tables end with typed numbers: their period may differ by this fraction.
 PERIOD_RTOL = 1e-9
 
 
 def one_design(machine: Machine, what: str) -> None:
-    """Refuse a batch."""
+    """Raise InputError for a batch."""
     if machine.shape:
         message = f"{what} is for one design, this is a batch {machine.shape}: design(i)"
         raise InputError(message)
 
 
 def require_rotary_driver(machine: Machine, what: str) -> None:
-    """Refuse what does not turn."""
+    """Raise InputError unless the machine has one driver and that is an angle."""
     driver = None if machine.mechanism is None else machine.mechanism.driver
     slides = {} if machine.mechanism is None else machine.mechanism.slides
     if machine._drivers > 1 or (isinstance(driver, str) and driver in slides):
@@ -37,7 +37,7 @@ def require_rotary_driver(machine: Machine, what: str) -> None:
 
 
 def require_whole_periods(period: float | None, span: float) -> None:
-    """Refuse a table that is another one a period on."""
+    """Raise InputError unless a table repeats a whole number of times in the span."""
     if period is None:
         message = "a table that is not periodic is among the loads: there is no periodic motion"
         raise InputError(message)
@@ -50,7 +50,7 @@ def require_whole_periods(period: float | None, span: float) -> None:
 
 
 def as_list(value: Any, name: str) -> list[Any]:
-    """A sequence as a list, or an error that names it."""
+    """Return a sequence as a list."""
     if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
         message = f"{name} is {short(value)}: a sequence of them is needed"
         raise InputError(message)
@@ -61,7 +61,7 @@ def as_list(value: Any, name: str) -> list[Any]:
 
 
 def positive_number(value: Any, name: str) -> float:
-    """A positive number, infinite too."""
+    """Return a positive number; infinity is allowed."""
     number = real_number(value, name, finite=False)
     if not number > 0.0:
         message = f"{name} is {short(value)}: it must be positive"
@@ -70,7 +70,7 @@ def positive_number(value: Any, name: str) -> float:
 
 
 def relative_tolerance(rtol: Any) -> float:
-    """A relative tolerance."""
+    """Return a relative tolerance."""
     number = real_number(rtol, "rtol")
     if not MIN_RTOL <= number < 1.0:
         message = f"rtol is {short(rtol)}: it must be from {MIN_RTOL} to below 1"
@@ -79,7 +79,7 @@ def relative_tolerance(rtol: Any) -> float:
 
 
 def is_low_order(method: Any) -> bool:
-    """Whether the method is the one of lower order."""
+    """Whether the method is RK45, that of lower order."""
     if not isinstance(method, str) or method not in METHODS:
         message = f"method is {short(method)}: one of {', '.join(map(repr, METHODS))}"
         raise InputError(message)
@@ -87,7 +87,7 @@ def is_low_order(method: Any) -> bool:
 
 
 def tolerance_pair(atol: Any) -> list[float] | None:
-    """Absolute tolerances of coordinate and speed."""
+    """Return absolute tolerances of coordinate and speed, or None."""
     if atol is None:
         return None
     array = real_array(atol, "atol")
@@ -103,7 +103,7 @@ def tolerance_pair(atol: Any) -> list[float] | None:
 
 
 def checked_breaks(breaks: Any) -> list[float]:
-    """Places, ascending."""
+    """Return the breaks in ascending order."""
     array = real_array(() if breaks is None else breaks, "breaks")
     if not np.isfinite(array).all():
         message = f"breaks is {short(breaks)}: finite numbers are needed"
@@ -113,7 +113,7 @@ def checked_breaks(breaks: Any) -> list[float]:
 
 
 def turn_count(turns: Any) -> int:
-    """Turns of a period."""
+    """Return the number of turns of a period."""
     try:
         number = operator.index(turns)
     except TypeError:
@@ -125,7 +125,7 @@ def turn_count(turns: Any) -> int:
 
 
 def step_count(steps: Any) -> int:
-    """A number of steps."""
+    """Return the largest number of steps."""
     try:
         number = operator.index(steps)
     except TypeError:
@@ -137,7 +137,7 @@ def step_count(steps: Any) -> int:
 
 
 def checked_seconds(seconds: Any) -> float | None:
-    """A limit of time."""
+    """Return the limit of computing time, s, or None."""
     if seconds is None:
         return None
     number = real_number(seconds, "max_seconds")

@@ -1,4 +1,4 @@
-"""Machines referred to their drivers at many places: shapes checked, the core called."""
+"""Reduced inertia and moment at many coordinates: checks of shapes, then the core."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ Float: TypeAlias = npt.NDArray[np.float64]
 def reduce(
     machine: Machine, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
 ) -> tuple[Float, Float, Float, Float]:
-    """Mass matrices, their derivatives, moments, potential energies at coordinates and speeds.
+    """Return mass matrices, their derivatives, moments and potential energies.
 
-    Without a speed no function is called, and the moments are none.
+    Without a speed no function is called, and the moments are not valid.
     """
     one_of(on_error, ("raise", "nan"), "on_error")
     n, designs = machine._drivers, machine.shape
@@ -48,7 +48,7 @@ def reduce(
     values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
     dimensions = np.ascontiguousarray(values).ravel()
     *arrays, status = machine._core.reduce(dimensions, flat, speeds, given, None)
-    # All but NEAR_SINGULAR, whose analogues are there.
+    # Above NEAR_SINGULAR, which still has analogues.
     failed = np.flatnonzero(status > 1)
     if on_error == "raise" and failed.size:
         _refuse(machine, x, shape, int(failed[0]))
@@ -73,14 +73,14 @@ def _refuse(machine: Machine, q: Float, shape: tuple[int, ...], flat: int) -> No
         raise InputError(message, q=q[place])
     design = place[: len(machine.shape)]
     one = machine.mechanism.design(design) if design else machine.mechanism
-    told = one.solve(q[place], order=1, on_error="nan").explain()
+    why = one.solve(q[place], order=1, on_error="nan").explain()
     where = f"design {design}: " if design else ""
-    message = f"{where}{told}; nothing can be referred to the driver there"
+    message = f"{where}{why}; nothing can be referred to the driver there"
     raise PositionError(message, q=q[place], design=design or None)
 
 
 def _with_designs(places: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
-    """Shape of the result: q is a number, (N,) or S + (N,)."""
+    """Return the shape of the result: q is a number, (N,) or S + (N,)."""
     if not designs:
         return places
     if len(places) <= 1:

@@ -1,4 +1,4 @@
-"""Flywheels of machines: tables of moment and inertia, dense enough, or the motor's own motion."""
+"""Flywheels of machines: from refined tables, or from the motion with the machine's motor."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from assur.dynamics.steady import SteadyState
     from assur.flywheel import Flywheel
 
-# How the motor's own motion is searched for: as `Machine.steady_state` does it.
+# Options of the periodic motion: the defaults of `Machine.steady_state`.
 STEADY_OPTIONS: dict[str, Any] = {
     "flywheel": 0.0,
     "rtol": 1e-12,
@@ -32,19 +32,19 @@ STEADY_OPTIONS: dict[str, Any] = {
     "max_steps": 100_000,
     "max_seconds": 60.0,
 }
-# Part by which a constant motor may differ from what the loads take: torques are typed too.
+# Warn if a constant motor misses the mean moment of the loads by more: torques are typed numbers.
 TORQUE_RTOL = 1e-2
-# Knots of loads in a turn, at most.
+# Largest number of knots of loads in a turn.
 MAX_KNOTS = 100_000
-# Part by which inertia and moment may differ a turn on.
+# Inertia and moment must repeat after a turn to this relative accuracy.
 PERIODIC_RTOL = 1e-7
-# The same of moments as a part of the inertia times the squared speed: what is less is rounding.
+# Rounding error of moments, relative to inertia times squared speed.
 MOMENT_ROUNDING_RTOL = 1e-12
-# Rows of the first table of `flywheel`, and of the last; each has twice those before.
+# Rows of the first and the last table; each table has twice as many as the one before.
 FIRST_ROWS, LAST_ROWS = 96, 12288
-# The fewest rows between two knots of a load's table.
+# Least rows between two knots of a load's table.
 MIN_ROWS_BETWEEN_KNOTS = 6
-# Change of the flywheel between two tables after which it is known.
+# The flywheel has converged when two tables agree to this fraction of the inertia.
 CONVERGED_RTOL = 1e-9
 
 
@@ -88,7 +88,7 @@ def flywheel(
 def _from_rows(
     machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, on_error: str
 ) -> Flywheel:
-    """The flywheel from tables of moment and inertia, dense enough."""
+    """Refine tables of moment and inertia until the flywheel converges."""
     knots = _knots(machine)
     speed = real_array(mean_speed, "mean_speed")
     if speed.ndim and speed.shape != machine.shape:
@@ -109,7 +109,7 @@ def _from_rows(
         if last is None:
             others = aperiodic_designs(machine, phi, own_speed, on_error, inertia, moment)
         inertia[others], moment[others] = math.nan, math.nan
-        # But for rounding its last row is its first.
+        # The last row equals the first up to rounding: make it exact.
         moment[..., -1, :], inertia[..., -1, :, :] = moment[..., 0, :], inertia[..., 0, :, :]
         own = flywheels._flywheel(
             phi,
@@ -141,10 +141,10 @@ def _from_rows(
 def aperiodic_designs(
     machine: Machine, phi: Any, speed: Any, on_error: str, inertia: Any, moment: Any
 ) -> Any:
-    """Designs whose motion or loads are others after a turn: an error, or where they are."""
+    """Find designs whose inertia or moment does not repeat after a turn; raise if asked to."""
     found = np.zeros(machine.shape, bool)
     later, _, other, _ = machine._reduce(phi + 2.0 * math.pi, speed, on_error)
-    # Moments are told from rounding by what the inertia itself asks at this speed.
+    # Inertia times squared speed is the scale of a moment's rounding error.
     of_inertia = np.nanmax(np.abs(_flat(machine, inertia)), axis=-1, initial=0.0)
     floor = (
         MOMENT_ROUNDING_RTOL
@@ -174,12 +174,12 @@ def aperiodic_designs(
 
 
 def _flat(machine: Machine, array: Any) -> Any:
-    """One row for each design."""
+    """Reshape to one row per design."""
     return array.reshape(*machine.shape, -1)
 
 
 def _knots(machine: Machine) -> list[float]:
-    """Where loads are not smooth within a turn, its ends included."""
+    """Return the coordinates of a turn at which loads are not smooth, its ends included."""
     turn = 2.0 * math.pi
     found = {0.0, turn}
     for rows, _, _, periodic in machine._callbacks.tables:
@@ -192,13 +192,13 @@ def _knots(machine: Machine) -> list[float]:
                 message = f"a table's period of {period:g} rad has too many knots in a turn"
                 raise InputError(message, value=period)
     knots = sorted(q for q in found if 0.0 <= q <= turn)
-    # What is nearer is rounding.
+    # Knots closer than this are the same but for rounding.
     kept = [q for q, before in zip(knots, [-1.0, *knots], strict=False) if q - before > PERIOD_RTOL]
     return [*(q for q in kept if q < turn - PERIOD_RTOL), turn]
 
 
 def _rows(knots: list[float], rows: int) -> tuple[Any, list[int]]:
-    """Coordinates with rows at all knots, and which these are."""
+    """Return coordinates with a row at every knot, and the indices of the knots."""
     parts, corners = [], [0]
     for low, high in itertools.pairwise(knots):
         count = max(MIN_ROWS_BETWEEN_KNOTS, math.ceil(rows * (high - low) / (2.0 * math.pi)))

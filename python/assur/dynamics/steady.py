@@ -1,4 +1,4 @@
-"""Periodic motions of machines, as they come out of `Machine.steady_state`."""
+"""Periodic motions of machines: the results of `Machine.steady_state`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["SteadyState"]
 
 
-# What the events of a period are.
+# The events recorded in a period.
 EXTREME = "extreme speed"
 
 
@@ -34,31 +34,31 @@ class SteadyState:
     Attributes
     ----------
     run : Run
-        One period, along the coordinate.
+        One period, integrated over the coordinate.
     q, speed : ndarray
-        Coordinate and speed between its steps, rad and rad/s.
+        Coordinate and speed at the ends of its steps, rad and rad/s.
     period : float
         Time of a period, s.
     greatest, least : Extremum
-        The extreme speeds (without their sign) and where they are.
+        The extreme speeds (absolute values) and their coordinates.
     mean_speed : float
-        By the definition chosen, rad/s; the speed asked for, where neither motor nor loads set one.
+        Mean speed by the chosen definition, rad/s; the speed passed to `Machine.steady_state` if
+        neither motor nor loads set one.
     delta : float
         Coefficient of speed fluctuation: (greatest − least) / `mean_speed`.
     multiplier : float
-        What a small change of the energy at the beginning of a period has become at its end (the
-        one entry of the monodromy matrix that is not 1): below 1 the motion is stable, the more
-        quickly it is reached the smaller it is; 1 where nothing depends on the speed.
+        Floquet multiplier: factor by which a perturbation of the energy changes each period;
+        stable below 1, and reached the faster the smaller it is; 1 if nothing depends on the speed.
     energy : float
         Work of the motor in a period, J.
     power : float
-        Its mean power, W.
+        Mean power of the motor, W.
     motor_moment : float
-        Its mean moment on the driver, N·m.
+        Mean moment of the motor on the driver, N·m.
     found_moment : float
-        Constant moment that was found for the speed asked for; 0 where the motor told the speed.
+        Constant moment added to keep the required speed, N·m; 0 if the motor sets the speed.
     inertia : float
-        Moment of inertia of the flywheel that was added, kg·m².
+        Moment of inertia of the flywheel added, kg·m².
     """
 
     def __init__(
@@ -94,7 +94,7 @@ class SteadyState:
         )
 
     def at(self, q: npt.ArrayLike) -> State:
-        """Return time, speed and acceleration at coordinates, any number of periods on.
+        """Return time, speed and acceleration at coordinates, over any number of periods.
 
         Parameters
         ----------
@@ -104,7 +104,7 @@ class SteadyState:
         Returns
         -------
         State
-            t (0 where the period begins), q, speed and acceleration, of the shape of q.
+            t (0 at the start of the period), q, speed and acceleration, of the shape of q.
         """
         x = real_array(q, "q")
         if not np.isfinite(x).all():
@@ -113,7 +113,7 @@ class SteadyState:
             raise InputError(message, value=value)
         first, last = float(self.q[0]), float(self.q[-1])
         low, high = min(first, last), max(first, last)
-        # The remainder of a division is exact, whatever the size of q.
+        # The remainder is exact however large q is.
         rest = np.remainder(x - first, last - first)
         is_here = (x >= low) & (x <= high)
         whole = np.where(is_here, 0.0, np.round((x - first - rest) / (last - first)))
@@ -126,7 +126,7 @@ class SteadyState:
         Parameters
         ----------
         ax : matplotlib axes, optional
-            Where; new ones by default.
+            Axes to draw on; new ones by default.
 
         Returns
         -------
