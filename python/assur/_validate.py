@@ -88,17 +88,17 @@ def checked_index(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, .
     """Return a full index into a shape; negative entries count from the end."""
     given = index if isinstance(index, tuple) else (index,)
     try:
-        place = tuple(operator.index(i) for i in given if not isinstance(i, bool))
+        entries = tuple(operator.index(i) for i in given if not isinstance(i, bool))
     except TypeError:
-        place = ()
-    if len(place) != len(shape) or len(place) != len(given):
+        entries = ()
+    if len(entries) != len(shape) or len(entries) != len(given):
         message = f"{what} {index!r}: one index into the shape {shape} is needed"
         raise InputError(message)
-    for i, size in zip(place, shape, strict=True):
+    for i, size in zip(entries, shape, strict=True):
         if not -size <= i < size:
             message = f"{what} {index!r} is outside the shape {shape}"
             raise InputError(message)
-    return tuple(i % size for i, size in zip(place, shape, strict=True))
+    return tuple(i % size for i, size in zip(entries, shape, strict=True))
 
 
 def checked_threads(threads: Any) -> int | None:

@@ -169,13 +169,13 @@ class Flywheel:
         index : int or tuple of int
             Index into the batch; omit it for one table.
         """
-        place = checked_index(index, self.shape, "explain")
-        flat = int(np.ravel_multi_index(place, self.shape)) if self.shape else 0
+        entry = checked_index(index, self.shape, "explain")
+        flat = int(np.ravel_multi_index(entry, self.shape)) if self.shape else 0
         problem = self._core.problem(flat)
         if problem is not None:
             return str(problem)
-        inertia = np.asarray(self.inertia)[place]
-        return f"a flywheel of {inertia:.9g} kg·m², δ = {np.asarray(self.delta)[place]:.6g}"
+        inertia = np.asarray(self.inertia)[entry]
+        return f"a flywheel of {inertia:.9g} kg·m², δ = {np.asarray(self.delta)[entry]:.6g}"
 
     def energy_mass(self, points: int = PLOT_POINTS) -> tuple[Float, Float]:
         """Return Wittenbauer's diagram of one turn.
@@ -220,8 +220,8 @@ class Flywheel:
         one_of(what, ("speed", "time", "energy-mass"), "what")
         return flywheel_picture(self, what, self._span, PLOT_POINTS, ax)
 
-    def _curve(self, what: str, places: npt.ArrayLike, name: str) -> Any:
-        x = real_array(places, name)
+    def _curve(self, what: str, points: npt.ArrayLike, name: str) -> Any:
+        x = real_array(points, name)
         if not np.isfinite(x).all():
             value = float(x[~np.isfinite(x)][0])
             message = f"{name} has {value}: finite numbers are needed"
@@ -507,9 +507,9 @@ def _flywheel(
         first_failed = int(failed[0])
         problem = str(result._core.problem(first_failed))
         if shape:
-            place = tuple(int(k) for k in np.unravel_index(first_failed, shape))
+            entry = tuple(int(k) for k in np.unravel_index(first_failed, shape))
             more = f" (and {failed.size - 1} more)" if failed.size > 1 else ""
-            problem = f"table {place}{more}: {problem}"
+            problem = f"table {entry}{more}: {problem}"
         raise InputError(problem)
     return result
 

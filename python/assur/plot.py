@@ -115,8 +115,8 @@ def _guide(
     """Draw a guide through the sliding point, and the block on it."""
     slide = motion.mechanism.slides[name]
     joints = motion.mechanism.links[slide.link]
-    place = motion.joint(joints[0]) if joints else motion._reference_point(slide.link)
-    middle = place.value[index]
+    point = motion.joint(joints[0]) if joints else motion._reference_point(slide.link)
+    middle = point.value[index]
     own = motion.mechanism.dimensions.get(f"{name}.angle", 0.0)
     angle = float(motion.link(on).value[index]) + float(own)
     along = np.array([np.cos(angle), np.sin(angle)])
@@ -157,9 +157,9 @@ def flywheel_picture(
     speed = flywheel.speed(q)
     x, label = (q, "φ, rad") if what == "speed" else (flywheel.time(q), "t, s")
     ax.plot(x, speed, color=_COLOURS[0])
-    for place in (flywheel.greatest, flywheel.least):
-        at = place.at if what == "speed" else flywheel.time(place.at)
-        _mark(ax, at, place.value, place is flywheel.greatest)
+    for extremum in (flywheel.greatest, flywheel.least):
+        at = extremum.at if what == "speed" else flywheel.time(extremum.at)
+        _mark(ax, at, extremum.value, extremum is flywheel.greatest)
     ax.axhline(flywheel.mean_speed, color="0.6", linewidth=0.8)
     ax.set(xlabel=label, ylabel="ω, rad/s")
     return ax
@@ -214,9 +214,9 @@ def steady_picture(steady: SteadyState, ax: Any) -> Any:
     ax = _axes(ax)
     q = np.linspace(steady.q[0], steady.q[-1], RUN_PLOT_POINTS)
     ax.plot(q, steady.at(q).speed, color=_COLOURS[0])
-    for place in (steady.greatest, steady.least):
-        value = float(np.copysign(place.value, steady.speed[0]))
-        _mark(ax, place.at, value, (place is steady.greatest) == (value > 0.0))
+    for extremum in (steady.greatest, steady.least):
+        value = float(np.copysign(extremum.value, steady.speed[0]))
+        _mark(ax, extremum.at, value, (extremum is steady.greatest) == (value > 0.0))
     ax.axhline(np.copysign(steady.mean_speed, steady.speed[0]), color="0.6", linewidth=0.8)
     ax.set(xlabel="q, rad", ylabel="ω, rad/s")
     return ax

@@ -48,14 +48,14 @@ def items(mapping: Any, what: str) -> list[tuple[str, Any]]:
 def joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
     """Return a joint for the core: its name and coordinates."""
     try:
-        place = real_array(at, f"joint {name!r}")
+        point = real_array(at, f"joint {name!r}")
     except InputError as error:
         message = f"joint {name!r} is at {short(at)}: two numbers (x, y) are needed"
         raise InputError(message, joint=name) from error
-    if place.shape != (2,):
+    if point.shape != (2,):
         message = f"joint {name!r} is at {short(at)}: two numbers (x, y) are needed"
         raise InputError(message, joint=name)
-    return (name, float(place[0]), float(place[1]))
+    return (name, float(point[0]), float(point[1]))
 
 
 def slide(name: str, slide: Any) -> Slide:

@@ -287,8 +287,8 @@ def _checked_point(at: Any, what: str) -> PointLike:
     if isinstance(at, str):
         return checked_name(at, what)
     if isinstance(at, tuple | list) and len(at) == 2 and isinstance(at[0], str):
-        place = real_array(at[1], f"{what}, in the frame of {at[0]!a}")
-        if place.shape == (2,) and np.isfinite(place).all():
-            return checked_name(at[0], what), (float(place[0]), float(place[1]))
+        point = real_array(at[1], f"{what}, in the frame of {at[0]!a}")
+        if point.shape == (2,) and np.isfinite(point).all():
+            return checked_name(at[0], what), (float(point[0]), float(point[1]))
     message = f"{what}: {short(at)} is no place: a joint's name, or (link, (x, y)) in its frame"
     raise InputError(message)

@@ -62,5 +62,5 @@ def _tails(order: int, drivers: int) -> list[str]:
         return [""]
     if drivers == 1:
         return [f".d{order}"]
-    places = product(range(drivers), repeat=order)
-    return [f".d{order}[{','.join(map(str, place))}]" for place in places]
+    indices = product(range(drivers), repeat=order)
+    return [f".d{order}[{','.join(map(str, index))}]" for index in indices]

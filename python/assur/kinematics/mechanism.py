@@ -290,7 +290,7 @@ class Mechanism:
             message = f"dimensions is {short(given)}: a mapping of names to values is needed"
             raise InputError(message)
         wanted = {**{checked_name(name, "dimensions"): v for name, v in given.items()}, **by_name}
-        places = [self._core.dimension(name) for name in wanted]
+        columns = [self._core.dimension(name) for name in wanted]
         new = [real_array(value, f"dimension {name!r}") for name, value in wanted.items()]
         try:
             shape = np.broadcast_shapes(self.shape, *(array.shape for array in new))
@@ -299,8 +299,8 @@ class Mechanism:
             message = f"dimensions do not broadcast: {shapes}, designs {self.shape}"
             raise InputError(message) from error
         values = np.array(np.broadcast_to(self._values, (*shape, self._values.shape[-1])))
-        for place, array in zip(places, new, strict=True):
-            values[..., place] = array
+        for column, array in zip(columns, new, strict=True):
+            values[..., column] = array
         if not shape:
             self._core.check_dimensions(values.tolist())
         return self._make(self._description, values, self._core)
@@ -334,8 +334,8 @@ class Mechanism:
 
     def design(self, index: int | tuple[int, ...]) -> Mechanism:
         """Return one design of a batch as a single mechanism."""
-        place = checked_index(index, self.shape, "design")
-        values = np.array(self._values[place])
+        entry = checked_index(index, self.shape, "design")
+        values = np.array(self._values[entry])
         self._core.check_dimensions(values.tolist())
         return self._make(self._description, values, self._core)
 

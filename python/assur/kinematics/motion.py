@@ -275,9 +275,9 @@ class Motion:
 
     def coordinate(self, index: int | tuple[int, ...]) -> float | tuple[float, ...]:
         """Return the driver's coordinate at an index into `shape`; a tuple for several drivers."""
-        place = checked_index(index, self.shape, "index")
+        entry = checked_index(index, self.shape, "index")
         designs = 0 if self._request.per_design else len(self.mechanism.shape)
-        q = self.q[place[designs:]] if self._request.positions else self.q
+        q = self.q[entry[designs:]] if self._request.positions else self.q
         return float(q) if self._drivers == 1 else tuple(float(x) for x in q)
 
     def explain(self, index: int | tuple[int, ...] = ()) -> str:
@@ -293,9 +293,9 @@ class Motion:
         return self._explain(index)[2]
 
     def _explain(self, index: int | tuple[int, ...]) -> tuple[int, str | None, str]:
-        place = checked_index(index, self.shape, "index")
-        q = self.coordinate(place)
-        values = self.mechanism._values[place[: len(self.mechanism.shape)]]
+        entry = checked_index(index, self.shape, "index")
+        q = self.coordinate(entry)
+        values = self.mechanism._values[entry[: len(self.mechanism.shape)]]
         one = [q] if isinstance(q, float) else list(q)
         return self.mechanism._core.explain(values.tolist(), one, self._request.signs)
 

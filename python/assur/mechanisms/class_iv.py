@@ -207,11 +207,11 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
             raise DimensionError(message, dimension=name, value=value)
     at: dict[str, complex] = {}
     for name in PIVOTS:
-        place = real_array(pivots[name], f"pivots[{name!r}]")
-        if place.shape != (2,) or not np.isfinite(place).all():
+        point = real_array(pivots[name], f"pivots[{name!r}]")
+        if point.shape != (2,) or not np.isfinite(point).all():
             message = f"pivots[{name!r}] is {pivots[name]!r}: two finite numbers are needed"
             raise InputError(message)
-        at[name] = complex(*place)
+        at[name] = complex(*point)
 
     def leg(name: str, turn: float) -> complex:
         return complex(_polar(length[name], turn))
@@ -233,8 +233,8 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
     dimensions |= {"l365.length": length["3-6"], "l48.length": length["4-8"]}
     dimensions |= {"l876.length": length["7-8"], "l95.length": length["5-9"]}
     dimensions |= {"l107.length": length["7-10"]}
-    dimensions |= {f"{name}.x": place.real for name, place in corner.items()}
-    dimensions |= {f"{name}.y": place.imag for name, place in corner.items()}
+    dimensions |= {f"{name}.x": point.real for name, point in corner.items()}
+    dimensions |= {f"{name}.y": point.imag for name, point in corner.items()}
     drawn = Mechanism({n: (at[n].real, at[n].imag) for n in JOINTS}, LINKS, "crank")
     sized = drawn.with_dimensions(dimensions)
     found = sized.solve(sized.q0, order=0, on_error="nan")

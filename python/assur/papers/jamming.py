@@ -162,7 +162,7 @@ def run(
         )
         raise InputError(message)
 
-    def place(t: float) -> float:
+    def ground_at(t: float) -> float:
         what = f"ground at t = {t!r}" if callable(ground) else "ground"
         number = real_number(ground(t) if callable(ground) else ground, what)
         if number <= 0.0:
@@ -170,9 +170,9 @@ def run(
             raise DimensionError(message, dimension="l4", value=number)
         return number
 
-    fixed = None if callable(ground) else place(0.0)
+    fixed = None if callable(ground) else ground_at(0.0)
     case = list(values.values())
-    given = place if fixed is None else lambda _: fixed
+    given = ground_at if fixed is None else lambda _: fixed
     flat, events, refused = _core.crank_rocker_run(case, given)
     if refused is not None:
         raise _start_error(*refused, values)
