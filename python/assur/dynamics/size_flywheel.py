@@ -71,7 +71,7 @@ def flywheel(
             "or build the machine without a motor"
         )
         raise InputError(message)
-    made = _from_rows(machine, fluctuation, mean_speed, mean, on_error)
+    made = _from_tables(machine, fluctuation, mean_speed, mean, on_error)
     if isinstance(machine.motor, ConstantTorque):
         own = float(machine.motor.ratio) * float(torque)
         off = np.abs(np.asarray(made.motor_moment) - own) > TORQUE_RTOL * abs(own)
@@ -85,7 +85,7 @@ def flywheel(
     return made
 
 
-def _from_rows(
+def _from_tables(
     machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, on_error: str
 ) -> Flywheel:
     """Refine tables of moment and inertia until the flywheel converges."""
@@ -103,7 +103,7 @@ def _from_rows(
     last: Flywheel | None = None
     rows = FIRST_ROWS
     while True:
-        phi, corners = _rows(knots, rows)
+        phi, corners = _table_rows(knots, rows)
         own_speed = speed[..., np.newaxis] if speed.ndim else speed
         inertia, _, moment, _ = machine._reduce(phi, own_speed, on_error)
         if last is None:
@@ -197,7 +197,7 @@ def _knots(machine: Machine) -> list[float]:
     return [*(q for q in kept if q < turn - PERIOD_RTOL), turn]
 
 
-def _rows(knots: list[float], rows: int) -> tuple[Any, list[int]]:
+def _table_rows(knots: list[float], rows: int) -> tuple[Any, list[int]]:
     """Return coordinates with a row at every knot, and the indices of the knots."""
     parts, corners = [], [0]
     for low, high in itertools.pairwise(knots):
