@@ -1,4 +1,4 @@
-"""Numbers of the caller as arrays of float64; what is not a number is refused by name."""
+"""Arguments as arrays of float64; errors name the argument that is not numeric."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
-# What float() takes, though it is not a real number; NumPy converts it without a word.
+# NumPy converts these to float64 silently, though they are not real numbers.
 NOT_NUMBERS = (
     type(None),
     str,
@@ -34,7 +34,7 @@ NOT_NUMBERS = (
 def real_array(value: Any, what: str) -> Float:
     """Copy to an array of float64.
 
-    Masked entries, text, times, records and complex numbers are refused.
+    Raises InputError for masked entries, text, times, records and complex numbers.
     """
     try:
         masked = _is_masked(value)
@@ -45,7 +45,7 @@ def real_array(value: Any, what: str) -> Float:
         message = f"{what} has masked entries: fill them, or leave them out"
         raise InputError(message)
     try:
-        # The bytes of a buffer would be numbers from 0 to 255.
+        # NumPy would read the bytes of a buffer as numbers from 0 to 255.
         array = np.asarray(bytes(value) if isinstance(value, bytearray) else value)
         kind = array.dtype.kind
         if kind in "biuf" or (kind == "O" and _holds_numbers(array)):
@@ -58,8 +58,8 @@ def real_array(value: Any, what: str) -> Float:
 
 
 def real_number(value: Any, what: str, finite: bool = True) -> float:
-    """One number, or an error that names it."""
-    # Nearly all are.
+    """Return one number; errors name the argument."""
+    # The usual case, without an array.
     if isinstance(value, float) and math.isfinite(value):
         return float(value)
     array = real_array(value, what)
@@ -70,7 +70,7 @@ def real_number(value: Any, what: str, finite: bool = True) -> float:
 
 
 def flag(value: Any, what: str) -> bool:
-    """True or False, or an error that names it."""
+    """Return True or False; errors name the argument."""
     if isinstance(value, bool | np.bool_):
         return bool(value)
     message = f"{what} is {short(value)}: True or False is needed"
@@ -78,7 +78,7 @@ def flag(value: Any, what: str) -> bool:
 
 
 def not_negative(value: Any, what: str) -> float:
-    """One finite number that is 0 or more."""
+    """Return one finite number that is 0 or more."""
     number = real_number(value, what)
     if number < 0.0:
         message = f"{what} is {number:g}, it must not be negative"
@@ -87,7 +87,7 @@ def not_negative(value: Any, what: str) -> float:
 
 
 def two_numbers(value: Any, what: str) -> tuple[float, float]:
-    """Two finite numbers (x, y)."""
+    """Return two finite numbers (x, y)."""
     array = real_array(value, what)
     if array.shape != (2,) or not np.isfinite(array).all():
         message = f"{what} is {short(value)}: two finite numbers (x, y) are needed"
@@ -97,9 +97,9 @@ def two_numbers(value: Any, what: str) -> tuple[float, float]:
 
 @contextmanager
 def in_range(what: str) -> Iterator[None]:
-    """Refuse what overflows by name, instead of NumPy's warning and infinite results."""
+    """Raise InputError on overflow, where NumPy would warn and return infinities."""
     try:
-        # The infinities that a caller gives himself are his: their products may be NaN.
+        # Infinities in the arguments are allowed: their products may be NaN.
         with np.errstate(over="raise", invalid="ignore"):
             yield
     except FloatingPointError as error:
@@ -108,17 +108,17 @@ def in_range(what: str) -> Iterator[None]:
 
 
 def short(value: Any) -> str:
-    """Show a value in a message, however long it is."""
+    """Return the repr of a value, shortened for a message."""
     try:
         text = repr(value)
     except ValueError:
-        # Python does not print a whole number of more than 4300 digits.
+        # Python does not print integers of more than 4300 digits.
         return f"a {type(value).__name__} of very many digits"
     return text if len(text) < 80 else text[:77] + "..."
 
 
 def _is_masked(value: Any) -> bool:
-    """Whether something is masked, also inside of lists (whose masks NumPy forgets)."""
+    """Whether an entry is masked, also in nested lists, where NumPy drops the mask."""
     if isinstance(value, np.ma.MaskedArray):
         return bool(np.ma.is_masked(value))
     if not isinstance(value, list | tuple):

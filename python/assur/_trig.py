@@ -1,4 +1,4 @@
-"""The core's trigonometry, which has the same bits on every platform; NumPy's has not."""
+"""The core's trigonometry: the same bits on every platform, unlike NumPy's."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Arguments checked once, with errors that name them."""
+"""Checks of arguments; errors name the argument."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ __all__ = [
     "real_number",
 ]
 
-# More would only take memory; no machine has them.
-MOST_THREADS = 4096
-# What the core can name in its own refusal of a sign: it takes whole numbers of 64 bits.
-MOST_SIGN = 2**53
+# No machine has more; a greater number would only take memory.
+MAX_THREADS = 4096
+# The core takes 64-bit integers, and quotes a wrong sign in its own error.
+MAX_SIGN = 2**53
 
 
 def one_of(value: Any, known: tuple[str, ...], what: str) -> str:
-    """One of a few words."""
+    """Return a word that is one of those known."""
     if isinstance(value, str) and value in known:
         return value
     message = f"{what} is {short(value)}: one of {', '.join(map(repr, known))} is needed"
@@ -36,11 +36,11 @@ def one_of(value: Any, known: tuple[str, ...], what: str) -> str:
 
 
 def checked_name(name: Any, what: str) -> str:
-    """A name: a string that is Unicode text."""
+    """Return a name: a string that is Unicode text."""
     if not isinstance(name, str):
         message = f"{what}: the name {short(name)} is not a string"
         raise InputError(message)
-    # A lone half of a surrogate pair has no encoding.
+    # A lone surrogate cannot be encoded.
     if any("\ud800" <= letter <= "\udfff" for letter in name):
         message = f"{what}: the name {name!a} is not Unicode text"
         raise InputError(message)
@@ -48,7 +48,7 @@ def checked_name(name: Any, what: str) -> str:
 
 
 def checked_signs(assembly: Any, strict: bool = True) -> tuple[tuple[str, int], ...]:
-    """Names and signs of an assembly; whole numbers, if `strict` +1 or −1."""
+    """Return names and signs of an assembly: integers; with `strict`, +1 or −1 only."""
     if assembly is None:
         return ()
     if not isinstance(assembly, Mapping):
@@ -65,7 +65,7 @@ def _sign(name: str, sign: Any, strict: bool) -> int:
         number = real_number(sign, f"assembly[{name!r}]")
     except InputError:
         number = math.nan
-    whole = number.is_integer() and abs(number) <= MOST_SIGN
+    whole = number.is_integer() and abs(number) <= MAX_SIGN
     if whole and (number in (1.0, -1.0) or not strict):
         return int(number)
     message = f"assembly[{name!r}] is {short(sign)}: it must be +1 or -1"
@@ -73,7 +73,7 @@ def _sign(name: str, sign: Any, strict: bool) -> int:
 
 
 def checked_order(order: Any) -> int:
-    """An order of analogues, 0 to 3."""
+    """Return an order of analogues, 0 to 3."""
     try:
         number = operator.index(order)
     except TypeError:
@@ -85,31 +85,31 @@ def checked_order(order: Any) -> int:
 
 
 def checked_index(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, ...]:
-    """One whole index into a shape, negative ones counted from the end."""
+    """Return a full index into a shape; negative entries count from the end."""
     given = index if isinstance(index, tuple) else (index,)
     try:
-        place = tuple(operator.index(i) for i in given if not isinstance(i, bool))
+        entries = tuple(operator.index(i) for i in given if not isinstance(i, bool))
     except TypeError:
-        place = ()
-    if len(place) != len(shape) or len(place) != len(given):
+        entries = ()
+    if len(entries) != len(shape) or len(entries) != len(given):
         message = f"{what} {index!r}: one index into the shape {shape} is needed"
         raise InputError(message)
-    for i, size in zip(place, shape, strict=True):
+    for i, size in zip(entries, shape, strict=True):
         if not -size <= i < size:
             message = f"{what} {index!r} is outside the shape {shape}"
             raise InputError(message)
-    return tuple(i % size for i, size in zip(place, shape, strict=True))
+    return tuple(i % size for i, size in zip(entries, shape, strict=True))
 
 
 def checked_threads(threads: Any) -> int | None:
-    """A number of threads, or none."""
+    """Return the number of threads, or None."""
     if threads is None:
         return None
     try:
         number = operator.index(threads)
     except TypeError:
         number = 0
-    if isinstance(threads, bool) or not 1 <= number <= MOST_THREADS:
-        message = f"threads is {short(threads)}: a whole number from 1 to {MOST_THREADS} is needed"
+    if isinstance(threads, bool) or not 1 <= number <= MAX_THREADS:
+        message = f"threads is {short(threads)}: a whole number from 1 to {MAX_THREADS} is needed"
         raise InputError(message)
     return number

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 
 
-# Instead of letters that a terminal's encoding does not have.
+# ASCII replacements for letters that the terminal's encoding lacks.
 PLAIN = {"·": "*", "²": "^2", "δ": "delta", "φ": "phi", "π": "pi", "ω": "omega", "−": "-"}
 
 
@@ -31,12 +31,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     arguments : sequence of str, optional
-        Words behind the program's name; those of the process by default.
+        Command-line arguments; ``sys.argv[1:]`` by default.
 
     Returns
     -------
     int
-        0, or 1 after an error, with a line about it on the standard error.
+        Exit status: 0, or 1 after an error, which is reported on standard error.
     """
     with _any_encoding(), warnings.catch_warnings():
         warnings.showwarning = _show_warning
@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 given = _parser().parse_args(arguments)
                 given.run(given)
             finally:
-                # Here a full disk can still be reported.
+                # Flush here, where a full disk can still be reported.
                 sys.stdout.flush()
         except (AssurError, AssurWarning) as error:
             print(f"assur: {error}", file=sys.stderr)
@@ -57,7 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 @contextlib.contextmanager
 def _any_encoding() -> Iterator[None]:
-    """Let letters that an output cannot encode be written in others."""
+    """Replace letters that the output streams cannot encode."""
     codecs.register_error("assur.plain", _plain)
     streams = [s for s in (sys.stdout, sys.stderr) if isinstance(s, io.TextIOWrapper)]
     before = [stream.errors for stream in streams]
@@ -67,7 +67,7 @@ def _any_encoding() -> Iterator[None]:
         yield
     finally:
         for stream, errors in zip(streams, before, strict=True):
-            # What could not be written would be tried again.
+            # Reconfiguring flushes: it would raise the same write error again.
             with contextlib.suppress(OSError):
                 stream.reconfigure(errors=errors)
 
@@ -88,7 +88,7 @@ def _show_warning(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    """A warning of this package as one line; its source is of no use here."""
+    """Print a warning of this package as one line, without its source line."""
     if issubclass(category, AssurWarning):
         print(f"assur: warning: {message}", file=file or sys.stderr)
     else:
@@ -97,12 +97,12 @@ def _show_warning(
 
 
 def _cannot_write(error: OSError) -> int:
-    # Else Python would try once more when it ends, and show a traceback.
+    # Otherwise Python flushes again at exit and shows a traceback.
     with contextlib.suppress(OSError, ValueError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())
         os.close(nowhere)
-    # Whoever closed the pipe wants no more of it.
+    # The reader closed the pipe: not an error.
     if not isinstance(error, BrokenPipeError):
         print(f"assur: the output cannot be written ({error})", file=sys.stderr)
     return 1

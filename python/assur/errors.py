@@ -1,4 +1,4 @@
-"""Exceptions and warnings: one small tree."""
+"""Exceptions and warnings."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ class AssurError(Exception):
     Attributes
     ----------
     joint, link, slide, driver, dimension : str or None
-        The first thing concerned, where there is one.
+        Name of the first item concerned, if any.
     design : tuple of int or None
         Index of the design in a batch.
     q : float or tuple of float or None
         The coordinate.
     value : float or None
-        The number that is wrong.
+        The wrong number.
     """
 
     def __init__(
@@ -57,20 +57,20 @@ class AssurError(Exception):
 
 
 class StructureError(AssurError, ValueError):
-    """A description that is not a mechanism with as many drivers as freedoms."""
+    """An invalid linkage, or one whose mobility differs from its number of drivers."""
 
 
 class DimensionError(AssurError, ValueError):
-    """A dimension that is unknown, not finite, or a length that is not positive."""
+    """A dimension that is not finite or out of range, or a length that is not positive."""
 
 
 class InputError(AssurError, ValueError):
-    """An argument that does not fit: an unknown name, a shape, an order, a NaN."""
+    """A wrong argument: an unknown name, a shape, an order, a NaN."""
 
 
 class PositionError(AssurError, ArithmeticError):
-    """A position that this assembly cannot take."""
+    """A position that this assembly cannot reach, or without the analogues needed."""
 
 
 class AssurWarning(UserWarning):
-    """Something that should be known but stops nothing."""
+    """Worth knowing; the computation continues."""

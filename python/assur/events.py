@@ -1,4 +1,4 @@
-"""Events of a run: what is looked for on the way, and whether the run ends there."""
+"""Events that a run detects, and whether they end it."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ __all__ = ["Crossing", "Position", "Rest", "Speed", "TransmissionAngle"]
 Direction: TypeAlias = Literal["either", "rising", "falling"]
 SIGNS = {"either": 0, "rising": 1, "falling": -1}
 
-# Kind, driver or function, value, lines, whether their complement, sign, whether it stops.
-WatchParts: TypeAlias = tuple[str, int, float, list[Any], bool, int, bool]
+# Kind, driver or function, value, lines, whether the complement of their angle, direction, stop.
+EncodedEvent: TypeAlias = tuple[str, int, float, list[Any], bool, int, bool]
 
 
 @dataclass(frozen=True)
@@ -54,9 +54,9 @@ class Position:
     q : float
         rad or m; angles count turns.
     stop, driver
-        As of `Rest`.
+        See `Rest`.
     direction : {"either", "rising", "falling"}
-        Which way it goes through.
+        Direction of the crossing.
     """
 
     q: float
@@ -67,7 +67,7 @@ class Position:
 
 @dataclass(frozen=True)
 class Speed:
-    """A driver's speed reaches a value, rad/s or m/s; otherwise as `Position`."""
+    """A driver's speed reaches a value, rad/s or m/s; other parameters as for `Position`."""
 
     speed: float
     stop: bool = True
@@ -77,7 +77,7 @@ class Speed:
 
 @dataclass(frozen=True)
 class TransmissionAngle:
-    """A transmission angle reaches its limit.
+    """A transmission angle reaches a limit.
 
     Parameters
     ----------
@@ -86,11 +86,11 @@ class TransmissionAngle:
     limit : float
         rad.
     between : (str, str), optional
-        Joints on the two lines.
+        Joints on the two lines (`Motion.transmission_angle`).
     stop : bool
         Whether the run ends there.
     direction : {"falling", "rising", "either"}
-        Which way it goes through.
+        Direction of the crossing.
     """
 
     name: str
@@ -102,17 +102,17 @@ class TransmissionAngle:
 
 @dataclass(frozen=True, eq=False)
 class Crossing:
-    """A function of (t, q, speed) goes through zero.
+    """A function of (t, q, speed) crosses zero.
 
     Parameters
     ----------
     function : callable
-        Called with floats (with several drivers q and speed are tuples); smooth near its zeros. It
-        is looked at some six times a step: one that changes faster needs `max_step`.
+        Called with floats (with several drivers q and speed are tuples); smooth near its zeros. A
+        run samples it about six times per step: if it changes faster, set `max_step`.
     stop : bool
         Whether the run ends there.
     direction : {"either", "rising", "falling"}
-        Which way it goes through.
+        Direction of the crossing.
     """
 
     function: Function
@@ -123,10 +123,10 @@ class Crossing:
 Event: TypeAlias = Rest | Position | Speed | TransmissionAngle | Crossing
 
 
-def parts(
+def encode(
     event: Any, mechanism: Mechanism | None, drivers: int, functions: list[Function]
-) -> WatchParts:
-    """What the core is told of an event; its function goes to the list."""
+) -> EncodedEvent:
+    """Encode an event for the core; a function is appended to the list."""
     if not isinstance(event, Event):
         message = (
             f"{short(event)} is no event: Rest, Position, Speed, TransmissionAngle or Crossing of "
@@ -139,8 +139,8 @@ def parts(
         functions.append(_function(event, event.function))
         return "function", len(functions) - 1, 0.0, [], False, *ending
     if isinstance(event, TransmissionAngle):
-        limit, told, complement = _angle(event, event.name, mechanism)
-        return "angle", 0, limit, told, complement, *ending
+        limit, sides, complement = _angle(event, event.name, mechanism)
+        return "angle", 0, limit, sides, complement, *ending
     driver = _driver(event, event.driver, drivers)
     if isinstance(event, Position):
         return "coordinate", driver, real_number(event.q, "Position q"), [], False, *ending

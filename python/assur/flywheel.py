@@ -1,7 +1,7 @@
-"""Flywheels: from moment and inertia over one turn to the speed, and the flywheel that evens it.
+"""Flywheels: speed over one turn from moment and inertia, and the flywheel that smooths it.
 
 The machine is referred to its driver: a reduced moment M (N·m) of all loads and a reduced inertia I
-(kg·m²) over one period. A constant motor gives the mean of what the loads take; the speed follows
+(kg·m²) over one period. A constant motor balances the mean moment of the loads; the speed follows
 from the energy integral, ω² = (2 ∫(M + M_motor) dφ + (I(0) + I_f) ω0²) / (I + I_f).
 
 References
@@ -29,7 +29,7 @@ from assur.errors import AssurWarning, InputError
 if TYPE_CHECKING:
     from os import PathLike
 
-__all__ = ["Flywheel", "Place", "Table", "evaluate", "from_table", "read_table"]
+__all__ = ["Extremum", "Flywheel", "Table", "evaluate", "from_table", "read_table"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
 Mean: TypeAlias = Literal["extremes", "period"]
@@ -37,14 +37,14 @@ Spline: TypeAlias = Literal["not-a-knot", "natural", "clamped", "periodic", "lin
 
 MEANS = ("extremes", "period")
 SPLINES = ("not-a-knot", "natural", "clamped", "periodic", "linear")
-# Part of it by which a period may differ from turns: tables are typed with four digits.
-WHOLE = 1e-3
-# Places of a curve in a picture.
-DRAWN = 721
+# Tables are typed with four digits: their period may differ by this fraction from whole turns.
+WHOLE_TURNS_RTOL = 1e-3
+# Points of a plotted curve.
+PLOT_POINTS = 721
 
 
-class Place(NamedTuple):
-    """An extreme speed: where, rad, and its value, rad/s."""
+class Extremum(NamedTuple):
+    """An extreme speed: its coordinate, rad, and its value, rad/s."""
 
     at: Any
     value: Any
@@ -59,7 +59,7 @@ class Table(NamedTuple):
 
 
 class Flywheel:
-    """A machine with its flywheel in steady motion; of a batch every number has the batch's shape.
+    """A machine with its flywheel in steady motion; numbers have the shape of the batch.
 
     Made by `from_table` and `evaluate`.
 
@@ -68,19 +68,19 @@ class Flywheel:
     inertia : float or array
         The flywheel's moment of inertia I_f, kg·m².
     speed0 : float or array
-        Speed where the table begins, rad/s.
+        Speed at the start of the table, rad/s.
     delta : float or array
         Coefficient of speed fluctuation: (greatest − least) / `mean_speed`.
     mean_speed : float or array
-        Mean speed by the definition chosen, rad/s.
-    greatest, least : Place
-        The extreme speeds and where they are.
+        Mean speed by the chosen definition (`mean`), rad/s.
+    greatest, least : Extremum
+        The extreme speeds and their coordinates.
     motor_moment : float or array
         Moment of the constant motor, N·m.
     period : float or array
         Time of one period of the table, s.
     shape : tuple of int
-        Of the batch; () for one table.
+        Shape of the batch; () for one table.
     """
 
     def __init__(self, arguments: tuple[Any, ...], shape: tuple[int, ...], mean: Mean) -> None:
@@ -92,7 +92,7 @@ class Flywheel:
         self._span = float(phi[0]), float(phi[-1])
         numbers = [_shaped(one, shape) for one in self._core.numbers()]
         self.inertia, self.speed0, self.motor_moment = numbers[:3]
-        self.greatest, self.least = Place(*numbers[3:5]), Place(*numbers[5:7])
+        self.greatest, self.least = Extremum(*numbers[3:5]), Extremum(*numbers[5:7])
         self.period = numbers[7]
         width = self._span[1] - self._span[0]
         half = (self.greatest.value + self.least.value) / 2.0
@@ -111,7 +111,7 @@ class Flywheel:
         )
 
     def speed(self, q: npt.ArrayLike) -> Any:
-        """Return the speed at coordinates of the driver, any number of turns on.
+        """Return the speed at coordinates of the driver, over any number of turns.
 
         Parameters
         ----------
@@ -121,7 +121,7 @@ class Flywheel:
         Returns
         -------
         float or ndarray
-            rad/s, of the batch's shape and behind it that of q.
+            rad/s, of the batch's shape followed by that of q.
 
         Examples
         --------
@@ -135,11 +135,11 @@ class Flywheel:
         return self._curve("speed", q, "q")
 
     def time(self, q: npt.ArrayLike) -> Any:
-        """Return when coordinates are reached, s; 0 where the table begins."""
+        """Return the time at which coordinates are reached, s; 0 at the start of the table."""
         return self._curve("time", q, "q")
 
     def angle(self, t: npt.ArrayLike) -> Any:
-        """Return the coordinate at times t (s), rad: the inverse of `time`."""
+        """Return the coordinate at times t (s), rad; the inverse of `time`."""
         return self._curve("angle", t, "t")
 
     def speed_at(self, t: npt.ArrayLike) -> Any:
@@ -150,47 +150,47 @@ class Flywheel:
         return self.speed(self.angle(t))
 
     def moment(self, q: npt.ArrayLike) -> Any:
-        """Return the reduced moment of the loads at coordinates, N·m (the motor is not in it)."""
+        """Return the reduced moment of the loads at coordinates, N·m, without the motor."""
         return self._curve("moment", q, "q")
 
     def reduced_inertia(self, q: npt.ArrayLike) -> Any:
-        """Return the reduced inertia at coordinates, kg·m² (the flywheel is not in it)."""
+        """Return the reduced inertia at coordinates, kg·m², without the flywheel."""
         return self._curve("inertia", q, "q")
 
     def work(self, q: npt.ArrayLike) -> Any:
-        """Return the work of loads and motor since the table's beginning, J."""
+        """Return the work of loads and motor since the start of the table, J."""
         return self._curve("work", q, "q")
 
     def explain(self, index: Any = ()) -> str:
-        """Return why a table of a batch has no flywheel, or what it has.
+        """Return why a table of a batch has no flywheel, or the flywheel it has.
 
         Parameters
         ----------
         index : int or tuple of int
-            Place in the batch; nothing for one table.
+            Index into the batch; omit it for one table.
         """
-        place = checked_index(index, self.shape, "explain")
-        flat = int(np.ravel_multi_index(place, self.shape)) if self.shape else 0
-        told = self._core.problem(flat)
-        if told is not None:
-            return str(told)
-        inertia = np.asarray(self.inertia)[place]
-        return f"a flywheel of {inertia:.9g} kg·m², δ = {np.asarray(self.delta)[place]:.6g}"
+        entry = checked_index(index, self.shape, "explain")
+        flat = int(np.ravel_multi_index(entry, self.shape)) if self.shape else 0
+        problem = self._core.problem(flat)
+        if problem is not None:
+            return str(problem)
+        inertia = np.asarray(self.inertia)[entry]
+        return f"a flywheel of {inertia:.9g} kg·m², δ = {np.asarray(self.delta)[entry]:.6g}"
 
-    def energy_mass(self, points: int = DRAWN) -> tuple[Float, Float]:
+    def energy_mass(self, points: int = PLOT_POINTS) -> tuple[Float, Float]:
         """Return Wittenbauer's diagram of one turn.
 
         Parameters
         ----------
         points : int
-            How many, equally spaced along the turn.
+            Number of points, equally spaced along the turn.
 
         Returns
         -------
         inertia, energy : ndarray
-            Reduced inertia without the flywheel, kg·m², and the kinetic energy less that of the
-            flywheel at the beginning, J; the tangents with slopes ω²/2 at the extreme speeds meet
-            at the flywheel's place.
+            Reduced inertia without the flywheel, kg·m², and the kinetic energy minus that of the
+            flywheel at the start, J. The tangents with slopes ω²/2 at the extreme speeds meet at
+            (−I_f, −I_f ω0²/2).
         """
         q = np.linspace(*self._span, _row_count(points))
         inertia = self.reduced_inertia(q)
@@ -205,12 +205,12 @@ class Flywheel:
         what : {"speed", "time", "energy-mass"}
             ω(φ), ω(t), or Wittenbauer's diagram with the tangents at the extreme speeds.
         ax : matplotlib.axes.Axes, optional
-            Where; a new figure by default.
+            Axes to draw on; a new figure by default.
 
         Returns
         -------
         matplotlib.axes.Axes
-            What was drawn on.
+            The axes drawn on.
         """
         from assur.plot import flywheel_picture
 
@@ -218,10 +218,10 @@ class Flywheel:
             message = "plot is for one table, this is a batch"
             raise InputError(message)
         one_of(what, ("speed", "time", "energy-mass"), "what")
-        return flywheel_picture(self, what, self._span, DRAWN, ax)
+        return flywheel_picture(self, what, self._span, PLOT_POINTS, ax)
 
-    def _curve(self, what: str, places: npt.ArrayLike, name: str) -> Any:
-        x = real_array(places, name)
+    def _curve(self, what: str, points: npt.ArrayLike, name: str) -> Any:
+        x = real_array(points, name)
         if not np.isfinite(x).all():
             value = float(x[~np.isfinite(x)][0])
             message = f"{name} has {value}: finite numbers are needed"
@@ -271,51 +271,51 @@ def from_table(
     on_error: Literal["raise", "nan"] = "raise",
     threads: int | None = None,
 ) -> Flywheel:
-    """Return the flywheel with which the speed varies by a given part of its mean.
+    """Return the flywheel that limits the speed fluctuation to a given fraction of the mean.
 
     Parameters
     ----------
     phi : array_like
-        Coordinates of the driver over one period, rad, growing, the end included: (K,).
+        Coordinates of the driver over one period, rad, ascending, both ends included: (K,).
     moment : array_like
         Reduced moment of the loads there, N·m, the last row equal to the first: (K,), or S + (K,)
         for a batch of tables.
     inertia : array_like
-        Reduced inertia of the machine without the flywheel, kg·m²; likewise, or a number for all
-        rows. It may be 0, the default: all of the inertia is then the flywheel's.
+        Reduced inertia of the machine without the flywheel, kg·m²: of the same shape, or one number
+        for all rows. It may be 0, the default: all inertia is then the flywheel's.
     fluctuation : array_like
-        Coefficient of speed fluctuation δ wanted, of shape S or a number.
+        Required coefficient of speed fluctuation δ, of shape S or a number.
     mean_speed : array_like
-        Mean speed wanted, rad/s, of shape S or a number.
+        Required mean speed, rad/s, of shape S or a number.
     mean : {"extremes", "period"}
-        What that mean is, by which δ is divided: half the sum of the greatest and the least speed,
-        or the period by its time.
+        Definition of the mean speed, by which δ is divided: half the sum of the greatest and the
+        least speed, or the period divided by its time.
     spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
-        What is laid through the rows (Mathcad's ``cspline`` is not-a-knot).
+        Interpolation between the rows (Mathcad's ``cspline`` is not-a-knot).
     on_error : {"raise", "nan"}
-        Whether a table without a flywheel is an error or NaN (see `Flywheel.explain`).
+        For a table without a flywheel: raise an error, or return NaN (see `Flywheel.explain`).
     threads : int, optional
-        Threads for a batch; as many as there are cores by default.
+        Maximum number of threads for a batch; one per core by default.
 
     Returns
     -------
     Flywheel
-        The flywheel, the speed and everything of it.
+        The flywheel and the resulting motion.
 
     Raises
     ------
     InputError
-        A table that is short, not growing, not periodic or of negative inertia; a fluctuation or
-        speed that cannot be; a fluctuation that is already met without a flywheel.
+        A table that is short, not ascending, not periodic or of negative inertia; an impossible
+        fluctuation or speed; a fluctuation that is already met without a flywheel.
 
     Warns
     -----
     AssurWarning
-        A period that is no number of turns and no part of one, as of degrees.
+        The period is neither a number of turns nor a fraction of one: phi may be in degrees.
 
     Examples
     --------
-    The press of the paper, its speed kept within 1/8:
+    The paper's press, its speed kept within 1/8 of the mean:
 
     >>> from assur import flywheel
     >>> import numpy as np
@@ -328,7 +328,7 @@ def from_table(
     >>> print(f"{f.motor_moment:.3f} N·m, {f.greatest.value:.4f} rad/s at {f.greatest.at:.5f} rad")
     184.035 N·m, 15.9375 rad/s at 0.70933 rad
 
-    A turning-moment diagram alone, as of an engine whose parts weigh little against its flywheel:
+    A turning-moment diagram alone, for an engine whose parts are light against its flywheel:
 
     >>> phi = np.linspace(0.0, 2 * np.pi, 721)
     >>> moment = 20e3 + 9.5e3 * np.sin(2 * phi) - 5.7e3 * np.cos(2 * phi)
@@ -362,26 +362,26 @@ def evaluate(
     Parameters
     ----------
     phi, moment, inertia, spline, on_error, threads
-        As of `from_table`; with the flywheel the inertia must be positive everywhere.
+        See `from_table`; inertia plus flywheel must be positive everywhere.
     flywheel : array_like
         The flywheel's moment of inertia, kg·m²; none by default.
     speed0 : array_like, optional
-        Speed where the table begins, rad/s; or:
+        Speed at the start of the table, rad/s. Give either this or:
     mean_speed : array_like, optional
         Mean speed, rad/s.
     mean : {"extremes", "period"}
-        What the mean is, also of the result's `delta`.
+        Definition of the mean speed, also for the result's `delta`.
 
     Returns
     -------
     Flywheel
-        The speed and everything of it.
+        The resulting motion.
 
     Raises
     ------
     InputError
-        As `from_table`; neither or both speeds given; a speed with which the machine stops on the
-        way.
+        See `from_table`; also neither or both speeds given, or a speed at which the machine stops
+        within the period.
 
     Examples
     --------
@@ -408,8 +408,8 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> Table:
     Parameters
     ----------
     path : path-like
-        The file: three columns phi, moment, inertia in the order of a header that names them, or
-        in this order without one. Other columns are left out; lines that begin with # as well.
+        The file: columns phi, moment and inertia, in any order under a header that names them, or
+        in this order without one. Other columns and lines that begin with # are ignored.
     degrees : bool
         Whether phi is in degrees.
 
@@ -421,8 +421,8 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> Table:
     Raises
     ------
     InputError
-        A file that cannot be read or has fewer than two rows, or a row that is not three numbers,
-        with its line.
+        A file that cannot be read or has fewer than two rows, or a row that is not three numbers
+        (the message gives its line).
     """
     try:
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
@@ -481,7 +481,7 @@ def _flywheel(
     if x.size < 2:
         message = f"the table has {x.size} rows: at least 2 are needed"
         raise InputError(message)
-    doubt(float(x[-1] - x[0]))
+    warn_if_degrees(float(x[-1] - x[0]))
     if i.ndim == 0:
         i = np.full(x.shape, i)
     for column, name in ((m, "moment"), (i, "inertia")):
@@ -505,22 +505,22 @@ def _flywheel(
     failed = np.flatnonzero(np.isnan(np.asarray(result.inertia)).ravel())
     if on_error == "raise" and failed.size:
         first_failed = int(failed[0])
-        told = str(result._core.problem(first_failed))
+        problem = str(result._core.problem(first_failed))
         if shape:
-            place = tuple(int(k) for k in np.unravel_index(first_failed, shape))
+            entry = tuple(int(k) for k in np.unravel_index(first_failed, shape))
             more = f" (and {failed.size - 1} more)" if failed.size > 1 else ""
-            told = f"table {place}{more}: {told}"
-        raise InputError(told)
+            problem = f"table {entry}{more}: {problem}"
+        raise InputError(problem)
     return result
 
 
-def doubt(span: float, periodic: bool = True) -> None:
-    """Warn of a period that is neither turns nor a part of one: most likely degrees."""
+def warn_if_degrees(span: float, periodic: bool = True) -> None:
+    """Warn if a period is neither a number of turns nor a fraction of one: likely degrees."""
     if not periodic:
         return
     turns = span / (2.0 * np.pi)
     ratio = max(turns, 1.0 / turns) if turns > 0.0 else 1.0
-    if abs(ratio - round(ratio)) > WHOLE * ratio:
+    if abs(ratio - round(ratio)) > WHOLE_TURNS_RTOL * ratio:
         message = (
             f"phi covers {span:g} rad, {turns:.6g} turns: a period is mostly a number of turns or "
             "a part of one. Is phi in degrees?"

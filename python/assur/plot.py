@@ -1,4 +1,4 @@
-"""Drawing mechanisms and paths with matplotlib."""
+"""Draw mechanisms, paths and curves with matplotlib."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
-# Okabe and Ito's colours (2008): told apart in print and by colour-blind eyes.
+# Okabe and Ito's colours (2008): distinct in print and for colour-blind readers.
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 
-# Places of a curve in time.
-RUN_DRAWN = 1001
+# Points of a curve over a run.
+RUN_PLOT_POINTS = 1001
 
 
 def _axes(ax: Any) -> Any:
@@ -103,7 +103,7 @@ def _size(points: list[Any]) -> float:
 
 
 def _hull(points: Any) -> Any:
-    """Corners in order around their middle (links are drawn as polygons)."""
+    """Return the corners in order around their middle: links are drawn as polygons."""
     middle = points.mean(axis=0)
     order = np.argsort(np.arctan2(*(points - middle).T[::-1]))
     return points[order]
@@ -115,13 +115,13 @@ def _guide(
     """Draw a guide through the sliding point, and the block on it."""
     slide = motion.mechanism.slides[name]
     joints = motion.mechanism.links[slide.link]
-    place = motion.joint(joints[0]) if joints else motion._place(slide.link)
-    middle = place.value[index]
+    point = motion.joint(joints[0]) if joints else motion._reference_point(slide.link)
+    middle = point.value[index]
     own = motion.mechanism.dimensions.get(f"{name}.angle", 0.0)
     angle = float(motion.link(on).value[index]) + float(own)
     along = np.array([np.cos(angle), np.sin(angle)])
     across = np.array([-along[1], along[0]])
-    # The guide as far as the joint it is measured from, or that carries it.
+    # The guide reaches to its origin, or to the joint that carries it.
     carriers = motion.mechanism.links[on]
     base = slide.origin or (carriers[0] if carriers and on != "ground" else None)
     to_base = 0.0 if base is None else float(along @ (motion.joint(base).value[index] - middle))
@@ -144,7 +144,7 @@ def flywheel_picture(
     if what == "energy-mass":
         inertia, energy = flywheel.energy_mass(points)
         ax.plot(inertia, energy, color=_COLOURS[0])
-        # Both tangents meet where the energy and inertia of the flywheel are taken off.
+        # Both tangents meet at minus the flywheel's inertia and energy.
         start = -flywheel.inertia * flywheel.speed0**2 / 2.0
         reach = np.array([-flywheel.inertia, inertia.max()])
         extremes = (("greatest", flywheel.greatest.value), ("least", flywheel.least.value))
@@ -157,9 +157,9 @@ def flywheel_picture(
     speed = flywheel.speed(q)
     x, label = (q, "φ, rad") if what == "speed" else (flywheel.time(q), "t, s")
     ax.plot(x, speed, color=_COLOURS[0])
-    for place in (flywheel.greatest, flywheel.least):
-        at = place.at if what == "speed" else flywheel.time(place.at)
-        _mark(ax, at, place.value, place is flywheel.greatest)
+    for extremum in (flywheel.greatest, flywheel.least):
+        at = extremum.at if what == "speed" else flywheel.time(extremum.at)
+        _mark(ax, at, extremum.value, extremum is flywheel.greatest)
     ax.axhline(flywheel.mean_speed, color="0.6", linewidth=0.8)
     ax.set(xlabel=label, ylabel="ω, rad/s")
     return ax
@@ -173,20 +173,20 @@ def run_picture(run: Run, what: str, ax: Any) -> Any:
             ax.plot(run.t, getattr(run.energy, name), label=name)
         ax.legend()
     else:
-        t = np.linspace(run.t[0], run.t[-1], RUN_DRAWN)
+        t = np.linspace(run.t[0], run.t[-1], RUN_PLOT_POINTS)
         own = run.t if run._along_q else t
         values = getattr(run if run._along_q else run.at(t), what)
         ax.plot(own, values, color=_COLOURS[0] if np.ndim(values) == 1 else None)
     for one in run.events:
         ax.axvline(one.t, color="0.7", linewidth=0.8, zorder=0)
-    unit = _unit(run._made[1])
+    unit = _unit(run._init_args[1])
     units = {"q": unit, "speed": f"{unit}/s", "acceleration": f"{unit}/s²", "energy": "J"}
     ax.set(xlabel="t, s", ylabel=f"{what}, {units[what]}")
     return ax
 
 
 def _unit(mechanism: Mechanism | None) -> str:
-    """What drivers are measured in."""
+    """Return the unit of the drivers' coordinates."""
     if mechanism is None:
         return "rad"
     driver = mechanism.driver
@@ -196,7 +196,7 @@ def _unit(mechanism: Mechanism | None) -> str:
 
 
 def _mark(ax: Any, x: float, y: float, above: bool) -> None:
-    """A place on a curve with its number, where the curve is not."""
+    """Mark a point of a curve, its value on the side away from the curve."""
     ax.plot(x, y, "o", color=_COLOURS[1], markersize=5)
     ax.annotate(
         f"{y:.4g}",
@@ -212,11 +212,11 @@ def _mark(ax: Any, x: float, y: float, above: bool) -> None:
 def steady_picture(steady: SteadyState, ax: Any) -> Any:
     """See `SteadyState.plot`."""
     ax = _axes(ax)
-    q = np.linspace(steady.q[0], steady.q[-1], RUN_DRAWN)
+    q = np.linspace(steady.q[0], steady.q[-1], RUN_PLOT_POINTS)
     ax.plot(q, steady.at(q).speed, color=_COLOURS[0])
-    for place in (steady.greatest, steady.least):
-        value = float(np.copysign(place.value, steady.speed[0]))
-        _mark(ax, place.at, value, (place is steady.greatest) == (value > 0.0))
+    for extremum in (steady.greatest, steady.least):
+        value = float(np.copysign(extremum.value, steady.speed[0]))
+        _mark(ax, extremum.at, value, (extremum is steady.greatest) == (value > 0.0))
     ax.axhline(np.copysign(steady.mean_speed, steady.speed[0]), color="0.6", linewidth=0.8)
     ax.set(xlabel="q, rad", ylabel="ω, rad/s")
     return ax

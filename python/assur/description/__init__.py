@@ -1,1 +1,1 @@
-"""What a user writes: joints, links, slides and drivers, and what kind of mechanism they make."""
+"""The description of a mechanism (joints, links, slides, drivers) and its structure."""

@@ -1,4 +1,4 @@
-"""A description as plain tuples: checked, hashable, ready for the core."""
+"""Encode a description as plain tuples: checked, hashable, ready for the core."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from assur.description.words import Drive, Slide
 from assur.errors import InputError
 
 DriverLike: TypeAlias = str | Drive
-Parts: TypeAlias = tuple[
+Description: TypeAlias = tuple[
     tuple[tuple[str, float, float], ...],
     tuple[tuple[str, tuple[str, ...]], ...],
     tuple[tuple[str, Slide], ...],
@@ -23,9 +23,9 @@ Parts: TypeAlias = tuple[
 ]
 
 
-def core_of(parts: Parts) -> Core:
-    """Return the compiled core of a description."""
-    joints, links, slides, drivers, assembly = parts
+def core_of(description: Description) -> Core:
+    """Compile a description."""
+    joints, links, slides, drivers, assembly = description
     return Core(
         joints=list(joints),
         links=[(name, list(on)) for name, on in links],
@@ -46,20 +46,20 @@ def items(mapping: Any, what: str) -> list[tuple[str, Any]]:
 
 
 def joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
-    """Return a joint as the core takes it: its name and its place."""
+    """Return a joint for the core: its name and coordinates."""
     try:
-        place = real_array(at, f"joint {name!r}")
+        point = real_array(at, f"joint {name!r}")
     except InputError as error:
         message = f"joint {name!r} is at {short(at)}: two numbers (x, y) are needed"
         raise InputError(message, joint=name) from error
-    if place.shape != (2,):
+    if point.shape != (2,):
         message = f"joint {name!r} is at {short(at)}: two numbers (x, y) are needed"
         raise InputError(message, joint=name)
-    return (name, float(place[0]), float(place[1]))
+    return (name, float(point[0]), float(point[1]))
 
 
 def slide(name: str, slide: Any) -> Slide:
-    """Return a slide whose link, guide and origin are names."""
+    """Check a slide: link, guide and origin are names, the angle is a number."""
     if not isinstance(slide, Slide):
         message = f"slide {name!r} is {short(slide)}: an assur.Slide is needed"
         raise InputError(message, slide=name)
@@ -77,7 +77,7 @@ def slide(name: str, slide: Any) -> Slide:
 
 
 def _checked(word: Any, what: str, **field: str) -> None:
-    """Refuse what is not a name, with the field of the part that holds it."""
+    """Check a name; the error carries the joint, link or slide it belongs to."""
     try:
         checked_name(word, what)
     except InputError as error:
@@ -100,7 +100,7 @@ def drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]
 
 
 def members(name: str, joints: Any) -> tuple[str, ...]:
-    """Return the joints of a link."""
+    """Return the joints of a link as a tuple of names."""
     try:
         members = tuple(joints)
     except TypeError as error:

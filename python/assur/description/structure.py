@@ -1,4 +1,4 @@
-"""The structure of a mechanism as Python sees it."""
+"""The structure of a mechanism: mobility and Assur groups."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ class Group:
     Attributes
     ----------
     cls : int
-        Its class: 2 for a dyad, 3, 4 … above (Artobolevsky).
+        Its class by Artobolevsky: 2 for a dyad, 3, 4 … for higher groups.
     order : int
         Number of external pairs.
     kind : str or None
         ``"RRR"``, ``"RRP"``, ``"RPR"``, ``"PRP"`` or ``"RPP"`` for a dyad.
     artobolevsky_kind : int or None
-        The same, numbered 1 to 5.
+        The same kinds, numbered 1 to 5.
     links : tuple of str
         Its links.
     joints, slides : tuple of str
-        The joints and slides that are its pairs, inner and outer.
+        The joints and slides of its pairs, inner and outer.
     """
 
     cls: int
@@ -46,21 +46,21 @@ class Structure:
         Degrees of freedom, by the rank of the closure equations at a regular
         position.
     mobility_at_drawing : int
-        The same at the drawing; greater where the drawing is singular.
+        The same at the drawing; greater if the drawing is singular.
     mobility_counted : int
-        ``3 n - 2 p`` of Chebyshev and Grübler.
+        ``3 n - 2 p``, the formula of Chebyshev and Grübler.
     cls : int
-        Class of the mechanism: the greatest of its groups.
+        Class of the mechanism: the highest class of its groups.
     formula : str
         The structural formula.
     groups : tuple of Group
         Assur groups in solving order.
     redundant : tuple of str
-        Links and slides without which it moves the same; they are checked for
-        closure at every position.
+        Links and slides without which it moves the same; their closure is
+        checked at every position.
     adjustment : float
-        How far the joints of the drawing were moved, at most, for the redundant
-        links to fit, m; 0 if they fit as drawn.
+        Greatest distance by which joints of the drawing were moved to make the
+        redundant links fit, m; 0 if they fit as drawn.
     """
 
     mobility: int

@@ -1,4 +1,4 @@
-"""What a user writes besides joints and links: slides, drives, assemblies."""
+"""Slides, drives and assemblies of a description, and the statuses of positions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["Assembly", "Drive", "Slide", "Status"]
 
 
 class Status(IntEnum):
-    """How a position came out; the codes of ``Motion.status``."""
+    """Result of solving one position; the codes of ``Motion.status``."""
 
     OK = 0
     """Solved."""
@@ -23,17 +23,17 @@ class Status(IntEnum):
     UNREACHABLE = 3
     """This assembly does not exist at this coordinate (NaN)."""
     LOST = 4
-    """The way from the drawing to here is not known (NaN).
+    """The assembly cannot be followed from the drawing to this q (NaN).
 
-    The signs of a driven angle do not return within 64 turns; or beyond a fold of a group
-    above class II.
+    A group above class II folds before, or a joint passes through infinity; or the assembly of a
+    driven angle does not repeat within 64 turns.
     """
     NOT_CONVERGED = 5
-    """The iteration of a group above class II did not end (NaN)."""
+    """The iteration of a group above class II did not converge (NaN)."""
     BAD_DIMENSION = 6
     """A dimension is not finite, not positive, or outside 1e-153 to 1e153 m (NaN)."""
     BAD_INPUT = 7
-    """The coordinate is no number, or several drivers are too far from the drawing (NaN)."""
+    """The coordinate is not finite, or several drivers are too far from the drawing (NaN)."""
 
 
 @dataclass(frozen=True)
@@ -43,15 +43,15 @@ class Slide:
     Parameters
     ----------
     link : str
-        The sliding link. Its first joint (its place in the drawing if it has
-        none) is the point whose distance along the guide is the slide's value.
+        The sliding link. The slide's value is the distance of its first joint
+        along the guide (of its reference point if it has no joint).
     on : str
         The link that carries the guide; the guide turns with it.
     angle : float
         Direction of the guide in the drawing, rad.
     origin : str, optional
-        The joint of `on` from which the value is measured. Without it the
-        drawing's place is 0.
+        The joint of `on` from which the value is measured; without it the value
+        is 0 in the drawing.
 
     Examples
     --------
@@ -75,7 +75,7 @@ class Drive:
     link : str
         The driven link.
     relative_to : str, optional
-        The link against which its angle is measured; they need not share a joint.
+        The link relative to which the angle is measured; they need not share a joint.
 
     Examples
     --------
@@ -89,7 +89,7 @@ class Drive:
 
 
 class Assembly(Mapping[str, int]):
-    """Which of its two solutions every dyad takes: +1 or −1 by inner joint or slide.
+    """The sign (+1 or −1) of every dyad with two solutions, by inner joint or slide.
 
     Examples
     --------
@@ -122,7 +122,7 @@ class Assembly(Mapping[str, int]):
         return hash(frozenset(self._signs))
 
     def __neg__(self) -> Assembly:
-        """Return the assembly with every sign turned."""
+        """Return the assembly with every sign reversed."""
         return Assembly({name: -sign for name, sign in self._signs})
 
     def __repr__(self) -> str:

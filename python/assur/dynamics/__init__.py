@@ -1,1 +1,1 @@
-"""Machines: bodies, loads and motors, and how they move."""
+"""Machines: bodies, loads, motors, and their motion in time."""

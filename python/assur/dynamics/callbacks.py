@@ -12,18 +12,18 @@ from assur._arrays import Float, real_array, real_number, short
 from assur.dynamics.table import Rows, Table
 from assur.errors import InputError
 
-__all__ = ["Function", "Outside", "Value", "checked"]
+__all__ = ["CallbackTable", "Function", "Value", "checked_value"]
 
-# As the core takes a value: a number, or which table or function.
+# A value for the core: a number, or ("table" or "function", index).
 Encoded: TypeAlias = float | tuple[str, int]
-# Called with floats; of a machine with several drivers q and speed are tuples of them.
+# Called with floats (t, q, speed); with several drivers q and speed are tuples.
 Function: TypeAlias = Callable[[float, Any, Any], float]
 # A number, a table over q, or a function of (t, q, speed).
 Value: TypeAlias = float | Table | Function
 
 
-def checked(value: Any, what: str = "the value of a load") -> Value:
-    """A value that cannot change any more: a float, a table, or a function."""
+def checked_value(value: Any, what: str = "the value of a load") -> Value:
+    """Check a value: a table, a function, or a number, returned as float."""
     if isinstance(value, Table):
         if value.ratio != 1.0 or value.rotor_inertia != 0.0:
             message = "Table: ratio and rotor_inertia are for a table that is a motor"
@@ -36,16 +36,16 @@ def checked(value: Any, what: str = "the value of a load") -> Value:
 
 
 @dataclass
-class Outside:
-    """The tables and functions among the values, in order."""
+class CallbackTable:
+    """The tables and functions of a machine, in the order of the core's indices."""
 
     tables: list[Rows] = field(default_factory=list)
     functions: list[Function] = field(default_factory=list)
-    # How many of the functions are loads; those of motors come behind.
-    loads: int = 0
+    # The first functions are those of loads; those of motors follow.
+    load_count: int = 0
 
     def encode(self, value: Value) -> Encoded:
-        """Encode a value for the core; tables and functions go to the lists."""
+        """Encode a constant, Table or callable for the core; the latter two are stored here."""
         if isinstance(value, Table):
             self.tables.append(value._rows())
             return "table", len(self.tables) - 1
@@ -54,9 +54,9 @@ class Outside:
             return "function", len(self.functions) - 1
         return float(value)
 
-    def numbers(self, q: Float, speed: Float) -> Float:
-        """The loads' functions' values at positions (rows of coordinates), at the time 0."""
-        functions = self.functions[: self.loads]
+    def load_values(self, q: Float, speed: Float) -> Float:
+        """Evaluate the functions of loads at rows of coordinates and speeds, at t = 0."""
+        functions = self.functions[: self.load_count]
         if not functions:
             return np.empty(0)
         one = q.shape[1] == 1
@@ -69,7 +69,7 @@ class Outside:
 def _called(function: Function, q: Any, speed: Any) -> float:
     value: Any = function(0.0, q, speed)
     if type(value) is float:
-        # NaN has its own message, with the place.
+        # NaN is reported later, with the coordinate.
         return value
     name = getattr(function, "__name__", repr(function))
     try:

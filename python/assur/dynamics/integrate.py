@@ -1,4 +1,4 @@
-"""What `Machine` does in time: arguments checked, the core called."""
+"""The implementation of `Machine.run` and `Machine.steady_state`: checks, then the core."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from assur import flywheel as flywheels
 from assur._arrays import real_array, real_number
 from assur._validate import one_of
 from assur.dynamics.options import (
-    count,
-    fits,
-    given_breaks,
-    given_seconds,
-    is_low,
-    listed,
+    as_list,
+    checked_breaks,
+    checked_seconds,
+    is_low_order,
     one_design,
-    pair,
-    positive,
-    relative,
-    turning,
-    whole,
+    positive_number,
+    relative_tolerance,
+    require_rotary_driver,
+    require_whole_periods,
+    step_count,
+    tolerance_pair,
+    turn_count,
 )
 from assur.dynamics.run import Run
 from assur.dynamics.steady import SteadyState
@@ -36,14 +36,14 @@ if TYPE_CHECKING:
     from assur.dynamics.callbacks import Function
     from assur.dynamics.machine import Machine
 
-# A period that is less accurate tells no speed.
-LOOSEST = 1e-4
-# Ends of a run that nobody asked for.
-CUT_SHORT = ("lost", "table ends", "motor table ends", "stalled", "step limit", "time limit")
-# Imbalance of energy that is told: as a part of the greatest energy, and in tolerances.
-LEAST_OFF, OFF = 1e-6, 1e3
-# Part of the motor's moment from which on it is told that it was mended.
-MENDED = 1e-6
+# Less accurate periods do not determine the speed.
+LOOSEST_RTOL = 1e-4
+# Ends of a run that the user did not ask for: they warn.
+EARLY_ENDS = ("lost", "table ends", "motor table ends", "stalled", "step limit", "time limit")
+# Warn of an energy imbalance above both: relative to the greatest energy, and in units of rtol.
+IMBALANCE_WARN_FLOOR, IMBALANCE_WARN_RTOLS = 1e-6, 1e3
+# Warn when the balancing moment exceeds this fraction of the motor's.
+BALANCE_WARN_RTOL = 1e-6
 
 
 def run(
@@ -56,9 +56,9 @@ def run(
         message = "one of t_end and q_end is needed, not both"
         raise InputError(message)
     functions: list[Function] = []
-    watched = listed(options["events"], "events")
+    watched = as_list(options["events"], "events")
     n = machine._drivers
-    watches = [known_events.parts(one, machine.mechanism, n, functions) for one in watched]
+    watches = [known_events.encode(one, machine.mechanism, n, functions) for one in watched]
     start, speeds = _start(machine, q0, "q0"), _start(machine, speed0, "speed0")
     if along_q and n > 1:
         message = f"q_end: there are {n} drivers, a run over q is of one"
@@ -76,16 +76,16 @@ def run(
             along_q,
             (real_number(t0, "t0"), start, speeds),
             end,
-            is_low(options["method"]),
-            (relative(options["rtol"]), pair(options["atol"])),
+            is_low_order(options["method"]),
+            (relative_tolerance(options["rtol"]), tolerance_pair(options["atol"])),
             (
-                positive(options["max_step"], "max_step"),
-                count(options["max_steps"]),
-                given_seconds(options["max_seconds"]),
+                positive_number(options["max_step"], "max_step"),
+                step_count(options["max_steps"]),
+                checked_seconds(options["max_seconds"]),
             ),
-            given_breaks(options["breaks"]),
+            checked_breaks(options["breaks"]),
             watches,
-            (machine._outside.functions, functions),
+            (machine._callbacks.functions, functions),
         )
     except PositionError as error:
         q = start[0] if n == 1 else np.array(start)
@@ -99,11 +99,11 @@ def run(
         message = f"{why or error}: a run cannot begin there (q0)"
         raise PositionError(message, q=start[0] if n == 1 else tuple(start)) from error
     made = Run(core, machine.mechanism, n, watched, along_q)
-    if made.end in CUT_SHORT:
+    if made.end in EARLY_ENDS:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)
-    # Tables alone have no position that is badly known.
+    # A machine from a table has no singular positions.
     off = 0.0 if machine.mechanism is None else made.energy.error
-    if off > max(LEAST_OFF, OFF * float(options["rtol"])):
+    if off > max(IMBALANCE_WARN_FLOOR, IMBALANCE_WARN_RTOLS * float(options["rtol"])):
         message = (
             f"the balance of energy is off by {off:.1e} of the greatest energy: beside singular "
             "positions, or where a function jumps (breaks=), the motion is not known better"
@@ -115,40 +115,42 @@ def run(
 def steady_state(
     machine: Machine, speed: Any, turns: Any, q0: Any, wanted: float | None, **options: Any
 ) -> SteadyState:
-    """See `Machine.steady_state`; `wanted`: the fluctuation that a flywheel gives."""
+    """See `Machine.steady_state`; with `wanted`, size a flywheel for this fluctuation."""
     one_design(machine, "steady_state")
-    turning(machine, "a periodic motion")
+    require_rotary_driver(machine, "a periodic motion")
     mean = one_of(options["mean"], flywheels.MEANS, "mean")
     guess = None if speed is None else real_number(speed, "speed")
     if guess == 0.0:
         message = "speed is 0: a periodic motion has none at rest"
         raise InputError(message, value=0.0)
     ratio = 1.0 if machine.motor is None else float(getattr(machine.motor, "ratio", 1.0))
-    span = math.copysign(2.0 * math.pi * whole(turns), ratio if guess is None else guess)
-    for q, _, _, periodic in machine._outside.tables:
-        fits(q[-1] - q[0] if periodic else None, abs(span))
+    span = math.copysign(2.0 * math.pi * turn_count(turns), ratio if guess is None else guess)
+    for q, _, _, periodic in machine._callbacks.tables:
+        require_whole_periods(q[-1] - q[0] if periodic else None, abs(span))
     flywheel = real_number(options["flywheel"], "flywheel")
     if flywheel < 0.0:
         message = f"flywheel = {flywheel:g} kg·m²: it must be 0 or more"
         raise InputError(message, value=flywheel)
-    if relative(options["rtol"]) > LOOSEST:
-        message = f"rtol is {options['rtol']!r}: a period is found with {LOOSEST} or less"
+    if relative_tolerance(options["rtol"]) > LOOSEST_RTOL:
+        message = f"rtol is {options['rtol']!r}: a period is found with {LOOSEST_RTOL} or less"
         raise InputError(message)
     core, numbers = machine._core.steady(
         _dimensions(machine),
         [_start(machine, q0, "q0")[0], span],
         guess,
         mean,
-        is_low(options["method"]),
-        relative(options["rtol"]),
-        (count(options["max_steps"]), given_seconds(options["max_seconds"])),
-        given_breaks(options["breaks"]),
+        is_low_order(options["method"]),
+        relative_tolerance(options["rtol"]),
+        (step_count(options["max_steps"]), checked_seconds(options["max_seconds"])),
+        checked_breaks(options["breaks"]),
         flywheel,
         wanted,
-        machine._outside.functions,
+        machine._callbacks.functions,
     )
     made = SteadyState(core, numbers, machine.mechanism, options["mean"])
-    if machine.motor is not None and abs(made.found_moment) > MENDED * abs(made.motor_moment):
+    if machine.motor is not None and abs(made.found_moment) > BALANCE_WARN_RTOL * abs(
+        made.motor_moment
+    ):
         message = (
             f"nothing depends on the speed: {made.found_moment:.3g} N·m more than the motor gives "
             "keep the machine in balance"
@@ -167,7 +169,9 @@ def _dimensions(machine: Machine) -> list[float]:
 def _start(machine: Machine, value: npt.ArrayLike | None, name: str) -> list[float]:
     if value is None and name == "q0":
         value = (
-            machine._outside.tables[0][0][0] if machine.mechanism is None else machine.mechanism.q0
+            machine._callbacks.tables[0][0][0]
+            if machine.mechanism is None
+            else machine.mechanism.q0
         )
     array = real_array(value, name)
     n = machine._drivers

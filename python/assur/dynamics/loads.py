@@ -1,4 +1,4 @@
-"""What a machine carries and what acts on it: bodies, weight, forces, springs, dampers."""
+"""Bodies and loads of machines: masses, weight, forces, torques, springs, dampers."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from assur._arrays import not_negative, real_array, real_number, short, two_numbers
 from assur._validate import checked_name
-from assur.dynamics.callbacks import Encoded, Outside, Value, checked
+from assur.dynamics.callbacks import CallbackTable, Encoded, Value, checked_value
 from assur.dynamics.table import Table, replace_fields
 from assur.errors import InputError
 
@@ -25,14 +25,14 @@ __all__ = [
     "TorsionSpring",
 ]
 
-Place: TypeAlias = str | tuple[str, tuple[float, float]]
-# As the core takes a load: kind, places, links, numbers, values.
-Parts: TypeAlias = tuple[str, list[Any], list[str], list[float], list[Encoded]]
+PointLike: TypeAlias = str | tuple[str, tuple[float, float]]
+# A load for the core: kind, points, links, numbers, values.
+EncodedLoad: TypeAlias = tuple[str, list[Any], list[str], list[float], list[Encoded]]
 
 
 @dataclass(frozen=True)
 class Body:
-    """Mass of a link.
+    """Mass and moment of inertia of a link.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class Body:
     inertia : float
         Moment of inertia about the centre of mass, kg·m², not negative.
     at : str or (x, y), optional
-        Centre of mass: a joint, or a place in the link's frame (origin at its first joint, x
+        Centre of mass: a joint, or coordinates in the link's frame (origin at its first joint, x
         toward its second), m. The link's first joint by default.
 
     Examples
@@ -70,7 +70,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Gravity:
-    """Free fall, (x, y), m/s²; bodies have weight by it."""
+    """Gravitational acceleration (x, y), m/s²; gives every body its weight."""
 
     acceleration: tuple[float, float] = (0.0, -9.81)
 
@@ -85,14 +85,14 @@ class Force:
     Parameters
     ----------
     at : str or (link, (x, y))
-        A joint, or a place in a link's frame, m.
+        A joint, or a point in a link's frame, m.
     force : (fx, fy)
         N; each a number, a `Table` over q, or a function of (t, q, speed).
     axes : str, optional
-        The link along whose frame fx and fy are; the drawing's axes by default.
+        The link whose frame gives the directions of fx and fy; the drawing's axes by default.
     """
 
-    at: Place
+    at: PointLike
     force: tuple[Value, Value]
     axes: str | None = None
 
@@ -106,28 +106,28 @@ class Force:
             raise InputError(message)
         replace_fields(
             self,
-            at=_place(self.at, "Force at"),
-            force=tuple(checked(value) for value in force),
+            at=_checked_point(self.at, "Force at"),
+            force=tuple(checked_value(value) for value in force),
             axes=None if self.axes is None else _link(self.axes, "Force axes"),
         )
 
-    def _parts(self, outside: Outside) -> Parts:
+    def _encode(self, callbacks: CallbackTable) -> EncodedLoad:
         links = [] if self.axes is None else [self.axes]
-        return "force", [self.at], links, [], [outside.encode(value) for value in self.force]
+        return "force", [self.at], links, [], [callbacks.encode(value) for value in self.force]
 
 
 @dataclass(frozen=True)
 class Torque:
-    """A torque on a link, N·m, counter-clockwise; its reaction is on another (the frame).
+    """A torque on a link, N·m, counter-clockwise; its reaction acts on another (the frame).
 
     Parameters
     ----------
     link : str
-        The link.
+        The link on which it acts.
     torque : float, Table or callable
         N·m: a number, a `Table` over q, or a function of (t, q, speed).
     on : str
-        The link that has the reaction.
+        The link on which the reaction acts.
     """
 
     link: str
@@ -136,10 +136,10 @@ class Torque:
 
     def __post_init__(self) -> None:
         _check_links(self)
-        replace_fields(self, torque=checked(self.torque))
+        replace_fields(self, torque=checked_value(self.torque))
 
-    def _parts(self, outside: Outside) -> Parts:
-        return "torque", [], [self.link, self.on], [], [outside.encode(self.torque)]
+    def _encode(self, callbacks: CallbackTable) -> EncodedLoad:
+        return "torque", [], [self.link, self.on], [], [callbacks.encode(self.torque)]
 
 
 @dataclass(frozen=True)
@@ -149,17 +149,17 @@ class Spring:
     Parameters
     ----------
     first, second : str or (link, (x, y))
-        Its ends.
+        Its ends: joints, or points in links' frames, m.
     stiffness : float
         N/m.
     length : float
         Free length, m.
     preload : float
-        Tension at that length, N.
+        Tension at the free length, N.
     """
 
-    first: Place
-    second: Place
+    first: PointLike
+    second: PointLike
     stiffness: float
     length: float
     preload: float = 0.0
@@ -168,7 +168,7 @@ class Spring:
         _check_ends(self)
         _check_numbers(self, "stiffness", "length", "preload")
 
-    def _parts(self, _: Outside) -> Parts:
+    def _encode(self, _: CallbackTable) -> EncodedLoad:
         return (
             "spring",
             [self.first, self.second],
@@ -180,20 +180,20 @@ class Spring:
 
 @dataclass(frozen=True)
 class TorsionSpring:
-    """A spring between two links.
+    """A torsion spring between two links.
 
     Parameters
     ----------
     link : str
-        The link that it turns back.
+        The link on which its torque acts.
     stiffness : float
         N·m/rad.
     angle : float
-        Difference of the two links' angles without load, rad.
+        Difference of the two links' angles at which the torque is `preload`, rad.
     on : str
         The other link.
     preload : float
-        Torque back at that angle, N·m.
+        Restoring torque at that angle, N·m.
     """
 
     link: str
@@ -206,7 +206,7 @@ class TorsionSpring:
         _check_links(self)
         _check_numbers(self, "stiffness", "angle", "preload")
 
-    def _parts(self, _: Outside) -> Parts:
+    def _encode(self, _: CallbackTable) -> EncodedLoad:
         return (
             "torsion spring",
             [],
@@ -220,21 +220,21 @@ class TorsionSpring:
 class Damper:
     """A damper between two points, N·s/m."""
 
-    first: Place
-    second: Place
+    first: PointLike
+    second: PointLike
     damping: float
 
     def __post_init__(self) -> None:
         _check_ends(self)
         _check_numbers(self, "damping")
 
-    def _parts(self, _: Outside) -> Parts:
+    def _encode(self, _: CallbackTable) -> EncodedLoad:
         return "damper", [self.first, self.second], [], [self.damping], []
 
 
 @dataclass(frozen=True)
 class TorsionDamper:
-    """A damper between two links, N·m·s/rad."""
+    """A torsion damper between two links, N·m·s/rad."""
 
     link: str
     damping: float
@@ -244,7 +244,7 @@ class TorsionDamper:
         _check_links(self)
         _check_numbers(self, "damping")
 
-    def _parts(self, _: Outside) -> Parts:
+    def _encode(self, _: CallbackTable) -> EncodedLoad:
         return "torsion damper", [], [self.link, self.on], [self.damping], []
 
 
@@ -273,19 +273,22 @@ def _check_links(load: Any) -> None:
 
 def _check_ends(load: Any) -> None:
     kind = type(load).__name__
-    first, second = _place(load.first, f"{kind} first"), _place(load.second, f"{kind} second")
+    first, second = (
+        _checked_point(load.first, f"{kind} first"),
+        _checked_point(load.second, f"{kind} second"),
+    )
     if first == second:
         message = f"{kind}: both ends are {first!r}: it has no length"
         raise InputError(message)
     replace_fields(load, first=first, second=second)
 
 
-def _place(at: Any, what: str) -> Place:
+def _checked_point(at: Any, what: str) -> PointLike:
     if isinstance(at, str):
         return checked_name(at, what)
     if isinstance(at, tuple | list) and len(at) == 2 and isinstance(at[0], str):
-        place = real_array(at[1], f"{what}, in the frame of {at[0]!a}")
-        if place.shape == (2,) and np.isfinite(place).all():
-            return checked_name(at[0], what), (float(place[0]), float(place[1]))
+        point = real_array(at[1], f"{what}, in the frame of {at[0]!a}")
+        if point.shape == (2,) and np.isfinite(point).all():
+            return checked_name(at[0], what), (float(point[0]), float(point[1]))
     message = f"{what}: {short(at)} is no place: a joint's name, or (link, (x, y)) in its frame"
     raise InputError(message)

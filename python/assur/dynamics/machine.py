@@ -1,4 +1,4 @@
-"""Machines: a mechanism with bodies, loads and a motor, referred to its drivers."""
+"""Machines: mechanisms with bodies, loads and motors, referred to their drivers."""
 
 from __future__ import annotations
 
@@ -13,15 +13,12 @@ import numpy.typing as npt
 from assur import _core
 from assur._arrays import real_array, short
 from assur._validate import checked_name, one_of
-from assur.dynamics import integrate as _drive
-from assur.dynamics import motors
-from assur.dynamics import reduce as _reduce
-from assur.dynamics import size_flywheel as _even
-from assur.dynamics.callbacks import Outside
+from assur.dynamics import integrate, motors, reduce, size_flywheel
+from assur.dynamics.callbacks import CallbackTable
 from assur.dynamics.loads import Body, Gravity
-from assur.dynamics.options import listed
+from assur.dynamics.options import as_list
 from assur.errors import InputError
-from assur.flywheel import SPLINES, doubt
+from assur.flywheel import SPLINES, warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -47,9 +44,9 @@ class Reduced(NamedTuple):
     Attributes
     ----------
     value : ndarray
-        kg·m² (a driven slide: kg); of n drivers the mass matrix, (..., n, n).
+        kg·m² (driven slide: kg); for n drivers the mass matrix, (..., n, n).
     d1 : ndarray
-        Its derivative by the coordinate; of n drivers (..., n, n, n), the last axis that of the
+        Its derivative by the coordinate; for n drivers (..., n, n, n), the last axis that of the
         coordinate.
     """
 
@@ -58,29 +55,29 @@ class Reduced(NamedTuple):
 
 
 class Machine:
-    """A mechanism with what it carries, what acts on it and what drives it.
+    """A mechanism with its bodies, loads and motors.
 
     Parameters
     ----------
     mechanism : Mechanism
-        One design, or (for everything but motions in time) a batch of them.
+        One design, or a batch of designs (not for motions in time).
     bodies : mapping of str to Body, optional
-        The masses of links, by name. Statics needs none.
+        Masses of links, by name. Statics needs none.
     loads : sequence of Gravity, Force, Torque, Spring, TorsionSpring, Damper, TorsionDamper
-        What acts on it; several of a kind are added.
+        Loads; several of a kind add up.
     motor : ConstantTorque, LinearMotor, InductionMotor or Table, optional
-        What turns (or moves) the driver; with several drivers a sequence, None for each without
-        one. Its rotor counts among the inertia, its torque not among the loads.
+        Motor of the driver; with several drivers a sequence, None for each without one. Its rotor
+        counts as inertia; its torque is not a load.
 
     Raises
     ------
     InputError
-        Something that is no body, load or motor, a negative mass, a name that the mechanism does
-        not have.
+        An object that is not a body, load or motor, a negative mass, or a name that the mechanism
+        does not have.
 
     Examples
     --------
-    A crank press: at 90° all of the piston's speed is the crank's.
+    A crank press: at 90° the piston is as fast as the crank's pin.
 
     >>> import assur
     >>> import numpy as np
@@ -108,37 +105,42 @@ class Machine:
         _check(mechanism, bodies)
         self.mechanism = mechanism
         self.bodies = MappingProxyType(dict(bodies))
-        self.loads = tuple(listed(loads, "loads"))
+        self.loads = tuple(as_list(loads, "loads"))
         self._drivers = int(np.size(mechanism.q0))
-        # Of one driver the motor itself.
+        # With one driver, the motor itself.
         self.motor: Any = tuple(motor) if isinstance(motor, list | tuple) else motor
         if isinstance(self.motor, tuple) and len(self.motor) == 1 == self._drivers:
             self.motor = self.motor[0]
-        self._made: tuple[Any, ...] = (
+        self._rebuild_with: tuple[Any, ...] = (
             Machine,
             (mechanism, dict(bodies), self.loads, self.motor),
         )
-        outside = Outside()
+        callbacks = CallbackTable()
         gravity = np.zeros(2)
-        parts = []
+        encoded_loads = []
         for load in self.loads:
             if isinstance(load, Gravity):
                 gravity = gravity + load.acceleration
-            elif hasattr(load, "_parts"):
-                parts.append(load._parts(outside))
+            elif hasattr(load, "_encode"):
+                encoded_loads.append(load._encode(callbacks))
             else:
                 message = f"{short(load)} is no load: Gravity, Force, Torque, Spring, Damper …"
                 raise InputError(message)
-        outside.loads = len(outside.functions)
+        callbacks.load_count = len(callbacks.functions)
         masses = [_body(mechanism, link, body) for link, body in self.bodies.items()]
-        turning = _motors(self.motor, self._drivers, outside)
-        self._outside = outside
+        encoded_motors = _motors(self.motor, self._drivers, callbacks)
+        self._callbacks = callbacks
         self._core = _core.Machine(
-            mechanism._core, masses, parts, gravity.tolist(), outside.tables, turning
+            mechanism._core,
+            masses,
+            encoded_loads,
+            gravity.tolist(),
+            callbacks.tables,
+            encoded_motors,
         )
         if mechanism.driver not in mechanism.slides:
-            for rows, _, _, periodic in outside.tables:
-                doubt(rows[-1] - rows[0], periodic)
+            for rows, _, _, periodic in callbacks.tables:
+                warn_if_degrees(rows[-1] - rows[0], periodic)
 
     @classmethod
     def from_table(
@@ -150,28 +152,28 @@ class Machine:
         spline: Spline = "not-a-knot",
         periodic: bool = True,
     ) -> Machine:
-        """Return a machine that is known only by its reduced moment and inertia.
+        """Return a machine given only by its reduced moment and inertia.
 
         Parameters
         ----------
         phi : array_like
-            Coordinates of the driver, rad, growing, the end of the period included: (K,).
+            Coordinates of the driver, rad, ascending, both ends of the period included: (K,).
         moment : array_like
             Reduced moment of the loads there, N·m: (K,).
         inertia : array_like
-            Reduced inertia there, kg·m²: (K,), or one number; not negative. With none of it a rotor
-            or a flywheel must have some.
+            Reduced inertia there, kg·m²: (K,), or one number; not negative. Where it is 0, a rotor
+            or flywheel must add some.
         motor : ConstantTorque, LinearMotor, InductionMotor or Table, optional
-            What turns the driver.
+            Motor of the driver.
         spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
-            What is laid through the rows.
+            Interpolation between the rows.
         periodic : bool
-            Whether this is one period; otherwise motions end with the table.
+            Whether the table is one period; otherwise motions end where the table ends.
 
         Returns
         -------
         Machine
-            Without a mechanism, but with the same motions.
+            A machine without a mechanism.
 
         Examples
         --------
@@ -186,21 +188,21 @@ class Machine:
         self.mechanism, self.loads, self.motor = None, (), motor
         self.bodies = MappingProxyType({})
         self._drivers = 1
-        outside = Outside()
+        callbacks = CallbackTable()
         x, columns = _columns(phi, moment, inertia)
         one_of(spline, SPLINES, "spline")
-        doubt(float(x[-1] - x[0]), periodic)
+        warn_if_degrees(float(x[-1] - x[0]), periodic)
         for column in (columns["inertia"], columns["moment"]):
-            outside.tables.append((x.tolist(), column.tolist(), spline, bool(periodic)))
+            callbacks.tables.append((x.tolist(), column.tolist(), spline, bool(periodic)))
         table = x, columns["moment"], columns["inertia"]
-        self._made = Machine.from_table, (*table, motor, spline, periodic)
-        turning = _motors(motor, 1, outside)
-        self._outside = outside
-        self._core = _core.Machine(None, [], [], [0.0, 0.0], outside.tables, turning)
+        self._rebuild_with = Machine.from_table, (*table, motor, spline, periodic)
+        encoded_motors = _motors(motor, 1, callbacks)
+        self._callbacks = callbacks
+        self._core = _core.Machine(None, [], [], [0.0, 0.0], callbacks.tables, encoded_motors)
         return self
 
     def __setattr__(self, name: str, value: object) -> None:
-        # The core got everything at the beginning.
+        # The core has copied everything: a change here would have no effect.
         if "_core" in self.__dict__:
             message = f"a Machine does not change ({name!r}): make another one"
             raise AttributeError(message)
@@ -211,7 +213,7 @@ class Machine:
         raise AttributeError(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return self._made
+        return self._rebuild_with
 
     def __repr__(self) -> str:
         if self.mechanism is None:
@@ -221,11 +223,11 @@ class Machine:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape of the batch of designs, () for one."""
+        """Shape of the batch of designs; () for one design."""
         return () if self.mechanism is None else self.mechanism.shape
 
     def design(self, index: Any) -> Machine:
-        """Return one design of a batch as a machine by itself."""
+        """Return one design of a batch as a single machine."""
         if self.mechanism is None:
             message = "this machine is a table: there is no batch"
             raise InputError(message)
@@ -237,15 +239,15 @@ class Machine:
         Parameters
         ----------
         q : array_like
-            Coordinates, rad or m: a number, (N,) or, of a batch of shape S, S + (N,); of n drivers
-            (..., n).
+            Coordinates, rad or m: a number, (N,) or, for a batch of shape S, S + (N,); for n
+            drivers (..., n).
         on_error : {"raise", "nan"}
-            Whether a place without a position or analogues is an error, or NaN.
+            Where there is no position or no analogue: raise an error, or return NaN.
 
         Returns
         -------
         Reduced
-            `value` and `d1`, of the shape S + (N,). Rotors of motors are among it.
+            `value` and `d1`, of shape S + (N,), rotors of motors included.
 
         Examples
         --------
@@ -264,22 +266,22 @@ class Machine:
     def reduced_moment(
         self, q: npt.ArrayLike, speed: npt.ArrayLike = 0.0, on_error: OnError = "raise"
     ) -> Any:
-        """Return the reduced moment of all loads (no motor is in it).
+        """Return the reduced moment of all loads, without the motor.
 
         Parameters
         ----------
         q : array_like
-            Coordinates as of `reduced_inertia`.
+            Coordinates, see `reduced_inertia`.
         speed : array_like
-            Speeds of the drivers, rad/s or m/s, broadcast to q; dampers and functions ask for it.
-            (Functions of time are asked at t = 0.)
+            Speeds of the drivers, rad/s or m/s, broadcast to q; dampers and functions need them.
+            (Functions of time are evaluated at t = 0.)
         on_error : {"raise", "nan"}
-            As of `reduced_inertia`.
+            See `reduced_inertia`.
 
         Returns
         -------
         ndarray
-            N·m (a driven slide: N), of the shape of q.
+            N·m (driven slide: N), of shape S + (N,); for n drivers (..., n).
         """
         moment = self._reduce(q, real_array(speed, "speed"), on_error)[2]
         return moment[..., 0][()] if self._drivers == 1 else moment
@@ -313,37 +315,39 @@ class Machine:
         mean: Mean = "extremes",
         on_error: OnError = "raise",
     ) -> Flywheel | SteadyState:
-        """Return the flywheel that keeps the speed of a turn within a part of its mean.
+        """Return the flywheel that limits the speed fluctuation to a given fraction of the mean.
 
         Parameters
         ----------
         fluctuation : float
-            Coefficient of speed fluctuation wanted; for a batch of shape S also S numbers.
+            Required coefficient of speed fluctuation; for a batch of shape S a number or an array
+            of shape S.
         mean_speed : float, optional
-            Mean speed wanted, rad/s: a constant motor gives the mean of what the loads take. Loads
-            that ask for the speed have the mean speed. Left out, the machine's own motor tells the
-            speed, and loads have the true one.
+            Required mean speed, rad/s. A constant motor then balances the mean moment of the
+            loads, which are evaluated at the mean speed. Without it the machine's own motor sets
+            the speed, and loads are evaluated at the true speed.
         mean : {"extremes", "period"}
-            What the mean is (`assur.flywheel.from_table`).
+            Definition of the mean speed (`assur.flywheel.from_table`).
         on_error : {"raise", "nan"}
-            Whether a design of a batch without a flywheel is an error or NaN.
+            For a design of a batch without a flywheel: raise an error, or return NaN.
 
         Returns
         -------
         Flywheel or SteadyState
-            With a mean speed, from tables so dense that the flywheel does not change by 1e-9 of the
-            inertia; with the machine's motor the periodic motion, `inertia` is the flywheel's.
+            With a mean speed a `Flywheel`, from tables refined until it changes by less than 1e-9
+            of the inertia. With the machine's own motor the periodic motion, whose `inertia` is the
+            flywheel's.
 
         Raises
         ------
         InputError
-            A driver that is no angle or does not turn fully, a motion that is another after a
-            turn, and what `assur.flywheel.from_table` and `steady_state` refuse.
+            A driver that is not an angle or does not turn fully, a motion that does not repeat
+            after one turn, and all errors of `assur.flywheel.from_table` and `steady_state`.
 
         Warns
         -----
         AssurWarning
-            A `ConstantTorque` that is not what the loads take; functions that are not smooth.
+            A `ConstantTorque` that does not balance the loads; functions that are not smooth.
 
         Examples
         --------
@@ -358,7 +362,7 @@ class Machine:
         >>> machine.flywheel(fluctuation=0.05, mean_speed=20.0).delta.__round__(6)
         0.05
         """
-        return _even.flywheel(self, fluctuation, mean_speed, mean, on_error)
+        return size_flywheel.flywheel(self, fluctuation, mean_speed, mean, on_error)
 
     def run(
         self,
@@ -377,62 +381,64 @@ class Machine:
         max_steps: int = 1_000_000,
         max_seconds: float | None = None,
     ) -> Run:
-        """Return the motion under loads and motor: J q̈ + ½ J′ q̇² = M.
+        """Integrate the motion under loads and motor: J q̈ + ½ J′ q̇² = M.
 
         Parameters
         ----------
         t_end : float
-            Time at the end, s. Or:
+            Final time, s. Give either this or:
         q_end : float
-            Coordinate at the end: the motion is integrated over q and not over t (one driver, not
-            at rest). For periodic motions; over q all knots of tables are known beforehand.
+            Final coordinate: integrates over q instead of t (one driver, not at rest). Suits
+            periodic motions, because over q the knots of all tables are known beforehand.
         q0, speed0 : array_like
-            Coordinate and speed of the driver at the beginning; of n drivers (n,). The coordinate
-            is that of the drawing (of a table its first row) by default.
+            Initial coordinate and speed of the driver; for n drivers (n,). The default coordinate
+            is that of the drawing (for a table its first row).
         t0 : float
-            Time at the beginning, s.
+            Initial time, s.
         rtol : float
-            Relative tolerance of the speed in a step; as much of a radian (of a driven slide of the
-            mechanism's size) is that of the coordinate.
+            Relative tolerance per step of the speed; absolute tolerance of the coordinate in rad
+            (slide: times the mechanism's size).
         atol : float or (float, float), optional
-            Absolute tolerances of coordinate and speed. By default that of the speed is a
-            thousandth of rtol of the speed that is typical at the beginning.
+            Absolute tolerances of coordinate and speed. The default for the speed is rtol / 1000
+            times a typical initial speed.
         method : {"DOP853", "RK45"}
             Dormand and Prince's pair of order 8(5, 3), or that of order 5(4).
         events : sequence of events
-            What is looked for on the way (`assur.events`).
+            Events to detect (`assur.events`).
         breaks : array_like
             Times (over q: coordinates) at which functions among the loads are not smooth.
         max_step : float
-            The widest step, s (over q: rad or m).
+            Largest step, s (over q: rad or m).
         max_steps : int
-            How many steps may be tried.
+            Largest number of attempted steps.
         max_seconds : float, optional
-            How long it may be computed.
+            Limit of computing time, s.
 
         Returns
         -------
         Run
-            The motion; it ends early at an event that stops it, at a dead point (an event too), or
+            The motion; it ends early at an event that stops it, at a dead point (also an event), or
             at a limit.
 
         Raises
         ------
         InputError
-            What makes no sense, a place without inertia, a function that gives no number; what
-            functions raise.
+            Wrong arguments, a position without inertia, a function that does not return a number.
+            Exceptions raised by functions are passed on.
+        PositionError
+            No valid position at q0.
 
         Warns
         -----
         AssurWarning
-            The run ended early without an event: its tolerance cannot be met, a table ends, a limit
-            of steps or seconds is met. The balance of energy is off by more than a thousand
-            tolerances (and 1e-6).
+            The run ended early without an event: the tolerance cannot be met, a table ends, or a
+            limit of steps or seconds is reached. Or the energy balance is off by more than 1000
+            rtol (and by more than 1e-6).
 
         Notes
         -----
-        Steps end at the knots of all tables. Functions among the loads are called with floats once
-        in every evaluation; where they are not smooth `breaks` should say so.
+        Steps end at the knots of all tables. Functions among the loads are called with floats, once
+        per evaluation; list in `breaks` where they are not smooth.
 
         References
         ----------
@@ -440,7 +446,7 @@ class Machine:
 
         Examples
         --------
-        A press starts with a direct-current motor:
+        A direct-current motor starts a press:
 
         >>> import assur
         >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
@@ -453,7 +459,7 @@ class Machine:
         >>> run.at(1.0).speed.round(4)
         np.float64(16.1541)
         """
-        return _drive.run(
+        return integrate.run(
             self,
             t_end,
             q0,
@@ -484,49 +490,49 @@ class Machine:
         max_steps: int = 100_000,
         max_seconds: float | None = 60.0,
     ) -> SteadyState:
-        """Return the periodic motion under the motor, found by shooting.
+        """Return the periodic motion under loads and motor, found by shooting.
 
         Parameters
         ----------
         speed : float, optional
             With a motor whose torque falls with the speed, a first guess (by default the motor's
-            speed without load). Where neither motor nor loads set a speed, or without a motor, the
-            mean speed that `mean` names: a constant moment is found that keeps it. Negative if the
-            driver turns backward.
+            speed without load). Without a motor, or if neither motor nor loads set the speed, the
+            mean speed as defined by `mean`: a constant moment that keeps it is added. Negative if
+            the driver turns backward.
         turns : int
             Turns of the driver in a period.
         q0 : float, optional
-            Where the period begins, rad; that of the drawing by default.
+            Coordinate at the start of the period, rad; that of the drawing by default.
         mean : {"extremes", "period"}
-            What the mean speed is, both `speed` and that of the result by which its δ is divided:
-            half the sum of the greatest and the least speed, or the period by its time.
+            Definition of the mean speed, for `speed` and for the δ of the result: half the sum of
+            the greatest and the least speed, or the period divided by its time.
         flywheel : float
             Moment of inertia added to the driver's, kg·m².
         rtol, method, breaks, max_steps, max_seconds
-            As of `run`.
+            See `run`.
 
         Returns
         -------
         SteadyState
-            One period, its δ, mean speed, power and work, and how stable it is.
+            One period, its δ, mean speed, power and work, and its stability.
 
         Raises
         ------
         InputError
-            A motor that cannot carry the load or is not in balance with it, a mean speed so low
-            that the machine would stop within the turn, a dead point, tables that do not fit the
-            period, a motion that is another one from period to period.
+            A motor that cannot carry the load or does not balance it, a mean speed so low that the
+            machine would stop within the turn, a dead point, tables that do not fit the period, or
+            a motion that does not repeat after the period.
 
         Warns
         -----
         AssurWarning
-            A constant motor that was not quite in balance (to 1 %) was mended.
+            A constant motor that is out of balance by up to 1 %: the missing moment is added.
 
         Notes
         -----
-        The square of the speed is followed over a period, with its derivative by that at the
-        beginning, and mended by Newton's steps. Of several periodic motions that with the highest
-        speed below the first guess is found: it is the stable one.
+        Shooting integrates the square of the speed over a period, with its derivative by the
+        initial value, and corrects that value by Newton steps. Of several periodic motions it
+        finds the one with the highest speed below the first guess, which is stable.
 
         Examples
         --------
@@ -542,7 +548,7 @@ class Machine:
         >>> print(f"{steady.mean_speed:.4f} rad/s, δ = {steady.delta:.4f}, {steady.power:.3f} W")
         8.9681 rad/s, δ = 0.1755, 179.363 W
         """
-        return _drive.steady_state(
+        return integrate.steady_state(
             self,
             speed,
             turns,
@@ -560,10 +566,10 @@ class Machine:
     def _reduce(
         self, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
     ) -> tuple[Float, Float, Float, Float]:
-        return _reduce.reduce(self, q, speed, on_error)
+        return reduce.reduce(self, q, speed, on_error)
 
 
-def _motors(motor: Any, drivers: int, outside: Outside) -> list[motors.MotorParts]:
+def _motors(motor: Any, drivers: int, callbacks: CallbackTable) -> list[motors.EncodedMotor]:
     if motor is None:
         return []
     many = [motor] if drivers == 1 and not isinstance(motor, list | tuple) else motor
@@ -572,7 +578,7 @@ def _motors(motor: Any, drivers: int, outside: Outside) -> list[motors.MotorPart
         message = f"motor is {short(motor)}: {wanted}"
         raise InputError(message)
     pairs = enumerate(many)
-    return [motors.parts(one, driver, outside) for driver, one in pairs if one is not None]
+    return [motors.encode(one, driver, callbacks) for driver, one in pairs if one is not None]
 
 
 def _check(mechanism: Any, bodies: Any) -> None:
@@ -585,7 +591,7 @@ def _check(mechanism: Any, bodies: Any) -> None:
 
 
 def _columns(phi: Any, moment: Any, inertia: Any) -> tuple[Float, dict[str, Float]]:
-    """Check a table's coordinates, moments and inertias; a single inertia is that of all rows."""
+    """Check a table's coordinates, moments and inertias; one inertia holds for all rows."""
     x = real_array(phi, "phi")
     columns = {"moment": real_array(moment, "moment"), "inertia": real_array(inertia, "inertia")}
     if x.ndim == 1 and columns["inertia"].ndim == 0:

@@ -1,4 +1,4 @@
-"""Motors: what turns a driver, and how its torque falls with the speed."""
+"""Motors: the torque on a driver as a function of its speed."""
 
 from __future__ import annotations
 
@@ -6,29 +6,30 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from assur._arrays import not_negative, real_number, short
-from assur.dynamics.callbacks import Encoded, Outside, Value, checked
+from assur.dynamics.callbacks import CallbackTable, Encoded, Value, checked_value
 from assur.dynamics.table import Rows, Table, checked_ratio, replace_fields
 from assur.errors import InputError
 
 __all__ = ["ConstantTorque", "InductionMotor", "LinearMotor"]
 
 # Driver, ratio, rotor's inertia, kind, numbers, values, table over the speed.
-MotorParts: TypeAlias = tuple[int, float, float, str, list[float], list[Encoded], Rows | None]
+EncodedMotor: TypeAlias = tuple[int, float, float, str, list[float], list[Encoded], Rows | None]
 
 
 @dataclass(frozen=True, eq=False)
 class ConstantTorque:
-    """A motor of one torque at any speed.
+    """A motor whose torque does not depend on its speed.
 
     Parameters
     ----------
     torque : float, Table or callable
-        Of the motor, N·m (on a driven slide N); also a `Table` over q or a function of
+        Torque of the motor, N·m (driven slide: N); also a `Table` over q or a function of
         (t, q, speed), with the driver's coordinate and speed.
     ratio : float
-        Speed of the motor by that of the driver; negative if they turn opposite ways.
+        Speed of the motor divided by that of the driver; negative if they turn in opposite
+        directions.
     rotor_inertia : float
-        Moment of inertia of the rotor, kg·m²; on the driver it counts times ratio².
+        Moment of inertia of the rotor, kg·m²; referred to the driver, times ratio².
 
     Examples
     --------
@@ -42,23 +43,23 @@ class ConstantTorque:
 
     def __post_init__(self) -> None:
         _check_shaft(self)
-        replace_fields(self, torque=checked(self.torque, "ConstantTorque torque"))
+        replace_fields(self, torque=checked_value(self.torque, "ConstantTorque torque"))
 
 
 @dataclass(frozen=True)
 class LinearMotor:
-    """A motor whose torque falls from `stall` at rest to none at `no_load`.
+    """A motor whose torque falls linearly from `stall` at rest to 0 at `no_load`.
 
-    A direct-current motor at constant voltage: torque = stall · (1 − speed / no_load).
+    For example a direct-current motor at constant voltage: torque = stall · (1 − speed / no_load).
 
     Parameters
     ----------
     stall : float
         Torque at rest, N·m.
     no_load : float
-        Speed without torque, rad/s.
+        Speed at which the torque is 0, rad/s.
     ratio, rotor_inertia : float
-        As of `ConstantTorque`.
+        See `ConstantTorque`.
 
     Examples
     --------
@@ -83,13 +84,13 @@ class InductionMotor:
     Parameters
     ----------
     breakdown : float
-        The greatest torque, N·m.
+        Greatest torque, N·m.
     slip : float
         Slip at that torque.
     synchronous : float
-        Speed of the field, rad/s.
+        Speed of the rotating field, rad/s.
     ratio, rotor_inertia : float
-        As of `ConstantTorque`.
+        See `ConstantTorque`.
 
     References
     ----------
@@ -115,8 +116,8 @@ class InductionMotor:
 Motor: TypeAlias = ConstantTorque | LinearMotor | InductionMotor | Table
 
 
-def parts(motor: Any, driver: int, outside: Outside) -> MotorParts:
-    """Encode a motor for the core; its table and functions go to the lists."""
+def encode(motor: Any, driver: int, callbacks: CallbackTable) -> EncodedMotor:
+    """Encode a motor for the core; its functions are added to `callbacks`."""
     if not isinstance(motor, Motor):
         message = (
             f"{short(motor)} is no motor: ConstantTorque, LinearMotor, InductionMotor, or a Table "
@@ -125,7 +126,7 @@ def parts(motor: Any, driver: int, outside: Outside) -> MotorParts:
         raise InputError(message)
     common = driver, motor.ratio, motor.rotor_inertia
     if isinstance(motor, ConstantTorque):
-        return (*common, "value", [], [outside.encode(motor.torque)], None)
+        return (*common, "value", [], [callbacks.encode(motor.torque)], None)
     if isinstance(motor, Table):
         return (*common, "table", [], [], motor._rows(periodic=False))
     if isinstance(motor, LinearMotor):

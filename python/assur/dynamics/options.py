@@ -1,4 +1,4 @@
-"""Options of motions and what a machine must be for them: checked, with errors that name them."""
+"""Checks of the options of motions, and of machines that they require."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ if TYPE_CHECKING:
     from assur.dynamics.machine import Machine
 
 METHODS = ("DOP853", "RK45")
-# Errors below cannot be told from rounding (`assur::ode`).
-LEAST_RTOL = 2.3e-15
-# Part of a period by which a table's may differ from it: tables end with typed numbers.
-FITS = 1e-9
+# Below it, errors drown in rounding (`assur::ode`).
+MIN_RTOL = 2.3e-15
+# Tables end with typed numbers: their period may differ by this fraction.
+PERIOD_RTOL = 1e-9
 
 
 def one_design(machine: Machine, what: str) -> None:
-    """Refuse a batch."""
+    """Raise InputError for a batch."""
     if machine.shape:
         message = f"{what} is for one design, this is a batch {machine.shape}: design(i)"
         raise InputError(message)
 
 
-def turning(machine: Machine, what: str) -> None:
-    """Refuse what does not turn."""
+def require_rotary_driver(machine: Machine, what: str) -> None:
+    """Raise InputError unless the machine has one driver and that is an angle."""
     driver = None if machine.mechanism is None else machine.mechanism.driver
     slides = {} if machine.mechanism is None else machine.mechanism.slides
     if machine._drivers > 1 or (isinstance(driver, str) and driver in slides):
@@ -36,21 +36,21 @@ def turning(machine: Machine, what: str) -> None:
         raise InputError(message)
 
 
-def fits(period: float | None, span: float) -> None:
-    """Refuse a table that is another one a period on."""
+def require_whole_periods(period: float | None, span: float) -> None:
+    """Raise InputError unless a table repeats a whole number of times in the span."""
     if period is None:
         message = "a table that is not periodic is among the loads: there is no periodic motion"
         raise InputError(message)
     ratio = span / period
-    if abs(ratio - round(ratio)) > FITS * ratio or round(ratio) < 1:
+    if abs(ratio - round(ratio)) > PERIOD_RTOL * ratio or round(ratio) < 1:
         message = (
             f"a table's period of {period:g} rad does not fit {span:g} rad a whole number of times"
         )
         raise InputError(message, value=period)
 
 
-def listed(value: Any, name: str) -> list[Any]:
-    """A sequence as a list, or an error that names it."""
+def as_list(value: Any, name: str) -> list[Any]:
+    """Return a sequence as a list."""
     if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
         message = f"{name} is {short(value)}: a sequence of them is needed"
         raise InputError(message)
@@ -60,8 +60,8 @@ def listed(value: Any, name: str) -> list[Any]:
     return list(value)
 
 
-def positive(value: Any, name: str) -> float:
-    """A positive number, infinite too."""
+def positive_number(value: Any, name: str) -> float:
+    """Return a positive number; infinity is allowed."""
     number = real_number(value, name, finite=False)
     if not number > 0.0:
         message = f"{name} is {short(value)}: it must be positive"
@@ -69,25 +69,25 @@ def positive(value: Any, name: str) -> float:
     return number
 
 
-def relative(rtol: Any) -> float:
-    """A relative tolerance."""
+def relative_tolerance(rtol: Any) -> float:
+    """Return a relative tolerance."""
     number = real_number(rtol, "rtol")
-    if not LEAST_RTOL <= number < 1.0:
-        message = f"rtol is {short(rtol)}: it must be from {LEAST_RTOL} to below 1"
+    if not MIN_RTOL <= number < 1.0:
+        message = f"rtol is {short(rtol)}: it must be from {MIN_RTOL} to below 1"
         raise InputError(message, value=number)
     return number
 
 
-def is_low(method: Any) -> bool:
-    """Whether the method is the one of lower order."""
+def is_low_order(method: Any) -> bool:
+    """Whether the method is RK45, that of lower order."""
     if not isinstance(method, str) or method not in METHODS:
         message = f"method is {short(method)}: one of {', '.join(map(repr, METHODS))}"
         raise InputError(message)
     return bool(method == "RK45")
 
 
-def pair(atol: Any) -> list[float] | None:
-    """Absolute tolerances of coordinate and speed."""
+def tolerance_pair(atol: Any) -> list[float] | None:
+    """Return absolute tolerances of coordinate and speed, or None."""
     if atol is None:
         return None
     array = real_array(atol, "atol")
@@ -102,8 +102,8 @@ def pair(atol: Any) -> list[float] | None:
     return both
 
 
-def given_breaks(breaks: Any) -> list[float]:
-    """Places, ascending."""
+def checked_breaks(breaks: Any) -> list[float]:
+    """Return the breaks in ascending order."""
     array = real_array(() if breaks is None else breaks, "breaks")
     if not np.isfinite(array).all():
         message = f"breaks is {short(breaks)}: finite numbers are needed"
@@ -112,8 +112,8 @@ def given_breaks(breaks: Any) -> list[float]:
     return ordered
 
 
-def whole(turns: Any) -> int:
-    """Turns of a period."""
+def turn_count(turns: Any) -> int:
+    """Return the number of turns of a period."""
     try:
         number = operator.index(turns)
     except TypeError:
@@ -124,8 +124,8 @@ def whole(turns: Any) -> int:
     return number
 
 
-def count(steps: Any) -> int:
-    """A number of steps."""
+def step_count(steps: Any) -> int:
+    """Return the largest number of steps."""
     try:
         number = operator.index(steps)
     except TypeError:
@@ -136,8 +136,8 @@ def count(steps: Any) -> int:
     return number
 
 
-def given_seconds(seconds: Any) -> float | None:
-    """A limit of time."""
+def checked_seconds(seconds: Any) -> float | None:
+    """Return the limit of computing time, s, or None."""
     if seconds is None:
         return None
     number = real_number(seconds, "max_seconds")

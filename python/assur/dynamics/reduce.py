@@ -1,4 +1,4 @@
-"""Machines referred to their drivers at many places: shapes checked, the core called."""
+"""Reduced inertia and moment at many coordinates: checks of shapes, then the core."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ Float: TypeAlias = npt.NDArray[np.float64]
 def reduce(
     machine: Machine, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
 ) -> tuple[Float, Float, Float, Float]:
-    """Mass matrices, their derivatives, moments, potential energies at coordinates and speeds.
+    """Return mass matrices, their derivatives, moments and potential energies.
 
-    Without a speed no function is called, and the moments are none.
+    Without a speed no function is called, and the moments are not valid.
     """
     one_of(on_error, ("raise", "nan"), "on_error")
     n, designs = machine._drivers, machine.shape
@@ -30,8 +30,8 @@ def reduce(
     if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
         message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
         raise InputError(message)
-    places = x.shape if n == 1 else x.shape[:-1]
-    shape = _with_designs(places, designs)
+    positions = x.shape if n == 1 else x.shape[:-1]
+    shape = _with_designs(positions, designs)
     full = shape if n == 1 else (*shape, n)
     if not np.isfinite(v).all():
         message = f"speed is {speed!r}: finite numbers are needed"
@@ -44,11 +44,11 @@ def reduce(
     flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
     given = np.empty(0)
     if speed is not None:
-        given = machine._outside.numbers(flat.reshape(-1, n), speeds.reshape(-1, n))
+        given = machine._callbacks.load_values(flat.reshape(-1, n), speeds.reshape(-1, n))
     values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
     dimensions = np.ascontiguousarray(values).ravel()
     *arrays, status = machine._core.reduce(dimensions, flat, speeds, given, None)
-    # All but NEAR_SINGULAR, whose analogues are there.
+    # Above NEAR_SINGULAR, which still has analogues.
     failed = np.flatnonzero(status > 1)
     if on_error == "raise" and failed.size:
         _refuse(machine, x, shape, int(failed[0]))
@@ -67,29 +67,29 @@ def reduce(
 
 
 def _refuse(machine: Machine, q: Float, shape: tuple[int, ...], flat: int) -> None:
-    place = tuple(int(k) for k in np.unravel_index(flat, shape)) if shape else ()
+    entry = tuple(int(k) for k in np.unravel_index(flat, shape)) if shape else ()
     if machine.mechanism is None:
-        message = f"q = {q[place]:g} is beyond the table"
-        raise InputError(message, q=q[place])
-    design = place[: len(machine.shape)]
+        message = f"q = {q[entry]:g} is beyond the table"
+        raise InputError(message, q=q[entry])
+    design = entry[: len(machine.shape)]
     one = machine.mechanism.design(design) if design else machine.mechanism
-    told = one.solve(q[place], order=1, on_error="nan").explain()
+    why = one.solve(q[entry], order=1, on_error="nan").explain()
     where = f"design {design}: " if design else ""
-    message = f"{where}{told}; nothing can be referred to the driver there"
-    raise PositionError(message, q=q[place], design=design or None)
+    message = f"{where}{why}; nothing can be referred to the driver there"
+    raise PositionError(message, q=q[entry], design=design or None)
 
 
-def _with_designs(places: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
-    """Shape of the result: q is a number, (N,) or S + (N,)."""
+def _with_designs(positions: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
+    """Return the shape of the result: q is a number, (N,) or S + (N,)."""
     if not designs:
-        return places
-    if len(places) <= 1:
-        return (*designs, *places)
+        return positions
+    if len(positions) <= 1:
+        return (*designs, *positions)
     try:
-        np.broadcast_to(np.empty(places[:-1]), designs)
+        np.broadcast_to(np.empty(positions[:-1]), designs)
     except ValueError as error:
         message = (
-            f"q has the shape {places}: with designs {designs} it is a number, (N,) or S + (N,)"
+            f"q has the shape {positions}: with designs {designs} it is a number, (N,) or S + (N,)"
         )
         raise InputError(message) from error
-    return (*designs, places[-1])
+    return (*designs, positions[-1])

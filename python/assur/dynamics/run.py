@@ -1,4 +1,4 @@
-"""Motions of machines in time, as they come out of `Machine.run`."""
+"""Motions of machines in time: the results of `Machine.run`."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ if TYPE_CHECKING:
 
     from assur.kinematics.mechanism import Mechanism
 
-__all__ = ["Energy", "Happened", "NearChangePoint", "Run", "State", "Statistics"]
+__all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statistics"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
-# Last digits by which a place may be beyond an end of a run: sums of steps are off by so many.
+# `Run.at` accepts points this many ulps beyond an end: sums of steps are off by as many.
 END_ULPS = 4.0
 
 
 class State(NamedTuple):
-    """The motion at times (or one): time, coordinate, speed and acceleration of the driver."""
+    """The motion at one or more times: time, coordinate, speed and acceleration of the driver."""
 
     t: Any
     q: Any
@@ -37,23 +37,23 @@ class State(NamedTuple):
 
 
 class NearChangePoint(str):
-    """The event "near_change_point": a run came to a place that is nearly a change point.
+    """The event "near_change_point": a run reached a dyad that almost folds.
 
-    The lengths of a dyad miss a change point by so little that the motion turns within less than
-    can be integrated. Draw the change point exactly, or lengths that are clear of it.
+    The lengths of the dyad miss a change point by so little that the motion turns too sharply to
+    be integrated. Draw the change point exactly, or choose lengths clear of it.
 
     Attributes
     ----------
     dyad : str
-        The dyad that is nearly flat, by its inner joint or slide.
+        The dyad, by its inner joint or slide.
     miss : float
-        By how much its lengths miss the change point, m.
+        Distance by which its lengths miss the change point, m.
     q : float
-        Coordinate of the driver where the dyad is nearest to flat.
+        Coordinate of the driver at which the dyad is closest to folding.
 
     Examples
     --------
-    The rocker of this four-bar is 1e-10 m too long for a change point at half a turn:
+    This rocker is 1e-10 m too long for a change point at half a turn:
 
     >>> import assur
     >>> linkage = assur.FourBar(1.0, 3.0, 2.0 + 1e-10, 4.0)
@@ -74,16 +74,16 @@ class NearChangePoint(str):
         return event
 
 
-class Happened(NamedTuple):
+class EventRecord(NamedTuple):
     """An event of a run.
 
     Attributes
     ----------
     event : object
-        The event as it was given; "dead point", "rest" or "near_change_point" (`NearChangePoint`)
-        where the mechanism itself ended the run.
+        The event as passed to `Machine.run`; or "dead point", "rest" or "near_change_point"
+        (`NearChangePoint`) if the mechanism itself ended the run.
     t, q, speed
-        When, and the driver's coordinate and speed there.
+        Time, s, and the driver's coordinate and speed.
     """
 
     event: Any
@@ -93,17 +93,16 @@ class Happened(NamedTuple):
 
 
 class Energy(NamedTuple):
-    """Energies between steps, J.
+    """Energies at the ends of the steps, J.
 
     Attributes
     ----------
     kinetic, potential : ndarray
-        Of the bodies, rotors among them; of weights and springs.
+        Of the bodies, rotors included; of weights and springs.
     work : ndarray
-        Done since the beginning by all other loads, motors and dampers.
+        Work since the start of all other loads, of motors and dampers.
     balance : ndarray
-        kinetic + potential − work less its value at the beginning: 0 but for the errors of the
-        integration.
+        kinetic + potential − work, minus its initial value: 0 but for integration errors.
     """
 
     kinetic: Float
@@ -113,7 +112,7 @@ class Energy(NamedTuple):
 
     @property
     def error(self) -> float:
-        """The greatest imbalance as a part of the greatest kinetic energy (or change of others)."""
+        """Greatest imbalance, relative to the greatest kinetic energy (or change of the others)."""
         changes = [self.kinetic, self.potential - self.potential[:1], self.work]
         size = max(float(np.nanmax(np.abs(change))) for change in changes)
         worst = float(np.nanmax(np.abs(self.balance)))
@@ -121,18 +120,18 @@ class Energy(NamedTuple):
 
 
 class Statistics(NamedTuple):
-    """What a run cost.
+    """The computing effort of a run.
 
     Attributes
     ----------
     steps, rejected : int
-        Steps taken, and tried in vain.
+        Accepted and rejected steps.
     evaluations : int
         Evaluations of the equation of motion.
     restarts : int
-        At knots of tables, breaks and corners.
+        Restarts at knots of tables, breaks and corners.
     smallest_step, largest_step : float or None
-        s (along q: rad or m).
+        Step sizes, s (over q: rad or m).
     """
 
     steps: int
@@ -146,23 +145,23 @@ class Statistics(NamedTuple):
 class Run:
     """A motion of a machine.
 
-    Made by `Machine.run`. Arrays have one row for every step, with several drivers (N, n).
+    Made by `Machine.run`. Arrays have one row per step: (N,), with several drivers (N, n).
 
     Attributes
     ----------
     t : ndarray
-        Times between the steps, s.
+        Times at the ends of the steps, s.
     q, speed, acceleration : ndarray
-        Of the driver there.
-    events : list of Happened
-        What happened on the way, in order.
+        Coordinate, speed and acceleration of the driver at these times.
+    events : list of EventRecord
+        The events detected, in order.
     end : str
-        How it ended: "reached", "event", "rest", "dead point", "near_change_point", "lost",
+        Why it ended: "reached", "event", "rest", "dead point", "near_change_point", "lost",
         "table ends", "stalled", "step limit" or "time limit".
     message : str
         The same as a sentence.
     statistics : Statistics
-        What it cost.
+        Computing effort.
 
     Examples
     --------
@@ -184,7 +183,7 @@ class Run:
         events: list[Any],
         along_q: bool,
     ) -> None:
-        self._made = core, mechanism, drivers, events, along_q
+        self._init_args = core, mechanism, drivers, events, along_q
         self._core, self._along_q, self._drivers = core, along_q, drivers
         self.t, *arrays = core.arrays()
         for array in (self.t, *arrays):
@@ -193,17 +192,17 @@ class Run:
         self._energies = arrays[3:]
         self.statistics = Statistics(**core.statistics)
         self.events = [
-            Happened(events[which], t, self._one(q), self._one(speed))
+            EventRecord(events[which], t, self._per_driver(q), self._per_driver(speed))
             for which, t, q, speed in core.events
         ]
-        self.end, self.message = self._ending(mechanism, events)
+        self.end, self.message = self._end_and_message(mechanism, events)
         if self.end in ("dead point", "rest", "near_change_point"):
             near = core.near_change_point
             event = self.end if near is None else NearChangePoint(*near)
-            self.events.append(Happened(event, float(self.t[-1]), self.q[-1], self.speed[-1]))
+            self.events.append(EventRecord(event, float(self.t[-1]), self.q[-1], self.speed[-1]))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        core, *others = self._made
+        core, *others = self._init_args
         return _rebuild, (core.to_bytes(), *others)
 
     def __repr__(self) -> str:
@@ -213,31 +212,31 @@ class Run:
         )
 
     def at(self, t: npt.ArrayLike | None = None, *, q: npt.ArrayLike | None = None) -> State:
-        """Return the motion at any time of it.
+        """Return the motion at any time within the run.
 
         Parameters
         ----------
         t : array_like
             Times, s: a number or an array.
         q : array_like
-            Instead of times the coordinates, if the run went along these (`q_end`).
+            Coordinates instead of times, for a run over q (`q_end`).
 
         Returns
         -------
         State
             t, q, speed and acceleration, of the shape of t (with n drivers (..., n)). Acceleration
-            is that of the continuous output: between steps it is less accurate than the speed.
+            comes from the dense output: within a step it is less accurate than the speed.
 
         Raises
         ------
         InputError
-            A time (or coordinate) outside the run, which may have ended early.
+            A time (or coordinate) outside the run; the run may have ended early.
         """
         own, other, name = (q, t, "q") if self._along_q else (t, q, "t")
         if own is None or other is not None:
             message = f"this run goes along {name}: ask for at({name}=...)"
             raise InputError(message)
-        x = self._within(real_array(own, name), name)
+        x = self._clip_to_run(real_array(own, name), name)
         arrays = self._core.at(x.ravel().tolist())
         tail = () if self._drivers == 1 else (self._drivers,)
         return State(
@@ -245,12 +244,12 @@ class Run:
             *(one.reshape((*x.shape, *tail))[()] for one in arrays[1:4]),
         )
 
-    def _within(self, x: Float, name: str) -> Float:
-        """Refuse places outside the run; a few last digits beyond an end are at it."""
+    def _clip_to_run(self, x: Float, name: str) -> Float:
+        """Raise InputError outside the run; a few ulps beyond an end count as the end."""
         first, last = (float(end) for end in (self.q if self._along_q else self.t)[[0, -1]])
         low, high = min(first, last), max(first, last)
         slack = END_ULPS * np.finfo(np.float64).eps * max(abs(low), abs(high))
-        # NaN is outside too.
+        # Written so that NaN counts as outside.
         outside = ~((x >= low - slack) & (x <= high + slack))
         if outside.any():
             value = float(x[outside].flat[0])
@@ -265,7 +264,7 @@ class Run:
 
     @cached_property
     def energy(self) -> Energy:
-        """Kinetic and potential energy, work and their balance between the steps, J."""
+        """Kinetic and potential energy, work and their balance at the ends of the steps, J."""
         work, kinetic, potential = self._energies
         with np.errstate(over="ignore", invalid="ignore"):
             total = kinetic + potential - work
@@ -275,14 +274,14 @@ class Run:
         return Energy(kinetic, potential, work, total - total[0])
 
     def plot(self, what: str = "speed", ax: Any = None) -> Any:
-        """Draw a quantity over the time.
+        """Draw a quantity over time.
 
         Parameters
         ----------
         what : {"speed", "q", "acceleration", "energy"}
-            Which one.
+            The quantity.
         ax : matplotlib axes, optional
-            Where; new ones by default.
+            Axes to draw on; new ones by default.
 
         Returns
         -------
@@ -296,14 +295,14 @@ class Run:
     def _shaped(self, array: Float) -> Float:
         return array if self._drivers == 1 else array.reshape(-1, self._drivers)
 
-    def _one(self, numbers: list[float]) -> Any:
+    def _per_driver(self, numbers: list[float]) -> Any:
         return numbers[0] if self._drivers == 1 else np.array(numbers)
 
-    def _ending(self, mechanism: Mechanism | None, events: list[Any]) -> tuple[str, str]:
+    def _end_and_message(self, mechanism: Mechanism | None, events: list[Any]) -> tuple[str, str]:
         kind, which, q = self._core.ending
         place = f"t = {self.t[-1]:.9g} s, q = {self.q[-1]}"
         if kind == "edge":
-            return self._edge(mechanism, Status(which), q, place)
+            return self._domain_end(mechanism, Status(which), q, place)
         if self._core.near_change_point is not None:
             dyad, miss, at = self._core.near_change_point
             return kind, (
@@ -325,14 +324,14 @@ class Run:
         }
         return kind, sentences[kind]
 
-    def _edge(
+    def _domain_end(
         self, mechanism: Mechanism | None, status: Status, q: list[float], place: str
     ) -> tuple[str, str]:
         if status not in (Status.LOST, Status.NOT_CONVERGED):
             return "dead point", f"a dead point at {place}: this assembly has no motion beyond it"
         why = ""
         if mechanism is not None:
-            why = ": " + mechanism.solve(self._one(q), order=1, on_error="nan").explain()
+            why = ": " + mechanism.solve(self._per_driver(q), order=1, on_error="nan").explain()
         return "lost", f"the way beyond {place} is not known{why}"
 
 

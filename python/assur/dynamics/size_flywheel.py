@@ -1,4 +1,4 @@
-"""Flywheels of machines: tables of moment and inertia, dense enough, or the motor's own motion."""
+"""Flywheels of machines: from refined tables, or from the motion with the machine's motor."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from assur._arrays import real_array, real_number
 from assur._validate import one_of
 from assur.dynamics.integrate import steady_state
 from assur.dynamics.motors import ConstantTorque
-from assur.dynamics.options import FITS, fits, turning
+from assur.dynamics.options import PERIOD_RTOL, require_rotary_driver, require_whole_periods
 from assur.dynamics.table import Table
 from assur.errors import AssurWarning, InputError
 
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from assur.dynamics.steady import SteadyState
     from assur.flywheel import Flywheel
 
-# How the motor's own motion is searched for: as `Machine.steady_state` does it.
-SEARCH: dict[str, Any] = {
+# Options of the periodic motion: the defaults of `Machine.steady_state`.
+STEADY_OPTIONS: dict[str, Any] = {
     "flywheel": 0.0,
     "rtol": 1e-12,
     "method": "DOP853",
@@ -32,27 +32,27 @@ SEARCH: dict[str, Any] = {
     "max_steps": 100_000,
     "max_seconds": 60.0,
 }
-# Part by which a constant motor may differ from what the loads take: torques are typed too.
-GIVEN = 1e-2
-# Knots of loads in a turn, at most.
-MOST_KNOTS = 100_000
-# Part by which inertia and moment may differ a turn on.
-SAME = 1e-7
-# The same of moments as a part of the inertia times the squared speed: what is less is rounding.
-ROUNDING = 1e-12
-# Rows of the first table of `flywheel`, and of the last; each has twice those before.
+# Warn if a constant motor misses the mean moment of the loads by more: torques are typed numbers.
+TORQUE_RTOL = 1e-2
+# Largest number of knots of loads in a turn.
+MAX_KNOTS = 100_000
+# Inertia and moment must repeat after a turn to this relative accuracy.
+PERIODIC_RTOL = 1e-7
+# Rounding error of moments, relative to inertia times squared speed.
+MOMENT_ROUNDING_RTOL = 1e-12
+# Rows of the first and the last table; each table has twice as many as the one before.
 FIRST_ROWS, LAST_ROWS = 96, 12288
-# The fewest rows between two knots of a load's table.
-LEAST_ROWS = 6
-# Change of the flywheel between two tables after which it is known.
-SETTLED = 1e-9
+# Least rows between two knots of a load's table.
+MIN_ROWS_BETWEEN_KNOTS = 6
+# The flywheel has converged when two tables agree to this fraction of the inertia.
+CONVERGED_RTOL = 1e-9
 
 
 def flywheel(
     machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, on_error: str
 ) -> Flywheel | SteadyState:
     """See `Machine.flywheel`."""
-    turning(machine, "a flywheel")
+    require_rotary_driver(machine, "a flywheel")
     one_of(on_error, ("raise", "nan"), "on_error")
     torque: Any = 0.0 if machine.motor is None else getattr(machine.motor, "torque", None)
     constant = torque is not None and not callable(torque) and not isinstance(torque, Table)
@@ -64,17 +64,17 @@ def flywheel(
         if not 0.0 < wanted < 2.0:
             message = f"fluctuation = {wanted:g}: it must be more than 0 and less than 2"
             raise InputError(message, value=wanted)
-        return steady_state(machine, None, 1, None, wanted, mean=mean, **SEARCH)
+        return steady_state(machine, None, 1, None, wanted, mean=mean, **STEADY_OPTIONS)
     if not constant:
         message = (
             f"{machine.motor!r} is no constant motor, its own torque counts: leave mean_speed out, "
             "or build the machine without a motor"
         )
         raise InputError(message)
-    made = _from_rows(machine, fluctuation, mean_speed, mean, on_error)
+    made = _from_tables(machine, fluctuation, mean_speed, mean, on_error)
     if isinstance(machine.motor, ConstantTorque):
         own = float(machine.motor.ratio) * float(torque)
-        off = np.abs(np.asarray(made.motor_moment) - own) > GIVEN * abs(own)
+        off = np.abs(np.asarray(made.motor_moment) - own) > TORQUE_RTOL * abs(own)
         if off.any():
             needed = np.asarray(made.motor_moment).ravel()[int(np.argmax(off))]
             message = (
@@ -85,10 +85,10 @@ def flywheel(
     return made
 
 
-def _from_rows(
+def _from_tables(
     machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, on_error: str
 ) -> Flywheel:
-    """The flywheel from tables of moment and inertia, dense enough."""
+    """Refine tables of moment and inertia until the flywheel converges."""
     knots = _knots(machine)
     speed = real_array(mean_speed, "mean_speed")
     if speed.ndim and speed.shape != machine.shape:
@@ -103,13 +103,13 @@ def _from_rows(
     last: Flywheel | None = None
     rows = FIRST_ROWS
     while True:
-        phi, corners = _rows(knots, rows)
+        phi, corners = _table_rows(knots, rows)
         own_speed = speed[..., np.newaxis] if speed.ndim else speed
         inertia, _, moment, _ = machine._reduce(phi, own_speed, on_error)
         if last is None:
-            others = _others_a_turn_on(machine, phi, own_speed, on_error, inertia, moment)
+            others = aperiodic_designs(machine, phi, own_speed, on_error, inertia, moment)
         inertia[others], moment[others] = math.nan, math.nan
-        # But for rounding its last row is its first.
+        # The last row equals the first up to rounding: make it exact.
         moment[..., -1, :], inertia[..., -1, :, :] = moment[..., 0, :], inertia[..., 0, :, :]
         own = flywheels._flywheel(
             phi,
@@ -126,7 +126,7 @@ def _from_rows(
         if last is not None:
             size = np.asarray(own.inertia) + inertia[..., 0, 0].max(axis=-1)
             change = np.abs(np.asarray(own.inertia) - np.asarray(last.inertia)) / size
-            if not (change > SETTLED).any():
+            if not (change > CONVERGED_RTOL).any():
                 return own
         if rows == LAST_ROWS:
             message = (
@@ -138,22 +138,26 @@ def _from_rows(
         last, rows = own, 2 * rows
 
 
-def _others_a_turn_on(
+def aperiodic_designs(
     machine: Machine, phi: Any, speed: Any, on_error: str, inertia: Any, moment: Any
 ) -> Any:
-    """Designs whose motion or loads are others after a turn: an error, or where they are."""
+    """Find designs whose inertia or moment does not repeat after a turn; raise if asked to."""
     found = np.zeros(machine.shape, bool)
     later, _, other, _ = machine._reduce(phi + 2.0 * math.pi, speed, on_error)
-    # Moments are told from rounding by what the inertia itself asks at this speed.
+    # Inertia times squared speed is the scale of a moment's rounding error.
     of_inertia = np.nanmax(np.abs(_flat(machine, inertia)), axis=-1, initial=0.0)
-    floor = ROUNDING * of_inertia * np.square(np.max(speed, axis=-1) if np.ndim(speed) else speed)
+    floor = (
+        MOMENT_ROUNDING_RTOL
+        * of_inertia
+        * np.square(np.max(speed, axis=-1) if np.ndim(speed) else speed)
+    )
     for name, one, two, least in (
         ("inertia", inertia, later, 0.0),
         ("moment", moment, other, floor),
     ):
         size = np.nanmax(np.abs(_flat(machine, one)), axis=-1, initial=0.0)
         off = np.nanmax(np.abs(_flat(machine, two - one)), axis=-1, initial=0.0)
-        others = off > SAME * size + least
+        others = off > PERIODIC_RTOL * size + least
         if not others.any():
             continue
         found |= others
@@ -170,34 +174,34 @@ def _others_a_turn_on(
 
 
 def _flat(machine: Machine, array: Any) -> Any:
-    """One row for each design."""
+    """Reshape to one row per design."""
     return array.reshape(*machine.shape, -1)
 
 
 def _knots(machine: Machine) -> list[float]:
-    """Where loads are not smooth within a turn, its ends included."""
+    """Return the coordinates of a turn at which loads are not smooth, its ends included."""
     turn = 2.0 * math.pi
     found = {0.0, turn}
-    for rows, _, _, periodic in machine._outside.tables:
+    for rows, _, _, periodic in machine._callbacks.tables:
         first, period = rows[0], rows[-1] - rows[0]
-        fits(period if periodic else None, turn)
+        require_whole_periods(period if periodic else None, turn)
         steps = range(math.floor(-first / period) - 1, math.ceil((turn - first) / period) + 1)
         for shift in steps:
             found |= {q + shift * period for q in rows}
-            if len(found) > MOST_KNOTS:
+            if len(found) > MAX_KNOTS:
                 message = f"a table's period of {period:g} rad has too many knots in a turn"
                 raise InputError(message, value=period)
     knots = sorted(q for q in found if 0.0 <= q <= turn)
-    # What is nearer is rounding.
-    kept = [q for q, before in zip(knots, [-1.0, *knots], strict=False) if q - before > FITS]
-    return [*(q for q in kept if q < turn - FITS), turn]
+    # Knots closer than this are the same but for rounding.
+    kept = [q for q, before in zip(knots, [-1.0, *knots], strict=False) if q - before > PERIOD_RTOL]
+    return [*(q for q in kept if q < turn - PERIOD_RTOL), turn]
 
 
-def _rows(knots: list[float], rows: int) -> tuple[Any, list[int]]:
-    """Coordinates with rows at all knots, and which these are."""
+def _table_rows(knots: list[float], rows: int) -> tuple[Any, list[int]]:
+    """Return coordinates with a row at every knot, and the indices of the knots."""
     parts, corners = [], [0]
     for low, high in itertools.pairwise(knots):
-        count = max(LEAST_ROWS, math.ceil(rows * (high - low) / (2.0 * math.pi)))
+        count = max(MIN_ROWS_BETWEEN_KNOTS, math.ceil(rows * (high - low) / (2.0 * math.pi)))
         parts.append(np.linspace(low, high, count, endpoint=False))
         corners.append(corners[-1] + count)
     return np.append(np.concatenate(parts), knots[-1]), corners

@@ -1,4 +1,4 @@
-"""Periodic motions of machines, as they come out of `Machine.steady_state`."""
+"""Periodic motions of machines: the results of `Machine.steady_state`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from assur import _core
 from assur._arrays import real_array
 from assur.dynamics.run import Run
 from assur.errors import InputError
-from assur.flywheel import Place
+from assur.flywheel import Extremum
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["SteadyState"]
 
 
-# What the events of a period are.
+# The events recorded in a period.
 EXTREME = "extreme speed"
 
 
@@ -34,31 +34,31 @@ class SteadyState:
     Attributes
     ----------
     run : Run
-        One period, along the coordinate.
+        One period, integrated over the coordinate.
     q, speed : ndarray
-        Coordinate and speed between its steps, rad and rad/s.
+        Coordinate and speed at the ends of its steps, rad and rad/s.
     period : float
         Time of a period, s.
-    greatest, least : Place
-        The extreme speeds (without their sign) and where they are.
+    greatest, least : Extremum
+        The extreme speeds (absolute values) and their coordinates.
     mean_speed : float
-        By the definition chosen, rad/s; the speed asked for, where neither motor nor loads set one.
+        Mean speed by the chosen definition, rad/s; the speed passed to `Machine.steady_state` if
+        neither motor nor loads set one.
     delta : float
         Coefficient of speed fluctuation: (greatest − least) / `mean_speed`.
     multiplier : float
-        What a small change of the energy at the beginning of a period has become at its end (the
-        one entry of the monodromy matrix that is not 1): below 1 the motion is stable, the more
-        quickly it is reached the smaller it is; 1 where nothing depends on the speed.
+        Floquet multiplier: factor by which a perturbation of the energy changes each period;
+        stable below 1, and reached the faster the smaller it is; 1 if nothing depends on the speed.
     energy : float
         Work of the motor in a period, J.
     power : float
-        Its mean power, W.
+        Mean power of the motor, W.
     motor_moment : float
-        Its mean moment on the driver, N·m.
+        Mean moment of the motor on the driver, N·m.
     found_moment : float
-        Constant moment that was found for the speed asked for; 0 where the motor told the speed.
+        Constant moment added to keep the required speed, N·m; 0 if the motor sets the speed.
     inertia : float
-        Moment of inertia of the flywheel that was added, kg·m².
+        Moment of inertia of the flywheel added, kg·m².
     """
 
     def __init__(
@@ -68,12 +68,12 @@ class SteadyState:
         mechanism: Mechanism | None,
         mean: Literal["extremes", "period"],
     ) -> None:
-        self._made = core, numbers, mechanism, mean
+        self._init_args = core, numbers, mechanism, mean
         self.run = Run(core, mechanism, 1, [EXTREME], along_q=True)
         multiplier, found, work, inertia, least_at, least, greatest_at, greatest = numbers
         self.q, self.speed = self.run.q, self.run.speed
         self.period = float(self.run.t[-1] - self.run.t[0])
-        self.greatest, self.least = Place(greatest_at, greatest), Place(least_at, least)
+        self.greatest, self.least = Extremum(greatest_at, greatest), Extremum(least_at, least)
         span = abs(float(self.q[-1] - self.q[0]))
         self.mean = mean
         self.mean_speed = span / self.period if mean == "period" else 0.5 * (least + greatest)
@@ -83,7 +83,7 @@ class SteadyState:
         self.motor_moment = work / math.copysign(span, float(self.q[-1] - self.q[0]))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        core, *others = self._made
+        core, *others = self._init_args
         return _rebuild, (core.to_bytes(), *others)
 
     def __repr__(self) -> str:
@@ -94,7 +94,7 @@ class SteadyState:
         )
 
     def at(self, q: npt.ArrayLike) -> State:
-        """Return time, speed and acceleration at coordinates, any number of periods on.
+        """Return time, speed and acceleration at coordinates, over any number of periods.
 
         Parameters
         ----------
@@ -104,7 +104,7 @@ class SteadyState:
         Returns
         -------
         State
-            t (0 where the period begins), q, speed and acceleration, of the shape of q.
+            t (0 at the start of the period), q, speed and acceleration, of the shape of q.
         """
         x = real_array(q, "q")
         if not np.isfinite(x).all():
@@ -113,7 +113,7 @@ class SteadyState:
             raise InputError(message, value=value)
         first, last = float(self.q[0]), float(self.q[-1])
         low, high = min(first, last), max(first, last)
-        # The remainder of a division is exact, whatever the size of q.
+        # The remainder is exact however large q is.
         rest = np.remainder(x - first, last - first)
         is_here = (x >= low) & (x <= high)
         whole = np.where(is_here, 0.0, np.round((x - first - rest) / (last - first)))
@@ -126,7 +126,7 @@ class SteadyState:
         Parameters
         ----------
         ax : matplotlib axes, optional
-            Where; new ones by default.
+            Axes to draw on; new ones by default.
 
         Returns
         -------

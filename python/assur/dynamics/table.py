@@ -1,4 +1,4 @@
-"""A function given by points: of the driver's coordinate, or a motor's torque over its speed."""
+"""Functions given by points: over the driver's coordinate, or torque over a motor's speed."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from assur.flywheel import SPLINES, Spline
 
 __all__ = ["Rows", "Table", "checked_ratio", "replace_fields"]
 
-# A table as the core takes it.
+# A table for the core: q, value, spline, whether periodic.
 Rows: TypeAlias = tuple[list[float], list[float], str, bool]
 
 
 def replace_fields(instance: Any, **values: Any) -> None:
-    """Put checked values in place of those given, in a frozen dataclass being made."""
+    """Set checked values in a frozen dataclass under construction."""
     for name, value in values.items():
         object.__setattr__(instance, name, value)
 
@@ -32,25 +32,24 @@ class Table:
     Parameters
     ----------
     q : array_like
-        Coordinates, growing, rad or m; of a motor its speeds, rad/s. The table has its own copy,
-        as a read-only array.
+        Coordinates, ascending, rad or m; for a motor its speeds, rad/s. Stored as a read-only copy.
     value : array_like
-        Values there, as many.
+        Values there, of the same length.
     spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
-        What is laid through the rows.
+        Interpolation between the rows.
     periodic : bool
-        Whether this is one period, its end the same as its beginning (the default); otherwise
-        there is no value beyond the rows. A motor's table never is.
+        Whether the rows are one period, the last equal to the first (the default); otherwise the
+        table has no value beyond its rows. Ignored for a motor, whose table is not periodic.
     ratio : float
-        As a motor: its speed by that of the driver.
+        For a motor: its speed divided by that of the driver.
     rotor_inertia : float
-        As a motor: moment of inertia of its rotor, kg·m².
+        For a motor: moment of inertia of its rotor, kg·m².
 
     Raises
     ------
     InputError
-        Fewer than two rows (three of a periodic spline), lists of different lengths, a number that
-        is not finite, coordinates that do not grow, an unknown spline.
+        Fewer than two rows (three for a periodic spline), lists of different lengths, a number
+        that is not finite, coordinates that do not ascend, an unknown spline.
 
     Examples
     --------
@@ -92,7 +91,7 @@ class Table:
         )
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # A copy checks its arrays again and makes them read-only.
+        # Through the constructor, so that a copy is checked and read-only too.
         return type(self), tuple(getattr(self, one.name) for one in fields(self))
 
     def _rows(self, periodic: bool | None = None) -> Rows:
@@ -124,7 +123,7 @@ def _check_rows(q: Float, value: Float, least: int) -> None:
 
 
 def checked_ratio(value: Any, what: str) -> float:
-    """Speed of a motor by that of its driver."""
+    """Return the ratio of a motor's speed to its driver's; not 0."""
     ratio = real_number(value, what)
     if ratio == 0.0:
         message = f"{what} is 0, the motor would not turn"

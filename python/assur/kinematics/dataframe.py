@@ -1,4 +1,4 @@
-"""Motions as tables (pandas)."""
+"""Motions as pandas DataFrames."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 def dataframe(motion: Motion) -> Any:
     """See `Motion.to_dataframe`.
 
-    A link or slide that is called as a column of the designs, coordinates or statuses ("q",
-    "status", "design") keeps its own columns under "link q", "slide status" and so on.
+    A link or slide named like a column of designs, coordinates or statuses ("q", "status",
+    "design") appears as "link q", "slide status" and so on.
     """
     try:
         import pandas as pd
@@ -39,13 +39,13 @@ def dataframe(motion: Motion) -> Any:
 
 
 def _columns(motion: Motion, taken: set[str]) -> dict[str, Any]:
-    """Quantities by column; a link or slide of a name that is taken is called what it is as well.
+    """Return quantities by column name; "link" or "slide" is prefixed to names already taken.
 
-    Names have no blanks, so "link q" is no other's.
+    Names have no blanks, so "link q" cannot clash.
     """
-    tracks, drivers = motion._tracks, motion._drivers
-    named = [(f"{n}.{xy}", a, k, 2) for n, a in tracks.joints.items() for k, xy in enumerate("xy")]
-    for kind, held in (("link", tracks.links), ("slide", tracks.slides)):
+    results, drivers = motion._results, motion._drivers
+    named = [(f"{n}.{xy}", a, k, 2) for n, a in results.joints.items() for k, xy in enumerate("xy")]
+    for kind, held in (("link", results.links), ("slide", results.slides)):
         for name, arrays in held.items():
             named.append((f"{kind} {name}" if name in taken else name, arrays, 0, 1))
     columns: dict[str, Any] = {}
@@ -62,5 +62,5 @@ def _tails(order: int, drivers: int) -> list[str]:
         return [""]
     if drivers == 1:
         return [f".d{order}"]
-    places = product(range(drivers), repeat=order)
-    return [f".d{order}[{','.join(map(str, place))}]" for place in places]
+    indices = product(range(drivers), repeat=order)
+    return [f".d{order}[{','.join(map(str, index))}]" for index in indices]

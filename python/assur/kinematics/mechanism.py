@@ -1,4 +1,4 @@
-"""Mechanisms: described once, solved anywhere."""
+"""Mechanisms: described once, compiled, solved at any coordinate."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ import numpy.typing as npt
 
 from assur._arrays import short
 from assur._validate import checked_index, checked_name, checked_signs, real_array
-from assur.description import encode as _parts
+from assur.description import encode
 from assur.description.structure import Group, Structure
 from assur.description.words import Assembly, Slide
 from assur.errors import InputError
-from assur.kinematics import solve as _solve
+from assur.kinematics import solve as solver
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from assur._core import Mechanism as Core
-    from assur.description.encode import DriverLike, Parts
+    from assur.description.encode import Description, DriverLike
     from assur.kinematics.motion import Motion
 
 __all__ = ["Mechanism"]
@@ -35,27 +35,27 @@ class Mechanism:
     Parameters
     ----------
     joints : mapping of str to (x, y)
-        A drawing, m: it gives the dimensions and the assembly.
+        A drawing, m: its coordinates set the dimensions and the assembly.
     links : mapping of str to sequence of str
-        The joints of every link; ``"ground"`` is the frame.
+        The joints of each link; ``"ground"`` is the frame.
     driver : str, Drive or sequence of them
         A link (q is its angle, rad), a slide (q is its value, m) or a `Drive`;
-        several make a mechanism of higher mobility.
+        a sequence gives a mechanism of higher mobility.
     slides : mapping of str to Slide, optional
-        Sliding pairs.
+        Sliding pairs (prismatic joints).
     assembly : mapping of str to int, optional
-        +1 or −1 for dyads that the drawing leaves open because it shows them
-        flat, by inner joint or slide.
+        +1 or −1 by inner joint or slide, for dyads drawn with their links
+        collinear: the drawing does not show their assembly.
 
     Raises
     ------
     StructureError
-        If this is not a mechanism with as many drivers as freedoms; the sentence
-        names the joint, link or slide.
+        If the linkage is invalid or its mobility differs from the number of
+        drivers; the message names the joint, link or slide.
 
     Notes
     -----
-    Mechanisms do not change; they can be hashed, compared and pickled.
+    Mechanisms are immutable; they can be hashed, compared and pickled.
 
     Examples
     --------
@@ -71,9 +71,9 @@ class Mechanism:
     array([4.368934, 3.247181])
     """
 
-    __slots__ = ("__weakref__", "_core", "_joints", "_parts", "_structure", "_values")
+    __slots__ = ("__weakref__", "_core", "_description", "_joints", "_structure", "_values")
     _core: Core
-    _parts: Parts
+    _description: Description
     _values: Float
     _structure: Structure | None
     _joints: MappingProxyType[str, Any] | None
@@ -86,25 +86,27 @@ class Mechanism:
         slides: Mapping[str, Slide] | None = None,
         assembly: Mapping[str, int] | None = None,
     ) -> None:
-        parts: Parts = (
-            tuple(_parts.joint(name, at) for name, at in _parts.items(joints, "joints")),
-            tuple((name, _parts.members(name, on)) for name, on in _parts.items(links, "links")),
+        description: Description = (
+            tuple(encode.joint(name, at) for name, at in encode.items(joints, "joints")),
+            tuple((name, encode.members(name, on)) for name, on in encode.items(links, "links")),
             tuple(
-                (name, _parts.slide(name, s))
-                for name, s in _parts.items({} if slides is None else slides, "slides")
+                (name, encode.slide(name, s))
+                for name, s in encode.items({} if slides is None else slides, "slides")
             ),
-            _parts.drivers(driver),
+            encode.drivers(driver),
             checked_signs(assembly, strict=False),
         )
-        self._begin(parts, None)
+        self._initialise(description, None)
 
-    def _begin(self, parts: Parts, values: Float | None, core: Core | None = None) -> None:
-        core = core or _parts.core_of(parts)
+    def _initialise(
+        self, description: Description, values: Float | None, core: Core | None = None
+    ) -> None:
+        core = core or encode.core_of(description)
         array = np.array(core.drawing if values is None else values, dtype=np.float64, order="C")
         array.flags.writeable = False
         for name, value in (
             ("_core", core),
-            ("_parts", parts),
+            ("_description", description),
             ("_values", array),
             ("_structure", None),
             ("_joints", None),
@@ -112,9 +114,11 @@ class Mechanism:
             object.__setattr__(self, name, value)
 
     @classmethod
-    def _make(cls, parts: Parts, values: Float | None, core: Core | None = None) -> Mechanism:
+    def _make(
+        cls, description: Description, values: Float | None, core: Core | None = None
+    ) -> Mechanism:
         mechanism = object.__new__(Mechanism)
-        mechanism._begin(parts, values, core)
+        mechanism._initialise(description, values, core)
         return mechanism
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -126,19 +130,19 @@ class Mechanism:
         raise AttributeError(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_rebuild, (self._parts, np.array(self._values)))
+        return (_rebuild, (self._description, np.array(self._values)))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mechanism):
             return NotImplemented
         return (
-            self._parts == other._parts
+            self._description == other._description
             and self._values.shape == other._values.shape
             and self._values.tobytes() == other._values.tobytes()
         )
 
     def __hash__(self) -> int:
-        return hash((self._parts, self._values.shape, self._values.tobytes()))
+        return hash((self._description, self._values.shape, self._values.tobytes()))
 
     def __repr__(self) -> str:
         batch = f", {self.shape} designs" if self.shape else ""
@@ -153,16 +157,16 @@ class Mechanism:
 
     @property
     def joints(self) -> Mapping[str, Any]:
-        """Places of the joints at `q0`, m: (x, y), or arrays S + (2,) of a batch.
+        """Positions of the joints at `q0`, m: (x, y), or arrays S + (2,) for a batch.
 
-        NaN where a design cannot stand at `q0`.
+        NaN for designs that cannot be assembled at `q0`.
         """
         if self._joints is None:
-            drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._parts[0]}
-            # A named assembly may be other than the drawing's; redundant links adjust a drawing.
+            drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._description[0]}
+            # The drawing holds unless another assembly is named or redundant links adjusted it.
             as_drawn = (
                 self._values.tolist() == self._core.drawing
-                and not self._parts[4]
+                and not self._description[4]
                 and self._core.adjustment == 0.0
             )
             if not as_drawn:
@@ -176,23 +180,23 @@ class Mechanism:
 
     @property
     def links(self) -> Mapping[str, tuple[str, ...]]:
-        """Joints of every link."""
-        return MappingProxyType(dict(self._parts[1]))
+        """Joints of each link."""
+        return MappingProxyType(dict(self._description[1]))
 
     @property
     def slides(self) -> Mapping[str, Slide]:
-        """The sliding pairs."""
-        return MappingProxyType(dict(self._parts[2]))
+        """Sliding pairs by name."""
+        return MappingProxyType(dict(self._description[2]))
 
     @property
     def driver(self) -> DriverLike | tuple[DriverLike, ...]:
-        """The driver, or a tuple of them."""
-        drivers = self._parts[3]
+        """The driver, or a tuple of drivers."""
+        drivers = self._description[3]
         return drivers[0] if len(drivers) == 1 else drivers
 
     @property
     def q0(self) -> float | Float:
-        """Coordinate of the drawing, rad or m; an array (n,) for n drivers."""
+        """Coordinate of the driver in the drawing, rad or m; an array (n,) for n drivers."""
         q0 = self._q0_array()
         return float(q0) if q0.ndim == 0 else q0
 
@@ -226,12 +230,12 @@ class Mechanism:
 
     @property
     def assembly(self) -> Assembly:
-        """The assembly of the drawing."""
+        """The assembly shown by the drawing."""
         return Assembly(dict(self._core.assembly))
 
     @property
     def dimensions(self) -> Mapping[str, Any]:
-        """The dimensions by name: floats, or arrays of shape S.
+        """The dimensions by name, m or rad: floats, or arrays of shape S.
 
         Examples
         --------
@@ -256,19 +260,22 @@ class Mechanism:
         ----------
         dimensions : mapping of str to array_like
             New values, m or rad; arrays broadcast by NumPy's rules, with each
-            other and with the designs there are, to the design shape S.
+            other and with the designs of this mechanism, to the design shape S.
+        **by_name : array_like
+            The same by keyword, for names without a dot.
 
         Returns
         -------
         Mechanism
-            Of design shape S.
+            With design shape S.
 
         Raises
         ------
         InputError
-            If a name is unknown (the nearest are named) or shapes do not broadcast.
+            If a name is unknown (the message suggests similar ones) or shapes do not
+            broadcast.
         DimensionError
-            If this is one mechanism and a value is no dimension; in a batch such
+            If a value is out of range and this is one mechanism; in a batch such
             designs get ``Status.BAD_DIMENSION``.
 
         Examples
@@ -283,7 +290,7 @@ class Mechanism:
             message = f"dimensions is {short(given)}: a mapping of names to values is needed"
             raise InputError(message)
         wanted = {**{checked_name(name, "dimensions"): v for name, v in given.items()}, **by_name}
-        places = [self._core.dimension(name) for name in wanted]
+        columns = [self._core.dimension(name) for name in wanted]
         new = [real_array(value, f"dimension {name!r}") for name, value in wanted.items()]
         try:
             shape = np.broadcast_shapes(self.shape, *(array.shape for array in new))
@@ -292,26 +299,26 @@ class Mechanism:
             message = f"dimensions do not broadcast: {shapes}, designs {self.shape}"
             raise InputError(message) from error
         values = np.array(np.broadcast_to(self._values, (*shape, self._values.shape[-1])))
-        for place, array in zip(places, new, strict=True):
-            values[..., place] = array
+        for column, array in zip(columns, new, strict=True):
+            values[..., column] = array
         if not shape:
             self._core.check_dimensions(values.tolist())
-        return self._make(self._parts, values, self._core)
+        return self._make(self._description, values, self._core)
 
     def with_driver(
         self,
         driver: DriverLike | Sequence[DriverLike],
         assembly: Mapping[str, int] | None = None,
     ) -> Mechanism:
-        """Return the same linkage, driven at another coordinate.
+        """Return the same linkage with another driver.
 
         Parameters
         ----------
         driver : str, Drive or sequence of them
-            As for the mechanism itself.
+            As in the constructor.
         assembly : mapping of str to int, optional
-            Signs of dyads that the drawing shows flat; which dyads there are
-            depends on the driver.
+            Signs of dyads drawn with their links collinear; the dyads depend on the
+            driver.
 
         Examples
         --------
@@ -319,18 +326,18 @@ class Mechanism:
         >>> assur.FourBar(1.0, 3.0, 2.5, 3.0).with_driver("rocker").structure.formula
         'I(rocker) → II(crank, coupler)'
         """
-        joints, links, slides, _, _ = self._parts
+        joints, links, slides, _, _ = self._description
         return self._make(
-            (joints, links, slides, _parts.drivers(driver), checked_signs(assembly, strict=False)),
+            (joints, links, slides, encode.drivers(driver), checked_signs(assembly, strict=False)),
             np.array(self._values),
         )
 
     def design(self, index: int | tuple[int, ...]) -> Mechanism:
-        """Return one design of a batch as a mechanism of its own."""
-        place = checked_index(index, self.shape, "design")
-        values = np.array(self._values[place])
+        """Return one design of a batch as a single mechanism."""
+        entry = checked_index(index, self.shape, "design")
+        values = np.array(self._values[entry])
         self._core.check_dimensions(values.tolist())
-        return self._make(self._parts, values, self._core)
+        return self._make(self._description, values, self._core)
 
     # -- moving -------------------------------------------------------------
 
@@ -356,16 +363,16 @@ class Mechanism:
         outputs : iterable of str, optional
             Names of joints, links and slides to keep; all by default.
         assembly : mapping of str to int, optional
-            Signs of dyads other than the drawing's (see `assemblies`).
+            Signs of dyads where they differ from the drawing's (see `assemblies`).
         on_error : {"raise", "nan"}
-            What to do with positions that cannot be had: raise for the first of
-            them, or leave NaN with a status in its place.
+            For unreachable positions: raise an error for the first one, or return NaN,
+            each with its own status code.
         threads : int, optional
-            Threads at most; by default as many as there are cores, and one for small
-            work. The numbers do not depend on it.
+            Maximum number of threads; by default one per core, and one for small
+            work. Results do not depend on it.
         out : Motion, optional
-            A motion of the same shape, order and outputs. It is overwritten, with all
-            arrays taken from it, and returned: new memory is spared.
+            A motion of the same shape, order and outputs. It and every array obtained
+            from it are overwritten; avoids allocation.
 
         Returns
         -------
@@ -375,7 +382,7 @@ class Mechanism:
         Raises
         ------
         PositionError, DimensionError, InputError
-            With ``on_error="raise"``: the first position that cannot be had.
+            With ``on_error="raise"``: for the first position that has no solution.
 
         Examples
         --------
@@ -384,10 +391,10 @@ class Mechanism:
         >>> motion.slide("bore").value.round(4)
         array([0.25  , 0.1936, 0.15  , 0.1936, 0.25  ])
         """
-        return _solve.solve(self, q, order, outputs, assembly, on_error, threads, out)
+        return solver.solve(self, q, order, outputs, assembly, on_error, threads, out)
 
     def assemblies(self, q: npt.ArrayLike) -> list[Assembly]:
-        """Every real assembly at one position, usable as ``solve(q, assembly=a)``.
+        """Return every real assembly at one position, for use as ``solve(q, assembly=a)``.
 
         Examples
         --------
@@ -428,5 +435,5 @@ class Mechanism:
         return plot.mechanism(self, q, ax)
 
 
-def _rebuild(parts: Parts, values: Float) -> Mechanism:
-    return Mechanism._make(parts, values)
+def _rebuild(description: Description, values: Float) -> Mechanism:
+    return Mechanism._make(description, values)

@@ -1,4 +1,4 @@
-"""Motions: positions and analogues as arrays."""
+"""Motions: positions and analogues (derivatives by q) as arrays."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from assur.kinematics.quantity import Analogues
 from assur.kinematics.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
-    from assur.kinematics.request import Call, Tracks
+    from assur.kinematics.request import Results, SolveRequest
 
 __all__ = ["Motion"]
 
@@ -29,35 +29,39 @@ class Motion:
     Attributes
     ----------
     mechanism : Mechanism
-        What moves.
+        The mechanism solved.
     q : numpy.ndarray
-        The coordinates.
+        Coordinates of the driver, rad or m.
     order : int
         Highest order of the analogues.
     """
 
-    def __init__(self, call: Call, tracks: Tracks, status: npt.NDArray[np.uint8]) -> None:
-        self._become(call, tracks, status)
+    def __init__(
+        self, request: SolveRequest, results: Results, status: npt.NDArray[np.uint8]
+    ) -> None:
+        self._replace_with(request, results, status)
 
-    def _become(self, call: Call, tracks: Tracks, status: npt.NDArray[np.uint8]) -> None:
-        self.mechanism = call.mechanism
-        self.q = call.q
-        self.order = call.order
+    def _replace_with(
+        self, request: SolveRequest, results: Results, status: npt.NDArray[np.uint8]
+    ) -> None:
+        self.mechanism = request.mechanism
+        self.q = request.q
+        self.order = request.order
         self._status = status
-        self._call = call
-        self._stored = tracks
-        self._drivers = len(call.mechanism._core.q0)
-        self._places: dict[str, tuple[Float, ...]] = {}
+        self._request = request
+        self._stored = results
+        self._drivers = len(request.mechanism._core.q0)
+        self._reference_points: dict[str, tuple[Float, ...]] = {}
         self._diagnostics: tuple[Float, Float] | None = None
 
     @property
-    def _tracks(self) -> Tracks:
-        """What it holds."""
-        self._checked()
+    def _results(self) -> Results:
+        """The arrays held, by name."""
+        self._require_complete()
         return self._stored
 
-    def _checked(self) -> None:
-        """Refuse to be read after a call that was to overwrite it and did not come to its end."""
+    def _require_complete(self) -> None:
+        """Raise if a solve(out=) overwrites this motion or was stopped while doing so."""
         buffers = self._stored.buffers
         if buffers is not None and not buffers.complete:
             message = (
@@ -68,33 +72,35 @@ class Motion:
 
     @property
     def status(self) -> npt.NDArray[np.uint8]:
-        """One `Status` a position, S + (N,)."""
-        self._checked()
+        """`Status` of each position, S + (N,)."""
+        self._require_complete()
         return self._status
 
     def __getstate__(self) -> dict[str, Any]:
-        # Only the motion that was made may be overwritten.
-        return {**self.__dict__, "_stored": replace(self._tracks, buffers=None)}
+        # A copy has no buffers: only the original may be overwritten.
+        return {**self.__dict__, "_stored": replace(self._results, buffers=None)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         stored = self._stored
-        held = (stored.joints, stored.links, stored.slides, self._places)
+        held = (stored.joints, stored.links, stored.slides, self._reference_points)
         for array in (a for kind in held for arrays in kind.values() for a in arrays):
             array.flags.writeable = False
         for array in (self.q, self._status, *(self._diagnostics or ())):
             array.flags.writeable = False
 
     def __copy__(self) -> Motion:
-        # In arrays of its own: those of this motion may be overwritten, its q is not.
+        # Copies its arrays, which solve(out=) may overwrite; q never is.
         own = Motion.__new__(Motion)
         state = self.__getstate__()
-        own.__setstate__({**state, "_stored": self._tracks.copied(), "_status": self.status.copy()})
+        own.__setstate__(
+            {**state, "_stored": self._results.copied(), "_status": self.status.copy()}
+        )
         return own
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """S + (N,)."""
+        """Shape S + (N,): designs, then positions."""
         return self._status.shape
 
     def __repr__(self) -> str:
@@ -109,20 +115,22 @@ class Motion:
         return held[name]
 
     def joint(self, name: str) -> Analogues:
-        """Place of a joint, m, and its analogues."""
-        return Analogues(name, self._find("joint", self._tracks.joints, name), self._drivers, True)
+        """Return the position of a joint, m, with its analogues."""
+        return Analogues(name, self._find("joint", self._results.joints, name), self._drivers, True)
 
     def link(self, name: str) -> Analogues:
-        """Angle of a link, rad, continuous along q, and its analogues."""
-        return Analogues(name, self._find("link", self._tracks.links, name), self._drivers, False)
+        """Return the angle of a link, rad, continuous along q, with its analogues."""
+        return Analogues(name, self._find("link", self._results.links, name), self._drivers, False)
 
     def slide(self, name: str) -> Analogues:
-        """Value of a slide, m, and its analogues."""
-        return Analogues(name, self._find("slide", self._tracks.slides, name), self._drivers, False)
+        """Return the value of a slide, m, with its analogues."""
+        return Analogues(
+            name, self._find("slide", self._results.slides, name), self._drivers, False
+        )
 
-    def _names(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
-        """Indices of the joints, links and slides that are held."""
-        held = (self._tracks.joints, self._tracks.links, self._tracks.slides)
+    def _held_indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
+        """Return the core's indices of the joints, links and slides held."""
+        held = (self._results.joints, self._results.links, self._results.slides)
         require = self.mechanism._core.require
         joints, links, slides = (
             {name: require(kind, name) for name in of}
@@ -130,39 +138,39 @@ class Motion:
         )
         return joints, links, slides
 
-    def _place(self, link: str) -> Analogues:
+    def _reference_point(self, link: str) -> Analogues:
         checked_name(link, "link")
-        # Seldom asked for, so solved for then.
-        if link not in self._places:
-            self._places[link] = self._call.place(link)
-        return Analogues(link, self._places[link], self._drivers, True)
+        # Rarely needed, so solved on request.
+        if link not in self._reference_points:
+            self._reference_points[link] = self._request.reference_point(link)
+        return Analogues(link, self._reference_points[link], self._drivers, True)
 
-    def _one_driver(self, what: str) -> None:
+    def _require_one_driver(self, what: str) -> None:
         if self._drivers > 1:
             message = f"{what} is defined for one driver; this mechanism has {self._drivers}"
             raise InputError(message)
 
     def curvature(self, joint: str) -> Float:
-        """Curvature of a joint's path, 1/m, positive where it turns left as q grows.
+        """Return the curvature of a joint's path, 1/m, positive where it turns left as q grows.
 
         NaN where the joint stands still (a cusp or a dwell).
         """
-        self._one_driver("curvature")
+        self._require_one_driver("curvature")
         point = self.joint(joint)
         values = _core.curvature(point.d1.reshape(-1), point.d2.reshape(-1))
         return values.reshape(self.shape)
 
     def instant_centre(self, link: str, other: str = "ground") -> Float:
-        """Instant centre of two links in the frame of the ground, m, S + (N, 2).
+        """Return the instant centre of two links in the ground's frame, m, S + (N, 2).
 
-        Infinite where the links only translate relative to each other, NaN where
-        they do not move relative to each other.
+        Infinite where the relative motion is a translation, NaN where there is
+        none.
         """
-        self._one_driver("instant_centre")
+        self._require_one_driver("instant_centre")
         parts = [
             (
-                self._place(name).value.reshape(-1),
-                self._place(name).d1.reshape(-1),
+                self._reference_point(name).value.reshape(-1),
+                self._reference_point(name).d1.reshape(-1),
                 self.link(name).d1.reshape(-1),
             )
             for name in (link, other)
@@ -170,12 +178,12 @@ class Motion:
         return _core.instant_centre(parts[0], parts[1]).reshape((*self.shape, 2))
 
     def mechanical_advantage(self, name: str) -> Float:
-        """Output torque (of a link) or force (of a slide) over the driver's, lossless.
+        """Return output torque (link) or force (slide) over the driver's, without losses.
 
-        By equal power the inverse of the output's first analogue: infinite at its
-        dead points.
+        Input and output power are equal, so it is the inverse of the output's first
+        analogue: infinite where the output is at rest.
         """
-        self._one_driver("mechanical_advantage")
+        self._require_one_driver("mechanical_advantage")
         is_slide = checked_name(name, "mechanical_advantage") in self.mechanism.slides
         output = self.slide(name) if is_slide else self.link(name)
         with np.errstate(divide="ignore"):
@@ -183,16 +191,16 @@ class Motion:
         return ratio
 
     def transmission_angle(self, name: str, between: tuple[str, str] | None = None) -> Float:
-        """Acute angle at which force is passed on, rad, in 0..π/2.
+        """Return the transmission angle, rad, in 0..π/2.
 
         Parameters
         ----------
         name : str
-            A joint where two links meet (the angle between them), or a slide or
-            the joint of a sliding link (the complement of the pressure angle).
+            A joint where two links meet (the acute angle between them), or a slide
+            or the joint of a sliding link (the complement of the pressure angle).
         between : (str, str), optional
-            Two joints: the angle between the lines from `name` to them. Needed
-            where more than two links meet, or a link has several other joints.
+            Two joints: the angle between the lines from `name` to them. Needed if
+            more than two links meet, or a link has several other joints.
 
         Returns
         -------
@@ -209,9 +217,9 @@ class Motion:
         return transmission.angle(self, name, between)
 
     def sensitivity(self, dimension: str) -> Sensitivity:
-        """Derivatives of what this motion holds, and of its analogues, by a dimension.
+        """Return derivatives by a dimension of all values and analogues of this motion.
 
-        Exact: the closure equations differentiated once more, at every position.
+        They are exact: the closure equations are differentiated once more.
 
         Parameters
         ----------
@@ -222,18 +230,18 @@ class Motion:
         -------
         Sensitivity
             Its ``joint(name).value`` is ∂P/∂dimension, ``.d1`` that of the first analogue, and so
-            on; per m, or per rad for an angle. NaN where there is no position, and at dead and
-            change points, where the motion does not change smoothly.
+            on; per m, or per rad for an angle. NaN where there is no position, and at dead points
+            and change points, where the derivative does not exist.
 
         Raises
         ------
         InputError
-            An unknown name, or a linkage with redundant links: they fit only as long as several
-            dimensions change together.
+            An unknown name, or a linkage with redundant links: changing one dimension alone would
+            break their fit.
 
         Examples
         --------
-        A longer crank pushes the piston ahead at its dead point by as much:
+        At its dead point the piston moves by as much as the crank grows:
 
         >>> import assur
         >>> motion = assur.SliderCrank(1.0, 3.0).solve(0.0)
@@ -244,21 +252,21 @@ class Motion:
 
     @property
     def residual(self) -> Float:
-        """Greatest misfit of a closure equation at the coordinates, of the size."""
+        """Largest loop-closure error at each position, relative to the mechanism's size."""
         return self._diagnose()[0]
 
     @property
     def condition(self) -> Float:
-        """Condition κ of every position: 1/sin of the angle between a dyad's legs.
+        """Condition κ of each position: 1/sin of the angle between a dyad's legs.
 
-        Of dyads in sequence the product along the worst chain.
+        For dyads in sequence, the product along the worst chain.
         """
         return self._diagnose()[1]
 
     def _diagnose(self) -> tuple[Float, Float]:
         if self._diagnostics is None:
             residual, condition = self.mechanism._core.diagnostics(
-                *self._call.flat(), self._call.signs
+                *self._request.flat(), self._request.signs
             )
             self._diagnostics = (residual.reshape(self.shape), condition.reshape(self.shape))
             for array in self._diagnostics:
@@ -266,14 +274,14 @@ class Motion:
         return self._diagnostics
 
     def coordinate(self, index: int | tuple[int, ...]) -> float | tuple[float, ...]:
-        """Return the coordinate at an index of `shape`; a tuple for several drivers."""
-        place = checked_index(index, self.shape, "index")
-        designs = 0 if self._call.per_design else len(self.mechanism.shape)
-        q = self.q[place[designs:]] if self._call.positions else self.q
+        """Return the driver's coordinate at an index into `shape`; a tuple for several drivers."""
+        entry = checked_index(index, self.shape, "index")
+        designs = 0 if self._request.per_design else len(self.mechanism.shape)
+        q = self.q[entry[designs:]] if self._request.positions else self.q
         return float(q) if self._drivers == 1 else tuple(float(x) for x in q)
 
     def explain(self, index: int | tuple[int, ...] = ()) -> str:
-        """Return what happened at one position: the sentence ``on_error="raise"`` gives.
+        """Return the status of one position as a sentence, as ``on_error="raise"`` words it.
 
         Examples
         --------
@@ -285,18 +293,18 @@ class Motion:
         return self._explain(index)[2]
 
     def _explain(self, index: int | tuple[int, ...]) -> tuple[int, str | None, str]:
-        place = checked_index(index, self.shape, "index")
-        q = self.coordinate(place)
-        values = self.mechanism._values[place[: len(self.mechanism.shape)]]
+        entry = checked_index(index, self.shape, "index")
+        q = self.coordinate(entry)
+        values = self.mechanism._values[entry[: len(self.mechanism.shape)]]
         one = [q] if isinstance(q, float) else list(q)
-        return self.mechanism._core.explain(values.tolist(), one, self._call.signs)
+        return self.mechanism._core.explain(values.tolist(), one, self._request.signs)
 
     def to_dataframe(self) -> Any:
-        """Return a pandas DataFrame, one row a position (needs pandas).
+        """Return a pandas DataFrame with one row per position (needs pandas).
 
         Columns: the design's index, q, status, and every value and analogue held,
-        such as ``C.x``, ``C.x.d1``, ``coupler``, ``coupler.d1``. A link or slide called
-        as one of the first columns has its own under ``link q``, ``slide status``.
+        such as ``C.x``, ``C.x.d1``, ``coupler``, ``coupler.d1``. A link or slide whose name
+        is one of the first columns appears as ``link q`` or ``slide status``.
         """
         from assur.kinematics.dataframe import dataframe
 

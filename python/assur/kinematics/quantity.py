@@ -1,4 +1,4 @@
-"""A quantity over a motion: value, analogues, and what follows for given speeds."""
+"""A quantity along a motion: value, analogues, and velocities for given speeds."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Analogues:
     Attributes
     ----------
     value, d1, d2, d3 : numpy.ndarray
-        Value and analogues of orders 1 to 3, as far as the motion was solved.
+        Value and analogues of orders 1 to 3, up to the order of the motion.
     """
 
     __slots__ = ("_arrays", "_drivers", "_name", "_point")
@@ -46,7 +46,7 @@ class Analogues:
 
     @property
     def value(self) -> Float:
-        """The quantity itself: m, or rad for a link."""
+        """The value: m, or rad for a link."""
         return self._order(0)
 
     @property
@@ -65,19 +65,19 @@ class Analogues:
         return self._order(3)
 
     def velocity(self, omega: npt.ArrayLike) -> Float:
-        """Velocity for a driver's speed: ``d1 ω``.
+        """Return the velocity for a driver's speed: ``d1 ω``.
 
         Parameters
         ----------
         omega : array_like
-            dq/dt, rad/s or m/s; broadcast against S + (N,). With n drivers the
+            dq/dt, rad/s or m/s; broadcasts against S + (N,). With n drivers the
             last axis is n.
 
         Returns
         -------
         numpy.ndarray
-            m/s, or rad/s for a link; points with a last axis of 2. Several speeds at one
-            position, or of each design, are axes before S + (N,).
+            m/s, or rad/s for a link; points with a last axis of 2. Further axes of the
+            speed come before S + (N,).
 
         Examples
         --------
@@ -91,7 +91,7 @@ class Analogues:
             return self._contract(self.d1, w)
 
     def acceleration(self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0) -> Float:
-        """Acceleration for a driver's speed and acceleration: ``d2 ω² + d1 α``."""
+        """Return the acceleration for a driver's speed and acceleration: ``d2 ω² + d1 α``."""
         w, a = self._speeds(omega=omega, alpha=alpha)
         with in_range("acceleration"):
             return self._contract(self.d2, w, w) + self._contract(self.d1, a)
@@ -99,14 +99,14 @@ class Analogues:
     def jerk(
         self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0, beta: npt.ArrayLike = 0.0
     ) -> Float:
-        """Jerk: ``d3 ω³ + 3 d2 ω α + d1 β`` with β the driver's jerk."""
+        """Return the jerk: ``d3 ω³ + 3 d2 ω α + d1 β``, with β the driver's jerk."""
         w, a, b = self._speeds(omega=omega, alpha=alpha, beta=beta)
         with in_range("jerk"):
             mixed = self._contract(self.d2, w, a)
             return self._contract(self.d3, w, w, w) + 3.0 * mixed + self._contract(self.d1, b)
 
     def _speeds(self, **given: npt.ArrayLike) -> list[Float]:
-        """Arrays that broadcast together: axes of the motion, of a point, and a last of drivers."""
+        """Return broadcastable arrays: axes of the motion, of a point, then of the drivers."""
         arrays = [self._drivers_last(value, name) for name, value in given.items()]
         shape = self.value.shape[:-1] if self._point else self.value.shape
         try:
@@ -136,8 +136,8 @@ class Analogues:
         array = derivative
         if self._drivers == 1:
             array = array.reshape(array.shape + (1,) * len(speeds))
-        # The last axis first. Before the axis of this speed there are those of the speeds to come;
-        # everything before them broadcasts.
+        # Contract the last axis first. The axes of the remaining speeds stand before it; align
+        # this speed with them.
         for to_come in range(len(speeds) - 1, -1, -1):
             speed = speeds[to_come]
             aligned = speed.reshape(speed.shape[:-1] + (1,) * to_come + speed.shape[-1:])

@@ -1,4 +1,4 @@
-"""One call of the core: what is to be solved, and its arrays by name."""
+"""One request to the core, and its results as arrays by name."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 Float: TypeAlias = npt.NDArray[np.float64]
 Held: TypeAlias = dict[str, tuple[Float, ...]]
-# Indices of joints, links, links whose places are wanted, slides.
+# Indices of joints, links (angles), links (reference points), slides.
 Outputs: TypeAlias = tuple[list[int], list[int], list[int], list[int]]
 
 
@@ -22,7 +22,7 @@ Outputs: TypeAlias = tuple[list[int], list[int], list[int], list[int]]
 class Buffers:
     """The arrays of a motion in the core's order, and its statuses.
 
-    The core writes them, and they are not `complete` while it does.
+    The core clears `complete` while it writes.
     """
 
     columns: list[Float]
@@ -31,26 +31,26 @@ class Buffers:
 
 
 @dataclass(frozen=True, eq=False)
-class Tracks:
-    """What a motion holds, by name: arrays by order."""
+class Results:
+    """The arrays of a motion by name, one for each order."""
 
     joints: Held
     links: Held
     slides: Held
-    # The same as the core wrote them; none in a copy.
+    # The same arrays as written by the core; None in a copy.
     buffers: Buffers | None = None
 
-    def copied(self) -> Tracks:
-        """The same numbers in arrays of their own."""
+    def copied(self) -> Results:
+        """Return a copy with arrays of its own."""
 
         def own(held: Held) -> Held:
             return {name: tuple(a.copy() for a in arrays) for name, arrays in held.items()}
 
-        return Tracks(own(self.joints), own(self.links), own(self.slides))
+        return Results(own(self.joints), own(self.links), own(self.slides))
 
 
 @dataclass(frozen=True, eq=False)
-class Call:
+class SolveRequest:
     """Everything a motion depends on."""
 
     mechanism: Mechanism
@@ -63,7 +63,7 @@ class Call:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Designs and positions, S + (N,)."""
+        """Shape of designs and positions, S + (N,)."""
         return (*self.mechanism.shape, *self.positions)
 
     def arrays(
@@ -71,37 +71,37 @@ class Call:
         joints: dict[str, int],
         links: dict[str, int],
         slides: dict[str, int],
-        kept: Buffers | None = None,
+        buffers: Buffers | None = None,
         by: int | None = None,
-    ) -> tuple[Tracks, npt.NDArray[np.uint8]]:
-        """Solve for these joints, angles of links, and slides; into the arrays kept.
+    ) -> tuple[Results, npt.NDArray[np.uint8]]:
+        """Solve for joints, angles of links, and slides, into the buffers if given.
 
-        All of it differentiated by the dimension of this index, if one is given.
+        With `by`, the index of a dimension, return the derivatives by that dimension.
         """
         wanted = [list(of.values()) for of in (joints, links, slides)]
-        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]), kept, by)
+        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]), buffers, by)
         shape = self.shape
-        tracks = Tracks(
+        results = Results(
             joints=self._named("joint", joints, found, (*shape, 2)),
             links=self._named("link", links, found, shape),
             slides=self._named("slide", slides, found, shape),
-            buffers=kept or Buffers(list(found.values()), status),
+            buffers=buffers or Buffers(list(found.values()), status),
         )
         status = status.reshape(shape)
         status.flags.writeable = False
-        return tracks, status
+        return results, status
 
-    def place(self, link: str) -> tuple[Float, ...]:
-        """Solve for the place of a link's first joint (or slide)."""
+    def reference_point(self, link: str) -> tuple[Float, ...]:
+        """Solve for a link's reference point, the origin of its frame."""
         index = self.mechanism._core.require("link", link)
         found, _ = self._solve(([], [], [index], []))
         return self._named("place", {link: index}, found, (*self.shape, 2))[link]
 
     def flat(self) -> tuple[Float, Float, bool]:
-        """Dimensions, coordinates, whether each design has its own, as the core takes them."""
+        """Return flat dimensions and coordinates, and whether each design has its own."""
         values = np.ascontiguousarray(self.mechanism._values).reshape(-1)
         if self.per_design and 0 in self.mechanism.shape:
-            # No design tells how many coordinates each would have.
+            # With no designs the number of coordinates per design is undefined.
             drivers = len(self.mechanism._core.q0)
             return values, np.zeros(drivers * math.prod(self.positions)), False
         return values, np.ascontiguousarray(self.q).reshape(-1), self.per_design
@@ -109,11 +109,11 @@ class Call:
     def _solve(
         self,
         outputs: Outputs,
-        kept: Buffers | None = None,
+        buffers: Buffers | None = None,
         by: int | None = None,
     ) -> tuple[dict[tuple[str, int, int], Float], npt.NDArray[np.uint8]]:
         return self.mechanism._core.solve(
-            *self.flat(), self.signs, self.order, outputs, self.threads, kept, by
+            *self.flat(), self.signs, self.order, outputs, self.threads, buffers, by
         )
 
     def _named(
@@ -123,7 +123,7 @@ class Call:
         found: dict[tuple[str, int, int], Float],
         shape: tuple[int, ...],
     ) -> Held:
-        """Arrays by order; one axis more for every order if there are several drivers."""
+        """Return arrays by name and order; with several drivers each order adds an axis."""
         drivers = len(self.mechanism._core.q0)
         held = {}
         for name, index in names.items():

@@ -1,4 +1,4 @@
-"""Sensitivities: what a motion becomes when a dimension changes."""
+"""Sensitivities: derivatives of a motion by a dimension."""
 
 from __future__ import annotations
 
@@ -26,27 +26,27 @@ class Sensitivity:
     dimension : str
         Name of the dimension.
     status : numpy.ndarray of uint8
-        One `Status` a position, as that of the motion.
+        `Status` of each position, as for the motion.
     """
 
     def __init__(self, motion: Motion, dimension: str) -> None:
         index = motion.mechanism._core.dimension(checked_name(dimension, "sensitivity"))
-        outputs = motion._names()
+        outputs = motion._held_indices()
         self.dimension = dimension
         self._drivers = len(motion.mechanism._core.q0)
-        self._tracks, self.status = motion._call.arrays(*outputs, by=index)
+        self._results, self.status = motion._request.arrays(*outputs, by=index)
 
     def joint(self, name: str) -> Analogues:
-        """Derivatives of a joint's place and its analogues, m/m or m/rad, S + (N, 2)."""
-        return Analogues(name, self._of("joint", self._tracks.joints, name), self._drivers, True)
+        """Return derivatives of a joint's position and analogues, m/m or m/rad, S + (N, 2)."""
+        return Analogues(name, self._of("joint", self._results.joints, name), self._drivers, True)
 
     def link(self, name: str) -> Analogues:
-        """Derivatives of a link's angle and its analogues, rad/m or rad/rad."""
-        return Analogues(name, self._of("link", self._tracks.links, name), self._drivers, False)
+        """Return derivatives of a link's angle and its analogues, rad/m or rad/rad."""
+        return Analogues(name, self._of("link", self._results.links, name), self._drivers, False)
 
     def slide(self, name: str) -> Analogues:
-        """Derivatives of a slide's value and its analogues, m/m or m/rad."""
-        return Analogues(name, self._of("slide", self._tracks.slides, name), self._drivers, False)
+        """Return derivatives of a slide's value and its analogues, m/m or m/rad."""
+        return Analogues(name, self._of("slide", self._results.slides, name), self._drivers, False)
 
     def _of(self, kind: str, held: Held, name: str) -> tuple[npt.NDArray[np.float64], ...]:
         if checked_name(name, kind) not in held:

@@ -1,4 +1,4 @@
-"""From ``Mechanism.solve`` to the core and back: shapes, names, errors."""
+"""The implementation of ``Mechanism.solve``: checks arguments, calls the core, raises errors."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from assur._validate import checked_order, checked_signs, checked_threads, one_o
 from assur.description.words import Status
 from assur.errors import AssurError, DimensionError, InputError, PositionError
 from assur.kinematics.motion import Motion
-from assur.kinematics.request import Call
+from assur.kinematics.request import SolveRequest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -40,7 +40,7 @@ def solve(
     order = checked_order(order)
     coordinates, positions, per_design = _coordinates(mechanism, q)
     coordinates.flags.writeable = False
-    call = Call(
+    request = SolveRequest(
         mechanism=mechanism,
         q=coordinates,
         positions=positions,
@@ -51,22 +51,24 @@ def solve(
     )
     wanted = _outputs(mechanism, outputs)
     fresh = out is None
-    motion = Motion(call, *call.arrays(*wanted)) if fresh else _overwritten(out, call, wanted)
+    motion = (
+        Motion(request, *request.arrays(*wanted)) if fresh else _overwritten(out, request, wanted)
+    )
     if on_error == "raise":
         _raise_first(motion)
     return motion
 
 
-def _overwritten(motion: Any, call: Call, wanted: Names) -> Motion:
-    """The call's motion in the arrays of another, which becomes it."""
+def _overwritten(motion: Any, request: SolveRequest, wanted: Names) -> Motion:
+    """Solve into the arrays of an existing motion, which takes over the request."""
     if not isinstance(motion, Motion):
         message = f"out is {short(motion)}: a motion is needed"
         raise InputError(message)
     held = motion._stored
     names = [list(of) for of in (held.joints, held.links, held.slides)]
-    drivers = len(call.mechanism._core.q0)
+    drivers = len(request.mechanism._core.q0)
     given = (motion._status.shape, motion.order, motion._drivers, *names)
-    needed = (call.shape, call.order, drivers, *(list(of) for of in wanted))
+    needed = (request.shape, request.order, drivers, *(list(of) for of in wanted))
     what = ("shape", "order", "number of drivers", "joints", "links", "slides")
     for of, one, other in zip(what, given, needed, strict=True):
         if one != other:
@@ -75,13 +77,13 @@ def _overwritten(motion: Any, call: Call, wanted: Names) -> Motion:
     if held.buffers is None:
         message = "out: a copy cannot be overwritten, only a motion as solve returned it"
         raise InputError(message)
-    # Interrupted, it is neither the one motion nor the other: its buffers stay incomplete.
-    motion._become(call, *call.arrays(*wanted, held.buffers))
+    # If interrupted, the arrays mix both motions: the buffers stay marked incomplete.
+    motion._replace_with(request, *request.arrays(*wanted, held.buffers))
     return motion
 
 
 def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[int, ...], bool]:
-    """Coordinates, the shape of positions, and whether each design has its own."""
+    """Return coordinates, the shape of positions, and whether each design has its own."""
     array = np.array(real_array(q, "q"), order="C")
     drivers = len(mechanism._core.q0)
     shape = array.shape
@@ -110,9 +112,9 @@ def _signs(mechanism: Mechanism, assembly: Mapping[str, int] | None) -> list[int
 
 
 def _outputs(mechanism: Mechanism, names: Iterable[str] | None) -> Names:
-    joints = {name: i for i, (name, _, _) in enumerate(mechanism._parts[0])}
-    links = {name: i for i, (name, _) in enumerate(mechanism._parts[1])}
-    slides = {name: i for i, (name, _) in enumerate(mechanism._parts[2])}
+    joints = {name: i for i, (name, _, _) in enumerate(mechanism._description[0])}
+    links = {name: i for i, (name, _) in enumerate(mechanism._description[1])}
+    slides = {name: i for i, (name, _) in enumerate(mechanism._description[2])}
     if names is None:
         return joints, links, slides
     if isinstance(names, str):
@@ -174,8 +176,8 @@ def _raise_first(motion: Motion) -> None:
 
 
 def _no_analogues(motion: Motion, singular: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """Where a flat dyad leaves none; at a change point there are."""
-    held = motion._tracks
+    """Singular positions with NaN analogues: all but change points."""
+    held = motion._results
     missing = np.zeros(motion.shape, dtype=np.bool_)
     for arrays in (a for kind in (held.joints, held.links, held.slides) for a in kind.values()):
         rows = arrays[1][singular]

@@ -1,4 +1,4 @@
-"""Transmission angles: which two lines meet at a joint or slide."""
+"""Transmission angles: the two lines that meet at a joint or slide, and their angle."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Float: TypeAlias = npt.NDArray[np.float64]
 
 
 class Line(NamedTuple):
-    """A line from joint to joint; or (no end) a slide's guide."""
+    """A line from joint to joint; without an end, a slide's guide."""
 
     start: str
     end: str | None = None
@@ -36,7 +36,7 @@ def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
 
 
 def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bool]:
-    """Which two lines meet there, and whether the complement of their angle is meant."""
+    """Return the two lines, and whether the complement of their angle is wanted."""
     checked_name(name, "transmission_angle")
     if between is not None:
         joints = (name, *between) if isinstance(between, tuple | list) else ()
@@ -63,7 +63,7 @@ def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bo
 
 
 def guide_angle(mechanism: Mechanism, slide: str) -> Any:
-    """Return a guide's angle in the frame of the link it is on, rad."""
+    """Return a guide's angle in the frame of the link that carries it, rad."""
     return mechanism.dimensions.get(f"{slide}.angle", 0.0)
 
 
@@ -74,7 +74,7 @@ def _acute(motion: Motion, a: Float, b: Float) -> Float:
 
 
 def _direction(motion: Motion, line: Line) -> Float:
-    """Direction of a line, S + (N, 2)."""
+    """Return the direction of a line, S + (N, 2), not normalised."""
     mechanism = motion.mechanism
     if line.end is not None:
         along: Float = motion.joint(line.end).value - motion.joint(line.start).value
@@ -92,7 +92,7 @@ def _pairs(mechanism: Mechanism, joint: str) -> int:
 
 
 def _other_joint(mechanism: Mechanism, link: str, joint: str) -> str:
-    """Return the link's one other joint where it meets other links."""
+    """Return the only other joint at which the link meets other links."""
     others = [j for j in mechanism.links[link] if j != joint]
     joined = [j for j in others if _pairs(mechanism, j) > 1]
     if len(joined) == 1:
@@ -105,7 +105,7 @@ def _other_joint(mechanism: Mechanism, link: str, joint: str) -> str:
 
 
 def _slide_at(mechanism: Mechanism, joint: str) -> str | None:
-    """Return the slide of a one-joint link at this joint, if there is one."""
+    """Return the slide of a link that has this joint only, or None."""
     for name, slide in mechanism.slides.items():
         if tuple(mechanism.links[slide.link]) == (joint,):
             return name
@@ -113,12 +113,11 @@ def _slide_at(mechanism: Mechanism, joint: str) -> str | None:
 
 
 def _at_slide(mechanism: Mechanism, name: str) -> list[Line]:
-    """Return the lines of the pressure angle, of which the transmission angle is the complement.
+    """Return the lines whose acute angle is the pressure angle.
 
-    On a fixed guide the pressure angle is between the link that pushes and the
-    guide. A turning guide is pushed along its normal, and its own point moves
-    across the line from its pivot: the pressure angle is between that line and
-    the guide.
+    Fixed guide: the pushing link and the guide. Turning guide: the block pushes
+    along the guide's normal, and the point of the guide moves at right angles to
+    the line from its pivot, so the lines are that line and the guide.
     """
     slide = mechanism.slides[name]
     joints = tuple(mechanism.links[slide.link])
@@ -136,7 +135,7 @@ def _at_slide(mechanism: Mechanism, name: str) -> list[Line]:
 
 
 def _pivot(mechanism: Mechanism, link: str) -> str:
-    """Return the joint about which a guide's link turns: on the ground, or its only one."""
+    """Return the joint about which a guide's link turns: that on the ground, or its only one."""
     joined = [j for j in mechanism.links[link] if _pairs(mechanism, j) > 1]
     fixed = [j for j in joined if j in mechanism.links["ground"]]
     pivots = fixed or joined

@@ -1,1 +1,1 @@
-"""Mechanisms that have names."""
+"""Constructors of named mechanisms."""

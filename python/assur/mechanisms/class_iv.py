@@ -1,4 +1,4 @@
-"""The mechanism of class IV of V. M. Dvorzhak's paper."""
+"""The class IV mechanism of V. M. Dvorzhak's paper."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ LINKS = {
     "l95": ["9", "5"],
     "l107": ["10", "7"],
 }
-# The paper's words: lengths l, angles U (from the first leg to the last, at the middle joint),
-# fixed pivots, and the angles f that its iteration starts from (the crank's is its own).
+# The paper's names: lengths l, angles U (from the first leg to the last, at the middle joint),
+# fixed pivots, and the starting angles f of its iteration (that of "1-2" is the crank's).
 LENGTHS = ("1-2", "2-3", "2-4", "3-5", "3-6", "4-8", "6-8", "7-8", "5-9", "7-10")
 ANGLES = ("4-2-3", "6-3-5", "7-8-6")
 PIVOTS = ("1", "9", "10")
@@ -41,7 +41,7 @@ STARTS = ("1-2", "2-4", "3-6", "4-8", "7-8")
 
 
 class ClassIV(Mechanism):
-    """The paper's mechanism of class IV: by its joints, or by its lengths and angles.
+    """The paper's class IV mechanism, from its joints or from lengths and angles.
 
     Crank 1-2; ternary links 2-3-4, 3-6-5 and 8-7-6; bar 4-8; rockers 9-5 and 10-7; fixed pivots
     1, 9 and 10. Links 2-3-4, 4-8, 8-7-6 and 3-6-5 form the closed quadrilateral. Links are called
@@ -52,29 +52,30 @@ class ClassIV(Mechanism):
     joints : mapping of str to (x, y), optional
         A drawing, m: joints ``"1"`` to ``"10"``.
     lengths : mapping, optional
-        Instead of `joints`, in the paper's words: lengths, m, ``"1-2"``, ``"2-3"``, ``"2-4"``,
+        Instead of `joints`, with the paper's names: lengths, m, ``"1-2"``, ``"2-3"``, ``"2-4"``,
         ``"3-5"``, ``"3-6"``, ``"4-8"``, ``"6-8"``, ``"7-8"``, ``"5-9"`` and ``"7-10"``.
     angles : mapping, optional
-        The angles U of the ternary links, rad: ``"4-2-3"``, ``"6-3-5"`` and ``"7-8-6"``, counted
+        The angles U of the ternary links, rad: ``"4-2-3"``, ``"6-3-5"`` and ``"7-8-6"``, measured
         counter-clockwise from the leg named first.
     pivots : mapping, optional
-        Places of ``"1"``, ``"9"`` and ``"10"``, m.
+        Positions of ``"1"``, ``"9"`` and ``"10"``, m.
     start : mapping, optional
-        Angles that the iteration starts from, rad: of 2→4, 3→6, 4→8 and 8→7 (``"2-4"``, ``"3-6"``,
-        ``"4-8"``, ``"7-8"``) where the crank is at ``"1-2"``. They tell the assembly.
+        Starting angles of the iteration, rad: of 2→4, 3→6, 4→8 and 8→7 (``"2-4"``, ``"3-6"``,
+        ``"4-8"``, ``"7-8"``) with the crank at ``"1-2"``. They select the assembly.
 
     Raises
     ------
     InputError
-        Names that are missing or unknown, or starting angles from which no assembly is reached.
+        Missing or unknown names, or starting angles from which no assembly is found.
     DimensionError
         Lengths that are not positive.
 
     Notes
     -----
-    The paper's four equations state two distances along two routes each, not that the routes
+    The paper's four equations state two distances along two routes each, but not that the routes
     meet: they have roots where the quadrilateral is open, and are singular where the rockers are
-    parallel. Here the quadrilateral itself is closed; `paper_equations` checks a solution by them.
+    parallel. This class closes the quadrilateral itself; `paper_equations` evaluates the paper's
+    equations for a solution.
 
     Examples
     --------
@@ -101,18 +102,19 @@ class ClassIV(Mechanism):
     ) -> None:
         paper = (lengths, angles, pivots, start)
         if joints is not None and all(part is None for part in paper):
-            _named(joints, JOINTS, "joints")
-            _adopt(self, Mechanism({name: joints[name] for name in JOINTS}, LINKS, "crank"))
+            _require_names(joints, JOINTS, "joints")
+            _copy_from(self, Mechanism({name: joints[name] for name in JOINTS}, LINKS, "crank"))
             return
         if joints is not None or any(part is None for part in paper):
             message = "ClassIV needs joints=, or lengths=, angles=, pivots= and start= together"
             raise InputError(message)
-        _adopt(self, _from_paper(lengths, angles, pivots, start))
+        _copy_from(self, _from_paper(lengths, angles, pivots, start))
 
     def paper_equations(self, motion: Motion) -> npt.NDArray[np.float64]:
-        """Return what the paper's four equations miss at every position of a motion, m².
+        """Return the residuals of the paper's four equations at every position of a motion, m².
 
-        |5−9|² by 3 and by 6, |7−10|² by 8 and by 6, each less the length squared.
+        |5−9|² through 3 and through 6, |7−10|² through 8 and through 6, each minus the length
+        squared.
 
         Parameters
         ----------
@@ -122,7 +124,7 @@ class ClassIV(Mechanism):
         Returns
         -------
         numpy.ndarray
-            Shape S + (N, 4).
+            Residuals, m², of shape S + (N, 4).
 
         References
         ----------
@@ -164,12 +166,12 @@ def _complex(points: npt.NDArray[np.float64]) -> npt.NDArray[np.complex128]:
     return np.asarray(points[..., 0] + 1j * points[..., 1])
 
 
-def _adopt(mechanism: Mechanism, made: Mechanism) -> None:
-    mechanism._begin(made._parts, made._values, made._core)
+def _copy_from(mechanism: Mechanism, made: Mechanism) -> None:
+    mechanism._initialise(made._description, made._values, made._core)
 
 
-def _named(given: Any, names: Iterable[str], what: str) -> None:
-    """Refuse names that are missing or unknown."""
+def _require_names(given: Any, names: Iterable[str], what: str) -> None:
+    """Raise InputError for missing or unknown names."""
     try:
         missing, unknown = [n for n in names if n not in given], set(given) - set(names)
     except TypeError as error:
@@ -183,7 +185,7 @@ def _named(given: Any, names: Iterable[str], what: str) -> None:
 
 
 def _numbers(given: Any, names: Sequence[str], what: str) -> dict[str, float]:
-    _named(given, names, what)
+    _require_names(given, names, what)
     numbers = {}
     for name in names:
         array = real_array(given[name], f"{what}[{name!r}]")
@@ -195,21 +197,21 @@ def _numbers(given: Any, names: Sequence[str], what: str) -> dict[str, float]:
 
 
 def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism:
-    """Drawn at the starting angles, then brought to the lengths, then drawn as found."""
+    """Draw at the starting angles, solve with the given lengths, draw the position found."""
     length, angle = _numbers(lengths, LENGTHS, "lengths"), _numbers(angles, ANGLES, "angles")
     first = _numbers(start, STARTS, "start")
-    _named(pivots, PIVOTS, "pivots")
+    _require_names(pivots, PIVOTS, "pivots")
     for name, value in length.items():
         if value <= 0.0:
             message = f"lengths[{name!r}] is {value!r}: a length must be positive"
             raise DimensionError(message, dimension=name, value=value)
     at: dict[str, complex] = {}
     for name in PIVOTS:
-        place = real_array(pivots[name], f"pivots[{name!r}]")
-        if place.shape != (2,) or not np.isfinite(place).all():
+        point = real_array(pivots[name], f"pivots[{name!r}]")
+        if point.shape != (2,) or not np.isfinite(point).all():
             message = f"pivots[{name!r}] is {pivots[name]!r}: two finite numbers are needed"
             raise InputError(message)
-        at[name] = complex(*place)
+        at[name] = complex(*point)
 
     def leg(name: str, turn: float) -> complex:
         return complex(_polar(length[name], turn))
@@ -231,8 +233,8 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
     dimensions |= {"l365.length": length["3-6"], "l48.length": length["4-8"]}
     dimensions |= {"l876.length": length["7-8"], "l95.length": length["5-9"]}
     dimensions |= {"l107.length": length["7-10"]}
-    dimensions |= {f"{name}.x": place.real for name, place in corner.items()}
-    dimensions |= {f"{name}.y": place.imag for name, place in corner.items()}
+    dimensions |= {f"{name}.x": point.real for name, point in corner.items()}
+    dimensions |= {f"{name}.y": point.imag for name, point in corner.items()}
     drawn = Mechanism({n: (at[n].real, at[n].imag) for n in JOINTS}, LINKS, "crank")
     sized = drawn.with_dimensions(dimensions)
     found = sized.solve(sized.q0, order=0, on_error="nan")

@@ -1,4 +1,4 @@
-"""Named mechanisms: short constructors over the same machinery."""
+"""Four-bar and slider-crank from their lengths."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ __all__ = ["FourBar", "SliderCrank"]
 
 
 class FourBar(Mechanism):
-    """A four-bar linkage by its lengths.
+    """A four-bar linkage from its lengths.
 
     Joints A, B, C, D, the ground along +x from A to D; links crank A-B, coupler
     B-C, rocker D-C; driven by the crank. The drawing has the crank upright.
@@ -29,7 +29,7 @@ class FourBar(Mechanism):
     crank, coupler, rocker, ground : array_like
         Lengths, m; arrays make a batch of designs.
     mode : {"open", "crossed"}
-        C to the right of the ray from D to B, or to its left.
+        Whether C is to the right or the left of the ray from D to B.
 
     Examples
     --------
@@ -55,8 +55,8 @@ class FourBar(Mechanism):
             message = f"ground is {ground!r}: a length must be positive"
             raise DimensionError(message, dimension="ground.D.x", value=float(length))
         one_of(mode, ("open", "crossed"), "mode")
-        # Drawn with lengths of its own, so that neither the assembly nor q0
-        # depends on the dimensions (or on the neighbours in a batch).
+        # Drawn with fixed lengths, so that neither the assembly nor q0 depends on
+        # the dimensions (or on other designs of a batch).
         drawn = Mechanism(
             joints={
                 "A": (0.0, 0.0),
@@ -72,21 +72,21 @@ class FourBar(Mechanism):
             },
             driver="crank",
         )
-        _adopt(
+        _copy_from(
             self,
             drawn,
             {
                 "crank.length": crank,
                 "coupler.length": coupler,
                 "rocker.length": rocker,
-                # Of a batch, designs without a ground get Status.BAD_DIMENSION.
+                # In a batch, designs without a ground get Status.BAD_DIMENSION.
                 "ground.D.x": np.where(length > 0.0, length, np.nan),
             },
         )
 
 
 class SliderCrank(Mechanism):
-    """A slider-crank by its lengths.
+    """A slider-crank from its lengths.
 
     Joints O, A, B; links crank O-A, rod A-B, piston; slide bore along +x on the
     ground, its line `offset` to the left of O, B ahead of A; driven by the crank.
@@ -116,9 +116,11 @@ class SliderCrank(Mechanism):
             slides={"bore": Slide("piston", on="ground", angle=0.0, origin="O")},
             driver="crank",
         )
-        _adopt(self, drawn, {"crank.length": crank, "rod.length": rod, "bore.offset": offset})
+        _copy_from(self, drawn, {"crank.length": crank, "rod.length": rod, "bore.offset": offset})
 
 
-def _adopt(mechanism: Mechanism, drawn: Mechanism, dimensions: dict[str, npt.ArrayLike]) -> None:
+def _copy_from(
+    mechanism: Mechanism, drawn: Mechanism, dimensions: dict[str, npt.ArrayLike]
+) -> None:
     sized = drawn.with_dimensions(dimensions)
-    mechanism._begin(sized._parts, sized._values, sized._core)
+    mechanism._initialise(sized._description, sized._values, sized._core)

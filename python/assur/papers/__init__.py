@@ -1,1 +1,1 @@
-"""The theory that papers have of their own."""
+"""Theory specific to the papers: slider-crank and crank-rocker formulas."""

@@ -1,7 +1,7 @@
 """The crank-rocker with friction, in the convention of its paper.
 
 Crank l₁ turns at A, coupler l₂, rocker l₃ at D, ground l₄ = AD, which may change with time. The
-crank's angle φ₁ counts from where its pin B is farthest from D; with A at the origin, D is at
+crank angle φ₁ is 0 where the crank's pin B is farthest from D; with A at the origin, D is at
 (−l₄, 0). Angles are counter-clockwise, rad.
 
 References
@@ -42,9 +42,9 @@ __all__ = [
 
 Float: TypeAlias = npt.NDArray[np.float64]
 LENGTHS = ("l1", "l2", "l3", "l4")
-# Of the greatest length: sums that differ by less are those of a change point but for rounding.
+# Sums of lengths that agree to this fraction of the greatest make a change point, up to rounding.
 CHANGE_TOLERANCE = 1e-12
-# The paper's own π, and lengths of its Table 1.
+# The value of π in the paper, and the lengths of its Table 1.
 PRINTED_PI = 3.14
 TABLE = (1.0, 4.5, 1.5)
 TABLE_GROUNDS = (4.8, 4.85, 4.9, 4.95, 4.995)
@@ -59,16 +59,16 @@ class Solution:
     S : numpy.ndarray
         Distance BD, m.
     phi3_first, phi3_second : numpy.ndarray
-        φ₃′ of DB and φ₃″ from there to the rocker, rad.
+        Angle φ₃′ of DB, and φ₃″ from DB to the rocker, rad.
     beta, phi2, phi3, gamma23, gamma : numpy.ndarray
         Angle DBC, angles of coupler and rocker, angle DCB and the transmission angle (the acute
         one of γ₂₃ and π − γ₂₃), rad.
     dS, dphi3_first, dphi3_second, dbeta, dphi2, dphi3, dgamma23, dgamma : numpy.ndarray
-        Their rates by the time.
+        Their time derivatives.
     v_B, v_C, v_C_relative : numpy.ndarray
         Speeds of the crank's pin, of C, and of C relative to D (the paper's v_C), m/s.
     pushes : numpy.ndarray of bool
-        The coupler pushes the rocker (figure 4a) while its angle grows; otherwise it pulls (4b).
+        Whether the coupler pushes the rocker (figure 4a), its angle growing, or pulls it (4b).
     """
 
     S: Float  # the paper's letters
@@ -120,13 +120,13 @@ def solve(
     Parameters
     ----------
     phi1 : array_like
-        Crank angle from where its pin is farthest from D, rad.
+        Crank angle, rad; 0 where the pin is farthest from D.
     l1, l2, l3, l4 : array_like
         Crank, coupler, rocker and ground, m.
     speed, ground_speed : array_like
         dφ₁/dt, rad/s, and dl₄/dt, m/s.
     assembly : {"printed", "other"}
-        The printed assembly (φ₃″ and β positive), or its mirror image in BD.
+        The printed assembly (φ₃″ and β positive), or the mirror image about BD.
 
     Returns
     -------
@@ -146,7 +146,7 @@ def solve(
     arrays = [_finite(value, name) for name, value in named]
     for name, array in zip(LENGTHS, arrays[1:5], strict=True):
         _positive(array, name)
-    flat, shape = _together(*arrays)
+    flat, shape = _broadcast(*arrays)
     rows = _core.crank_rocker_solve(flat[0], flat[1:5], flat[5:], assembly == "printed")
     parts = rows.reshape((18, *shape))
     v_b = np.where(np.isnan(parts[0]), np.nan, np.abs(flat[1] * flat[5]).reshape(shape))
@@ -163,14 +163,14 @@ def grashof(
     l4: npt.ArrayLike,
     tolerance: float = CHANGE_TOLERANCE,
 ) -> Any:
-    """Return the type of four-bars with crank l1, coupler l2, rocker l3 and ground l4.
+    """Return Grashof's type of four-bars with crank l1, coupler l2, rocker l3 and ground l4.
 
     Parameters
     ----------
     l1, l2, l3, l4 : array_like
-        Lengths, m; broadcast.
+        Lengths, m; they broadcast.
     tolerance : float
-        Part of the longest length by which the two sums may differ at a change point.
+        The two sums make a change point if they agree to this fraction of the longest length.
 
     Returns
     -------
@@ -194,7 +194,7 @@ def grashof(
 def crank_turns(
     l1: npt.ArrayLike, l2: npt.ArrayLike, l3: npt.ArrayLike, l4: npt.ArrayLike
 ) -> tuple[Any, Float]:
-    """Return whether the crank turns fully, and by how much each inequality holds.
+    """Return whether the crank turns fully, and the margins of the inequalities.
 
     The margins (a last axis of 3) are l2 + l3 − l1 − l4, l3 + l4 − l1 − l2 and l2 + l4 − l1 − l3:
     for a ground longer than the crank it turns if and only if all are positive. The paper prints
@@ -225,19 +225,19 @@ def ground_range(
     coupler, rocker : array_like
         Lengths relative to the crank.
     margin : float or (float, float)
-        Distance kept from the least and from the greatest ground (equation 6).
+        Margin to the least and to the greatest ground (equation 6).
     gamma_min : array_like
         Least transmission angle, rad, see `least_transmission_angle`; 0 without friction.
 
     Returns
     -------
     (float, float) or arrays
-        Relative to the crank; in arrays NaN where the margins leave nothing.
+        Relative to the crank; NaN in arrays where the range is empty.
 
     Raises
     ------
     InputError
-        If the margins leave nothing (of a single pair).
+        If the range is empty (for a single pair of lengths).
 
     Examples
     --------
@@ -256,7 +256,7 @@ def ground_range(
     for name in ("coupler", "rocker"):
         _positive(arrays[name], name)
     _angle(arrays["gamma_min"], "gamma_min")
-    flat, shape = _together(*arrays.values())
+    flat, shape = _broadcast(*arrays.values())
     both = np.broadcast_to(margins, (2,)).tolist()
     ends = _core.crank_rocker_ground_range(flat[0], flat[1], both, flat[2]).reshape((*shape, 2))
     least, greatest = ends[..., 0], ends[..., 1]
@@ -281,13 +281,13 @@ def least_transmission_angle(
 ) -> Any:
     """Return the least transmission angle at which friction lets the rocker move, rad.
 
-    sin γ = (f_C r_C + f_D r_D) / l₃ (equation 8): coefficients of friction and radii of the joints
-    C and D. In arrays NaN where nothing is passed on at any angle.
+    sin γ = (f_C r_C + f_D r_D) / l₃ (equation 8), with coefficients of friction and radii of the
+    joints C and D. NaN in arrays where the rocker does not move at any angle.
 
     Raises
     ------
     InputError
-        If nothing is passed on at any angle (of a single mechanism).
+        If the rocker does not move at any angle (for a single mechanism).
 
     Examples
     --------
@@ -303,7 +303,7 @@ def least_transmission_angle(
             message = f"{name} is {wrong!r}: it must not be negative"
             raise InputError(message, value=wrong)
     _positive(arrays["rocker"], "rocker")
-    flat, shape = _together(*arrays.values())
+    flat, shape = _broadcast(*arrays.values())
     found = _core.crank_rocker_least_gamma(flat[:4], flat[4])
     if shape:
         return found.reshape(shape)
@@ -320,13 +320,13 @@ def transmission_extremes(
 ) -> tuple[Any, Any]:
     """Return the least and the greatest transmission angle over a turn of the crank, rad.
 
-    In closed form: γ₂₃ is extreme where crank and ground are in line (φ₁ = 0 and π). In arrays NaN
-    where the crank does not turn fully.
+    In closed form: γ₂₃ is extreme where crank and ground are collinear (φ₁ = 0 and π). NaN in
+    arrays where the crank does not turn fully.
 
     Raises
     ------
     InputError
-        If the crank does not turn fully (of a single mechanism).
+        If the crank does not turn fully (for a single mechanism).
 
     Examples
     --------
@@ -347,10 +347,10 @@ def transmission_extremes(
 def blocked(
     l1: float, l2: float, l3: float, l4: float, gamma_min: float
 ) -> list[tuple[float, float]]:
-    """Return the crank angles at which motion is not passed on, as intervals of φ₁, rad.
+    """Return the crank angles at which friction blocks the rocker, as intervals of φ₁, rad.
 
-    Where γ < γ_min: around φ₁ = 0 (γ₂₃ near π, an interval that begins below 0) and around φ₁ = π
-    (γ₂₃ near 0). An empty list: nowhere.
+    There γ < γ_min: around φ₁ = 0 (γ₂₃ near π; the interval begins below 0) and around φ₁ = π
+    (γ₂₃ near 0). The list is empty if the mechanism is never blocked.
 
     Examples
     --------
@@ -369,9 +369,9 @@ def blocked(
 
 
 def table1() -> Table:
-    """Return Table 1, as printed (with π = 3.14) and as it is.
+    """Return Table 1, as printed (with π = 3.14) and with the true π.
 
-    Transmission angles of l1 = 1, l2 = 4.5, l3 = 1.5 at every 30°.
+    Transmission angles for l1 = 1, l2 = 4.5, l3 = 1.5, every 30°.
 
     Examples
     --------
@@ -413,8 +413,8 @@ def _angle(value: Any, name: str) -> None:
         raise InputError(message, value=wrong)
 
 
-def _together(*arrays: Float) -> tuple[list[Float], tuple[int, ...]]:
-    """Arrays broadcast and laid flat, and their shape."""
+def _broadcast(*arrays: Float) -> tuple[list[Float], tuple[int, ...]]:
+    """Return the arrays, broadcast and flattened, and their shape."""
     try:
         wide = np.broadcast_arrays(*arrays)
     except ValueError as error:
@@ -428,4 +428,4 @@ def _designs(*lengths: Any) -> tuple[list[Float], tuple[int, ...]]:
     arrays = [_finite(value, name) for name, value in zip(LENGTHS, lengths, strict=True)]
     for name, array in zip(LENGTHS, arrays, strict=True):
         _positive(array, name)
-    return _together(*arrays)
+    return _broadcast(*arrays)

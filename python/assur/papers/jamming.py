@@ -1,10 +1,10 @@
-"""The crank-rocker that becomes a slider-crank where friction jams it; see `crank_rocker.run`.
+"""The crank-rocker that becomes a slider-crank while friction jams it; see `crank_rocker.run`.
 
-What locks is not in the paper. The reading here, an assumption: joint C jams where the
-transmission angle falls to its least; coupler and rocker then move as one rigid rod BD of the
-length S* of that moment, and the support D slides along the line of centres. With no friction this
-is the paper's collinear rod. The transmission angle depends on BD alone, so it stays at its least
-during the slide; the rocker goes on when D is back at its place.
+The paper does not say what locks. Assumption: joint C jams when the transmission angle falls to
+its least value; coupler and rocker then move as one rigid rod BD of the length S* at that instant,
+and the support D slides along the line of centres. Without friction this is the paper's collinear
+rod. The transmission angle depends on BD alone, so it stays at its least value while D slides; the
+rocker moves again when D has returned.
 """
 
 from __future__ import annotations
@@ -27,27 +27,27 @@ __all__ = ["Event", "Run", "run"]
 Float: TypeAlias = npt.NDArray[np.float64]
 Ground: TypeAlias = float | Callable[[float], float]
 
-# More would fill the memory: 720 positions each.
-MOST_TURNS = 10_000
+# A turn has 720 positions: more turns would fill the memory.
+MAX_TURNS = 10_000
 
 
 @dataclass(frozen=True)
 class Event:
-    """What happens at a moment of a run.
+    """A change of structure, or the end, of a run.
 
     Attributes
     ----------
     kind : {"jam", "return", "dead point", "no return"}
-        C jams, so that D slides; D is back, so that the rocker swings again; the slide comes to
-        a dead point and the run ends; the run ends in a slide that has not returned within a turn.
+        C jams and D begins to slide; D has returned and the rocker swings again; the run ends
+        because the slide reaches a dead point, or because D has not returned within a turn.
     t, phi1, l4 : float
         Time, s, crank angle, rad, and ground, m.
     side : {"outer", "inner"}
-        γ₂₃ near π (D slides inward), or near 0 (outward).
+        Whether γ₂₃ is near π (D slides inward) or near 0 (D slides outward).
     ground_speed, rod_speed : (float, float)
-        dl₄/dt, m/s, and the speed of rocker or rod, rad/s, before and after.
+        dl₄/dt, m/s, and the angular speed of rocker or rod, rad/s, before and after.
     text : str
-        The same in words.
+        The event as a sentence.
     """
 
     kind: Literal["jam", "return", "dead point", "no return"]
@@ -67,13 +67,13 @@ class Run:
     Attributes
     ----------
     t, phi1, l4, gamma : numpy.ndarray
-        Time, crank angle, place of D (its distance from A), transmission angle; shape (n,).
+        Time, s, crank angle, rad, distance AD, m, transmission angle, rad; shape (n,).
     sliding : numpy.ndarray of bool
         Whether D slides.
     B, C, D : numpy.ndarray
-        Places of the joints, m, shape (n, 2).
+        Positions of the joints, m, shape (n, 2).
     events : tuple of Event
-        In order; their moments are among `t`.
+        In order; their times are among `t`.
     """
 
     t: Float
@@ -101,39 +101,39 @@ def run(
     phi0: float = math.pi / 2,
     turns: float = 1.0,
 ) -> Run:
-    """Follow a crank-rocker that goes on as a slider-crank where friction jams it.
+    """Simulate a crank-rocker that moves as a slider-crank while friction jams it.
 
     Parameters
     ----------
     l1, l2, l3 : float
         Crank, coupler and rocker, m.
     ground : float or callable
-        l₄, m: a number, or a function of the time, s, that gives one.
+        l₄, m: a number, or a function of time, s.
     gamma_min : float
         Transmission angle below which the rocker does not move, rad.
     speed : float
         Speed of the crank, rad/s, of either sign.
     phi0 : float
-        Crank angle at the time 0, rad, from where its pin is farthest from D.
+        Crank angle at time 0, rad; 0 where its pin is farthest from D.
     turns : float
-        Turns to be followed.
+        Number of turns to simulate.
 
     Returns
     -------
     Run
-        Positions are continuous, also at events; speeds jump there and are given with them.
+        Positions are continuous, also at events; speeds jump there and are stored in the events.
 
     Raises
     ------
     PositionError
-        A start where motion is not passed on, or that the coupler does not reach.
+        A start at which friction blocks the motion, or that the coupler does not reach.
     DimensionError, InputError
-        Lengths that are not positive, numbers that are none.
+        Lengths that are not positive, arguments that are not numbers.
 
     Notes
     -----
-    What locks is an assumption: joint C, with D free to slide along the line of centres, from the
-    moment γ = γ_min until D is back at its place.
+    The paper does not say what locks. Assumption: joint C locks and D slides along the line of
+    centres, from the instant γ = γ_min until D has returned.
 
     References
     ----------
@@ -155,14 +155,14 @@ def run(
     if not 0.0 < values["gamma_min"] < math.pi / 2:
         message = f"gamma_min is {gamma_min!r}: an angle above 0 and below π/2 rad is needed"
         raise InputError(message)
-    if values["speed"] == 0.0 or not 0.0 < values["turns"] <= MOST_TURNS:
+    if values["speed"] == 0.0 or not 0.0 < values["turns"] <= MAX_TURNS:
         message = (
             f"speed is {speed!r} and turns {turns!r}: the crank must turn, "
-            f"at most {MOST_TURNS} turns"
+            f"at most {MAX_TURNS} turns"
         )
         raise InputError(message)
 
-    def place(t: float) -> float:
+    def ground_at(t: float) -> float:
         what = f"ground at t = {t!r}" if callable(ground) else "ground"
         number = real_number(ground(t) if callable(ground) else ground, what)
         if number <= 0.0:
@@ -170,12 +170,12 @@ def run(
             raise DimensionError(message, dimension="l4", value=number)
         return number
 
-    fixed = None if callable(ground) else place(0.0)
+    fixed = None if callable(ground) else ground_at(0.0)
     case = list(values.values())
-    given = place if fixed is None else lambda _: fixed
+    given = ground_at if fixed is None else lambda _: fixed
     flat, events, refused = _core.crank_rocker_run(case, given)
     if refused is not None:
-        raise _refusal(*refused, values)
+        raise _start_error(*refused, values)
     rows = flat.reshape(-1, 8)
     t, l4, gamma = (np.ascontiguousarray(column) for column in rows.T[:3])
     d = np.stack([-l4, np.zeros_like(l4)], axis=-1)
@@ -192,7 +192,7 @@ def run(
     )
 
 
-def _refusal(why: str, value: float, case: dict[str, float]) -> PositionError:
+def _start_error(why: str, value: float, case: dict[str, float]) -> PositionError:
     if why == "reach":
         low, high = abs(case["l2"] - case["l3"]), case["l2"] + case["l3"]
         message = (

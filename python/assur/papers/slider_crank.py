@@ -1,7 +1,7 @@
 """The central slider-crank of the papers: exact motion, cosine series, continued fraction.
 
-The crank's angle φ counts from the outer dead point; the stroke s is measured from there, the
-slider's coordinate x = crank + rod − s from the crank's pivot. k = rod / crank, λ = 1/k.
+The crank angle φ is measured from the outer dead point, and so is the stroke s; the slider's
+coordinate x = crank + rod − s is measured from the crank's pivot. k = rod / crank, λ = 1/k.
 
 References
 ----------
@@ -43,22 +43,22 @@ __all__ = [
 ]
 
 Float: TypeAlias = npt.NDArray[np.float64]
-# Beyond that no approximation differs from the exact value in any digit (k = 1.001 needs some 400).
-MOST_TERMS = 100_000
+# More terms change no digit of any approximation (k = 1.001 needs some 400).
+MAX_TERMS = 100_000
 
 
 class Extreme(NamedTuple):
-    """A greatest value and where it is: crank angle, rad, and value."""
+    """A greatest value: its crank angle, rad, and the value."""
 
     at: Any
     value: Any
 
 
 class Deviation(NamedTuple):
-    """Largest deviations of an approximation, each with the crank angle, rad, where it is.
+    """Largest deviations of an approximation, each with its crank angle, rad.
 
-    `relative` is a fraction of the exact value (none for the acceleration analogue, which passes
-    zero), `absolute` is per crank length.
+    `relative` is a fraction of the exact value (undefined for the acceleration analogue, which
+    passes through zero), `absolute` is per crank length.
     """
 
     relative: Any
@@ -70,29 +70,29 @@ class Deviation(NamedTuple):
 def fourier(k: npt.ArrayLike, harmonics: int = 6, terms: int | None = None) -> Float:
     """Return the coefficients of the stroke's cosine series, per crank length.
 
-    s / crank = A0 + A1 cos φ + A2 cos 2φ + A4 cos 4φ + …; A1 = −1, other odd ones are 0.
+    s / crank = A0 + A1 cos φ + A2 cos 2φ + A4 cos 4φ + …; A1 = −1, other odd coefficients are 0.
 
     Parameters
     ----------
     k : array_like
-        Rod per crank, above 1.
+        Rod length over crank length, above 1.
     harmonics : int
         The last harmonic, even.
     terms : int, optional
-        Terms kept of each coefficient's own series in 1/k: powers up to sin^(2 terms) φ, so `terms`
-        beside the 1 in A0 and one less for each further coefficient. None: as many as the last
-        bit takes.
+        Terms kept of each coefficient's own series in 1/k: powers up to sin^(2 terms) φ, hence
+        `terms` besides the 1 in A0 and one fewer for each further coefficient. None: all that
+        change the last bit.
 
     Returns
     -------
     numpy.ndarray
-        A0, A1, A2, A4 … A_harmonics; shape k.shape + (2 + harmonics/2,). Each is right to the last
-        bit, with `terms` or all: within 0.51 units in the last place (below 1e-300, within two).
+        A0, A1, A2, A4 … A_harmonics; shape k.shape + (2 + harmonics/2,). Each is accurate to 0.51
+        units in the last place (below 1e-300, to two), for any number of terms.
 
     Raises
     ------
     InputError
-        A k that is not above 1, or so near it that a series does not end.
+        A k that is not above 1, or so close to it that a series needs too many terms.
 
     References
     ----------
@@ -125,14 +125,14 @@ def stroke(
     Parameters
     ----------
     phi, crank, rod : array_like
-        Crank angle, rad, and lengths, m; broadcast.
+        Crank angle, rad, and lengths, m; they broadcast.
     method : {"exact", "series", "fraction"}
         The exact motion; the cosine series (its first three terms by default: equations 14 to 16
         of Chernysh et al.); or the continued fraction of Ambarcumyanc and Subbotina.
     n : int
         Number of the fraction's approximation, from 1 on.
     harmonics, terms : int
-        Of the series, see `fourier`.
+        Parameters of the series, see `fourier`.
 
     Returns
     -------
@@ -145,7 +145,7 @@ def stroke(
     DimensionError
         A length that is not positive, or a rod not longer than its crank.
     InputError
-        What is no number, or an unknown method.
+        An argument that is not a number, or an unknown method.
 
     Examples
     --------
@@ -171,7 +171,7 @@ def stroke(
 def coordinate(phi: npt.ArrayLike, crank: npt.ArrayLike, rod: npt.ArrayLike) -> Analogues:
     """Return the slider's coordinate from the crank's pivot, m, with two analogues.
 
-    The papers' other convention: x = crank + rod − stroke, so analogues have the other sign.
+    The papers' other convention: x = crank + rod − stroke, so analogues have the opposite sign.
 
     Examples
     --------
@@ -187,7 +187,7 @@ def coordinate(phi: npt.ArrayLike, crank: npt.ArrayLike, rod: npt.ArrayLike) -> 
 
 
 def rod_angle(phi: npt.ArrayLike, crank: npt.ArrayLike, rod: npt.ArrayLike) -> Analogues:
-    """Return the rod's angle from the slider's axis, rad, with two analogues.
+    """Return the angle of the rod to the slider's axis, rad, with two analogues.
 
     φ₂ = −δ, sin δ = (crank / rod) sin φ: negative while the crank's pin is above the axis.
 
@@ -213,24 +213,24 @@ def rod_point(
     along: npt.ArrayLike,
     across: npt.ArrayLike = 0.0,
 ) -> Analogues:
-    """Return the place of a point of the rod, m, with two analogues.
+    """Return the position of a point of the rod, m, with two analogues.
 
     Parameters
     ----------
     phi, crank, rod : array_like
         Crank angle, rad, and lengths, m.
     along, across : array_like
-        The point's place, m: along the rod from the crank's pin, and to the left of it.
+        The point's coordinates, m: along the rod from the crank's pin, and to the left of the rod.
 
     Returns
     -------
     Analogues
-        Points with a last axis (x, y), x along the slider's axis, from the crank's pivot. Speeds
-        are ``np.linalg.norm(point.velocity(omega), axis=-1)``, and accelerations likewise.
+        Points with a last axis (x, y), x along the slider's axis, from the crank's pivot. The speed
+        is ``np.linalg.norm(point.velocity(omega), axis=-1)``.
 
     References
     ----------
-    Chernysh et al. (2021), equations 30 and 31, with x and y as in its own figure.
+    Chernysh et al. (2021), equations 30 and 31, with x and y as in the paper's figure.
 
     Examples
     --------
@@ -243,7 +243,7 @@ def rod_point(
     a, b = real_array(along, "along"), real_array(across, "across")
     for name, array in (("along", a), ("across", b)):
         _finite(array, name)
-    angles, cranks, rods, a, b = _together(angles, cranks, rods, a, b)
+    angles, cranks, rods, a, b = _broadcast(angles, cranks, rods, a, b)
     with in_range("place / crank"):
         flat = _flat(angles, cranks / rods, a / cranks, b / cranks)
     found = _core.slider_crank_rod_point(*flat)
@@ -256,20 +256,20 @@ def rod_point(
 def greatest_speed(
     k: npt.ArrayLike, method: Literal["exact", "series", "perpendicular"] = "exact"
 ) -> Extreme:
-    """Return where the slider is fastest in the first half turn, and how fast.
+    """Return the crank angle of the slider's greatest speed in the first half turn, and the speed.
 
     Parameters
     ----------
     k : array_like
-        Rod per crank, above 1.
+        Rod length over crank length, above 1.
     method : {"exact", "series", "perpendicular"}
-        Exactly; by the series' first three terms (cos φ = (−k + √(k² + 8))/4, with the speed that
-        they give); or where the crank is perpendicular to the rod (φ = arctan k).
+        The exact maximum; that of the series' first three terms (cos φ = (−k + √(k² + 8))/4, with
+        their speed); or the position with crank and rod perpendicular (φ = arctan k).
 
     Returns
     -------
     Extreme
-        Crank angle, rad, and speed over crank length times the crank's speed.
+        Crank angle, rad, and the slider's speed per crank length and crank speed.
 
     Examples
     --------
@@ -290,15 +290,20 @@ def greatest_speed(
 
 
 def greatest_acceleration(k: npt.ArrayLike) -> Extreme:
-    """Return where the stroke's acceleration is most negative, at constant crank speed.
+    """Return the crank angle of the most negative acceleration of the stroke, and its value.
 
-    At the inner dead point (φ = π) for k ≥ (3 + √21)/2 = 3.791; a shorter rod has two such places,
-    of which the one before it is given.
+    The crank speed is constant. For k ≥ (3 + √21)/2 = 3.791 it is the inner dead point (φ = π); a
+    shorter rod has two such angles, of which the one below π is returned.
+
+    Parameters
+    ----------
+    k : array_like
+        Rod length over crank length, above 1.
 
     Returns
     -------
     Extreme
-        Crank angle, rad, and acceleration over crank length times the crank's speed squared.
+        Crank angle, rad, and acceleration per crank length and crank speed squared.
 
     Examples
     --------
@@ -317,7 +322,7 @@ def greatest_acceleration(k: npt.ArrayLike) -> Extreme:
 def deviation(
     lam: npt.ArrayLike, n: int, quantity: Literal["stroke", "d1", "d2"] = "stroke"
 ) -> Deviation:
-    """Return the largest deviations of the fraction's approximation from the exact motion.
+    """Return the largest deviations of the continued fraction from the exact motion.
 
     Parameters
     ----------
@@ -331,7 +336,7 @@ def deviation(
     Returns
     -------
     Deviation
-        Sizes and places between the dead points, found by optimisation.
+        Greatest deviations between the dead points and their crank angles, found by optimisation.
 
     References
     ----------
@@ -398,7 +403,7 @@ def _ratio(k: Float, name: str) -> None:
 
 
 def _lengths(phi: Any, crank: Any, rod: Any) -> tuple[Float, Float, Float]:
-    """Angles and lengths, broadcast, with a rod longer than its crank."""
+    """Return angles and lengths, broadcast; the rod must be longer than its crank."""
     angles = real_array(phi, "phi")
     cranks, rods = real_array(crank, "crank"), real_array(rod, "rod")
     for name, array in (("phi", angles), ("crank", cranks), ("rod", rods)):
@@ -408,7 +413,7 @@ def _lengths(phi: Any, crank: Any, rod: Any) -> tuple[Float, Float, Float]:
             value = float(array[array <= 0.0].flat[0])
             message = f"{name} is {value!r}: a length must be positive"
             raise DimensionError(message, dimension=name, value=value)
-    angles, cranks, rods = _together(angles, cranks, rods)
+    angles, cranks, rods = _broadcast(angles, cranks, rods)
     short = rods <= cranks
     if short.any():
         length, other = float(rods[short].flat[0]), float(cranks[short].flat[0])
@@ -420,7 +425,7 @@ def _lengths(phi: Any, crank: Any, rod: Any) -> tuple[Float, Float, Float]:
     return angles, cranks, rods
 
 
-def _together(*arrays: Float) -> tuple[Any, ...]:
+def _broadcast(*arrays: Float) -> tuple[Any, ...]:
     try:
         return tuple(np.broadcast_arrays(*arrays))
     except ValueError as error:
@@ -444,8 +449,8 @@ def _whole(value: Any, name: str, least: int) -> int:
         number = operator.index(value)
     except TypeError:
         number = least - 1
-    if isinstance(value, bool) or not least <= number <= MOST_TERMS:
-        message = f"{name} is {value!r}: a whole number from {least} to {MOST_TERMS} is needed"
+    if isinstance(value, bool) or not least <= number <= MAX_TERMS:
+        message = f"{name} is {value!r}: a whole number from {least} to {MAX_TERMS} is needed"
         raise InputError(message)
     return number
 

@@ -22,7 +22,7 @@ from assur import (
     TorsionSpring,
     events,
 )
-from assur.dynamics import integrate as _drive
+from assur.dynamics import integrate
 from machines import five_bar, pendulum, press
 
 TURN = math.tau
@@ -564,7 +564,7 @@ def test_a_balance_of_energy_that_is_off_warns(monkeypatch: pytest.MonkeyPatch) 
     machine = press()
     machine.run(0.1, speed0=10.0)
     # Drifting steps are refused, so that a balance as bad as the limit is not to be had.
-    monkeypatch.setattr(_drive, "LEAST_OFF", 1e-16)
-    monkeypatch.setattr(_drive, "OFF", 0.0)
+    monkeypatch.setattr(integrate, "IMBALANCE_WARN_FLOOR", 1e-16)
+    monkeypatch.setattr(integrate, "IMBALANCE_WARN_RTOLS", 0.0)
     with pytest.warns(assur.AssurWarning, match="balance of energy is off by"):
         machine.run(0.1, speed0=10.0)

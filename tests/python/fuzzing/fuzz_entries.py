@@ -12,7 +12,7 @@ from unittest import mock
 
 import assur
 from assur import crank_rocker, slider_crank
-from assur.dynamics import size_flywheel as _even
+from assur.dynamics import size_flywheel
 from fuzz_kinematics import assemblies, change, construct, describe, move
 from fuzz_machines import reduce, run, steady, wheel
 from fuzz_values import Choices
@@ -88,7 +88,7 @@ def one_input(data: bytes) -> None:
     before = signal.signal(signal.SIGALRM, _give_up)
     signal.setitimer(signal.ITIMER_REAL, LONGEST)
     try:
-        limit = mock.patch.dict(_even.SEARCH, max_seconds=LONGEST_SEARCH)
+        limit = mock.patch.dict(size_flywheel.STEADY_OPTIONS, max_seconds=LONGEST_SEARCH)
         with warnings.catch_warnings(), limit:
             warnings.simplefilter("error")
             warnings.simplefilter("ignore", assur.AssurWarning)

@@ -71,7 +71,7 @@ def designs(m: assur.Mechanism, rng: np.random.Generator, count: int) -> assur.M
 
 def bits(motion: assur.Motion) -> Bits:
     """Everything that the motion holds, a row of bytes a position."""
-    held, status = motion._tracks, motion.status
+    held, status = motion._results, motion.status
     kinds = (held.joints, held.links, held.slides)
     arrays = [array for kind in kinds for name in sorted(kind) for array in kind[name]]
     widths = [math.prod(array.shape[status.ndim :]) for array in arrays]
