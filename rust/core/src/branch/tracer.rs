@@ -6,8 +6,8 @@ use super::knot::{
     ChangePoint, InitialGuess, Knot, SignInterval, Taylor2, apart, foretell, may_touch, returns,
     strays,
 };
-use crate::math::angle::nearest;
-use crate::math::tolerance::{LIFT_HALVINGS, LIFT_TURN};
+use crate::math::angle::unwrap_to;
+use crate::math::tolerance::{KNOT_MAX_HALVINGS, KNOT_MAX_TURN};
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Dyad, Form, Unknown};
 use crate::plan::plan::Step;
@@ -175,7 +175,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             .class
             .iter()
             .zip(from)
-            .map(|(u, &near)| nearest(u[0].angle(), near))
+            .map(|(u, &near)| unwrap_to(u[0].angle(), near))
             .collect();
         let len = self.state.len;
         let rates = (0..from.len())
@@ -208,7 +208,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             let (value, jet) = match unknown {
                 Unknown::Class(class) => {
                     let angle = self.state.class[class][0].angle();
-                    (nearest(angle, self.foretold(place, at)), &self.state.theta[class * len..])
+                    (unwrap_to(angle, self.foretold(place, at)), &self.state.theta[class * len..])
                 }
                 Unknown::Slide(slide) => {
                     let jet = &self.state.slides[slide * len..];
@@ -294,7 +294,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             let can_halve = room && middle != from.at && middle != end;
             let strays = self.strays(&from, &knot);
             let coarse =
-                depth < LIFT_HALVINGS && (swings || (!strays && too_far(&from, &knot, depth)));
+                depth < KNOT_MAX_HALVINGS && (swings || (!strays && too_far(&from, &knot, depth)));
             let leaps = depth >= LEAP_HALVINGS && !strays && !coarse && self.leaps(&from, &knot);
             let strays = strays || leaps;
             if can_halve && (coarse || strays && depth < FOLD_HALVINGS) {
@@ -335,10 +335,10 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             return knot;
         }
         let classes = self.state.class.iter().zip(&from.angles);
-        let edge: Vec<f64> = classes.map(|(u, &near)| nearest(u[0].angle(), near)).collect();
+        let edge: Vec<f64> = classes.map(|(u, &near)| unwrap_to(u[0].angle(), near)).collect();
         if knot.reached {
             let pairs = knot.angles.iter().zip(&edge);
-            knot.angles = pairs.map(|(&angle, &near)| nearest(angle, near)).collect();
+            knot.angles = pairs.map(|(&angle, &near)| unwrap_to(angle, near)).collect();
         } else {
             knot.angles = edge;
         }
@@ -360,7 +360,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
                 self.visit(at)
                     && (0..self.state.class.len()).any(|c| {
                         let rate = self.along(|d| self.state.theta[c * len + 1 + d][0]);
-                        (rate * (end - from)).abs() > LIFT_TURN
+                        (rate * (end - from)).abs() > KNOT_MAX_TURN
                     })
             })
         })
@@ -396,10 +396,10 @@ fn too_far(a: &Knot, b: &Knot, depth: u32) -> bool {
     if !a.reached {
         return may_hide_island(a, b, cell, depth);
     }
-    let turned = a.angles.iter().zip(&b.angles).any(|(x, y)| (x - y).abs() > LIFT_TURN);
+    let turned = a.angles.iter().zip(&b.angles).any(|(x, y)| (x - y).abs() > KNOT_MAX_TURN);
     // Near a dead point rates grow without bound while the angle does not.
-    let fast =
-        depth < EDGE_HALVINGS && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > LIFT_TURN);
+    let fast = depth < EDGE_HALVINGS
+        && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > KNOT_MAX_TURN);
     let through_infinity = depth < EDGE_HALVINGS && a.sides != b.sides;
     // Beside a near miss of a change point a link may swing round between the knots.
     let missed = || a.spread.iter().zip(&b.spread).any(|(&x, &y)| may_touch(x, y, b.at - a.at));

@@ -17,7 +17,7 @@ use super::knot::{FIRST_STEP, LATER_STEPS, SignInterval, Taylor2, may_touch, ret
 use crate::math::angle::turns_between;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};
-use crate::math::tolerance::LIFT_TURN;
+use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Form, Unknown};
 use crate::plan::plan::Plan;
@@ -181,7 +181,7 @@ impl UniformTracer {
         let classes = self.last.len();
         let first = group * LANES * classes;
         let Some(angles) = angles.get_mut(first..first + LANES * classes) else { return false };
-        let mut most = Lanes::splat(LIFT_TURN);
+        let mut most = Lanes::splat(KNOT_MAX_TURN);
         if group == 0 {
             // To the drawing's own angle it may be far.
             most.0[0] = f64::INFINITY;
@@ -194,7 +194,7 @@ impl UniformTracer {
             let turns = turns_between(angle, before);
             let step = (angle + Lanes::splat(TAU) * turns) - before;
             let rate = self.state.theta[self.state.len * class + 1][group] * Lanes::splat(CELL);
-            fast = fast.or(most.lt(step.abs())).or(Lanes::splat(LIFT_TURN).lt(rate.abs()));
+            fast = fast.or(most.lt(step.abs())).or(Lanes::splat(KNOT_MAX_TURN).lt(rate.abs()));
             for lane in 0..LANES {
                 whole += turns.lane(lane);
                 angles[lane * classes + class] = angle.lane(lane) + TAU * whole;

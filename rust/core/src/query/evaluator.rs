@@ -7,7 +7,7 @@ use crate::branch::change_interpolant::ChangeWindow;
 use crate::branch::design::{BranchPoint, Design};
 use crate::branch::knot::{InitialGuess, Taylor2};
 use crate::branch::units::Units;
-use crate::math::angle::nearest;
+use crate::math::angle::unwrap_to;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Unknown};
@@ -239,7 +239,7 @@ impl LastPosition {
         q: &[f64],
         near: &[f64],
     ) -> Self {
-        let angle = |class: usize| nearest(state.class[class][0].angle(), near[class]);
+        let angle = |class: usize| unwrap_to(state.class[class][0].angle(), near[class]);
         let seed = |&unknown: &Unknown| match unknown {
             Unknown::Class(class) => [angle(class), 0.0, 0.0],
             Unknown::Slide(slide) => [state.slides[slide * state.len][0], 0.0, 0.0],
@@ -269,7 +269,7 @@ impl Position<'_> {
         let rotation = &self.plan.rotation[link];
         let class = self.state.class[rotation.class][0].angle();
         let near = self.near.get(rotation.class).copied().unwrap_or(class);
-        let mut angle = nearest(class, near);
+        let mut angle = unwrap_to(class, near);
         for (&turns, q) in rotation.turns.iter().zip(self.q) {
             angle += f64::from(turns) * q;
         }

@@ -2,7 +2,7 @@
 
 use crate::dynamics::tables::error::TableError;
 use crate::dynamics::tables::spline::{EndCondition, Pieces, spline};
-use crate::math::polynomial::{value, zeros};
+use crate::math::polynomial::{roots, value};
 
 /// Part of the greatest value by which the ends of a table may differ: tables are rounded.
 const PERIODIC: f64 = 1.0e-9;
@@ -194,7 +194,7 @@ impl Cycle {
                 3.0 * (speed2 * i3 - work * w3),
                 -4.0 * work * w4,
             ];
-            zeros(&slope, width, look);
+            roots(&slope, width, look);
         }
         [least, greatest]
     }

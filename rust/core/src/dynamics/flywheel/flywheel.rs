@@ -62,7 +62,7 @@ impl Flywheel {
                     let [inertia, constant] = tangents(&turn, [least, least + range]);
                     turn.period() / duration(&turn, inertia, constant) - mean
                 };
-                root::zero(lack, mean - 0.5 * range)
+                root::find_root(lack, mean - 0.5 * range)
             }
         };
         let met = least.map(|least| tangents(&turn, [least, least + range]));
@@ -101,7 +101,7 @@ impl Flywheel {
             };
             own - mean
         };
-        let above = root::zero(lack, guess).ok_or(TableError::NoMean { mean })?;
+        let above = root::find_root(lack, guess).ok_or(TableError::NoMean { mean })?;
         Self::of(turn, inertia, least.value + above, ("mean_speed", mean))
     }
 

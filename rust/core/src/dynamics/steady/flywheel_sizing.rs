@@ -141,7 +141,7 @@ fn at_mean<E>(
             }
         }
     };
-    root::zero_to(excess, wanted, search.relative);
+    root::find_root_to(excess, wanted, search.relative);
     if let Some(error) = failed {
         return Err(error);
     }
@@ -199,7 +199,7 @@ fn even<E>(
             }
         }
     };
-    let found = root::zero_to(lack, guess, FOUND);
+    let found = root::find_root_to(lack, guess, FOUND);
     match (found, failed, last) {
         (_, Some(error), _) => Err(error),
         (Some(flywheel), None, last) => {

@@ -10,7 +10,7 @@ use super::workspace::{ENTRIES, GroupWorkspace, VectorJet};
 use crate::math::derivatives::ONE_DRIVER;
 use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
-use crate::math::tolerance::{NEWTON_LONGEST, NEWTON_ROUNDS};
+use crate::math::tolerance::{NEWTON_MAX_ROUNDS, NEWTON_MAX_STEP};
 use crate::math::vector::Vector;
 use crate::plan::binary_links::{Links, MOST};
 use crate::plan::group::{BinaryLoops, Group};
@@ -51,7 +51,7 @@ impl<R: Real, const G: usize> State<R, G> {
             let mut work = NewtonState::<R, 1>::new([self.care[g]]);
             let mut bend = self.bends[group.index][g];
             loops.place(&links);
-            for round in 0..NEWTON_ROUNDS {
+            for round in 0..NEWTON_MAX_ROUNDS {
                 if work.done[0].all() {
                     break;
                 }
@@ -180,7 +180,7 @@ impl<R: Real> GroupWorkspace<R> {
             let lack = self.chords[l][0].norm2() - R::splat(links.bars[l].norm2);
             self.missing[l] = lack * R::splat(0.5 * links.bars[l].per_norm());
         }
-        let most = R::splat(NEWTON_LONGEST);
+        let most = R::splat(NEWTON_MAX_STEP);
         let mut greatest = R::ZERO;
         for unknown in 0..n {
             let change = -self.by_inverse(n, unknown);

@@ -11,7 +11,7 @@ use super::turn::turned;
 use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{
-    NEWTON_BENT2, NEWTON_DONE, NEWTON_LEFT, NEWTON_LONGEST, NEWTON_ROUNDS,
+    NEWTON_FROZEN_MAX2, NEWTON_LAST_STEP, NEWTON_MAX_ROUNDS, NEWTON_MAX_STEP, NEWTON_TOLERANCE,
 };
 use crate::math::vector::Vector;
 use crate::plan::dyad::Unknown;
@@ -37,7 +37,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let known = work.done;
         self.prepare_group(cx, group);
         self.place_group(cx, group);
-        for round in 0..NEWTON_ROUNDS {
+        for round in 0..NEWTON_MAX_ROUNDS {
             if work.done.iter().all(|done| done.all()) {
                 break;
             }
@@ -115,7 +115,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     fn step(&mut self, group: &Group, matrix: &[[R; G]], done: &[R::Mask; G]) -> [R; G] {
         let (len, n) = (self.len, group.rows);
-        let most = R::splat(NEWTON_LONGEST);
+        let most = R::splat(NEWTON_MAX_STEP);
         let mut greatest = [R::ZERO; G];
         let missing = &matrix[2 * n * n..][..n];
         for (place, &unknown) in group.unknowns.iter().enumerate() {
@@ -255,7 +255,7 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
         let mut waits = self.done;
         for g in 0..G {
             let turned2 = first[g] * first[g] * self.size2[g];
-            let bent = turned2.lt(R::splat(NEWTON_BENT2)).not();
+            let bent = turned2.lt(R::splat(NEWTON_FROZEN_MAX2)).not();
             waits[g] = waits[g].or(bent).or(self.enough(g, first[g]));
         }
         waits
@@ -266,7 +266,7 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
     #[inline(always)]
     fn enough(&self, g: usize, first: R) -> R::Mask {
         let left = first * first;
-        (left * left * self.size2[g].max(R::ONE)).lt(R::splat(NEWTON_LEFT * NEWTON_LEFT))
+        (left * left * self.size2[g].max(R::ONE)).lt(R::splat(NEWTON_TOLERANCE * NEWTON_TOLERANCE))
     }
 
     /// Counts the two steps of a round.
@@ -288,8 +288,8 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
             }
             // What is left is about the product.
             let left = first[g] * second;
-            let settled = waits[g].not().and(left.lt(R::splat(NEWTON_LEFT)));
-            let is_short = first[g].lt(R::splat(NEWTON_DONE)).or(self.enough(g, first[g]));
+            let settled = waits[g].not().and(left.lt(R::splat(NEWTON_TOLERANCE)));
+            let is_short = first[g].lt(R::splat(NEWTON_LAST_STEP)).or(self.enough(g, first[g]));
             self.done[g] = done.or(settled).or(is_short);
         }
     }
