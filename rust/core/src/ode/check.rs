@@ -1,10 +1,10 @@
-//! What a run refuses before it begins.
+//! Checks of the arguments of a run.
 
 use super::error::Error;
 use super::options::{LEAST_RELATIVE, Options, Output};
 
 impl Options<'_> {
-    /// Refuses what makes no sense, naming it.
+    /// Returns an error that names the first invalid argument.
     pub(super) fn check<E>(&self, t: f64, t_end: f64, y: &[f64], n: usize) -> Result<(), Error<E>> {
         if y.len() != n || n == 0 {
             return Err(Error::Dimension { expected: n, given: y.len() });
@@ -21,11 +21,11 @@ impl Options<'_> {
             }
         }
         for component in 0..n {
-            // Of one for all, the first.
+            // A list of one holds for all components.
             let of = |list: &[f64]| list.get(component).or(list.first()).copied().unwrap_or(0.0);
             let (relative, absolute) = (of(self.relative), of(self.absolute));
-            let held = (LEAST_RELATIVE..1.0).contains(&relative);
-            if !(absolute >= 0.0 && (held || relative == 0.0 && absolute > 0.0)) {
+            let in_range = (LEAST_RELATIVE..1.0).contains(&relative);
+            if !(absolute >= 0.0 && (in_range || relative == 0.0 && absolute > 0.0)) {
                 return Err(Error::Tolerance { component, relative, absolute });
             }
         }
@@ -41,22 +41,22 @@ impl Options<'_> {
         {
             return Err(Error::Width { value });
         }
-        if let Some(index) = disorder(self.breaks, 1.0) {
+        if let Some(index) = first_disorder(self.breaks, 1.0) {
             return Err(Error::Breaks { index });
         }
-        let Output::At(places) = self.keep else { return Ok(()) };
-        let way = if t_end < t { -1.0 } else { 1.0 };
-        let inside = |&at: &f64| (at - t) * way >= 0.0 && (t_end - at) * way >= 0.0;
-        let outside = places.iter().position(|at| !inside(at));
-        match outside.or_else(|| disorder(places, way)) {
+        let Output::At(times) = self.keep else { return Ok(()) };
+        let direction = if t_end < t { -1.0 } else { 1.0 };
+        let inside = |&at: &f64| (at - t) * direction >= 0.0 && (t_end - at) * direction >= 0.0;
+        let outside = times.iter().position(|at| !inside(at));
+        match outside.or_else(|| first_disorder(times, direction)) {
             Some(index) => Err(Error::Places { index }),
             None => Ok(()),
         }
     }
 }
 
-/// The first number that is NaN or not beyond the one before it.
-fn disorder(list: &[f64], way: f64) -> Option<usize> {
+/// Index of the first number that is NaN or behind the one before it.
+fn first_disorder(list: &[f64], direction: f64) -> Option<usize> {
     let nan = list.iter().position(|t| t.is_nan());
-    nan.or_else(|| list.windows(2).position(|w| (w[1] - w[0]) * way < 0.0).map(|i| i + 1))
+    nan.or_else(|| list.windows(2).position(|w| (w[1] - w[0]) * direction < 0.0).map(|i| i + 1))
 }

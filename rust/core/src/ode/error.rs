@@ -1,4 +1,4 @@
-//! Why a run could not be made or could not go on.
+//! Errors of a run.
 
 use std::fmt;
 
@@ -20,45 +20,45 @@ pub enum Error<E> {
         /// Its end.
         to: f64,
     },
-    /// A component of the first state that is not finite.
+    /// A component of the initial state that is not finite.
     Start {
-        /// Which one.
+        /// The component.
         component: usize,
         /// Its value.
         value: f64,
     },
-    /// Tolerances that cannot be met, or that make no sense.
+    /// Tolerances that are invalid or cannot be met.
     Tolerance {
-        /// Of which component.
+        /// The component.
         component: usize,
-        /// The relative one.
+        /// Relative tolerance.
         relative: f64,
-        /// The absolute one.
+        /// Absolute tolerance.
         absolute: f64,
     },
-    /// A width of steps that is not positive.
+    /// A step width that is not positive.
     Width {
         /// Its value.
         value: f64,
     },
     /// Breaks that do not ascend.
     Breaks {
-        /// The first one out of order.
+        /// Index of the first one out of order.
         index: usize,
     },
-    /// Places of output that are out of order or outside of the interval.
+    /// Output times that are out of order or outside the interval.
     Places {
-        /// The first one.
+        /// Index of the first one.
         index: usize,
     },
-    /// Rates, or a state, that are NaN or infinite however small the step.
+    /// Rates or a state that stay NaN or infinite however small the step.
     NotFinite {
         /// Where.
         t: f64,
-        /// Of which component.
+        /// The component.
         component: usize,
     },
-    /// What the system said.
+    /// An error of the system.
     System(E),
 }
 

@@ -109,7 +109,7 @@ impl<S: ReducedModel, O: Callbacks> System for Cycle<'_, '_, S, O> {
         Ok(())
     }
 
-    fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
+    fn begin_interval(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
         self.equation.enter(from, to)
     }
 

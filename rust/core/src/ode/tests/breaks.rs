@@ -41,7 +41,7 @@ impl System for OverTime {
         Ok(())
     }
 
-    fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Infallible> {
+    fn begin_interval(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Infallible> {
         let middle = 0.5 * (from + to);
         let jump = f64::from(u8::from(middle > JUMP));
         self.piece = self.piece.map(|_| (piece_of(middle), jump));

@@ -332,7 +332,7 @@ fn a_jump_at_a_break_is_an_event_there() {
             r[0] = self.0;
             Ok(())
         }
-        fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Infallible> {
+        fn begin_interval(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Infallible> {
             self.0 = if 0.5 * (from + to) < 1.0 { -1.0 } else { 1.0 };
             Ok(())
         }
