@@ -34,7 +34,7 @@ pub(crate) fn reduce_turns(angle: f64, turns: f64) -> f64 {
     rest - turns * PARTS[2]
 }
 
-/// Integer part of a cell number. Negative numbers give a very large index, NaN gives 0.
+/// Integer part of a cell number. Numbers up to −1 give a very large index, NaN gives 0.
 #[inline(always)]
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "that is meant")]
 pub(crate) fn whole_part(cells: f64) -> usize {

@@ -13,7 +13,7 @@ impl Options<'_> {
             return Err(Error::Span { from: t, to: t_end });
         }
         if let Some((component, &value)) = y.iter().enumerate().find(|(_, y)| !y.is_finite()) {
-            return Err(Error::Start { component, value });
+            return Err(Error::InitialState { component, value });
         }
         for tolerances in [self.relative, self.absolute] {
             if tolerances.len() != 1 && tolerances.len() != n {
@@ -31,7 +31,7 @@ impl Options<'_> {
         }
         for value in [Some(self.max_step), self.first_step].into_iter().flatten() {
             if value.is_nan() || value <= 0.0 {
-                return Err(Error::Width { value });
+                return Err(Error::StepWidth { value });
             }
         }
         if self.max_change.len() > n {
@@ -39,17 +39,17 @@ impl Options<'_> {
         }
         if let Some(&value) = self.max_change.iter().find(|value| value.is_nan() || **value <= 0.0)
         {
-            return Err(Error::Width { value });
+            return Err(Error::StepWidth { value });
         }
         if let Some(index) = first_disorder(self.breaks, 1.0) {
             return Err(Error::Breaks { index });
         }
-        let Output::At(times) = self.keep else { return Ok(()) };
+        let Output::At(times) = self.output else { return Ok(()) };
         let direction = if t_end < t { -1.0 } else { 1.0 };
         let inside = |&at: &f64| (at - t) * direction >= 0.0 && (t_end - at) * direction >= 0.0;
         let outside = times.iter().position(|at| !inside(at));
         match outside.or_else(|| first_disorder(times, direction)) {
-            Some(index) => Err(Error::Places { index }),
+            Some(index) => Err(Error::OutputTimes { index }),
             None => Ok(()),
         }
     }

@@ -21,7 +21,7 @@ pub enum Error<E> {
         to: f64,
     },
     /// A component of the initial state that is not finite.
-    Start {
+    InitialState {
         /// The component.
         component: usize,
         /// Its value.
@@ -37,7 +37,7 @@ pub enum Error<E> {
         absolute: f64,
     },
     /// A step width that is not positive.
-    Width {
+    StepWidth {
         /// Its value.
         value: f64,
     },
@@ -47,7 +47,7 @@ pub enum Error<E> {
         index: usize,
     },
     /// Output times that are out of order or outside the interval.
-    Places {
+    OutputTimes {
         /// Index of the first one.
         index: usize,
     },
@@ -71,7 +71,7 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
             Self::Span { from, to } => {
                 write!(f, "the interval from {from:e} to {to:e} is not finite")
             }
-            Self::Start { component, value } => {
+            Self::InitialState { component, value } => {
                 write!(f, "component {component} of the first state is {value}")
             }
             Self::Tolerance { component, relative, absolute } => write!(
@@ -81,9 +81,9 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
                  absolute one above zero",
                 super::options::LEAST_RELATIVE
             ),
-            Self::Width { value } => write!(f, "width {value:e} of a step is not positive"),
+            Self::StepWidth { value } => write!(f, "width {value:e} of a step is not positive"),
             Self::Breaks { index } => write!(f, "breaks do not ascend at entry {index}"),
-            Self::Places { index } => {
+            Self::OutputTimes { index } => {
                 write!(f, "place of output {index} is out of order or outside of the interval")
             }
             Self::NotFinite { t, component } => {

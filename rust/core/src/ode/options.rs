@@ -34,7 +34,7 @@ pub enum Output<'a> {
     /// number of steps.
     At(&'a [f64]),
     /// All steps with their dense output: the state at any t.
-    Path,
+    Dense,
 }
 
 /// Options of a run.
@@ -61,7 +61,7 @@ pub struct Options<'a> {
     /// Which sign changes of each event function are events.
     pub events: &'a [Crossing],
     /// What to store.
-    pub keep: Output<'a>,
+    pub output: Output<'a>,
 }
 
 impl Default for Options<'_> {
@@ -75,7 +75,7 @@ impl Default for Options<'_> {
             max_steps: 1_000_000,
             breaks: &[],
             events: &[],
-            keep: Output::End,
+            output: Output::End,
         }
     }
 }

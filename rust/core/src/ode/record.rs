@@ -15,7 +15,7 @@ pub(super) struct Record<'a> {
     pub events: Vec<Event>,
     pub event_states: Vec<f64>,
     pub samples: Vec<f64>,
-    pub path: DenseOutput,
+    pub dense: DenseOutput,
 }
 
 impl<'a> Record<'a> {
@@ -28,7 +28,7 @@ impl<'a> Record<'a> {
             events: Vec::new(),
             event_states: Vec::new(),
             samples: Vec::new(),
-            path: DenseOutput::default(),
+            dense: DenseOutput::default(),
         };
         if let Output::At(times) = output {
             record.samples.reserve_exact(times.len() * y.len());
@@ -44,7 +44,7 @@ impl<'a> Record<'a> {
     pub(super) fn needs_dense_output(&self, end: f64) -> bool {
         match self.output {
             Output::End => false,
-            Output::Path => true,
+            Output::Dense => true,
             Output::At(times) => {
                 times.get(self.reached).is_some_and(|at| (end - at) * self.direction >= 0.0)
             }
@@ -61,7 +61,7 @@ impl<'a> Record<'a> {
     pub(super) fn step(&mut self, interpolant: &Interpolant, n: usize, t: f64, h: f64, end: f64) {
         match self.output {
             Output::End => {}
-            Output::Path => self.path.push(interpolant, t, h, end),
+            Output::Dense => self.dense.push(interpolant, t, h, end),
             Output::At(times) => {
                 while let Some(at) = times.get(self.reached)
                     && (end - at) * self.direction >= 0.0

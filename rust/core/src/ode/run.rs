@@ -124,7 +124,7 @@ impl<'a, S: System> Run<'a, S> {
             scale: Scale::new(options.relative, options.absolute, integrator.n),
             control: Control::new(integrator.stages.tableau),
             record: Record::new(
-                options.keep,
+                options.output,
                 direction,
                 t,
                 &integrator.y.as_flattened()[..integrator.n],
@@ -171,7 +171,7 @@ impl<'a, S: System> Run<'a, S> {
             events: self.record.events,
             event_states: self.record.event_states,
             samples: self.record.samples,
-            path: self.record.path,
+            dense: self.record.dense,
             statistics: self.statistics,
         })
     }

@@ -120,7 +120,7 @@ pub struct Solution {
     /// The states at the requested t that the run reached, one after another.
     pub samples: Vec<f64>,
     /// Dense output, if requested.
-    pub path: DenseOutput,
+    pub dense: DenseOutput,
     /// Cost of the run.
     pub statistics: Statistics,
 }

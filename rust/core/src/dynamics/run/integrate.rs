@@ -118,7 +118,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
         max_steps: task.max_steps,
         breaks: &breaks,
         events: &crossings,
-        keep: Output::Path,
+        output: Output::Dense,
     };
     let mut integrator = Integrator::new(task.method, way.len());
     let start = RunSystem::<S, O>::start(task);
@@ -190,7 +190,7 @@ fn finish<S: ReducedModel, O: Callbacks>(
     solution: Solution,
     clipped: Option<usize>,
 ) -> Run {
-    let Solution { end, events, event_states, path, statistics, y: y_end, .. } = solution;
+    let Solution { end, events, event_states, dense: path, statistics, y: y_end, .. } = solution;
     let (along, sign, len) = (way.along, way.sign, way.len());
     let read = |x: f64, y: &[f64]| moment(along, sign, x, y, &vec![f64::NAN; len]);
     let happened = |(event, y): (&crate::ode::solution::Event, &[f64])| {

@@ -161,7 +161,7 @@ pub(crate) fn period<S: ReducedModel, O: Callbacks>(
         max_steps: search.max_steps,
         breaks,
         events: &events,
-        keep: Output::End,
+        output: Output::End,
         ..Options::default()
     };
     let start = [begin.speed2, begin.t, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];

@@ -84,15 +84,15 @@ fn the_last_steps_of_a_smooth_interval_are_equal() {
         breaks: &[1.0],
         first_step: Some(0.3),
         max_step: 0.3,
-        keep: Output::Path,
+        output: Output::Dense,
         ..Options::default()
     };
     let run = Integrator::new(Method::DormandPrince853, 1)
         .run(&mut smooth(|t, _, r| r[0] = t), 0.0, &[0.0], 1.4, &options)
         .unwrap();
     let ends = [0.25, 0.5, 0.75, 1.0, 1.2, 1.4];
-    assert_eq!(run.path.ends().len(), ends.len());
-    assert!(largest_difference(run.path.ends(), &ends) < 1e-15, "{:?}", run.path.ends());
+    assert_eq!(run.dense.ends().len(), ends.len());
+    assert!(largest_difference(run.dense.ends(), &ends) < 1e-15, "{:?}", run.dense.ends());
 }
 
 /// Breaks closer than any step, at the ends, repeated, and outside the interval.

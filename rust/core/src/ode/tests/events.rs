@@ -114,17 +114,17 @@ fn growth_doubles_at_ln_2_and_ends_there() {
             act: |_, _, _: &mut [f64]| Action::Stop,
             count: 0,
         };
-        let options = Options { keep: Output::Path, ..tight(&[Crossing::Rising]) };
+        let options = Options { output: Output::Dense, ..tight(&[Crossing::Rising]) };
         let run = Integrator::new(method, 1).run(&mut system, 0.0, &[1.0], 3.0, &options).unwrap();
         let t = 2.0_f64.ln();
         assert!((run.t - t).abs() < 1e-12, "{:e}", run.t - t);
         assert_eq!(run.end, End::Event { index: 0, t: run.t });
         assert!((run.y[0] - 2.0).abs() < 1e-14);
-        // The path ends there, in the state of the event.
-        assert_eq!(run.path.ends().last(), Some(&run.t));
+        // Dense output ends there, in the state of the event.
+        assert_eq!(run.dense.ends().last(), Some(&run.t));
         let mut at = [0.0];
-        assert!(run.path.at(run.t, &mut at) && (at[0] - 2.0).abs() < 1e-14, "{}", at[0]);
-        assert!(!run.path.at(run.t + 1e-10, &mut at));
+        assert!(run.dense.at(run.t, &mut at) && (at[0] - 2.0).abs() < 1e-14, "{}", at[0]);
+        assert!(!run.dense.at(run.t + 1e-10, &mut at));
     }
 }
 
@@ -357,7 +357,7 @@ fn a_jump_at_a_break_is_an_event_there() {
 #[test]
 fn output_stops_and_starts_at_restarts() {
     let output_times = [0.25, 0.5, 0.75, 1.0];
-    let run = |keep| {
+    let run = |output| {
         let mut system = Watched {
             rates: |_: f64, _: &[f64], r: &mut [f64]| r[0] = 1.0,
             events: |t: f64, _: &[f64], g: &mut [f64]| g[0] = t - 0.5,
@@ -367,7 +367,7 @@ fn output_stops_and_starts_at_restarts() {
             },
             count: 0,
         };
-        let options = Options { keep, ..tight(&[Crossing::Rising]) };
+        let options = Options { output, ..tight(&[Crossing::Rising]) };
         Integrator::new(Method::DormandPrince853, 1)
             .run(&mut system, 0.0, &[0.0], 1.0, &options)
             .unwrap()
@@ -375,9 +375,9 @@ fn output_stops_and_starts_at_restarts() {
     let exact = [0.25, 0.5, 10.75, 11.0];
     let sampled = run(Output::At(&output_times));
     assert!(largest_difference(&sampled.samples, &exact) < 1e-14, "{:?}", sampled.samples);
-    let path = run(Output::Path).path;
+    let dense = run(Output::Dense).dense;
     for (t, y) in output_times.iter().zip(exact) {
         let mut at = [0.0];
-        assert!(path.at(*t, &mut at) && (at[0] - y).abs() < 1e-14, "{t}: {at:?}");
+        assert!(dense.at(*t, &mut at) && (at[0] - y).abs() < 1e-14, "{t}: {at:?}");
     }
 }

@@ -29,8 +29,8 @@ fn a_run_ends_at_the_domain_boundary() {
         if y[0] >= 1.0 { Err(Fault::OutOfDomain) } else { Ok(()) }
     };
     for method in BOTH {
-        for keep in [Output::End, Output::Path] {
-            let options = Options { keep, ..Options::default() };
+        for output in [Output::End, Output::Dense] {
+            let options = Options { output, ..Options::default() };
             let end = run(method, &mut Rates(regular), (0.0, 2.0), &[0.0], &options).unwrap();
             let End::DomainBoundary { t } = end.end else { panic!("{}", end.end) };
             println!("{method:?} regular: {:.1e}, {:?}", t - 1.0, end.statistics);
@@ -159,8 +159,8 @@ fn stiff_problems_are_reported() {
     for method in BOTH {
         let (relative, absolute) = (&[1e-4][..], &[1e-4][..]);
         let options = Options { relative, absolute, max_steps: 20_000, ..Options::default() };
-        for keep in [Output::End, Output::Path] {
-            let options = Options { keep, ..options };
+        for output in [Output::End, Output::Dense] {
+            let options = Options { output, ..options };
             let end = run(method, &mut smooth(rates), (0.0, 10.0), &[1.0], &options).unwrap();
             println!("{method:?}: {} {:?}", end.end, end.statistics);
             assert!(matches!(end.end, End::StepLimit { stiff: true, .. }), "{}", end.end);
@@ -209,7 +209,7 @@ fn runs_can_be_cancelled() {
 fn empty_and_tiny_intervals_work() {
     let times = [2.0, 2.0];
     let options =
-        Options { keep: Output::At(&times), events: &[Crossing::Either], ..Options::default() };
+        Options { output: Output::At(&times), events: &[Crossing::Either], ..Options::default() };
     let end = run(BOTH[1], &mut smooth(oscillate), (2.0, 2.0), &[1.0, 3.0], &options).unwrap();
     assert_eq!((end.end, end.t, &end.y[..]), (End::Reached, 2.0, &[1.0, 3.0][..]));
     assert_eq!(end.samples, [1.0, 3.0, 1.0, 3.0]);
@@ -245,7 +245,7 @@ fn invalid_arguments_are_named() {
     let error = refused((0.0, f64::INFINITY), &y, &good);
     assert!(matches!(error, Error::Span { .. }), "{error}");
     let error = refused(span, &[0.0, f64::NAN], &good);
-    assert!(matches!(error, Error::Start { component: 1, .. }), "{error}");
+    assert!(matches!(error, Error::InitialState { component: 1, .. }), "{error}");
     for relative in [-1e-3, f64::NAN, 1e-16, 1.0] {
         let error = refused(span, &y, &Options { relative: &[relative], ..good });
         assert!(matches!(error, Error::Tolerance { component: 0, .. }), "{error}");
@@ -257,16 +257,16 @@ fn invalid_arguments_are_named() {
     assert!(matches!(error, Error::Tolerance { component: 1, .. }), "{error}");
     for width in [0.0, -1.0, f64::NAN] {
         let error = refused(span, &y, &Options { max_step: width, ..good });
-        assert!(matches!(error, Error::Width { .. }), "{error}");
+        assert!(matches!(error, Error::StepWidth { .. }), "{error}");
         let error = refused(span, &y, &Options { first_step: Some(width), ..good });
-        assert!(matches!(error, Error::Width { .. }), "{error}");
+        assert!(matches!(error, Error::StepWidth { .. }), "{error}");
     }
     assert_eq!(
         refused(span, &y, &Options { breaks: &[0.0, 2.0, 1.0], ..good }),
         Error::Breaks { index: 2 }
     );
     for times in [[0.5, 0.2], [0.5, 1.1], [-0.1, 0.0]] {
-        let error = refused(span, &y, &Options { keep: Output::At(&times), ..good });
-        assert!(matches!(error, Error::Places { .. }), "{error}");
+        let error = refused(span, &y, &Options { output: Output::At(&times), ..good });
+        assert!(matches!(error, Error::OutputTimes { .. }), "{error}");
     }
 }

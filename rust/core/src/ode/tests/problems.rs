@@ -177,29 +177,29 @@ fn output_between_steps_is_as_good_as_the_steps() {
         for direction in [1.0, -1.0] {
             let times: Vec<f64> = times.iter().map(|t| direction * t).collect();
             let mut integrator = Integrator::new(method, 2);
-            let mut run = |keep| {
-                let options = Options { keep, ..Options::default() };
+            let mut run = |output| {
+                let options = Options { output, ..Options::default() };
                 integrator
                     .run(&mut smooth(oscillate), 0.0, &[0.0, 1.0], direction * 20.0, &options)
                     .unwrap()
             };
             let sampled = run(Output::At(&times));
-            let path = run(Output::Path);
+            let dense = run(Output::Dense);
             assert_eq!(sampled.samples.len(), 2 * times.len());
             let mut worst: f64 = 0.0;
             for (t, y) in times.iter().zip(sampled.samples.chunks(2)) {
                 worst = worst.max(largest_difference(y, &[t.sin(), t.cos()]));
                 let mut at = [0.0; 2];
-                assert!(path.path.at(*t, &mut at));
+                assert!(dense.dense.at(*t, &mut at));
                 assert_eq!(at, y, "t = {t}");
             }
-            println!("{method:?}: {worst:.2e}, {} steps", path.path.ends().len());
+            println!("{method:?}: {worst:.2e}, {} steps", dense.dense.ends().len());
             assert!(worst < bound, "{method:?}: {worst:e}");
             let mut at = [0.0; 2];
-            assert!(!path.path.at(direction * 20.1, &mut at) && at[0].is_nan());
-            assert!(!path.path.at(-direction * 0.1, &mut at) && at[0].is_nan());
-            assert!(!path.path.at(f64::NAN, &mut at) && at[0].is_nan());
-            assert_eq!(path.path.ends().len() as u64, path.statistics.steps);
+            assert!(!dense.dense.at(direction * 20.1, &mut at) && at[0].is_nan());
+            assert!(!dense.dense.at(-direction * 0.1, &mut at) && at[0].is_nan());
+            assert!(!dense.dense.at(f64::NAN, &mut at) && at[0].is_nan());
+            assert_eq!(dense.dense.ends().len() as u64, dense.statistics.steps);
         }
     }
 }

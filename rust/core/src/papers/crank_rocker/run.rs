@@ -81,7 +81,7 @@ pub struct Row {
     /// Whether D slides.
     pub sliding: bool,
     /// Positions of B and C, m.
-    pub places: [[f64; 2]; 2],
+    pub positions: [[f64; 2]; 2],
 }
 
 /// Why a run cannot start or go on.
@@ -393,7 +393,7 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> Simulation<F> {
             ratio * (along * sine + across * cosine),
         ];
         let gamma = self.gamma(s);
-        self.rows.push(Row { t, l4, gamma, sliding: mode.is_some(), places: [b, c] });
+        self.rows.push(Row { t, l4, gamma, sliding: mode.is_some(), positions: [b, c] });
         Ok(())
     }
 }
