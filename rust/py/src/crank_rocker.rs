@@ -184,7 +184,7 @@ pub(crate) fn crank_rocker_run<'py>(
         Err(core::Refused::Blocked(core::Side::Inner, gamma)) => refused("inner", gamma),
         Ok((rows, events)) => {
             let flat = rows.iter().flat_map(|row| {
-                let [[bx, by], [cx, cy]] = row.places;
+                let [[bx, by], [cx, cy]] = row.positions;
                 let sliding = if row.sliding { 1.0 } else { 0.0 };
                 [row.t, row.l4, row.gamma, sliding, bx, by, cx, cy]
             });

@@ -12,7 +12,7 @@ use super::writer::{RowSlices, Writer};
 use crate::branch::branch::BranchLocation;
 use crate::branch::design::Design;
 use crate::branch::uniform::UniformTracer;
-use crate::math::angle::nearest;
+use crate::math::angle::unwrap_to;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};
 use crate::math::vector::Vector;
@@ -228,7 +228,7 @@ impl<'a> Worker<'a> {
         }
         for &class in &self.writer.classes {
             for (spot, lifted) in self.spots[first..].iter().zip(&mut self.lifted[class]) {
-                *lifted = nearest(*lifted, design.branch.reference_angle(spot, class));
+                *lifted = unwrap_to(*lifted, design.branch.reference_angle(spot, class));
             }
         }
         let at = job.first + row;
@@ -282,7 +282,7 @@ impl<'a> Worker<'a> {
             return;
         };
         let near = self.design.reference_angles(place, self.lifted.len());
-        let lift = |class: usize| [nearest(state.class[class][0].angle(), near[class])];
+        let lift = |class: usize| [unwrap_to(state.class[class][0].angle(), near[class])];
         let lifted: Vec<[f64; 1]> = (0..near.len()).map(lift).collect();
         let with = (&self.design.bound, &self.design.unit);
         self.writer.write(job.rows, (at, 1), with, state, &lifted);

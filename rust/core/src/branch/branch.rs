@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use super::hermite::HermiteCell;
 use super::knot::{ChangePoint, InitialGuess, Knot, SignInterval};
 use super::tracer::BranchTracer;
-use crate::math::angle::{less_turns, whole_part};
+use crate::math::angle::{reduce_turns, whole_part};
 use crate::math::lanes::{LANES, Real};
 use crate::plan::plan::Plan;
 use crate::state::state::{Context, State};
@@ -283,7 +283,7 @@ impl Branch {
             return (at - periods * R::splat(period), periods);
         }
         let turns = (period / TAU).round();
-        (R::from_lanes(|lane| less_turns(at.lane(lane), periods.lane(lane) * turns)), periods)
+        (R::from_lanes(|lane| reduce_turns(at.lane(lane), periods.lane(lane) * turns)), periods)
     }
 
     /// Whether the branch is known at a parameter.
@@ -448,7 +448,7 @@ mod tests {
                     let lost = (angle - TAU * turns) - part;
                     let wanted = part + lost - turns * 2.449_293_598_294_706_4e-16;
                     let rounding = 2.0 * f64::EPSILON * angle.abs().max(TAU);
-                    let found = less_turns(angle, turns);
+                    let found = reduce_turns(angle, turns);
                     assert!((found - wanted).abs() <= rounding, "{turns} {part}: {found} {wanted}");
                 }
             }
@@ -459,7 +459,7 @@ mod tests {
     #[test]
     fn small_angles_keep_their_digits() {
         for angle in [-0.735_422_665_253_286_5, -1e-9, 0.1, 3.0] {
-            let found = less_turns(angle, -1.0);
+            let found = reduce_turns(angle, -1.0);
             assert!((found - (angle + TAU)).abs() <= 2.0 * f64::EPSILON * TAU, "{angle}: {found}");
         }
     }

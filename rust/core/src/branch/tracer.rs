@@ -6,8 +6,8 @@ use super::knot::{
     ChangePoint, InitialGuess, Knot, SignInterval, Taylor2, closes, may_vanish, predict,
     prediction_error, prediction_failed,
 };
-use crate::math::angle::nearest;
-use crate::math::tolerance::{LIFT_HALVINGS, LIFT_TURN};
+use crate::math::angle::unwrap_to;
+use crate::math::tolerance::{KNOT_MAX_HALVINGS, KNOT_MAX_TURN};
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Dyad, Form, Unknown};
 use crate::plan::plan::Step;
@@ -187,7 +187,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             .class
             .iter()
             .zip(from)
-            .map(|(u, &near)| nearest(u[0].angle(), near))
+            .map(|(u, &near)| unwrap_to(u[0].angle(), near))
             .collect();
         let len = self.state.len;
         let rates = (0..from.len())
@@ -232,7 +232,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             let (value, jet) = match unknown {
                 Unknown::Class(class) => {
                     let angle = self.state.class[class][0].angle();
-                    (nearest(angle, self.predicted(index, at)), &self.state.theta[class * len..])
+                    (unwrap_to(angle, self.predicted(index, at)), &self.state.theta[class * len..])
                 }
                 Unknown::Slide(slide) => {
                     let jet = &self.state.slides[slide * len..];
@@ -318,7 +318,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             let has_room = self.knots.len() < MAX_KNOTS;
             let can_halve = has_room && middle != from.at && middle != end;
             let prediction_failed = self.prediction_failed(&from, &knot);
-            let coarse = depth < LIFT_HALVINGS
+            let coarse = depth < KNOT_MAX_HALVINGS
                 && (turns_fast || (!prediction_failed && must_refine(&from, &knot, depth)));
             let jumps =
                 depth >= JUMP_HALVINGS && !prediction_failed && !coarse && self.jumps(&from, &knot);
@@ -361,10 +361,10 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             return knot;
         }
         let classes = self.state.class.iter().zip(&from.angles);
-        let edge: Vec<f64> = classes.map(|(u, &near)| nearest(u[0].angle(), near)).collect();
+        let edge: Vec<f64> = classes.map(|(u, &near)| unwrap_to(u[0].angle(), near)).collect();
         if knot.reached {
             let pairs = knot.angles.iter().zip(&edge);
-            knot.angles = pairs.map(|(&angle, &near)| nearest(angle, near)).collect();
+            knot.angles = pairs.map(|(&angle, &near)| unwrap_to(angle, near)).collect();
         } else {
             knot.angles = edge;
         }
@@ -387,7 +387,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
                 self.visit(at)
                     && (0..self.state.class.len()).any(|c| {
                         let rate = self.rate_along(|d| self.state.theta[c * len + 1 + d][0]);
-                        (rate * (end - from)).abs() > LIFT_TURN
+                        (rate * (end - from)).abs() > KNOT_MAX_TURN
                     })
             })
         })
@@ -424,10 +424,10 @@ fn must_refine(a: &Knot, b: &Knot, depth: u32) -> bool {
     if !a.reached {
         return may_hide_island(a, b, cell, depth);
     }
-    let turned = a.angles.iter().zip(&b.angles).any(|(x, y)| (x - y).abs() > LIFT_TURN);
+    let turned = a.angles.iter().zip(&b.angles).any(|(x, y)| (x - y).abs() > KNOT_MAX_TURN);
     // Near a dead point rates grow without bound, but the angle does not.
-    let fast =
-        depth < EDGE_HALVINGS && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > LIFT_TURN);
+    let fast = depth < EDGE_HALVINGS
+        && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > KNOT_MAX_TURN);
     let through_infinity = depth < EDGE_HALVINGS && a.guide_sides != b.guide_sides;
     // Beside a near miss of a change point a link may turn round between the knots.
     let missed = || a.spread.iter().zip(&b.spread).any(|(&x, &y)| may_vanish(x, y, b.at - a.at));

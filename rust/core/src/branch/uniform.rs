@@ -18,7 +18,7 @@ use super::knot::{
 use crate::math::angle::turns_between;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};
-use crate::math::tolerance::LIFT_TURN;
+use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Form, Unknown};
 use crate::plan::plan::Plan;
@@ -180,7 +180,7 @@ impl UniformTracer {
         let classes = self.last_angles.len();
         let first = group * LANES * classes;
         let Some(angles) = angles.get_mut(first..first + LANES * classes) else { return false };
-        let mut max_turn = Lanes::splat(LIFT_TURN);
+        let mut max_turn = Lanes::splat(KNOT_MAX_TURN);
         if group == 0 {
             // The first knot may be far from the drawing's own angle.
             max_turn.0[0] = f64::INFINITY;
@@ -193,7 +193,7 @@ impl UniformTracer {
             let turns = turns_between(angle, before);
             let step = (angle + Lanes::splat(TAU) * turns) - before;
             let rate = self.state.theta[self.state.len * class + 1][group] * Lanes::splat(CELL);
-            fast = fast.or(max_turn.lt(step.abs())).or(Lanes::splat(LIFT_TURN).lt(rate.abs()));
+            fast = fast.or(max_turn.lt(step.abs())).or(Lanes::splat(KNOT_MAX_TURN).lt(rate.abs()));
             for lane in 0..LANES {
                 whole_turns += turns.lane(lane);
                 angles[lane * classes + class] = angle.lane(lane) + TAU * whole_turns;

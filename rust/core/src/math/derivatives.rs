@@ -1,8 +1,8 @@
 //! Partial derivatives of products, to order 3, in any number of drivers.
 //!
-//! A jet is the list of all partial derivatives of one quantity, in graded
-//! order; the tables here say which entries make the derivative of a product
-//! (Leibniz) and of a unit vector `U = exp(iΘ)`, from `∂U = i U ∂Θ`.
+//! A jet lists all partial derivatives of one quantity in graded order. The tables here give the
+//! terms in the derivative of a product (Leibniz) and of a unit vector `U = exp(iΘ)`, from
+//! `∂U = i U ∂Θ`.
 
 /// One term `factor · a[left] · b[right]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +15,7 @@ pub(crate) struct Term {
     pub right: usize,
 }
 
-/// [`DerivativeTables::rotation`] of one driver to order 3, as a constant.
+/// [`DerivativeTables::rotation`] for one driver to order 3, as a constant.
 pub(crate) const ONE_DRIVER: [&[Term]; 4] = [
     &[],
     &[],
@@ -32,19 +32,19 @@ pub(crate) struct DerivativeTables {
     pub order: usize,
     /// Multi-indices in graded order; the first is the value itself.
     pub powers: Vec<Vec<usize>>,
-    /// The driver of a first-order entry, else none.
+    /// The driver of a first-order entry, else `None`.
     pub driver_of: Vec<Option<usize>>,
-    /// A driver of every entry but the first, and the entry with one order less in it.
+    /// For each entry but the first, a driver it contains and the entry of one order less in it.
     pub lowered: Vec<(usize, usize)>,
-    /// Terms of the derivative of a product, for every multi-index.
+    /// Terms of the derivative of a product, for each multi-index.
     pub product: Vec<Vec<Term>>,
-    /// Terms of the derivative of a unit vector (times i), without the term in
-    /// the highest derivative of its angle: left is U, right is Θ.
+    /// Terms of the derivative of a unit vector (times i), except the one in the highest derivative
+    /// of its angle: left is U, right is Θ.
     pub rotation: Vec<Vec<Term>>,
 }
 
 impl DerivativeTables {
-    /// Tables to the given order.
+    /// Builds the tables up to an order.
     #[must_use]
     pub(crate) fn new(drivers: usize, order: usize) -> Self {
         let mut powers = vec![vec![0; drivers]];
@@ -106,6 +106,7 @@ impl DerivativeTables {
     pub(crate) fn len(&self) -> usize {
         self.powers.len()
     }
+
     /// Entries of the full symmetric tensor of one order, last driver fastest.
     #[must_use]
     pub(crate) fn tensor(&self, order: usize) -> Vec<usize> {
@@ -122,7 +123,7 @@ impl DerivativeTables {
     }
 }
 
-/// All splittings of `alpha` in two, with the product of binomials.
+/// All ways to split `alpha` in two, each with its product of binomial coefficients.
 fn leibniz(alpha: &[usize], find: &impl Fn(&[usize]) -> usize) -> Vec<Term> {
     let mut splits: Vec<(f64, Vec<usize>)> = vec![(1.0, Vec::new())];
     for &a in alpha {
@@ -153,7 +154,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_driver_has_the_binomial_rows() {
+    fn one_driver_has_binomial_coefficients() {
         let jets = DerivativeTables::new(1, 3);
         assert_eq!(jets.len(), 4);
         let third: Vec<f64> = jets.product[3].iter().map(|t| t.factor).collect();
@@ -165,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn counts_are_binomials() {
+    fn jet_lengths_are_binomial_coefficients() {
         for (drivers, order, count) in [(2, 3, 10), (3, 3, 20), (3, 2, 10), (1, 0, 1)] {
             assert_eq!(DerivativeTables::new(drivers, order).len(), count);
         }

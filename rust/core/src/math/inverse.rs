@@ -1,18 +1,18 @@
-//! Small matrices, inverted with pivots of each lane's own.
+//! Inverses of small matrices, with separate pivoting in each lane.
 
 use super::lanes::{Mask, Real};
 
-/// Inverts the first `n` columns of `n` rows of `2 n` numbers into the other `n`, in `G` groups
-/// at once. What happens to a lane depends on its own numbers alone; a singular matrix leaves
-/// infinities or no numbers. Gives the determinants.
+/// Inverts the first `n` columns of `n` rows of `2 n` numbers into the other `n` columns, for `G`
+/// groups at once, and returns the determinants. Each lane depends on its own numbers only; a
+/// singular matrix gives infinities or NaN.
 #[inline(always)]
 pub(crate) fn invert<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -> [R; G] {
     if n == 3 { by_minors(matrix) } else { by_pivots(matrix, n) }
 }
 
-/// Three rows: minors over the determinant. They lose no more than pivots do, as long as the
-/// rows are of one size (each minor is good to u of the product of two rows, and the inverse of
-/// the matrix is not less than 1/(second singular value) of that).
+/// Three rows: minors over the determinant. This loses no more accuracy than pivoting while the
+/// rows are of similar size: each minor is good to u of the product of two rows, and the inverse of
+/// the matrix is not less than 1/(second singular value) of that.
 #[inline(always)]
 fn by_minors<R: Real, const G: usize>(matrix: &mut [[R; G]]) -> [R; G] {
     let Some((matrix, _)) = matrix.split_first_chunk_mut::<18>() else { return [R::ZERO; G] };
@@ -22,23 +22,23 @@ fn by_minors<R: Real, const G: usize>(matrix: &mut [[R; G]]) -> [R; G] {
         let [d, e, f] = [matrix[6][g], matrix[7][g], matrix[8][g]];
         let [p, q, r] = [matrix[12][g], matrix[13][g], matrix[14][g]];
         let (first, second, third) = (e * r - f * q, f * p - d * r, d * q - e * p);
-        let own = a * first + b * second + c * third;
-        let per = R::ONE / own;
-        matrix[3][g] = first * per;
-        matrix[9][g] = second * per;
-        matrix[15][g] = third * per;
-        matrix[4][g] = (c * q - b * r) * per;
-        matrix[10][g] = (a * r - c * p) * per;
-        matrix[16][g] = (b * p - a * q) * per;
-        matrix[5][g] = (b * f - c * e) * per;
-        matrix[11][g] = (c * d - a * f) * per;
-        matrix[17][g] = (a * e - b * d) * per;
-        determinant[g] = own;
+        let det = a * first + b * second + c * third;
+        let inv_det = R::ONE / det;
+        matrix[3][g] = first * inv_det;
+        matrix[9][g] = second * inv_det;
+        matrix[15][g] = third * inv_det;
+        matrix[4][g] = (c * q - b * r) * inv_det;
+        matrix[10][g] = (a * r - c * p) * inv_det;
+        matrix[16][g] = (b * p - a * q) * inv_det;
+        matrix[5][g] = (b * f - c * e) * inv_det;
+        matrix[11][g] = (c * d - a * f) * inv_det;
+        matrix[17][g] = (a * e - b * d) * inv_det;
+        determinant[g] = det;
     }
     determinant
 }
 
-/// Gauss & Jordan, with pivots of each lane's own.
+/// Gauss-Jordan elimination, each lane choosing its own pivots.
 #[inline(always)]
 fn by_pivots<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -> [R; G] {
     let width = 2 * n;
@@ -52,36 +52,37 @@ fn by_pivots<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -> [R; G]
     for pivot in 0..n {
         for row in pivot + 1..n {
             let (upper, lower) = matrix.split_at_mut(row * width);
-            let (here, there) = (&mut upper[pivot * width..][..width], &mut lower[..width]);
+            let (pivot_row, below) = (&mut upper[pivot * width..][..width], &mut lower[..width]);
             let mut swap = [R::Mask::NONE; G];
             let mut any = false;
             for g in 0..G {
-                swap[g] = here[pivot][g].abs().lt(there[pivot][g].abs());
+                swap[g] = pivot_row[pivot][g].abs().lt(below[pivot][g].abs());
                 any |= swap[g].any();
             }
             if !any {
                 continue;
             }
-            for (here, there) in here[pivot..].iter_mut().zip(&mut there[pivot..]) {
+            for (upper, lower) in pivot_row[pivot..].iter_mut().zip(&mut below[pivot..]) {
                 for g in 0..G {
-                    let (a, b) = (here[g], there[g]);
-                    here[g] = R::select(swap[g], b, a);
-                    there[g] = R::select(swap[g], a, b);
+                    let (a, b) = (upper[g], lower[g]);
+                    upper[g] = R::select(swap[g], b, a);
+                    lower[g] = R::select(swap[g], a, b);
                 }
             }
             for g in 0..G {
                 determinant[g] = R::select(swap[g], -determinant[g], determinant[g]);
             }
         }
-        let mut per = [R::ONE; G];
+        let mut inv_pivot = [R::ONE; G];
         for g in 0..G {
             let head = matrix[pivot * width + pivot][g];
             determinant[g] = determinant[g] * head;
-            per[g] = R::ONE / head;
+            inv_pivot[g] = R::ONE / head;
         }
         for column in pivot + 1..width {
             for g in 0..G {
-                matrix[pivot * width + column][g] = matrix[pivot * width + column][g] * per[g];
+                matrix[pivot * width + column][g] =
+                    matrix[pivot * width + column][g] * inv_pivot[g];
             }
         }
         for row in (0..n).filter(|&row| row != pivot) {
@@ -104,8 +105,8 @@ mod tests {
     use crate::math::lanes::{LANES, Lanes};
     use nalgebra::DMatrix;
 
-    /// A matrix of numbers that look random, the same for a seed.
-    fn matrix(n: usize, seed: u64) -> DMatrix<f64> {
+    /// A pseudorandom matrix, the same for the same seed.
+    fn random_matrix(n: usize, seed: u64) -> DMatrix<f64> {
         let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
         DMatrix::from_fn(n, n, |_, _| {
             state ^= state << 13;
@@ -115,23 +116,23 @@ mod tests {
         })
     }
 
-    fn work(a: &DMatrix<f64>) -> Vec<[f64; 1]> {
+    fn augmented(a: &DMatrix<f64>) -> Vec<[f64; 1]> {
         let n = a.nrows();
-        let mut work = vec![[0.0]; 2 * n * n];
+        let mut rows = vec![[0.0]; 2 * n * n];
         for row in 0..n {
             for column in 0..n {
-                work[row * 2 * n + column] = [a[(row, column)]];
+                rows[row * 2 * n + column] = [a[(row, column)]];
             }
         }
-        work
+        rows
     }
 
     #[test]
-    fn the_product_is_the_unit_matrix() {
+    fn matrix_times_inverse_is_the_identity() {
         for n in 1..=12 {
             for seed in 1..40 {
-                let a = matrix(n, seed);
-                let mut rows = work(&a);
+                let a = random_matrix(n, seed);
+                let mut rows = augmented(&a);
                 let [determinant] = invert(&mut rows, n);
                 let inverse = DMatrix::from_fn(n, n, |r, c| rows[r * 2 * n + n + c][0]);
                 let condition = a.norm() * inverse.norm();
@@ -148,10 +149,10 @@ mod tests {
     }
 
     #[test]
-    fn lanes_have_the_bits_of_the_scalar() {
+    fn lanes_equal_scalars_bit_for_bit() {
         for n in [1, 2, 3, 5, 6] {
             let ones: Vec<Vec<[f64; 1]>> =
-                (0..LANES as u64).map(|s| work(&matrix(n, s + 7))).collect();
+                (0..LANES as u64).map(|s| augmented(&random_matrix(n, s + 7))).collect();
             let all = |i: usize| Lanes::from_lanes(|lane| ones[lane][i][0]);
             // Twice, in two groups.
             let mut eight: Vec<[Lanes; 2]> = (0..2 * n * n).map(|i| [all(i); 2]).collect();
@@ -170,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn a_zero_on_the_diagonal_is_no_matter() {
+    fn a_zero_on_the_diagonal_does_no_harm() {
         let mut rows = [0.0, 1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0].map(|x| [x]);
         let [determinant] = invert(&mut rows, 2);
         assert!((determinant + 2.0).abs() < 1e-15);

@@ -1,38 +1,37 @@
-//! Numbers one at a time or eight at a time: what the executor is written over.
+//! The number types of the solver: one number, or eight at once.
 //!
-//! [`Real`] is a plain `f64` or [`Lanes`], eight of them worked on together. Every
-//! operation is the one of IEEE 754 on each lane by itself (no fused multiplication,
-//! no library function but exact ones), so a lane has the bits that the scalar would have, on every
-//! machine and whatever its neighbours are.
+//! [`Real`] is a plain `f64` or [`Lanes`], a vector of eight. Each operation is the IEEE 754 one in
+//! each lane separately (no fused multiplication, no library function but exact ones). A lane
+//! therefore has the same bits as the scalar, on every machine and whatever the other lanes hold.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-/// Numbers worked on together.
+/// Numbers in a vector.
 pub const LANES: usize = 8;
 
-/// A truth value for each lane.
+/// A boolean for each lane.
 pub trait Mask: Copy + Debug {
-    /// True nowhere.
+    /// False in every lane.
     const NONE: Self;
-    /// Whether it is true on some lane.
+    /// Whether some lane is true.
     fn any(self) -> bool;
-    /// Whether it is true on every lane.
+    /// Whether every lane is true.
     fn all(self) -> bool;
     /// The value of one lane.
     fn lane(self, lane: usize) -> bool;
-    /// True where both are.
+    /// Lane-wise and.
     #[must_use]
     fn and(self, other: Self) -> Self;
-    /// True where one of them is.
+    /// Lane-wise or.
     #[must_use]
     fn or(self, other: Self) -> Self;
-    /// True where it is not.
+    /// Lane-wise not.
     #[must_use]
     fn not(self) -> Self;
 }
 
-/// A number, or several worked on together.
+/// A number, or a vector of numbers.
 pub trait Real:
     Copy
     + Debug
@@ -45,17 +44,17 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// What comparisons give.
+    /// Result of a comparison.
     type Mask: Mask;
-    /// How many numbers.
+    /// Number of lanes.
     const LANES: usize;
-    /// Zero on every lane.
+    /// Zero in every lane.
     const ZERO: Self;
-    /// One on every lane.
+    /// One in every lane.
     const ONE: Self;
-    /// The same number on every lane.
+    /// The same number in every lane.
     fn splat(value: f64) -> Self;
-    /// A number for each lane.
+    /// Calls `of` for the number of each lane.
     fn from_lanes(of: impl FnMut(usize) -> f64) -> Self;
     /// The number of one lane.
     fn lane(self, lane: usize) -> f64;
@@ -65,29 +64,28 @@ pub trait Real:
     /// Absolute value.
     #[must_use]
     fn abs(self) -> Self;
-    /// `self` where it is greater than `other`, else `other` (so also where one of
-    /// them is not a number).
+    /// `self` where it is greater than `other`, else `other` (also where either is NaN).
     #[must_use]
     fn max(self, other: Self) -> Self;
     /// `self` where it is less than `other`, else `other`.
     #[must_use]
     fn min(self, other: Self) -> Self;
-    /// The greatest integer that is not greater.
+    /// Greatest integer not above it.
     #[must_use]
     fn floor(self) -> Self;
-    /// Own size with the sign of `sign`.
+    /// Magnitude of `self` with the sign of `sign`.
     #[must_use]
     fn copysign(self, sign: Self) -> Self;
-    /// Where it is less.
+    /// Whether `self` < `other`.
     fn lt(self, other: Self) -> Self::Mask;
-    /// Where it is less or equal.
+    /// Whether `self` ≤ `other`.
     fn le(self, other: Self) -> Self::Mask;
-    /// Where it is a finite number.
+    /// Whether it is finite.
     #[inline(always)]
     fn finite(self) -> Self::Mask {
         self.abs().lt(Self::splat(f64::INFINITY))
     }
-    /// Where a bit of the representation is set (0: the last of the significand).
+    /// Whether a bit of the representation is set (0: the last of the significand).
     fn bit(self, bit: u32) -> Self::Mask;
     /// `yes` where the mask is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
@@ -185,7 +183,7 @@ impl Real for f64 {
 #[repr(C, align(64))]
 pub struct Lanes(pub [f64; LANES]);
 
-/// Eight truth values, all bits of a word set or none.
+/// Eight booleans: words with all bits set or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C, align(64))]
 pub struct LaneMask([u64; LANES]);

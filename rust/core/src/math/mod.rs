@@ -1,4 +1,4 @@
-//! Numbers, functions and matrices: nothing here knows what a mechanism is.
+//! Arithmetic, functions and small matrices, independent of mechanisms.
 
 pub(crate) mod angle;
 pub(crate) mod derivatives;

@@ -1,46 +1,46 @@
-//! Integrals of smooth functions.
+//! Adaptive Gauss-Legendre integration of smooth functions.
 
 use std::sync::LazyLock;
 
 use super::trig::sin_cos;
 
-/// Points of a rule.
+/// Points of the rule.
 const POINTS: usize = 12;
-/// Halvings of an interval, at most, and of all intervals of an integral: a pole or a root at an end
-/// takes a hundred. The rounding of a function that is small beside its parts never agrees.
-const HALVINGS: u32 = 48;
-const MOST_HALVED: u32 = 4096;
-/// Difference between an interval and its halves, as a part of the whole, that is let be: halving
-/// gains some seven digits by itself, for a function as smooth as this rule wants it.
-const AGREE: f64 = 1.0e-13;
+/// Limit of bisections of one interval, and of intervals bisected in one integral: a pole or a root
+/// at an end needs about a hundred. A function that is only rounding error never converges.
+const MAX_DEPTH: u32 = 48;
+const MAX_BISECTIONS: u32 = 4096;
+/// Accepted difference between an interval and its two halves, relative to the integral. Bisection
+/// by itself gains some seven digits for a function as smooth as this rule expects.
+const RTOL: f64 = 1.0e-13;
 
 /// Nodes and weights on [−1, 1], of the positive half.
 static RULE: LazyLock<[[f64; 2]; POINTS / 2]> = LazyLock::new(|| std::array::from_fn(node));
 
-/// Node `i` of Gauss & Legendre's rule: a zero of Legendre's polynomial, by Newton's iteration
+/// Node `i` of the Gauss-Legendre rule: a root of the Legendre polynomial, by Newton's method
 /// (Abramowitz & Stegun, 25.4.29).
 fn node(i: usize) -> [f64; 2] {
     let n = POINTS as f64;
     let mut x = sin_cos(std::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5)).1;
     let mut slope = 1.0;
     for _ in 0..8 {
-        let (mut last, mut own) = (1.0, x);
+        let (mut previous, mut p) = (1.0, x);
         for k in 2..=POINTS {
             let k = k as f64;
-            (last, own) = (own, ((2.0 * k - 1.0) * x * own - (k - 1.0) * last) / k);
+            (previous, p) = (p, ((2.0 * k - 1.0) * x * p - (k - 1.0) * previous) / k);
         }
-        slope = n * (x * own - last) / (x * x - 1.0);
-        x -= own / slope;
+        slope = n * (x * p - previous) / (x * x - 1.0);
+        x -= p / slope;
     }
     [x, 2.0 / ((1.0 - x * x) * slope * slope)]
 }
 
-/// The integral from `a` to `b`; halves where halves differ from the whole. NaN if they do so nearly
-/// everywhere.
+/// Integral from `a` to `b`, bisecting where the halves differ from the whole. NaN if the number of
+/// bisections exceeds its limit.
 pub(crate) fn integral(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     let whole = rule(f, a, b);
-    let mut left = MOST_HALVED;
-    refined(f, [a, b], whole, (AGREE * whole.abs(), &mut left), HALVINGS)
+    let mut budget = MAX_BISECTIONS;
+    refine(f, [a, b], whole, (RTOL * whole.abs(), &mut budget), MAX_DEPTH)
 }
 
 fn rule(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
@@ -50,24 +50,24 @@ fn rule(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     half * sum
 }
 
-fn refined(
+fn refine(
     f: &impl Fn(f64) -> f64,
     [a, b]: [f64; 2],
     whole: f64,
-    (agree, left): (f64, &mut u32),
+    (tolerance, budget): (f64, &mut u32),
     depth: u32,
 ) -> f64 {
-    let Some(fewer) = left.checked_sub(1) else { return f64::NAN };
-    *left = fewer;
+    let Some(rest) = budget.checked_sub(1) else { return f64::NAN };
+    *budget = rest;
     let middle = 0.5 * (a + b);
     let halves = [[a, middle], [middle, b]].map(|ends| (ends, rule(f, ends[0], ends[1])));
     let sum = halves[0].1 + halves[1].1;
-    // No number is let be as well: it would not become one.
-    let differ = (sum - whole).abs() > agree;
-    if depth == 0 || !differ {
+    // NaN ends the recursion too: bisection cannot remove it.
+    let differs = (sum - whole).abs() > tolerance;
+    if depth == 0 || !differs {
         return sum;
     }
-    halves.map(|(ends, half)| refined(f, ends, half, (agree, left), depth - 1)).iter().sum()
+    halves.map(|(ends, half)| refine(f, ends, half, (tolerance, budget), depth - 1)).iter().sum()
 }
 
 #[cfg(test)]
@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn polynomials_and_roots() {
+    fn integrates_polynomials_and_square_roots() {
         let exact = integral(&|x: f64| x.powi(23), 0.0, 1.0);
         assert!((exact - 1.0 / 24.0).abs() < 1e-16);
         let root = integral(&|x: f64| (1.0 + x).sqrt(), 0.0, 3.0);
@@ -86,14 +86,14 @@ mod tests {
     }
 
     #[test]
-    fn nearly_a_pole() {
+    fn integrates_a_narrow_peak() {
         let a = 1e-3_f64;
         let sum = integral(&|x: f64| 1.0 / (x * x + a * a), -1.0, 1.0);
         assert!((sum * a / 2.0 - (1.0 / a).atan()).abs() < 1e-13);
     }
 
     #[test]
-    fn noise_has_no_integral() {
+    fn rounding_noise_gives_nan() {
         // What rounding leaves of 1 beside 1e16.
         assert!(integral(&|x: f64| (1e16 * x + 1.0) - 1e16 * x, 0.0, 1.0).is_nan());
         let root = integral(&|x: f64| 1.0 / x.sqrt(), 0.0, 1.0);

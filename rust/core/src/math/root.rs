@@ -1,20 +1,20 @@
-//! The zero of a growing function of a positive number.
+//! Root of an increasing function of a positive number.
 
-/// Growth of the steps in search of two places with values of different signs.
+/// Growth of the steps while bracketing the root.
 const GROWTH: f64 = 2.0;
-/// Steps of that search, at most: over a range of 2^±200.
-const SEARCHES: u32 = 24;
-/// Steps between these, at most: halving alone ends after so many.
-const STEPS: u32 = 120;
+/// Limit of bracketing steps: they cover a range of 2^±200.
+const MAX_BRACKET_STEPS: u32 = 24;
+/// Limit of iterations inside the bracket: bisection alone converges within it.
+const MAX_STEPS: u32 = 120;
 
-/// Where a growing function of a positive number is 0, from a first guess; none if it is so
-/// nowhere that could be found, or is no number there.
-pub(crate) fn zero(f: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
-    zero_to(f, guess, 0.0)
+/// Root of an increasing function of a positive number, from a first guess. `None` if no bracket
+/// was found or the function is NaN inside it.
+pub(crate) fn find_root(f: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
+    find_root_to(f, guess, 0.0)
 }
 
-/// The same, to a part of it.
-pub(crate) fn zero_to(mut f: impl FnMut(f64) -> f64, guess: f64, part: f64) -> Option<f64> {
+/// The same, to a relative tolerance.
+pub(crate) fn find_root_to(mut f: impl FnMut(f64) -> f64, guess: f64, rtol: f64) -> Option<f64> {
     let at_guess = f(guess);
     if at_guess == 0.0 {
         return Some(guess);
@@ -23,7 +23,7 @@ pub(crate) fn zero_to(mut f: impl FnMut(f64) -> f64, guess: f64, part: f64) -> O
     let (mut near, mut at_near) = (guess, at_guess);
     let (mut far, mut at_far) = (guess, at_guess);
     let mut factor = 1.0 + 1.0 / 16.0;
-    for _ in 0..SEARCHES {
+    for _ in 0..MAX_BRACKET_STEPS {
         (near, at_near) = (far, at_far);
         far = if up { far * factor } else { far / factor };
         at_far = f(far);
@@ -32,13 +32,13 @@ pub(crate) fn zero_to(mut f: impl FnMut(f64) -> f64, guess: f64, part: f64) -> O
         }
         factor = 1.0 + (factor - 1.0) * GROWTH;
     }
-    let differ = at_far * at_near.signum() <= 0.0;
-    if !differ {
+    let bracketed = at_far * at_near.signum() <= 0.0;
+    if !bracketed {
         return None;
     }
     let (mut a, mut at_a, mut b, mut at_b) = (near, at_near, far, at_far);
-    // Regula falsi with the weights of Illinois (Dowell & Jarratt 1971).
-    for _ in 0..STEPS {
+    // Regula falsi with the Illinois weights (Dowell & Jarratt 1971).
+    for _ in 0..MAX_STEPS {
         if at_b == 0.0 || at_a == at_b {
             return Some(b);
         }
@@ -50,7 +50,7 @@ pub(crate) fn zero_to(mut f: impl FnMut(f64) -> f64, guess: f64, part: f64) -> O
         if value.is_nan() {
             return None;
         }
-        if next == a || next == b || (next - b).abs() <= part * next.abs() {
+        if next == a || next == b || (next - b).abs() <= rtol * next.abs() {
             return Some(next);
         }
         if (value > 0.0) == (at_b > 0.0) {
@@ -65,15 +65,15 @@ pub(crate) fn zero_to(mut f: impl FnMut(f64) -> f64, guess: f64, part: f64) -> O
 
 #[cfg(test)]
 mod tests {
-    use super::zero;
+    use super::find_root;
 
     #[test]
-    fn zeros_are_found() {
-        let root = zero(|x| x * x - 2.0, 1.0).expect("the root of 2");
+    fn finds_roots() {
+        let root = find_root(|x| x * x - 2.0, 1.0).expect("the root of 2");
         assert!((root - 2.0_f64.sqrt()).abs() < 4e-16);
-        let small = zero(|x| x.ln() + 50.0, 1.0).expect("e^-50");
+        let small = find_root(|x| x.ln() + 50.0, 1.0).expect("e^-50");
         assert!((small.ln() + 50.0).abs() < 1e-13);
-        assert!(zero(|x| x + 1.0, 1.0).is_none());
-        assert!(zero(|_| f64::NAN, 1.0).is_none());
+        assert!(find_root(|x| x + 1.0, 1.0).is_none());
+        assert!(find_root(|_| f64::NAN, 1.0).is_none());
     }
 }

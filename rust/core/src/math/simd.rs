@@ -1,20 +1,20 @@
-//! Which vector instructions there are, and which are used.
+//! Vector instruction sets: those the machine has, and the one to use.
 
 use std::sync::LazyLock;
 
-/// A set of vector instructions.
+/// A vector instruction set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Simd {
-    /// What every machine of the kind has.
+    /// What every machine of the target architecture has.
     Baseline,
-    /// x86-64 with AVX2: four numbers an instruction.
+    /// x86-64 with AVX2: four numbers per instruction.
     Avx2,
-    /// x86-64 with AVX-512 F, VL and DQ: eight.
+    /// x86-64 with AVX-512 F, VL and DQ: eight numbers per instruction.
     Avx512,
 }
 
 impl Simd {
-    /// The best that this machine has.
+    /// The best set this machine has.
     #[must_use]
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
@@ -34,7 +34,7 @@ impl Simd {
         Self::Baseline
     }
 
-    /// As `ASSUR_SIMD` names it.
+    /// Its name in `ASSUR_SIMD`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -44,17 +44,17 @@ impl Simd {
         }
     }
 
-    /// The best that this machine has and the user allows: `ASSUR_SIMD=baseline` (or
-    /// `avx2`; anything else: the best there is), read once.
+    /// The best set that this machine has and `ASSUR_SIMD` allows (`baseline` or `avx2`; any
+    /// other value sets no limit). The variable is read once.
     #[must_use]
     pub fn allowed() -> Self {
         static ALLOWED: LazyLock<Simd> = LazyLock::new(|| {
-            let most = match std::env::var("ASSUR_SIMD").as_deref() {
+            let limit = match std::env::var("ASSUR_SIMD").as_deref() {
                 Ok("baseline") => Simd::Baseline,
                 Ok("avx2") => Simd::Avx2,
                 _ => Simd::Avx512,
             };
-            Simd::best().min(most)
+            Simd::best().min(limit)
         });
         *ALLOWED
     }

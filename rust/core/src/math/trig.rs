@@ -1,14 +1,14 @@
-//! Sine, cosine, arc tangent and arc sine of our own.
+//! Sine, cosine, arc tangent and arc sine.
 //!
-//! They are made of the operations of [`Real`] only, so a number has the same bits one at a time
-//! or in lanes, on every machine; the functions of the system's library promise neither. Errors
-//! are in ulp, the unit in the last place of the exact value rounded to a double. Bounds have a
-//! small margin above the worst found in some 10^8 samples, most about the worst places;
-//! `tests/python/test_trig.py` holds them against 50 digits.
+//! They use only the operations of [`Real`], so a number gives the same bits alone and in lanes, on
+//! every machine; the system's library promises neither. Errors are in ulp, the unit in the last
+//! place of the exact value rounded to a double. The bounds have a small margin above the worst
+//! error found in some 10^8 samples, most of them near the worst arguments;
+//! `tests/python/test_trig.py` checks them against 50 digits.
 //!
-//! The polynomials are minimax in the relative error of the function (Remez's exchange at 60
-//! digits, with mpmath); coefficients were rounded to doubles one after another from the
-//! lowest, what is above fitted again after each.
+//! The polynomials are minimax in the relative error of the function (Remez exchange at 60 digits,
+//! with mpmath). The coefficients were rounded to doubles one by one from the lowest, and the
+//! higher ones refitted after each.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
@@ -75,26 +75,26 @@ const ASIN: [f64; 12] = [
     0.03191443179629825,
 ];
 
-/// π/2 in parts of 31, 32, 28 and 53 bits: products of the first three with whole numbers up to
-/// 2^21 are exact.
+/// π/2 in parts of 31, 32, 28 and 53 bits: products of the first three with integers up to 2^21
+/// are exact.
 const FRAC_PI_2_PARTS: [f64; 4] =
     [1.5707963267341256, 6.077100506303966e-11, 2.0222662487111665e-21, 8.4784276603689e-32];
 
 /// 2^21 π/2, rounded down: up to here the number of quarter turns is at most 2^21.
-const FEW_TURNS: f64 = 3294198.0;
+const MAX_FAST_ANGLE: f64 = 3294198.0;
 
-/// Added to a number below 2^51, leaves it rounded to a whole one in the last bits.
+/// Added to a number below 2^51, it leaves that number, rounded to an integer, in the last bits.
 const ROUNDER: f64 = 1.5 * (1_u64 << 52) as f64;
 
-/// π less its double.
+/// π minus its nearest double.
 const PI_REST: f64 = 1.2246467991473532e-16;
 
 /// π/2 · 2^63, rounded.
 const FRAC_PI_2_BITS: u128 = 0xc90fdaa22168c235;
 
-/// Polynomial, lowest coefficient first, an even number of them. Terms go in fours (the highest
-/// perhaps in a pair) and these by Horner in z⁴: a quarter of the latency, few multiplications
-/// more.
+/// Evaluates a polynomial with an even number of coefficients, lowest first. Terms are grouped in
+/// fours (the highest group may be a pair) and the groups summed by Horner's rule in z⁴: a quarter
+/// of the latency for a few more multiplications.
 #[inline(always)]
 fn polynomial<R: Real, const N: usize>(z: R, coefficients: [f64; N]) -> R {
     let z2 = z * z;
@@ -117,50 +117,50 @@ fn polynomial<R: Real, const N: usize>(z: R, coefficients: [f64; N]) -> R {
 ///
 /// Error below 0.9 ulp (0.84 found). The sine of −0 is −0.
 ///
-/// Up to 3.29e6, quarter turns are taken off with π/2 in four parts, the products exact (Cody and
-/// Waite, *Software Manual for the Elementary Functions*, 1980), and the rest is a sum of two. No
-/// double is nearer to a multiple of π/2 than 2^-61, so what is lost there, below 2^-134, does not
-/// matter. Larger angles are reduced one by one in whole numbers (Payne and Hanek, "Radian
-/// reduction for trigonometric functions", *ACM SIGNUM Newsletter* 18(1), 1983), about eight times
-/// slower; their neighbours' bits do not depend on it.
+/// Up to 3.29e6, quarter turns are subtracted with π/2 in four parts, whose products are exact
+/// (Cody and Waite, *Software Manual for the Elementary Functions*, 1980), and the remainder is a
+/// sum of two doubles. No double is nearer to a multiple of π/2 than 2^-61, so the loss there,
+/// below 2^-134, does not matter. Larger angles are reduced one by one in integer arithmetic (Payne
+/// and Hanek, "Radian reduction for trigonometric functions", *ACM SIGNUM Newsletter* 18(1), 1983),
+/// about eight times slower, without changing a bit of the other lanes.
 #[inline(always)]
 pub fn sin_cos<R: Real>(x: R) -> (R, R) {
     let rounder = R::splat(ROUNDER);
     let parts = FRAC_PI_2_PARTS.map(R::splat);
-    // Its last two bits are the quadrant.
-    let mut turned = x * R::splat(FRAC_2_PI) + rounder;
-    let k = turned - rounder;
+    // The last two bits are the quadrant.
+    let mut shifted = x * R::splat(FRAC_2_PI) + rounder;
+    let k = shifted - rounder;
     // Exact: below 1, and a multiple of 2^-53 as both operands are.
     let first = x - k * parts[0];
-    // Where an operand of these differences is the smaller one after cancellation, they are exact;
-    // elsewhere what they lose is found exactly (Dekker).
-    let taken = k * parts[1];
-    let second = first - taken;
-    let second_lost = (first - second) - taken;
-    let taken = k * parts[2];
-    let mut r = second - taken;
-    let mut lo = (((second - r) - taken) + second_lost) - k * parts[3];
-    let near = x.abs().le(R::splat(FEW_TURNS));
+    // These differences are exact where cancellation leaves the minuend the smaller operand;
+    // elsewhere Dekker's difference gives their rounding error exactly.
+    let product = k * parts[1];
+    let second = first - product;
+    let second_error = (first - second) - product;
+    let product = k * parts[2];
+    let mut r = second - product;
+    let mut lo = (((second - r) - product) + second_error) - k * parts[3];
+    let near = x.abs().le(R::splat(MAX_FAST_ANGLE));
     if !near.all() {
-        [turned, r, lo] = reduce_far(x, near, [turned, r, lo]);
+        [shifted, r, lo] = reduce_far(x, near, [shifted, r, lo]);
     }
 
     let z = r * r;
     let half = z * R::splat(0.5);
-    let top = R::ONE - half; // near enough to cos r for `lo`
+    let top = R::ONE - half; // close enough to cos r to multiply `lo`
     let cos_low = ((R::ONE - top) - half) - r * lo;
     let cos = top + (cos_low + (z * z) * polynomial(z, COS));
     // −sin r: a sum of r and its correction would give +0 for −0.
     let minus_sin = -r - ((r * z) * polynomial(z, SIN) + lo * top);
 
-    let odd = turned.bit(0);
-    let negative = turned.bit(1);
-    let sin_here = R::select(odd, cos, -minus_sin);
-    let cos_here = R::select(odd, minus_sin, cos);
-    (R::select(negative, -sin_here, sin_here), R::select(negative, -cos_here, cos_here))
+    let odd = shifted.bit(0);
+    let negative = shifted.bit(1);
+    let sin_x = R::select(odd, cos, -minus_sin);
+    let cos_x = R::select(odd, minus_sin, cos);
+    (R::select(negative, -sin_x, sin_x), R::select(negative, -cos_x, cos_x))
 }
 
-/// Lanes that are not `near` by [`reduce_exactly`], the others as they are.
+/// Reduces the lanes that are not `near` by [`reduce_exactly`] and keeps the others.
 #[cold]
 #[inline(never)]
 fn reduce_far<R: Real>(x: R, near: R::Mask, reduced: [R; 3]) -> [R; 3] {
@@ -175,20 +175,20 @@ fn reduce_far<R: Real>(x: R, near: R::Mask, reduced: [R; 3]) -> [R; 3] {
     [0, 1, 2].map(|part| R::from_lanes(|lane| lanes[lane][part]))
 }
 
-/// Number whose last two bits are the quadrant of an angle above 2^20, and the rest of the angle
-/// as a sum of two.
+/// Reduces an angle above 2^20: a number whose last two bits are the quadrant, and the remainder as
+/// a sum of two doubles.
 ///
-/// Of x · 2/π only the bits that matter are computed (Payne and Hanek 1983): the bits of 2/π that
-/// give multiples of four are left out, and 192 from there on give two of the quadrant and 126
-/// good ones after the point, of which at most 62 cancel.
+/// Only the bits of x · 2/π that matter are computed (Payne and Hanek 1983): bits of 2/π that give
+/// multiples of four are skipped, and the next 192 give two bits of the quadrant and 126 correct
+/// bits after the point, of which at most 62 cancel.
 fn reduce_exactly(x: f64) -> [f64; 3] {
     if !x.is_finite() {
         return [f64::NAN; 3];
     }
     let bits = x.to_bits();
     let significand = u128::from(bits & ((1 << 52) - 1) | 1 << 52);
-    // |x| = significand · 2^e. Bit b of 2/π has weight 2^-b; the first to count is e − 1, which is
-    // at index e − 2 after the 64 zeros.
+    // |x| = significand · 2^e. Bit b of 2/π has weight 2^-b; the first one needed is e − 1, at
+    // index e − 2 after the 64 zeros.
     let exponent = (bits >> 52 & 0x7ff) as usize;
     let from = exponent + 64 - 1075 - 2;
     let word = |i: usize| {
@@ -200,7 +200,7 @@ fn reduce_exactly(x: f64) -> [f64; 3] {
     let high = significand * word(0) + (middle >> 64);
     let product = high << 64 | middle & u128::from(u64::MAX);
 
-    // To the nearest multiple: the fraction is signed.
+    // The quadrant is the nearest multiple, so the fraction is signed.
     let fraction = (product << 2).cast_signed();
     let quadrant = (product >> 126) as u64 + u64::from(fraction < 0);
     let zeros = fraction.unsigned_abs().leading_zeros();
@@ -218,20 +218,20 @@ fn reduce_exactly(x: f64) -> [f64; 3] {
 /// Angle of the point (x, y) in [−π, π], any doubles; signed zeros and infinities as in C and
 /// IEEE 754.
 ///
-/// Error below 1.7 ulp (1.63 found), subnormal coordinates and angles included. The worst places
+/// Error below 1.7 ulp (1.63 found), subnormal coordinates and angles included. The worst angles
 /// are just below powers of two, where the angle's ulp is half that of the quotient.
 ///
-/// The quotient of the smaller by the larger coordinate, one division, cannot overflow; its
-/// polynomial is added to 0, π/2 or π kept as a sum of two.
+/// The quotient of the smaller by the larger coordinate takes one division and cannot overflow. Its
+/// polynomial is added to 0, π/2 or π, kept as a sum of two doubles.
 #[inline(always)]
 pub fn atan2<R: Real>(y: R, x: R) -> R {
     let (size_x, size_y) = (x.abs(), y.abs());
     let steep = size_x.lt(size_y);
     let quotient = R::select(steep, -x, size_y) / R::select(steep, size_y, x);
-    // Both zero or both infinite; it changes nothing for others.
+    // For both zero or both infinite; the same value for other equal coordinates.
     let equal = size_y.le(size_x).and(size_x.le(size_y));
-    let of_equal = R::select(R::ZERO.lt(size_x), R::ONE, R::ZERO).copysign(x);
-    let t = R::select(equal, of_equal, quotient);
+    let equal_quotient = R::select(R::ZERO.lt(size_x), R::ONE, R::ZERO).copysign(x);
+    let t = R::select(equal, equal_quotient, quotient);
     let z = t * t;
     let correction = (t * z) * polynomial(z, ATAN);
     let half_turns = R::select(steep, R::splat(0.5), R::select(x.bit(63), R::ONE, R::ZERO));
@@ -242,7 +242,7 @@ pub fn atan2<R: Real>(y: R, x: R) -> R {
 ///
 /// Error below 1.3 ulp (1.26 found). The arc sine of −0 is −0.
 ///
-/// Above 1/2 by asin x = π/2 − 2 asin √((1 − x)/2) (Cody and Waite, 1980), whose 1 − x is exact.
+/// Above 1/2 it uses asin x = π/2 − 2 asin √((1 − x)/2) (Cody and Waite, 1980); 1 − x is exact.
 #[inline(always)]
 pub fn asin<R: Real>(x: R) -> R {
     let size = x.abs();
@@ -256,13 +256,13 @@ pub fn asin<R: Real>(x: R) -> R {
     add(quarter_turn, rest, t, correction).copysign(x)
 }
 
-/// `high` + `low` + `t` + `correction`, where `high` is zero or greater than |`t`|: what the first
-/// sum loses is found exactly (Dekker).
+/// `high` + `low` + `t` + `correction`, where `high` is zero or greater than |`t`|, so that
+/// Dekker's sum gives the rounding error of the first addition exactly.
 #[inline(always)]
 fn add<R: Real>(high: R, low: R, t: R, correction: R) -> R {
     let sum = high + t;
-    let lost = t - (sum - high);
-    sum + (lost + (low + correction))
+    let error = t - (sum - high);
+    sum + (error + (low + correction))
 }
 
 #[cfg(test)]
@@ -279,7 +279,7 @@ mod tests {
         a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
     }
 
-    /// Doubles of all exponents and both signs, and some near one.
+    /// Doubles of all exponents and both signs, some of moderate size.
     fn numbers(count: usize) -> Vec<f64> {
         let mut state = 0x9e3779b97f4a7c15_u64;
         let mut next = || {
@@ -299,33 +299,33 @@ mod tests {
     }
 
     #[track_caller]
-    fn sin_cos_is(x: f64, sin: f64, cos: f64) {
+    fn assert_sin_cos(x: f64, sin: f64, cos: f64) {
         let got = sin_cos(x);
         assert!(same(got.0, sin) && same(got.1, cos), "{x}: {got:?}");
     }
 
     #[test]
     fn sine_and_cosine_of_special_numbers() {
-        sin_cos_is(0.0, 0.0, 1.0);
-        sin_cos_is(-0.0, -0.0, 1.0);
-        sin_cos_is(TINY, TINY, 1.0);
-        sin_cos_is(-TINY, -TINY, 1.0);
-        sin_cos_is(FRAC_PI_2, 1.0, 0.5 * PI_REST);
-        sin_cos_is(PI, PI_REST, -1.0);
+        assert_sin_cos(0.0, 0.0, 1.0);
+        assert_sin_cos(-0.0, -0.0, 1.0);
+        assert_sin_cos(TINY, TINY, 1.0);
+        assert_sin_cos(-TINY, -TINY, 1.0);
+        assert_sin_cos(FRAC_PI_2, 1.0, 0.5 * PI_REST);
+        assert_sin_cos(PI, PI_REST, -1.0);
         for x in [INFINITY, -INFINITY, f64::NAN] {
-            sin_cos_is(x, f64::NAN, f64::NAN);
+            assert_sin_cos(x, f64::NAN, f64::NAN);
         }
         // The double nearest to a multiple of π/2, relative to its size (mpmath).
-        sin_cos_is(6381956970095103.0 * 2.0_f64.powi(797), 1.0, -4.687165924254628e-19);
+        assert_sin_cos(6381956970095103.0 * 2.0_f64.powi(797), 1.0, -4.687165924254628e-19);
     }
 
     #[test]
-    fn ends_of_the_reduction_meet() {
+    fn both_reductions_agree_where_they_meet() {
         for x in (0..4000).map(|i| 1048577.0 + 561.3 * f64::from(i)) {
-            let [turned, r, lo] = reduce_exactly(x);
+            let [shifted, r, lo] = reduce_exactly(x);
             let (sin, cos) = (r + lo).sin_cos();
-            let (sin, cos) = if turned.bit(0) { (cos, -sin) } else { (sin, cos) };
-            let sign = if turned.bit(1) { -1.0 } else { 1.0 };
+            let (sin, cos) = if shifted.bit(0) { (cos, -sin) } else { (sin, cos) };
+            let sign = if shifted.bit(1) { -1.0 } else { 1.0 };
             let got = sin_cos(x);
             assert!((got.0 - sign * sin).abs() < 4e-16 && (got.1 - sign * cos).abs() < 4e-16);
         }
@@ -379,11 +379,14 @@ mod tests {
         }
     }
 
-    /// Small, large and infinite numbers are neighbours here.
+    /// Small, large and infinite numbers share a vector here.
     #[test]
-    fn lanes_have_the_bits_of_scalars() {
+    fn lanes_equal_scalars_bit_for_bit() {
         let mut all = numbers(8000);
-        all.splice(8..8, [0.0, -0.0, INFINITY, -INFINITY, f64::NAN, f64::MAX, TINY, FEW_TURNS]);
+        all.splice(
+            8..8,
+            [0.0, -0.0, INFINITY, -INFINITY, f64::NAN, f64::MAX, TINY, MAX_FAST_ANGLE],
+        );
         let other: Vec<f64> = all.iter().rev().copied().collect();
         for (x, y) in all.chunks_exact(LANES).zip(other.chunks_exact(LANES)) {
             let (xs, ys) = (Lanes::from_lanes(|i| x[i]), Lanes::from_lanes(|i| y[i]));

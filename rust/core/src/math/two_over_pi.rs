@@ -1,7 +1,7 @@
 //! Bits of 2/π, for the reduction of large angles in [`super::trig`].
 
-/// Bits of 2/π after the point, the first most significant, after a word of zeros. The largest
-/// doubles take bits 970 to 1161. From mpmath.
+/// Bits of 2/π after the point, most significant first, behind a word of zeros. The largest doubles
+/// need bits 970 to 1161. Computed with mpmath.
 pub(crate) const FRAC_2_PI_BITS: [u64; 20] = [
     0x0000000000000000,
     0xa2f9836e4e441529,

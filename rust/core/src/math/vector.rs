@@ -1,11 +1,11 @@
-//! Vectors of the plane as complex numbers: turning is multiplication.
+//! Plane vectors as complex numbers: multiplication rotates.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 use super::lanes::Real;
 use super::trig;
 
-/// A vector (or a unit vector standing for an orientation); over [`super::lanes::Lanes`]
+/// A vector, or a unit vector that stands for an orientation. With [`super::lanes::Lanes`] as `R`,
 /// eight of them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Vector<R = f64> {
@@ -18,7 +18,7 @@ pub struct Vector<R = f64> {
 impl<R: Real> Vector<R> {
     /// The zero vector.
     pub const ZERO: Self = Self { x: R::ZERO, y: R::ZERO };
-    /// No turn.
+    /// The unit vector along x: no rotation.
     pub const ONE: Self = Self { x: R::ONE, y: R::ZERO };
 
     /// From components.
@@ -43,21 +43,21 @@ impl<R: Real> Vector<R> {
         Self { x, y }
     }
 
-    /// Turned by the same angle to the other side.
+    /// Complex conjugate: the opposite rotation.
     #[inline(always)]
     #[must_use]
     pub fn conj(self) -> Self {
         Self { x: self.x, y: -self.y }
     }
 
-    /// Turned by a right angle, counter-clockwise.
+    /// Rotated by a right angle counter-clockwise.
     #[inline(always)]
     #[must_use]
     pub fn left(self) -> Self {
         Self { x: -self.y, y: self.x }
     }
 
-    /// Stretched.
+    /// Multiplied by a scalar.
     #[inline(always)]
     #[must_use]
     pub fn scale(self, factor: R) -> Self {
@@ -71,7 +71,7 @@ impl<R: Real> Vector<R> {
         self.x * other.x + self.y * other.y
     }
 
-    /// Vector product: positive when `other` is to the left.
+    /// Cross product: positive when `other` is to the left.
     #[inline(always)]
     #[must_use]
     pub fn cross(self, other: Self) -> R {
@@ -85,14 +85,14 @@ impl<R: Real> Vector<R> {
         self.dot(self)
     }
 
-    /// Length (no guard against overflow: lengths are scaled to about 1).
+    /// Length. No guard against overflow: lengths are scaled to about 1.
     #[inline(always)]
     #[must_use]
     pub fn norm(self) -> R {
         self.norm2().sqrt()
     }
 
-    /// The greater of the components' sizes: the length to a factor of √2, without a root.
+    /// Largest absolute component: the length to a factor of √2, without a square root.
     #[inline(always)]
     #[must_use]
     pub fn size(self) -> R {
@@ -108,7 +108,7 @@ impl<R: Real> Vector<R> {
 }
 
 impl Vector {
-    /// Neither component is a number.
+    /// NaN in both components.
     pub const NAN: Self = Self { x: f64::NAN, y: f64::NAN };
 }
 

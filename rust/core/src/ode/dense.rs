@@ -1,4 +1,4 @@
-//! The state between the ends of a step.
+//! Dense output: the state inside a step.
 //!
 //! y(θ) = y₀ + θ(F₀ + (1−θ)(F₁ + θ(F₂ + (1−θ)(F₃ + …)))), θ = (t − t₀)/h, with F₀ = y₁ − y₀,
 //! F₁ = h f₀ − F₀, F₂ = F₀ − h f₁ − F₁ (the cubic of Hermite) and the others sums of the stages
@@ -11,7 +11,7 @@ use super::tableau::HERMITE_ROWS;
 #[derive(Debug)]
 pub(super) struct Interpolant {
     n: usize,
-    /// y₀ and then the F, n numbers each.
+    /// y₀, then F₀, F₁, …: n numbers each.
     rows: Vec<f64>,
     sum: Vec<Block>,
 }
@@ -22,7 +22,7 @@ impl Interpolant {
         Self { n, rows: vec![0.0; rows * n], sum: stages.rates(0).to_vec() }
     }
 
-    /// Takes over a step, of which all stages are there.
+    /// Sets the polynomial of a step whose stages are all evaluated.
     pub(super) fn set(&mut self, stages: &Stages, y: &[Block], new: &[Block], h: f64) {
         let n = self.n;
         let (first, last) = (stages.rates(0), stages.rates(stages.tableau.stages));
@@ -37,7 +37,7 @@ impl Interpolant {
             self.rows[3 * n + i] = change - h * flat(last, i) - second;
         }
         for (r, row) in stages.tableau.extension.iter().enumerate() {
-            stages.weigh(row, &mut self.sum);
+            stages.weighted_sum(row, &mut self.sum);
             let at = (1 + HERMITE_ROWS + r) * n;
             for (out, sum) in self.rows[at..at + n].iter_mut().zip(self.sum.as_flattened()) {
                 *out = h * sum;
@@ -45,25 +45,25 @@ impl Interpolant {
         }
     }
 
-    /// The state at a part of the step.
+    /// Writes the state at θ.
     pub(super) fn at(&self, theta: f64, y: &mut [f64]) {
         evaluate(&self.rows, self.n, theta, y);
     }
 
-    /// Moves a state from one part of the step to another.
+    /// Moves a state from one θ to another, adding the change of the polynomial.
     pub(super) fn shift(&self, from: f64, to: f64, y: &mut [f64]) {
         for (i, y) in y.iter_mut().enumerate() {
-            let [before, behind] = [from, to].map(|at| component(&self.rows, self.n, at, i));
-            *y += behind - before;
+            let [start, end] = [from, to].map(|theta| component(&self.rows, self.n, theta, i));
+            *y += end - start;
         }
     }
 
-    /// Bends it so that it meets a state at θ that is better known: the difference is of the size
-    /// of its error, and is spread over the step evenly.
-    pub(super) fn meet(&mut self, theta: f64, y: &[f64]) {
+    /// Corrects the polynomial to pass through a more accurate state at θ. The difference is of the
+    /// size of its error and is added in proportion to θ.
+    pub(super) fn correct(&mut self, theta: f64, y: &[f64]) {
         for i in 0..self.n {
-            let off = y[i] - component(&self.rows, self.n, theta, i);
-            self.rows[self.n + i] += off / theta;
+            let error = y[i] - component(&self.rows, self.n, theta, i);
+            self.rows[self.n + i] += error / theta;
         }
     }
 }
@@ -99,15 +99,15 @@ fn evaluate(rows: &[f64], n: usize, theta: f64, y: &mut [f64]) {
     }
 }
 
-/// The steps of a run: the state at any t of it.
+/// Dense output of a run: the state at any t.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DenseOutput {
     n: usize,
-    /// Numbers of a step.
+    /// Numbers stored per step.
     stride: usize,
     starts: Vec<f64>,
-    /// Full widths; a step that was cut by an event ends before.
+    /// Full widths; a step cut by an event ends earlier.
     widths: Vec<f64>,
     ends: Vec<f64>,
     rows: Vec<f64>,
@@ -123,14 +123,14 @@ impl DenseOutput {
         self.rows.extend_from_slice(&interpolant.rows);
     }
 
-    /// Where the steps end.
+    /// Ends of the steps.
     pub fn ends(&self) -> &[f64] {
         &self.ends
     }
 
-    /// Writes state and rates at the end of every step, one after another: what [`DenseOutput::at`] and
-    /// [`DenseOutput::slope`] give there.
-    pub fn each_end(&self, mut tell: impl FnMut(f64, &[f64], &[f64])) {
+    /// Passes the end, the state and the rates of each step to `visit`, as [`DenseOutput::at`] and
+    /// [`DenseOutput::slope`] give them.
+    pub fn each_end(&self, mut visit: impl FnMut(f64, &[f64], &[f64])) {
         let (mut y, mut rates) = (vec![0.0; self.n], vec![0.0; self.n]);
         let steps = self.starts.iter().zip(&self.widths).zip(&self.ends);
         for (((start, width), &end), rows) in steps.zip(self.rows.chunks_exact(self.stride.max(1)))
@@ -139,7 +139,7 @@ impl DenseOutput {
             let n = self.n;
             for (i, (y, rate)) in y.iter_mut().zip(&mut rates).enumerate() {
                 if theta == 1.0 {
-                    // Most steps are whole ones: all other terms are zero there.
+                    // Few steps are cut; at the end of a full step all other terms are zero.
                     *y = rows[i] + rows[n + i];
                     *rate = (rows[n + i] - (rows[2 * n + i] + rows[3 * n + i])) / width;
                     continue;
@@ -147,26 +147,26 @@ impl DenseOutput {
                 *y = component(rows, self.n, theta, i);
                 *rate = component_slope(rows, self.n, theta, i) / width;
             }
-            tell(end, &y, &rates);
+            visit(end, &y, &rates);
         }
     }
 
-    /// Writes the state at t; says whether t is on the path (else all is NaN). Where an event has
-    /// changed the state, it is the one before.
+    /// Writes the state at t, before any change by an event there. Returns whether t is within the
+    /// run; if not, the state is NaN.
     pub fn at(&self, t: f64, y: &mut [f64]) -> bool {
         y.fill(f64::NAN);
-        let Some((theta, _, rows)) = self.place(t).filter(|_| y.len() == self.n) else {
+        let Some((theta, _, rows)) = self.locate(t).filter(|_| y.len() == self.n) else {
             return false;
         };
         evaluate(rows, self.n, theta, y);
         true
     }
 
-    /// Writes the rates at t likewise: at the end of a step those of the right-hand side, between
-    /// an order less accurate than the state.
+    /// Writes the rates at t in the same direction. At the end of a step they are those of the
+    /// right-hand side; inside, one order less accurate than the state.
     pub fn slope(&self, t: f64, rates: &mut [f64]) -> bool {
         rates.fill(f64::NAN);
-        let Some((theta, width, rows)) = self.place(t).filter(|_| rates.len() == self.n) else {
+        let Some((theta, width, rows)) = self.locate(t).filter(|_| rates.len() == self.n) else {
             return false;
         };
         for (i, rate) in rates.iter_mut().enumerate() {
@@ -175,13 +175,13 @@ impl DenseOutput {
         true
     }
 
-    /// The step that t is in: which part of it, its width, its rows.
-    fn place(&self, t: f64) -> Option<(f64, f64, &[f64])> {
+    /// The step that contains t: θ, its width and its rows.
+    fn locate(&self, t: f64) -> Option<(f64, f64, &[f64])> {
         let (&from, &width) = (self.starts.first()?, self.widths.first()?);
-        let way = width.signum();
-        let step = self.ends.partition_point(|end| (end - t) * way < 0.0);
+        let direction = width.signum();
+        let step = self.ends.partition_point(|end| (end - t) * direction < 0.0);
         let (&start, &width) = (self.starts.get(step)?, self.widths.get(step)?);
         let rows = self.rows.chunks_exact(self.stride).nth(step)?;
-        ((t - from) * way >= 0.0).then(|| ((t - start) / width, width, rows))
+        ((t - from) * direction >= 0.0).then(|| ((t - start) / width, width, rows))
     }
 }

@@ -1,4 +1,4 @@
-//! Why a run could not be made or could not go on.
+//! Errors of a run.
 
 use std::fmt;
 
@@ -20,45 +20,45 @@ pub enum Error<E> {
         /// Its end.
         to: f64,
     },
-    /// A component of the first state that is not finite.
-    Start {
-        /// Which one.
+    /// A component of the initial state that is not finite.
+    InitialState {
+        /// The component.
         component: usize,
         /// Its value.
         value: f64,
     },
-    /// Tolerances that cannot be met, or that make no sense.
+    /// Tolerances that are invalid or cannot be met.
     Tolerance {
-        /// Of which component.
+        /// The component.
         component: usize,
-        /// The relative one.
+        /// Relative tolerance.
         relative: f64,
-        /// The absolute one.
+        /// Absolute tolerance.
         absolute: f64,
     },
-    /// A width of steps that is not positive.
-    Width {
+    /// A step width that is not positive.
+    StepWidth {
         /// Its value.
         value: f64,
     },
     /// Breaks that do not ascend.
     Breaks {
-        /// The first one out of order.
+        /// Index of the first one out of order.
         index: usize,
     },
-    /// Places of output that are out of order or outside of the interval.
-    Places {
-        /// The first one.
+    /// Output times that are out of order or outside the interval.
+    OutputTimes {
+        /// Index of the first one.
         index: usize,
     },
-    /// Rates, or a state, that are NaN or infinite however small the step.
+    /// Rates or a state that stay NaN or infinite however small the step.
     NotFinite {
         /// Where.
         t: f64,
-        /// Of which component.
+        /// The component.
         component: usize,
     },
-    /// What the system said.
+    /// An error of the system.
     System(E),
 }
 
@@ -71,7 +71,7 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
             Self::Span { from, to } => {
                 write!(f, "the interval from {from:e} to {to:e} is not finite")
             }
-            Self::Start { component, value } => {
+            Self::InitialState { component, value } => {
                 write!(f, "component {component} of the first state is {value}")
             }
             Self::Tolerance { component, relative, absolute } => write!(
@@ -81,9 +81,9 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
                  absolute one above zero",
                 super::options::LEAST_RELATIVE
             ),
-            Self::Width { value } => write!(f, "width {value:e} of a step is not positive"),
+            Self::StepWidth { value } => write!(f, "width {value:e} of a step is not positive"),
             Self::Breaks { index } => write!(f, "breaks do not ascend at entry {index}"),
-            Self::Places { index } => {
+            Self::OutputTimes { index } => {
                 write!(f, "place of output {index} is out of order or outside of the interval")
             }
             Self::NotFinite { t, component } => {

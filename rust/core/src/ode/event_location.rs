@@ -1,25 +1,25 @@
-//! Events of a step: where exactly they are, and what they lead to.
+//! Events of a step: their exact location and their actions.
 
 use super::dense::Interpolant;
 use super::event::EventTracker;
 use super::stages::{Block, Refusal, Stages};
 use super::system::{Action, System};
 
-/// How often the place of an event is mended by steps of the method itself.
-const MENDINGS: u32 = 3;
-/// Over so small a part of the step the continuous output tells the change of a state as well as
-/// another step would: its slope is wrong by little, and by so little of that.
-const BESIDE: f64 = 1e-8;
-/// Half width of the difference that gives the slope of an event function, as part of the step: its
-/// error, of the second order, costs nothing but speed of convergence.
+/// Limit of Newton steps that polish the location of an event.
+const MAX_POLISH_STEPS: u32 = 3;
+/// Change of θ up to which dense output gives the change of a state as accurately as another step:
+/// the relative error of its slope is small, and so is the distance.
+const SHIFT_LIMIT: f64 = 1e-8;
+/// Half width, as a fraction of the step, of the difference quotient for the slope of an event
+/// function. Its second-order error only slows convergence.
 const SLOPE_HALF_WIDTH: f64 = 1e-3;
-/// Events nearer than so many spacings of t are at one place.
-const TOGETHER: f64 = 64.0;
-/// Mending moves an event by the error of the continuous output, which is far less than this part
-/// of the step; more is no mending.
-const FARTHEST: f64 = 1.0 / 32.0;
+/// Events within this many spacings of t are simultaneous.
+const SIMULTANEOUS: f64 = 64.0;
+/// Greatest change of θ by one Newton step. Polishing corrects the error of dense output, which is
+/// far smaller; a greater step is a failure.
+const MAX_CORRECTION: f64 = 1.0 / 32.0;
 
-/// Where a step is cut by an event.
+/// Cut of a step at an event.
 #[derive(Debug)]
 pub(super) struct Cut {
     /// Where.
@@ -28,7 +28,7 @@ pub(super) struct Cut {
     pub stop: Option<usize>,
 }
 
-/// A step that was good, in which events are looked for.
+/// An accepted step, searched for events.
 pub(super) struct Step<'a, S> {
     pub system: &'a mut S,
     pub stages: &'a mut Stages,
@@ -39,10 +39,10 @@ pub(super) struct Step<'a, S> {
     pub t_new: f64,
     pub y: &'a [Block],
     pub new: &'a [Block],
-    /// The state at the place looked at last; behind a cut, what the event has made of it.
+    /// The state at the point evaluated last; after a cut, the state as the event changed it.
     pub state: &'a mut [Block],
-    /// The state at an event, before it has made anything of it.
-    pub met: &'a mut [Block],
+    /// The state at an event, before the event changed it.
+    pub event_state: &'a mut [Block],
 }
 
 impl<S: System> Step<'_, S> {
@@ -50,8 +50,8 @@ impl<S: System> Step<'_, S> {
         if theta == 1.0 { self.t_new } else { self.t + theta * self.h }
     }
 
-    /// The event functions by continuous output.
-    fn output(&mut self, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
+    /// The event functions from dense output.
+    fn from_dense_output(&mut self, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
         let state = &mut self.state.as_flattened_mut()[..self.n];
         if theta == 1.0 {
             state.copy_from_slice(&self.new.as_flattened()[..self.n]);
@@ -62,23 +62,23 @@ impl<S: System> Step<'_, S> {
         self.system.events(t, &self.state.as_flattened()[..self.n], values)
     }
 
-    /// The event functions by a step of the method itself: the continuous output is less accurate.
-    fn method(&mut self, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
+    /// The event functions from a step of the method, which is more accurate than dense output.
+    fn from_step(&mut self, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
         if theta == 1.0 {
-            return self.output(theta, values);
+            return self.from_dense_output(theta, values);
         }
         let h = theta * self.h;
         match self.stages.advance(self.system, self.t, self.y, h, self.state) {
             Ok(()) => {}
             Err(Refusal::System(error)) => return Err(error),
-            // A shorter step fails where the whole one did not: the output must do.
-            Err(_) => return self.output(theta, values),
+            // A shorter step fails where the full one did not: fall back to dense output.
+            Err(_) => return self.from_dense_output(theta, values),
         }
         let t = self.time(theta);
         self.system.events(t, &self.state.as_flattened()[..self.n], values)
     }
 
-    /// The event functions beside the place looked at last, which is `from`.
+    /// The event functions close to the point evaluated last, `from`.
     fn shift(&mut self, from: f64, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
         let state = &mut self.state.as_flattened_mut()[..self.n];
         self.interpolant.shift(from, theta, state);
@@ -86,8 +86,8 @@ impl<S: System> Step<'_, S> {
         self.system.events(t, &self.state.as_flattened()[..self.n], values)
     }
 
-    /// Mends the place of an event by simplified Newton steps with the method's own states.
-    fn mend(
+    /// Polishes the location of an event by simplified Newton steps with states of the method.
+    fn polish(
         &mut self,
         j: usize,
         theta: f64,
@@ -99,110 +99,113 @@ impl<S: System> Step<'_, S> {
         }
         let low = (theta - SLOPE_HALF_WIDTH).max(0.0);
         let high = (theta + SLOPE_HALF_WIDTH).min(1.0);
-        self.output(low, values)?;
+        self.from_dense_output(low, values)?;
         let before = values[j];
-        self.output(high, values)?;
+        self.from_dense_output(high, values)?;
         let slope = (values[j] - before) / (high - low);
         let (mut best, mut last) = (theta, theta);
-        self.method(best, values)?;
+        self.from_step(best, values)?;
         let mut value = values[j];
-        for _ in 0..MENDINGS {
+        for _ in 0..MAX_POLISH_STEPS {
             let change = value / slope;
-            if !(change.abs() > spacing && change.abs() <= FARTHEST) {
+            if !(change.abs() > spacing && change.abs() <= MAX_CORRECTION) {
                 break;
             }
             last = (best - change).clamp(0.0, 1.0);
-            if change.abs() <= BESIDE {
+            if change.abs() <= SHIFT_LIMIT {
                 self.shift(best, last, values)?;
             } else {
-                self.method(last, values)?;
+                self.from_step(last, values)?;
             }
-            let better = values[j].abs() < value.abs();
-            if !better {
+            let improved = values[j].abs() < value.abs();
+            if !improved {
                 break;
             }
             (best, value) = (last, values[j]);
         }
         if last != best {
-            self.method(best, values)?;
+            self.from_step(best, values)?;
         }
         Ok(best)
     }
 
-    /// Goes through the step from event to event, until one cuts it.
+    /// Detects the events of the step in order, until one cuts it.
     ///
-    /// `record` is told of each: its number, where it is, and the state there.
-    pub(super) fn watch(
+    /// `record` receives each: its number, t, and the state there.
+    pub(super) fn detect(
         &mut self,
-        watch: &mut EventTracker,
+        tracker: &mut EventTracker,
         mut record: impl FnMut(usize, f64, &[f64]),
     ) -> Result<Option<Cut>, S::Error> {
-        watch.survey(|theta, values| self.output(theta, values))?;
-        // The spacing of t, as part of the step.
+        tracker.sample(|theta, values| self.from_dense_output(theta, values))?;
+        // The spacing of t as a fraction of the step.
         let spacing = 2.0 * f64::EPSILON * (self.t_new.abs() / self.h.abs()).max(1.0);
-        for interval in 0..watch.intervals() {
-            watch.search(interval, spacing, |theta, values| self.output(theta, values))?;
-            let mut found = std::mem::take(&mut watch.found);
+        for interval in 0..tracker.intervals() {
+            tracker.find_events(interval, spacing, |theta, values| {
+                self.from_dense_output(theta, values)
+            })?;
+            let mut found = std::mem::take(&mut tracker.found);
             for (theta, j) in &mut found {
-                *theta = self.mend(*j, *theta, spacing, &mut watch.here)?;
+                *theta = self.polish(*j, *theta, spacing, &mut tracker.current)?;
             }
             found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-            let cut = self.go_through(&found, TOGETHER * spacing, watch, &mut record)?;
-            watch.found = found;
+            let cut = self.apply_events(&found, SIMULTANEOUS * spacing, tracker, &mut record)?;
+            tracker.found = found;
             if cut.is_some() {
                 return Ok(cut);
             }
-            watch.leave(interval);
+            tracker.pass_interval(interval);
         }
-        watch.turn_over();
+        tracker.next_step();
         Ok(None)
     }
 
-    /// The events of one interval, in order.
-    fn go_through(
+    /// Records the events of one interval in order and applies their actions.
+    fn apply_events(
         &mut self,
         found: &[(f64, usize)],
-        together: f64,
-        watch: &mut EventTracker,
+        tolerance: f64,
+        tracker: &mut EventTracker,
         record: &mut impl FnMut(usize, f64, &[f64]),
     ) -> Result<Option<Cut>, S::Error> {
         for (i, &(theta, j)) in found.iter().enumerate() {
             let t = self.time(theta);
-            // The place looked at last is this one, if it is the only one.
+            // A single event is the point evaluated last.
             if found.len() > 1 || theta == 0.0 {
-                self.place(theta, &mut watch.here)?;
+                self.evaluate_event(theta, &mut tracker.current)?;
             }
-            self.met.copy_from_slice(self.state);
-            record(j, t, &self.met.as_flattened()[..self.n]);
+            self.event_state.copy_from_slice(self.state);
+            record(j, t, &self.event_state.as_flattened()[..self.n]);
             let action =
                 self.system.on_event(j, t, &mut self.state.as_flattened_mut()[..self.n])?;
-            watch.passed(j);
+            tracker.pass_event(j);
             if action == Action::Continue {
                 continue;
             }
-            watch.fired[j] = true;
-            // What was recorded just here must not happen again.
+            tracker.fired[j] = true;
+            // Simultaneous events already recorded must not occur again.
             for &(before, other) in &found[..i] {
-                watch.fired[other] = theta - before <= together;
+                tracker.fired[other] = theta - before <= tolerance;
             }
             if theta > 0.0 {
-                self.interpolant.meet(theta, self.met.as_flattened());
+                self.interpolant.correct(theta, self.event_state.as_flattened());
             }
             let mut cut = Cut { t, stop: Some(j).filter(|_| action == Action::Stop) };
-            // What else has crossed here must happen now: behind the restart it has happened.
-            for other in 0..watch.len() {
-                // By rounding it may be found just behind.
+            // Other functions that cross here must make their events now: after the restart they
+            // are past their crossing.
+            for other in 0..tracker.len() {
+                // Rounding may put the event just after this one.
                 let mut near = found[i + 1..].iter();
-                let is_near = !watch.is_border(other)
-                    && near.any(|&(at, which)| which == other && at - theta <= together);
-                let happens = is_near || watch.happens(other, watch.here[other]);
-                if watch.fired[other] || !happens {
+                let is_near = !tracker.is_boundary(other)
+                    && near.any(|&(at, which)| which == other && at - theta <= tolerance);
+                let occurs = is_near || tracker.is_event(other, tracker.current[other]);
+                if tracker.fired[other] || !occurs {
                     continue;
                 }
-                record(other, t, &self.met.as_flattened()[..self.n]);
+                record(other, t, &self.event_state.as_flattened()[..self.n]);
                 let state = &mut self.state.as_flattened_mut()[..self.n];
                 let action = self.system.on_event(other, t, state)?;
-                watch.fired[other] = true;
+                tracker.fired[other] = true;
                 cut.stop = cut.stop.or(Some(other).filter(|_| action == Action::Stop));
             }
             return Ok(Some(cut));
@@ -210,10 +213,10 @@ impl<S: System> Step<'_, S> {
         Ok(None)
     }
 
-    /// State and event functions at a place already mended.
-    fn place(&mut self, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
+    /// State and event functions at a polished event.
+    fn evaluate_event(&mut self, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
         if theta > 0.0 {
-            return self.method(theta, values);
+            return self.from_step(theta, values);
         }
         self.state.copy_from_slice(self.y);
         self.system.events(self.t, &self.state.as_flattened()[..self.n], values)

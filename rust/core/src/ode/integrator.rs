@@ -1,29 +1,29 @@
-//! The integrator: a method and its work space.
+//! The integrator: a method and its workspace.
 
 use super::dense::Interpolant;
 use super::event::EventTracker;
 use super::options::Method;
 use super::stages::{Block, Stages, blocks};
 
-/// An integrator of systems of n equations, with all its work space. It can be used for any number
-/// of runs, one after another.
+/// An integrator of systems of n equations, with its workspace. It can be reused for any number of
+/// runs.
 #[derive(Debug)]
 pub struct Integrator {
     pub(super) n: usize,
     pub(super) stages: Stages,
     pub(super) interpolant: Interpolant,
-    pub(super) watch: EventTracker,
+    pub(super) tracker: EventTracker,
     /// The state of the run.
     pub(super) y: Vec<Block>,
-    /// The state at the end of the step tried.
+    /// The state at the end of the attempted step.
     pub(super) new: Vec<Block>,
-    /// The states at an event: what is made of it, and as it was met.
+    /// The state at an event, after and before its change by [`super::System::on_event`].
     pub(super) state: Vec<Block>,
-    pub(super) met: Vec<Block>,
+    pub(super) event_state: Vec<Block>,
 }
 
 impl Integrator {
-    /// For a method and a number of equations.
+    /// Creates an integrator for a method and a number of equations.
     pub fn new(method: Method, n: usize) -> Self {
         let stages = Stages::new(method.tableau(), n);
         let interpolant = Interpolant::new(&stages, n);
@@ -32,11 +32,11 @@ impl Integrator {
             n,
             stages,
             interpolant,
-            watch: EventTracker::default(),
+            tracker: EventTracker::default(),
             y: zero.clone(),
             new: zero.clone(),
             state: zero.clone(),
-            met: zero,
+            event_state: zero,
         }
     }
 }

@@ -1,17 +1,17 @@
-//! Ordinary differential equations y' = f(t, y) that are not stiff, by explicit Runge-Kutta pairs.
+//! Non-stiff ordinary differential equations y' = f(t, y) by explicit Runge-Kutta pairs.
 //!
-//! A [`System`] is the right-hand side with its events and hooks; an [`Integrator`] makes runs of
-//! it: with control of the error of each step, continuous output ([`Output`]), steps that end at
-//! breaks of the right-hand side in t ([`Options::breaks`]), and restarts at its breaks in the
-//! state, which are events ([`Crossing::Boundary`], [`Action::Restart`]). A run ends by itself at
-//! the edge of what is there ([`Fault::OutOfDomain`], [`End::DomainBoundary`]), and always by its limits.
+//! A [`System`] is the right-hand side with its events and hooks. An [`Integrator`] integrates it,
+//! with error control in each step and dense output ([`Output`]). Steps end at breaks of the
+//! right-hand side in t ([`Options::breaks`]). Breaks in the state are events that restart the run
+//! ([`Crossing::Boundary`], [`Action::Restart`]). A run ends early at the boundary of the domain
+//! ([`Fault::OutOfDomain`], [`End::DomainBoundary`]) or at a limit of [`Options`].
 //!
 //! Sources: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993,
-//! II.4 (control, first step), II.5 and II.10 (pairs), II.6 (continuous output).
+//! II.4 (step control, first step), II.5 and II.10 (pairs), II.6 (dense output).
 //!
 //! # Examples
 //!
-//! A pendulum let go at 1 rad, to its first rest on the other side:
+//! A pendulum released at 1 rad, up to its first rest on the other side:
 //!
 //! ```
 //! use assur::ode::{Action, Crossing, End, Fault, Integrator, Method, Options, System};

@@ -1,16 +1,16 @@
-//! What is asked of a run.
+//! Options of a run.
 
 use super::dop853::DORMAND_PRINCE_853;
 use super::system::Crossing;
 use super::tableau::{DORMAND_PRINCE_54, Tableau};
 
-/// The pair of formulas.
+/// The Runge-Kutta pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
-    /// Dormand & Prince's of order 5(4): 6 evaluations a step, for tolerances above 1e-6 or so.
+    /// Order 5(4) of Dormand and Prince: 6 evaluations per step. For tolerances above about 1e-6.
     DormandPrince54,
-    /// Order 8(5, 3) of Dormand, Prince and Hairer: 12 evaluations a step, 15 with its continuous
-    /// output. For tight tolerances.
+    /// Order 8(5, 3) of Dormand, Prince and Hairer: 12 evaluations per step, 15 with dense output.
+    /// For tight tolerances.
     #[default]
     DormandPrince853,
 }
@@ -24,42 +24,44 @@ impl Method {
     }
 }
 
-/// What is kept of a run beside its last state and its events.
+/// What a run stores besides its last state and its events.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Output<'a> {
     /// Nothing.
     #[default]
     End,
-    /// The states at these t, in the direction of the run. Memory does not grow with the steps.
+    /// The states at these t, ordered in the direction of the run. Memory does not grow with the
+    /// number of steps.
     At(&'a [f64]),
-    /// All steps with their continuous output: the state at any t.
-    Path,
+    /// All steps with their dense output: the state at any t.
+    Dense,
 }
 
-/// How a run is made.
+/// Options of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Options<'a> {
     /// Relative tolerances r of the error of a step, |eᵢ| ≲ aᵢ + rᵢ|yᵢ| in the mean square: one for
-    /// each component, or one for all. Zero for an angle that counts turns: its size says nothing.
+    /// each component, or one for all. Use zero for an angle that counts turns: its magnitude has
+    /// no meaning.
     pub relative: &'a [f64],
-    /// Absolute tolerances a: one for each component, or one for all. Infinity leaves a component
-    /// out of the control.
+    /// Absolute tolerances a: one for each component, or one for all. Infinity excludes a component
+    /// from error control.
     pub absolute: &'a [f64],
-    /// Width of the first step; found by itself if not given.
+    /// Width of the first step; chosen automatically if `None`.
     pub first_step: Option<f64>,
-    /// The widest step that may be taken (one hundredth more where a stretch ends).
+    /// Greatest width of a step (1 % more at the end of a smooth interval).
     pub max_step: f64,
-    /// By how much each of the first components may change in a step; of those after them as much as
-    /// they like. For events that the state is too smooth to show.
+    /// Greatest change of each of the first components in a step; the other components are not
+    /// limited. For events that a wide step would miss.
     pub max_change: &'a [f64],
-    /// How many steps may be tried.
+    /// Limit of attempted steps.
     pub max_steps: u64,
     /// Where the right-hand side is not smooth in t, ascending. Steps end there.
     pub breaks: &'a [f64],
-    /// When each event function makes an event.
+    /// Which sign changes of each event function are events.
     pub events: &'a [Crossing],
-    /// What is kept.
-    pub keep: Output<'a>,
+    /// What to store.
+    pub output: Output<'a>,
 }
 
 impl Default for Options<'_> {
@@ -73,11 +75,11 @@ impl Default for Options<'_> {
             max_steps: 1_000_000,
             breaks: &[],
             events: &[],
-            keep: Output::End,
+            output: Output::End,
         }
     }
 }
 
-/// The least relative tolerance: an estimate of the error cannot be told from rounding below, as
-/// it is a sum of a dozen terms of the size of a step.
+/// Least relative tolerance. The error estimate is a sum of a dozen terms of the size of a step, so
+/// below this it is rounding.
 pub const LEAST_RELATIVE: f64 = 10.0 * f64::EPSILON;

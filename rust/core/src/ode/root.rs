@@ -1,33 +1,34 @@
-//! Where a function of one variable changes its sign, and where it may just do so.
+//! Sign changes and double roots of a function of one variable.
 
-/// Place of the change of sign between `a`, where the function is positive, and `b`, where it is
-/// not: the end on the far side of a bracket no wider than `width`.
+/// Locates the sign change between `a`, where the function is positive, and `b`, where it is not.
+/// Returns the far end of a bracket no wider than `width`.
 ///
 /// ITP method (Oliveira & Takahashi, An enhancement of the bisection method average performance
 /// preserving minmax optimality, ACM TOMS 47 (2020)), with their κ₁ = 0.2/(b − a), κ₂ = 2, n₀ = 1:
-/// never more than one evaluation above bisection. A value of NaN counts as positive. Where `far`
-/// is strict, zero counts as positive too.
-pub(super) fn change_of_sign<E>(
+/// at most one evaluation more than bisection. `far` decides whether a value is on the far side:
+/// NaN counts as positive, and with a strict `far` zero does too.
+pub(super) fn itp<E>(
     (mut a, mut fa): (f64, f64),
     (mut b, mut fb): (f64, f64),
     width: f64,
     far: impl Fn(f64) -> bool,
     mut f: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<f64, E> {
+    /// n₀.
     const SLACK: i32 = 1;
     let half = 0.5 * width;
     let kappa = 0.2 / (b - a);
     let bisections = libm::log2((b - a) / width).ceil().max(0.0);
-    // The widest the bracket may be after each step.
+    // Half the greatest width of the bracket after each step.
     let mut radius = half * libm::exp2(bisections + f64::from(SLACK));
     while b - a > width {
         let middle = 0.5 * (a + b);
         let chord = (fb * a - fa * b) / (fb - fa);
-        let regula = if chord.is_finite() { chord } else { middle };
-        let to_middle = middle - regula;
+        let regula_falsi = if chord.is_finite() { chord } else { middle };
+        let to_middle = middle - regula_falsi;
         let push = kappa * ((b - a) * (b - a));
         let truncated =
-            if push <= to_middle.abs() { regula + push.copysign(to_middle) } else { middle };
+            if push <= to_middle.abs() { regula_falsi + push.copysign(to_middle) } else { middle };
         let reach = (radius - 0.5 * (b - a)).max(0.0);
         let x = if (truncated - middle).abs() <= reach {
             truncated
@@ -53,36 +54,36 @@ pub(super) fn change_of_sign<E>(
     Ok(b)
 }
 
-/// A place near `m` where a function is not positive, if there is one between `a` and `c`. It is
-/// positive at all three and least at `m`, and so it may have two zeros beside its minimum: they
-/// are looked for by parabolas through three points.
-pub(super) fn dip<E>(
+/// Finds a point near `m` where a function is not positive, if there is one between `a` and `c`.
+/// The function is positive at all three and least at `m`, so it may have two roots around its
+/// minimum, which is searched by parabolas through three points.
+pub(super) fn find_double_root<E>(
     mut a: (f64, f64),
     mut m: (f64, f64),
     mut c: (f64, f64),
     mut f: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<Option<f64>, E> {
-    /// Parabolas converge superlinearly: what is not found by then is not there.
-    const MOST: u32 = 20;
-    /// A minimum is flat: it cannot be told closer than the root of the unit roundoff.
-    const FLAT: f64 = 1e-9;
-    /// A parabola whose least value is above this part of the least of its points has no zero
-    /// near. (Half the value, as the parabola is only a guess.)
-    const ABOVE: f64 = 0.5;
-    for _ in 0..MOST {
+    /// Limit of iterations: parabolas converge superlinearly.
+    const MAX_STEPS: u32 = 20;
+    /// A minimum is flat: it cannot be located closer than the square root of the unit roundoff.
+    const RESOLUTION: f64 = 1e-9;
+    /// A parabola whose minimum is above this fraction of its lowest point shows no root near by.
+    /// (One half, because the parabola is only an estimate.)
+    const ROOT_FRACTION: f64 = 0.5;
+    for _ in 0..MAX_STEPS {
         let (left, right) = (m.0 - a.0, c.0 - m.0);
         let (slope_left, slope_right) = ((m.1 - a.1) / left, (c.1 - m.1) / right);
         let curvature = (slope_right - slope_left) / (left + right);
         let slope = (slope_left * right + slope_right * left) / (left + right);
         let offset = -0.5 * slope / curvature;
-        if !offset.is_finite() || m.1 + 0.5 * slope * offset > ABOVE * m.1 {
+        if !offset.is_finite() || m.1 + 0.5 * slope * offset > ROOT_FRACTION * m.1 {
             return Ok(None);
         }
-        // At its own minimum already: step aside into the wider half.
+        // Already at the minimum of the parabola: step aside into the wider half.
         let aside = if left > right { -0.1 * left } else { 0.1 * right };
-        let offset = if offset.abs() < FLAT * (c.0 - a.0) { aside } else { offset };
+        let offset = if offset.abs() < RESOLUTION * (c.0 - a.0) { aside } else { offset };
         let x = m.0 + offset;
-        if x <= a.0 || x >= c.0 || left.max(right) < FLAT {
+        if x <= a.0 || x >= c.0 || left.max(right) < RESOLUTION {
             return Ok(None);
         }
         let value = f(x)?;
@@ -110,7 +111,7 @@ mod tests {
 
     fn root(a: f64, b: f64, f: impl Fn(f64) -> f64) -> (f64, u32) {
         let mut count = 0;
-        let x = change_of_sign(
+        let x = itp(
             (a, f(a)),
             (b, f(b)),
             4.0 * f64::EPSILON * b,
@@ -133,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_functions_take_no_more_than_bisection() {
+    fn bad_functions_take_at_most_one_more_than_bisection() {
         let most = 53;
         let jump = |x: f64| if x < 0.3 { 1.0 } else { -1e-9 };
         let (x, count) = root(0.0, 1.0, jump);
@@ -147,15 +148,17 @@ mod tests {
     }
 
     #[test]
-    fn dips_below_zero_are_found() {
+    fn finds_dips_below_zero() {
         for depth in [1e-3, 1e-8, 1e-14] {
             let f = |x: f64| 1.0 - (x - 0.27).cos() - depth;
             let at = |x: f64| (x, f(x));
-            let Ok(found) = dip(at(0.0), at(0.25), at(0.5), |x| Ok::<_, Infallible>(f(x)));
+            let Ok(found) =
+                find_double_root(at(0.0), at(0.25), at(0.5), |x| Ok::<_, Infallible>(f(x)));
             assert!(f(found.unwrap()) <= 0.0);
             let f = |x: f64| 1.0 - (x - 0.27).cos() + depth;
             let at = |x: f64| (x, f(x));
-            let Ok(found) = dip(at(0.0), at(0.25), at(0.5), |x| Ok::<_, Infallible>(f(x)));
+            let Ok(found) =
+                find_double_root(at(0.0), at(0.25), at(0.5), |x| Ok::<_, Infallible>(f(x)));
             assert_eq!(found, None);
         }
     }

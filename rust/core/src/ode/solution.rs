@@ -1,4 +1,4 @@
-//! What comes out of a run.
+//! Result of a run.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use super::dense::DenseOutput;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum End {
-    /// At the t asked for.
+    /// At the requested t.
     Reached,
     /// At an event: the last one recorded.
     Event {
@@ -17,28 +17,28 @@ pub enum End {
         /// Where.
         t: f64,
     },
-    /// There is nothing beyond this t, to the spacing of t: a dead point.
+    /// At the boundary of the domain, to the spacing of t: a dead point.
     DomainBoundary {
-        /// The last t that was there.
+        /// The last t inside the domain.
         t: f64,
     },
-    /// The tolerance cannot be met beyond this t with steps above the spacing of t: a singularity,
-    /// a jump that is not among the breaks, or a tolerance that is too small. Or both sides of a
-    /// border push towards it.
+    /// No step above the spacing of t meets the tolerance beyond this t: a singularity, a jump that
+    /// is not among the breaks, or too small a tolerance. Also where both sides of a boundary push
+    /// towards it.
     Stalled {
         /// The last t.
         t: f64,
     },
-    /// As many steps as allowed were tried.
+    /// At the limit of attempted steps.
     StepLimit {
-        /// How far they came.
+        /// Where.
         t: f64,
-        /// Whether most of them were held by stability and not by accuracy.
+        /// Whether stability, not accuracy, limited most steps.
         stiff: bool,
     },
-    /// The system asked for it.
+    /// The system cancelled the run.
     Cancelled {
-        /// How far the run came.
+        /// Where.
         t: f64,
     },
 }
@@ -63,29 +63,29 @@ impl fmt::Display for End {
     }
 }
 
-/// What a run cost.
+/// Cost of a run.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Statistics {
-    /// Steps taken.
+    /// Steps accepted.
     pub steps: u64,
-    /// Steps tried in vain: too large an error, or something on the way not there.
+    /// Steps rejected: too large an error, a state outside the domain, or NaN.
     pub rejected: u64,
     /// Evaluations of the right-hand side.
     pub evaluations: u64,
-    /// Breaks met and restarts after events.
+    /// Restarts at breaks and after events.
     pub restarts: u64,
-    /// Steps held by stability and not by accuracy.
+    /// Steps limited by stability, not by accuracy.
     pub stiff: u64,
-    /// Width of the smallest step, but those cut by a break, by the end or by an event.
+    /// Width of the smallest step, not counting steps cut by a break, by the end or by an event.
     pub smallest: Option<f64>,
     /// Width of the largest step.
     pub largest: Option<f64>,
 }
 
 impl Statistics {
-    /// Counts a step that was taken; `cut` if something else than its error made it so narrow.
-    pub(super) fn count(&mut self, width: f64, cut: bool, stiff: bool) {
+    /// Counts an accepted step; `cut` if something other than its error limited its width.
+    pub(super) fn add_step(&mut self, width: f64, cut: bool, stiff: bool) {
         self.steps += 1;
         self.stiff += u64::from(stiff);
         self.largest = Some(self.largest.map_or(width, |w| w.max(width)));
@@ -95,7 +95,7 @@ impl Statistics {
     }
 }
 
-/// An event that happened.
+/// An event that occurred.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
     /// Its number.
@@ -104,29 +104,29 @@ pub struct Event {
     pub t: f64,
 }
 
-/// A run.
+/// Result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// Where it ended.
     pub t: f64,
-    /// The state there, after what an event that restarts has changed.
+    /// The state there, including any change by an event that restarts.
     pub y: Vec<f64>,
     /// Why it ended.
     pub end: End,
-    /// What happened on the way, in order.
+    /// The events, in order.
     pub events: Vec<Event>,
-    /// The states at the events (before anything was changed), one after another.
+    /// The states at the events, before they changed anything, one after another.
     pub event_states: Vec<f64>,
-    /// The states at the places asked for, as far as the run came, one after another.
+    /// The states at the requested t that the run reached, one after another.
     pub samples: Vec<f64>,
-    /// All steps, if asked for.
-    pub path: DenseOutput,
-    /// What it cost.
+    /// Dense output, if requested.
+    pub dense: DenseOutput,
+    /// Cost of the run.
     pub statistics: Statistics,
 }
 
 impl Solution {
-    /// The state at the event of this position in the list.
+    /// The state at the event with this index in [`Solution::events`].
     pub fn event_state(&self, position: usize) -> Option<&[f64]> {
         self.event_states.chunks_exact(self.y.len()).nth(position)
     }

@@ -1,7 +1,7 @@
 //! The arithmetic of one step.
 //!
-//! Numbers lie in blocks of four components, so that sums over stages are vector instructions for
-//! any number of equations; what is over is zero and stays so.
+//! Components are stored in blocks of four, so that sums over stages use vector instructions for
+//! any number of equations. The unused components of the last block are zero and stay zero.
 
 use super::system::{Fault, System};
 use super::tableau::{Row, Tableau};
@@ -9,22 +9,22 @@ use super::tableau::{Row, Tableau};
 /// Components of a block: two SSE2 registers, or one of AVX2.
 const LANES: usize = 4;
 
-/// Some components of a state.
+/// Four components of a state.
 pub(super) type Block = [f64; LANES];
 
-/// How many blocks hold so many components.
+/// Number of blocks that hold `n` components.
 pub(super) fn blocks(n: usize) -> usize {
     n.div_ceil(LANES)
 }
 
-/// Why a step cannot be made.
+/// Why a step could not be evaluated.
 #[derive(Debug)]
 pub(super) enum Refusal<E> {
-    /// A stage is not there.
-    NotThere,
+    /// A stage is outside the domain.
+    OutOfDomain,
     /// Rates at a stage are NaN or infinite.
     NotFinite { t: f64, component: usize },
-    /// The system ends the run.
+    /// An error of the system that ends the run.
     System(E),
 }
 
@@ -38,13 +38,13 @@ pub(super) struct Scale {
 impl Scale {
     /// One tolerance for each component, or one for all.
     pub(super) fn new(relative: &[f64], absolute: &[f64], n: usize) -> Self {
-        let spread = |given: &[f64]| {
-            let mut spread = vec![[1.0; LANES]; blocks(n)];
-            let all = spread.as_flattened_mut().iter_mut();
-            all.zip(given.iter().cycle().take(n)).for_each(|(to, from)| *to = *from);
-            spread
+        let to_blocks = |list: &[f64]| {
+            let mut tolerances = vec![[1.0; LANES]; blocks(n)];
+            let all = tolerances.as_flattened_mut().iter_mut();
+            all.zip(list.iter().cycle().take(n)).for_each(|(to, from)| *to = *from);
+            tolerances
         };
-        Self { relative: spread(relative), absolute: spread(absolute) }
+        Self { relative: to_blocks(relative), absolute: to_blocks(absolute) }
     }
 
     /// Σ (eᵢ / (aᵢ + rᵢ max(|yᵢ|, |zᵢ|)))² (Hairer, Nørsett & Wanner I, eq. II.4.10 and 4.11).
@@ -54,7 +54,7 @@ impl Scale {
         for (((e, (a, r)), y), z) in e.iter().zip(tolerances).zip(y).zip(z) {
             for l in 0..LANES {
                 let scale = a[l] + r[l] * y[l].abs().max(z[l].abs());
-                // Without an absolute tolerance a component may rest at zero: 0/0 is no error.
+                // Without an absolute tolerance a component may stay at zero: 0/0 must count as 0.
                 let ratio = e[l] / scale.max(f64::MIN_POSITIVE);
                 total += ratio * ratio;
             }
@@ -63,17 +63,17 @@ impl Scale {
     }
 }
 
-/// A fine estimate, by the width of its step, so many times the greatest before shows a solution
-/// that changes within a step. The quotient of two estimates then promises too much: of a machine, a
-/// step with an error of 12 tolerances was taken for one of 0.995.
-const ABRUPT: f64 = 6.0;
-/// The part of the fine estimate that then counts at least. Of thresholds from 2 to 12 and parts from
-/// 0.05 to 0.2 these cost least (0.8 % more evaluations of 150 random machines) of those that keep
-/// the energy.
-const ABRUPT_PART: f64 = 0.05;
-/// Steps of a stretch before which nothing is known of its solution: of a table's pieces, which have
-/// but a few, the second says nothing either.
-const FIRST_STEPS: u32 = 2;
+/// A fine error estimate, scaled by the step width, that exceeds all earlier ones by this factor
+/// shows a solution that changes within a step. The quotient of the two estimates is then too
+/// optimistic: a step of a machine with an error of 12 tolerances passed as 0.995.
+const ABRUPT_RATIO: f64 = 6.0;
+/// Least fraction of the fine estimate that then counts as the error. Of ratios from 2 to 12 and
+/// fractions from 0.05 to 0.2 that keep the energy, these cost least (0.8 % more evaluations over
+/// 150 random machines).
+const ABRUPT_FRACTION: f64 = 0.05;
+/// Steps of a smooth interval before the estimates are compared: earlier ones say too little about
+/// the solution, and a piece of a table has only a few steps.
+const WARM_UP_STEPS: u32 = 2;
 
 /// The stages of a step.
 #[derive(Debug)]
@@ -87,12 +87,13 @@ pub(super) struct Stages {
     argument: Vec<Block>,
     /// Estimated errors.
     error: Vec<Block>,
-    /// Size of the fine estimate by h⁶: of the step tried, and the greatest since the stretch began,
-    /// so many steps before.
+    /// Fine error estimate divided by |h|⁶: of the attempted step, and the greatest of the accepted
+    /// steps since the smooth interval began.
     fine: f64,
     greatest: f64,
-    taken: u32,
-    /// How often the right-hand side was evaluated.
+    /// Number of those accepted steps.
+    accepted: u32,
+    /// Evaluations of the right-hand side.
     pub evaluations: u64,
 }
 
@@ -108,14 +109,14 @@ impl Stages {
             error: vec![[0.0; LANES]; blocks],
             fine: 0.0,
             greatest: 0.0,
-            taken: 0,
+            accepted: 0,
             evaluations: 0,
         }
     }
 
-    /// A smooth stretch begins: what was estimated before says nothing of it.
-    pub(super) fn enter(&mut self) {
-        (self.greatest, self.taken) = (0.0, 0);
+    /// A smooth interval begins: earlier estimates say nothing about it.
+    pub(super) fn begin_interval(&mut self) {
+        (self.greatest, self.accepted) = (0.0, 0);
     }
 
     /// Rates of a stage.
@@ -137,7 +138,7 @@ impl Stages {
         let rates = &mut self.k[range].as_flattened_mut()[..self.n];
         match system.rates(t, &y.as_flattened()[..self.n], rates) {
             Ok(()) => {}
-            Err(Fault::OutOfDomain) => return Err(Refusal::NotThere),
+            Err(Fault::OutOfDomain) => return Err(Refusal::OutOfDomain),
             Err(Fault::Error(error)) => return Err(Refusal::System(error)),
         }
         match rates.iter().position(|rate| !rate.is_finite()) {
@@ -146,7 +147,7 @@ impl Stages {
         }
     }
 
-    /// The stages that make up a new state, and that state. The first one is there already.
+    /// Evaluates the stages of a step and the new state. The first stage must be evaluated already.
     pub(super) fn advance<S: System>(
         &mut self,
         system: &mut S,
@@ -162,7 +163,8 @@ impl Stages {
         Ok(())
     }
 
-    /// The stages of the continuous extension. The rates at the new state are there already.
+    /// Evaluates the stages of the continuous extension. The rates at the new state must be
+    /// evaluated already.
     pub(super) fn extend<S: System>(
         &mut self,
         system: &mut S,
@@ -192,32 +194,33 @@ impl Stages {
         result
     }
 
-    /// Size of the error of a step: it is good if it is not above one.
+    /// Error of a step relative to the tolerance: acceptable up to 1.
     ///
-    /// With two estimates, e = e₅² / √(e₅² + 0.01 e₃²) (Hairer, Nørsett & Wanner I, II.10), which
-    /// takes them for the terms of a series: only while they change little from step to step.
+    /// With two estimates, e = e₅² / √(e₅² + 0.01 e₃²) (Hairer, Nørsett & Wanner I, II.10). This
+    /// treats them as terms of a series and holds only while they change little from step to step.
     pub(super) fn error(&mut self, scale: &Scale, y: &[Block], new: &[Block], h: f64) -> f64 {
-        let mut size = |row: Row, k: &[Block]| {
-            weigh(row, k, &mut self.error);
+        let mut mean_square = |row: Row, k: &[Block]| {
+            weighted_sum(row, k, &mut self.error);
             scale.square_sum(&self.error, y, new) / self.n as f64
         };
-        let fine = size(self.tableau.error, &self.k);
+        let fine = mean_square(self.tableau.error, &self.k);
         let error = match self.tableau.coarse_error {
             None => fine.sqrt(),
             Some(_) if fine == 0.0 => 0.0,
-            Some(coarse) => fine / (fine + 0.01 * size(coarse, &self.k)).sqrt(),
+            Some(coarse) => fine / (fine + 0.01 * mean_square(coarse, &self.k)).sqrt(),
         };
         let fine = fine.sqrt();
         self.fine = fine / (h * h * h * h * h).abs();
-        let is_abrupt = self.taken >= FIRST_STEPS && self.fine > ABRUPT * self.greatest;
-        let error = if is_abrupt { error.max(ABRUPT_PART * fine) } else { error };
-        // What is too large for a number is just too large.
+        let is_abrupt = self.accepted >= WARM_UP_STEPS && self.fine > ABRUPT_RATIO * self.greatest;
+        let error = if is_abrupt { error.max(ABRUPT_FRACTION * fine) } else { error };
+        // An overflow gives NaN: the error is then too large, not unknown.
         if error.is_nan() { f64::INFINITY } else { error * h.abs() }
     }
 
-    /// Whether stability and not accuracy holds a step, from the two last stages, which are both
-    /// at its end (Shampine; Hairer & Wanner II, IV.2, eq. 2.26), by what the tolerances make of
-    /// each component: a sum that nothing depends on says nothing. Only after `advance`.
+    /// Whether stability, not accuracy, limits a step, from the last two stages, both at its end
+    /// (Shampine; Hairer & Wanner II, IV.2, eq. 2.26). Components are weighted by their tolerances,
+    /// so that one excluded from error control does not count. Valid only directly after `advance`
+    /// and the evaluation at the new state.
     pub(super) fn is_stiff(&mut self, scale: &Scale, y: &[Block], new: &[Block], h: f64) -> bool {
         let last = self.tableau.stages - 1;
         let k = |stage: usize| &self.k[stage * self.blocks..(stage + 1) * self.blocks];
@@ -228,17 +231,17 @@ impl Stages {
         states > 0.0 && h * h * rates > self.tableau.stability * self.tableau.stability * states
     }
 
-    /// Takes the rates at the new state as those at the start of the next step.
-    pub(super) fn turn_over(&mut self) {
+    /// Uses the rates at the new state as the first stage of the next step.
+    pub(super) fn next_step(&mut self) {
         self.greatest = self.greatest.max(self.fine);
-        self.taken = self.taken.saturating_add(1);
+        self.accepted = self.accepted.saturating_add(1);
         let end = self.tableau.stages * self.blocks;
         self.k.copy_within(end..end + self.blocks, 0);
     }
 
     /// Weighted sum of the rates of the stages.
-    pub(super) fn weigh(&self, row: Row, sum: &mut [Block]) {
-        weigh(row, &self.k, sum);
+    pub(super) fn weighted_sum(&self, row: Row, sum: &mut [Block]) {
+        weighted_sum(row, &self.k, sum);
     }
 }
 
@@ -250,20 +253,20 @@ fn subtract(a: &[Block], b: &[Block], out: &mut [Block]) {
 
 /// Σ wⱼ kⱼ.
 #[inline]
-fn weigh(row: Row, k: &[Block], sum: &mut [Block]) {
-    // One block is by far the most frequent, and then its number is no question.
+fn weighted_sum(row: Row, k: &[Block], sum: &mut [Block]) {
+    // A single block is by far the most frequent case and needs no index arithmetic.
     if let [sum] = sum {
-        *sum = weigh_one(row, |stage| &k[stage]);
+        *sum = weighted_block(row, |stage| &k[stage]);
         return;
     }
     let blocks = sum.len();
     for (b, sum) in sum.iter_mut().enumerate() {
-        *sum = weigh_one(row, |stage| &k[stage * blocks + b]);
+        *sum = weighted_block(row, |stage| &k[stage * blocks + b]);
     }
 }
 
 #[inline(always)]
-fn weigh_one<'k>(row: Row, k: impl Fn(usize) -> &'k Block) -> Block {
+fn weighted_block<'k>(row: Row, k: impl Fn(usize) -> &'k Block) -> Block {
     let mut total = [0.0; LANES];
     for &(stage, weight) in row {
         let k = k(stage);
@@ -277,7 +280,7 @@ fn weigh_one<'k>(row: Row, k: impl Fn(usize) -> &'k Block) -> Block {
 /// y + h Σ wⱼ kⱼ.
 #[inline]
 fn combine(row: Row, k: &[Block], h: f64, y: &[Block], new: &mut [Block]) {
-    weigh(row, k, new);
+    weighted_sum(row, k, new);
     for (new, y) in new.iter_mut().zip(y) {
         for l in 0..LANES {
             new[l] = y[l] + h * new[l];

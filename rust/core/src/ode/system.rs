@@ -1,12 +1,12 @@
-//! What is integrated: right-hand side, events and hooks in one place.
+//! The system to integrate: right-hand side, events and hooks.
 
-/// Why the right-hand side gave no rates.
+/// Why the right-hand side could not be evaluated.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Fault<E> {
-    /// There is no state here, as beyond the range of a mechanism. A smaller step is tried; the run
-    /// ends at the edge of what is there.
+    /// The state is outside the domain, for example where a mechanism cannot be assembled. The
+    /// integrator tries a smaller step and ends the run at the boundary of the domain.
     OutOfDomain,
-    /// The run must end, and this is why.
+    /// An error that ends the run.
     Error(E),
 }
 
@@ -16,59 +16,58 @@ impl<E> From<E> for Fault<E> {
     }
 }
 
-/// What to do after an event. Of several events at one place, the last in this list is done.
+/// What to do after an event. Among simultaneous events, the action last in this list wins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Action {
-    /// Nothing: the event is only recorded. Neither state nor right-hand side may have changed.
+    /// Record the event and go on. Neither the state nor the right-hand side may have changed.
     Continue,
-    /// Start again from here: the state or the right-hand side is another one from now on.
+    /// Restart here: the state or the right-hand side has changed.
     Restart,
     /// End the run here.
     Stop,
 }
 
-/// When an event function g makes an event.
+/// Which sign changes of an event function g are events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Crossing {
-    /// From g < 0 to g ≥ 0, in the direction of the run. A run that starts on zero is not at an
-    /// event.
+    /// From g < 0 to g ≥ 0, in the direction of the run. A start at zero is not an event.
     Rising,
     /// From g > 0 to g ≤ 0.
     Falling,
-    /// Either of both.
+    /// Both.
     Either,
-    /// As soon as g < 0: the right-hand side is one of a piece, which is g ≥ 0. A run or restart
-    /// on zero is inside; one outside makes the event at once.
+    /// As soon as g < 0: the right-hand side is valid on the piece g ≥ 0 only. A start or restart
+    /// at zero is inside; one outside triggers the event at once.
     Boundary,
 }
 
-/// A system of ordinary differential equations y' = f(t, y) with what happens on the way.
+/// A system of ordinary differential equations y' = f(t, y) with its events.
 pub trait System {
-    /// What else can go wrong.
+    /// Error of the system's own functions.
     type Error;
 
-    /// The right-hand side f. All rates must be written; NaN or infinity anywhere is refused.
+    /// The right-hand side f. It must write all rates; NaN or infinity is rejected.
     ///
     /// # Errors
     ///
-    /// [`Fault`], if there are no rates here.
+    /// [`Fault`], if the rates cannot be evaluated at this state.
     fn rates(&mut self, t: f64, y: &[f64], rates: &mut [f64]) -> Result<(), Fault<Self::Error>>;
 
-    /// A smooth stretch begins at `from`, in state `y`, and goes no further than `to`: the start,
-    /// a break or a restart. Until the next call, `rates` must be one smooth function, at both
-    /// ends too: of a table over t that has all its knots among the breaks, the piece that
+    /// A smooth interval begins at `from` in state `y`, and ends at `to` or before: called at the
+    /// start, at breaks and at restarts. Until the next call, `rates` must be one smooth function,
+    /// both ends included. For a table over t whose knots are all breaks, this is the piece that
     /// contains (`from` + `to`) / 2.
     ///
     /// # Errors
     ///
     /// Any error ends the run.
-    fn enter(&mut self, from: f64, to: f64, y: &[f64]) -> Result<(), Self::Error> {
+    fn begin_interval(&mut self, from: f64, to: f64, y: &[f64]) -> Result<(), Self::Error> {
         let _ = (from, to, y);
         Ok(())
     }
 
-    /// Event functions, as many as there are [`Crossing`]s in the options. NaN where there is none:
-    /// nothing happens there.
+    /// Event functions, one for each [`Crossing`] in the options. NaN where one is undefined: no
+    /// event occurs there.
     ///
     /// # Errors
     ///
@@ -79,9 +78,9 @@ pub trait System {
         Ok(())
     }
 
-    /// An event has happened, and is recorded. The state may be changed if the run starts again
-    /// (an impact; or q set to the knot of a table that it has reached, so that it is on the
-    /// border of both pieces and inside neither is a matter of rounding).
+    /// Called for each recorded event. It may change the state if it restarts the run: at an
+    /// impact, or to set q exactly to the table knot it has reached, so that rounding does not
+    /// decide which piece it is on.
     ///
     /// # Errors
     ///
@@ -91,29 +90,29 @@ pub trait System {
         Ok(Action::Continue)
     }
 
-    /// An invariant is watched from here: the right-hand side was asked last for this state.
+    /// Starts to monitor an invariant. The last call of `rates` was for this state.
     fn watch_invariant(&mut self, t: f64, y: &[f64]) {
         let _ = (t, y);
     }
 
-    /// How far an invariant has moved over a step whose end is this state, for which the right-hand
-    /// side was asked last: in tolerances, of which it may take one. (An estimate of the error sees
-    /// a narrow feature between its stages as little as they do.)
+    /// Drift of an invariant over a step that ends in this state, in tolerances; above 1 the step
+    /// is rejected. The last call of `rates` was for this state. (Like the stages, an error
+    /// estimate misses a narrow feature between them.)
     fn drift(&mut self, t: f64, y: &[f64]) -> f64 {
         let _ = (t, y);
         0.0
     }
 
-    /// The step that was asked for its [`System::drift`] last was taken.
+    /// The step of the last [`System::drift`] was accepted.
     fn keep_invariant(&mut self) {}
 
-    /// Whether the run is to end, as after a signal or a deadline. Asked every few steps.
+    /// Whether to cancel the run, for example after a signal or a deadline. Called every few steps.
     fn cancelled(&mut self) -> bool {
         false
     }
 }
 
-/// A right-hand side alone, a closure, as a [`System`].
+/// A closure as a [`System`] without events.
 #[derive(Debug)]
 pub struct Rates<F>(pub F);
 

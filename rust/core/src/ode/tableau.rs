@@ -1,34 +1,34 @@
-//! The coefficients of the two pairs, as their sources print them.
+//! Butcher tableau, and the coefficients of order 5(4) as printed in their sources.
 //!
-//! Rows are sparse: a weight and the stage it belongs to. Stages count from zero.
+//! Rows are sparse: stage and weight. Stages count from zero.
 
-/// Weights of stages: (stage, weight).
+/// A sparse row: (stage, weight).
 pub(super) type Row = &'static [(usize, f64)];
 
 /// An explicit Runge-Kutta pair with a continuous extension.
 ///
-/// Stage s is evaluated at t + cₛh, y + h Σ aₛⱼkⱼ. Behind the `stages` that make up the new state
-/// comes the derivative at the new state (index `stages`), and behind it the stages that only the
-/// continuous extension needs.
+/// Stage s is evaluated at t + cₛh, y + h Σ aₛⱼkⱼ. After the `stages` of the new state come
+/// the derivative at the new state (index `stages`) and the stages that only the continuous
+/// extension needs.
 #[derive(Debug)]
 pub(super) struct Tableau {
     /// Order of the new state.
     pub order: u8,
-    /// How many stages make up the new state.
+    /// Number of stages of the new state.
     pub stages: usize,
-    /// Where each stage is on the step, those of the continuous extension too.
+    /// Nodes of all stages as fractions of the step, including those of the continuous extension.
     pub c: &'static [f64],
     /// Weights of the earlier stages in each stage; row `stages` is the weights of the new state.
     pub a: &'static [Row],
-    /// New state minus embedded one.
+    /// Weights of the new state minus the embedded one.
     pub error: Row,
-    /// The same against a third formula, of lower order (Hairer's 5th and 3rd order together).
+    /// The same for a third formula of lower order (Hairer combines orders 5 and 3).
     pub coarse_error: Option<Row>,
-    /// Whether the estimate of the error needs the derivative at the new state.
+    /// Whether the error estimate needs the derivative at the new state.
     pub error_needs_end: bool,
     /// Weights of the highest coefficients of the continuous extension, one row each.
     pub extension: &'static [Row],
-    /// Steps with h|λ| above this are held by stability, no longer by accuracy (Hairer & Wanner,
+    /// Stability, not accuracy, limits steps with h|λ| above this (Hairer & Wanner,
     /// Solving Ordinary Differential Equations II, 2nd ed. 1996, IV.2; DOPRI5 and DOP853).
     pub stability: f64,
 }
@@ -39,18 +39,18 @@ impl Tableau {
         self.a[self.stages]
     }
 
-    /// How many stages there are in all.
+    /// Number of all stages.
     pub(super) fn all_stages(&self) -> usize {
         self.c.len()
     }
 
-    /// How many coefficients the continuous extension has beside the state at the start.
+    /// Number of coefficients of the continuous extension besides the initial state.
     pub(super) fn extension_rows(&self) -> usize {
         HERMITE_ROWS + self.extension.len()
     }
 }
 
-/// Coefficients of the continuous extension that follow from both states and both derivatives.
+/// Coefficients of the continuous extension from the states and derivatives at both ends.
 pub(super) const HERMITE_ROWS: usize = 3;
 
 /// Dormand & Prince, A family of embedded Runge-Kutta formulae, J. Comp. Appl. Math. 6 (1980),
@@ -130,11 +130,11 @@ mod tests {
         row.iter().map(|&(j, b)| b * weights[j]).sum()
     }
 
-    /// The weights of 30 digits leave 1e-15 and their own size (up to 43 in a row of A).
+    /// Weights with 30 digits leave 1e-15 times their size (up to 43 in a row of A).
     const ROUNDING: f64 = 3e-13;
 
     #[test]
-    fn rows_sum_to_the_place_of_their_stage() {
+    fn rows_sum_to_the_node_of_their_stage() {
         for tableau in BOTH {
             assert_eq!(tableau.a.len(), tableau.c.len());
             for (s, (row, c)) in tableau.a.iter().zip(tableau.c).enumerate() {
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn new_states_meet_all_conditions_of_their_order() {
+    fn new_states_meet_all_order_conditions() {
         for (tableau, count) in BOTH.into_iter().zip([17, 200]) {
             let trees = trees(tableau.order);
             assert_eq!(trees.len(), count);
@@ -157,7 +157,7 @@ mod tests {
         }
     }
 
-    /// The difference of two formulas vanishes to the lower order of the two, and not beyond.
+    /// The difference of two formulas vanishes up to the lower of the two orders and no further.
     #[test]
     fn error_estimates_have_their_order() {
         let estimates = [

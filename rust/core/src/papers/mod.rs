@@ -1,3 +1,4 @@
-//! The theory of two papers that has formulas of its own.
+//! Published theories with formulas of their own.
+
 pub mod crank_rocker;
 pub mod slider_crank;

@@ -7,7 +7,7 @@ use crate::branch::change_interpolant::ChangeWindow;
 use crate::branch::design::{BranchPoint, Design};
 use crate::branch::knot::{InitialGuess, Taylor2};
 use crate::branch::units::Units;
-use crate::math::angle::nearest;
+use crate::math::angle::unwrap_to;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Unknown};
@@ -248,7 +248,8 @@ impl LastPosition {
         q: &[f64],
         reference_angles: &[f64],
     ) -> Self {
-        let angle = |class: usize| nearest(state.class[class][0].angle(), reference_angles[class]);
+        let angle =
+            |class: usize| unwrap_to(state.class[class][0].angle(), reference_angles[class]);
         let unknown_value = |&unknown: &Unknown| match unknown {
             Unknown::Class(class) => [angle(class), 0.0, 0.0],
             Unknown::Slide(slide) => [state.slides[slide * state.len][0], 0.0, 0.0],
@@ -278,7 +279,7 @@ impl Position<'_> {
         let rotation = &self.plan.rotation[link];
         let class = self.state.class[rotation.class][0].angle();
         let reference_angles = self.reference_angles.get(rotation.class).copied().unwrap_or(class);
-        let mut angle = nearest(class, reference_angles);
+        let mut angle = unwrap_to(class, reference_angles);
         for (&turns, q) in rotation.turns.iter().zip(self.q) {
             angle += f64::from(turns) * q;
         }

@@ -3,7 +3,7 @@
 use super::state::{Context, State};
 use super::status::Fault;
 use crate::math::lanes::{Mask, Real};
-use crate::math::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, REDUNDANT_GREATEST};
+use crate::math::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, REDUNDANT_MAX};
 use crate::math::vector::Vector;
 use crate::plan::plan::{AngleFrom, EdgeSlide, RedundantLink, Step};
 
@@ -64,7 +64,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         let allowed = (R::splat(CLOSURE_PER_CONDITION) * condition2.sqrt())
             .max(R::splat(REDUNDANT_CLOSURE) * pair_size)
-            .min(R::splat(REDUNDANT_GREATEST) * pair_size);
+            .min(R::splat(REDUNDANT_MAX) * pair_size);
         (gap, allowed)
     }
 

@@ -2,7 +2,7 @@
 
 use crate::dynamics::tables::error::TableError;
 use crate::dynamics::tables::spline::{EndCondition, Pieces, spline};
-use crate::math::polynomial::{value, zeros};
+use crate::math::polynomial::{roots, value};
 
 /// Largest difference between the ends of a table, relative to its greatest value: tables are
 /// rounded.
@@ -195,7 +195,7 @@ impl Cycle {
                 3.0 * (speed2 * i3 - work * w3),
                 -4.0 * work * w4,
             ];
-            zeros(&slope, width, consider);
+            roots(&slope, width, consider);
         }
         [least, greatest]
     }

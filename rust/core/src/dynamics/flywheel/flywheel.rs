@@ -68,7 +68,7 @@ impl Flywheel {
                     let [inertia, constant] = tangents(&cycle, [least, least + range]);
                     cycle.period() / duration(&cycle, inertia, constant) - mean
                 };
-                root::zero(residual, mean - 0.5 * range)
+                root::find_root(residual, mean - 0.5 * range)
             }
         };
         let found = least.map(|least| tangents(&cycle, [least, least + range]));
@@ -112,7 +112,7 @@ impl Flywheel {
             };
             own_mean - mean
         };
-        let above = root::zero(residual, guess).ok_or(TableError::NoMean { mean })?;
+        let above = root::find_root(residual, guess).ok_or(TableError::NoMean { mean })?;
         Self::with_energy(cycle, inertia, least.value + above, ("mean_speed", mean))
     }
 

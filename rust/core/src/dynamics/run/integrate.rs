@@ -120,7 +120,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
         max_steps: options.max_steps,
         breaks: &breaks,
         events: &crossings,
-        keep: Output::Path,
+        output: Output::Dense,
     };
     let mut integrator = Integrator::new(options.method, system.len());
     let start = RunSystem::<S, O>::initial_state(options);
@@ -192,7 +192,7 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
     solution: Solution,
     clipped: Option<usize>,
 ) -> Run {
-    let Solution { end, events, event_states, path, statistics, y: y_end, .. } = solution;
+    let Solution { end, events, event_states, dense: path, statistics, y: y_end, .. } = solution;
     let (along, sign, len) = (system.along, system.sign, system.len());
     let read = |x: f64, y: &[f64]| sample_at(along, sign, x, y, &vec![f64::NAN; len]);
     let record = |(event, y): (&crate::ode::solution::Event, &[f64])| {

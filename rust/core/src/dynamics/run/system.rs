@@ -268,7 +268,7 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         Ok(())
     }
 
-    fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
+    fn begin_interval(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
         if self.along == Variable::Coordinate {
             return self.equation.enter_interval(from, to);
         }

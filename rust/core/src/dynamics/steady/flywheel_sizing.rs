@@ -141,7 +141,7 @@ fn at_mean_speed<E>(
             }
         }
     };
-    root::zero_to(excess, wanted_mean, options.relative);
+    root::find_root_to(excess, wanted_mean, options.relative);
     if let Some(error) = failed {
         return Err(error);
     }
@@ -203,7 +203,7 @@ fn size_flywheel<E>(
             }
         }
     };
-    let found = root::zero_to(residual, guess, FLYWHEEL_RTOL);
+    let found = root::find_root_to(residual, guess, FLYWHEEL_RTOL);
     match (found, failed, last) {
         (_, Some(error), _) => Err(error),
         (Some(flywheel), None, last) => {

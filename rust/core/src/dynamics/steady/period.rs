@@ -110,7 +110,7 @@ impl<S: ReducedModel, O: Callbacks> System for PeriodSystem<'_, '_, S, O> {
         Ok(())
     }
 
-    fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
+    fn begin_interval(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
         self.equation.enter_interval(from, to)
     }
 
@@ -168,7 +168,7 @@ pub(crate) fn period<S: ReducedModel, O: Callbacks>(
         max_steps: options.max_steps,
         breaks,
         events: &events,
-        keep: Output::End,
+        output: Output::End,
         ..Options::default()
     };
     let y0 = [start.speed2, start.t, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];

@@ -1,4 +1,4 @@
-//! Right-hand sides that are not smooth: tables over t and over the state.
+//! Nonsmooth right-hand sides: tables over t and over the state.
 
 use super::*;
 
@@ -10,7 +10,7 @@ fn piece_value(piece: usize, x: f64) -> f64 {
     VALUES[piece] + (VALUES[piece + 1] - VALUES[piece]) * (x - a) / (b - a)
 }
 
-/// The piece that contains x; the first and last go on for ever.
+/// The piece that contains x; the first and last extend to infinity.
 fn piece_of(x: f64) -> usize {
     KNOTS[1..4].iter().filter(|knot| **knot <= x).count()
 }
@@ -18,16 +18,16 @@ fn piece_of(x: f64) -> usize {
 /// ∫ of the table from 0.
 fn table_integral(x: f64) -> f64 {
     let piece = piece_of(x);
-    let whole = |p: usize| 0.5 * (VALUES[p] + VALUES[p + 1]) * (KNOTS[p + 1] - KNOTS[p]);
+    let full = |p: usize| 0.5 * (VALUES[p] + VALUES[p + 1]) * (KNOTS[p + 1] - KNOTS[p]);
     let begin = KNOTS[piece];
     let last = 0.5 * (VALUES[piece] + piece_value(piece, x)) * (x - begin);
-    (0..piece).map(whole).sum::<f64>() + last
+    (0..piece).map(full).sum::<f64>() + last
 }
 
-/// y' = −y·table(t), with a jump of the table by 1 at t = 2.5 too.
+/// y' = −y·table(t), where the table also jumps by 1 at t = 2.5.
 struct OverTime {
     piece: Option<(usize, f64)>,
-    enters: usize,
+    intervals: usize,
 }
 
 const JUMP: f64 = 2.5;
@@ -41,11 +41,11 @@ impl System for OverTime {
         Ok(())
     }
 
-    fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Infallible> {
+    fn begin_interval(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Infallible> {
         let middle = 0.5 * (from + to);
         let jump = f64::from(u8::from(middle > JUMP));
         self.piece = self.piece.map(|_| (piece_of(middle), jump));
-        self.enters += 1;
+        self.intervals += 1;
         Ok(())
     }
 }
@@ -58,46 +58,46 @@ fn breaks_keep_the_tolerance_and_cost_less() {
         for (from, to) in [(0.0, 3.0), (3.0, 0.0), (0.2, 2.8)] {
             let exact = (integral(from) - integral(to)).exp();
             let run = |breaks: &[f64], piece| {
-                let mut system = OverTime { piece, enters: 0 };
+                let mut system = OverTime { piece, intervals: 0 };
                 let options = Options { breaks, ..Options::default() };
                 let run = Integrator::new(method, 1)
                     .run(&mut system, from, &[1.0], to, &options)
                     .unwrap();
                 assert_eq!(run.end, End::Reached);
-                assert_eq!(system.enters as u64, run.statistics.restarts + 1);
+                assert_eq!(system.intervals as u64, run.statistics.restarts + 1);
                 ((run.y[0] / exact - 1.0).abs(), run.statistics)
             };
-            let (with, cheap) = run(&breaks, Some((0, 0.0)));
-            let (without, dear) = run(&[], None);
-            println!("{method:?}: {with:.1e} {without:.1e}, {cheap:?} {dear:?}");
+            let (with, cost_with) = run(&breaks, Some((0, 0.0)));
+            let (without, cost_without) = run(&[], None);
+            println!("{method:?}: {with:.1e} {without:.1e}, {cost_with:?} {cost_without:?}");
             assert!(with < 1e-10 && without > 3.0 * with, "{with:e} {without:e}");
-            assert_eq!(cheap.restarts, 4);
-            assert!(cheap.evaluations * 3 < dear.evaluations * 2);
+            assert_eq!(cost_with.restarts, 4);
+            assert!(cost_with.evaluations * 3 < cost_without.evaluations * 2);
         }
     }
 }
 
-/// Breaks closer than any step, at the ends, doubled, and outside of the interval.
 /// No sliver is left before a break.
 #[test]
-fn the_last_steps_of_a_stretch_are_equal() {
+fn the_last_steps_of_a_smooth_interval_are_equal() {
     let options = Options {
         breaks: &[1.0],
         first_step: Some(0.3),
         max_step: 0.3,
-        keep: Output::Path,
+        output: Output::Dense,
         ..Options::default()
     };
     let run = Integrator::new(Method::DormandPrince853, 1)
         .run(&mut smooth(|t, _, r| r[0] = t), 0.0, &[0.0], 1.4, &options)
         .unwrap();
     let ends = [0.25, 0.5, 0.75, 1.0, 1.2, 1.4];
-    assert_eq!(run.path.ends().len(), ends.len());
-    assert!(largest_difference(run.path.ends(), &ends) < 1e-15, "{:?}", run.path.ends());
+    assert_eq!(run.dense.ends().len(), ends.len());
+    assert!(largest_difference(run.dense.ends(), &ends) < 1e-15, "{:?}", run.dense.ends());
 }
 
+/// Breaks closer than any step, at the ends, repeated, and outside the interval.
 #[test]
-fn odd_breaks_do_no_harm() {
+fn unusual_breaks_do_no_harm() {
     let near = 1.0 + 2.0 * f64::EPSILON;
     let breaks = [-1.0, 0.0, 0.5, 0.5, 1.0, near, 2.0, 5.0];
     for (from, to) in [(0.0, 2.0), (2.0, 0.0)] {
@@ -111,8 +111,8 @@ fn odd_breaks_do_no_harm() {
     }
 }
 
-/// q'' = table(q): a particle in a potential −∫table. The caller knows its piece; each reaching of
-/// a knot is an event through which it changes it.
+/// q'' = table(q): a particle in a potential −∫table. The system keeps its piece and changes it by
+/// an event at each knot.
 struct OverState {
     piece: usize,
     snaps: bool,
@@ -154,7 +154,7 @@ fn energy(y: &[f64]) -> f64 {
 
 #[test]
 fn tables_over_the_state_keep_the_tolerance() {
-    // Between two walls of the potential: from far left over all knots and back, many times.
+    // Between two walls of the potential: over all knots and back, many times.
     for method in BOTH {
         for snaps in [true, false] {
             let start = [1.3, 1.7];
@@ -186,15 +186,15 @@ fn tables_over_the_state_keep_the_tolerance() {
     }
 }
 
-/// A knot that is reached at rest, uphill from the left and from the right, exactly or nearly.
+/// A knot reached exactly or nearly at rest, uphill from the left or from the right.
 #[test]
-fn a_knot_is_touched_at_rest() {
+fn a_run_may_reach_a_knot_at_rest() {
     for off in [0.0, 1e-17, -1e-17, 1e-13, -1e-13, 1e-7, -1e-7, 1e-3] {
         for method in BOTH {
-            for (from, knot, way) in [(0.5, KNOTS[1], 1.0), (1.5, KNOTS[2], -1.0)] {
+            for (from, knot, direction) in [(0.5, KNOTS[1], 1.0), (1.5, KNOTS[2], -1.0)] {
                 for snaps in [true, false] {
                     let climb = table_integral(from) - table_integral(knot);
-                    let start = [from, way * ((2.0 * climb).sqrt() + off)];
+                    let start = [from, direction * ((2.0 * climb).sqrt() + off)];
                     let mut system = OverState { piece: piece_of(from), snaps, follows: true };
                     let options = Options { events: &PIECE, max_steps: 2000, ..Options::default() };
                     let run = Integrator::new(method, 2)
@@ -211,7 +211,7 @@ fn a_knot_is_touched_at_rest() {
     }
 }
 
-/// A start on a knot that moves into the other piece than the one assumed.
+/// A start on a knot that moves into a piece other than the assumed one.
 #[test]
 fn a_wrong_piece_at_the_start_is_left_at_once() {
     for (piece, speed) in [(1, -1.0), (2, -1.0), (0, 1.0), (1, 1.0), (3, 1.0)] {
@@ -227,9 +227,9 @@ fn a_wrong_piece_at_the_start_is_left_at_once() {
     }
 }
 
-/// Both sides push towards the border: no solution goes on, and the run says so.
+/// Both sides push towards the boundary: no solution continues, and the run reports it.
 #[test]
-fn sliding_on_a_border_stalls() {
+fn sliding_along_a_boundary_stalls() {
     struct Sliding(f64);
     impl System for Sliding {
         type Error = Infallible;

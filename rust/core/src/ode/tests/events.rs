@@ -1,11 +1,11 @@
-//! Events against what is known of them.
+//! Events compared with known solutions.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::*;
 
-/// A smooth system with event functions, and what to do at each event (by its number and how many
-/// there were).
+/// A smooth system with event functions, and the action at each event (from its number and the
+/// count of events so far).
 struct Watched<F, G, A> {
     rates: F,
     events: G,
@@ -59,10 +59,10 @@ fn assert_times(found: &[f64], exact: &[f64], bound: f64) {
 
 /// sin t = 0.5 upwards and downwards, both, and where cos t = 0; forward and backward.
 #[test]
-fn events_of_the_oscillator_are_where_they_are() {
+fn events_of_the_oscillator_are_located() {
     let kinds = [Crossing::Rising, Crossing::Falling, Crossing::Either, Crossing::Either];
     for method in BOTH {
-        for way in [1.0, -1.0] {
+        for direction in [1.0, -1.0] {
             let mut system = Watched {
                 rates: oscillate,
                 events: |_: f64, y: &[f64], g: &mut [f64]| {
@@ -72,10 +72,11 @@ fn events_of_the_oscillator_are_where_they_are() {
                 count: 0,
             };
             let run = Integrator::new(method, 2)
-                .run(&mut system, 0.0, &[0.0, 1.0], way * 20.0, &tight(&kinds))
+                .run(&mut system, 0.0, &[0.0, 1.0], direction * 20.0, &tight(&kinds))
                 .unwrap();
-            // sin(t) = 0.5 at 30° and 150°, and backward at −210° (up in that direction) and −330°.
-            let (up, down) = if way > 0.0 {
+            // sin(t) = 0.5 at 30° and 150°, and backward at −210° (rising in that direction) and
+            // −330°.
+            let (up, down) = if direction > 0.0 {
                 (PI / 6.0, 5.0 * PI / 6.0)
             } else {
                 (7.0 * PI / 6.0, 11.0 * PI / 6.0)
@@ -84,17 +85,18 @@ fn events_of_the_oscillator_are_where_they_are() {
                 (0..9)
                     .map(|turn| first + TAU * f64::from(turn))
                     .filter(|t| *t < 20.0)
-                    .map(|t| way * t)
+                    .map(|t| direction * t)
                     .collect()
             };
             assert_times(&times(&run, 0), &each(up), 1e-10);
             assert_times(&times(&run, 1), &each(down), 1e-10);
             let mut both = [each(up), each(down)].concat();
-            both.sort_unstable_by(|a, b| (way * a).total_cmp(&(way * b)));
+            both.sort_unstable_by(|a, b| (direction * a).total_cmp(&(direction * b)));
             assert_times(&times(&run, 2), &both, 1e-10);
-            let rests: Vec<f64> = (0..6).map(|i| way * (FRAC_PI_2 + PI * f64::from(i))).collect();
+            let rests: Vec<f64> =
+                (0..6).map(|i| direction * (FRAC_PI_2 + PI * f64::from(i))).collect();
             assert_times(&times(&run, 3), &rests, 1e-10);
-            assert!(run.events.is_sorted_by(|a, b| way * a.t <= way * b.t));
+            assert!(run.events.is_sorted_by(|a, b| direction * a.t <= direction * b.t));
             for (i, event) in run.events.iter().enumerate() {
                 let state = run.event_state(i).unwrap();
                 assert!(largest_difference(state, &[event.t.sin(), event.t.cos()]) < 1e-10);
@@ -112,30 +114,30 @@ fn growth_doubles_at_ln_2_and_ends_there() {
             act: |_, _, _: &mut [f64]| Action::Stop,
             count: 0,
         };
-        let options = Options { keep: Output::Path, ..tight(&[Crossing::Rising]) };
+        let options = Options { output: Output::Dense, ..tight(&[Crossing::Rising]) };
         let run = Integrator::new(method, 1).run(&mut system, 0.0, &[1.0], 3.0, &options).unwrap();
         let t = 2.0_f64.ln();
         assert!((run.t - t).abs() < 1e-12, "{:e}", run.t - t);
         assert_eq!(run.end, End::Event { index: 0, t: run.t });
         assert!((run.y[0] - 2.0).abs() < 1e-14);
-        // The path ends there, in the state of the event.
-        assert_eq!(run.path.ends().last(), Some(&run.t));
+        // Dense output ends there, in the state of the event.
+        assert_eq!(run.dense.ends().last(), Some(&run.t));
         let mut at = [0.0];
-        assert!(run.path.at(run.t, &mut at) && (at[0] - 2.0).abs() < 1e-14, "{}", at[0]);
-        assert!(!run.path.at(run.t + 1e-10, &mut at));
+        assert!(run.dense.at(run.t, &mut at) && (at[0] - 2.0).abs() < 1e-14, "{}", at[0]);
+        assert!(!run.dense.at(run.t + 1e-10, &mut at));
     }
 }
 
-/// Steps grow without end: all events lie in one step.
+/// The rates are constant and the first step covers the run: all events lie in one step.
 #[test]
 fn events_of_one_step_come_in_order() {
-    let places = [0.7, 0.3, 0.3 + 1e-9, 5.0, 4.999];
+    let thresholds = [0.7, 0.3, 0.3 + 1e-9, 5.0, 4.999];
     for method in BOTH {
         let mut system = Watched {
             rates: |_: f64, _: &[f64], r: &mut [f64]| r[0] = 1.0,
             events: |_: f64, y: &[f64], g: &mut [f64]| {
-                for (g, place) in g.iter_mut().zip(places) {
-                    *g = y[0] - place;
+                for (g, threshold) in g.iter_mut().zip(thresholds) {
+                    *g = y[0] - threshold;
                 }
             },
             act: go_on,
@@ -147,14 +149,14 @@ fn events_of_one_step_come_in_order() {
         let order: Vec<usize> = run.events.iter().map(|event| event.index).collect();
         assert_eq!(order, [1, 2, 0, 4, 3]);
         for event in &run.events {
-            assert!((event.t - places[event.index]).abs() < 4e-15, "{event:?}");
+            assert!((event.t - thresholds[event.index]).abs() < 4e-15, "{event:?}");
         }
     }
 }
 
-/// Two at one place: the first one starts the run again, and the second one is not lost or doubled.
+/// The first of two simultaneous events restarts the run; the second is neither lost nor repeated.
 #[test]
-fn events_at_one_place_all_happen_once() {
+fn simultaneous_events_occur_once_each() {
     for method in BOTH {
         let mut system = Watched {
             rates: oscillate,
@@ -177,7 +179,7 @@ fn events_at_one_place_all_happen_once() {
 }
 
 #[test]
-fn a_start_on_zero_is_no_event_but_outside_of_a_border() {
+fn a_start_at_zero_is_an_event_only_outside_a_boundary() {
     let run = |kind: Crossing, slope: f64, start: f64| {
         let mut system = Watched {
             rates: move |_: f64, _: &[f64], r: &mut [f64]| r[0] = slope,
@@ -199,13 +201,13 @@ fn a_start_on_zero_is_no_event_but_outside_of_a_border() {
     assert!(run(Crossing::Boundary, 1.0, 0.0).is_empty());
     assert_eq!(run(Crossing::Boundary, -1.0, 0.0), [1.0]);
     assert_eq!(run(Crossing::Boundary, -1.0, -0.5), [1.0]);
-    // One inside by less than its rounding leaves and is told once.
+    // A start inside by less than its rounding leaves at once, with one event.
     assert_eq!(run(Crossing::Boundary, -1.0, 1e-18).len(), 1);
 }
 
-/// cos t ≥ 1 − depth just around whole turns: two zeros in far less than a step.
+/// cos t ≥ 1 − depth only near whole turns: two roots in far less than a step.
 #[test]
-fn pairs_of_zeros_inside_a_step_are_found() {
+fn finds_pairs_of_roots_inside_a_step() {
     for (method, tolerance) in [(BOTH[0], 1e-6), (BOTH[1], 1e-6), (BOTH[1], 1e-11)] {
         for depth in [1e-2, 1e-4, 1e-5] {
             let mut system = Watched {
@@ -237,7 +239,7 @@ fn pairs_of_zeros_inside_a_step_are_found() {
 }
 
 #[test]
-fn a_bouncing_ball_keeps_its_times() {
+fn a_bouncing_ball_hits_the_ground_on_time() {
     let (g, restitution) = (9.81, 0.8_f64);
     for method in BOTH {
         let mut system = Watched {
@@ -264,7 +266,7 @@ fn a_bouncing_ball_keeps_its_times() {
     }
 }
 
-/// The quarter period of a pendulum: 2π/agm(1, cos(θ₀/2))/4; without end if it goes on bouncing.
+/// The quarter period of a pendulum: 2π/agm(1, cos(θ₀/2))/4.
 #[test]
 fn a_pendulum_passes_its_lowest_point_on_time() {
     let amplitude = 2.0_f64;
@@ -296,9 +298,9 @@ fn a_pendulum_passes_its_lowest_point_on_time() {
     }
 }
 
-/// Event functions that are not there, jump, or touch zero.
+/// Event functions that are undefined, jump, or almost touch zero.
 #[test]
-fn odd_event_functions_do_no_harm() {
+fn unusual_event_functions_do_no_harm() {
     for method in BOTH {
         let mut system = Watched {
             rates: |_: f64, _: &[f64], r: &mut [f64]| r[0] = 1.0,
@@ -322,7 +324,7 @@ fn odd_event_functions_do_no_harm() {
     }
 }
 
-/// What jumps over zero at a break makes its event at the break.
+/// A function that jumps over zero at a break makes its event at the break.
 #[test]
 fn a_jump_at_a_break_is_an_event_there() {
     struct Jump(f64);
@@ -332,7 +334,7 @@ fn a_jump_at_a_break_is_an_event_there() {
             r[0] = self.0;
             Ok(())
         }
-        fn enter(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Infallible> {
+        fn begin_interval(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Infallible> {
             self.0 = if 0.5 * (from + to) < 1.0 { -1.0 } else { 1.0 };
             Ok(())
         }
@@ -351,11 +353,11 @@ fn a_jump_at_a_break_is_an_event_there() {
     }
 }
 
-/// The path and asked places know nothing of what is behind an event that changes the state.
+/// Output before an event that changes the state does not depend on what follows.
 #[test]
 fn output_stops_and_starts_at_restarts() {
-    let places = [0.25, 0.5, 0.75, 1.0];
-    let run = |keep| {
+    let output_times = [0.25, 0.5, 0.75, 1.0];
+    let run = |output| {
         let mut system = Watched {
             rates: |_: f64, _: &[f64], r: &mut [f64]| r[0] = 1.0,
             events: |t: f64, _: &[f64], g: &mut [f64]| g[0] = t - 0.5,
@@ -365,17 +367,17 @@ fn output_stops_and_starts_at_restarts() {
             },
             count: 0,
         };
-        let options = Options { keep, ..tight(&[Crossing::Rising]) };
+        let options = Options { output, ..tight(&[Crossing::Rising]) };
         Integrator::new(Method::DormandPrince853, 1)
             .run(&mut system, 0.0, &[0.0], 1.0, &options)
             .unwrap()
     };
     let exact = [0.25, 0.5, 10.75, 11.0];
-    let sampled = run(Output::At(&places));
+    let sampled = run(Output::At(&output_times));
     assert!(largest_difference(&sampled.samples, &exact) < 1e-14, "{:?}", sampled.samples);
-    let path = run(Output::Path).path;
-    for (t, y) in places.iter().zip(exact) {
+    let dense = run(Output::Dense).dense;
+    for (t, y) in output_times.iter().zip(exact) {
         let mut at = [0.0];
-        assert!(path.at(*t, &mut at) && (at[0] - y).abs() < 1e-14, "{t}: {at:?}");
+        assert!(dense.at(*t, &mut at) && (at[0] - y).abs() < 1e-14, "{t}: {at:?}");
     }
 }

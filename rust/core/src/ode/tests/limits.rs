@@ -1,4 +1,4 @@
-//! Runs that cannot go on, or should not begin.
+//! Runs that end early or are refused.
 
 use std::f64::consts::TAU;
 
@@ -16,9 +16,10 @@ fn run<S: System>(
 
 type Fallible = Result<(), Fault<Infallible>>;
 
-/// y = 1 is reached at t = 1 with y' = 1, at 2/3 with y' = 1/√(1 − y), and at π/2 with y' = √(1 − y²).
+/// y = 1 is reached at t = 1 with y' = 1, at 2/3 with y' = 1/√(1 − y), and at π/2 with y' = √(1 −
+/// y²).
 #[test]
-fn an_edge_ends_the_run_where_it_is() {
+fn a_run_ends_at_the_domain_boundary() {
     let regular = |_: f64, y: &[f64], r: &mut [f64]| -> Fallible {
         r[0] = 1.0;
         if y[0] > 1.0 { Err(Fault::OutOfDomain) } else { Ok(()) }
@@ -28,8 +29,8 @@ fn an_edge_ends_the_run_where_it_is() {
         if y[0] >= 1.0 { Err(Fault::OutOfDomain) } else { Ok(()) }
     };
     for method in BOTH {
-        for keep in [Output::End, Output::Path] {
-            let options = Options { keep, ..Options::default() };
+        for output in [Output::End, Output::Dense] {
+            let options = Options { output, ..Options::default() };
             let end = run(method, &mut Rates(regular), (0.0, 2.0), &[0.0], &options).unwrap();
             let End::DomainBoundary { t } = end.end else { panic!("{}", end.end) };
             println!("{method:?} regular: {:.1e}, {:?}", t - 1.0, end.statistics);
@@ -51,11 +52,11 @@ fn an_edge_ends_the_run_where_it_is() {
             "{}",
             end.end
         );
-        // None at all: the run ends where it begins.
+        // No valid state at all: the run ends where it begins.
         let none = |_: f64, _: &[f64], _: &mut [f64]| -> Fallible { Err(Fault::OutOfDomain) };
         let end = run(method, &mut Rates(none), (5.0, 0.0), &[3.0], &options).unwrap();
         assert_eq!((end.end, end.y), (End::DomainBoundary { t: 5.0 }, vec![3.0]));
-        // Only the place itself: likewise, also at t = 0, where t has no spacing.
+        // Only the initial t is valid: the same, even at t = 0, where t has no spacing.
         let only = |t: f64, _: &[f64], r: &mut [f64]| -> Fallible {
             r[0] = 1.0;
             if t == 0.0 { Ok(()) } else { Err(Fault::OutOfDomain) }
@@ -65,10 +66,10 @@ fn an_edge_ends_the_run_where_it_is() {
     }
 }
 
-/// A component that moves slowly stands on its last number before the edge; t and the others would
+/// A slow component stays on its last number before the boundary; t and the other components would
 /// go on for ever in steps in which it does not change.
 #[test]
-fn what_stands_before_an_edge_has_reached_it() {
+fn a_stationary_component_has_reached_the_boundary() {
     let wall = 2.461_918_768_390_287_2;
     let slowing = |_: f64, y: &[f64], r: &mut [f64]| -> Fallible {
         (r[0], r[1]) = (y[1], -3.0);
@@ -83,10 +84,10 @@ fn what_stands_before_an_edge_has_reached_it() {
     }
 }
 
-/// Too wide a step leaves the range, narrower ones do not.
+/// Too wide a step leaves the domain, narrower ones do not.
 #[test]
-fn what_only_a_stage_misses_is_no_edge() {
-    // Torricelli's bowl, nearly: y' = −√y comes near zero, where there is nothing below.
+fn a_stage_outside_the_domain_is_not_the_boundary() {
+    // Almost Torricelli's law: y' = −√y comes near zero, below which it is undefined.
     let rates = |_: f64, y: &[f64], r: &mut [f64]| -> Fallible {
         if y[0] < 0.0 {
             return Err(Fault::OutOfDomain);
@@ -141,7 +142,7 @@ fn errors_of_the_system_pass_through() {
 }
 
 #[test]
-fn limits_of_steps_end_the_run() {
+fn the_step_limit_ends_the_run() {
     for method in BOTH {
         let options = Options { max_steps: 50, ..Options::default() };
         let end = run(method, &mut smooth(oscillate), (0.0, 1e6), &[1.0, 0.0], &options).unwrap();
@@ -151,15 +152,15 @@ fn limits_of_steps_end_the_run() {
     }
 }
 
-/// Prothero and Robinson's problem: y = cos t, held by −10⁶.
+/// Problem of Prothero and Robinson: y = cos t, with eigenvalue −10⁶.
 #[test]
-fn stiff_problems_are_told() {
+fn stiff_problems_are_reported() {
     let rates = |t: f64, y: &[f64], r: &mut [f64]| r[0] = -1e6 * (y[0] - t.cos()) - t.sin();
     for method in BOTH {
         let (relative, absolute) = (&[1e-4][..], &[1e-4][..]);
         let options = Options { relative, absolute, max_steps: 20_000, ..Options::default() };
-        for keep in [Output::End, Output::Path] {
-            let options = Options { keep, ..options };
+        for output in [Output::End, Output::Dense] {
+            let options = Options { output, ..options };
             let end = run(method, &mut smooth(rates), (0.0, 10.0), &[1.0], &options).unwrap();
             println!("{method:?}: {} {:?}", end.end, end.statistics);
             assert!(matches!(end.end, End::StepLimit { stiff: true, .. }), "{}", end.end);
@@ -205,22 +206,22 @@ fn runs_can_be_cancelled() {
 }
 
 #[test]
-fn nothing_happens_in_no_time() {
-    let places = [2.0, 2.0];
+fn empty_and_tiny_intervals_work() {
+    let times = [2.0, 2.0];
     let options =
-        Options { keep: Output::At(&places), events: &[Crossing::Either], ..Options::default() };
+        Options { output: Output::At(&times), events: &[Crossing::Either], ..Options::default() };
     let end = run(BOTH[1], &mut smooth(oscillate), (2.0, 2.0), &[1.0, 3.0], &options).unwrap();
     assert_eq!((end.end, end.t, &end.y[..]), (End::Reached, 2.0, &[1.0, 3.0][..]));
     assert_eq!(end.samples, [1.0, 3.0, 1.0, 3.0]);
     assert_eq!(end.statistics, Statistics::default());
-    // And little in little time.
+    // One spacing of t takes one step.
     let next = 2.0 + 2.0 * f64::EPSILON;
     let end = run(BOTH[1], &mut smooth(oscillate), (2.0, next), &[1.0, 3.0], &options).unwrap();
     assert_eq!((end.end, end.t, end.statistics.steps), (End::Reached, next, 1));
 }
 
 #[test]
-fn widths_of_steps_can_be_held() {
+fn step_widths_can_be_limited() {
     let options = Options { max_step: 0.01, first_step: Some(0.004), ..Options::default() };
     let end = run(BOTH[1], &mut smooth(oscillate), (0.0, 1.0), &[1.0, 0.0], &options).unwrap();
     let s = end.statistics;
@@ -229,7 +230,7 @@ fn widths_of_steps_can_be_held() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused_by_name() {
+fn invalid_arguments_are_named() {
     let refused = |(from, to): (f64, f64), y: &[f64], options: &Options| {
         Integrator::new(BOTH[1], 2).run(&mut smooth(oscillate), from, y, to, options).unwrap_err()
     };
@@ -244,7 +245,7 @@ fn what_makes_no_sense_is_refused_by_name() {
     let error = refused((0.0, f64::INFINITY), &y, &good);
     assert!(matches!(error, Error::Span { .. }), "{error}");
     let error = refused(span, &[0.0, f64::NAN], &good);
-    assert!(matches!(error, Error::Start { component: 1, .. }), "{error}");
+    assert!(matches!(error, Error::InitialState { component: 1, .. }), "{error}");
     for relative in [-1e-3, f64::NAN, 1e-16, 1.0] {
         let error = refused(span, &y, &Options { relative: &[relative], ..good });
         assert!(matches!(error, Error::Tolerance { component: 0, .. }), "{error}");
@@ -256,16 +257,16 @@ fn what_makes_no_sense_is_refused_by_name() {
     assert!(matches!(error, Error::Tolerance { component: 1, .. }), "{error}");
     for width in [0.0, -1.0, f64::NAN] {
         let error = refused(span, &y, &Options { max_step: width, ..good });
-        assert!(matches!(error, Error::Width { .. }), "{error}");
+        assert!(matches!(error, Error::StepWidth { .. }), "{error}");
         let error = refused(span, &y, &Options { first_step: Some(width), ..good });
-        assert!(matches!(error, Error::Width { .. }), "{error}");
+        assert!(matches!(error, Error::StepWidth { .. }), "{error}");
     }
     assert_eq!(
         refused(span, &y, &Options { breaks: &[0.0, 2.0, 1.0], ..good }),
         Error::Breaks { index: 2 }
     );
-    for places in [[0.5, 0.2], [0.5, 1.1], [-0.1, 0.0]] {
-        let error = refused(span, &y, &Options { keep: Output::At(&places), ..good });
-        assert!(matches!(error, Error::Places { .. }), "{error}");
+    for times in [[0.5, 0.2], [0.5, 1.1], [-0.1, 0.0]] {
+        let error = refused(span, &y, &Options { output: Output::At(&times), ..good });
+        assert!(matches!(error, Error::OutputTimes { .. }), "{error}");
     }
 }

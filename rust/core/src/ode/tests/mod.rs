@@ -1,4 +1,4 @@
-//! Tests of whole runs, and what the tests of the parts share.
+//! Tests of whole runs, and helpers shared by the tests of the parts.
 
 pub(crate) mod breaks;
 pub(crate) mod events;
@@ -13,7 +13,7 @@ use crate::ode::*;
 
 pub(crate) const BOTH: [Method; 2] = [Method::DormandPrince54, Method::DormandPrince853];
 
-/// A right-hand side that is there everywhere.
+/// A right-hand side defined everywhere.
 pub(crate) struct Smooth<F>(F);
 
 pub(crate) fn smooth<F: Fn(f64, &[f64], &mut [f64])>(f: F) -> Smooth<F> {
@@ -35,13 +35,13 @@ pub(crate) fn oscillate(_: f64, y: &[f64], rates: &mut [f64]) {
     rates[1] = -y[0];
 }
 
-/// Two bodies in a plane (x, y, x', y').
+/// Kepler's problem in a plane (x, y, x', y').
 pub(crate) fn kepler(_: f64, y: &[f64], rates: &mut [f64]) {
     let cube = (y[0] * y[0] + y[1] * y[1]).powf(1.5);
     rates.copy_from_slice(&[y[2], y[3], -y[0] / cube, -y[1] / cube]);
 }
 
-/// Both tolerances the same.
+/// The same relative and absolute tolerance.
 pub(crate) fn tolerance(value: &f64) -> Options<'_> {
     let both = std::slice::from_ref(value);
     Options { relative: both, absolute: both, ..Options::default() }

@@ -1,11 +1,11 @@
-//! Orders of convergence, measured with fixed steps.
+//! Orders of convergence, measured_order with fixed steps.
 
 use super::*;
 use crate::ode::dense::Interpolant;
 use crate::ode::options::Method;
 use crate::ode::stages::{Block, Scale, Stages};
 
-/// Not linear, coupled, depends on t: tan t and e^t / cos t.
+/// Nonlinear, coupled, dependent on t: tan t and e^t / cos t.
 fn rates(t: f64, y: &[f64], rates: &mut [f64]) {
     rates[0] = 1.0 + y[0] * t.tan();
     rates[1] = y[1] * (1.0 + y[0]);
@@ -19,7 +19,7 @@ fn block(y: [f64; 2]) -> Vec<Block> {
     vec![[y[0], y[1], 0.0, 0.0]]
 }
 
-/// Error after [0, 1] in so many steps.
+/// Error at t = 1 after `count` equal steps from t = 0.
 fn global_error(method: Method, count: u32) -> f64 {
     let mut stages = Stages::new(method.tableau(), 2);
     let mut system = smooth(rates);
@@ -34,8 +34,7 @@ fn global_error(method: Method, count: u32) -> f64 {
     largest_difference(&y[0], &exact(1.0))
 }
 
-/// Errors of one step on a circle round a star: of the new state, as estimated, and the largest
-/// inside.
+/// Errors of one step on a circular orbit: of the new state, its estimate, and the largest inside.
 fn local_errors(method: Method, h: f64) -> [f64; 3] {
     let n = 4;
     let exact = |t: f64| [t.cos(), t.sin(), -t.sin(), t.cos()];
@@ -60,7 +59,7 @@ fn local_errors(method: Method, h: f64) -> [f64; 3] {
     [largest_difference(&new[0], &exact(0.4 + h)), estimate, inside]
 }
 
-fn measured(coarse: f64, fine: f64, ratio: f64) -> f64 {
+fn measured_order(coarse: f64, fine: f64, ratio: f64) -> f64 {
     (coarse / fine).log2() / ratio.log2()
 }
 
@@ -68,22 +67,23 @@ fn measured(coarse: f64, fine: f64, ratio: f64) -> f64 {
 fn new_states_converge_with_their_order() {
     for (method, counts, order) in [(BOTH[0], [120, 240], 5.0), (BOTH[1], [10, 20], 8.0)] {
         let [coarse, fine] = counts.map(|count| global_error(method, count));
-        let found = measured(coarse, fine, 2.0);
+        let found = measured_order(coarse, fine, 2.0);
         println!("{method:?}: {coarse:.2e} {fine:.2e}, order {found:.2}");
         assert!((found - order).abs() < 0.4, "{method:?}: {found}");
     }
 }
 
-/// One step of width h: its error goes with one power more than the order.
+/// The error of one step of width h has one power more than the order.
 #[test]
 fn estimates_and_continuous_output_converge_with_their_order() {
-    // Estimates: of order 4, and e₅²/√(e₅² + 0.01e₃²): as e₅ times e₅/e₃, of order 6 + 2 − 1.
+    // Estimates: of order 4, and e₅²/√(e₅² + 0.01e₃²), which is about e₅ times e₅/e₃: order 6 + 2 −
+    // 1.
     for (method, widths, powers) in
         [(BOTH[0], [0.05, 0.025], [6.0, 5.0, 5.0]), (BOTH[1], [0.4, 0.2], [9.0, 8.0, 8.0])]
     {
         let [coarse, fine] = widths.map(|h| local_errors(method, h));
         for ((c, f), power) in coarse.iter().zip(fine).zip(powers) {
-            let found = measured(*c, f, 2.0);
+            let found = measured_order(*c, f, 2.0);
             println!("{method:?}: {c:.2e} {f:.2e}, power {found:.2} of {power}");
             assert!((found - power).abs() < 0.6, "{method:?}: {found} is not {power}");
         }

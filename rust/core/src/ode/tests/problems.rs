@@ -4,12 +4,12 @@ use std::f64::consts::{PI, TAU};
 
 use super::*;
 
-/// Errors follow tolerances down to 1e-13, to the left as to the right.
+/// Errors follow tolerances down to 1e-13, forward and backward.
 #[test]
 fn the_oscillator_follows_its_tolerance() {
     for method in BOTH {
         for t_end in [20.0 * TAU, -20.0 * TAU] {
-            let mut before = f64::INFINITY;
+            let mut previous = f64::INFINITY;
             for value in [1e-4, 1e-7, 1e-10, 1e-13] {
                 let mut integrator = Integrator::new(method, 2);
                 let run = integrator
@@ -19,8 +19,8 @@ fn the_oscillator_follows_its_tolerance() {
                 println!("{method:?} {value:.0e}: {error:.2e} {:?}", run.statistics);
                 assert_eq!(run.end, End::Reached);
                 assert_eq!(run.t, t_end);
-                assert!(error < 1e3 * value && error < before, "{method:?} {value:e}: {error:e}");
-                before = error;
+                assert!(error < 1e3 * value && error < previous, "{method:?} {value:e}: {error:e}");
+                previous = error;
             }
         }
     }
@@ -44,7 +44,7 @@ fn kepler_orbits_close() {
     }
 }
 
-/// 1000 turns of a body on an ellipse, as a stand-in for a conservative linkage: its energy.
+/// Energy over 1000 turns on an ellipse, as a stand-in for a conservative linkage.
 #[test]
 fn energy_drifts_little_in_a_thousand_turns() {
     let start = [0.4, 0.0, 0.0, 2.0];
@@ -58,7 +58,7 @@ fn energy_drifts_little_in_a_thousand_turns() {
     assert!(drift < 1e-8, "{drift:e}");
 }
 
-/// Linkage-like: J(q)q'' + ½J'(q)q'² = 0 with J = 1 + 0.5 cos q turns on for ever.
+/// Linkage-like: J(q)q'' + ½J'(q)q'² = 0 with J = 1 + 0.5 cos q turns for ever.
 #[test]
 fn a_free_linkage_keeps_its_energy_for_a_thousand_turns() {
     let rates = |_: f64, y: &[f64], rates: &mut [f64]| {
@@ -108,9 +108,9 @@ fn a_large_swing_of_a_pendulum_has_its_period() {
     }
 }
 
-/// The same problem in other units is the same problem.
+/// The same problem in other units is solved equally well.
 #[test]
-fn tiny_and_huge_scales_are_no_matter() {
+fn tiny_and_huge_scales_do_no_harm() {
     for (time, size) in [(1e-8, 1e8), (1e8, 1e-8), (1e-8, 1e-8), (1e8, 1e8), (1e-150, 1.0)] {
         let rates = move |_: f64, y: &[f64], rates: &mut [f64]| {
             rates[0] = y[1] / time;
@@ -128,7 +128,7 @@ fn tiny_and_huge_scales_are_no_matter() {
     }
 }
 
-/// Only the largest of unequal components would be held by one absolute tolerance for all.
+/// One absolute tolerance for all would be dominated by the largest of unequal components.
 #[test]
 fn each_component_has_its_own_tolerance() {
     let rates = |t: f64, _: &[f64], rates: &mut [f64]| {
@@ -148,8 +148,8 @@ fn each_component_has_its_own_tolerance() {
 }
 
 #[test]
-fn any_number_of_equations_goes() {
-    // Chains of n: y₀' = −y₀, yᵢ' = yᵢ₋₁ − yᵢ: Poisson's terms tⁱ/i!·e⁻ᵗ.
+fn any_number_of_equations_works() {
+    // A chain of n: y₀' = −y₀, yᵢ' = yᵢ₋₁ − yᵢ: the Poisson terms tⁱ/i!·e⁻ᵗ.
     for n in [1, 3, 4, 5, 8, 11] {
         let rates = |_: f64, y: &[f64], rates: &mut [f64]| {
             rates[0] = -y[0];
@@ -172,41 +172,41 @@ fn any_number_of_equations_goes() {
 
 #[test]
 fn output_between_steps_is_as_good_as_the_steps() {
-    let places: Vec<f64> = (0..=1000).map(|i| 0.02 * f64::from(i)).collect();
+    let times: Vec<f64> = (0..=1000).map(|i| 0.02 * f64::from(i)).collect();
     for (method, bound) in [(BOTH[0], 3e-9), (BOTH[1], 3e-9)] {
-        for way in [1.0, -1.0] {
-            let places: Vec<f64> = places.iter().map(|t| way * t).collect();
+        for direction in [1.0, -1.0] {
+            let times: Vec<f64> = times.iter().map(|t| direction * t).collect();
             let mut integrator = Integrator::new(method, 2);
-            let mut run = |keep| {
-                let options = Options { keep, ..Options::default() };
+            let mut run = |output| {
+                let options = Options { output, ..Options::default() };
                 integrator
-                    .run(&mut smooth(oscillate), 0.0, &[0.0, 1.0], way * 20.0, &options)
+                    .run(&mut smooth(oscillate), 0.0, &[0.0, 1.0], direction * 20.0, &options)
                     .unwrap()
             };
-            let sampled = run(Output::At(&places));
-            let path = run(Output::Path);
-            assert_eq!(sampled.samples.len(), 2 * places.len());
+            let sampled = run(Output::At(&times));
+            let dense = run(Output::Dense);
+            assert_eq!(sampled.samples.len(), 2 * times.len());
             let mut worst: f64 = 0.0;
-            for (t, y) in places.iter().zip(sampled.samples.chunks(2)) {
+            for (t, y) in times.iter().zip(sampled.samples.chunks(2)) {
                 worst = worst.max(largest_difference(y, &[t.sin(), t.cos()]));
                 let mut at = [0.0; 2];
-                assert!(path.path.at(*t, &mut at));
+                assert!(dense.dense.at(*t, &mut at));
                 assert_eq!(at, y, "t = {t}");
             }
-            println!("{method:?}: {worst:.2e}, {} steps", path.path.ends().len());
+            println!("{method:?}: {worst:.2e}, {} steps", dense.dense.ends().len());
             assert!(worst < bound, "{method:?}: {worst:e}");
             let mut at = [0.0; 2];
-            assert!(!path.path.at(way * 20.1, &mut at) && at[0].is_nan());
-            assert!(!path.path.at(-way * 0.1, &mut at) && at[0].is_nan());
-            assert!(!path.path.at(f64::NAN, &mut at) && at[0].is_nan());
-            assert_eq!(path.path.ends().len() as u64, path.statistics.steps);
+            assert!(!dense.dense.at(direction * 20.1, &mut at) && at[0].is_nan());
+            assert!(!dense.dense.at(-direction * 0.1, &mut at) && at[0].is_nan());
+            assert!(!dense.dense.at(f64::NAN, &mut at) && at[0].is_nan());
+            assert_eq!(dense.dense.ends().len() as u64, dense.statistics.steps);
         }
     }
 }
 
-/// Work space is left over from one run to the next, but nothing of its contents.
+/// A run reuses the workspace of earlier runs, but not its contents.
 #[test]
-fn runs_do_not_know_of_earlier_ones() {
+fn runs_do_not_depend_on_earlier_runs() {
     for method in BOTH {
         let run = |integrator: &mut Integrator| {
             integrator.run(&mut smooth(oscillate), 0.0, &[0.3, 1.0], 7.0, &Options::default())

@@ -1,34 +1,34 @@
 //! Rooted trees, for the order conditions (Butcher; Hairer, Nørsett & Wanner I, II.2).
 
-/// A rooted tree: what hangs on its root.
+/// A rooted tree: the subtrees at its root.
 #[derive(Debug, Clone)]
 pub(crate) struct Tree {
     pub branches: Vec<Tree>,
 }
 
 impl Tree {
-    /// How many nodes it has.
+    /// Number of nodes.
     pub(crate) fn order(&self) -> u8 {
         1 + self.branches.iter().map(Tree::order).sum::<u8>()
     }
 
-    /// γ: the order times those of all subtrees (def. II.2.10 there).
+    /// γ: product of the orders of the tree and all its subtrees (def. II.2.10 there).
     pub(crate) fn density(&self) -> f64 {
         f64::from(self.order()) * self.branches.iter().map(Tree::density).product::<f64>()
     }
 }
 
-/// All rooted trees with no more than so many nodes.
-pub(crate) fn trees(most: u8) -> Vec<Tree> {
+/// All rooted trees with up to `max_order` nodes.
+pub(crate) fn trees(max_order: u8) -> Vec<Tree> {
     let mut found = vec![Tree { branches: vec![] }];
-    for order in 2..=most {
+    for order in 2..=max_order {
         let smaller = found.clone();
         forests(&smaller, smaller.len(), order - 1, &mut vec![], &mut found);
     }
     found
 }
 
-/// Every multiset of trees among the first `until` that has `nodes` nodes, put on a root.
+/// Adds to `found` a root with each multiset of the first `until` trees that has `nodes` nodes.
 fn forests(trees: &[Tree], until: usize, nodes: u8, chosen: &mut Vec<Tree>, found: &mut Vec<Tree>) {
     if nodes == 0 {
         found.push(Tree { branches: chosen.clone() });

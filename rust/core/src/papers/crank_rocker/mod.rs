@@ -1,12 +1,13 @@
-//! The crank-rocker with friction, in its paper's own convention.
+//! The crank-rocker with friction, in the convention of its paper.
 //!
-//! Crank l₁ at A, coupler l₂, rocker l₃ at D, ground l₄ = AD, which may move; φ₁ counts from where
-//! the crank's pin is farthest from D. V. K. Manzhosov and T. E. Petrova, Modelling of the motion of
-//! the crank-rocker mechanism with non-ideal constraints (in Russian), sections 1 and 2.
+//! Crank l₁ at A, coupler l₂, rocker l₃ at D and ground l₄ = AD, which may change with time. φ₁ is
+//! zero where the crank pin is farthest from D. V. K. Manzhosov and T. E. Petrova, Modelling of the
+//! motion of the crank-rocker mechanism with non-ideal constraints (in Russian), sections 1 and 2.
 //!
 //! # Examples
 //!
-//! The paper's figure 8: a jam before the crank points away from the rocker, a return after it.
+//! The paper's figure 8: the mechanism jams before the crank points away from the rocker, and the
+//! rocker's support returns after it.
 //!
 //! ```
 //! use assur::papers::crank_rocker::{Case, Kind, run};

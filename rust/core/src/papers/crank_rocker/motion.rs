@@ -1,4 +1,4 @@
-//! Positions and rates.
+//! Positions and velocities of the crank-rocker.
 
 use std::f64::consts::PI;
 
@@ -7,23 +7,23 @@ use crate::math::trig::{atan2, sin_cos};
 /// Crank, coupler, rocker, ground.
 pub type Lengths = [f64; 4];
 
-/// Which of the two assemblies.
+/// The two assemblies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Assembly {
-    /// The printed one: φ₃″ and β positive.
+    /// The one in the paper: φ₃″ and β positive.
     Printed,
-    /// Its mirror image in the line BD.
+    /// Its mirror image about the line BD.
     Other,
 }
 
-/// All that the paper's section 1 gives at one position.
+/// The quantities of the paper's section 1 at one position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
-    /// Distance of the crank's pin from the rocker's support, m.
+    /// Distance BD of the crank pin from the rocker's support, m.
     pub s: f64,
     /// Angle of DB, rad.
     pub phi3_first: f64,
-    /// Angle from there to the rocker, rad.
+    /// Angle from DB to the rocker, rad.
     pub phi3_second: f64,
     /// Angle DBC, rad.
     pub beta: f64,
@@ -33,24 +33,24 @@ pub struct Position {
     pub phi3: f64,
     /// Angle DCB between coupler and rocker, rad, in 0 … π.
     pub gamma23: f64,
-    /// Transmission angle: the acute one of γ₂₃ and π − γ₂₃.
+    /// Transmission angle, rad: the smaller of γ₂₃ and π − γ₂₃.
     pub gamma: f64,
 }
 
-/// Rates of the same, and the speed of C.
+/// Time rates of a [`Position`], and the speed of C.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rates {
-    /// Rates in the order of [`Position`], by the time.
+    /// Time rates of the quantities of [`Position`].
     pub of: Position,
-    /// Speed of C, m/s: relative to D and to the ground.
+    /// Speed of C, m/s: relative to D, and absolute.
     pub v_c: [f64; 2],
 }
 
-/// Position and rates for the crank's rate (rad/s) and that of the ground's length (m/s); none
-/// where the coupler does not reach.
+/// Position and rates for the crank's rate (rad/s) and the rate of the ground's length (m/s).
+/// `None` where the coupler does not reach the rocker.
 ///
-/// Section 1 of the paper with its own l₄ for the misprinted l₂ in S, angles by two-argument
-/// arc tangents (the printed arcsines are wrong where the angle is above a right one), β̇ from the
+/// Section 1 of the paper with three corrections: l₄ in place of the misprinted l₂ in S; angles by
+/// two-argument arc tangents (the printed arcsines are wrong above a right angle); β̇ from the
 /// triangle (the printed one is singular where β is a right angle).
 #[must_use]
 pub fn position(
@@ -60,11 +60,11 @@ pub fn position(
     [crank_rate, ground_rate]: [f64; 2],
 ) -> Option<(Position, Rates)> {
     let (sine, cosine) = sin_cos(phi1);
-    // B seen from D, along the line of centres toward A and across it.
+    // B relative to D, along the line of centres toward A and across it.
     let (along, across) = (l4 + l1 * cosine, l1 * sine);
     let s2 = along * along + across * across;
     let s = s2.sqrt();
-    // Heron: four times the area of the triangle BCD.
+    // Heron's formula: four times the area of the triangle BCD.
     let squared = (l2 + l3 - s) * (l2 + l3 + s) * (s - (l2 - l3)) * (s + (l2 - l3));
     if !(squared >= 0.0 && s > 0.0) {
         return None;
@@ -76,7 +76,7 @@ pub fn position(
     let phi3_second = side * atan2(area, s2 - difference);
     let beta = side * atan2(area, s2 + difference);
     let gamma23 = atan2(area, l2 * l2 + l3 * l3 - s2);
-    let here = Position {
+    let position = Position {
         s,
         phi3_first,
         phi3_second,
@@ -102,11 +102,11 @@ pub fn position(
         phi2: first_rate - beta_rate,
         phi3: phi3_rate,
         gamma23: gamma_rate,
-        gamma: if here.gamma23 <= 0.5 * PI { gamma_rate } else { -gamma_rate },
+        gamma: if position.gamma23 <= 0.5 * PI { gamma_rate } else { -gamma_rate },
     };
     let relative = l3 * phi3_rate;
-    let (rocker, _) = sin_cos(here.phi3);
+    let (rocker, _) = sin_cos(position.phi3);
     let square =
         relative * relative + ground_rate * ground_rate + 2.0 * relative * ground_rate * rocker;
-    Some((here, Rates { of, v_c: [relative, square.max(0.0).sqrt()] }))
+    Some((position, Rates { of, v_c: [relative, square.max(0.0).sqrt()] }))
 }

@@ -1,11 +1,11 @@
-//! Where the crank turns, and where motion is passed on in spite of friction.
+//! Rotatability of the crank, and positions that friction does not block.
 
 use std::f64::consts::PI;
 
 use super::motion::Lengths;
 use crate::math::trig::{asin, atan2, sin_cos};
 
-/// Types of four-bars by Grashof; crank and rocker are l₁ and l₃.
+/// Grashof types of four-bars; l₁ is the input link and l₃ the output link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names are the field's")]
 pub enum Grashof {
@@ -17,20 +17,21 @@ pub enum Grashof {
     ChangePoint,
 }
 
-/// The type, with as much of the greatest length allowed between the sums at a change point.
+/// Grashof type. `tolerance` is the difference between the two sums, relative to the longest link,
+/// up to which the mechanism has a change point.
 ///
 /// F. Grashof, *Theoretische Maschinenlehre* (1883): some link turns fully if and only if the
-/// shortest and the longest together are not longer than the other two.
+/// shortest and the longest link together are not longer than the other two.
 #[must_use]
 pub fn grashof(lengths: Lengths, tolerance: f64) -> Grashof {
     let sum: f64 = lengths.iter().sum();
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
-    let spare = sum - 2.0 * (longest + shortest);
-    if spare.abs() <= tolerance * longest {
+    let margin = sum - 2.0 * (longest + shortest);
+    if margin.abs() <= tolerance * longest {
         return Grashof::ChangePoint;
     }
-    if spare < 0.0 {
+    if margin < 0.0 {
         return Grashof::TripleRocker;
     }
     match lengths.iter().position(|&l| l <= shortest) {
@@ -41,9 +42,9 @@ pub fn grashof(lengths: Lengths, tolerance: f64) -> Grashof {
     }
 }
 
-/// By how much the three inequalities hold for a crank that turns, with a ground longer than it:
+/// Margins of the three inequalities for a crank that turns fully and is shorter than the ground:
 /// l₂ + l₃ − l₁ − l₄, l₃ + l₄ − l₁ − l₂, l₂ + l₄ − l₁ − l₃. The paper prints the first two (1),
-/// enough only for its own l₃ ≤ l₂.
+/// which suffice only for l₃ ≤ l₂.
 #[must_use]
 pub fn margins([l1, l2, l3, l4]: Lengths) -> [f64; 3] {
     [(l2 + l3) - (l1 + l4), (l3 + l4) - (l1 + l2), (l2 + l4) - (l1 + l3)]
@@ -55,33 +56,34 @@ pub fn crank_turns([l1, l2, l3, l4]: Lengths) -> bool {
     l4 + l1 < l2 + l3 && (l4 - l1).abs() > (l2 - l3).abs()
 }
 
-/// Least and greatest relative ground for relative coupler and rocker (l₁ = 1): with a distance
-/// from both ends (6), or such that the transmission angle stays above `gamma_min` (8), (9).
+/// Least and greatest ground for a coupler and rocker, all relative to l₁: with `margins` from both
+/// ends (6), or such that the transmission angle stays above `gamma_min` (8), (9).
 #[must_use]
 pub fn ground_range(coupler: f64, rocker: f64, margins: [f64; 2], gamma_min: f64) -> [f64; 2] {
     let cosine = sin_cos(gamma_min).1;
-    let far = |sign: f64| {
+    let jam_distance = |sign: f64| {
         (coupler * coupler + rocker * rocker + sign * 2.0 * coupler * rocker * cosine).sqrt()
     };
     // Without friction the roots are |l₂ − l₃| and l₂ + l₃.
     let [inner, outer] = if gamma_min > 0.0 {
-        [far(-1.0), far(1.0)]
+        [jam_distance(-1.0), jam_distance(1.0)]
     } else {
         [(coupler - rocker).abs(), coupler + rocker]
     };
     [1.0 + inner + margins[0], outer - 1.0 - margins[1]]
 }
 
-/// Angle between coupler and rocker for a distance S of B and D; none where they do not reach.
+/// Angle between coupler and rocker for S = BD; `None` where they do not reach.
 fn gamma23(s: f64, l2: f64, l3: f64) -> Option<f64> {
     let squared = (l2 + l3 - s) * (l2 + l3 + s) * (s - (l2 - l3)) * (s + (l2 - l3));
     (squared >= 0.0).then(|| atan2(squared.sqrt(), l2 * l2 + l3 * l3 - s * s))
 }
 
-/// Least and greatest transmission angle over a turn of the crank; none where it does not turn.
+/// Least and greatest transmission angle over a turn of the crank; `None` where it does not turn.
 ///
-/// γ₂₃ grows with S, which lies between |l₄ − l₁| and l₄ + l₁: so the least is at one of the two
-/// collinear positions of crank and ground, and the greatest there too unless γ₂₃ passes π/2.
+/// γ₂₃ increases with S, from S = |l₄ − l₁| to l₄ + l₁. The least transmission angle is therefore
+/// at one of the two collinear positions of crank and ground, and so is the greatest unless γ₂₃
+/// passes π/2.
 #[must_use]
 pub fn transmission_extremes([l1, l2, l3, l4]: Lengths) -> Option<[f64; 2]> {
     let near = gamma23((l4 - l1).abs(), l2, l3)?;
@@ -92,10 +94,10 @@ pub fn transmission_extremes([l1, l2, l3, l4]: Lengths) -> Option<[f64; 2]> {
     Some([acute(near).min(acute(far)), greatest])
 }
 
-/// Crank angles at which the transmission angle is below `gamma_min`, from and to: around 0, from
-/// below it (γ₂₃ near π), and around π (γ₂₃ near 0); nowhere if there is none.
+/// Intervals of the crank angle in which the transmission angle is below `gamma_min`: around 0 (γ₂₃
+/// near π; its start is negative) and around π (γ₂₃ near 0). Empty if there are none.
 ///
-/// S² = l₁² + l₄² + 2 l₁ l₄ cos φ₁ at γ₂₃ = π − γ and at γ, the least one.
+/// From S² = l₁² + l₄² + 2 l₁ l₄ cos φ₁ at γ₂₃ = π − `gamma_min` and at γ₂₃ = `gamma_min`.
 #[must_use]
 pub fn blocked([l1, l2, l3, l4]: Lengths, gamma_min: f64) -> Vec<[f64; 2]> {
     let squares = l2 * l2 + l3 * l3;
@@ -111,8 +113,9 @@ pub fn blocked([l1, l2, l3, l4]: Lengths, gamma_min: f64) -> Vec<[f64; 2]> {
     found
 }
 
-/// Least transmission angle that friction in the rocker's joints allows: sin γ = (friction over rocker), equation 8; none if
-/// nothing is passed on at any angle.
+/// Least transmission angle that friction in the rocker's joints allows, equation 8: sin γ is the
+/// sum of coefficient × radius over the joints C and D, divided by the rocker. `None` if friction
+/// blocks every angle.
 #[must_use]
 pub fn least_gamma([f_c, r_c, f_d, r_d]: [f64; 4], rocker: f64) -> Option<f64> {
     let reduced = (f_c * r_c + f_d * r_d) / rocker;

@@ -1,4 +1,4 @@
-//! The exact motion.
+//! The exact motion of the slider-crank.
 
 use super::jet::Jet;
 use crate::math::trig::asin;
@@ -10,7 +10,7 @@ pub(crate) fn rod_cosine(sine: Jet, lambda: f64) -> Jet {
 }
 
 /// Stroke per crank length and its analogues: 1 − cos φ + k (1 − cos δ) (2021, equations 4 and
-/// 10), written as 1 − cos φ + λ sin²φ / (1 + cos δ), which loses nothing near the dead point.
+/// 10), written as 1 − cos φ + λ sin²φ / (1 + cos δ), which does not cancel near the dead point.
 #[must_use]
 pub fn stroke(phi: f64, lambda: f64) -> Jet {
     let (sine, _) = Jet::sin_cos(phi);
@@ -28,9 +28,9 @@ pub fn rod_angle(phi: f64, lambda: f64) -> Jet {
     Jet([-asin(lambda * sine.0[0]), rate.0[0], rate.0[1]])
 }
 
-/// Place of a point of the rod per crank length, and its analogues: `along` the rod from the
-/// crank's pin and `across` it, to its left, both per crank length (equations 30, with x along the
-/// slider's axis).
+/// Position of a point of the rod per crank length, and its analogues. The point is `along` the rod
+/// from the crank pin and `across` to its left, both per crank length (equations 30, with x along
+/// the slider's axis).
 #[must_use]
 pub fn rod_point(phi: f64, lambda: f64, along: f64, across: f64) -> [Jet; 2] {
     let (sine, cosine) = Jet::sin_cos(phi);

@@ -1,9 +1,9 @@
-//! The stroke without a root: approximations of a continued fraction.
+//! The stroke without a square root, by a continued fraction.
 
 use super::jet::Jet;
 
-/// Stroke per crank length by the fraction's approximation number `n`, at least 1, with its own
-/// exact derivatives: 1 − cos φ + λ sin²φ / (2 u), u = 1 − λ² sin²φ / (4 u) from u = 1 (2017,
+/// Stroke per crank length by approximant `n` (at least 1) of the fraction, with its own exact
+/// derivatives: 1 − cos φ + λ sin²φ / (2 u), u = 1 − λ² sin²φ / (4 u) from u = 1 (2017,
 /// equations 5, 7, 8 and on).
 #[must_use]
 pub fn stroke_by_fraction(phi: f64, lambda: f64, n: u32) -> Jet {
@@ -21,10 +21,10 @@ pub fn stroke_by_fraction(phi: f64, lambda: f64, n: u32) -> Jet {
     Jet::versine(phi) + square.scale(0.5 * lambda) / u
 }
 
-/// What the approximation lacks to the exact stroke, with derivatives, without cancellation: with
-/// c = cos²(δ/2), t = tan²(δ/2) the fraction's u is c (1 − tⁿ⁺¹)/(1 − tⁿ), so it lacks
+/// Exact stroke minus the approximant, with derivatives and without cancellation: with
+/// c = cos²(δ/2) and t = tan²(δ/2), the fraction's u is c (1 − tⁿ⁺¹)/(1 − tⁿ), so the difference is
 /// λ sin²φ tⁿ (1 − t) / (2 c (1 − tⁿ⁺¹)).
-pub(crate) fn lack(phi: f64, lambda: f64, n: u32) -> Jet {
+pub(crate) fn approximation_error(phi: f64, lambda: f64, n: u32) -> Jet {
     let (sine, _) = Jet::sin_cos(phi);
     let one = Jet::constant(1.0);
     let root = super::exact::rod_cosine(sine, lambda);

@@ -1,28 +1,28 @@
-//! A function of the crank's angle with its first and second derivative.
+//! A function of the crank angle with its first and second derivatives.
 
 use std::ops::{Add, Div, Mul, Sub};
 
 use crate::math::trig::sin_cos;
 
-/// Value, first and second derivative.
+/// Value, first and second derivative by the crank angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Jet(pub [f64; 3]);
 
 impl Jet {
-    /// A number that does not change.
+    /// A constant.
     #[must_use]
     pub const fn constant(value: f64) -> Self {
         Self([value, 0.0, 0.0])
     }
 
-    /// Sine and cosine of the angle itself.
+    /// Sine and cosine of the crank angle.
     #[must_use]
     pub fn sin_cos(angle: f64) -> (Self, Self) {
         let (s, c) = sin_cos(angle);
         (Self([s, c, -s]), Self([c, -s, -c]))
     }
 
-    /// 1 − cos of the angle, to the last bit also where it is small.
+    /// 1 − cos of the angle, accurate where the angle is small.
     #[must_use]
     pub fn versine(angle: f64) -> Self {
         let (half, _) = sin_cos(0.5 * angle);
@@ -30,7 +30,7 @@ impl Jet {
         Self([2.0 * half * half, s, c])
     }
 
-    /// A multiple.
+    /// Multiplied by a number.
     #[must_use]
     pub fn scale(self, factor: f64) -> Self {
         Self(self.0.map(|x| factor * x))
@@ -45,7 +45,7 @@ impl Jet {
         Self([root, first, (0.5 * x2 - first * first) / root])
     }
 
-    /// A whole power, at least 1.
+    /// Integer power, `n` at least 1.
     #[must_use]
     pub fn power(self, n: u32) -> Self {
         (1..n).fold(self, |product, _| product * self)

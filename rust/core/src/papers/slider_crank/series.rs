@@ -1,15 +1,15 @@
-//! The stroke as a cosine series, each coefficient itself a series.
+//! The stroke as a cosine series whose coefficients are themselves series.
 
+use super::double_double::DoubleDouble;
 use super::jet::Jet;
-use super::twofold::Twofold;
 use crate::math::trig::sin_cos;
 
-/// Terms of one coefficient, at most: for k − 1 of 1e-6 some ten millions are needed.
-const MOST_TERMS: usize = 100_000_000;
-/// Part of a sum that adds nothing to its 53 bits: 1/64 of half a unit in the last place.
-const NOTHING: f64 = f64::EPSILON / 256.0;
+/// Limit of terms of one coefficient: k − 1 = 1e-6 needs some ten million.
+const MAX_TERMS: usize = 100_000_000;
+/// Fraction of a sum that does not change its 53 bits: 1/64 of half a unit in the last place.
+const NEGLIGIBLE: f64 = f64::EPSILON / 256.0;
 
-/// A coefficient whose series would need more terms than can be waited for: k is too near 1.
+/// The series of a coefficient would need too many terms: k is too near 1.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("k is {k}: so near 1 the coefficients' series do not end; give terms, or a longer rod")]
 pub struct SlowSeries {
@@ -24,29 +24,31 @@ pub struct Series {
 }
 
 impl Series {
-    /// For a rod of k > 1 cranks: up to a harmonic (even, or 1), each coefficient with powers up to
-    /// sin^(2 `terms`) φ, none: all that add anything.
+    /// Series for a rod of k > 1 cranks, up to a harmonic (even, or 1). Each coefficient uses
+    /// powers up to sin^(2 `terms`) φ; with `None`, all that contribute.
     ///
-    /// `A_2n` = (−1)ⁿ 2 Σ_{m ≥ n} C(2m, m) C(2m, m−n) / ((2m−1) 16^m k^(2m−1)), of A0 half that, and
-    /// 1 more; A1 = −1. From the binomial series of cos δ and the powers of the sine. Each is within
-    /// 0.51 units in its last place (below 1e-300, within two).
+    /// `A_2n` = (−1)ⁿ 2 Σ_{m ≥ n} C(2m, m) C(2m, m−n) / ((2m−1) 16^m k^(2m−1)); A0 is 1 plus half
+    /// of this for n = 0; A1 = −1. This follows from the binomial series of cos δ and the powers of
+    /// the sine. Each coefficient is within 0.51 units in its last place (below 1e-300, within
+    /// two).
     ///
     /// # Errors
     ///
-    /// [`SlowSeries`].
+    /// [`SlowSeries`], if k is too near 1 and `terms` is `None`.
     pub fn new(k: f64, harmonics: usize, terms: Option<usize>) -> Result<Self, SlowSeries> {
-        // Not even A0's series would end: its last term, x^m / (2π m²) with x^m above e^-16, is some
-        // 30 times too great.
-        if terms.is_none() && (k * k - 1.0) * (MOST_TERMS as f64) < 16.0 {
+        // Even A0 would not converge: its last term, x^m / (2π m²) with x^m above e^-16, is some 30
+        // times too large.
+        if terms.is_none() && (k * k - 1.0) * (MAX_TERMS as f64) < 16.0 {
             return Err(SlowSeries { k });
         }
-        let mut coefficients = vec![(Twofold::from(1.0) + inner(k, 0, terms)?).high()];
+        let mut coefficients =
+            vec![(DoubleDouble::from(1.0) + coefficient_sum(k, 0, terms)?).high()];
         if harmonics >= 1 {
             coefficients.push(-1.0);
         }
         for n in 1..=harmonics / 2 {
             let sign = if n % 2 == 0 { 1.0 } else { -1.0 };
-            coefficients.push(sign * 2.0 * inner(k, n, terms)?.high());
+            coefficients.push(sign * 2.0 * coefficient_sum(k, n, terms)?.high());
         }
         Ok(Self { coefficients })
     }
@@ -61,12 +63,12 @@ impl Series {
     #[must_use]
     pub fn stroke(&self, phi: f64) -> Jet {
         let mut sum = [0.0; 3];
-        // The small ones first.
-        for (place, a) in self.coefficients.iter().enumerate().rev() {
-            let harmonic = match place {
+        // Small terms first, to keep rounding small.
+        for (index, a) in self.coefficients.iter().enumerate().rev() {
+            let harmonic = match index {
                 0 => 0.0,
                 1 => 1.0,
-                _ => 2.0 * (place - 1) as f64,
+                _ => 2.0 * (index - 1) as f64,
             };
             let (s, c) = sin_cos(harmonic * phi);
             sum[0] += a * c;
@@ -79,33 +81,34 @@ impl Series {
 
 /// Σ_{m = max(n, 1)}^{terms} C(2m, m) C(2m, m−n) / ((2m−1) 16^m k^(2m−1)).
 ///
-/// With twice the digits throughout: a term is a product of some 5 m roundings, and there may be
-/// millions of terms. All are positive, so that of 106 bits at least 75 are left.
-fn inner(k: f64, n: usize, terms: Option<usize>) -> Result<Twofold, SlowSeries> {
-    let over_k = Twofold::from(1.0) / k;
+/// Computed in double-double throughout: term m has accumulated some 5 m roundings, and there may
+/// be millions of terms. All are positive, so at least 75 of the 106 bits remain.
+fn coefficient_sum(k: f64, n: usize, terms: Option<usize>) -> Result<DoubleDouble, SlowSeries> {
+    let over_k = DoubleDouble::from(1.0) / k;
     let x = over_k * over_k;
     let shift = n as f64;
-    // The first term: C(2n, n) / ((2n−1) 16ⁿ k^(2n−1)), of n = 0 that of m = 1: 4 / (16 k).
+    // First term: C(2n, n) / ((2n−1) 16ⁿ k^(2n−1)); for n = 0 that of m = 1, 4 / (16 k).
     let mut term = over_k / 4.0;
     if n > 0 {
-        // C(2, 1) / (16 k) for n = 1, and from one n to the next.
+        // C(2, 1) / (16 k) for n = 1, then recursively.
         term = over_k / 8.0;
         for i in 1..n {
             let i = i as f64;
-            term = term * x * Twofold::from(2.0 * i - 1.0) / (8.0 * (i + 1.0));
+            term = term * x * DoubleDouble::from(2.0 * i - 1.0) / (8.0 * (i + 1.0));
         }
     }
-    let mut sum = Twofold::from(0.0);
-    for m in n.max(1)..=terms.unwrap_or(MOST_TERMS) {
+    let mut sum = DoubleDouble::from(0.0);
+    for m in n.max(1)..=terms.unwrap_or(MAX_TERMS) {
         sum = sum + term;
         let m = m as f64;
-        // The divisor is exact to m of 94 millions; later terms are some 1e-8 of the sum.
-        let growth = Twofold::product(m - 0.5, m + 0.5) / ((m + 1.0 - shift) * (m + 1.0 + shift));
+        // The divisor is exact up to m = 94 million; later terms are some 1e-8 of the sum.
+        let growth =
+            DoubleDouble::two_product(m - 0.5, m + 0.5) / ((m + 1.0 - shift) * (m + 1.0 + shift));
         term = term * (x * growth);
-        // Growth falls below 1 and then rises to it, so that what is left is less than a geometric
-        // series of this ratio.
+        // The growth falls below 1 and then rises toward it, so the remainder is less than a
+        // geometric series of this ratio.
         let ratio = x.high() * growth.high().max(1.0);
-        if term.high() <= (1.0 - ratio) * sum.high() * NOTHING {
+        if term.high() <= (1.0 - ratio) * sum.high() * NEGLIGIBLE {
             return Ok(sum);
         }
     }
@@ -116,8 +119,8 @@ fn inner(k: f64, n: usize, terms: Option<usize>) -> Result<Twofold, SlowSeries> 
 mod tests {
     use super::*;
 
-    /// A0, A2, A4 … A12 by the integral that defines them: mpmath at 70 digits, 1200 trapezoids.
-    const WANTED: [(f64, [f64; 7]); 3] = [
+    /// A0, A2, A4 … A12 from the defining integral: mpmath at 70 digits, 1200 trapezoids.
+    const EXPECTED: [(f64, [f64; 7]); 3] = [
         (
             1.2,
             [
@@ -157,29 +160,28 @@ mod tests {
     ];
 
     #[test]
-    fn coefficients_to_the_last_bit() {
-        for (k, wanted) in WANTED {
+    fn coefficients_are_correct_to_the_last_bit() {
+        for (k, expected) in EXPECTED {
             let series = Series::new(k, 12, None).expect("k is far from 1");
-            let [a0, a1, others @ ..] = series.coefficients() else {
-                panic!("eight are asked for")
-            };
+            let [a0, a1, others @ ..] = series.coefficients() else { panic!("eight coefficients") };
             assert_eq!(*a1, -1.0);
-            assert_eq!((*a0, others), (wanted[0], &wanted[1..]), "k = {k}");
+            assert_eq!((*a0, others), (expected[0], &expected[1..]), "k = {k}");
         }
     }
 
-    /// Of no terms and of one: (14) of the paper, and nothing beyond.
+    /// No terms and one term, equation (14) of the paper.
     #[test]
-    fn few_terms() {
-        let of = |terms| Series::new(3.0, 4, Some(terms)).expect("it ends").coefficients().to_vec();
+    fn few_terms_give_the_papers_coefficients() {
+        let of =
+            |terms| Series::new(3.0, 4, Some(terms)).expect("few terms").coefficients().to_vec();
         assert_eq!(of(0), [1.0, -1.0, 0.0, 0.0]);
         assert_eq!(of(1), [13.0 / 12.0, -1.0, -1.0 / 12.0, 0.0]);
     }
 
     #[test]
-    fn long_and_short_rods() {
+    fn extreme_rods_end_at_once() {
         assert_eq!(Series::new(1.0 + 1e-12, 2, None), Err(SlowSeries { k: 1.0 + 1e-12 }));
-        let long = Series::new(1e305, 4, None).expect("it ends at once");
+        let long = Series::new(1e305, 4, None).expect("a long rod");
         assert_eq!(long.coefficients(), [1.0, -1.0, -0.25 / 1e305, 0.0]);
     }
 }

@@ -9,7 +9,7 @@ use super::workspace::{ENTRIES, GroupWorkspace, VectorJet};
 use crate::math::derivatives::ONE_DRIVER;
 use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
-use crate::math::tolerance::{NEWTON_LONGEST, NEWTON_ROUNDS};
+use crate::math::tolerance::{NEWTON_MAX_ROUNDS, NEWTON_MAX_STEP};
 use crate::math::vector::Vector;
 use crate::plan::binary_links::{Links, MAX_UNKNOWNS};
 use crate::plan::group::{BinaryLoops, Group};
@@ -50,7 +50,7 @@ impl<R: Real, const G: usize> State<R, G> {
             let mut work = NewtonState::<R, 1>::new([self.needs_scalar[g]]);
             let mut last_determinant = self.det_sign[group.index][g];
             loops.turn_spans(&links);
-            for round in 0..NEWTON_ROUNDS {
+            for round in 0..NEWTON_MAX_ROUNDS {
                 if work.done[0].all() {
                     break;
                 }
@@ -179,7 +179,7 @@ impl<R: Real> GroupWorkspace<R> {
             let excess2 = self.chords[l][0].norm2() - R::splat(links.bars[l].norm2);
             self.residual[l] = excess2 * R::splat(0.5 * links.bars[l].inv_norm());
         }
-        let longest = R::splat(NEWTON_LONGEST);
+        let longest = R::splat(NEWTON_MAX_STEP);
         let mut largest = R::ZERO;
         for unknown in 0..n {
             let change = -self.inverse_times_residual(n, unknown);

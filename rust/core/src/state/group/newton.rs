@@ -10,7 +10,7 @@ use super::turn::turned;
 use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{
-    NEWTON_BENT2, NEWTON_DONE, NEWTON_LEFT, NEWTON_LONGEST, NEWTON_ROUNDS,
+    NEWTON_FROZEN_MAX2, NEWTON_LAST_STEP, NEWTON_MAX_ROUNDS, NEWTON_MAX_STEP, NEWTON_TOLERANCE,
 };
 use crate::math::vector::Vector;
 use crate::plan::dyad::Unknown;
@@ -36,7 +36,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let skipped = work.done;
         self.prepare_group(cx, group);
         self.update_loops(cx, group);
-        for round in 0..NEWTON_ROUNDS {
+        for round in 0..NEWTON_MAX_ROUNDS {
             if work.done.iter().all(|done| done.all()) {
                 break;
             }
@@ -114,7 +114,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     fn step(&mut self, group: &Group, matrix: &[[R; G]], done: &[R::Mask; G]) -> [R; G] {
         let (len, n) = (self.len, group.rows);
-        let longest = R::splat(NEWTON_LONGEST);
+        let longest = R::splat(NEWTON_MAX_STEP);
         let mut largest = [R::ZERO; G];
         let residual = &matrix[2 * n * n..][..n];
         for (i, &unknown) in group.unknowns.iter().enumerate() {
@@ -261,7 +261,7 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
         let mut skip = self.done;
         for g in 0..G {
             let relative2 = first_size[g] * first_size[g] * self.inverse_size2[g];
-            let curved = relative2.lt(R::splat(NEWTON_BENT2)).not();
+            let curved = relative2.lt(R::splat(NEWTON_FROZEN_MAX2)).not();
             skip[g] = skip[g].or(curved).or(self.will_converge(g, first_size[g]));
         }
         skip
@@ -272,7 +272,8 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
     #[inline(always)]
     fn will_converge(&self, g: usize, first_size: R) -> R::Mask {
         let error = first_size * first_size;
-        (error * error * self.inverse_size2[g].max(R::ONE)).lt(R::splat(NEWTON_LEFT * NEWTON_LEFT))
+        (error * error * self.inverse_size2[g].max(R::ONE))
+            .lt(R::splat(NEWTON_TOLERANCE * NEWTON_TOLERANCE))
     }
 
     /// Records the two steps of a round, and the lanes that have converged.
@@ -298,9 +299,10 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
             }
             // The remaining error is about the product of the two steps.
             let error = first_size[g] * second_size;
-            let settled = skip[g].not().and(error.lt(R::splat(NEWTON_LEFT)));
-            let is_short =
-                first_size[g].lt(R::splat(NEWTON_DONE)).or(self.will_converge(g, first_size[g]));
+            let settled = skip[g].not().and(error.lt(R::splat(NEWTON_TOLERANCE)));
+            let is_short = first_size[g]
+                .lt(R::splat(NEWTON_LAST_STEP))
+                .or(self.will_converge(g, first_size[g]));
             self.done[g] = done.or(settled).or(is_short);
         }
     }
