@@ -53,7 +53,7 @@ def run(
     one_design(machine, "run")
     along_q = q_end is not None
     if along_q == (t_end is not None):
-        message = "one of t_end and q_end is needed, not both"
+        message = "run needs t_end or q_end" + (", not both" if along_q else "")
         raise InputError(message)
     functions: list[Function] = []
     watched = as_list(options["events"], "events")

@@ -290,5 +290,7 @@ def _checked_point(at: Any, what: str) -> PointLike:
         point = real_array(at[1], f"{what}, in the frame of {at[0]!a}")
         if point.shape == (2,) and np.isfinite(point).all():
             return checked_name(at[0], what), (float(point[0]), float(point[1]))
-    message = f"{what}: {short(at)} is no place: a joint's name, or (link, (x, y)) in its frame"
+    message = (
+        f"{what}: {short(at)} is not a location: a joint's name, or (link, (x, y)) in its frame"
+    )
     raise InputError(message)

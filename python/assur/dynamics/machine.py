@@ -204,12 +204,12 @@ class Machine:
     def __setattr__(self, name: str, value: object) -> None:
         # The core has copied everything: a change here would have no effect.
         if "_core" in self.__dict__:
-            message = f"a Machine does not change ({name!r}): make another one"
+            message = f"Machine is immutable ({name!r}): make another one"
             raise AttributeError(message)
         super().__setattr__(name, value)
 
     def __delattr__(self, name: str) -> None:
-        message = f"a Machine does not change ({name!r}): make another one"
+        message = f"Machine is immutable ({name!r}): make another one"
         raise AttributeError(message)
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -75,7 +75,7 @@ def _refuse(machine: Machine, q: Float, shape: tuple[int, ...], flat: int) -> No
     one = machine.mechanism.design(design) if design else machine.mechanism
     why = one.solve(q[entry], order=1, on_error="nan").explain()
     where = f"design {design}: " if design else ""
-    message = f"{where}{why}; nothing can be referred to the driver there"
+    message = f"{where}{why}; reduced inertia and moment are undefined there"
     raise PositionError(message, q=q[entry], design=design or None)
 
 

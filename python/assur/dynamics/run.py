@@ -312,15 +312,15 @@ class Run:
             )
         event = events[which] if kind == "event" else None
         sentences = {
-            "reached": "it went to its end",
+            "reached": "reached its end",
             "event": f"{event} at {place}",
             "rest": f"the machine came to rest at {place}",
             "table ends": f"a table over q ends at {place}",
             "motor table ends": f"the motor's table ends at {place}",
             "stalled": f"the tolerance cannot be met with any step beyond {place}",
-            "step limit": f"max_steps was met at {place}"
+            "step limit": f"max_steps was reached at {place}"
             + (": the equation is stiff there" if which else ""),
-            "time limit": f"max_seconds was met at {place}",
+            "time limit": f"max_seconds was reached at {place}",
         }
         return kind, sentences[kind]
 
@@ -332,7 +332,7 @@ class Run:
         why = ""
         if mechanism is not None:
             why = ": " + mechanism.solve(self._per_driver(q), order=1, on_error="nan").explain()
-        return "lost", f"the way beyond {place} is not known{why}"
+        return "lost", f"the branch cannot be tracked beyond {place}{why}"
 
 
 def _rebuild(core: bytes, *others: Any) -> Run:

@@ -58,7 +58,7 @@ def flywheel(
     constant = torque is not None and not callable(torque) and not isinstance(torque, Table)
     if mean_speed is None:
         if machine.motor is None:
-            message = "without a motor that tells the speed mean_speed is needed"
+            message = "mean_speed is needed: no motor sets the speed"
             raise InputError(message)
         wanted = real_number(fluctuation, "fluctuation")
         if not 0.0 < wanted < 2.0:
@@ -67,7 +67,7 @@ def flywheel(
         return steady_state(machine, None, 1, None, wanted, mean=mean, **STEADY_OPTIONS)
     if not constant:
         message = (
-            f"{machine.motor!r} is no constant motor, its own torque counts: leave mean_speed out, "
+            f"{machine.motor!r} sets its own speed: omit mean_speed, which needs a constant motor, "
             "or build the machine without a motor"
         )
         raise InputError(message)
@@ -166,8 +166,8 @@ def aperiodic_designs(
         first = tuple(int(i) for i in np.argwhere(others)[0])
         which = f"design {first if len(first) > 1 else first[0]}: " if first else ""
         message = (
-            f"{which}the reduced {name} is another one after a turn (by {off[first]:.3g}): there "
-            "is no flywheel of one turn"
+            f"{which}the reduced {name} is not periodic over a turn (it differs by "
+            f"{off[first]:.3g}): there is no flywheel of one turn"
         )
         raise InputError(message)
     return found

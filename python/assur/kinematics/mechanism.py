@@ -122,11 +122,11 @@ class Mechanism:
         return mechanism
 
     def __setattr__(self, name: str, value: object) -> None:
-        message = f"a Mechanism does not change ({name!r}): see with_dimensions, with_driver"
+        message = f"Mechanism is immutable ({name!r}): use with_dimensions() or with_driver()"
         raise AttributeError(message)
 
     def __delattr__(self, name: str) -> None:
-        message = f"a Mechanism does not change ({name!r}): see with_dimensions, with_driver"
+        message = f"Mechanism is immutable ({name!r}): use with_dimensions() or with_driver()"
         raise AttributeError(message)
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -288,7 +288,7 @@ class Motion:
         >>> import assur
         >>> m = assur.FourBar(40, 120, 80, 300)
         >>> m.solve([0.0, 3.0], on_error="nan").explain(1)
-        'at q = 3 dyad "C" does not close: 1.396e2 m are missing'
+        'at q = 3 dyad "C" cannot be assembled: its links are 139.6 m too short to meet'
         """
         return self._explain(index)[2]
 

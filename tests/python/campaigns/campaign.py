@@ -141,7 +141,7 @@ class Check(Findings):
         beyond = self.m.solve(edges[:, 1], order=0, on_error="nan", threads=1)
         told = [beyond.explain(i) for i in range(len(edges))]
         # The dead point of a group may itself be a number: it is flat there.
-        words = ("dead point", "is flat", "too far") if self.higher else ("does not close",)
+        words = ("dead point", "is flat", "size away") if self.higher else ("cannot be assembled",)
         self.fail("explain", *(text for text in told if not any(word in text for word in words)))
 
 

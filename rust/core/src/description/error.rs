@@ -183,7 +183,7 @@ pub enum SolveError {
     Interrupted,
     /// Assemblies of a group above class II are not supported.
     #[error(
-        "group {group} is of class {class}: assemblies are found for groups of class II only, so far; an assembly is told by its drawing"
+        "group {group} is of class {class}: assemblies() supports class II only; for another assembly draw the mechanism that way"
     )]
     HigherClass { group: String, class: String },
     /// A dimension is not finite or out of range, or a length is not positive.

@@ -173,13 +173,13 @@ impl Mechanism {
         let groups: Vec<&str> = self.plan().groups().map(|group| group.name.as_str()).collect();
         if groups.is_empty() {
             return format!(
-                "at q = {at} the assembly is not known: its signs do not return within 64 turns"
+                "at q = {at} the assembly is unknown: its signs do not return within 64 turns"
             );
         }
         let groups = groups.join(" → ");
         if let Err(part) = design.initial_unknowns {
             return format!(
-                "these dimensions are not reached: on their straight way from the drawing's {groups} comes to a dead point after {:.4} % of it; give them in steps by another way, or draw the mechanism with them",
+                "cannot track the assembly from the drawing to these dimensions: {groups} reaches a dead point {:.4} % of the way; use smaller steps, or draw the mechanism with these dimensions",
                 100.0 * part
             );
         }
@@ -194,7 +194,7 @@ impl Mechanism {
                 let away = design.max_distance(end);
                 if away > FAR_JOINT {
                     return format!(
-                        "q = {at} is not reached: from the drawing the motion of {groups} is followed {reach}, where a joint is {away:.0} sizes away: too far to be followed on"
+                        "q = {at} cannot be reached: the motion of {groups} is tracked from the drawing {reach}, where a joint is {away:.0} times the mechanism's size away"
                     );
                 }
                 format!(
@@ -202,7 +202,7 @@ impl Mechanism {
                 )
             }
             _ => format!(
-                "q = {at} is not reached: on the straight way from the drawing {groups} comes to a dead point"
+                "q = {at} cannot be reached: on the straight path from the drawing {groups} reaches a dead point"
             ),
         }
     }
@@ -214,8 +214,8 @@ impl Mechanism {
         let name = self.step_name(fault);
         let sentence = match fault {
             Fault::RedundantMisfit { gap, .. } => format!(
-                "at q = {at} the redundant {name:?} does not fit: it misses by {:.3e} m",
-                gap * scale
+                "at q = {at} the redundant {name:?} does not fit: it misses by {} m",
+                rounded(gap * scale)
             ),
             Fault::NotClosed { gap: 0.0, .. } => format!(
                 "at q = {at} dyad {name:?} has coinciding outer joints, or a leg of no length: its links may stand in any direction"
@@ -224,19 +224,26 @@ impl Mechanism {
                 Step::Dyad(dyad) if dyad.sign.is_none() => {
                     format!("at q = {at} the guides {name:?} are parallel")
                 }
-                _ => format!("at q = {at} dyad {name:?} does not close, by far"),
+                _ => format!(
+                    "at q = {at} dyad {name:?} cannot be assembled: its links are far too short to meet"
+                ),
             },
             Fault::NotClosed { gap, .. } => format!(
-                "at q = {at} dyad {name:?} does not close: {:.3e} m are missing",
-                gap * scale
+                "at q = {at} dyad {name:?} cannot be assembled: its links are {} m too short to meet",
+                rounded(gap * scale)
             ),
             Fault::Singular { .. } => format!("at q = {at} dyad {name:?} is flat"),
             Fault::NotConverged { .. } => {
-                format!("at q = {at} the iteration of the group {name:?} did not end")
+                format!("at q = {at} the iteration of the group {name:?} did not converge")
             }
         };
         (name, sentence)
     }
+}
+
+/// A number to four digits, without an exponent where it reads well.
+fn rounded(x: f64) -> String {
+    number(format!("{x:.3e}").parse().unwrap_or(x))
 }
 
 fn guides_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::dyad::Dyad) -> String {

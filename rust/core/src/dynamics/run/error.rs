@@ -21,7 +21,7 @@ pub enum RunError<E> {
         value: f64,
     },
     /// The mechanism has no valid position at the initial coordinates.
-    #[error("there is nothing to begin with at q = {q:?}")]
+    #[error("no valid position at the initial coordinate q = {q:?}")]
     NoInitialPosition {
         /// Initial coordinates.
         q: Vec<f64>,

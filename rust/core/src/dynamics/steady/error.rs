@@ -22,10 +22,10 @@ pub enum SteadyError<E> {
     #[error("{0}")]
     Run(RunError<E>),
     #[error(
-        "neither motor nor loads tell a speed to begin with: say speed= (the mean speed, or with dampers a first guess)"
+        "no initial speed follows from the motor or loads: pass speed= (the mean speed, or with dampers a first guess)"
     )]
     NeedsSpeed,
-    #[error("the motor cannot carry the load: begun at {} rad/s and slower, the machine comes to rest at q = {} rad", short(*from), short(*q))]
+    #[error("the motor cannot carry the load: from {} rad/s or less the machine stalls at q = {} rad", short(*from), short(*q))]
     Stops { q: f64, from: f64 },
     #[error("no periodic motion was found below {} rad/s: the motor's moment never makes up for the loads", short(*from))]
     CannotCarry { from: f64 },
@@ -34,12 +34,12 @@ pub enum SteadyError<E> {
     #[error("nothing depends on the speed, and over a period the motor's mean moment is {} N·m where {} N·m would be in balance: the machine speeds up or stops (without a motor the moment is found)", short(*motor), short(*needed))]
     Unbalanced { motor: f64, needed: f64 },
     #[error(
-        "no periodic motion with a mean speed of {} rad/s was found ({}): at so low a speed the machine stops within the turn (add flywheel=), at so high a speed its variation is below rounding",
+        "no periodic motion with a mean speed of {} rad/s was found ({}): at this speed the machine stalls within the turn (add flywheel=), or its variation is below rounding",
         short(*speed), mean_named(*mean)
     )]
     MeanNotReached { speed: f64, mean: Mean },
     #[error(
-        "the speed is hardly told: over a period a change of it dies away by {} alone, which this tolerance (rtol) cannot see",
+        "the steady speed is poorly determined: a perturbation decays by only {} per period, which this tolerance (rtol) cannot resolve",
         short(*part)
     )]
     PoorlyDetermined { part: f64 },
@@ -50,11 +50,11 @@ pub enum SteadyError<E> {
     #[error("the motor's table ends at {} rad/s of the driver, met at q = {}", short(*speed), short(*q))]
     MotorTableEnds { q: f64, speed: f64 },
     #[error(
-        "the motion is another one from period to period: the machine is not the same a period on, or a function among its loads depends on the time"
+        "the motion differs from period to period: the machine is not periodic over this span, or a load depends on the time"
     )]
     NotPeriodic,
     #[error(
-        "the machine is another one a period on: its reduced inertia is {} kg·m² at q = {}, but {} at q = {} (a motion through change points may take two turns: turns=2)",
+        "the machine is not periodic over this span: its reduced inertia is {} kg·m² at q = {}, but {} at q = {} (a motion through change points may take two turns: turns=2)",
         short(inertia[0]), short(q[0]), short(inertia[1]), short(q[1])
     )]
     InertiaNotPeriodic { q: [f64; 2], inertia: [f64; 2] },
@@ -62,9 +62,9 @@ pub enum SteadyError<E> {
     AlreadyMet { without: f64, wanted: f64 },
     #[error("no flywheel gives a fluctuation of {}", short(*wanted))]
     NoFlywheel { wanted: f64 },
-    #[error("max_steps was met at q = {}: beside change points a tolerance may be too tight (rtol), or the machine is stiff", short(*q))]
+    #[error("max_steps was reached at q = {}: beside change points a tolerance may be too tight (rtol), or the machine is stiff", short(*q))]
     TooManySteps { q: f64 },
-    #[error("the time was over at q = {}", short(*q))]
+    #[error("the time limit was reached at q = {}", short(*q))]
     Cancelled { q: f64 },
     #[error("{0}")]
     Other(String),

@@ -72,7 +72,7 @@ pub enum TableError {
     AlreadyMet { without: f64, wanted: f64 },
     /// The machine stops within the cycle.
     #[error(
-        "at speed0 = {speed0} rad/s the energy does not suffice beyond phi = {at} rad: {missing} J are missing"
+        "at speed0 = {speed0} rad/s the machine stalls at phi = {at} rad: it lacks {missing} J"
     )]
     Stalls { speed0: f64, at: f64, missing: f64 },
     /// Energies beyond the range of numbers.
