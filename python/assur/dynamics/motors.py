@@ -120,8 +120,8 @@ def encode(motor: Any, driver: int, callbacks: CallbackTable) -> EncodedMotor:
     """Encode a motor for the core; its functions are added to `callbacks`."""
     if not isinstance(motor, Motor):
         message = (
-            f"{short(motor)} is not a motor: ConstantTorque, LinearMotor, InductionMotor, or a Table "
-            "of torque over speed"
+            f"{short(motor)} is not a motor: ConstantTorque, LinearMotor, InductionMotor, "
+            "or a Table of torque over speed"
         )
         raise InputError(message)
     common = driver, motor.ratio, motor.rotor_inertia
