@@ -146,7 +146,7 @@ impl<'a> Design<'a> {
         for (index, &unknown) in unknowns.enumerate() {
             match unknown {
                 Unknown::Class(class) => {
-                    state.class[class][g] = branch.rotation(location, index, count)
+                    state.class[class][g] = branch.rotation(location, index, count);
                 }
                 Unknown::Slide(slide) => {
                     state.slides[slide * state.len][g] = branch.slide(location, index, count);

@@ -51,7 +51,7 @@ impl<S: System> Step<'_, S> {
     }
 
     /// The event functions from dense output.
-    fn from_dense_output(&mut self, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
+    fn events_by_dense_output(&mut self, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
         let state = &mut self.state.as_flattened_mut()[..self.n];
         if theta == 1.0 {
             state.copy_from_slice(&self.new.as_flattened()[..self.n]);
@@ -63,16 +63,16 @@ impl<S: System> Step<'_, S> {
     }
 
     /// The event functions from a step of the method, which is more accurate than dense output.
-    fn from_step(&mut self, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
+    fn events_by_step(&mut self, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
         if theta == 1.0 {
-            return self.from_dense_output(theta, values);
+            return self.events_by_dense_output(theta, values);
         }
         let h = theta * self.h;
         match self.stages.advance(self.system, self.t, self.y, h, self.state) {
             Ok(()) => {}
             Err(Refusal::System(error)) => return Err(error),
             // A shorter step fails where the full one did not: fall back to dense output.
-            Err(_) => return self.from_dense_output(theta, values),
+            Err(_) => return self.events_by_dense_output(theta, values),
         }
         let t = self.time(theta);
         self.system.events(t, &self.state.as_flattened()[..self.n], values)
@@ -99,12 +99,12 @@ impl<S: System> Step<'_, S> {
         }
         let low = (theta - SLOPE_HALF_WIDTH).max(0.0);
         let high = (theta + SLOPE_HALF_WIDTH).min(1.0);
-        self.from_dense_output(low, values)?;
+        self.events_by_dense_output(low, values)?;
         let before = values[j];
-        self.from_dense_output(high, values)?;
+        self.events_by_dense_output(high, values)?;
         let slope = (values[j] - before) / (high - low);
         let (mut best, mut last) = (theta, theta);
-        self.from_step(best, values)?;
+        self.events_by_step(best, values)?;
         let mut value = values[j];
         for _ in 0..MAX_POLISH_STEPS {
             let change = value / slope;
@@ -115,7 +115,7 @@ impl<S: System> Step<'_, S> {
             if change.abs() <= SHIFT_LIMIT {
                 self.shift(best, last, values)?;
             } else {
-                self.from_step(last, values)?;
+                self.events_by_step(last, values)?;
             }
             let improved = values[j].abs() < value.abs();
             if !improved {
@@ -124,7 +124,7 @@ impl<S: System> Step<'_, S> {
             (best, value) = (last, values[j]);
         }
         if last != best {
-            self.from_step(best, values)?;
+            self.events_by_step(best, values)?;
         }
         Ok(best)
     }
@@ -137,12 +137,12 @@ impl<S: System> Step<'_, S> {
         tracker: &mut EventTracker,
         mut record: impl FnMut(usize, f64, &[f64]),
     ) -> Result<Option<Cut>, S::Error> {
-        tracker.sample(|theta, values| self.from_dense_output(theta, values))?;
+        tracker.sample(|theta, values| self.events_by_dense_output(theta, values))?;
         // The spacing of t as a fraction of the step.
         let spacing = 2.0 * f64::EPSILON * (self.t_new.abs() / self.h.abs()).max(1.0);
         for interval in 0..tracker.intervals() {
             tracker.find_events(interval, spacing, |theta, values| {
-                self.from_dense_output(theta, values)
+                self.events_by_dense_output(theta, values)
             })?;
             let mut found = std::mem::take(&mut tracker.found);
             for (theta, j) in &mut found {
@@ -216,7 +216,7 @@ impl<S: System> Step<'_, S> {
     /// State and event functions at a polished event.
     fn evaluate_event(&mut self, theta: f64, values: &mut [f64]) -> Result<(), S::Error> {
         if theta > 0.0 {
-            return self.from_step(theta, values);
+            return self.events_by_step(theta, values);
         }
         self.state.copy_from_slice(self.y);
         self.system.events(self.t, &self.state.as_flattened()[..self.n], values)

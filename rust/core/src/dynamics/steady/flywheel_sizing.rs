@@ -166,10 +166,10 @@ fn size_flywheel<E>(
         Err(
             SteadyError::Stops { .. }
             | SteadyError::CannotCarry { .. }
-            | SteadyError::MeanNotReached { .. },
+            | SteadyError::MeanNotReached { .. }
+            // The flywheel may be all the inertia there is.
+            | SteadyError::Run(RunError::NoInertia { .. }),
         ) => None,
-        // The flywheel may be all the inertia there is.
-        Err(SteadyError::Run(RunError::NoInertia { .. })) => None,
         Err(error) => return Err(error),
     };
     let without_flywheel =

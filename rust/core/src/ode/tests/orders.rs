@@ -1,4 +1,4 @@
-//! Orders of convergence, measured_order with fixed steps.
+//! Orders of convergence, measured with fixed steps.
 
 use super::*;
 use crate::ode::dense::Interpolant;

@@ -29,7 +29,7 @@ impl<R: Real, const G: usize> State<R, G> {
             (1, 3) => self.rrr_of_length(cx, dyad, classes, index, 3, &|k| ONE_DRIVER[k]),
             (1, 4) => self.rrr_of_length(cx, dyad, classes, index, 4, &|k| ONE_DRIVER[k]),
             (_, len) => {
-                self.rrr_of_length(cx, dyad, classes, index, len, &|k| &cx.jets.rotation[k][..])
+                self.rrr_of_length(cx, dyad, classes, index, len, &|k| &cx.jets.rotation[k][..]);
             }
         }
         for (turned, class) in dyad.orientations.iter().zip(classes) {
