@@ -233,9 +233,12 @@ def test_periods_must_be_the_same() -> None:
 def test_what_is_cut_short_is_no_period() -> None:
     motor = assur.LinearMotor(90.0, 30.0)
     enough = press(motor).steady_state().run.statistics.steps
-    for steps in (1, enough // 2, enough - 1):
-        with pytest.raises(InputError, match=r"max_steps|ended early"):
+    for steps in (1, enough // 2):
+        with pytest.raises(InputError, match="max_steps was met at q = "):
             press(motor).steady_state(max_steps=steps)
+    # One step short: the search ends, the period itself does not.
+    with pytest.raises(InputError, match="the period ended early"):
+        press(motor).steady_state(max_steps=enough - 1)
     with pytest.raises(InputError, match="the time was over"):
         press(motor).steady_state(max_seconds=0.0)
 
@@ -243,7 +246,7 @@ def test_what_is_cut_short_is_no_period() -> None:
 def test_speeds_that_cannot_be_met() -> None:
     with pytest.raises(InputError, match="mean speed of 1 rad/s was found"):
         press().steady_state(1.0, mean="period")
-    with pytest.raises(InputError, match=r"mean speed|runs away"):
+    with pytest.raises(InputError, match="runs away"):
         press().steady_state(1e8, mean="period")
     overrun = assur.Machine(
         four_bar(),
@@ -251,7 +254,7 @@ def test_speeds_that_cannot_be_met() -> None:
         [Torque("crank", 50.0)],
         assur.InductionMotor(3.78, 0.145, 14.64),
     )
-    with pytest.raises(InputError, match=r"runs away|hardly told"):
+    with pytest.raises(InputError, match="the speed is hardly told"):
         overrun.steady_state()
 
 

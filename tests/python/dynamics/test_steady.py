@@ -75,7 +75,7 @@ def test_an_induction_motor_runs_on_its_stable_side() -> None:
         assert abs(own.mean_speed - 100.0 * (1.0 - slip)) < 1e-7
         assert own.multiplier < 1.0
     for load in (60.1, 100.0):
-        with pytest.raises(InputError, match=r"cannot carry|never makes up"):
+        with pytest.raises(InputError, match="never makes up for the loads"):
             wheel(load, motor, 50.0).steady_state()
 
 
@@ -196,7 +196,7 @@ def test_flywheel_with_a_motor(mean: Any) -> None:
 def test_flywheel_of_a_weak_motor() -> None:
     """Without a flywheel the machine would stop; with one it does not."""
     machine = press(assur.LinearMotor(40.0, 9.0))
-    with pytest.raises(InputError, match=r"cannot carry|comes to rest"):
+    with pytest.raises(InputError, match=r"cannot carry the load: .*comes to rest at q = 5\.759"):
         machine.steady_state()
     own = machine.flywheel(0.1)
     assert abs(own.delta - 0.1) < 1e-10
@@ -234,7 +234,7 @@ def test_pictures() -> None:
     [
         (lambda: press().steady_state(), "say speed="),
         (lambda: press().steady_state(0.0), "speed is 0"),
-        (lambda: press(assur.LinearMotor(2.0, 30.0)).steady_state(), "cannot carry|never makes"),
+        (lambda: press(assur.LinearMotor(2.0, 30.0)).steady_state(), "cannot carry the load"),
         (lambda: press(assur.LinearMotor(9.0, 30.0)).steady_state(turns=0), "turns is 0"),
         (lambda: press().steady_state(5.0, flywheel=-1.0), "flywheel = -1"),
         (lambda: press().steady_state(5.0, mean=ANY), "mean is 'median'"),
