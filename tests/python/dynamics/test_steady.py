@@ -224,8 +224,32 @@ def test_pictures() -> None:
         assert all(np.isfinite(line.get_ydata()).all() for line in ax.lines)
     with pytest.raises(InputError, match="what is 'jerk'"):
         run.plot("jerk")
+    plt.close("all")
+
+
+def test_the_picture_of_the_example_shows_the_start_and_both_periodic_motions() -> None:
     figure = press_motion.draw(press_motion.press())
-    assert [len(ax.lines) for ax in figure.axes] == [1, 2]
+    start, periodic = (ax.lines for ax in figure.axes)
+    (from_rest,) = (line.get_data() for line in start)
+    bare, wheeled = (line.get_data() for line in periodic)
+    # From rest, with the motor's moment at rest over the inertia of the crank and the rotor: the
+    # piston stands still at its dead point. At 3 s the motion is within the periodic one.
+    assert (from_rest[0][0], from_rest[0][-1], from_rest[1][0]) == (0.0, 3.0, 0.0)
+    at_rest = 12.0 * 2.0 * 32.0 / (1.0 / 0.25 + 0.25)
+    inertia = 0.2 + 144.0 * 0.01 + press_motion.press().reduced_inertia(0.0).value * 0.0
+    rod = 0.08 / 0.3  # turns as fast at the dead point
+    inertia += 0.08 * rod**2 + 6.0 * (0.08 * 0.2 / 0.3) ** 2
+    slope = from_rest[1][1] / from_rest[0][1]
+    assert slope == pytest.approx(at_rest / inertia, rel=1e-3)
+    assert bare[1].min() < from_rest[1][-1] < bare[1].max()
+    for (q, speed), label in zip((bare, wheeled), periodic, strict=True):
+        assert (q[0], q[-1], len(q)) == (0.0, TURN, 721)
+        middle = (speed.max() + speed.min()) / 2.0
+        delta = (speed.max() - speed.min()) / middle
+        assert f"δ = {delta:.3f}"[:8] in label.get_label()
+    assert (wheeled[1].max() - wheeled[1].min()) / (
+        (wheeled[1].max() + wheeled[1].min()) / 2.0
+    ) == pytest.approx(0.05, rel=1e-3)
     plt.close("all")
 
 

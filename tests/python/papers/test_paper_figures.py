@@ -76,9 +76,9 @@ def diagrams(figure: Any) -> None:
     sine = np.sin(phi)
     v = 0.11 * sine + 0.11 * sine * d1
     a = 0.11 * np.cos(phi) + 0.407 * (cosine * d1**2 + (0.11 / 0.407) * sine * d2)
-    rows = (0.517 - x, 31.0 * v, 31.0**2 * a, -np.arccos(cosine) * np.sign(sine))
-    rows = (*rows, -31.0 * d1, -(31.0**2) * d2)
-    for ax, wanted in zip(np.reshape(figure.axes, (3, 2)).T.flat, rows, strict=True):
+    stroke = (0.517 - x, 31.0 * v, 31.0**2 * a)
+    rod = (-np.arccos(cosine) * np.sign(sine), -31.0 * d1, -(31.0**2) * d2)
+    for ax, wanted in zip(np.reshape(figure.axes, (3, 2)).T.flat, stroke + rod, strict=True):
         got = data(ax)
         close(got[0], np.degrees(phi), atol=1e-12)
         # An arccosine near 1 loses half of the digits.
