@@ -101,7 +101,11 @@ def test_negative_inertia_is_refused_where_it_is() -> None:
     # A coarse spline beside rows of zero goes far below them.
     coarse = [0.0, 0.0, 0.0, 9.0, 9.0, 0.0, 0.0]
     phi, moment = np.linspace(0.0, TURN, 7), np.zeros(7)
-    refused(InputError, "linear", lambda: flywheel.from_table(phi, moment, coarse, DELTA, SPEED))
+    refused(
+        InputError,
+        'negative spline="linear"',
+        lambda: flywheel.from_table(phi, moment, coarse, DELTA, SPEED),
+    )
 
 
 def test_both_fluctuation_and_mean_speed_are_needed() -> None:

@@ -22,9 +22,11 @@ def test_a_time_outside_the_run_is_refused() -> None:
     for t in (0.999, 3.001, -1e300, math.inf):
         error = refused(assur.InputError, f"{t!r} 1.0 3.0", lambda t=t: run.at(t))  # type: ignore[misc]
         assert error.value == t
-    refused(assur.InputError, "nan outside", lambda: run.at(math.nan))
+    refused(assur.InputError, "t nan outside", lambda: run.at(math.nan), value=math.nan)
     # The first of them, wherever it is.
-    refused(assur.InputError, "t = 4.0", lambda: run.at([[1.5, 2.0], [4.0, 5.0]]))
+    refused(
+        assur.InputError, "t = 4.0 outside", lambda: run.at([[1.5, 2.0], [4.0, 5.0]]), value=4.0
+    )
 
 
 def test_a_coordinate_outside_a_run_over_it_is_refused() -> None:

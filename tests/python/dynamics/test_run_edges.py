@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import pickle
+from functools import cache
 from typing import Any
 
 import mpmath as mp  # type: ignore[import-untyped]
@@ -24,6 +25,7 @@ from assur import (
 )
 from assur.dynamics import integrate
 from machines import five_bar, pendulum, press
+from oracle_dae import Dae
 
 TURN = math.tau
 ANY: Any = None  # what types would not let pass
@@ -80,8 +82,7 @@ def test_two_drivers_come_to_a_dead_point() -> None:
     assert run.energy.error < 1e-7
 
 
-@pytest.mark.parametrize("scale", [1.0, 1e-3, 1e-6, 1e3])
-def test_two_driven_slides_of_any_size(scale: float) -> None:
+def two_driven_slides(scale: float) -> assur.Machine:
     at = {"A": (0.0, 0.0), "C": (1.2, 1.1), "E": (3.0, 0.0)}
     m = assur.Mechanism(
         joints={name: (x * scale, y * scale) for name, (x, y) in at.items()},
@@ -92,12 +93,27 @@ def test_two_driven_slides_of_any_size(scale: float) -> None:
         },
         driver=["p", "r"],
     )
-    machine = assur.Machine(m, {name: Body(1.0, 0.3 * scale**2) for name in ("b1", "b2")})
+    return assur.Machine(m, {name: Body(1.0, 0.3 * scale**2) for name in ("b1", "b2")})
+
+
+@cache
+def two_driven_slides_of_size_1() -> tuple[Any, Any]:
+    """Coordinates and speeds after 2 s."""
+    q, speeds = Dae(two_driven_slides(1.0)).run([2.0], {"p": -0.2, "r": 0.1})
+    return q[0], speeds[0]
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-3, 1e-6, 1e3])
+def test_two_driven_slides_of_any_size(scale: float) -> None:
+    machine = two_driven_slides(scale)
     run = machine.run(2.0, speed0=[-0.2 * scale, 0.1 * scale])
     assert run.end == "reached"
     assert run.energy.error < 1e-9
-    # The same motion whatever the size.
-    assert np.abs(run.at(2.0).q / scale - [-0.36055729, 0.11898176]).max() < 1e-8
+    # The same motion whatever the size: that of free bodies with constraints, of the size 1.
+    q, speeds = two_driven_slides_of_size_1()
+    own = run.at(2.0)
+    assert np.abs(own.q / scale - q).max() < 1e-11
+    assert np.abs(own.speed / scale - speeds).max() < 1e-11
 
 
 def test_a_narrow_barrier_is_no_way() -> None:
@@ -233,9 +249,12 @@ def test_periods_must_be_the_same() -> None:
 def test_what_is_cut_short_is_no_period() -> None:
     motor = assur.LinearMotor(90.0, 30.0)
     enough = press(motor).steady_state().run.statistics.steps
-    for steps in (1, enough // 2, enough - 1):
-        with pytest.raises(InputError, match=r"max_steps|ended early"):
+    for steps in (1, enough // 2):
+        with pytest.raises(InputError, match="max_steps was met at q = "):
             press(motor).steady_state(max_steps=steps)
+    # One step short: the search ends, the period itself does not.
+    with pytest.raises(InputError, match="the period ended early"):
+        press(motor).steady_state(max_steps=enough - 1)
     with pytest.raises(InputError, match="the time was over"):
         press(motor).steady_state(max_seconds=0.0)
 
@@ -243,7 +262,7 @@ def test_what_is_cut_short_is_no_period() -> None:
 def test_speeds_that_cannot_be_met() -> None:
     with pytest.raises(InputError, match="mean speed of 1 rad/s was found"):
         press().steady_state(1.0, mean="period")
-    with pytest.raises(InputError, match=r"mean speed|runs away"):
+    with pytest.raises(InputError, match="runs away"):
         press().steady_state(1e8, mean="period")
     overrun = assur.Machine(
         four_bar(),
@@ -251,7 +270,7 @@ def test_speeds_that_cannot_be_met() -> None:
         [Torque("crank", 50.0)],
         assur.InductionMotor(3.78, 0.145, 14.64),
     )
-    with pytest.raises(InputError, match=r"runs away|hardly told"):
+    with pytest.raises(InputError, match="the speed is hardly told"):
         overrun.steady_state()
 
 

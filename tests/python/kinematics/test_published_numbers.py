@@ -1,4 +1,8 @@
-"""Published numbers (reference.md), to all printed digits, and P1's closed forms to 1e-14."""
+"""Numbers of the papers and of textbooks, to all printed digits; P1's closed forms to 1e-14.
+
+P1: Chernysh and others (2021), the slider-crank by vector loops. P5: V. K. Manzhosov and T. E.
+Petrova, the crank-rocker with friction.
+"""
 
 from __future__ import annotations
 
@@ -181,7 +185,7 @@ def test_table_1(row: int, mode: str) -> None:
 
 
 def test_p5_check_numbers() -> None:
-    """The rates at l = (1, 4.5, 1.5, 4.9), φ1 = 2.1 of reference.md include dl4/dt = 0.7.
+    """The rates at l = (1, 4.5, 1.5, 4.9), φ1 = 2.1 by section 1 of P5, with dl4/dt = 0.7.
 
     Those of a fixed frame and of the moving one are told apart by a second driver: D on a slide.
     """
@@ -207,7 +211,7 @@ def test_p5_check_numbers() -> None:
     # φ2 = π + φ3' − β
     phi2_rate = -float(motion.link("coupler").velocity(rate))
     assert phi2_rate == pytest.approx(-0.25049132693 - 0.07442402876, abs=2e-11)
-    # γ23 is the angle between the legs at C (reference.md prints …165; it is …161695)
+    # γ23 is the angle between the legs at C
     assert abs(phi3_rate - phi2_rate) == pytest.approx(1.44788050162, abs=2e-11)
     assert f"{np.hypot(*motion.joint('C').velocity(rate)):.8f}" == "2.38405545"
     still = assur.FourBar(1.0, 4.5, 1.5, l4).solve(q)

@@ -37,7 +37,7 @@ def four_bar(
 
 
 def crank_rocker() -> Description:
-    """P5's crank-rocker, as drawn in api.md."""
+    """A crank-rocker with a coupler point, drawn with its crank along the ground."""
     joints = {"A": (0.0, 0.0), "B": (1.0, 0.0), "C": (4.1, 3.2), "D": (4.8, 0.0), "P": (3.0, 4.0)}
     links = {GROUND: "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"}
     return _bars(joints, links, _CRANK)
@@ -157,7 +157,7 @@ def stephenson() -> Description:
 
 
 def jansen() -> Description:
-    """Jansen's leg (reference.md); foot "7"; crank drawn near 50°."""
+    """Theo Jansen's leg; foot "7"; crank drawn near 50°."""
     places = (
         (0.0, 0.0),
         (9.61, 11.52),

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pytest
 
 import assur
@@ -79,11 +81,24 @@ MOTION = M.solve([0.0, 1.0, 2.0])
 
 
 def refused(
-    kind: type[assur.AssurError], words: str, ask: Callable[[], object]
+    kind: type[assur.AssurError], words: str, ask: Callable[[], object], **fields: object
 ) -> assur.AssurError:
-    """Ask; every word must be in the message."""
+    """Ask; every word must be in the message as a whole word, every field of the error equal.
+
+    A word is whole if no letter or digit goes on beside it, nor a dotted name or a decimal part:
+    "q" is not in "sequence", "P" is not in "coupler.P.x", "1" is not in "1.5".
+    """
     with pytest.raises(kind) as caught:
         ask()
-    missing = [word for word in words.split() if word not in str(caught.value)]
-    assert not missing, f"{missing} not in: {caught.value}"
+    message = str(caught.value)
+    missing = [word for word in words.split() if not is_whole_word(word, message)]
+    assert not missing, f"{missing} not in: {message}"
+    found = {name: getattr(caught.value, name) for name in fields}
+    np.testing.assert_equal(found, fields, message)  # NaN is NaN
     return caught.value
+
+
+def is_whole_word(word: str, message: str) -> bool:
+    before = r"(?<![\w.])" if word[0].isalnum() else ""
+    after = r"(?!\w|\.\w)" if word[-1].isalnum() else ""
+    return re.search(before + re.escape(word) + after, message) is not None

@@ -191,12 +191,24 @@ class Dae:
         whole = np.block([[mass, rows.T], [rows, none]])
         return np.linalg.solve(whole, np.concatenate([force, right]))[: z.size]
 
+    def coordinate(self, driver: str) -> Any:
+        """Derivative of a driver's coordinate: a link's angle, or a slide on the frame.
+
+        A slide without an origin is 0 in the drawing.
+        """
+        if driver not in self.mechanism.slides:
+            return self.turning(driver, "ground")
+        slide = self.mechanism.slides[driver]
+        assert (slide.on, slide.origin) == ("ground", None)
+        k = 3 * self.links.index(slide.link)
+        row = np.zeros(self.z.size)
+        row[k : k + 2] = np.cos(slide.angle), np.sin(slide.angle)
+        return row
+
     def start(self, speeds: dict[str, float]) -> Any:
         """Velocities of all links at which drivers have theirs."""
         rows, _ = self.constraints(self.z, np.zeros_like(self.z))
-        own = np.zeros((len(speeds), self.z.size))
-        for i, name in enumerate(speeds):
-            own[i, 3 * self.links.index(name) + 2] = 1.0
+        own = np.array([self.coordinate(name) for name in speeds])
         whole = np.vstack([rows, own])
         right = np.concatenate([np.zeros(len(rows)), list(speeds.values())])
         found, *_ = np.linalg.lstsq(whole, right, rcond=None)
@@ -208,7 +220,7 @@ class Dae:
         speeds: dict[str, float],
         drive: Callable[[float], tuple[float, float]] | None = None,
     ) -> tuple[Any, Any]:
-        """Angles of the drivers and their speeds at times, (N, drivers)."""
+        """Coordinates of the drivers and their speeds at times, (N, drivers)."""
         n = self.z.size
 
         def rates(t: float, y: Any) -> Any:
@@ -221,5 +233,7 @@ class Dae:
             rates, span, start, "DOP853", t_eval=times, rtol=TIGHT, atol=TIGHT * scale
         )
         assert made.success, made.message
-        k = [3 * self.links.index(name) + 2 for name in speeds]
-        return made.y[k].T, made.y[[n + i for i in k]].T
+        own = np.array([self.coordinate(name) for name in speeds])
+        slides = np.array([name in self.mechanism.slides for name in speeds])
+        drawn = np.where(slides, own @ self.z, 0.0)
+        return made.y[:n].T @ own.T - drawn, made.y[n:].T @ own.T

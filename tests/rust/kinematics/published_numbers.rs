@@ -17,7 +17,7 @@ fn solve(mechanism: &Mechanism, dimensions: &[f64], q: &[f64]) -> Motion {
     mechanism.solve(&request).expect("a class II mechanism")
 }
 
-/// reference.md, "Worked examples from elsewhere".
+/// The foot of Theo Jansen's leg at the crank's angle 0, computed apart from this program.
 #[test]
 fn jansens_foot() {
     let leg = Mechanism::new(&jansen()).expect("a mechanism");
@@ -29,7 +29,7 @@ fn jansens_foot() {
     }
 }
 
-/// reference.md, "Worked examples from elsewhere": degrees, three decimals.
+/// The triangle of B, C and D by the law of cosines: degrees, three decimals.
 #[test]
 fn four_bar_angles() {
     for (mode, printed) in

@@ -55,7 +55,7 @@ pub fn stephenson(driver: &str) -> Description {
         .driver(driver)
 }
 
-/// Jansen's leg (reference.md), foot `7`.
+/// Theo Jansen's leg, foot `7`.
 pub fn jansen() -> Description {
     bars(
         &[
