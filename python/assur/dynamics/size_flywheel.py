@@ -67,8 +67,8 @@ def flywheel(
         return steady_state(machine, None, 1, None, wanted, mean=mean, **STEADY_OPTIONS)
     if not constant:
         message = (
-            f"{machine.motor!r} sets its own speed: omit mean_speed, which needs a constant motor, "
-            "or build the machine without a motor"
+            f"{machine.motor!r} is not a constant motor, which mean_speed needs: omit "
+            "mean_speed, or build the machine without a motor"
         )
         raise InputError(message)
     made = _from_tables(machine, fluctuation, mean_speed, mean, on_error)

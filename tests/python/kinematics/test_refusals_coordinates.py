@@ -99,7 +99,7 @@ def test_a_slide_pulled_too_far(q: float) -> None:
     assert m.solve(q, on_error="nan").status == Status.UNREACHABLE
     for order in (0, 1):
         ask = partial(m.solve, q, order=order)
-        error = refused(assur.PositionError, "A close", ask, joint="A", q=q)
+        error = refused(assur.PositionError, "A assembled", ask, joint="A", q=q)
         assert len(str(error)) < 150
 
 
@@ -124,7 +124,7 @@ def test_a_far_coupler_point_leaves_the_rest_alone(far: float) -> None:
 def test_positions_out_of_reach() -> None:
     error = refused(
         assur.PositionError,
-        "q = 3 C close m 1 3",
+        "q = 3 C assembled m 1 3",
         lambda: APART.solve([0, 3, 3.1]),
         joint="C",
         q=3.0,
@@ -157,7 +157,7 @@ def test_two_drivers() -> None:
         refused(assur.InputError, f"{ask.__name__} one driver 2", partial(ask, "l2"))
     refused(
         assur.PositionError,
-        "(3.1, 0) C close",
+        "(3.1, 0) C assembled",
         lambda: TWO.solve([3.1, 0.0]),
         joint="C",
         q=(3.1, 0.0),
