@@ -53,6 +53,7 @@ check: lint-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
 	$(VENV)/bin/lint-imports --no-logo --no-cache
+	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) -m mypy
 	$(PY) -m pytest -q -n auto tests/python/net/test_digests.py tests/python/description \
 	  tests/python/papers tests/python/package/test_readme.py
@@ -71,6 +72,7 @@ python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
 	$(VENV)/bin/lint-imports --no-logo --no-cache
+	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) -m mypy
 	$(PY) -m mypy.stubtest --mypy-config-file pyproject.toml assur._core
 	$(PY) -m pytest -q -n auto

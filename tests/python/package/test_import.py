@@ -27,3 +27,23 @@ def test_numpy_is_all_that_is_needed() -> None:
         [sys.executable, "-c", ALONE], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
+
+
+# What NumPy and dataclasses bring is there; what assur brings beyond them costs time at each start.
+BEYOND = """
+import sys
+import dataclasses, numpy, numpy.typing
+
+before = set(sys.modules)
+import assur
+
+print(*sorted({name.partition(".")[0] for name in set(sys.modules) - before}))
+"""
+
+
+def test_nothing_is_imported_beyond_numpy_and_dataclasses() -> None:
+    """Modules that one function needs (csv, pathlib, argparse) are imported there."""
+    done = subprocess.run(
+        [sys.executable, "-c", BEYOND], capture_output=True, text=True, check=False
+    )
+    assert done.stdout.split() == ["__future__", "assur"], done.stderr
