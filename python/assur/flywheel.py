@@ -12,8 +12,10 @@ fluctuation in Mathcad*, equations 1 to 6. F. Wittenbauer, *Graphische Dynamik* 
 
 from __future__ import annotations
 
+import csv
 import operator
 import warnings
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
@@ -422,9 +424,6 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> Table:
         A file that cannot be read or has fewer than two rows, or a row that is not three numbers
         (the message gives its line).
     """
-    import csv  # here: with pathlib a fifth of the time that `import assur` took
-    from pathlib import Path
-
     try:
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
         kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line[:1] != "#"]
