@@ -27,7 +27,7 @@ export PYO3_PYTHON := $(abspath $(PY))
 export PROPTEST_RNG_SEED ?= 1
 export MPLBACKEND ?= Agg
 
-.PHONY: help run check test rust-test python-test bench campaign fuzz clean rust-tools lint-tools
+.PHONY: help run check test rust-test python-test wheel bench campaign fuzz clean rust-tools lint-tools
 .DEFAULT_GOAL := help
 
 help:
@@ -36,6 +36,7 @@ help:
 	@echo "make test         format, lints, types, unit, integration and documentation tests"
 	@echo "make rust-test    the Rust half of it"
 	@echo "make python-test  the Python half of it"
+	@echo "make wheel        a wheel for release in dist/, audited, installed and tested"
 	@echo "make bench        benchmarks, beside NumPy and numba"
 	@echo "make campaign     random mechanisms by the hundred thousand (three hours); docs/campaign*.md"
 	@echo "make fuzz         libFuzzer on the core, SECONDS=60 each target (fuzz/README.md)"
@@ -52,6 +53,7 @@ check: lint-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
 	$(VENV)/bin/lint-imports --no-logo --no-cache
+	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) -m mypy
 	$(PY) -m pytest -q -n auto tests/python/net/test_digests.py tests/python/description \
 	  tests/python/papers tests/python/package/test_readme.py
@@ -70,9 +72,17 @@ python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
 	$(VENV)/bin/lint-imports --no-logo --no-cache
+	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) -m mypy
 	$(PY) -m mypy.stubtest --mypy-config-file pyproject.toml assur._core
 	$(PY) -m pytest -q -n auto
+
+# As released: without test-hooks, audited, installed away from the checkout and tested there.
+wheel: rust-tools $(RUN_STAMP)
+	@$(PY) -m pip install --quiet --group wheel
+	rm -f dist/assur-*.whl
+	$(PY) -m maturin build --release --out dist $(LOCKED)
+	$(PY) tools/check_wheel dist -n auto
 
 bench: rust-tools $(EXTENSION) $(DEV_STAMP)
 	@$(PY) -m pip install --quiet --group bench

@@ -15,25 +15,12 @@ array([-5.    ,  1.9536,  4.0563])
 np.float64(0.0191)
 """
 
-from assur import events, flywheel
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from assur._core import version
 from assur.description.structure import Group, Structure
 from assur.description.words import Assembly, Drive, Slide, Status
-from assur.dynamics.loads import (
-    Body,
-    Damper,
-    Force,
-    Gravity,
-    Spring,
-    Table,
-    Torque,
-    TorsionDamper,
-    TorsionSpring,
-)
-from assur.dynamics.machine import Machine
-from assur.dynamics.motors import ConstantTorque, InductionMotor, LinearMotor
-from assur.dynamics.run import Run
-from assur.dynamics.steady import SteadyState
 from assur.errors import (
     AssurError,
     AssurWarning,
@@ -48,7 +35,25 @@ from assur.kinematics.quantity import Analogues
 from assur.kinematics.sensitivity import Sensitivity
 from assur.mechanisms.class_iv import ClassIV
 from assur.mechanisms.named import FourBar, SliderCrank
-from assur.papers import crank_rocker, slider_crank
+
+if TYPE_CHECKING:
+    from assur import events, flywheel
+    from assur.dynamics.loads import (
+        Body,
+        Damper,
+        Force,
+        Gravity,
+        Spring,
+        Table,
+        Torque,
+        TorsionDamper,
+        TorsionSpring,
+    )
+    from assur.dynamics.machine import Machine
+    from assur.dynamics.motors import ConstantTorque, InductionMotor, LinearMotor
+    from assur.dynamics.run import Run
+    from assur.dynamics.steady import SteadyState
+    from assur.papers import crank_rocker, slider_crank
 
 __all__ = [
     "Analogues",
@@ -93,3 +98,42 @@ __all__ = [
 ]
 
 __version__ = version()
+
+# Imported when first asked for: more than half of what `import assur` would take (PEP 562).
+_LATER = {
+    "assur": ("events", "flywheel"),
+    "assur.dynamics.loads": (
+        "Body",
+        "Damper",
+        "Force",
+        "Gravity",
+        "Spring",
+        "Table",
+        "Torque",
+        "TorsionDamper",
+        "TorsionSpring",
+    ),
+    "assur.dynamics.machine": ("Machine",),
+    "assur.dynamics.motors": ("ConstantTorque", "InductionMotor", "LinearMotor"),
+    "assur.dynamics.run": ("Run",),
+    "assur.dynamics.steady": ("SteadyState",),
+    "assur.papers": ("crank_rocker", "slider_crank"),
+}
+_HOME = {name: home for home, names in _LATER.items() for name in names}
+
+if not TYPE_CHECKING:  # a type checker would take any name for one of the package
+
+    def __getattr__(name):
+        if name not in _HOME:
+            message = f"module 'assur' has no attribute {name!r}"
+            raise AttributeError(message, name=name, obj=import_module(__name__))
+        home = _HOME[name]
+        if home in ("assur", "assur.papers"):
+            found = import_module(f"{home}.{name}")
+        else:
+            found = getattr(import_module(home), name)
+        globals()[name] = found
+        return found
+
+    def __dir__():
+        return sorted({*globals(), *_HOME})

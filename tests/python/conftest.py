@@ -1,6 +1,7 @@
 """Hypothesis profiles: `fast` (the same cases every time), `slow` (HYPOTHESIS_PROFILE=slow)."""
 
 import os
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -14,6 +15,17 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fast"))
+
+
+def pytest_sessionstart() -> None:
+    """`make wheel` names the environment that the tested package must lie in."""
+    import assur
+
+    wanted = os.environ.get("ASSUR_INSTALLED_IN")
+    found = Path(assur.__file__).resolve()
+    if wanted and not (found.is_relative_to(wanted) and "site-packages" in found.parts):
+        message = f"{found} would be tested, not the package installed in {wanted}"
+        raise pytest.UsageError(message)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
