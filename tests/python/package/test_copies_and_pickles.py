@@ -36,7 +36,7 @@ def test_mechanisms_are_values(m: assur.Mechanism) -> None:
 
 
 def test_errors_are_pickled_with_their_fields() -> None:
-    error = refused(assur.PositionError, "C close", lambda: APART.solve(3.0), joint="C", q=3.0)
+    error = refused(assur.PositionError, "C assembled", lambda: APART.solve(3.0), joint="C", q=3.0)
     again = pickle.loads(pickle.dumps(error))
     assert type(again) is type(error)
     assert (str(again), again.__dict__) == (str(error), error.__dict__)
