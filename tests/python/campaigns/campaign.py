@@ -139,10 +139,12 @@ class Check(Findings):
         self.fail("gap", *found)
         self.report.note("fold", worst)
         beyond = self.m.solve(edges[:, 1], order=0, on_error="nan", threads=1)
-        told = [beyond.explain(i) for i in range(len(edges))]
+        sentences = [beyond.explain(i) for i in range(len(edges))]
         # The dead point of a group may itself be a number: it is flat there.
         words = ("dead point", "is flat", "size away") if self.higher else ("cannot be assembled",)
-        self.fail("explain", *(text for text in told if not any(word in text for word in words)))
+        self.fail(
+            "explain", *(text for text in sentences if not any(word in text for word in words))
+        )
 
 
 PAGES: dict[str, Callable[[Report], str]] = {

@@ -27,7 +27,7 @@ CHANGING = ("parallelogram", "antiparallelogram", "kite", "even", "isosceles", "
 
 
 def random_case(seed: int) -> dyad_models.Case:
-    """`dyad_models.random_case` with up to four dyads; with two drivers there is no track."""
+    """`dyad_models.random_case` with up to four dyads; with two drivers nothing is traced."""
     rng = random.Random(seed)
     kinds = [rng.choice(dyad_models.KINDS) for _ in range(rng.randint(1, 4))]
     driver = rng.choice(dyad_models.DRIVERS)

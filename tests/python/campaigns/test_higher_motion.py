@@ -150,10 +150,10 @@ def test_a_way_to_infinity_ends_and_says_so() -> None:
     m = assur.Mechanism(**arguments(higher_models.higher_case(1313).description))
     motion = m.solve(-1.46, on_error="nan")
     assert motion.status == Status.LOST
-    told = str(motion.explain())
-    end = float(re.findall(r"to (-[0-9.]+), where a joint is 530 times", told)[0])
-    assert "size away" in told
-    assert "dead point" not in told
+    sentence = str(motion.explain())
+    end = float(re.findall(r"to (-[0-9.]+), where a joint is 530 times", sentence)[0])
+    assert "size away" in sentence
+    assert "dead point" not in sentence
     before = m.solve(np.linspace(-1.99, end, 2000), on_error="nan")
     assert (before.status[:-1] <= Status.NEAR_SINGULAR).all()
     assert before.status[-1] <= Status.SINGULAR

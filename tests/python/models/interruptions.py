@@ -25,10 +25,10 @@ def interrupted(call: Callable[[], object]) -> float | None:
     sent: list[float] = []
     ended = threading.Event()
     lock = threading.Lock()
-    begun = time.process_time()
+    started = time.process_time()
 
     def ctrl_c() -> None:
-        while time.process_time() - begun < WORKED:
+        while time.process_time() - started < WORKED:
             if ended.wait(0.005):
                 return
         with lock:
@@ -57,9 +57,9 @@ def heard_after(make: Callable[[int], Callable[[], object]], size: int) -> float
     """
     while True:
         part = make(size)
-        begun = time.process_time()
+        started = time.process_time()
         part()
-        if (time.process_time() - begun) * PARTS > WHOLE:
+        if (time.process_time() - started) * PARTS > WHOLE:
             break
         size *= 2
         assert size < LARGEST, "the work does not grow"

@@ -85,13 +85,13 @@ def test_new_arrays_are_dropped_without_being_filled() -> None:
         m, q = assur.FourBar(1.0, 3.0, 2.5, 3.0), np.linspace(0.0, 6.0, int(sys.argv[1]))
         faults = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_minflt
         signal.signal(signal.SIGPROF, signal.default_int_handler)
-        before, begun = faults(), time.process_time()
+        before, started = faults(), time.process_time()
         signal.setitimer(signal.ITIMER_PROF, float(sys.argv[2]))
         try:
             m.solve(q, order=2, threads=1)
-            print(faults() - before, time.process_time() - begun, "whole")
+            print(faults() - before, time.process_time() - started, "whole")
         except KeyboardInterrupt:
-            print(faults() - before, time.process_time() - begun, "stopped")
+            print(faults() - before, time.process_time() - started, "stopped")
     """
 
     def run(size: int, seconds: float) -> tuple[int, float, str]:

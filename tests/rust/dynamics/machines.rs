@@ -50,13 +50,13 @@ fn search(span: f64, speed: Option<f64>) -> SteadyOptions<'static> {
 #[test]
 fn what_does_not_fit_is_named() {
     let table = |values: [f64; 2]| Table::new(&[0.0, TAU], &values, EndCondition::Linear, true);
-    let sheet =
+    let tabulated =
         TabulatedMachine { tables: vec![table([1.0; 2]).expect("a table")], motors: Vec::new() };
-    assert!(sheet.reduce(&[0.0]).moment[0].is_nan());
+    assert!(tabulated.reduce(&[0.0]).moment[0].is_nan());
     let said = |error: String, what: &str| assert!(error.contains(what), "{error}");
-    let run = sheet.run(&task(&[0.0], &[1.0], 1.0), NoCallbacks);
+    let run = tabulated.run(&task(&[0.0], &[1.0], 1.0), NoCallbacks);
     said(run.expect_err("one table").to_string(), "1 tables of inertia and moment are given: 2");
-    let steady = sheet.steady(&search(TAU, Some(1.0)), None, NoCallbacks);
+    let steady = tabulated.steady(&search(TAU, Some(1.0)), None, NoCallbacks);
     said(steady.expect_err("one table").to_string(), "2 are needed");
     let mechanism = Mechanism::new(&crank_rocker()).expect("a mechanism");
     let machine = Machine::default();
@@ -168,11 +168,11 @@ fn the_mean_of_the_search_is_met() {
         Table::new(&rows, &values, EndCondition::NotAKnot, true).expect("a table")
     };
     let tables = vec![table(|q| 2.0 + q.cos()), table(|q| 40.0 * (2.0 * q).sin())];
-    let sheet = TabulatedMachine { tables, motors: Vec::new() };
+    let tabulated = TabulatedMachine { tables, motors: Vec::new() };
     for mean in [Mean::Period, Mean::Extremes] {
         for speed in [9.0, -25.0] {
             let search = SteadyOptions { mean, ..search(TAU.copysign(speed), Some(speed)) };
-            let steady = sheet.steady(&search, None, NoCallbacks).expect("a motion");
+            let steady = tabulated.steady(&search, None, NoCallbacks).expect("a motion");
             assert!((steady.mean(mean) - speed.abs()).abs() < 1e-10, "{mean:?} {speed}");
             assert!(steady.prescribed);
         }
@@ -192,17 +192,17 @@ fn tables_with_a_motor_come_to_a_periodic_motion() {
         rotor_inertia: 0.25,
         characteristic: Characteristic::Linear { stall, no_load: 30.0 },
     };
-    let sheet = |stall: f64| TabulatedMachine {
+    let tabulated = |stall: f64| TabulatedMachine {
         tables: vec![flat(3.0).expect("a table"), flat(-8.0).expect("a table")],
         motors: vec![motor(stall)],
     };
-    let steady = sheet(10.0).steady(&search(TAU, None), None, NoCallbacks).expect("a motion");
+    let steady = tabulated(10.0).steady(&search(TAU, None), None, NoCallbacks).expect("a motion");
     // 2 · 10 (1 − 2 ω/30) = 8.
     assert!((steady.mean(Mean::Period) - 9.0).abs() < 1e-12);
     // Inertia 3 + 4 · 0.25, slope 4 · 10/30.
     assert!((steady.multiplier - (-TAU * 4.0 / 3.0 / (4.0 * 9.0)).exp()).abs() < 1e-11);
     assert!((steady.drive - 8.0 * TAU).abs() < 1e-10);
-    let weak = sheet(3.9).steady(&search(TAU, None), None, NoCallbacks);
+    let weak = tabulated(3.9).steady(&search(TAU, None), None, NoCallbacks);
     assert!(
         matches!(weak, Err(SteadyError::Stops { .. } | SteadyError::CannotCarry { .. })),
         "{weak:?}"
@@ -211,7 +211,7 @@ fn tables_with_a_motor_come_to_a_periodic_motion() {
     let induction = Characteristic::Induction { breakdown: 60.0, slip: 0.2, synchronous: 15.7 };
     let kloss = TabulatedMachine {
         motors: vec![Motor { characteristic: induction, ..motor(1.0) }],
-        ..sheet(1.0)
+        ..tabulated(1.0)
     };
     // 2 · 120 s 0.2 / (s² + 0.04) = 8.
     let slip = 0.2 * (15.0 - 224.0_f64.sqrt());
@@ -220,7 +220,7 @@ fn tables_with_a_motor_come_to_a_periodic_motion() {
         let exact = 0.5 * 15.7 * (1.0 - slip);
         assert!((own.mean(Mean::Period) - exact).abs() < 1e-10, "{guess:?}");
     }
-    let unknown = TabulatedMachine { motors: vec![], ..sheet(1.0) };
+    let unknown = TabulatedMachine { motors: vec![], ..tabulated(1.0) };
     let unknown = unknown.steady(&search(TAU, None), None, NoCallbacks);
     assert_eq!(unknown.unwrap_err(), SteadyError::NeedsSpeed);
 }
