@@ -104,17 +104,17 @@ pub fn fill(
     control: &Control<'_>,
 ) -> Result<(), SolveError> {
     let shape = Shape::of(mechanism, request)?;
-    let jets = DerivativeTables::new(shape.drivers, request.order);
+    let derivatives = DerivativeTables::new(shape.drivers, request.order);
     let columns = request.columns(mechanism);
     check_arrays(&columns, &arrays, product(shape.designs, shape.positions)?)?;
     let numbers = arrays.columns.iter().map(|column| column.len()).sum::<usize>();
     let mut writer = match request.by {
-        None => Writer::new(mechanism, &jets, &columns),
-        Some(index) => Writer::for_sensitivity(mechanism, &jets, &columns, index),
+        None => Writer::new(mechanism, &derivatives, &columns),
+        Some(index) => Writer::for_sensitivity(mechanism, &derivatives, &columns, index),
     };
     writer.streams = numbers >= stream::MIN_NUMBERS;
     let chunks = Chunks::new(arrays, &columns, [shape.designs, shape.positions], shape.drivers);
-    let worker = || Worker::new(mechanism, request, &jets, &writer, &columns, control);
+    let worker = || Worker::new(mechanism, request, &derivatives, &writer, &columns, control);
     let per_design = shape.positions * shape.drivers;
     control.run(chunks, worker, |worker, chunk, mut rows| {
         for design in chunk.designs.clone() {

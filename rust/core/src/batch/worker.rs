@@ -70,19 +70,19 @@ impl<'a> Worker<'a> {
     pub(crate) fn new(
         mechanism: &'a Mechanism,
         request: &Request<'_>,
-        jets: &'a DerivativeTables,
+        derivatives: &'a DerivativeTables,
         writer: &'a Writer<'a>,
         columns: &'a [Column],
         control: &Control<'a>,
     ) -> Self {
-        let design = Design::new(mechanism, request.signs, jets);
+        let design = Design::new(mechanism, request.signs, derivatives);
         let plan = mechanism.plan();
-        let mut many = State::new(plan, jets);
+        let mut many = State::new(plan, derivatives);
         many.angle_wanted.clone_from(&writer.asked);
         Self {
             quick: design.uniform_tracer(),
-            one: State::new(plan, jets),
-            by: request.by.map(|index| (index, Sensitivity::new(plan, jets))),
+            one: State::new(plan, derivatives),
+            by: request.by.map(|index| (index, Sensitivity::new(plan, derivatives))),
             many,
             lifted: vec![[Lanes::ZERO; GROUPS]; plan.classes],
             turned: Vec::new(),
@@ -137,8 +137,8 @@ impl<'a> Worker<'a> {
             }
             return;
         }
-        let (plan, jets) = (self.design.mechanism.plan(), self.design.jets);
-        self.many.prepare(plan, &self.design.bound, jets);
+        let (plan, derivatives) = (self.design.mechanism.plan(), self.design.derivatives);
+        self.many.prepare(plan, &self.design.constants, derivatives);
         self.load_coordinates(job);
         for row in (0..count).step_by(GROUPS * LANES) {
             if self.is_cancelled() {
@@ -157,7 +157,7 @@ impl<'a> Worker<'a> {
             self.shared = job.shared;
             self.turned.clear();
             self.spots.clear();
-            let scale = self.design.unit.coordinate[0];
+            let scale = self.design.units.coordinate[0];
             for eight in job.q.chunks(LANES) {
                 let q = Lanes::from_lanes(|i| eight[i.min(eight.len() - 1)] * scale);
                 let unit = if is_angle { Vector::at_angle(q) } else { Vector::ONE };
@@ -218,7 +218,7 @@ impl<'a> Worker<'a> {
             let spot = &self.spots[first + group];
             design.guess(group, &mut self.many, &design.branch, spot);
         }
-        L::solve(&mut self.many, &design.context(design.jets));
+        L::solve(&mut self.many, &design.context(design.derivatives));
         let state = &self.many;
         // A separate loop: independent arctangents overlap.
         for &class in &self.writer.classes {
@@ -232,7 +232,7 @@ impl<'a> Worker<'a> {
             }
         }
         let at = job.first + row;
-        let with = (&design.bound, &design.unit);
+        let with = (&design.constants, &design.units);
         self.writer.write(job.rows, (at, count), with, state, &self.lifted);
         job.rows.status[at..at + count].fill(MaybeUninit::new(Status::Ok as u8));
         let mut again = false;
@@ -284,7 +284,7 @@ impl<'a> Worker<'a> {
         let near = self.design.reference_angles(place, self.lifted.len());
         let lift = |class: usize| [unwrap_to(state.class[class][0].angle(), near[class])];
         let lifted: Vec<[f64; 1]> = (0..near.len()).map(lift).collect();
-        let with = (&self.design.bound, &self.design.unit);
+        let with = (&self.design.constants, &self.design.units);
         self.writer.write(job.rows, (at, 1), with, state, &lifted);
         if !analogues {
             job.rows.write_nan(self.columns, 1, at, 1);
@@ -298,7 +298,7 @@ impl<'a> Worker<'a> {
     fn sensitivities(&mut self, job: &mut Job<'_, '_>, index: usize, by: &mut Sensitivity) {
         let design = &self.design;
         let drivers = design.mechanism.q0().len();
-        let cx = design.context(design.jets);
+        let cx = design.context(design.derivatives);
         let rate = design.rate(index);
         let nothing = vec![[0.0]; self.lifted.len()];
         for (row, q) in job.q.chunks_exact(drivers).enumerate() {
@@ -315,10 +315,10 @@ impl<'a> Worker<'a> {
             let solved = matches!(status, Status::Ok | Status::NearSingular);
             if solved && by.solve(state, &cx, &rate) {
                 // A dimension that moves the frame's origin moves all points with it.
-                for point in by.rates.points.chunks_exact_mut(design.jets.len()) {
-                    point[0][0] += rate.origin.scale(1.0 / design.bound.scale);
+                for point in by.rates.points.chunks_exact_mut(design.derivatives.len()) {
+                    point[0][0] += rate.origin.scale(1.0 / design.constants.scale);
                 }
-                let with = (&design.bound, &design.unit);
+                let with = (&design.constants, &design.units);
                 self.writer.write(job.rows, (at, 1), with, &by.rates, &nothing);
                 job.rows.status[at] = MaybeUninit::new(status as u8);
             }

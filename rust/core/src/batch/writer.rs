@@ -30,7 +30,7 @@ struct Entry {
     index: usize,
     /// Offset from x to y.
     y: usize,
-    /// Index of the derivative in the jets.
+    /// Entry of the derivative in a jet.
     k: usize,
     /// Source: the entry of the point, slide or class, or the link.
     source: usize,
@@ -60,7 +60,7 @@ pub(crate) struct Writer<'a> {
 impl<'a> Writer<'a> {
     pub(crate) fn new(
         mechanism: &'a Mechanism,
-        jets: &DerivativeTables,
+        derivatives: &DerivativeTables,
         columns: &[Column],
     ) -> Self {
         let plan = mechanism.plan();
@@ -80,7 +80,7 @@ impl<'a> Writer<'a> {
         }
         let [mut points, mut slides, mut angles, mut rates] = [const { Vec::new() }; 4];
         for (index, column) in columns.iter().enumerate() {
-            let tensor = jets.tensor(column.order);
+            let tensor = derivatives.tensor(column.order);
             for (component, &k) in tensor.iter().enumerate() {
                 let (list, source, driven) = match column.quantity {
                     Quantity::Joint(joint) => (&mut points, point_of_joint(joint), 0),
@@ -89,13 +89,14 @@ impl<'a> Writer<'a> {
                     Quantity::Angle(link) if k == 0 => (&mut angles, link, 0),
                     Quantity::Angle(link) => {
                         let rotation = &plan.rotation[link];
-                        let turns = jets.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
+                        let turns =
+                            derivatives.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
                         (&mut rates, rotation.class, turns)
                     }
                 };
                 let source = match column.quantity {
                     Quantity::Angle(_) if k == 0 => source,
-                    _ => source * jets.len() + k,
+                    _ => source * derivatives.len() + k,
                 };
                 let (width, y) = (column.width, tensor.len());
                 list.push(Entry {
@@ -126,11 +127,11 @@ impl<'a> Writer<'a> {
     /// origin to points.
     pub(crate) fn for_sensitivity(
         mechanism: &'a Mechanism,
-        jets: &DerivativeTables,
+        derivatives: &DerivativeTables,
         columns: &[Column],
         index: usize,
     ) -> Self {
-        let mut writer = Self::new(mechanism, jets, columns);
+        let mut writer = Self::new(mechanism, derivatives, columns);
         let plan = mechanism.plan();
         let mut unit_change = vec![0.0; mechanism.dimensions().len()];
         unit_change[index] = 1.0;
@@ -141,7 +142,7 @@ impl<'a> Writer<'a> {
         for entry in writer.angles.drain(..) {
             let class = plan.rotation[entry.source].class;
             let driven = offsets[entry.source];
-            writer.rates.push(Entry { source: class * jets.len(), driven, ..entry });
+            writer.rates.push(Entry { source: class * derivatives.len(), driven, ..entry });
         }
         Self { shifted: false, classes: Vec::new(), ..writer }
     }
@@ -153,11 +154,11 @@ impl<'a> Writer<'a> {
         &self,
         rows: &mut RowSlices<'_>,
         (row, count): (usize, usize),
-        (bound, unit): (&DesignConstants, &Units),
+        (constants, unit): (&DesignConstants, &Units),
         state: &State<R, G>,
         lifted: &[[R; G]],
     ) {
-        let origin = Vector::splat(Vector::new(bound.origin[0], bound.origin[1]));
+        let origin = Vector::splat(Vector::new(constants.origin[0], constants.origin[1]));
         for entry in &self.points {
             let scale = R::splat(unit.length[entry.k]);
             let shift = if entry.k == 0 && self.shifted { Some(origin) } else { None };
@@ -194,7 +195,7 @@ impl<'a> Writer<'a> {
         for entry in &self.angles {
             let rotation = &self.mechanism.plan().rotation[entry.source];
             let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.source];
-            let offset = R::splat(bound.offset[entry.source] + whole);
+            let offset = R::splat(constants.offset[entry.source] + whole);
             let lifted = &lifted[rotation.class];
             entry.store(rows.of(entry, row, count), |g| {
                 // The class's angle, plus the drivers' turns of the link relative to its class.

@@ -36,12 +36,12 @@ const MAX_DISTANCE: f64 = 1000.0 * std::f64::consts::TAU;
 /// One design after another, in the requested assembly.
 pub(crate) struct Design<'a> {
     pub mechanism: &'a Mechanism,
-    pub bound: DesignConstants,
-    pub unit: Units,
+    pub constants: DesignConstants,
+    pub units: Units,
     /// Tables of the requested order.
-    pub jets: &'a DerivativeTables,
+    pub derivatives: &'a DerivativeTables,
     /// Tables for tracing: of first order, or second with groups above class II.
-    tracing_jets: DerivativeTables,
+    tracing_derivatives: DerivativeTables,
     /// Dimensions of the present design.
     values: Vec<f64>,
     /// Unknowns of the groups at the drawing's coordinate; or the part of the path from the
@@ -60,15 +60,19 @@ pub(crate) struct Design<'a> {
 
 impl<'a> Design<'a> {
     /// A design without dimensions yet.
-    pub(crate) fn new(mechanism: &'a Mechanism, signs: &[i8], jets: &'a DerivativeTables) -> Self {
+    pub(crate) fn new(
+        mechanism: &'a Mechanism,
+        signs: &[i8],
+        derivatives: &'a DerivativeTables,
+    ) -> Self {
         // Groups are predicted with second derivatives.
         let order = if mechanism.plan().groups().next().is_some() { 2 } else { 1 };
         Self {
             mechanism,
-            bound: DesignConstants::default(),
-            unit: Units::default(),
-            jets,
-            tracing_jets: DerivativeTables::new(mechanism.q0().len(), order),
+            constants: DesignConstants::default(),
+            units: Units::default(),
+            derivatives,
+            tracing_derivatives: DerivativeTables::new(mechanism.q0().len(), order),
             values: Vec::new(),
             initial_unknowns: Ok(Vec::new()),
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
@@ -83,10 +87,10 @@ impl<'a> Design<'a> {
     pub(crate) fn bind(&mut self, values: &[f64]) {
         let mechanism = self.mechanism;
         self.interpolants.get_mut().clear();
-        self.bound.bind(mechanism.plan(), &mechanism.slots, values);
-        self.unit.set(mechanism, self.bound.scale, self.jets);
+        self.constants.bind(mechanism.plan(), &mechanism.slots, values);
+        self.units.set(mechanism, self.constants.scale, self.derivatives);
         self.q0.clear();
-        self.q0.extend(mechanism.q0().iter().zip(&self.unit.coordinate).map(|(q, unit)| q * unit));
+        self.q0.extend(mechanism.q0().iter().zip(&self.units.coordinate).map(|(q, unit)| q * unit));
         self.values.clear();
         self.values.extend_from_slice(values);
     }
@@ -94,35 +98,40 @@ impl<'a> Design<'a> {
     /// Rates of the fixed vectors by a dimension.
     pub(crate) fn rate(&self, index: usize) -> ConstantsRate {
         let mechanism = self.mechanism;
-        ConstantsRate::new(mechanism.plan(), &mechanism.slots, &self.bound, &self.values, index)
+        ConstantsRate::new(mechanism.plan(), &mechanism.slots, &self.constants, &self.values, index)
     }
 
     /// The context of a position; its signs are those at the drawing.
-    pub(crate) fn context<'b>(&'b self, jets: &'b DerivativeTables) -> Context<'b> {
-        Context { plan: self.mechanism.plan(), bound: &self.bound, jets, signs: &self.signs }
+    pub(crate) fn context<'b>(&'b self, derivatives: &'b DerivativeTables) -> Context<'b> {
+        Context {
+            plan: self.mechanism.plan(),
+            constants: &self.constants,
+            derivatives,
+            signs: &self.signs,
+        }
     }
 
     /// Tables for tracing.
-    pub(crate) fn tracing_jets(&self) -> &DerivativeTables {
-        &self.tracing_jets
+    pub(crate) fn tracing_derivatives(&self) -> &DerivativeTables {
+        &self.tracing_derivatives
     }
 
     /// Coordinates in the design's own unit of length.
     pub(crate) fn scaled(&self, q: &[f64]) -> Vec<f64> {
-        let units = self.unit.coordinate.iter().cycle();
+        let units = self.units.coordinate.iter().cycle();
         q.iter().zip(units).map(|(q, unit)| q * unit).collect()
     }
 
-    /// Work space of the order of `jets`.
-    pub(crate) fn state(&self, jets: &DerivativeTables) -> State {
-        let mut state = State::new(self.mechanism.plan(), jets);
-        state.prepare(self.mechanism.plan(), &self.bound, jets);
+    /// Work space of the order of `derivatives`.
+    pub(crate) fn state(&self, derivatives: &DerivativeTables) -> State {
+        let mut state = State::new(self.mechanism.plan(), derivatives);
+        state.prepare(self.mechanism.plan(), &self.constants, derivatives);
         state
     }
 
     /// Work space for [`Design::trace_uniform`].
     pub(crate) fn uniform_tracer(&self) -> UniformTracer {
-        UniformTracer::new(self.mechanism.plan(), &self.tracing_jets)
+        UniformTracer::new(self.mechanism.plan(), &self.tracing_derivatives)
     }
 
     /// Whether one branch serves all positions, and its driver is an angle.
@@ -158,9 +167,10 @@ impl<'a> Design<'a> {
     /// Solves again a position that was not found or came out beyond a fold.
     #[cold]
     fn resolve_from_knot(&self, state: &mut State, q: &[f64], (branch, at): (&Branch, f64)) {
-        let cx = self.context(&self.tracing_jets);
+        let cx = self.context(&self.tracing_derivatives);
         if let [_] = *q {
-            let Some(taylor) = branch.retrace(&cx, &mut self.state(&self.tracing_jets), at) else {
+            let Some(taylor) = branch.retrace(&cx, &mut self.state(&self.tracing_derivatives), at)
+            else {
                 // Too near the fold at the end of the branch to find the unknowns.
                 state.set_lost();
                 return;
@@ -172,7 +182,7 @@ impl<'a> Design<'a> {
                     Unknown::Slide(slide) => state.slides[slide * state.len][0] = value,
                 }
             }
-            state.solve(&Context { signs: branch.signs(at), ..self.context(self.jets) }, q);
+            state.solve(&Context { signs: branch.signs(at), ..self.context(self.derivatives) }, q);
         }
         let not_converged = state.status == Status::NotConverged;
         let other_side = matches!(state.status, Status::Ok | Status::NearSingular)
@@ -198,8 +208,12 @@ impl<'a> Design<'a> {
         }
         let mut branch = std::mem::take(&mut self.branch);
         let start = &self.mechanism.class_angle;
-        let done =
-            uniform.trace::<L>(&self.context(&self.tracing_jets), self.q0[0], start, &mut branch);
+        let done = uniform.trace::<L>(
+            &self.context(&self.tracing_derivatives),
+            self.q0[0],
+            start,
+            &mut branch,
+        );
         self.branch = branch;
         done
     }
@@ -208,8 +222,8 @@ impl<'a> Design<'a> {
     #[cold]
     #[inline(never)]
     fn reference_branch(&self) -> Option<ReferenceBranch> {
-        let jets = DerivativeTables::new(1, 0);
-        let mut drawing = Design::new(self.mechanism, &[], &jets);
+        let derivatives = DerivativeTables::new(1, 0);
+        let mut drawing = Design::new(self.mechanism, &[], &derivatives);
         drawing.signs.clone_from(&self.signs);
         drawing.bind(self.mechanism.drawing());
         drawing.trace(&[]);
@@ -217,7 +231,7 @@ impl<'a> Design<'a> {
             self.mechanism.plan(),
             &drawing.branch,
             drawing.q0[0],
-            drawing.bound.scale,
+            drawing.constants.scale,
         )
     }
 
@@ -233,8 +247,8 @@ impl<'a> Design<'a> {
             self.initial_unknowns = self.homotopy(&self.values);
         }
         let [start] = self.q0[..] else { return };
-        let mut state = self.state(&self.tracing_jets);
-        let cx = self.context(&self.tracing_jets);
+        let mut state = self.state(&self.tracing_derivatives);
+        let cx = self.context(&self.tracing_derivatives);
         let angles = &self.mechanism.class_angle;
         let Ok(taylor) = &self.initial_unknowns else {
             self.branch = Branch::empty(angles.len(), &self.signs);
@@ -244,11 +258,13 @@ impl<'a> Design<'a> {
         self.branch = if self.has_one_rotary_driver() {
             Branch::over_turns(&cx, &mut state, start, from)
         } else {
-            let scaled = || q.iter().map(|q| q * self.unit.coordinate[0]).filter(|q| q.is_finite());
+            let scaled =
+                || q.iter().map(|q| q * self.units.coordinate[0]).filter(|q| q.is_finite());
             let range = [scaled().fold(start, f64::min), scaled().fold(start, f64::max)];
             // No slide goes farther than the sum of all lengths.
-            let paired = cx.plan.edges.iter().zip(&cx.bound.edge_vector).filter(|(e, _)| e.paired);
-            let lengths = paired.map(|(_, w)| w).chain(&cx.bound.fixed).map(|w| w.norm());
+            let paired =
+                cx.plan.edges.iter().zip(&cx.constants.edge_vector).filter(|(e, _)| e.paired);
+            let lengths = paired.map(|(_, w)| w).chain(&cx.constants.fixed).map(|w| w.norm());
             let reach = 2.0 * lengths.sum::<f64>() + 1.0;
             Branch::over_range(&cx, &mut state, start, range, reach, from)
         };
@@ -257,9 +273,9 @@ impl<'a> Design<'a> {
     /// The signs at the drawing that lead straight to the signs given at `q` (scaled); traced
     /// backward.
     pub(crate) fn signs_at_drawing(&self, signs: &[f64], q: &[f64]) -> Vec<i8> {
-        let cx = Context { signs, ..self.context(&self.tracing_jets) };
+        let cx = Context { signs, ..self.context(&self.tracing_derivatives) };
         let angles = &self.mechanism.class_angle;
-        let mut state = self.state(&self.tracing_jets);
+        let mut state = self.state(&self.tracing_derivatives);
         let start = &InitialGuess { angles, taylor: &[] };
         let (branch, at) = Branch::along_segment(&cx, &mut state, q, &self.q0, start);
         branch.signs(at).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
@@ -280,9 +296,9 @@ impl<'a> Design<'a> {
             return Some(BranchPoint { branch: Cow::Borrowed(&self.branch), at });
         }
         (!self.is_too_far(q)).then(|| {
-            let cx = self.context(&self.tracing_jets);
+            let cx = self.context(&self.tracing_derivatives);
             let angles = &self.mechanism.class_angle;
-            let mut state = self.state(&self.tracing_jets);
+            let mut state = self.state(&self.tracing_derivatives);
             let (branch, at) = if let Ok(taylor) = &self.initial_unknowns {
                 let start = &InitialGuess { angles, taylor };
                 Branch::along_segment(&cx, &mut state, &self.q0, q, start)
@@ -296,7 +312,7 @@ impl<'a> Design<'a> {
     /// Distance (in sizes) of the farthest joint at a parameter of the branch; 0 if it cannot be
     /// solved.
     pub(crate) fn max_distance(&self, at: f64) -> f64 {
-        let mut state = self.state(self.jets);
+        let mut state = self.state(self.derivatives);
         let point = BranchPoint { branch: Cow::Borrowed(&self.branch), at };
         self.solve(&mut state, &[at], Some(&point));
         if state.has_failed() {
@@ -311,8 +327,12 @@ impl<'a> Design<'a> {
         let location = point.branch.locate(point.at);
         if point.branch.in_untraced_island(&location, 0) {
             // An island that the tracer has not seen.
-            let cx = self.context(&self.tracing_jets);
-            let own = point.branch.trace_island(&cx, &mut self.state(&self.tracing_jets), point.at);
+            let cx = self.context(&self.tracing_derivatives);
+            let own = point.branch.trace_island(
+                &cx,
+                &mut self.state(&self.tracing_derivatives),
+                point.at,
+            );
             let location = own.locate(point.at);
             return (0..classes).map(|class| own.reference_angle(&location, class)).collect();
         }
@@ -332,12 +352,15 @@ impl<'a> Design<'a> {
         let mut interpolants = self.interpolants.borrow_mut();
         let known = interpolants.iter().position(|(at, _)| *at == change.at);
         let known = known.unwrap_or_else(|| {
-            let solve = |jets: &DerivativeTables, distance: f64| {
+            let solve = |derivatives: &DerivativeTables, distance: f64| {
                 let at = change.at + distance;
                 // A fresh state, so that nothing depends on the position that comes first.
-                let mut trial = self.state(jets);
+                let mut trial = self.state(derivatives);
                 self.guess(0, &mut trial, branch, &branch.locate(at));
-                trial.solve(&Context { signs: branch.signs(at), ..self.context(jets) }, &[at]);
+                trial.solve(
+                    &Context { signs: branch.signs(at), ..self.context(derivatives) },
+                    &[at],
+                );
                 let lost = trial.fault.is_some() || trial.points.iter().any(|p| p[0].x.is_nan());
                 (!lost).then_some(trial)
             };
@@ -346,13 +369,13 @@ impl<'a> Design<'a> {
             let interpolant =
                 ChangeInterpolant::fit(self.change_window, |distance| solve(&judge, distance));
             let interpolant = interpolant.and_then(|interpolant| {
-                interpolant.refit(self.change_window, |at| solve(self.jets, at))
+                interpolant.refit(self.change_window, |at| solve(self.derivatives, at))
             });
             interpolants.push((change.at, interpolant));
             interpolants.len() - 1
         });
         let smooth = interpolants[known].1.as_ref()?.state_at(distance, state)?;
-        (smooth.residual(&self.context(self.jets)) <= SMOOTH_CLOSURE).then_some(smooth)
+        (smooth.residual(&self.context(self.derivatives)) <= SMOOTH_CLOSURE).then_some(smooth)
     }
 
     /// Solves one position with the signs of its branch there; true if the analogues exist.
@@ -370,8 +393,8 @@ impl<'a> Design<'a> {
             state.set_lost();
             return false;
         }
-        let cx = self.context(self.jets);
-        state.prepare(cx.plan, cx.bound, cx.jets);
+        let cx = self.context(self.derivatives);
+        state.prepare(cx.plan, cx.constants, cx.derivatives);
         self.guess(0, state, branch, &branch.locate(*at));
         state.solve(&Context { signs: branch.signs(*at), ..cx }, q);
         let not_converged = state.status == Status::NotConverged;

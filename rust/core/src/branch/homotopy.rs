@@ -18,7 +18,7 @@ const MIN_PART: f64 = 1.0 / 1_099_511_627_776.0;
 const MAX_TRIALS: u32 = 10_000;
 
 impl Design<'_> {
-    /// Unknowns of the groups at the drawing's coordinate, for the bound dimensions `values`.
+    /// Unknowns of the groups at the drawing's coordinate, for the dimensions `values`.
     ///
     /// # Errors
     ///
@@ -48,21 +48,23 @@ impl Design<'_> {
             } else {
                 values.to_vec()
             };
-            let bound = DesignConstants::new(plan, &mechanism.slots, &between);
+            let constants = DesignConstants::new(plan, &mechanism.slots, &between);
             let q: Vec<f64> = (0..plan.drivers.len())
                 .map(|d| {
-                    let unit = if plan.driven_slide(d).is_some() { bound.scale } else { 1.0 };
+                    let unit = if plan.driven_slide(d).is_some() { constants.scale } else { 1.0 };
                     mechanism.q0()[d] / unit
                 })
                 .collect();
-            let cx =
-                crate::state::state::Context { bound: &bound, ..self.context(self.tracing_jets()) };
-            let mut state = self.state(self.tracing_jets());
-            state.prepare(plan, &bound, cx.jets);
+            let cx = crate::state::state::Context {
+                constants: &constants,
+                ..self.context(self.tracing_derivatives())
+            };
+            let mut state = self.state(self.tracing_derivatives());
+            state.prepare(plan, &constants, cx.derivatives);
             for (&unknown, &value) in unknowns.iter().zip(&values_here) {
                 match unknown {
                     Unknown::Class(c) => state.class[c][0] = Vector::at_angle(value),
-                    Unknown::Slide(s) => state.slides[s * state.len][0] = value / bound.scale,
+                    Unknown::Slide(s) => state.slides[s * state.len][0] = value / constants.scale,
                 }
             }
             state.solve(&cx, &q);
@@ -81,7 +83,7 @@ impl Design<'_> {
                     Unknown::Class(c) => {
                         crate::math::angle::unwrap_to(state.class[c][0].angle(), from)
                     }
-                    Unknown::Slide(s) => state.slides[s * state.len][0] * bound.scale,
+                    Unknown::Slide(s) => state.slides[s * state.len][0] * constants.scale,
                 })
                 .collect();
             let close =
@@ -100,7 +102,7 @@ impl Design<'_> {
                 return Err(done);
             }
         }
-        let scale = self.bound.scale;
+        let scale = self.constants.scale;
         let initial = |(&unknown, &value): (&Unknown, &f64)| match unknown {
             Unknown::Class(_) => [value, 0.0, 0.0],
             Unknown::Slide(_) => [value / scale, 0.0, 0.0],

@@ -240,7 +240,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
                 }
             };
             let drivers = self.rates.len();
-            let second = self.cx.jets.tensor(2);
+            let second = self.cx.derivatives.tensor(2);
             let pairs = second.iter().enumerate().map(|(pair, &k)| {
                 self.rates[pair / drivers] * self.rates[pair % drivers] * jet[k][0]
             });

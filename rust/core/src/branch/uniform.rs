@@ -54,10 +54,10 @@ pub(crate) struct UniformTracer {
 }
 
 impl UniformTracer {
-    /// Work space for a plan; `jets` are for one driver.
-    pub(crate) fn new(plan: &Plan, jets: &DerivativeTables) -> Self {
+    /// Work space for a plan; `derivatives` are for one driver.
+    pub(crate) fn new(plan: &Plan, derivatives: &DerivativeTables) -> Self {
         Self {
-            state: State::new(plan, jets),
+            state: State::new(plan, derivatives),
             q0: f64::NAN,
             knots: Vec::new(),
             spread: vec![(0.0, 0.0); plan.signs()],
@@ -88,7 +88,7 @@ impl UniformTracer {
         if self.q0 != q0 {
             self.set_knots(q0);
         }
-        self.state.prepare(cx.plan, cx.bound, cx.jets);
+        self.state.prepare(cx.plan, cx.constants, cx.derivatives);
         for (group, &(at, unit)) in self.knots.iter().enumerate() {
             self.state.q[0][group] = at;
             self.state.unit[0][group] = unit;
@@ -258,7 +258,7 @@ impl UniformTracer {
     #[inline(always)]
     pub(crate) fn guess(&mut self, cx: &Context<'_>) {
         let Some(Some(reference)) = self.reference.get() else { return };
-        let inverse_scale = Lanes::splat(1.0 / cx.bound.scale);
+        let inverse_scale = Lanes::splat(1.0 / cx.constants.scale);
         let unknowns = cx.plan.groups().flat_map(|group| &group.unknowns);
         for (&unknown, knots) in unknowns.zip(&reference.unknowns) {
             match unknown {

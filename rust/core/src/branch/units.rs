@@ -15,7 +15,12 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    pub(super) fn set(&mut self, mechanism: &Mechanism, scale: f64, jets: &DerivativeTables) {
+    pub(super) fn set(
+        &mut self,
+        mechanism: &Mechanism,
+        scale: f64,
+        derivatives: &DerivativeTables,
+    ) {
         let per = 1.0 / scale;
         let slides = |d: usize| mechanism.plan().driven_slide(d).is_some();
         self.coordinate.clear();
@@ -23,7 +28,7 @@ impl Units {
             .extend((0..mechanism.q0().len()).map(|d| if slides(d) { per } else { 1.0 }));
         self.angle.clear();
         self.length.clear();
-        for power in &jets.powers {
+        for power in &derivatives.powers {
             // Multiplied one by one: a length's third analogue stays in range where the cube of the
             // unit does not.
             let (mut angle, mut length) = (1.0, scale);

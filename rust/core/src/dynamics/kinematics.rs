@@ -24,12 +24,12 @@ pub enum Point {
 /// A solved position.
 pub(crate) struct Pose<'p> {
     position: Position<'p>,
-    jets: &'p DerivativeTables,
+    derivatives: &'p DerivativeTables,
 }
 
 impl<'p> Pose<'p> {
-    pub(crate) fn new(position: Position<'p>, jets: &'p DerivativeTables) -> Self {
-        Self { position, jets }
+    pub(crate) fn new(position: Position<'p>, derivatives: &'p DerivativeTables) -> Self {
+        Self { position, derivatives }
     }
 
     /// Index of the first derivative by a driver.
@@ -41,18 +41,18 @@ impl<'p> Pose<'p> {
     pub(crate) fn second_order(&self, a: usize, b: usize) -> usize {
         let (a, b) = (a.min(b), a.max(b));
         let is_entry = |k: &usize| {
-            let (driver, lower) = self.jets.lowered[*k];
-            driver == a && self.jets.driver_of[lower] == Some(b)
+            let (driver, lower) = self.derivatives.lowered[*k];
+            driver == a && self.derivatives.driver_of[lower] == Some(b)
         };
-        (1 + self.jets.drivers..self.jets.len()).find(is_entry).unwrap_or(0)
+        (1 + self.derivatives.drivers..self.derivatives.len()).find(is_entry).unwrap_or(0)
     }
 
     /// Derivative `k` of a point's position (0: the position), m.
     pub(crate) fn point(&self, point: Point, k: usize) -> Vector {
-        let Position { state, plan, bound, units, .. } = &self.position;
+        let Position { state, plan, constants, units, .. } = &self.position;
         let position = |point: usize| {
-            let scaled = state.points[point * self.jets.len() + k][0].scale(units.length[k]);
-            let origin = Vector::new(bound.origin[0], bound.origin[1]);
+            let scaled = state.points[point * self.derivatives.len() + k][0].scale(units.length[k]);
+            let origin = Vector::new(constants.origin[0], constants.origin[1]);
             if k == 0 { scaled + origin } else { scaled }
         };
         match point {
@@ -73,20 +73,20 @@ impl<'p> Pose<'p> {
 
     /// Derivative `k` of the unit vector along a link's x axis, up to the second order.
     fn frame(&self, link: usize, k: usize) -> Vector {
-        let Position { state, plan, bound, .. } = &self.position;
+        let Position { state, plan, constants, .. } = &self.position;
         let o = plan.link_orientation[link];
         let orientation = &plan.orientations[o];
         let phase = if orientation.driven { state.phase[o][0] } else { Vector::ONE };
-        let unit = state.class[orientation.class][0] * phase * bound.turn[link];
+        let unit = state.class[orientation.class][0] * phase * constants.turn[link];
         if k == 0 {
             return unit;
         }
         let tangential = unit.left().scale(self.angle(link, k));
-        if self.jets.driver_of[k].is_some() {
+        if self.derivatives.driver_of[k].is_some() {
             return tangential;
         }
         // ∂∂U = i U ∂∂Θ − U ∂Θ ∂Θ.
-        let (driver, lower) = self.jets.lowered[k];
+        let (driver, lower) = self.derivatives.lowered[k];
         let rates = self.angle(link, Self::first_order(driver)) * self.angle(link, lower);
         tangential - unit.scale(rates)
     }
@@ -95,8 +95,8 @@ impl<'p> Pose<'p> {
     pub(crate) fn angle(&self, link: usize, k: usize) -> f64 {
         let Position { state, plan, units, .. } = &self.position;
         let rotation = &plan.rotation[link];
-        let turns = self.jets.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
-        let class_angle = state.theta[rotation.class * self.jets.len() + k][0];
+        let turns = self.derivatives.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
+        let class_angle = state.theta[rotation.class * self.derivatives.len() + k][0];
         (class_angle + f64::from(turns)) * units.angle[k]
     }
 

@@ -60,9 +60,10 @@ impl Machine {
         cancel: &AtomicBool,
     ) -> ReducedTable {
         let drivers = mechanism.q0().len();
-        let jets = DerivativeTables::new(drivers, 2);
+        let derivatives = DerivativeTables::new(drivers, 2);
         let asked = Queries::Listed(q);
-        let mut evaluator = Evaluator::new(mechanism, dimensions, &jets, asked, self.has_torsion());
+        let mut evaluator =
+            Evaluator::new(mechanism, dimensions, &derivatives, asked, self.has_torsion());
         let per_position = external.len().checked_div(q.len() / drivers).unwrap_or(0);
         let mut rows = ReducedTable::default();
         let mut reduced = Reduced::new(drivers);
@@ -77,7 +78,7 @@ impl Machine {
                 rows.push(None, drivers, status);
                 continue;
             }
-            let pose = Pose::new(evaluator.position(), &jets);
+            let pose = Pose::new(evaluator.position(), &derivatives);
             tables.clear();
             tables.extend(self.tables.iter().map(|table| [table.at(q[0]), 0.0]));
             numbers.clear();

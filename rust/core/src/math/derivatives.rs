@@ -23,7 +23,7 @@ pub(crate) const ONE_DRIVER: [&[Term]; 4] = [
     &[Term { factor: 1.0, left: 2, right: 1 }, Term { factor: 2.0, left: 1, right: 2 }],
 ];
 
-/// Index tables for jets of a given order in a given number of drivers.
+/// Index tables for derivatives of a given order in a given number of drivers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DerivativeTables {
     /// Number of drivers.
@@ -155,14 +155,17 @@ mod tests {
 
     #[test]
     fn one_driver_has_binomial_coefficients() {
-        let jets = DerivativeTables::new(1, 3);
-        assert_eq!(jets.len(), 4);
-        let third: Vec<f64> = jets.product[3].iter().map(|t| t.factor).collect();
+        let derivatives = DerivativeTables::new(1, 3);
+        assert_eq!(derivatives.len(), 4);
+        let third: Vec<f64> = derivatives.product[3].iter().map(|t| t.factor).collect();
         assert_eq!(third, [1.0, 3.0, 3.0, 1.0]);
         // U''' = i (U'' Θ' + 2 U' Θ'') + i U Θ'''
-        let terms: Vec<_> = jets.rotation[3].iter().map(|t| (t.factor, t.left, t.right)).collect();
+        let terms: Vec<_> =
+            derivatives.rotation[3].iter().map(|t| (t.factor, t.left, t.right)).collect();
         assert_eq!(terms, [(1.0, 2, 1), (2.0, 1, 2)]);
-        assert!(ONE_DRIVER.iter().zip(&jets.rotation).all(|(constant, made)| constant == made));
+        assert!(
+            ONE_DRIVER.iter().zip(&derivatives.rotation).all(|(constant, made)| constant == made)
+        );
     }
 
     #[test]
@@ -174,8 +177,8 @@ mod tests {
 
     #[test]
     fn the_tensor_is_symmetric() {
-        let jets = DerivativeTables::new(2, 2);
-        let t = jets.tensor(2);
+        let derivatives = DerivativeTables::new(2, 2);
+        let t = derivatives.tensor(2);
         assert_eq!(t.len(), 4);
         assert_eq!(t[1], t[2]);
     }

@@ -56,10 +56,10 @@ impl BinaryLoops {
     /// The spans and binary links of one design.
     #[inline(always)]
     #[must_use]
-    pub(crate) fn links<'b>(&self, bound: &'b LoopVectors) -> Links<'b> {
+    pub(crate) fn links<'b>(&self, constants: &'b LoopVectors) -> Links<'b> {
         let count = self.bar_classes.len();
-        let spans = &bound.spans[self.first_span..][..count * count];
-        Links { count, spans, bars: &bound.bars[self.first_bar..][..count] }
+        let spans = &constants.spans[self.first_span..][..count * count];
+        Links { count, spans, bars: &constants.bars[self.first_bar..][..count] }
     }
 }
 

@@ -203,9 +203,9 @@ impl DesignConstants {
     /// Constants for these values of the dimensions (in the order of [`Dimensions`]).
     #[must_use]
     pub(crate) fn new(plan: &Plan, slots: &DimensionMap, values: &[f64]) -> Self {
-        let mut bound = Self::default();
-        bound.bind(plan, slots, values);
-        bound
+        let mut constants = Self::default();
+        constants.bind(plan, slots, values);
+        constants
     }
 
     /// Recomputes the constants for the dimensions of another design.

@@ -20,12 +20,12 @@ pub(crate) struct ConstantsRate {
 }
 
 impl ConstantsRate {
-    /// Derivatives for a design (`values`, `bound`) by the dimension of this index.
+    /// Derivatives for a design (`values`, `constants`) by the dimension of this index.
     #[must_use]
     pub(crate) fn new(
         plan: &Plan,
         slots: &DimensionMap,
-        bound: &DesignConstants,
+        constants: &DesignConstants,
         values: &[f64],
         index: usize,
     ) -> Self {
@@ -33,11 +33,11 @@ impl ConstantsRate {
         let mut by = vec![0.0; values.len()];
         by[index] = 1.0;
         let origin = read_two(&by, slots.origin);
-        let inv_scale = 1.0 / bound.scale;
+        let inv_scale = 1.0 / constants.scale;
         let offset = offsets(plan, slots, &by);
         let mut rate = Self { origin, offset, ..Self::default() };
         for ((e, source), edge_vector) in
-            plan.edges.iter().zip(&slots.edges).zip(&bound.edge_vector)
+            plan.edges.iter().zip(&slots.edges).zip(&constants.edge_vector)
         {
             let (w, d) = match *source {
                 EdgeSource::Joint(slots) => (read_two(&by, slots), Vector::ZERO),
@@ -55,8 +55,8 @@ impl ConstantsRate {
                 }
             };
             let link = e.edge.link;
-            let (turn, offset) = (bound.turn[link], rate.offset[link]);
-            let guide = bound.guide[rate.guide.len()];
+            let (turn, offset) = (constants.turn[link], rate.offset[link]);
+            let guide = constants.guide[rate.guide.len()];
             rate.edge_vector.push((turn * w).scale(inv_scale) + edge_vector.left().scale(offset));
             rate.guide.push(turn * d + guide.left().scale(offset));
         }

@@ -67,12 +67,12 @@ impl Mechanism {
         let signs = drawing_signs(&linkage, &plan)?;
         let class_angle = class_angles(&linkage, &plan);
         let slots = DimensionMap::new(&plan, &linkage, &closure, &dimensions);
-        let bound = DesignConstants::new(&plan, &slots, &drawing);
+        let constants = DesignConstants::new(&plan, &slots, &drawing);
         let whole_turns = (0..linkage.links.len())
             .map(|l| {
                 let r = &plan.rotation[l];
                 let driven: f64 = r.turns.iter().zip(&q0).map(|(&t, q)| f64::from(t) * q).sum();
-                let angle = class_angle[r.class] + bound.offset[l] + driven;
+                let angle = class_angle[r.class] + constants.offset[l] + driven;
                 ((linkage.drawing_angle(l) - angle) / TAU).round()
             })
             .collect();

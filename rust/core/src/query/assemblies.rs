@@ -44,8 +44,8 @@ impl Mechanism {
         if self.dimensions().first_fault(dimensions).is_some() || q.len() != self.q0().len() {
             return Ok(Vec::new());
         }
-        let jets = DerivativeTables::new(q.len(), 1);
-        let mut design = Design::new(self, &vec![1; count], &jets);
+        let derivatives = DerivativeTables::new(q.len(), 1);
+        let mut design = Design::new(self, &vec![1; count], &derivatives);
         design.bind(dimensions);
         let scaled = design.scaled(q);
         if design.is_too_far(&scaled) {
@@ -54,7 +54,7 @@ impl Mechanism {
                 coordinate_text(q)
             )));
         }
-        let mut state = design.state(&jets);
+        let mut state = design.state(&derivatives);
         let mut found: Vec<Vec<f64>> = vec![Vec::new()];
         // Sign by sign, so that a choice that fails early is not completed.
         for index in 0..count.max(1) {
@@ -75,7 +75,7 @@ impl Mechanism {
                 }
                 let mut trial = signs.clone();
                 trial.resize(count, 1.0);
-                state.solve(&Context { signs: &trial, ..design.context(&jets) }, &scaled);
+                state.solve(&Context { signs: &trial, ..design.context(&derivatives) }, &scaled);
                 match (state.status, state.fault) {
                     (Status::Unreachable, Some(fault)) => {
                         index + 1 < count && self.is_beyond(fault.step(), index)

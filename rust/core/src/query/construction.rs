@@ -37,8 +37,9 @@ impl Mechanism {
         cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
         let mechanism = Self::compile(description, cancel)?;
-        let bound = DesignConstants::new(mechanism.plan(), &mechanism.slots, mechanism.drawing());
-        mechanism.check_redundancy_along_motion(bound.scale)?;
+        let constants =
+            DesignConstants::new(mechanism.plan(), &mechanism.slots, mechanism.drawing());
+        mechanism.check_redundancy_along_motion(constants.scale)?;
         Ok(mechanism)
     }
 

@@ -65,14 +65,14 @@ impl Mechanism {
                 Diagnosis { name, ..Diagnosis::bare(Status::BadDimension, fault.to_string()) };
             return Ok(vec![one; q.len() / drivers]);
         }
-        let jets = DerivativeTables::new(drivers, 0);
-        let mut design = Design::new(self, signs, &jets);
+        let derivatives = DerivativeTables::new(drivers, 0);
+        let mut design = Design::new(self, signs, &derivatives);
         design.bind(dimensions);
         design.trace(q);
-        let mut state = design.state(&jets);
+        let mut state = design.state(&derivatives);
         let diagnose = |(scaled, q): (&[f64], &[f64])| {
             let analogues = design.solve(&mut state, scaled, design.branch_to(scaled).as_ref());
-            self.describe(&design, &state, &jets, q, analogues)
+            self.describe(&design, &state, &derivatives, q, analogues)
         };
         Ok(design
             .scaled(q)
@@ -86,7 +86,7 @@ impl Mechanism {
         &self,
         design: &Design<'_>,
         state: &State,
-        jets: &DerivativeTables,
+        derivatives: &DerivativeTables,
         q: &[f64],
         analogues: bool,
     ) -> Diagnosis {
@@ -108,7 +108,7 @@ impl Mechanism {
                 return Diagnosis::bare(Status::Lost, self.lost_sentence(design, q, at));
             }
             Status::Unreachable | Status::NotConverged => {
-                let (name, sentence) = self.unreachable_sentence(state, design.bound.scale, at);
+                let (name, sentence) = self.unreachable_sentence(state, design.constants.scale, at);
                 let gap = match state.fault {
                     Some(Fault::NotClosed { gap, .. } | Fault::RedundantMisfit { gap, .. }) => gap,
                     _ => f64::NAN,
@@ -127,7 +127,7 @@ impl Mechanism {
             ),
             _ => format!("at q = {at} the position is solved, condition {condition:.1e}"),
         };
-        let residual = state.residual(&design.context(jets));
+        let residual = state.residual(&design.context(derivatives));
         let gap = f64::NAN;
         Diagnosis { status: state.status, residual, condition, gap, name: named, step, sentence }
     }
@@ -185,9 +185,9 @@ impl Mechanism {
         }
         match design.branch.covered {
             Some([low, high])
-                if low <= high && low.is_finite() && design.unit.coordinate.len() == 1 =>
+                if low <= high && low.is_finite() && design.units.coordinate.len() == 1 =>
             {
-                let unit = design.unit.coordinate[0];
+                let unit = design.units.coordinate[0];
                 let reach = [low, high].map(|end| number(end / unit));
                 let reach = format!("from {} to {}", reach[0], reach[1]);
                 let end = if q[0] * unit < low { low } else { high };

@@ -77,7 +77,7 @@ struct LastPosition {
 pub(crate) struct Position<'p> {
     pub state: &'p State,
     pub plan: &'p Plan,
-    pub bound: &'p DesignConstants,
+    pub constants: &'p DesignConstants,
     pub units: &'p Units,
     q: &'p [f64],
     reference_angles: &'p [f64],
@@ -90,19 +90,19 @@ impl<'m> Evaluator<'m> {
     pub(crate) fn new(
         mechanism: &'m Mechanism,
         dimensions: &[f64],
-        jets: &'m DerivativeTables,
+        derivatives: &'m DerivativeTables,
         queries: Queries<'_>,
         needs_angles: bool,
     ) -> Self {
-        let mut design = Design::new(mechanism, mechanism.signs(), jets);
+        let mut design = Design::new(mechanism, mechanism.signs(), derivatives);
         design.change_window = ChangeWindow::LONG;
         design.bind(dimensions);
-        let far = MAX_SLIDE * design.bound.scale;
+        let far = MAX_SLIDE * design.constants.scale;
         match queries {
             Queries::Listed(q) => design.trace(q),
             Queries::Any => design.trace(&[-far, far]),
         }
-        let state = design.state(jets);
+        let state = design.state(derivatives);
         let continues_from_last = matches!(queries, Queries::Any) && mechanism.q0().len() > 1;
         Self {
             design,
@@ -117,7 +117,7 @@ impl<'m> Evaluator<'m> {
 
     /// Unit of a driver's coordinate: the size for a slide, 1 for an angle.
     pub(crate) fn unit(&self, driver: usize) -> f64 {
-        1.0 / self.design.unit.coordinate[driver]
+        1.0 / self.design.units.coordinate[driver]
     }
 
     /// Status of the last position.
@@ -138,7 +138,7 @@ impl<'m> Evaluator<'m> {
             [q] => self.design.branch.change_near(q, self.design.change_window.reach).is_some(),
             _ => false,
         };
-        let worst = self.state.worst_own_condition(&self.design.context(self.design.jets));
+        let worst = self.state.worst_own_condition(&self.design.context(self.design.derivatives));
         let Some((step, condition)) = worst.filter(|_| !beside_change) else {
             return (None, self.total_condition());
         };
@@ -177,7 +177,7 @@ impl<'m> Evaluator<'m> {
             if a < b { high -= third } else { low += third }
         }
         let at = 0.5 * (low + high);
-        let miss = self.excess_to_flat(dyad, at).abs() * self.design.bound.scale;
+        let miss = self.excess_to_flat(dyad, at).abs() * self.design.constants.scale;
         miss.is_finite().then(|| NearMiss { dyad: name.clone(), miss, q: at })
     }
 
@@ -187,7 +187,7 @@ impl<'m> Evaluator<'m> {
         let solved = self.solve(&[at]).is_ok();
         match self.state.fault {
             Some(Fault::NotClosed { gap, .. }) if !solved => -gap,
-            _ => self.state.flatness_gap(&self.design.context(self.design.jets), dyad),
+            _ => self.state.flatness_gap(&self.design.context(self.design.derivatives), dyad),
         }
     }
 
@@ -198,7 +198,7 @@ impl<'m> Evaluator<'m> {
     /// The status of a coordinate without a position or without analogues.
     pub(crate) fn solve(&mut self, q: &[f64]) -> Result<(), Status> {
         self.q.clear();
-        self.q.extend(q.iter().zip(&self.design.unit.coordinate).map(|(q, unit)| q * unit));
+        self.q.extend(q.iter().zip(&self.design.units.coordinate).map(|(q, unit)| q * unit));
         if let Some(last) = &self.last
             && last.q.iter().zip(&self.q).any(|(a, b)| (a - b).abs() > MAX_STEP)
         {
@@ -231,8 +231,8 @@ impl<'m> Evaluator<'m> {
         Position {
             state: &self.state,
             plan: self.design.mechanism.plan(),
-            bound: &self.design.bound,
-            units: &self.design.unit,
+            constants: &self.design.constants,
+            units: &self.design.units,
             q: &self.q,
             reference_angles: &self.reference_angles,
             whole_turns: &self.design.mechanism.whole_turns,
@@ -265,10 +265,11 @@ impl LastPosition {
 
     /// The segment from here to `q`.
     fn branch_to(&self, design: &Design<'_>, q: &[f64]) -> BranchPoint<'static> {
-        let jets = design.tracing_jets();
-        let cx = Context { signs: &self.signs, ..design.context(jets) };
+        let derivatives = design.tracing_derivatives();
+        let cx = Context { signs: &self.signs, ..design.context(derivatives) };
         let start = &InitialGuess { angles: &self.angles, taylor: &self.taylor };
-        let (branch, at) = Branch::along_segment(&cx, &mut design.state(jets), &self.q, q, start);
+        let (branch, at) =
+            Branch::along_segment(&cx, &mut design.state(derivatives), &self.q, q, start);
         BranchPoint { branch: Cow::Owned(branch), at }
     }
 }
@@ -283,6 +284,6 @@ impl Position<'_> {
         for (&turns, q) in rotation.turns.iter().zip(self.q) {
             angle += f64::from(turns) * q;
         }
-        angle + self.bound.offset[link] + std::f64::consts::TAU * self.whole_turns[link]
+        angle + self.constants.offset[link] + std::f64::consts::TAU * self.whole_turns[link]
     }
 }

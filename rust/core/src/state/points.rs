@@ -49,7 +49,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
             None => {
-                let edge_vector = Vector::splat(cx.bound.edge_vector[e]);
+                let edge_vector = Vector::splat(cx.constants.edge_vector[e]);
                 let edge_vector = if backward { -edge_vector } else { edge_vector };
                 let orient = &self.orient[jet(edge.orientation)];
                 for k in 0..len {
@@ -59,7 +59,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
         }
-        let arm = R::splat(cx.bound.arm2[e]);
+        let arm = R::splat(cx.constants.arm2[e]);
         let turned = &self.class_condition[edge.class];
         let Ok([from_scale2, coordinate_scale2]) =
             self.coordinate_scale2.get_disjoint_mut([from, to])
@@ -87,7 +87,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         let (start, end) = (self.points[from * self.len][g], self.points[to * self.len][g]);
         let arm = match edge.along {
-            EdgeSlide::Nothing => R::splat(cx.bound.arm2[e]),
+            EdgeSlide::Nothing => R::splat(cx.constants.arm2[e]),
             _ => (end - start).norm2(),
         };
         self.coordinate_scale2[to][g] = self.coordinate_scale2[from][g].max(arm).max(end.norm2());

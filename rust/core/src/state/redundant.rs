@@ -26,14 +26,15 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Places a redundant part; returns its misfit and the allowed misfit.
     #[inline(always)]
     fn place_redundant(&mut self, g: usize, cx: &Context<'_>, redundant: &RedundantLink) -> (R, R) {
-        let pair_size = R::splat(cx.bound.pair_size);
+        let pair_size = R::splat(cx.constants.pair_size);
         let mut gap = R::ZERO;
         let mut condition2 = R::ONE;
         match &redundant.angle_from {
             None => {}
             Some(AngleFrom::Joints { link, first, second, points }) => {
-                let edge_vector =
-                    |edge: &Option<usize>| edge.map_or(Vector::ZERO, |e| cx.bound.edge_vector[e]);
+                let edge_vector = |edge: &Option<usize>| {
+                    edge.map_or(Vector::ZERO, |e| cx.constants.edge_vector[e])
+                };
                 gap = self.turn_by_joints(
                     g,
                     cx,
@@ -105,7 +106,7 @@ impl<R: Real, const G: usize> State<R, G> {
     fn turn_by_slide(&mut self, g: usize, cx: &Context<'_>, link: usize, slide: usize) {
         let len = self.len;
         let o = cx.plan.link_orientation[link];
-        let (other, constant) = cx.bound.across_slide(cx.plan, link, slide);
+        let (other, constant) = cx.constants.across_slide(cx.plan, link, slide);
         let from = cx.plan.link_orientation[other];
         let value = self.orient[from * len][g] * Vector::splat(constant);
         self.set_orientation(g, cx, o, value);
@@ -143,15 +144,15 @@ impl<R: Real, const G: usize> State<R, G> {
             for k in 0..len {
                 // Jet of the edge in the frame of the guide's link: conj(U) · ΔP, by Leibniz.
                 let mut local = Vector::ZERO;
-                for t in &cx.jets.product[k] {
+                for t in &cx.derivatives.product[k] {
                     let span = self.points[to + t.right][g] - self.points[from + t.right][g];
                     let v = span * self.orient[o + t.left][g].conj();
                     local += v.scale(R::splat(t.factor));
                 }
                 if k == 0 {
-                    local = local - Vector::splat(cx.bound.edge_vector[e]);
+                    local = local - Vector::splat(cx.constants.edge_vector[e]);
                 }
-                self.slides[slide * len + k][g] = local.dot(Vector::splat(cx.bound.guide[e]));
+                self.slides[slide * len + k][g] = local.dot(Vector::splat(cx.constants.guide[e]));
             }
         }
         (self.points[to][g] - self.points[from][g] - self.edge(g, cx, e, 0)).norm()
@@ -161,7 +162,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// a half turn); `on` carries the slide.
     #[inline(always)]
     fn angle_misfit(&self, g: usize, cx: &Context<'_>, slide: usize, on: usize) -> R {
-        let (link, constant) = cx.bound.across_slide(cx.plan, on, slide);
+        let (link, constant) = cx.constants.across_slide(cx.plan, on, slide);
         let turned =
             self.orient[cx.plan.link_orientation[link] * self.len][g] * Vector::splat(constant);
         let actual = self.orient[cx.plan.link_orientation[on] * self.len][g];

@@ -65,7 +65,7 @@ pub(crate) struct Sensitivity {
 }
 
 impl Sensitivity {
-    pub(crate) fn new(plan: &Plan, jets: &DerivativeTables) -> Self {
+    pub(crate) fn new(plan: &Plan, derivatives: &DerivativeTables) -> Self {
         let closures = |step: &Step| match step {
             Step::Dyad(dyad) => Some(Closures::of_dyad(dyad)),
             Step::Group(group) => Some(Closures::of_group(group)),
@@ -73,8 +73,8 @@ impl Sensitivity {
         };
         Self {
             steps: plan.steps.iter().map(closures).collect(),
-            units: vec![Vector::ZERO; plan.orientations.len() * jets.len()],
-            rates: State::new(plan, jets),
+            units: vec![Vector::ZERO; plan.orientations.len() * derivatives.len()],
+            rates: State::new(plan, derivatives),
         }
     }
 
@@ -122,7 +122,7 @@ impl Sensitivity {
             self.units[o * len] = class * phase;
             for k in 1..len {
                 let mut sum = self.units[o * len].scale(state.angle_analogue(0, cx, o, k));
-                for term in &cx.jets.rotation[k] {
+                for term in &cx.derivatives.rotation[k] {
                     let rate = term.factor * state.angle_analogue(0, cx, o, term.right);
                     sum += self.units[o * len + term.left].scale(rate);
                 }
@@ -135,7 +135,7 @@ impl Sensitivity {
     fn unit_rate(&self, inputs: &Inputs<'_>, o: usize, k: usize) -> Vector {
         let class = inputs.cx.plan.orientations[o].class;
         let mut sum = Vector::ZERO;
-        for term in &inputs.cx.jets.product[k] {
+        for term in &inputs.cx.derivatives.product[k] {
             let rate = term.factor * self.rates.theta[class * inputs.len + term.right][0];
             sum += self.units[o * inputs.len + term.left].scale(rate);
         }
@@ -144,18 +144,18 @@ impl Sensitivity {
 
     /// Entry `k` of an edge's derivative by the dimension.
     fn edge(&self, inputs: &Inputs<'_>, e: usize, k: usize) -> Vector {
-        let (edge, bound, len) = (&inputs.cx.plan.edges[e], inputs.cx.bound, inputs.len);
+        let (edge, constants, len) = (&inputs.cx.plan.edges[e], inputs.cx.constants, inputs.len);
         let o = edge.orientation;
-        let mut sum = self.unit_rate(inputs, o, k) * bound.edge_vector[e]
+        let mut sum = self.unit_rate(inputs, o, k) * constants.edge_vector[e]
             + self.units[o * len + k] * inputs.by.edge_vector[e];
         if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
-            for term in &inputs.cx.jets.product[k] {
+            for term in &inputs.cx.derivatives.product[k] {
                 let unit = self.units[o * len + term.left];
                 let value = inputs.state.slides[slide * len + term.right][0];
                 let rate = self.rates.slides[slide * len + term.right][0];
-                let turned = self.unit_rate(inputs, o, term.left) * bound.guide[e];
+                let turned = self.unit_rate(inputs, o, term.left) * constants.guide[e];
                 let guide_rate = unit * inputs.by.guide[e];
-                let along = unit * bound.guide[e];
+                let along = unit * constants.guide[e];
                 sum += ((turned + guide_rate).scale(value) + along.scale(rate)).scale(term.factor);
             }
         }
@@ -196,8 +196,8 @@ impl Sensitivity {
             for &(e, sign) in &path.edges {
                 let edge = &inputs.cx.plan.edges[e];
                 let unit = self.units[edge.orientation * inputs.len].scale(sign);
-                let guide = unit * inputs.cx.bound.guide[e];
-                let mut vector = unit * inputs.cx.bound.edge_vector[e];
+                let guide = unit * inputs.cx.constants.guide[e];
+                let mut vector = unit * inputs.cx.constants.edge_vector[e];
                 if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
                     vector += guide.scale(inputs.state.slides[slide * inputs.len][0]);
                 }

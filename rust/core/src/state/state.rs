@@ -92,9 +92,9 @@ pub(crate) struct Context<'a> {
     /// The compiled mechanism.
     pub plan: &'a Plan,
     /// Constants of the design.
-    pub bound: &'a DesignConstants,
+    pub constants: &'a DesignConstants,
     /// Index tables of the analogues.
-    pub jets: &'a DerivativeTables,
+    pub derivatives: &'a DerivativeTables,
     /// Assembly signs, +1 or −1, for single positions.
     pub signs: &'a [f64],
 }
@@ -102,8 +102,8 @@ pub(crate) struct Context<'a> {
 impl<R: Real, const G: usize> State<R, G> {
     /// Work space for a plan.
     #[must_use]
-    pub(crate) fn new(plan: &Plan, jets: &DerivativeTables) -> Self {
-        let (len, slides) = (jets.len(), plan.slide_links.len());
+    pub(crate) fn new(plan: &Plan, derivatives: &DerivativeTables) -> Self {
+        let (len, slides) = (derivatives.len(), plan.slide_links.len());
         let edges = plan.groups().map(|group| group.edges.len()).max().unwrap_or(0);
         let loops = plan.groups().map(|group| group.loops.len()).max().unwrap_or(0);
         Self {
@@ -146,12 +146,12 @@ impl<R: Real, const G: usize> State<R, G> {
     pub(crate) fn prepare(
         &mut self,
         plan: &Plan,
-        bound: &DesignConstants,
-        jets: &DerivativeTables,
+        constants: &DesignConstants,
+        derivatives: &DerivativeTables,
     ) {
         let len = self.len;
         for (point, (&fixed, jet)) in
-            bound.fixed.iter().zip(self.points.chunks_exact_mut(len)).enumerate()
+            constants.fixed.iter().zip(self.points.chunks_exact_mut(len)).enumerate()
         {
             let fixed = Vector::splat(fixed);
             jet.fill([Vector::ZERO; G]);
@@ -169,7 +169,7 @@ impl<R: Real, const G: usize> State<R, G> {
         for driver in 0..plan.drivers.len() {
             let Some(slide) = plan.driven_slide(driver) else { continue };
             for k in 1..len {
-                let own = jets.driver_of[k] == Some(driver);
+                let own = derivatives.driver_of[k] == Some(driver);
                 self.slides[slide * len + k] = [if own { R::ONE } else { R::ZERO }; G];
             }
         }

@@ -44,8 +44,8 @@ impl Machine {
         options.check(drivers, &self.motors).map_err(Error::System)?;
         let needed = mechanism.dimensions().len();
         check_counts(&[("dimensions", needed, dimensions.len())]).map_err(Error::System)?;
-        let jets = DerivativeTables::new(drivers, 2);
-        let model = MechanismModel::new(self, mechanism, dimensions, &jets);
+        let derivatives = DerivativeTables::new(drivers, 2);
+        let model = MechanismModel::new(self, mechanism, dimensions, &derivatives);
         let sizes: Vec<f64> = (0..options.q.len()).map(|driver| model.unit(driver)).collect();
         let equation = Equation::new(model, callbacks, &self.tables, &self.motors, options.q.len());
         run(equation, options, &sizes)

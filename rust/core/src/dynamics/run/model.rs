@@ -59,7 +59,7 @@ pub(crate) trait ReducedModel {
 /// A machine on its mechanism.
 pub(crate) struct MechanismModel<'m> {
     machine: &'m Machine,
-    jets: &'m DerivativeTables,
+    derivatives: &'m DerivativeTables,
     evaluator: Evaluator<'m>,
 }
 
@@ -117,11 +117,11 @@ impl<'m> MechanismModel<'m> {
         machine: &'m Machine,
         mechanism: &'m Mechanism,
         dimensions: &[f64],
-        jets: &'m DerivativeTables,
+        derivatives: &'m DerivativeTables,
     ) -> Self {
         let lifted = machine.has_torsion();
-        let evaluator = Evaluator::new(mechanism, dimensions, jets, Queries::Any, lifted);
-        Self { machine, jets, evaluator }
+        let evaluator = Evaluator::new(mechanism, dimensions, derivatives, Queries::Any, lifted);
+        Self { machine, derivatives, evaluator }
     }
 }
 
@@ -137,18 +137,19 @@ impl ReducedModel for MechanismModel<'_> {
         if self.evaluator.total_condition() > MAX_CONDITION {
             self.check_singularity(q)?;
         }
-        self.machine.add_configuration(&Pose::new(self.evaluator.position(), self.jets), out);
+        self.machine
+            .add_configuration(&Pose::new(self.evaluator.position(), self.derivatives), out);
         Ok(())
     }
 
     fn apply_loads(&mut self, speed: &[f64], numbers: Numbers<'_>, out: &mut Reduced) {
-        let pose = Pose::new(self.evaluator.position(), self.jets);
+        let pose = Pose::new(self.evaluator.position(), self.derivatives);
         self.machine.add_speed_loads(&pose, speed, numbers, out);
     }
 
     fn angle(&mut self, q: &[f64], angle: &Angle) -> f64 {
         match self.evaluator.solve(q) {
-            Ok(()) => angle.at(&Pose::new(self.evaluator.position(), self.jets)),
+            Ok(()) => angle.at(&Pose::new(self.evaluator.position(), self.derivatives)),
             Err(_) => f64::NAN,
         }
     }

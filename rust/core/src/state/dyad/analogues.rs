@@ -25,7 +25,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let orientation = &cx.plan.orientations[o];
         let jet = &mut self.orient[o * self.len..][..self.len];
         jet[0][g] = phase;
-        if let (1, Some((_, backward))) = (cx.jets.drivers, orientation.single_driver) {
+        if let (1, Some((_, backward))) = (cx.derivatives.drivers, orientation.single_driver) {
             let mut last = phase;
             for entry in &mut jet[1..] {
                 last = if backward { -last.left() } else { last.left() };
@@ -34,7 +34,7 @@ impl<R: Real, const G: usize> State<R, G> {
             return;
         }
         for k in 1..self.len {
-            let (driver, lower) = cx.jets.lowered[k];
+            let (driver, lower) = cx.derivatives.lowered[k];
             let turns = R::splat(f64::from(orientation.turns[driver]));
             jet[k][g] = jet[lower][g].left().scale(turns);
         }
@@ -44,7 +44,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn driver_analogue(cx: &Context<'_>, o: usize, k: usize) -> R {
         let turns = &cx.plan.orientations[o].turns;
-        R::splat(if let Some(driver) = cx.jets.driver_of[k] {
+        R::splat(if let Some(driver) = cx.derivatives.driver_of[k] {
             f64::from(turns[driver])
         } else {
             0.0
@@ -69,7 +69,7 @@ impl<R: Real, const G: usize> State<R, G> {
         k: usize,
     ) -> Vector<R> {
         let mut sum = Vector::ZERO;
-        for term in &cx.jets.rotation[k] {
+        for term in &cx.derivatives.rotation[k] {
             let rate = R::splat(term.factor) * self.angle_analogue(g, cx, o, term.right);
             sum += self.orient[o * self.len + term.left][g].scale(rate);
         }
@@ -88,7 +88,7 @@ impl<R: Real, const G: usize> State<R, G> {
             return if leg.backward { -v } else { v };
         }
         let edge_vector = self.orient[edge.orientation * self.len + k][g]
-            * Vector::splat(cx.bound.edge_vector[e]);
+            * Vector::splat(cx.constants.edge_vector[e]);
         match edge.along {
             EdgeSlide::Nothing => edge_vector,
             EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } => {
@@ -102,11 +102,11 @@ impl<R: Real, const G: usize> State<R, G> {
     fn along(&self, g: usize, cx: &Context<'_>, e: usize, slide: usize, k: usize) -> Vector<R> {
         let unit = cx.plan.edges[e].orientation * self.len;
         let mut along = Vector::ZERO;
-        for term in &cx.jets.product[k] {
+        for term in &cx.derivatives.product[k] {
             let s = R::splat(term.factor) * self.slides[slide * self.len + term.right][g];
             along += self.orient[unit + term.left][g].scale(s);
         }
-        along * Vector::splat(cx.bound.guide[e])
+        along * Vector::splat(cx.constants.guide[e])
     }
 
     /// Entry `k` of a loop term, without the part that is in a leg.
@@ -136,7 +136,7 @@ impl<R: Real, const G: usize> State<R, G> {
         k: usize,
     ) -> Vector<R> {
         let mut sum = Vector::ZERO;
-        for term in &cx.jets.rotation[k] {
+        for term in &cx.derivatives.rotation[k] {
             let rate = R::splat(term.factor) * self.theta[class * self.len + term.right][g];
             sum += self.legs[leg * self.len + term.left][g].scale(rate);
         }
@@ -289,7 +289,7 @@ impl<R: Real, const G: usize> State<R, G> {
         for term in &dyad.others {
             if term.slides == Some(i) {
                 let unit = self.orient[cx.plan.edges[term.edge].orientation * self.len + k][g];
-                let v = unit * Vector::splat(cx.bound.guide[term.edge]);
+                let v = unit * Vector::splat(cx.constants.guide[term.edge]);
                 sum = if term.backward { -v } else { v };
             }
         }

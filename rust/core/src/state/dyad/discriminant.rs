@@ -60,7 +60,7 @@ impl State {
     /// Greatest closure error of any edge, relative to the scale.
     pub(crate) fn residual(&self, cx: &Context<'_>) -> f64 {
         let len = self.len;
-        (cx.plan.edges.iter().zip(&cx.bound.edge_vector).zip(&cx.bound.guide))
+        (cx.plan.edges.iter().zip(&cx.constants.edge_vector).zip(&cx.constants.guide))
             .map(|((e, &edge_vector), &guide)| {
                 let mut span = edge_vector;
                 if let EdgeSlide::Slide(s) | EdgeSlide::Driver { slide: s } = e.along {

@@ -23,13 +23,15 @@ impl<R: Real, const G: usize> State<R, G> {
         classes: [usize; 2],
         index: usize,
     ) {
-        match (cx.jets.drivers, self.len) {
+        match (cx.derivatives.drivers, self.len) {
             (1, 1) => self.rrr_of_length(cx, dyad, classes, index, 1, &|k| ONE_DRIVER[k]),
             (1, 2) => self.rrr_of_length(cx, dyad, classes, index, 2, &|k| ONE_DRIVER[k]),
             (1, 3) => self.rrr_of_length(cx, dyad, classes, index, 3, &|k| ONE_DRIVER[k]),
             (1, 4) => self.rrr_of_length(cx, dyad, classes, index, 4, &|k| ONE_DRIVER[k]),
             (_, len) => {
-                self.rrr_of_length(cx, dyad, classes, index, len, &|k| &cx.jets.rotation[k][..]);
+                self.rrr_of_length(cx, dyad, classes, index, len, &|k| {
+                    &cx.derivatives.rotation[k][..]
+                });
             }
         }
         for (turned, class) in dyad.orientations.iter().zip(classes) {
@@ -79,10 +81,12 @@ impl<R: Real, const G: usize> State<R, G> {
             return;
         };
         let (signs, upstream_sign2) = (&self.signs[sign], &mut self.upstream_condition2[sign]);
-        let [a, b] = &cx.bound.legs[dyad.index];
+        let [a, b] = &cx.constants.legs[dyad.index];
         let (a, b) = (a.on_lanes(), b.on_lanes());
-        let max_arm2 =
-            [R::splat(cx.bound.max_arm2[classes[0]]), R::splat(cx.bound.max_arm2[classes[1]])];
+        let max_arm2 = [
+            R::splat(cx.constants.max_arm2[classes[0]]),
+            R::splat(cx.constants.max_arm2[classes[1]]),
+        ];
         for g in 0..self.groups.min(G) {
             let (first, second, solved) = two_circles(&a, &b, end[0][g] - start[0][g], signs[g]);
             let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));

@@ -33,12 +33,12 @@ impl<R: Real, const G: usize> State<R, G> {
         let rounding = self.rounding_arm2(g, dyad);
         // Weight a rotation by the greatest arm that turns with it.
         let relative_arm2 = |unknown: Unknown, inv_norm2: R| match unknown {
-            Unknown::Class(c) => R::splat(cx.bound.max_arm2[c]).max(rounding) * inv_norm2,
+            Unknown::Class(c) => R::splat(cx.constants.max_arm2[c]).max(rounding) * inv_norm2,
             Unknown::Slide(_) => R::ONE,
         };
         let [u, v] = dyad.unknowns;
         let leg = |i: usize, vector: Vector<R>| {
-            let constant = &cx.bound.legs[dyad.index][i];
+            let constant = &cx.constants.legs[dyad.index][i];
             if dyad.leg[i] { constant.on_lanes() } else { Leg::of(vector) }
         };
         match dyad.form {
@@ -57,7 +57,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 closed.with_arm2(relative_arm2(u, a.inv_norm2))
             }
             Form::TurningGuide => {
-                let constant = Vector::splat(cx.bound.legs[dyad.index][0].vector);
+                let constant = Vector::splat(cx.constants.legs[dyad.index][0].vector);
                 let a = if dyad.leg[0] { constant } else { first };
                 let (x, s, inv_distance2, closed) = turning_guide(a, second, k, sign);
                 self.set_rotation(g, cx, dyad, 0, x);
@@ -98,14 +98,14 @@ impl<R: Real, const G: usize> State<R, G> {
                 Some(_) if driven => self.phase[edge.orientation][g] * v,
                 Some(_) => v,
             };
-            let guide = Vector::splat(cx.bound.guide[e]);
+            let guide = Vector::splat(cx.constants.guide[e]);
             if let Some(i) = term.slides {
                 terms[i] += signed(turned(guide));
             }
             if term.in_leg {
                 continue;
             }
-            let mut edge_vector = Vector::splat(cx.bound.edge_vector[e]);
+            let mut edge_vector = Vector::splat(cx.constants.edge_vector[e]);
             if let (EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide }, None) =
                 (edge.along, term.slides)
             {
@@ -132,7 +132,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let Unknown::Class(class) = dyad.unknowns[i] else { return };
         self.class[class][g] = rotation;
         if dyad.leg[i] {
-            let vector = cx.bound.legs[dyad.index][i].vector;
+            let vector = cx.constants.legs[dyad.index][i].vector;
             self.legs[(2 * dyad.index + i) * self.len][g] = rotation * Vector::splat(vector);
         }
         for &o in &dyad.orientations[i] {

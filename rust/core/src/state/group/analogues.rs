@@ -123,13 +123,13 @@ impl<R: Real, const G: usize> State<R, G> {
         let len = self.len;
         let e = group.edges[l.edge].edge;
         let mut sum = R::ZERO;
-        for term in &cx.jets.product[k] {
+        for term in &cx.derivatives.product[k] {
             let guide = self.guides[l.edge * len + term.left][g];
             let chord = self.chords[i * len + term.right][g];
             sum += R::splat(term.factor) * guide.dot(chord);
         }
         if k == 0 {
-            sum = sum - R::splat(cx.bound.guide[e].dot(cx.bound.edge_vector[e]));
+            sum = sum - R::splat(cx.constants.guide[e].dot(cx.constants.edge_vector[e]));
         }
         self.slides[slide * len + k][g] = sum;
     }
@@ -166,7 +166,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let rate = if let EdgeSlide::Driver { .. } = cx.plan.edges[e].along {
             // Solve Leibniz's sum for the top entry of U.
             let mut rest = self.chords[i * len + k][g];
-            for term in cx.jets.product[k].iter().filter(|term| term.left != k) {
+            for term in cx.derivatives.product[k].iter().filter(|term| term.left != k) {
                 let known =
                     self.orient[own * len + term.left][g] * self.local(g, cx, e, term.right);
                 rest = rest - known.scale(R::splat(term.factor));
@@ -177,7 +177,7 @@ impl<R: Real, const G: usize> State<R, G> {
         } else {
             // The chord is rigid: its jet follows from its lower entries.
             let mut partial = Vector::ZERO;
-            for term in &cx.jets.rotation[k] {
+            for term in &cx.derivatives.rotation[k] {
                 let rate = R::splat(term.factor) * self.angle_analogue(g, cx, own, term.right);
                 partial += self.chords[i * len + term.left][g].scale(rate);
             }

@@ -27,10 +27,10 @@ impl<R: Real, const G: usize> State<R, G> {
         index: usize,
     ) {
         let len = self.len.min(ENTRIES);
-        let links = binary.links(&cx.bound.spans);
+        let links = binary.links(&cx.constants.spans);
         let mut max_arm2 = [R::ZERO; MAX_UNKNOWNS];
         for (max_arm2, &class) in max_arm2.iter_mut().zip(&binary.classes) {
-            *max_arm2 = R::splat(cx.bound.max_arm2[class]);
+            *max_arm2 = R::splat(cx.constants.max_arm2[class]);
         }
         let mut wanted = [false; MAX_UNKNOWNS];
         for ((wanted, &class), l) in wanted.iter_mut().zip(&binary.bar_classes).zip(&group.loops) {
@@ -89,7 +89,7 @@ impl<R: Real, const G: usize> State<R, G> {
             for arm in &binary.arms {
                 let unknown = arm.unknown.min(MAX_UNKNOWNS - 1);
                 let rates = &loops.rates[unknown];
-                let v = loops.units[unknown] * Vector::splat(cx.bound.edge_vector[arm.edge]);
+                let v = loops.units[unknown] * Vector::splat(cx.constants.edge_vector[arm.edge]);
                 let jet = &mut self.legs[arm.leg * len..][..len];
                 jet[0][g] = v;
                 for k in 1..len {

@@ -27,19 +27,19 @@ impl<R: Real, const G: usize> State<R, G> {
             let e = edge.edge;
             let along = cx.plan.edges[e].along;
             let unit = &self.orient[cx.plan.edges[e].orientation * len + k];
-            let edge_vector = Vector::splat(cx.bound.edge_vector[e]);
+            let edge_vector = Vector::splat(cx.constants.edge_vector[e]);
             for g in 0..G {
                 self.legs[leg + k][g] = unit[g] * edge_vector;
             }
             if along == EdgeSlide::Nothing {
                 continue;
             }
-            let guide = Vector::splat(cx.bound.guide[e]);
+            let guide = Vector::splat(cx.constants.guide[e]);
             for g in 0..G {
                 self.guides[i * len + k][g] = unit[g] * guide;
             }
             if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = along {
-                for term in &cx.jets.product[k] {
+                for term in &cx.derivatives.product[k] {
                     let factor = R::splat(term.factor);
                     for g in 0..G {
                         let s = factor * self.slides[slide * len + term.right][g];
@@ -58,7 +58,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let (o, class) = (cx.plan.edges[e].orientation, cx.plan.edges[e].class);
         let driven = cx.plan.orientations[o].driven;
         if k == 0 {
-            let edge_vector = Vector::splat(cx.bound.edge_vector[e]);
+            let edge_vector = Vector::splat(cx.constants.edge_vector[e]);
             for g in 0..G {
                 let rotation = self.class[class][g];
                 let unit = if driven { rotation * self.phase[o][g] } else { rotation };
@@ -67,7 +67,7 @@ impl<R: Real, const G: usize> State<R, G> {
             return;
         }
         let mut sum = [Vector::ZERO; G];
-        for term in &cx.jets.rotation[k] {
+        for term in &cx.derivatives.rotation[k] {
             let factor = R::splat(term.factor);
             for g in 0..G {
                 let rate = factor * self.angle_analogue(g, cx, o, term.right);
@@ -113,11 +113,11 @@ impl<R: Real, const G: usize> State<R, G> {
     pub(crate) fn local(&self, g: usize, cx: &Context<'_>, e: usize, k: usize) -> Vector<R> {
         let mut local = Vector::ZERO;
         if k == 0 {
-            local = Vector::splat(cx.bound.edge_vector[e]);
+            local = Vector::splat(cx.constants.edge_vector[e]);
         }
         if let EdgeSlide::Driver { slide } = cx.plan.edges[e].along {
             let value = self.slides[slide * self.len + k][g];
-            local += Vector::splat(cx.bound.guide[e]).scale(value);
+            local += Vector::splat(cx.constants.guide[e]).scale(value);
         }
         local
     }
@@ -149,7 +149,7 @@ impl<R: Real, const G: usize> State<R, G> {
                     }
                 }
                 Chord::Length { .. } => {
-                    for term in &cx.jets.product[k] {
+                    for term in &cx.derivatives.product[k] {
                         let factor = R::splat(term.factor);
                         let [a, b] = [term.left, term.right].map(|k| &self.chords[i * len + k]);
                         for g in 0..G {
@@ -163,7 +163,7 @@ impl<R: Real, const G: usize> State<R, G> {
                     }
                 }
                 Chord::Guide { .. } => {
-                    for term in &cx.jets.product[k] {
+                    for term in &cx.derivatives.product[k] {
                         let factor = R::splat(term.factor);
                         let guide = &self.guides[l.edge * len + term.left];
                         let chord = &self.chords[i * len + term.right];
@@ -172,7 +172,8 @@ impl<R: Real, const G: usize> State<R, G> {
                         }
                     }
                     if k == 0 {
-                        let own = R::splat(cx.bound.guide[e].cross(cx.bound.edge_vector[e]));
+                        let own =
+                            R::splat(cx.constants.guide[e].cross(cx.constants.edge_vector[e]));
                         for sum in &mut sum {
                             *sum = *sum - own;
                         }

@@ -24,7 +24,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// are already in `needs_scalar`.
     #[inline(always)]
     pub(crate) fn solve_group(&mut self, cx: &Context<'_>, group: &Group, index: usize) {
-        if let (Some(binary), 1) = (&group.binary_loops, cx.jets.drivers) {
+        if let (Some(binary), 1) = (&group.binary_loops, cx.derivatives.drivers) {
             self.solve_binary_loops(cx, group, binary, index);
             return;
         }
@@ -93,7 +93,7 @@ impl<R: Real, const G: usize> State<R, G> {
                     self.inv_length[i][g] = R::ONE / self.local(g, cx, e, 0).norm();
                 }
             } else {
-                self.inv_length[i] = [R::splat(1.0 / cx.bound.edge_vector[e].norm()); G];
+                self.inv_length[i] = [R::splat(1.0 / cx.constants.edge_vector[e].norm()); G];
             }
         }
     }
@@ -229,7 +229,7 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
         for (i, &unknown) in group.unknowns.iter().enumerate() {
             // Weight a rotation by the greatest arm that turns with it.
             let max_arm2 = match unknown {
-                Unknown::Class(class) => R::splat(cx.bound.max_arm2[class]),
+                Unknown::Class(class) => R::splat(cx.constants.max_arm2[class]),
                 Unknown::Slide(_) => R::ONE,
             };
             let row = &matrix[i * 2 * n + n..][..n];
