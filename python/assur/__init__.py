@@ -26,6 +26,7 @@ from assur.errors import (
     AssurWarning,
     DimensionError,
     InputError,
+    MotionError,
     PositionError,
     StructureError,
 )
@@ -76,6 +77,7 @@ __all__ = [
     "Machine",
     "Mechanism",
     "Motion",
+    "MotionError",
     "PositionError",
     "Run",
     "Sensitivity",

@@ -505,12 +505,12 @@ def _flywheel(
     failed = np.flatnonzero(np.isnan(np.asarray(result.inertia)).ravel())
     if on_error == "raise" and failed.size:
         first_failed = int(failed[0])
-        problem = str(result._core.problem(first_failed))
+        design, place = None, ""
         if shape:
-            entry = tuple(int(k) for k in np.unravel_index(first_failed, shape))
+            design = [int(k) for k in np.unravel_index(first_failed, shape)]
             more = f" (and {failed.size - 1} more)" if failed.size > 1 else ""
-            problem = f"table {entry}{more}: {problem}"
-        raise InputError(problem)
+            place = f"table {tuple(design)}{more}: "
+        raise result._core.failure(first_failed, place, design)
     return result
 
 

@@ -28,7 +28,7 @@ from assur.dynamics.options import (
 )
 from assur.dynamics.run import Run
 from assur.dynamics.steady import SteadyState
-from assur.errors import AssurWarning, InputError, PositionError
+from assur.errors import AssurWarning, InputError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -70,34 +70,22 @@ def run(
     if along_q and (end - start[0]) * speeds[0] < 0.0:
         message = f"q_end = {end:g} lies behind q0 = {start[0]:g} at speed0 = {speeds[0]:g}"
         raise InputError(message, value=end)
-    try:
-        core = machine._core.run(
-            _dimensions(machine),
-            along_q,
-            (real_number(t0, "t0"), start, speeds),
-            end,
-            is_low_order(options["method"]),
-            (relative_tolerance(options["rtol"]), tolerance_pair(options["atol"])),
-            (
-                positive_number(options["max_step"], "max_step"),
-                step_count(options["max_steps"]),
-                checked_seconds(options["max_seconds"]),
-            ),
-            checked_breaks(options["breaks"]),
-            watches,
-            (machine._callbacks.functions, functions),
-        )
-    except PositionError as error:
-        q = start[0] if n == 1 else np.array(start)
-        why = (
-            ""
-            if machine.mechanism is None
-            else machine.mechanism.solve(q, order=1, on_error="nan").explain()
-        )
-        if " is solved" in why:
-            why = f"{why}, but a dead point is beside it"
-        message = f"{why or error}: a run cannot begin there (q0)"
-        raise PositionError(message, q=start[0] if n == 1 else tuple(start)) from error
+    core = machine._core.run(
+        _dimensions(machine),
+        along_q,
+        (real_number(t0, "t0"), start, speeds),
+        end,
+        is_low_order(options["method"]),
+        (relative_tolerance(options["rtol"]), tolerance_pair(options["atol"])),
+        (
+            positive_number(options["max_step"], "max_step"),
+            step_count(options["max_steps"]),
+            checked_seconds(options["max_seconds"]),
+        ),
+        checked_breaks(options["breaks"]),
+        watches,
+        (machine._callbacks.functions, functions),
+    )
     made = Run(core, machine.mechanism, n, watched, along_q)
     if made.end in EARLY_ENDS:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)

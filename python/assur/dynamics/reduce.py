@@ -9,7 +9,8 @@ import numpy.typing as npt
 
 from assur._arrays import real_array
 from assur._validate import one_of
-from assur.errors import InputError, PositionError
+from assur.description.words import Status
+from assur.errors import InputError
 
 if TYPE_CHECKING:
     from assur.dynamics.machine import Machine
@@ -47,11 +48,13 @@ def reduce(
         given = machine._callbacks.load_values(flat.reshape(-1, n), speeds.reshape(-1, n))
     values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
     dimensions = np.ascontiguousarray(values).ravel()
-    *arrays, status = machine._core.reduce(dimensions, flat, speeds, given, None)
-    # Above NEAR_SINGULAR, which still has analogues.
-    failed = np.flatnonzero(status > 1)
-    if on_error == "raise" and failed.size:
-        _refuse(machine, x, shape, int(failed[0]))
+    *arrays, status, failure = machine._core.reduce(
+        dimensions, flat, speeds, given, None, list(designs)
+    )
+    if on_error == "raise":
+        if failure is not None:
+            raise failure
+        _require_within_table(machine, flat, status)
     inertia, rates, moment, potential = arrays
     beyond = np.flatnonzero(np.isnan(moment).reshape(-1, n).any(axis=1) & (status < 2))
     if speed is not None and on_error == "raise" and beyond.size:
@@ -66,17 +69,12 @@ def reduce(
     )
 
 
-def _refuse(machine: Machine, q: Float, shape: tuple[int, ...], flat: int) -> None:
-    entry = tuple(int(k) for k in np.unravel_index(flat, shape)) if shape else ()
-    if machine.mechanism is None:
-        message = f"q = {q[entry]:g} is beyond the table"
-        raise InputError(message, q=q[entry])
-    design = entry[: len(machine.shape)]
-    one = machine.mechanism.design(design) if design else machine.mechanism
-    why = one.solve(q[entry], order=1, on_error="nan").explain()
-    where = f"design {design}: " if design else ""
-    message = f"{where}{why}; reduced inertia and moment are undefined there"
-    raise PositionError(message, q=q[entry], design=design or None)
+def _require_within_table(machine: Machine, q: Float, status: npt.NDArray[np.uint8]) -> None:
+    beyond = np.flatnonzero(status > Status.NEAR_SINGULAR)
+    if machine.mechanism is None and beyond.size:
+        first = float(q[beyond[0]])
+        message = f"q = {first:g} is beyond the table"
+        raise InputError(message, q=first, value=first)
 
 
 def _with_designs(positions: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:

@@ -11,7 +11,6 @@ import numpy.typing as npt
 from assur import _core
 from assur._arrays import real_array
 from assur._validate import one_of
-from assur.description.words import Status
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -195,7 +194,7 @@ class Run:
             EventRecord(events[which], t, self._per_driver(q), self._per_driver(speed))
             for which, t, q, speed in core.events
         ]
-        self.end, self.message = self._end_and_message(mechanism, events)
+        self.end, self.message = self._end_and_message(events)
         if self.end in ("dead point", "rest", "near_change_point"):
             near = core.near_change_point
             event = self.end if near is None else NearChangePoint(*near)
@@ -298,11 +297,9 @@ class Run:
     def _per_driver(self, numbers: list[float]) -> Any:
         return numbers[0] if self._drivers == 1 else np.array(numbers)
 
-    def _end_and_message(self, mechanism: Mechanism | None, events: list[Any]) -> tuple[str, str]:
-        kind, which, q = self._core.ending
+    def _end_and_message(self, events: list[Any]) -> tuple[str, str]:
+        kind, which, why = self._core.ending
         place = f"t = {self.t[-1]:.9g} s, q = {self.q[-1]}"
-        if kind == "edge":
-            return self._domain_end(mechanism, Status(which), q, place)
         if self._core.near_change_point is not None:
             dyad, miss, at = self._core.near_change_point
             return kind, (
@@ -314,6 +311,8 @@ class Run:
         sentences = {
             "reached": "reached its end",
             "event": f"{event} at {place}",
+            "dead point": f"a dead point at {place}: this assembly has no motion beyond it",
+            "lost": f"the branch cannot be tracked beyond {place}: {why}",
             "rest": f"the machine came to rest at {place}",
             "table ends": f"a table over q ends at {place}",
             "motor table ends": f"the motor's table ends at {place}",
@@ -323,16 +322,6 @@ class Run:
             "time limit": f"max_seconds was reached at {place}",
         }
         return kind, sentences[kind]
-
-    def _domain_end(
-        self, mechanism: Mechanism | None, status: Status, q: list[float], place: str
-    ) -> tuple[str, str]:
-        if status not in (Status.LOST, Status.NOT_CONVERGED):
-            return "dead point", f"a dead point at {place}: this assembly has no motion beyond it"
-        why = ""
-        if mechanism is not None:
-            why = ": " + mechanism.solve(self._per_driver(q), order=1, on_error="nan").explain()
-        return "lost", f"the branch cannot be tracked beyond {place}{why}"
 
 
 def _rebuild(core: bytes, *others: Any) -> Run:

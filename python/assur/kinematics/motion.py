@@ -290,9 +290,6 @@ class Motion:
         >>> m.solve([0.0, 3.0], on_error="nan").explain(1)
         'at q = 3 dyad "C" cannot be assembled: its links are 139.6 m too short to meet'
         """
-        return self._explain(index)[2]
-
-    def _explain(self, index: int | tuple[int, ...]) -> tuple[int, str | None, str]:
         entry = checked_index(index, self.shape, "index")
         q = self.coordinate(entry)
         values = self.mechanism._values[entry[: len(self.mechanism.shape)]]

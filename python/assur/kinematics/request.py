@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
+    from assur.errors import AssurError
     from assur.kinematics.mechanism import Mechanism
 
 Float: TypeAlias = npt.NDArray[np.float64]
@@ -73,13 +74,16 @@ class SolveRequest:
         slides: dict[str, int],
         buffers: Buffers | None = None,
         by: int | None = None,
-    ) -> tuple[Results, npt.NDArray[np.uint8]]:
+        report: bool = False,
+    ) -> tuple[Results, npt.NDArray[np.uint8], AssurError | None]:
         """Solve for joints, angles of links, and slides, into the buffers if given.
 
-        With `by`, the index of a dimension, return the derivatives by that dimension.
+        With `by`, the index of a dimension, return the derivatives by that dimension. With
+        `report`, return the exception of the first position that failed.
         """
         wanted = [list(of.values()) for of in (joints, links, slides)]
-        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]), buffers, by)
+        outputs = (wanted[0], wanted[1], list[int](), wanted[2])
+        found, status, failure = self._solve(outputs, buffers, by, report)
         shape = self.shape
         results = Results(
             joints=self._named("joint", joints, found, (*shape, 2)),
@@ -89,12 +93,12 @@ class SolveRequest:
         )
         status = status.reshape(shape)
         status.flags.writeable = False
-        return results, status
+        return results, status, failure
 
     def reference_point(self, link: str) -> tuple[Float, ...]:
         """Solve for a link's reference point, the origin of its frame."""
         index = self.mechanism._core.require("link", link)
-        found, _ = self._solve(([], [], [index], []))
+        found, _, _ = self._solve(([], [], [index], []))
         return self._named("place", {link: index}, found, (*self.shape, 2))[link]
 
     def flat(self) -> tuple[Float, Float, bool]:
@@ -111,9 +115,11 @@ class SolveRequest:
         outputs: Outputs,
         buffers: Buffers | None = None,
         by: int | None = None,
-    ) -> tuple[dict[tuple[str, int, int], Float], npt.NDArray[np.uint8]]:
+        report: bool = False,
+    ) -> tuple[dict[tuple[str, int, int], Float], npt.NDArray[np.uint8], AssurError | None]:
+        shape = list(self.mechanism.shape) if report else None
         return self.mechanism._core.solve(
-            *self.flat(), self.signs, self.order, outputs, self.threads, buffers, by
+            *self.flat(), self.signs, self.order, outputs, self.threads, buffers, by, shape
         )
 
     def _named(

@@ -34,7 +34,7 @@ class Sensitivity:
         outputs = motion._held_indices()
         self.dimension = dimension
         self._drivers = len(motion.mechanism._core.q0)
-        self._results, self.status = motion._request.arrays(*outputs, by=index)
+        self._results, self.status, _ = motion._request.arrays(*outputs, by=index)
 
     def joint(self, name: str) -> Analogues:
         """Return derivatives of a joint's position and analogues, m/m or m/rad, S + (N, 2)."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -10,10 +9,9 @@ import numpy.typing as npt
 
 from assur._arrays import short
 from assur._validate import checked_order, checked_signs, checked_threads, one_of, real_array
-from assur.description.words import Status
-from assur.errors import AssurError, DimensionError, InputError, PositionError
+from assur.errors import InputError
 from assur.kinematics.motion import Motion
-from assur.kinematics.request import SolveRequest
+from assur.kinematics.request import Buffers, SolveRequest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -50,17 +48,23 @@ def solve(
         threads=checked_threads(threads),
     )
     wanted = _outputs(mechanism, outputs)
-    fresh = out is None
-    motion = (
-        Motion(request, *request.arrays(*wanted)) if fresh else _overwritten(out, request, wanted)
-    )
-    if on_error == "raise":
-        _raise_first(motion)
+    report = on_error == "raise"
+    if out is None:
+        results, status, failure = request.arrays(*wanted, report=report)
+        motion = Motion(request, results, status)
+    else:
+        buffers = _buffers(out, request, wanted)
+        # If interrupted, the arrays mix both motions: the buffers stay marked incomplete.
+        results, status, failure = request.arrays(*wanted, buffers, report=report)
+        motion = out
+        motion._replace_with(request, results, status)
+    if failure is not None:
+        raise failure
     return motion
 
 
-def _overwritten(motion: Any, request: SolveRequest, wanted: Names) -> Motion:
-    """Solve into the arrays of an existing motion, which takes over the request."""
+def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
+    """Return the arrays of a motion that the request may overwrite."""
     if not isinstance(motion, Motion):
         message = f"out is {short(motion)}: a motion is needed"
         raise InputError(message)
@@ -77,9 +81,7 @@ def _overwritten(motion: Any, request: SolveRequest, wanted: Names) -> Motion:
     if held.buffers is None:
         message = "out: a copy cannot be overwritten, only a motion as solve returned it"
         raise InputError(message)
-    # If interrupted, the arrays mix both motions: the buffers stay marked incomplete.
-    motion._replace_with(request, *request.arrays(*wanted, held.buffers))
-    return motion
+    return held.buffers
 
 
 def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[int, ...], bool]:
@@ -136,57 +138,3 @@ def _outputs(mechanism: Mechanism, names: Iterable[str] | None) -> Names:
         {n: links[n] for n in wanted if n in links},
         {n: slides[n] for n in wanted if n in slides},
     )
-
-
-def _raise_first(motion: Motion) -> None:
-    if motion.status.max(initial=0) < Status.SINGULAR:
-        return
-    bad = motion.status > Status.SINGULAR
-    singular = motion.status == Status.SINGULAR
-    if motion.order > 0 and singular.any():
-        bad |= singular & _no_analogues(motion, singular)
-    if not bad.any():
-        return
-    index = tuple(int(i) for i in np.argwhere(bad)[0])
-    q = motion.coordinate(index)
-    status, name, sentence = motion._explain(index)
-    more = int(bad.sum()) - 1
-    designs = len(motion.mechanism.shape)
-    design = index[:designs] if designs else None
-    where = f"design {design}: " if design is not None else ""
-    rest = f" (and {more} more of {bad.size}; on_error='nan' keeps the others)" if more else ""
-    message = f"{where}{sentence}{rest}"
-    kinds: dict[int, type[AssurError]] = {
-        Status.BAD_DIMENSION: DimensionError,
-        Status.BAD_INPUT: InputError,
-    }
-    kind = kinds.get(status, PositionError)
-    is_dimension = status == Status.BAD_DIMENSION
-    joints, links, slides = _outputs(motion.mechanism, None)
-    raise kind(
-        message,
-        joint=name if name in joints else None,
-        link=name if name in links else None,
-        slide=name if name in slides else None,
-        dimension=name if is_dimension else None,
-        design=design,
-        q=q,
-        value=_value(motion, index, name) if is_dimension else None,
-    )
-
-
-def _no_analogues(motion: Motion, singular: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """Singular positions with NaN analogues: all but change points."""
-    held = motion._results
-    missing = np.zeros(motion.shape, dtype=np.bool_)
-    for arrays in (a for kind in (held.joints, held.links, held.slides) for a in kind.values()):
-        rows = arrays[1][singular]
-        missing[singular] |= np.isnan(rows).reshape(len(rows), -1).any(axis=1)
-    return missing
-
-
-def _value(motion: Motion, index: tuple[int, ...], name: str | None) -> float:
-    if name is None:
-        return math.nan
-    value = motion.mechanism.dimensions[name]
-    return float(value[index[: len(motion.mechanism.shape)]] if motion.mechanism.shape else value)

@@ -60,6 +60,7 @@ mod query;
 mod state;
 mod structure;
 
+pub use batch::failure_log::{FailureLog, FirstFailure};
 pub use batch::outputs::{Arrays, Column, Outputs, Quantity};
 pub use batch::request::{Coordinates, Motion, Request, Series};
 pub use batch::schedule::Control;
@@ -69,7 +70,9 @@ pub use batch::solve::fill;
 pub use batch::test_hooks;
 pub use description::class_iv::ClassIv;
 pub use description::dimension::{Dimension, Dimensions};
-pub use description::error::{Named, SolveError, StructureError};
+pub use description::error::{
+    DriverFault, Hint, Named, Overconstraint, SolveError, StructureError,
+};
 pub use description::four_bar::{FourBar, FourBarMode};
 pub use description::frame::Axis;
 pub use description::slider_crank::SliderCrank;
@@ -81,6 +84,7 @@ pub use math::vector::Vector;
 pub use math::{lanes, tolerance, trig};
 pub use plan::mechanism::Mechanism;
 pub use query::diagnosis::Diagnosis;
+pub use query::failure::{Failure, GroupName, Reason};
 pub use query::metrics;
 pub use state::status::Status;
 pub use structure::Structure;

@@ -7,8 +7,8 @@ use assur::dynamics::{
 use assur::ode::Crossing;
 use pyo3::prelude::*;
 
-use crate::error;
 use crate::flywheel::ends;
+use crate::{error, error_map};
 
 /// A joint, or a link and a point in its frame.
 #[derive(FromPyObject)]
@@ -59,14 +59,16 @@ fn values(encoded: Vec<Encoded>) -> Vec<Value> {
 
 pub(crate) fn table((knots, values, spline, periodic): TableArguments) -> PyResult<Table> {
     Table::new(&knots, &values, ends(&spline)?, periodic)
-        .map_err(|e| error::input(e.to_string(), None))
+        .map_err(|error| error_map::table(&error, "", None))
 }
 
 fn point(mechanism: &Mechanism, arguments: PointArguments) -> PyResult<Point> {
     Ok(match arguments {
-        PointArguments::Joint(name) => Point::Joint(mechanism.joint(&name).map_err(error::solve)?),
+        PointArguments::Joint(name) => {
+            Point::Joint(mechanism.joint(&name).map_err(error_map::solve)?)
+        }
         PointArguments::Link((name, at)) => {
-            Point::Link { link: mechanism.link(&name).map_err(error::solve)?, at }
+            Point::Link { link: mechanism.link(&name).map_err(error_map::solve)?, at }
         }
     })
 }
@@ -75,7 +77,7 @@ pub(crate) fn body(
     mechanism: &Mechanism,
     (name, centre, mass, inertia): BodyArguments,
 ) -> PyResult<Body> {
-    let link = mechanism.link(&name).map_err(error::solve)?;
+    let link = mechanism.link(&name).map_err(error_map::solve)?;
     Ok(Body { link, at: point(mechanism, centre)?, mass, inertia })
 }
 
@@ -83,7 +85,7 @@ pub(crate) fn load(mechanism: &Mechanism, arguments: LoadArguments) -> PyResult<
     let (kind, points, links, numbers, encoded) = arguments;
     let points =
         points.into_iter().map(|one| point(mechanism, one)).collect::<PyResult<Vec<_>>>()?;
-    let link = |name: &String| mechanism.link(name).map_err(error::solve);
+    let link = |name: &String| mechanism.link(name).map_err(error_map::solve);
     let links = links.iter().map(link).collect::<PyResult<Vec<_>>>()?;
     let values = values(encoded);
     Ok(match (kind.as_str(), &points[..], &links[..], &numbers[..], &values[..]) {
@@ -101,7 +103,7 @@ pub(crate) fn load(mechanism: &Mechanism, arguments: LoadArguments) -> PyResult<
         ("torsion damper", [], &[link, on], &[damping], []) => {
             Load::TorsionDamper { link, on, damping }
         }
-        _ => return Err(error::input(format!("no such load: {kind:?}"), None)),
+        _ => return Err(error::input(&format!("no such load: {kind:?}"), None)),
     })
 }
 
@@ -115,7 +117,7 @@ pub(crate) fn motor(arguments: MotorArguments) -> PyResult<Motor> {
             Characteristic::Induction { breakdown, slip, synchronous }
         }
         ("table", [], [], Some(arguments)) => Characteristic::Table(table(arguments)?),
-        _ => return Err(error::input(format!("no such motor: {kind:?}"), None)),
+        _ => return Err(error::input(&format!("no such motor: {kind:?}"), None)),
     };
     Ok(Motor { driver, ratio, rotor_inertia, characteristic })
 }
@@ -124,7 +126,7 @@ fn line(mechanism: &Mechanism, arguments: LineArguments) -> PyResult<Line> {
     Ok(match arguments {
         LineArguments::Through((a, b)) => Line::Through(point(mechanism, a)?, point(mechanism, b)?),
         LineArguments::Along((link, angle)) => {
-            Line::Along(mechanism.link(&link).map_err(error::solve)?, angle)
+            Line::Along(mechanism.link(&link).map_err(error_map::solve)?, angle)
         }
     })
 }
@@ -142,10 +144,10 @@ pub(crate) fn event(
             let lines =
                 lines.into_iter().map(|l| line(mechanism, l)).collect::<PyResult<Vec<_>>>()?;
             let lines = <[Line; 2]>::try_from(lines)
-                .map_err(|_| error::input("an angle is between two lines".into(), None))?;
+                .map_err(|_| error::input("an angle is between two lines", None))?;
             EventKind::Angle(Angle { lines, complement }, value)
         }
-        _ => return Err(error::input(format!("no such event: {kind:?}"), None)),
+        _ => return Err(error::input(&format!("no such event: {kind:?}"), None)),
     };
     let crossing = match direction {
         0 => Crossing::Either,

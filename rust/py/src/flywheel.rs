@@ -2,10 +2,11 @@
 
 use assur::dynamics::{Cycle, EndCondition, Flywheel, Mean, TableError};
 use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 
 use crate::parallel_map::parallel_map;
-use crate::{detach, error};
+use crate::{detach, error, error_map};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -33,7 +34,7 @@ impl Task {
             "driven extremes" => Self::Driven(Mean::Extremes),
             "driven period" => Self::Driven(Mean::Period),
             "given" => Self::Given,
-            _ => return Err(error::input(format!("no such task: {name:?}"), None)),
+            _ => return Err(error::input(&format!("no such task: {name:?}"), None)),
         })
     }
 
@@ -53,7 +54,7 @@ pub(crate) fn ends(name: &str) -> PyResult<EndCondition> {
         "clamped" => EndCondition::Clamped,
         "periodic" => EndCondition::Periodic,
         "linear" => EndCondition::Linear,
-        _ => return Err(error::input(format!("no such spline: {name:?}"), None)),
+        _ => return Err(error::input(&format!("no such spline: {name:?}"), None)),
     })
 }
 
@@ -86,7 +87,7 @@ impl Flywheels {
         let (phi, moment, inertia, first, second) = (phi?, moment?, inertia?, first?, second?);
         let (count, rows) = (first.len(), phi.len());
         if second.len() != count || [&moment, &inertia].iter().any(|a| a.len() != count * rows) {
-            return Err(error::input("the arrays do not fit".into(), None));
+            return Err(error::input("the arrays do not fit", None));
         }
         let corners = corners.unwrap_or_default();
         let one = |i: usize| {
@@ -126,6 +127,19 @@ impl Flywheels {
         self.0.get(index)?.as_ref().err().map(ToString::to_string)
     }
 
+    /// The exception of a table without a flywheel. `place`: its name at the beginning of the
+    /// message; `design`: its index in the batch.
+    fn failure(
+        &self,
+        py: Python<'_>,
+        index: usize,
+        place: &str,
+        design: Option<Vec<usize>>,
+    ) -> Option<Py<PyBaseException>> {
+        let error = self.0.get(index)?.as_ref().err()?;
+        Some(error_map::table(error, place, design).into_value(py))
+    }
+
     /// A quantity of every table at the same number of angles, table after table.
     fn curve<'py>(&self, py: Python<'py>, what: &str, places: Flat<'py>) -> PyResult<Array<'py>> {
         let quantity: fn(&Flywheel, f64) -> f64 = match what {
@@ -135,7 +149,7 @@ impl Flywheels {
             "moment" => |f, phi| f.cycle.moment(phi),
             "inertia" => |f, phi| f.cycle.inertia(phi),
             "work" => |f, phi| f.cycle.work(phi),
-            _ => return Err(error::input(format!("no such curve: {what:?}"), None)),
+            _ => return Err(error::input(&format!("no such curve: {what:?}"), None)),
         };
         let places = places.as_slice()?.to_vec();
         let per_table = places.len().checked_div(self.0.len()).unwrap_or(0).max(1);

@@ -5,6 +5,7 @@ mod convert;
 mod crank_rocker;
 mod detach;
 mod error;
+mod error_map;
 mod flywheel;
 mod machine;
 mod mechanism;
@@ -27,6 +28,8 @@ mod _core {
         crank_rocker_ground_range, crank_rocker_least_gamma, crank_rocker_run, crank_rocker_solve,
         crank_rocker_turns,
     };
+    #[pymodule_export]
+    use super::error_map::error_kinds;
     #[pymodule_export]
     use super::flywheel::Flywheels;
     #[pymodule_export]

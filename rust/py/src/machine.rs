@@ -2,27 +2,36 @@
 
 use std::time::{Duration, Instant};
 
-use assur::SolveError;
 use assur::dynamics::{
     FluctuationTarget, Mean, ReducedTable, RunOptions, SteadyOptions, TabulatedMachine, Variable,
 };
 use assur::ode::Method;
+use assur::{FirstFailure, SolveError, Status};
 use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 
 use crate::convert::{
     self, BodyArguments, EventArguments, LoadArguments, MotorArguments, TableArguments,
 };
 use crate::detach::{self, catch_panic};
-use crate::error;
+use crate::error_map;
 use crate::mechanism::Mechanism;
 use crate::parallel_map::parallel_map;
-use crate::run::{PythonCallbacks, Run, run_error, steady_error};
+use crate::run::{PythonCallbacks, Run};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
-/// Mass matrices, their derivatives, moments, potential energies, statuses.
-type Arrays<'py> = (Array<'py>, Array<'py>, Array<'py>, Array<'py>, Bound<'py, PyArray1<u8>>);
+/// Mass matrices, their derivatives, moments, potential energies, statuses; the exception of the
+/// first position that failed.
+type Arrays<'py> = (
+    Array<'py>,
+    Array<'py>,
+    Array<'py>,
+    Array<'py>,
+    Bound<'py, PyArray1<u8>>,
+    Option<Py<PyBaseException>>,
+);
 
 /// Positions up to which a call need not check for signals.
 const FEW_POSITIONS: usize = 20_000;
@@ -69,7 +78,9 @@ impl Machine {
     }
 
     /// Reduces the inertia and loads of designs to the drivers, each at the same number of
-    /// positions. `given`: the values of Python functions at every position.
+    /// positions. `given`: the values of Python functions at every position; `report`: the shape of
+    /// the designs, for the exception of the first that failed.
+    #[allow(clippy::too_many_arguments, reason = "flat arrays")]
     fn reduce<'py>(
         &self,
         py: Python<'py>,
@@ -78,12 +89,13 @@ impl Machine {
         speed: Flat<'py>,
         given: Flat<'py>,
         threads: Option<usize>,
+        report: Vec<usize>,
     ) -> PyResult<Arrays<'py>> {
         let (mechanism, machine) = match &self.0 {
             Inner::Mechanism(mechanism, machine) => (mechanism, machine),
             Inner::Tables(tabulated) => {
                 let q = q.as_slice()?;
-                return catch_panic(|| Ok(arrays(py, &[tabulated.reduce(q)])));
+                return catch_panic(|| Ok(arrays(py, &[tabulated.reduce(q)], None)));
             }
         };
         let mechanism = &mechanism.get().inner;
@@ -99,7 +111,7 @@ impl Machine {
             && [&q, &given].iter().all(|all| divides(all))
             && (q.len() / designs.max(1)).is_multiple_of(drivers);
         if !fits {
-            return Err(error::solve(SolveError::Shape("the arrays do not fit".into())));
+            return Err(error_map::solve(SolveError::Shape("the arrays do not fit".into())));
         }
         let part_of = |all: &[f64], design: usize| {
             let share = all.len() / designs;
@@ -113,7 +125,15 @@ impl Machine {
             };
             parallel_map(designs, 1, threads, cancel, &one)
         })?;
-        Ok(arrays(py, &all))
+        let positions = q.len() / drivers;
+        let count = all.iter().map(|rows| rows.status.iter().filter(|&&s| failed(s)).count()).sum();
+        let first = all.iter().enumerate().find_map(|(design, rows)| {
+            let (row, failure) = rows.failure.clone()?;
+            Some(FirstFailure { row: design * (positions / designs) + row, failure, count })
+        });
+        let failure =
+            first.map(|first| error_map::first_failure(&first, &report, positions).into_value(py));
+        Ok(arrays(py, &all, failure))
     }
 
     /// Integrates a run over time or, with `along_q`, over the coordinate. `functions`: those of
@@ -165,7 +185,7 @@ impl Machine {
             }
             Inner::Tables(tabulated) => tabulated.run(&options, calls),
         })?;
-        run.map(Run::new).map_err(run_error)
+        run.map(Run::new).map_err(error_map::run)
     }
 
     /// The steady state, with a given flywheel or one sized for a fluctuation (`wanted`).
@@ -209,7 +229,7 @@ impl Machine {
             }
             Inner::Tables(tabulated) => tabulated.steady(&options, wanted, calls),
         })?;
-        let steady = steady.map_err(steady_error)?;
+        let steady = steady.map_err(error_map::steady)?;
         let [least, greatest] = steady.extremes();
         let numbers = vec![
             steady.multiplier,
@@ -252,7 +272,16 @@ fn deadline(seconds: Option<f64>) -> Option<Instant> {
     Instant::now().checked_add(duration)
 }
 
-fn arrays<'py>(py: Python<'py>, all: &[ReducedTable]) -> Arrays<'py> {
+/// Whether a status is above `NearSingular`, which still has analogues.
+fn failed(status: Status) -> bool {
+    status as u8 > Status::NearSingular as u8
+}
+
+fn arrays<'py>(
+    py: Python<'py>,
+    all: &[ReducedTable],
+    failure: Option<Py<PyBaseException>>,
+) -> Arrays<'py> {
     let array = |of: fn(&ReducedTable) -> &[f64]| {
         PyArray1::from_vec(py, all.iter().flat_map(|rows| of(rows).iter().copied()).collect())
     };
@@ -263,5 +292,6 @@ fn arrays<'py>(py: Python<'py>, all: &[ReducedTable]) -> Arrays<'py> {
         array(|r| &r.moment),
         array(|r| &r.potential),
         PyArray1::from_vec(py, statuses.collect()),
+        failure,
     )
 }

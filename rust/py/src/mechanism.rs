@@ -6,16 +6,16 @@ use std::sync::Mutex;
 use std::sync::atomic::Ordering;
 
 use assur::{
-    Arrays, Control, Coordinates, Description, DriverDescription, Outputs, Quantity, Request,
-    SlideDescription, SolveError, Status, fill,
+    Arrays, Control, Coordinates, Description, DriverDescription, FailureLog, Outputs, Quantity,
+    Request, SlideDescription, SolveError, Status, fill,
 };
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyMemoryError, PyRuntimeError};
+use pyo3::exceptions::{PyBaseException, PyMemoryError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice};
 
 use crate::detach::{self, catch_panic};
-use crate::error;
+use crate::{error, error_map};
 
 /// Positions below which a call with one driver takes only milliseconds and need not check for
 /// signals. (With several drivers a single position may take as long.)
@@ -30,7 +30,7 @@ const POSITIONS_PER_BRANCH: usize = 1000;
 const POSITIONS_PER_CHECK: usize = 8192;
 
 /// Arrays by kind ("joint", "link", "place", "slide"), index and order; statuses.
-type Solution<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>);
+type Solution<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>, Option<Py<PyBaseException>>);
 /// Residuals and conditions.
 type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 type SlideArguments = (String, String, String, f64, Option<String>);
@@ -80,7 +80,7 @@ impl Mechanism {
         let built = detach::run(py, small, |cancel| {
             assur::Mechanism::new_unless(&description, Some(cancel))
         })?;
-        Ok(Self { inner: built.map_err(error::structure)? })
+        Ok(Self { inner: built.map_err(error_map::structure)? })
     }
 
     /// Names of the dimensions, in order.
@@ -163,7 +163,7 @@ impl Mechanism {
 
     /// Index of a dimension. Raises `InputError` with similar names if the name is unknown.
     fn dimension(&self, name: &str) -> PyResult<usize> {
-        catch_panic(|| self.inner.dimensions().position(name).map_err(error::solve))
+        catch_panic(|| self.inner.dimensions().position(name).map_err(error_map::solve))
     }
 
     /// Index of a joint, link or slide. Raises `InputError` if the name is unknown.
@@ -173,19 +173,20 @@ impl Mechanism {
             "link" => self.inner.link(name),
             _ => self.inner.slide(name),
         };
-        catch_panic(|| index().map_err(error::solve))
+        catch_panic(|| index().map_err(error_map::solve))
     }
 
     /// Raises `DimensionError` for the first invalid value.
     fn check_dimensions(&self, values: Vec<f64>) -> PyResult<()> {
         let fault = || self.inner.dimensions().first_fault(&values);
-        catch_panic(|| fault().map_or(Ok(()), |e| Err(error::solve(e))))
+        catch_panic(|| fault().map_or(Ok(()), |e| Err(error_map::solve(e))))
     }
 
     /// Solves designs at positions; see `assur.Mechanism.solve`. `outputs`: indices of joints,
     /// links (angles), links (points) and slides. `kept`: an earlier result whose arrays
     /// (`columns`, `status`) are overwritten; its `complete` is false meanwhile. `by`: the
-    /// dimension by which the results are differentiated.
+    /// dimension by which the results are differentiated. `report`: the shape of the designs, for
+    /// the exception of the first position that failed.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     fn solve<'py>(
         &self,
@@ -199,6 +200,7 @@ impl Mechanism {
         threads: Option<NonZeroUsize>,
         kept: Option<Bound<'py, PyAny>>,
         by: Option<usize>,
+        report: Option<Vec<usize>>,
     ) -> PyResult<Solution<'py>> {
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
         let [joints, links, places, slides] = outputs;
@@ -213,7 +215,7 @@ impl Mechanism {
             outputs: &outputs,
             by,
         };
-        let shape = || request.shape(&self.inner).map_err(error::solve);
+        let shape = || request.shape(&self.inner).map_err(error_map::solve);
         let [designs, positions] = catch_panic(shape)?;
         let columns = request.columns(&self.inner);
         let count = designs.saturating_mul(positions);
@@ -236,15 +238,17 @@ impl Mechanism {
             columns: borrowed.iter_mut().map(as_uninitialized).collect::<PyResult<_>>()?,
             status: as_uninitialized(&mut borrowed_status)?,
         };
-        request.check_arrays(&self.inner, &arrays).map_err(error::solve)?;
+        request.check_arrays(&self.inner, &arrays).map_err(error_map::solve)?;
         let arrays = Mutex::new(Some(arrays));
         let cost = count.saturating_add(designs.saturating_mul(POSITIONS_PER_BRANCH));
         let small = self.inner.q0().len() == 1 && cost < FEW_POSITIONS;
         if let Some(kept) = &kept {
             kept.setattr("complete", false)?;
         }
+        let log = FailureLog::default();
+        let failures = report.is_some().then_some(&log);
         let solved = detach::run(py, small, |cancel| {
-            let control = Control { threads, cancel: Some(cancel), ..Control::default() };
+            let control = Control { threads, cancel: Some(cancel), failures, ..Control::default() };
             let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
             arrays.map_or(Err(SolveError::Interrupted), |arrays| {
                 fill(&self.inner, &request, arrays, &control)
@@ -260,7 +264,7 @@ impl Mechanism {
             }
             borrowed_status.as_slice_mut()?.fill(Status::Lost as u8);
         }
-        solved?.map_err(error::solve)?;
+        solved?.map_err(error_map::solve)?;
         if let Some(kept) = &kept {
             kept.setattr("complete", true)?;
         }
@@ -275,7 +279,10 @@ impl Mechanism {
             };
             dict.set_item((kind, index, column.order), values)?;
         }
-        Ok((dict, status))
+        let failure = report
+            .zip(log.first())
+            .map(|(shape, first)| error_map::first_failure(&first, &shape, count).into_value(py));
+        Ok((dict, status, failure))
     }
 
     /// Residual and condition of every position.
@@ -311,22 +318,16 @@ impl Mechanism {
             }
             Ok((residual, condition))
         })?
-        .map_err(error::solve)?;
+        .map_err(error_map::solve)?;
         Ok((PyArray1::from_vec(py, diagnostics.0), PyArray1::from_vec(py, diagnostics.1)))
     }
 
-    /// Diagnosis of one position: status, name concerned, message.
-    fn explain(
-        &self,
-        dimensions: Vec<f64>,
-        q: Vec<f64>,
-        signs: Vec<i8>,
-    ) -> PyResult<(u8, Option<String>, String)> {
+    /// How one position came out, as a sentence.
+    fn explain(&self, dimensions: Vec<f64>, q: Vec<f64>, signs: Vec<i8>) -> PyResult<String> {
         catch_panic(|| {
-            let found = self.inner.diagnose(&dimensions, &q, &signs).map_err(error::solve)?;
-            let one = found.into_iter().next();
-            one.map(|d| (d.status as u8, d.name, d.sentence))
-                .ok_or_else(|| error::input("no coordinate".into(), None))
+            let found = self.inner.diagnose(&dimensions, &q, &signs).map_err(error_map::solve)?;
+            let one = found.first().map(ToString::to_string);
+            one.ok_or_else(|| error::input("no coordinate", None))
         })
     }
 
@@ -341,7 +342,7 @@ impl Mechanism {
         let found = detach::run(py, small, |cancel| {
             self.inner.assemblies_unless(&dimensions, &q, Some(cancel))
         })?;
-        found.map_err(error::solve)
+        found.map_err(error_map::solve)
     }
 
     /// Names and codes of the statuses.
@@ -396,7 +397,7 @@ fn as_uninitialized<'a, T: numpy::Element>(
     let data: *mut T = array.data();
     if !(array.is_c_contiguous() && data.is_aligned()) {
         let message = "out: its arrays are not contiguous: only those of a motion can be written";
-        return Err(error::input(message.into(), None));
+        return Err(error::input(message, None));
     }
     #[allow(unsafe_code, reason = "NumPy knows no places that are not written")]
     // SAFETY: the array is one-dimensional, contiguous and aligned (checked above) and has this

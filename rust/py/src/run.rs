@@ -2,10 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use assur::dynamics::{
-    Callbacks, EventRecord, IntegrationError, RunError, Sample, Samples, SteadyError, StopReason,
-};
-use assur::ode::Error;
+use assur::dynamics::{Callbacks, EventRecord, Sample, Samples, StopReason};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyFloat, PyTuple};
@@ -72,7 +69,7 @@ fn call(
                 "the {what} {name}(t, q, speed) gave {shown} at t = {t}, q = {}: a finite number is needed",
                 q.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
             );
-            Err(error::input(message, None))
+            Err(error::input(&message, None))
         }
     }
 }
@@ -124,29 +121,6 @@ impl Callbacks for PythonCallbacks {
     }
 }
 
-/// The Python exception for a failed run.
-pub(crate) fn run_error(error: IntegrationError<PyErr>) -> PyErr {
-    match error {
-        Error::System(RunError::Callback(error)) => error,
-        Error::System(nothing @ RunError::NoInitialPosition { .. }) => {
-            error::position(nothing.to_string())
-        }
-        Error::System(other) => error::input(other.to_string(), None),
-        other => error::input(other.to_string(), None),
-    }
-}
-
-/// The Python exception for a steady state that was not found.
-pub(crate) fn steady_error(error: SteadyError<PyErr>) -> PyErr {
-    match error {
-        SteadyError::Run(RunError::Callback(error)) => error,
-        SteadyError::Run(nothing @ RunError::NoInitialPosition { .. }) => {
-            error::position(nothing.to_string())
-        }
-        other => error::input(other.to_string(), None),
-    }
-}
-
 /// A run of a machine.
 #[pyclass(frozen, module = "assur._core")]
 pub(crate) struct Run(assur::dynamics::Run);
@@ -195,7 +169,7 @@ impl Run {
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         catch_panic(|| {
             let bytes =
-                postcard::to_stdvec(&self.0).map_err(|e| error::input(e.to_string(), None))?;
+                postcard::to_stdvec(&self.0).map_err(|e| error::input(&e.to_string(), None))?;
             Ok(PyBytes::new(py, &bytes))
         })
     }
@@ -207,9 +181,9 @@ impl Run {
             Ok((run, [])) => Ok(Self(run)),
             Ok((_, rest)) => {
                 let message = format!("these bytes are no run: {} too many", rest.len());
-                Err(error::input(message, None))
+                Err(error::input(&message, None))
             }
-            Err(e) => Err(error::input(format!("these bytes are no run: {e}"), None)),
+            Err(e) => Err(error::input(&format!("these bytes are no run: {e}"), None)),
         })
     }
 
@@ -230,20 +204,20 @@ impl Run {
         }
     }
 
-    /// End of the run: kind, index of the event, table or motor (or code of the status),
-    /// coordinates.
+    /// End of the run: kind, index of the event, table or motor, reason.
     #[getter]
-    fn ending(&self) -> (&'static str, usize, Vec<f64>) {
-        let plain = |kind| (kind, 0, Vec::new());
+    fn ending(&self) -> (&'static str, usize, String) {
+        let plain = |kind| (kind, 0, String::new());
         match &self.0.stop_reason {
             StopReason::Reached => plain("reached"),
-            StopReason::Event(which) => ("event", *which, Vec::new()),
+            StopReason::Event(which) => ("event", *which, String::new()),
             StopReason::Rest => plain("rest"),
-            StopReason::Edge(status, q) => ("edge", *status as usize, q.clone()),
+            StopReason::DeadPoint => plain("dead point"),
+            StopReason::Lost(why) => ("lost", 0, why.clone()),
             StopReason::NearChangePoint { .. } => plain("near_change_point"),
-            StopReason::TableEnds(which) => ("table ends", *which, Vec::new()),
-            StopReason::MotorTableEnds(which) => ("motor table ends", *which, Vec::new()),
-            StopReason::StepLimit(stiff) => ("step limit", usize::from(*stiff), Vec::new()),
+            StopReason::TableEnds(which) => ("table ends", *which, String::new()),
+            StopReason::MotorTableEnds(which) => ("motor table ends", *which, String::new()),
+            StopReason::StepLimit(stiff) => ("step limit", usize::from(*stiff), String::new()),
             StopReason::TimeLimit => plain("time limit"),
             StopReason::Cancelled => plain("cancelled"),
             _ => plain("stalled"),

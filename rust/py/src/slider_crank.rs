@@ -30,7 +30,7 @@ fn angles_and_values(py: Python<'_>, angles: Vec<f64>, values: Vec<f64>) -> Angl
 }
 
 fn series_error(error: SlowSeries) -> PyErr {
-    error::input(error.to_string(), Some(error.k))
+    error::input(&error.to_string(), Some(error.k))
 }
 
 /// Evaluates a function for each pair of angle and ratio.

@@ -1,5 +1,6 @@
 //! Solves many designs at many positions into arrays, in blocks and on all cores.
 pub(crate) mod dispatch;
+pub(crate) mod failure_log;
 pub(crate) mod outputs;
 pub(crate) mod request;
 pub(crate) mod schedule;

@@ -7,6 +7,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
+use super::failure_log::FailureLog;
 use super::outputs::{Arrays, Column};
 use super::writer::RowSlices;
 use crate::description::error::SolveError;
@@ -29,6 +30,8 @@ pub struct Control<'a> {
     pub simd: Simd,
     /// Setting it to true stops the work after the blocks in progress.
     pub cancel: Option<&'a AtomicBool>,
+    /// Where to record the first position that fails.
+    pub failures: Option<&'a FailureLog>,
 }
 
 /// A range of positions of a range of designs.

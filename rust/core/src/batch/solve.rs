@@ -129,7 +129,8 @@ pub fn fill(
                 Coordinates::PerDesign(_) => None,
             };
             let first = (design - chunk.designs.start) * chunk.positions.len();
-            let mut job = Job { q, rows: &mut rows, first, shared };
+            let index = design * shape.positions + chunk.positions.start;
+            let mut job = Job { q, rows: &mut rows, first, index, shared };
             if worker.bind(values, &mut job) {
                 dispatch::run(control.simd, worker, &mut job);
             }

@@ -4,6 +4,7 @@
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::failure_log::FailureLog;
 use super::outputs::Column;
 use super::request::Request;
 use super::schedule::Control;
@@ -17,10 +18,11 @@ use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{LANES, Lanes, Mask, Real};
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
+use crate::query::failure::Failure;
 use crate::state::kernel::Level;
 use crate::state::sensitivity::Sensitivity;
 use crate::state::state::State;
-use crate::state::status::Status;
+use crate::state::status::{Rejection, Status};
 
 /// Vectors of positions solved at once: as many as fit the first-level cache.
 const GROUPS: usize = 4;
@@ -46,6 +48,7 @@ pub(crate) struct Worker<'a> {
     spots_even: bool,
     /// When true, work stops after the block in progress.
     cancel: Option<&'a AtomicBool>,
+    failures: Option<&'a FailureLog>,
 }
 
 /// Some positions of one design, and the rows they go to.
@@ -55,6 +58,8 @@ pub(crate) struct Job<'j, 'r> {
     pub rows: &'j mut RowSlices<'r>,
     /// Row of the first position.
     pub first: usize,
+    /// The same in the whole batch.
+    pub index: usize,
     /// Index of the first of these among the coordinates shared by all designs, if they are shared.
     pub shared: Option<usize>,
 }
@@ -93,6 +98,7 @@ impl<'a> Worker<'a> {
             writer,
             columns,
             cancel: control.cancel,
+            failures: control.failures,
         }
     }
 
@@ -105,10 +111,14 @@ impl<'a> Worker<'a> {
     /// rows set to NaN and the status `BadDimension`.
     pub(crate) fn bind(&mut self, values: &[f64], job: &mut Job<'_, '_>) -> bool {
         let mechanism = self.design.mechanism;
-        if mechanism.dimensions().first_fault(values).is_some() {
+        if let Some(fault) = mechanism.dimensions().first_fault(values) {
             let count = job.q.len() / mechanism.q0().len();
             let status = Status::BadDimension as u8;
             job.rows.write_failed(self.columns, job.first, count, status);
+            if let (Some(log), true) = (self.failures, count > 0) {
+                let q = &job.q[..mechanism.q0().len()];
+                log.record(job.index, count, || Failure::of_dimension(fault, q));
+            }
             return false;
         }
         self.design.bind(values);
@@ -277,6 +287,13 @@ impl<'a> Worker<'a> {
         let analogues = self.design.solve(state, &q, place.as_ref());
         let at = job.first + row;
         let solved = matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular);
+        let no_analogues = !analogues && self.columns.iter().any(|column| column.order > 0);
+        if let (Some(log), true) = (self.failures, !solved || no_analogues) {
+            let (status, fault) = (state.status, state.fault);
+            let q = &job.q[row * drivers..][..drivers];
+            let describe = || Failure::of(&self.design, Rejection::Failed { status, fault }, q);
+            log.record(job.index + row, 1, describe);
+        }
         let (true, Some(place)) = (solved, &place) else {
             job.rows.write_failed(self.columns, at, 1, state.status as u8);
             return;

@@ -1,8 +1,11 @@
 //! Errors of a description or a request.
 //!
-//! Each message names the joint, link, slide or dimension, gives the number and
-//! says what to do.
+//! Each message names the joint, link, slide or dimension and gives the number; `hint` says what to
+//! do.
 
+use std::fmt;
+
+use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
 
 /// What a name of a description stands for.
@@ -20,6 +23,103 @@ pub enum Named {
     Dyad,
 }
 
+/// What to do about an error.
+pub trait Hint: fmt::Display {
+    /// Advice, if there is something to do.
+    fn hint(&self) -> Option<String>;
+
+    /// The message followed by the advice.
+    fn with_hint(&self) -> String {
+        match self.hint() {
+            Some(hint) => format!("{self}; {hint}"),
+            None => self.to_string(),
+        }
+    }
+}
+
+/// Names in quotes, separated by commas.
+pub(crate) fn quoted_list(names: &[String]) -> String {
+    names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ")
+}
+
+/// The same with "link" or "links" before them.
+fn link_list(links: &[String]) -> String {
+    format!("{} {}", if links.len() == 1 { "link" } else { "links" }, quoted_list(links))
+}
+
+/// Constraints of a linkage that exceed those that are independent.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Overconstraint {
+    /// Their number.
+    pub excess: usize,
+    /// The links and slides they are in.
+    pub links: Vec<String>,
+    /// Those of them that can be left out without freeing the linkage.
+    pub redundant: Vec<String>,
+}
+
+impl fmt::Display for Overconstraint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "; over-constrained by {}: {}", self.excess, quoted_list(&self.links))?;
+        match &self.redundant[..] {
+            [] => Ok(()),
+            redundant => write!(f, " (redundant: {})", quoted_list(redundant)),
+        }
+    }
+}
+
+/// Why a driver cannot drive.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum DriverFault {
+    /// The angle between two links is fixed.
+    #[error(
+        "links {link:?} and {other:?} cannot turn relative to each other (slides or other drivers fix the angle between them)"
+    )]
+    AngleFixed {
+        /// One link.
+        link: String,
+        /// The other.
+        other: String,
+    },
+    /// A slide fixes the driven angle.
+    #[error("slide {slide:?} fixes the angle that it would change")]
+    SlideFixes {
+        /// The slide.
+        slide: String,
+    },
+    /// With the driver held still, links can still move.
+    #[error("with it held still, {} can still move", link_list(links))]
+    LeavesFree {
+        /// The links.
+        links: Vec<String>,
+    },
+}
+
+fn optional(overconstraint: Option<&Overconstraint>) -> String {
+    overconstraint.map_or(String::new(), ToString::to_string)
+}
+
+fn some_links(links: &[String]) -> String {
+    match links {
+        [one] => format!("{one:?} and others"),
+        links => quoted_list(links),
+    }
+}
+
+fn free_links(links: &[String]) -> String {
+    match links {
+        [] => String::new(),
+        links => format!("; with every driver held still, {} can still move", link_list(links)),
+    }
+}
+
+fn rigid_links(overconstraint: Option<&Overconstraint>, links: &[String]) -> String {
+    match overconstraint {
+        Some(overconstraint) => overconstraint.to_string(),
+        None => format!("; {} form a structure", link_list(links)),
+    }
+}
+
 impl std::fmt::Display for Named {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
@@ -33,7 +133,8 @@ impl std::fmt::Display for Named {
 }
 
 /// Why a description is not a solvable mechanism.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Clone, PartialEq, Error, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "snake_case")]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the sentences say what the fields are")]
 pub enum StructureError {
@@ -51,20 +152,18 @@ pub enum StructureError {
     #[error("link {link:?} lists joint {joint:?} twice")]
     DoubledJoint { link: String, joint: String },
     /// An unknown name.
-    #[error("{place} names the {kind} {name:?}, which does not exist{hint}")]
-    Unknown { kind: Named, name: String, place: String, hint: String },
+    #[error("{place} names the {kind} {name:?}, which does not exist")]
+    Unknown { kind: Named, name: String, place: String, hint: Option<String> },
     /// A coordinate or angle is NaN or infinite.
     #[error("{what} of {kind} {name:?} is {}: a finite number is needed", number(*value))]
     NotFinite { kind: Named, name: String, what: &'static str, value: f64 },
     /// A coordinate or length is outside the range from 1e-153 to 1e153.
     #[error(
-        "{what} of {kind} {name:?} is {value:e}: lengths from 1e-153 to 1e153 can be computed with; choose another unit"
+        "{what} of {kind} {name:?} is {value:e}: lengths from 1e-153 to 1e153 can be computed with"
     )]
     OutOfRange { kind: Named, name: String, what: &'static str, value: f64 },
     /// A joint belongs to no link.
-    #[error(
-        "joint {joint:?} is on no link: add it to the list of the link it belongs to, or leave it out"
-    )]
+    #[error("joint {joint:?} is on no link")]
     LooseJoint { joint: String },
     /// First and second joint of a link coincide.
     #[error(
@@ -72,9 +171,7 @@ pub enum StructureError {
     )]
     ZeroLength { link: String, first: String, second: String, x: f64, y: f64 },
     /// There is no link called `ground`.
-    #[error(
-        "there is no link \"ground\": add links[\"ground\"] with the fixed joints (an empty list if only slides are fixed)"
-    )]
+    #[error("there is no link \"ground\"")]
     NoGround,
     /// A slide or driver relates a link to itself.
     #[error("{place} relates link {link:?} to itself")]
@@ -86,7 +183,7 @@ pub enum StructureError {
     OriginNotOnLink { slide: String, joint: String, link: String },
     /// A slide of a link without joints has no origin.
     #[error(
-        "slide {slide:?}: link {link:?} has no joint, so the drawing does not say where the guide passes: give the slide an origin, a joint of link {on:?}"
+        "slide {slide:?}: link {link:?} has no joint, so the drawing does not say where the guide passes"
     )]
     GuideNowhere { slide: String, link: String, on: String },
     /// The guides of a link without joints do not intersect.
@@ -95,7 +192,7 @@ pub enum StructureError {
     )]
     Unplaced { link: String },
     /// No driver is given.
-    #[error("the mechanism has no driver: name a link, a slide or a Drive")]
+    #[error("the mechanism has no driver")]
     NoDriver,
     /// The ground is given as a driver.
     #[error("driver {driver}: the ground does not move")]
@@ -104,54 +201,90 @@ pub enum StructureError {
     #[error("driver {driver} is given twice")]
     DoubledDriver { driver: String },
     /// Links are not connected to the ground.
-    #[error("not connected to the ground by any joint or slide: {links}")]
-    Unconnected { links: String },
+    #[error("not connected to the ground by any joint or slide: {}", link_list(links))]
+    Unconnected { links: Vec<String> },
     /// Sliding pairs alone form a closed chain.
     #[error(
-        "slides {slides} form a closed chain of sliding pairs only (PPP): links joined so cannot turn, and the chain is no Assur group"
+        "slides {} form a closed chain of sliding pairs only (PPP): links joined so cannot turn, and the chain is not an Assur group",
+        quoted_list(slides)
     )]
-    SlidesOnly { slides: String },
+    SlidesOnly { slides: Vec<String> },
     /// The mobility by rank is zero.
     #[error(
-        "the linkage cannot move (mobility 0, counted {counted} by Chebyshev-Grübler){over}: take out a link or a pair there"
+        "the linkage cannot move (mobility 0, counted {counted} by Chebyshev-Grübler){}",
+        rigid_links(overconstraint.as_ref(), links)
     )]
-    Immovable { counted: i64, over: String },
+    Immovable { counted: i64, links: Vec<String>, overconstraint: Option<Overconstraint> },
     /// The mobility by rank differs from the number of drivers.
     #[error(
-        "mobility is {mobility} (counted {counted} by Chebyshev-Grübler) but there {drivers_are}{under}{over}"
+        "mobility is {mobility} (counted {counted} by Chebyshev-Grübler) but there {}{}{}",
+        if *drivers == 1 { "is 1 driver".into() } else { format!("are {drivers} drivers") },
+        free_links(free), optional(overconstraint.as_ref())
     )]
     Mobility {
         mobility: usize,
         counted: i64,
         drivers: usize,
-        drivers_are: String,
-        under: String,
-        over: String,
+        free: Vec<String>,
+        overconstraint: Option<Overconstraint>,
     },
-    /// A driver cannot move the linkage.
-    #[error("driver {driver} cannot drive: {reason}")]
-    CannotDrive { driver: String, reason: String },
+    /// A driver cannot move the linkage, or several together cannot.
+    #[error("driver {} cannot drive: {fault}", drivers.join(", "))]
+    CannotDrive { drivers: Vec<String>, fault: DriverFault },
     /// The linkage is over-constrained and no whole link or slide is redundant.
     #[error(
-        "over-constrained by {excess}: {links}; no whole link or slide can be left out of them without freeing the linkage"
+        "over-constrained by {excess}: {}; no whole link or slide can be left out of them without freeing the linkage",
+        quoted_list(links)
     )]
-    OverConstrained { excess: usize, links: String },
+    OverConstrained { excess: usize, links: Vec<String> },
     /// A dyad is drawn flat.
     #[error(
-        "dyad {dyad} is drawn flat (sine {sine:.1e} between its legs): the drawing does not say on which side {name:?} is; draw it to one side, or name the assembly: assembly={{{name:?}: +1}} or -1"
+        "dyad {dyad} is drawn flat (sine {sine:.1e} between its legs): the drawing does not say on which side {name:?} is"
     )]
     FlatDyad { dyad: String, name: String, sine: f64 },
     /// Links would be redundant if the drawing were more accurate.
     #[error(
-        "{links} can only move together if their lengths agree, and these are {gap:.1e} m off ({part:.0e} of the size; up to 2e-9 a drawing is adjusted): type it with more digits, or leave one of them out"
+        "{} can only move together if their lengths agree, and these are {gap:.1e} m off ({part:.0e} of the size; up to 2e-9 a drawing is adjusted)",
+        some_links(links)
     )]
-    AlmostFits { links: String, gap: f64, part: f64 },
+    AlmostFits { links: Vec<String>, gap: f64, part: f64 },
     /// The caller cancelled the analysis.
     #[error("the work was interrupted: the structure is not known")]
     Interrupted,
     /// An assembly sign is not ±1.
     #[error("assembly[{name:?}] is {value}: it must be +1 or -1")]
     BadSign { name: String, value: i64 },
+}
+
+impl Hint for StructureError {
+    fn hint(&self) -> Option<String> {
+        Some(match self {
+            Self::Unknown { hint, .. } => return hint.clone(),
+            Self::OutOfRange { .. } => "choose another unit".into(),
+            Self::LooseJoint { .. } => {
+                "add it to the list of the link it belongs to, or leave it out".into()
+            }
+            Self::NoGround => "add links[\"ground\"] with the fixed joints (an empty list if only slides are fixed)".into(),
+            Self::GuideNowhere { on, .. } => {
+                format!("give the slide an origin, a joint of link {on:?}")
+            }
+            Self::NoDriver => "name a link, a slide or a Drive".into(),
+            Self::Immovable { .. } => "take out a link or a pair there; a link that changes its length, such as a cylinder, needs two links (barrel and rod) with a Slide between them".into(),
+            Self::Mobility { free, drivers, mobility, .. } if free.is_empty() && drivers > mobility => {
+                "leave out drivers".into()
+            }
+            Self::Mobility { free, .. } if !free.is_empty() => {
+                "add a driver or a link there".into()
+            }
+            Self::FlatDyad { name, .. } => format!(
+                "draw it to one side, or name the assembly: assembly={{{name:?}: +1}} or -1"
+            ),
+            Self::AlmostFits { .. } => {
+                "type the drawing with more digits, or leave one of them out".into()
+            }
+            _ => return None,
+        })
+    }
 }
 
 /// The caller cancelled the work.
@@ -174,7 +307,8 @@ pub(crate) fn number(x: f64) -> String {
 }
 
 /// Why no position can be computed.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Clone, PartialEq, Error, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "snake_case")]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the sentences say what the fields are")]
 pub enum SolveError {
@@ -182,25 +316,36 @@ pub enum SolveError {
     #[error("the work was interrupted: not all positions were solved")]
     Interrupted,
     /// Assemblies of a group above class II are not supported.
-    #[error(
-        "group {group} is of class {class}: assemblies() supports class II only; for another assembly draw the mechanism that way"
-    )]
+    #[error("group {group} is of class {class}: assemblies() supports class II only")]
     HigherClass { group: String, class: String },
     /// A dimension is not finite or out of range, or a length is not positive.
     #[error("dimension {name:?} is {}: {need}", number(*value))]
     BadDimension { name: String, value: f64, need: &'static str },
     /// A redundant link ties dimensions together, so there are no sensitivities to one alone.
     #[error(
-        "the redundant {name:?} fits only as long as several dimensions change together: there are no sensitivities by one of them; leave it out"
+        "the redundant {name:?} fits only as long as several dimensions change together: there are no sensitivities by one of them"
     )]
     Redundant { name: String },
     /// An unknown name.
-    #[error("there is no {kind} {name:?}{hint}")]
-    Unknown { kind: Named, name: String, hint: String },
+    #[error("there is no {kind} {name:?}")]
+    Unknown { kind: Named, name: String, hint: Option<String> },
     /// Array shapes do not match.
     #[error("{0}")]
     Shape(String),
     /// The order is outside 0..=3.
     #[error("order is {0}: analogues are given to order 3")]
     Order(usize),
+}
+
+impl Hint for SolveError {
+    fn hint(&self) -> Option<String> {
+        match self {
+            Self::Unknown { hint, .. } => hint.clone(),
+            Self::HigherClass { .. } => {
+                Some("for another assembly draw the mechanism that way".into())
+            }
+            Self::Redundant { name } => Some(format!("leave {name:?} out")),
+            _ => None,
+        }
+    }
 }

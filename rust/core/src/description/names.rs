@@ -1,22 +1,38 @@
-//! Suggestions for misspelt names.
+//! Suggestions for misspelt and mistaken names.
 
-/// The end of a message about an unknown name: `; did you mean …?` with up to three similar
-/// names, else the first twelve of `known` in order of distance. Empty if `known` is.
+use super::error::Named;
+
+/// Advice on an unknown name: "did you mean …?" with up to three similar names, else the first
+/// twelve of `known` in order of distance. `None` if `known` is empty.
 #[must_use]
-pub(crate) fn suggest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn suggest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     let mut ranked: Vec<(usize, &str)> = known.map(|k| (distance(name, k), k)).collect();
     ranked.sort_unstable();
     if ranked.is_empty() {
-        return String::new();
+        return None;
     }
     let limit = name.chars().count().div_ceil(2).max(2);
     let similar: Vec<String> =
         ranked.iter().take(3).filter(|(d, _)| *d <= limit).map(|(_, k)| format!("{k:?}")).collect();
     if !similar.is_empty() {
-        return format!("; did you mean {}?", similar.join(" or "));
+        return Some(format!("did you mean {}?", similar.join(" or ")));
     }
     let first: Vec<String> = ranked.iter().take(12).map(|(_, k)| format!("{k:?}")).collect();
-    format!("; there are {}{}", first.join(", "), if ranked.len() > 12 { " …" } else { "" })
+    Some(format!("there are {}{}", first.join(", "), if ranked.len() > 12 { " …" } else { "" }))
+}
+
+/// Advice on a joint given for a link, or a link given for a joint.
+#[must_use]
+pub(crate) fn mistaken_kind(name: &str, wanted: Named, given: Named) -> Option<String> {
+    match (wanted, given) {
+        (Named::Link, Named::Joint) => Some(format!(
+            "{name:?} is a joint: name a link that has it, or give it a link of its own, links={{\"block\": [{name:?}]}}"
+        )),
+        (Named::Joint, Named::Link) => Some(format!(
+            "{name:?} is a link: name a joint of it, or a point on it, ({name:?}, (x, y))"
+        )),
+        _ => None,
+    }
 }
 
 /// Levenshtein distance (Wagner and Fischer 1974), case ignored.
@@ -49,6 +65,7 @@ mod tests {
     #[test]
     fn similar_names_come_first() {
         let hint = suggest("cuopler.length", ["coupler.length", "rocker.length"].into_iter());
-        assert!(hint.starts_with("; did you mean \"coupler.length\""), "{hint}");
+        let hint = hint.expect("two names are known");
+        assert!(hint.starts_with("did you mean \"coupler.length\""), "{hint}");
     }
 }

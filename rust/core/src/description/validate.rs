@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::error::{Named, StructureError};
-use super::names::suggest;
+use super::names::{mistaken_kind, suggest};
 use super::{Description, Driver, DriverDescription, Joint, Link, Linkage, Slide};
 use crate::math::tolerance::{GREATEST_LENGTH, LEAST_LENGTH, ZERO_LENGTH};
 
@@ -147,13 +147,17 @@ fn resolve(
     index: &HashMap<&str, usize>,
     kind: Named,
     name: &str,
+    others: &HashMap<&str, usize>,
     context: impl FnOnce() -> String,
 ) -> Result<usize, StructureError> {
+    let other_kind = if kind == Named::Joint { Named::Link } else { Named::Joint };
+    let is_other = others.contains_key(name);
+    let mistaken = is_other.then(|| mistaken_kind(name, kind, other_kind)).flatten();
     index.get(name).copied().ok_or_else(|| StructureError::Unknown {
         kind,
         name: name.into(),
         place: context(),
-        hint: suggest(name, index.keys().copied()),
+        hint: mistaken.or_else(|| suggest(name, index.keys().copied())),
     })
 }
 
@@ -162,10 +166,14 @@ fn resolve_links(
     joint_index: &HashMap<&str, usize>,
 ) -> Result<Vec<Link>, StructureError> {
     let mut links = Vec::new();
+    let link_names = description.links.iter().enumerate();
+    let link_index = link_names.map(|(i, (name, _))| (name.as_str(), i)).collect();
     for (name, members) in &description.links {
         let mut joints = Vec::new();
         for member in members {
-            let joint = resolve(joint_index, Named::Joint, member, || format!("link {name:?}"))?;
+            let joint = resolve(joint_index, Named::Joint, member, &link_index, || {
+                format!("link {name:?}")
+            })?;
             if joints.contains(&joint) {
                 return Err(StructureError::DoubledJoint {
                     link: name.clone(),
@@ -189,15 +197,15 @@ fn resolve_slides(
     for s in &description.slides {
         let context = || format!("slide {:?}", s.name);
         check_range(s.angle, Named::Slide, &s.name, "angle")?;
-        let link = resolve(link_index, Named::Link, &s.link, context)?;
-        let on = resolve(link_index, Named::Link, &s.on, context)?;
+        let link = resolve(link_index, Named::Link, &s.link, joint_index, context)?;
+        let on = resolve(link_index, Named::Link, &s.on, joint_index, context)?;
         if link == on {
             return Err(StructureError::SameLink { place: context(), link: s.link.clone() });
         }
         let origin = match &s.origin {
             None => None,
             Some(name) => {
-                let joint = resolve(joint_index, Named::Joint, name, context)?;
+                let joint = resolve(joint_index, Named::Joint, name, link_index, context)?;
                 if !links[on].joints.contains(&joint) {
                     return Err(StructureError::OriginNotOnLink {
                         slide: s.name.clone(),
@@ -219,6 +227,8 @@ fn resolve_drivers(
 ) -> Result<Vec<Driver>, StructureError> {
     let link_index: HashMap<&str, usize> =
         linkage.links.iter().enumerate().map(|(i, l)| (l.name.as_str(), i)).collect();
+    let joint_index: HashMap<&str, usize> =
+        linkage.joints.iter().enumerate().map(|(i, j)| (j.name.as_str(), i)).collect();
     let mut drivers: Vec<Driver> = Vec::new();
     for d in &description.drivers {
         let driver = match d {
@@ -234,14 +244,20 @@ fn resolve_drivers(
                         kind: Named::Link,
                         name: name.clone(),
                         place: "driver".into(),
-                        hint: suggest(name, link_index.keys().copied().chain(slide_names)),
+                        hint: joint_index
+                            .contains_key(name.as_str())
+                            .then(|| mistaken_kind(name, Named::Link, Named::Joint))
+                            .flatten()
+                            .or_else(|| {
+                                suggest(name, link_index.keys().copied().chain(slide_names))
+                            }),
                     });
                 }
             }
             DriverDescription::Relative { link, relative_to } => {
                 let context = || "Drive".to_string();
-                let a = resolve(&link_index, Named::Link, link, context)?;
-                let b = resolve(&link_index, Named::Link, relative_to, context)?;
+                let a = resolve(&link_index, Named::Link, link, &joint_index, context)?;
+                let b = resolve(&link_index, Named::Link, relative_to, &joint_index, context)?;
                 if a == b {
                     return Err(StructureError::SameLink { place: context(), link: link.clone() });
                 }

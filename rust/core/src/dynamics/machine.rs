@@ -13,6 +13,7 @@ use crate::math::derivatives::DerivativeTables;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Evaluator, Queries};
+use crate::query::failure::Failure;
 use crate::state::status::Status;
 
 /// Masses, loads and motors of a mechanism.
@@ -44,6 +45,8 @@ pub struct ReducedTable {
     pub potential: Vec<f64>,
     /// Status of each position.
     pub status: Vec<Status>,
+    /// The first position that failed, and why.
+    pub failure: Option<(usize, Failure)>,
 }
 
 impl Machine {
@@ -74,8 +77,9 @@ impl Machine {
             if cancel.load(Ordering::Relaxed) {
                 break;
             }
-            if let Err(status) = evaluator.solve(q) {
-                rows.push(None, drivers, status);
+            if let Err(rejection) = evaluator.solve(q) {
+                rows.push(None, drivers, rejection.status());
+                rows.failure.get_or_insert_with(|| (row, evaluator.failure(rejection, q)));
                 continue;
             }
             let pose = Pose::new(evaluator.position(), &derivatives);

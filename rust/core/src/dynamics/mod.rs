@@ -40,7 +40,6 @@ pub use machine::{Machine, ReducedTable};
 pub use motor::{Characteristic, Motor};
 pub use run::callbacks::{Callbacks, NoCallbacks};
 pub use run::error::RunError;
-pub use run::integrate::IntegrationError;
 pub use run::model::TabulatedMachine;
 pub use run::options::{EventKind, EventSpec, RunOptions, Variable};
 pub use run::sample::{Sample, Samples};

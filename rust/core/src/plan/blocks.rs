@@ -9,7 +9,6 @@ use crate::description::Linkage;
 use crate::description::error::StructureError;
 use crate::structure::Structure;
 use crate::structure::assur_group::roman;
-use crate::structure::closure::quoted_list;
 use crate::structure::matching::Pattern;
 
 /// Adds the steps of all blocks; returns for every point whether it is fixed or a step places it.
@@ -22,7 +21,7 @@ pub(crate) fn add_steps(
     let nodes = Nodes::new(plan, linkage, structure, kept);
     let blocks = nodes.pattern.blocks().ok_or_else(|| StructureError::OverConstrained {
         excess: 1,
-        links: quoted_list(linkage.links.iter().map(|l| l.name.as_str())),
+        links: linkage.links.iter().map(|l| l.name.clone()).collect(),
     })?;
     let mut known = plan.fixed.clone();
     for block in &blocks {

@@ -8,7 +8,7 @@ use super::dyad::{Dyad, Form};
 use super::plan::Plan;
 use crate::description::dimension::Dimensions;
 use crate::description::error::{Named, SolveError, StructureError};
-use crate::description::names::suggest;
+use crate::description::names::{mistaken_kind, suggest};
 use crate::description::{Description, Linkage};
 use crate::math::tolerance::FLAT_SINE;
 use crate::math::vector::Vector;
@@ -163,7 +163,10 @@ impl Mechanism {
     ///
     /// [`SolveError::Unknown`] with the nearest names.
     pub fn joint(&self, name: &str) -> Result<usize, SolveError> {
-        find(name, Named::Joint, self.linkage.joints.iter().map(|x| x.name.as_str()))
+        let (joints, links) = (&self.linkage.joints, &self.linkage.links);
+        let is_link = links.iter().any(|link| link.name == name);
+        let given = is_link.then_some(Named::Link);
+        find(name, Named::Joint, given, joints.iter().map(|x| x.name.as_str()))
     }
 
     /// Index of a link by name.
@@ -172,7 +175,10 @@ impl Mechanism {
     ///
     /// [`SolveError::Unknown`] with the nearest names.
     pub fn link(&self, name: &str) -> Result<usize, SolveError> {
-        find(name, Named::Link, self.linkage.links.iter().map(|x| x.name.as_str()))
+        let (joints, links) = (&self.linkage.joints, &self.linkage.links);
+        let is_joint = joints.iter().any(|joint| joint.name == name);
+        let given = is_joint.then_some(Named::Joint);
+        find(name, Named::Link, given, links.iter().map(|x| x.name.as_str()))
     }
 
     /// Index of a slide by name.
@@ -181,19 +187,22 @@ impl Mechanism {
     ///
     /// [`SolveError::Unknown`] with the nearest names.
     pub fn slide(&self, name: &str) -> Result<usize, SolveError> {
-        find(name, Named::Slide, self.linkage.slides.iter().map(|x| x.name.as_str()))
+        find(name, Named::Slide, None, self.linkage.slides.iter().map(|x| x.name.as_str()))
     }
 }
 
 fn find<'a>(
     name: &str,
     kind: Named,
+    given: Option<Named>,
     names: impl Iterator<Item = &'a str> + Clone,
 ) -> Result<usize, SolveError> {
     names.clone().position(|n| n == name).ok_or_else(|| SolveError::Unknown {
         kind,
         name: name.into(),
-        hint: suggest(name, names),
+        hint: given
+            .and_then(|given| mistaken_kind(name, kind, given))
+            .or_else(|| suggest(name, names)),
     })
 }
 

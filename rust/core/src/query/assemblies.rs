@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::diagnosis::coordinate_text;
+use super::failure::coordinate_text;
 use crate::branch::design::Design;
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;

@@ -9,7 +9,7 @@ use crate::description::error::StructureError;
 use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
 use crate::plan::constants::DesignConstants;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::plan::Step;
+use crate::query::failure::Reason;
 use crate::state::status::Status;
 
 /// Positions in each direction at which a drawing with redundant links is checked: over a turn, or
@@ -59,18 +59,26 @@ impl Mechanism {
             for found in
                 self.diagnose(self.drawing(), &coordinates, self.signs()).unwrap_or_default()
             {
-                if matches!(found.status, Status::Ok | Status::NearSingular | Status::Singular) {
+                let Some(failure) = found.failure else {
                     residual = residual.max(found.residual);
                     continue;
-                }
-                let steps = &self.plan().steps;
-                let fit = found.step.is_some_and(|step| matches!(steps[step], Step::Redundant(_)));
+                };
+                let Reason::RedundantMisfit { name, gap, .. } = failure.reason else {
+                    if failure.status == Status::Singular {
+                        residual = residual.max(found.residual);
+                    }
+                    continue;
+                };
                 // A wide gap belongs to another assembly, beyond a change point that was missed or
                 // a gap of another dyad; the misfit shows in the residual before.
-                let part = if found.gap < NEARLY_REDUNDANT { found.gap } else { residual };
-                if fit && part > REDUNDANT_ROUNDING {
-                    let links = format!("{:?} and others", found.name.unwrap_or_default());
-                    return Err(StructureError::AlmostFits { links, gap: part * scale, part });
+                let gap = gap / scale;
+                let part = if gap < NEARLY_REDUNDANT { gap } else { residual };
+                if part > REDUNDANT_ROUNDING {
+                    return Err(StructureError::AlmostFits {
+                        links: vec![name],
+                        gap: part * scale,
+                        part,
+                    });
                 }
             }
         }

@@ -1,44 +1,50 @@
-//! Why a position came out as it did: status, residual, condition and a sentence.
+//! How a position came out: status, residual, condition, and the reason if it failed.
 
+use std::fmt;
+
+use super::failure::{Failure, GroupName, coordinate_text, group_name};
 use crate::branch::design::Design;
-use crate::description::error::{SolveError, number};
+use crate::description::error::{Hint, SolveError};
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::plan::{EdgeSlide, Plan, Step};
 use crate::state::state::State;
-use crate::state::status::{Fault, Status};
+use crate::state::status::{Fault, Rejection, Status};
 
-/// If a joint is farther (in sizes) than this at the end of a branch, the distance ended it, not a
-/// dead point: the condition of a group grows with its square, so no branch is followed all the way
-/// to a pole.
-const FAR_JOINT: f64 = 100.0;
-
-/// A position examined closely.
+/// A position examined closely. Shown, it is a sentence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
     /// How the position came out.
     pub status: Status,
+    /// Coordinates of the drivers, rad or m.
+    pub q: Vec<f64>,
     /// Greatest loop-closure error at the computed position, relative to the size; NaN without a
     /// position.
     pub residual: f64,
     /// Product of the conditions along the worst chain of dyads; NaN without a position.
     pub condition: f64,
-    /// Gap of the dyad or redundant link that does not close, relative to the size; NaN if all do.
-    pub gap: f64,
-    /// The dyad (inner joint or slide), group, redundant link or dimension concerned.
-    pub name: Option<String>,
-    /// The step of the plan concerned.
-    pub step: Option<usize>,
-    /// What happened, with numbers.
-    pub sentence: String,
+    /// Why the position or its analogues could not be computed.
+    pub failure: Option<Failure>,
+    /// The dyad that is flat at a change point.
+    pub change_point: Option<GroupName>,
 }
 
-impl Diagnosis {
-    /// Only a status and a sentence.
-    fn bare(status: Status, sentence: String) -> Self {
-        let nothing = f64::NAN;
-        let (residual, condition, gap) = (nothing, nothing, nothing);
-        Self { status, residual, condition, gap, name: None, step: None, sentence }
+impl fmt::Display for Diagnosis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(failure) = &self.failure {
+            return f.write_str(&failure.with_hint());
+        }
+        let (q, condition) = (coordinate_text(&self.q), self.condition);
+        match (&self.change_point, self.status) {
+            (Some(dyad), _) => write!(
+                f,
+                "at q = {q} {dyad} is flat: a change point, the smooth motion goes on through it"
+            ),
+            (None, Status::NearSingular) => write!(
+                f,
+                "at q = {q} the condition is {condition:.1e}: fewer than 6 digits of the analogues remain"
+            ),
+            _ => write!(f, "at q = {q} the position is solved, condition {condition:.1e}"),
+        }
     }
 }
 
@@ -57,13 +63,15 @@ impl Mechanism {
         self.check(dimensions, q, signs)?;
         let drivers = self.q0().len();
         if let Some(fault) = self.dimensions().first_fault(dimensions) {
-            let name = match &fault {
-                SolveError::BadDimension { name, .. } => Some(name.clone()),
-                _ => None,
+            let failed = |q: &[f64]| Diagnosis {
+                status: Status::BadDimension,
+                q: q.to_vec(),
+                residual: f64::NAN,
+                condition: f64::NAN,
+                failure: Some(Failure::of_dimension(fault.clone(), q)),
+                change_point: None,
             };
-            let one =
-                Diagnosis { name, ..Diagnosis::bare(Status::BadDimension, fault.to_string()) };
-            return Ok(vec![one; q.len() / drivers]);
+            return Ok(q.chunks_exact(drivers).map(failed).collect());
         }
         let derivatives = DerivativeTables::new(drivers, 0);
         let mut design = Design::new(self, signs, &derivatives);
@@ -72,7 +80,7 @@ impl Mechanism {
         let mut state = design.state(&derivatives);
         let diagnose = |(scaled, q): (&[f64], &[f64])| {
             let analogues = design.solve(&mut state, scaled, design.branch_to(scaled).as_ref());
-            self.describe(&design, &state, &derivatives, q, analogues)
+            examine(&design, &state, &derivatives, q, analogues)
         };
         Ok(design
             .scaled(q)
@@ -80,56 +88,6 @@ impl Mechanism {
             .zip(q.chunks_exact(drivers))
             .map(diagnose)
             .collect())
-    }
-
-    fn describe(
-        &self,
-        design: &Design<'_>,
-        state: &State,
-        derivatives: &DerivativeTables,
-        q: &[f64],
-        analogues: bool,
-    ) -> Diagnosis {
-        let at = &coordinate_text(q);
-        let step = state.fault.map(Fault::step);
-        let condition = state.condition2[0].sqrt();
-        let named = state.fault.map(|fault| self.step_name(fault));
-        let dyad = named.as_deref().unwrap_or("?");
-        let sentence = match state.status {
-            Status::BadInput => {
-                let why = if q.iter().any(|x| !x.is_finite()) {
-                    "is no number: a finite coordinate is needed"
-                } else {
-                    "is too far from the drawing to be followed with several drivers: at most 1000 turns, or a slide 3000 times the size"
-                };
-                return Diagnosis::bare(Status::BadInput, format!("q = {at} {why}"));
-            }
-            Status::Lost => {
-                return Diagnosis::bare(Status::Lost, self.lost_sentence(design, q, at));
-            }
-            Status::Unreachable | Status::NotConverged => {
-                let (name, sentence) = self.unreachable_sentence(state, design.constants.scale, at);
-                let gap = match state.fault {
-                    Some(Fault::NotClosed { gap, .. } | Fault::RedundantMisfit { gap, .. }) => gap,
-                    _ => f64::NAN,
-                };
-                let bare = Diagnosis::bare(state.status, sentence);
-                return Diagnosis { name: Some(name), step, gap, ..bare };
-            }
-            Status::Singular if analogues => format!(
-                "at q = {at} dyad {dyad:?} is flat: a change point, the smooth motion goes on through it"
-            ),
-            Status::Singular => format!(
-                "at q = {at} dyad {dyad:?} is flat: the position is given, its analogues do not exist"
-            ),
-            Status::NearSingular => format!(
-                "at q = {at} the condition is {condition:.1e}: fewer than 6 digits of the analogues remain"
-            ),
-            _ => format!("at q = {at} the position is solved, condition {condition:.1e}"),
-        };
-        let residual = state.residual(&design.context(derivatives));
-        let gap = f64::NAN;
-        Diagnosis { status: state.status, residual, condition, gap, name: named, step, sentence }
     }
 
     /// Refuses slices whose lengths do not fit this mechanism.
@@ -155,112 +113,30 @@ impl Mechanism {
             self.plan().signs()
         )))
     }
-
-    fn step_name(&self, fault: Fault) -> String {
-        match &self.plan().steps[fault.step()] {
-            Step::Dyad(dyad) => match dyad.sign {
-                Some(sign) => self.plan().dyad_names[sign].clone(),
-                None => guides_name(self.plan(), self, dyad),
-            },
-            Step::Group(group) => group.name.clone(),
-            Step::Redundant(fit) => fit.name.clone(),
-            Step::Place { .. } => String::new(),
-        }
-    }
-
-    /// Why the branch from the drawing does not lead to a position.
-    fn lost_sentence(&self, design: &Design<'_>, q: &[f64], at: &str) -> String {
-        let groups: Vec<&str> = self.plan().groups().map(|group| group.name.as_str()).collect();
-        if groups.is_empty() {
-            return format!(
-                "at q = {at} the assembly is unknown: its signs do not return within 64 turns"
-            );
-        }
-        let groups = groups.join(" → ");
-        if let Err(part) = design.initial_unknowns {
-            return format!(
-                "cannot track the assembly from the drawing to these dimensions: {groups} reaches a dead point {:.4} % of the way; use smaller steps, or draw the mechanism with these dimensions",
-                100.0 * part
-            );
-        }
-        match design.branch.covered {
-            Some([low, high])
-                if low <= high && low.is_finite() && design.units.coordinate.len() == 1 =>
-            {
-                let unit = design.units.coordinate[0];
-                let reach = [low, high].map(|end| number(end / unit));
-                let reach = format!("from {} to {}", reach[0], reach[1]);
-                let end = if q[0] * unit < low { low } else { high };
-                let away = design.max_distance(end);
-                if away > FAR_JOINT {
-                    return format!(
-                        "q = {at} cannot be reached: the motion of {groups} is tracked from the drawing {reach}, where a joint is {away:.0} times the mechanism's size away"
-                    );
-                }
-                format!(
-                    "q = {at} is beyond a dead point (or a place where two branches cross or a joint goes to infinity): from the drawing the motion of {groups} reaches {reach}; another driver (with_driver) leads on"
-                )
-            }
-            _ => format!(
-                "q = {at} cannot be reached: on the straight path from the drawing {groups} reaches a dead point"
-            ),
-        }
-    }
-
-    fn unreachable_sentence(&self, state: &State, scale: f64, at: &str) -> (String, String) {
-        let Some(fault) = state.fault else {
-            return (String::new(), format!("q = {at} cannot be reached"));
-        };
-        let name = self.step_name(fault);
-        let sentence = match fault {
-            Fault::RedundantMisfit { gap, .. } => format!(
-                "at q = {at} the redundant {name:?} does not fit: it misses by {} m",
-                rounded(gap * scale)
-            ),
-            Fault::NotClosed { gap: 0.0, .. } => format!(
-                "at q = {at} dyad {name:?} has coinciding outer joints, or a leg of no length: its links may stand in any direction"
-            ),
-            Fault::NotClosed { gap, step } if !gap.is_finite() => match &self.plan().steps[step] {
-                Step::Dyad(dyad) if dyad.sign.is_none() => {
-                    format!("at q = {at} the guides {name:?} are parallel")
-                }
-                _ => format!(
-                    "at q = {at} dyad {name:?} cannot be assembled: its links are far too short to meet"
-                ),
-            },
-            Fault::NotClosed { gap, .. } => format!(
-                "at q = {at} dyad {name:?} cannot be assembled: its links are {} m too short to meet",
-                rounded(gap * scale)
-            ),
-            Fault::Singular { .. } => format!("at q = {at} dyad {name:?} is flat"),
-            Fault::NotConverged { .. } => {
-                format!("at q = {at} the iteration of the group {name:?} did not converge")
-            }
-        };
-        (name, sentence)
-    }
 }
 
-/// A number to four digits, without an exponent where it reads well.
-fn rounded(x: f64) -> String {
-    number(format!("{x:.3e}").parse().unwrap_or(x))
-}
-
-fn guides_name(plan: &Plan, mechanism: &Mechanism, dyad: &crate::plan::dyad::Dyad) -> String {
-    let slides: Vec<&str> = dyad
-        .path
-        .iter()
-        .filter_map(|part| match plan.edges[part.edge].along {
-            EdgeSlide::Slide(s) => Some(mechanism.linkage().slides[s].name.as_str()),
-            _ => None,
-        })
-        .collect();
-    slides.join("-")
-}
-
-pub(super) fn coordinate_text(q: &[f64]) -> String {
-    match q {
-        [one] => number(*one),
-        many => format!("({})", many.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", ")),
-    }
+/// Examines the position that the state holds.
+fn examine(
+    design: &Design<'_>,
+    state: &State,
+    derivatives: &DerivativeTables,
+    q: &[f64],
+    analogues: bool,
+) -> Diagnosis {
+    let (status, fault) = (state.status, state.fault);
+    let solved = matches!(status, Status::Ok | Status::NearSingular | Status::Singular);
+    let failed = !solved || (status == Status::Singular && !analogues);
+    let failure = failed.then(|| Failure::of(design, Rejection::Failed { status, fault }, q));
+    let change_point = match (status, fault) {
+        (Status::Singular, Some(Fault::Singular { step })) if !failed => {
+            Some(group_name(design.mechanism, step))
+        }
+        _ => None,
+    };
+    let (residual, condition) = if solved {
+        (state.residual(&design.context(derivatives)), state.condition2[0].sqrt())
+    } else {
+        (f64::NAN, f64::NAN)
+    };
+    Diagnosis { status, q: q.to_vec(), residual, condition, failure, change_point }
 }

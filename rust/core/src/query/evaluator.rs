@@ -13,8 +13,9 @@ use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::{Plan, Step};
+use crate::query::failure::Failure;
 use crate::state::state::{Context, State};
-use crate::state::status::{Fault, Status};
+use crate::state::status::{Fault, Rejection, Status};
 
 /// The positions that will be requested.
 #[derive(Debug, Clone, Copy)]
@@ -115,6 +116,17 @@ impl<'m> Evaluator<'m> {
         }
     }
 
+    /// Names what failed at coordinates that were rejected.
+    pub(crate) fn failure(&self, rejection: Rejection, q: &[f64]) -> Failure {
+        Failure::of(&self.design, rejection, q)
+    }
+
+    /// Name of a driver: its link or slide.
+    pub(crate) fn driver_name(&self, driver: usize) -> String {
+        let linkage = self.design.mechanism.linkage();
+        linkage.driver_name(linkage.drivers[driver])
+    }
+
     /// Unit of a driver's coordinate: the size for a slide, 1 for an angle.
     pub(crate) fn unit(&self, driver: usize) -> f64 {
         1.0 / self.design.units.coordinate[driver]
@@ -153,7 +165,7 @@ impl<'m> Evaluator<'m> {
     /// # Errors
     ///
     /// Those of [`Evaluator::solve`].
-    pub(crate) fn probe(&mut self, q: &[f64]) -> Result<(), Status> {
+    pub(crate) fn probe(&mut self, q: &[f64]) -> Result<(), Rejection> {
         let last = self.last.clone();
         let solved = self.solve(q);
         self.last = last;
@@ -195,21 +207,24 @@ impl<'m> Evaluator<'m> {
     ///
     /// # Errors
     ///
-    /// The status of a coordinate without a position or without analogues.
-    pub(crate) fn solve(&mut self, q: &[f64]) -> Result<(), Status> {
+    /// How a coordinate without a position or without analogues failed.
+    pub(crate) fn solve(&mut self, q: &[f64]) -> Result<(), Rejection> {
         self.q.clear();
         self.q.extend(q.iter().zip(&self.design.units.coordinate).map(|(q, unit)| q * unit));
         if let Some(last) = &self.last
             && last.q.iter().zip(&self.q).any(|(a, b)| (a - b).abs() > MAX_STEP)
         {
-            return Err(Status::Lost);
+            return Err(Rejection::Failed { status: Status::Lost, fault: None });
         }
         let point = match self.last.as_ref().filter(|_| self.q.iter().all(|q| q.is_finite())) {
             Some(last) => Some(last.branch_to(&self.design, &self.q)),
             None => self.design.branch_to(&self.q),
         };
         let solved = self.design.solve(&mut self.state, &self.q, point.as_ref());
-        let Some(point) = point.filter(|_| solved) else { return Err(self.state.status) };
+        let Some(point) = point.filter(|_| solved) else {
+            let (status, fault) = (self.state.status, self.state.fault);
+            return Err(Rejection::Failed { status, fault });
+        };
         if self.needs_angles {
             self.reference_angles = self.design.reference_angles(&point, self.state.class.len());
         }

@@ -3,4 +3,5 @@ pub(crate) mod assemblies;
 pub(crate) mod construction;
 pub(crate) mod diagnosis;
 pub(crate) mod evaluator;
+pub(crate) mod failure;
 pub mod metrics;

@@ -54,3 +54,26 @@ impl Fault {
         }
     }
 }
+
+/// How a position failed, as the solver leaves it: enough to name the reason without solving again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Rejection {
+    /// The position, or its analogues, could not be computed.
+    Failed { status: Status, fault: Option<Fault> },
+    /// A dead point is beside it; `step`: the dyad that folds there, if it is known.
+    DeadPoint { step: Option<usize> },
+    /// Beside a near miss of a change point, where the motion turns too sharply to be integrated.
+    NearMiss { step: usize },
+}
+
+impl Rejection {
+    /// Status of the position.
+    #[must_use]
+    pub(crate) fn status(self) -> Status {
+        match self {
+            Self::Failed { status, .. } => status,
+            Self::DeadPoint { .. } => Status::Singular,
+            Self::NearMiss { .. } => Status::NearSingular,
+        }
+    }
+}

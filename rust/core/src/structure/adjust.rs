@@ -10,7 +10,7 @@ use std::sync::atomic::AtomicBool;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::closure::{Closure, LeftOut, quoted_list, rotations};
+use super::closure::{Closure, LeftOut, rotations};
 use super::freedom::{Pose, Skeleton, System};
 use super::least_norm::least_norm;
 use crate::description::Linkage;
@@ -48,7 +48,7 @@ pub(crate) enum Adjusted {
     By(Box<Linkage>, f64),
     /// Lengths that should agree do not: the links concerned and their misfit, in m and relative
     /// to the size.
-    TooFar { links: String, gap: f64, part: f64 },
+    TooFar { links: Vec<String>, gap: f64, part: f64 },
 }
 
 /// Adjusts a drawing so that its redundant links fit.
@@ -103,7 +103,7 @@ fn max_change(one: &Linkage, other: &Linkage) -> f64 {
 struct Conditions {
     size: f64,
     /// Names of the links and slides in a self-stress.
-    links: String,
+    links: Vec<String>,
     /// Derivatives by the coordinates of all joints (relative to the size), then by the angles of
     /// guides.
     rows: DMatrix<f64>,
@@ -141,7 +141,6 @@ impl Conditions {
             None => Self::along_motion(&skeleton, &system)?,
         };
         let links = skeleton.stressed_names(&system, &rank.stresses);
-        let links = quoted_list(links.iter().map(String::as_str));
         Ok(found.map(|found| Self { links, ..found }))
     }
 
@@ -167,7 +166,7 @@ impl Conditions {
         }
         Ok(Some(Self {
             size: skeleton.size(),
-            links: String::new(),
+            links: Vec::new(),
             rows: DMatrix::from_fn(rows.len(), rows[0].len(), |i, j| rows[i][j]),
             misfits: DVector::from_vec(misfits),
         }))

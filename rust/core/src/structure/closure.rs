@@ -13,7 +13,7 @@
 //! pairs only translate relative to each other and share one unknown rotation,
 //! their *class*. A driven angle joins two links into one class with a known offset.
 
-use crate::description::error::StructureError;
+use crate::description::error::{DriverFault, StructureError};
 use crate::description::{Driver, Linkage};
 
 /// Index of the ground's origin among the points.
@@ -241,11 +241,11 @@ pub(crate) fn rotations(
                 used_drivers[index] = true;
                 if rotation[next].is_some() {
                     return Err(StructureError::CannotDrive {
-                        driver: linkage.driver_name(*driver),
-                        reason: format!(
-                            "links {:?} and {:?} cannot turn relative to each other (slides or other drivers fix the angle between them)",
-                            linkage.links[link].name, linkage.links[relative_to].name
-                        ),
+                        drivers: vec![linkage.driver_name(*driver)],
+                        fault: DriverFault::AngleFixed {
+                            link: linkage.links[link].name.clone(),
+                            other: linkage.links[relative_to].name.clone(),
+                        },
                     });
                 }
                 let mut reached = base.clone();
@@ -275,18 +275,13 @@ fn check_slide_cycle(
         let unequal = turns(s.link).iter().zip(turns(s.on)).position(|(x, y)| x != y);
         return unequal.map_or(Ok(()), |driver| {
             Err(StructureError::CannotDrive {
-                driver: linkage.driver_name(linkage.drivers[driver]),
-                reason: format!("slide {:?} fixes the angle that it would change", s.name),
+                drivers: vec![linkage.driver_name(linkage.drivers[driver])],
+                fault: DriverFault::SlideFixes { slide: s.name.clone() },
             })
         });
     }
     cycle.push(slide);
     cycle.sort_unstable();
-    let slides = quoted_list(cycle.iter().map(|&c| linkage.slides[c].name.as_str()));
+    let slides = cycle.iter().map(|&c| linkage.slides[c].name.clone()).collect();
     Err(StructureError::SlidesOnly { slides })
-}
-
-/// Names in quotes, separated by commas.
-pub(crate) fn quoted_list<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    names.map(|n| format!("{n:?}")).collect::<Vec<_>>().join(", ")
 }

@@ -18,10 +18,10 @@ pub(crate) use closure::{Closure, LeftOut};
 use std::fmt::Write as _;
 use std::sync::atomic::AtomicBool;
 
-use self::closure::{quoted_list, rotations};
+use self::closure::rotations;
 use self::freedom::{Pose, Skeleton, System};
 use self::rank::Rank;
-use crate::description::error::StructureError;
+use crate::description::error::{DriverFault, Overconstraint, StructureError};
 use crate::description::{Driver, Linkage};
 
 /// The structure of a mechanism with its drivers.
@@ -103,7 +103,14 @@ impl Structure {
         let Some((pose, rank)) = chosen else {
             return Err(StructureError::Immovable {
                 counted: count_mobility(linkage),
-                over: rigid_part(linkage, &skeleton, &system, &at_drawing),
+                links: moving_link_names(linkage),
+                overconstraint: overconstraint(
+                    linkage,
+                    &skeleton,
+                    &system,
+                    &at_drawing,
+                    &none_left_out,
+                ),
             });
         };
         let (redundant, excess) = redundancy::find_redundant(
@@ -119,26 +126,19 @@ impl Structure {
                 mobility: rank.mobility,
                 counted: count_mobility(linkage),
                 drivers: linkage.drivers.len(),
-                drivers_are: match linkage.drivers.len() {
-                    1 => "is 1 driver".into(),
-                    n => format!("are {n} drivers"),
-                },
-                under: under_constrained(linkage, closure, &skeleton, &pose)?,
-                over: over_constrained(linkage, &skeleton, &system, &rank, &redundant),
+                free: free_links(linkage, closure, &skeleton, &pose)?,
+                overconstraint: overconstraint(linkage, &skeleton, &system, &rank, &redundant),
             });
         }
         check_drivers(linkage, closure, &skeleton, &pose, &redundant)?;
         if excess > 0 {
-            let names = skeleton.stressed_names(&system, &rank.stresses);
-            return Err(StructureError::OverConstrained {
-                excess,
-                links: quoted_list(names.iter().map(String::as_str)),
-            });
+            let links = skeleton.stressed_names(&system, &rank.stresses);
+            return Err(StructureError::OverConstrained { excess, links });
         }
         let groups = assur_group::groups(linkage, &redundant).ok_or_else(|| {
             StructureError::OverConstrained {
                 excess: rank.excess,
-                links: link_list(linkage, &(0..linkage.links.len()).collect::<Vec<_>>()),
+                links: linkage.links.iter().map(|link| link.name.clone()).collect(),
             }
         })?;
         Ok(Self {
@@ -162,9 +162,8 @@ fn count_mobility(linkage: &Linkage) -> i64 {
     3 * signed(moving) - 2 * signed(turning + linkage.slides.len())
 }
 
-fn link_list(linkage: &Linkage, links: &[usize]) -> String {
-    let what = if links.len() == 1 { "link" } else { "links" };
-    format!("{what} {}", quoted_list(links.iter().map(|&l| linkage.links[l].name.as_str())))
+fn names_of(linkage: &Linkage, links: &[usize]) -> Vec<String> {
+    links.iter().map(|&link| linkage.links[link].name.clone()).collect()
 }
 
 fn check_connected(linkage: &Linkage) -> Result<(), StructureError> {
@@ -189,61 +188,48 @@ fn check_connected(linkage: &Linkage) -> Result<(), StructureError> {
     if unconnected.is_empty() {
         return Ok(());
     }
-    Err(StructureError::Unconnected { links: link_list(linkage, &unconnected) })
+    Err(StructureError::Unconnected { links: names_of(linkage, &unconnected) })
 }
 
-/// `; …` with the links of an immovable linkage: the over-constrained ones, or all.
-fn rigid_part(linkage: &Linkage, skeleton: &Skeleton<'_>, system: &System, rank: &Rank) -> String {
-    if rank.excess > 0 {
-        return over_constrained(linkage, skeleton, system, rank, &LeftOut::default());
-    }
+fn moving_link_names(linkage: &Linkage) -> Vec<String> {
     let moving: Vec<usize> = (0..linkage.links.len()).filter(|&l| l != linkage.ground).collect();
-    format!("; {} form a structure", link_list(linkage, &moving))
+    names_of(linkage, &moving)
 }
 
-/// `; over-constrained: …`, or nothing.
-fn over_constrained(
+/// The constraints in excess, if there are any.
+fn overconstraint(
     linkage: &Linkage,
     skeleton: &Skeleton<'_>,
     system: &System,
     rank: &Rank,
     redundant: &LeftOut,
-) -> String {
-    if rank.excess == 0 {
-        return String::new();
-    }
-    let names = skeleton.stressed_names(system, &rank.stresses);
-    let links = quoted_list(names.iter().map(String::as_str));
-    let mut redundant_names: Vec<&str> =
-        redundant.links.iter().map(|&l| linkage.links[l].name.as_str()).collect();
-    redundant_names.extend(redundant.slides.iter().map(|&s| linkage.slides[s].name.as_str()));
-    let redundant_names = if redundant_names.is_empty() {
-        String::new()
-    } else {
-        format!(" (redundant: {})", quoted_list(redundant_names.into_iter()))
-    };
-    format!("; over-constrained by {}: {links}{redundant_names}", rank.excess)
+) -> Option<Overconstraint> {
+    let slide_name = |&slide: &usize| linkage.slides[slide].name.clone();
+    (rank.excess > 0).then(|| Overconstraint {
+        excess: rank.excess,
+        links: skeleton.stressed_names(system, &rank.stresses),
+        redundant: names_of(linkage, &redundant.links)
+            .into_iter()
+            .chain(redundant.slides.iter().map(slide_name))
+            .collect(),
+    })
 }
 
-/// `; …` with the links that still move while the drivers are locked, or advice to leave out
-/// drivers if none does.
-fn under_constrained(
+/// The links that still move while the drivers are locked.
+fn free_links(
     linkage: &Linkage,
     closure: &Closure,
     skeleton: &Skeleton<'_>,
     pose: &Pose,
-) -> Result<String, StructureError> {
+) -> Result<Vec<String>, StructureError> {
     let none_left_out = LeftOut::default();
     let (rotation, _) = rotations(linkage, &none_left_out, true)?;
     let locked = System::new(linkage, closure, &none_left_out, &rotation, true);
     let rank = skeleton.rank(&locked, pose)?;
     if rank.mobility == 0 {
-        return Ok("; leave out drivers".into());
+        return Ok(Vec::new());
     }
-    let links = link_list(linkage, &skeleton.moving_links(&locked, &rank.motions));
-    Ok(format!(
-        "; with every driver held still, {links} can still move: add a driver or a link there"
-    ))
+    Ok(names_of(linkage, &skeleton.moving_links(&locked, &rank.motions)))
 }
 
 /// Rank with all drivers locked; its motions are those that the drivers do not control.
@@ -278,26 +264,18 @@ fn check_drivers(
     }
     let (rotation, _) = rotations(linkage, redundant, true)?;
     let system = System::new(linkage, closure, redundant, &rotation, true);
-    let moving_links = link_list(linkage, &skeleton.moving_links(&system, &rank.motions));
-    let reason = format!("with it held still, {moving_links} can still move");
+    let links = names_of(linkage, &skeleton.moving_links(&system, &rank.motions));
+    let fault = DriverFault::LeavesFree { links };
     for (index, &driver) in linkage.drivers.iter().enumerate() {
         let mut others = linkage.drivers.clone();
         others.remove(index);
         if rank_with(&others)?.mobility == rank.mobility {
             return Err(StructureError::CannotDrive {
-                driver: linkage.driver_name(driver),
-                reason,
+                drivers: vec![linkage.driver_name(driver)],
+                fault,
             });
         }
     }
-    let driver = quoted_list(
-        linkage
-            .drivers
-            .iter()
-            .map(|&d| linkage.driver_name(d))
-            .collect::<Vec<_>>()
-            .iter()
-            .map(String::as_str),
-    );
-    Err(StructureError::CannotDrive { driver, reason })
+    let drivers = linkage.drivers.iter().map(|&driver| linkage.driver_name(driver)).collect();
+    Err(StructureError::CannotDrive { drivers, fault })
 }

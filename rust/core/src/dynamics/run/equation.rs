@@ -12,7 +12,8 @@ use crate::dynamics::reduced::Reduced;
 use crate::dynamics::tables::table::{Cell, Table};
 use crate::dynamics::value::Numbers;
 use crate::ode::system::Fault;
-use crate::state::status::Status;
+use crate::query::failure::Failure;
+use crate::state::status::Rejection;
 
 /// Relative change of the speed for the difference quotient of callbacks: the cube root of the unit
 /// roundoff, which balances rounding and curvature.
@@ -49,8 +50,8 @@ pub(crate) struct Equation<'a, S, O> {
     pub coordinates: [f64; 2],
     /// Whether derivatives of the callbacks by the speed are needed.
     pub wants_slopes: bool,
-    /// Status and coordinates of the last position that was rejected.
-    pub rejected: Option<(Status, Vec<f64>)>,
+    /// The last position that was rejected: how it failed, and its coordinates.
+    pub rejected: Option<(Rejection, Vec<f64>)>,
     readings: Vec<[f64; 2]>,
     external: Vec<[f64; 2]>,
     numbers: Vec<f64>,
@@ -160,9 +161,28 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             || self.cursor.look_up(self.tables, q).is_ok()
     }
 
+    /// What failed at the last position that was rejected.
+    pub(crate) fn failure(&self) -> Option<Failure> {
+        let (rejection, q) = self.rejected.as_ref()?;
+        self.model.failure(*rejection, q)
+    }
+
+    /// The error of a motion that cannot start at `q`.
+    pub(crate) fn no_initial_position(&self, q: &[f64]) -> RunError<O::Error> {
+        match self.failure() {
+            Some(failure) => RunError::NoInitialPosition(failure),
+            None => self.no_inertia(q[0], f64::NAN),
+        }
+    }
+
+    /// The error of a reduced inertia that is not positive.
+    pub(crate) fn no_inertia(&self, q: f64, value: f64) -> RunError<O::Error> {
+        RunError::NoInertia { q, value, driver: self.model.driver_name(0) }
+    }
+
     /// Whether the last rejected position is beside a near miss of a change point.
     pub(crate) fn is_near_miss(&self) -> bool {
-        matches!(self.rejected, Some((Status::NearSingular, _)))
+        matches!(self.rejected, Some((Rejection::NearMiss { .. }, _)))
     }
 
     /// Reduces inertia, weights and springs at coordinates.
@@ -170,8 +190,8 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     pub(crate) fn set_configuration(&mut self, q: &[f64]) -> Result<(), EquationFault<O::Error>> {
         self.cursor.read(self.tables, q[0], &mut self.readings);
         let numbers = Numbers { tables: &self.readings, external: &[] };
-        if let Err(status) = self.model.set_configuration(q, numbers, &mut self.reduced) {
-            self.rejected = Some((status, q.to_vec()));
+        if let Err(rejection) = self.model.set_configuration(q, numbers, &mut self.reduced) {
+            self.rejected = Some((rejection, q.to_vec()));
             return Err(Fault::OutOfDomain);
         }
         self.reduced.inertia[0] += self.flywheel;
@@ -242,7 +262,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     pub(crate) fn inertia(&self, q: f64) -> Result<f64, EquationFault<O::Error>> {
         let value = self.reduced.inertia[0];
         // NaN must fail too.
-        if value > 0.0 { Ok(value) } else { Err(Fault::Error(RunError::NoInertia { q, value })) }
+        if value > 0.0 { Ok(value) } else { Err(Fault::Error(self.no_inertia(q, value))) }
     }
 
     /// Accelerations of the drivers.
@@ -261,7 +281,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         let matrix = DMatrix::from_row_slice(n, n, &self.reduced.inertia);
         let least = matrix.diagonal().min();
         let Some(factors) = Cholesky::new(matrix) else {
-            return Err(Fault::Error(RunError::NoInertia { q: q[0], value: least.min(0.0) }));
+            return Err(Fault::Error(self.no_inertia(q[0], least.min(0.0))));
         };
         let solved = factors.solve(&DVector::from_fn(n, |driver, _| net(driver)));
         out.copy_from_slice(solved.as_slice());

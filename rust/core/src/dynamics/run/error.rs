@@ -1,31 +1,47 @@
 //! Errors of a run.
 
+use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
 
+use super::options::Variable;
+use crate::description::error::Hint;
 use crate::dynamics::tables::table::Table;
+use crate::ode::error::Error as IntegratorError;
+use crate::query::failure::Failure;
 
 /// Why a run failed, as opposed to how it ended.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Clone, PartialEq, Error, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "snake_case")]
 pub enum RunError<E> {
     /// The error of a callback.
     #[error("{0}")]
     Callback(E),
     /// The reduced inertia is not positive.
-    #[error(
-        "the reduced inertia is {value} at q = {q}: it must be positive everywhere (give masses to the links that turn with the driver)"
-    )]
+    #[error("the reduced inertia is {value} kg·m² at q = {q}: it must be positive everywhere")]
     NoInertia {
         /// Coordinate.
         q: f64,
         /// Inertia there, kg·m².
         value: f64,
+        /// The driver, of a mechanism.
+        driver: Option<String>,
     },
     /// The mechanism has no valid position at the initial coordinates.
-    #[error("no valid position at the initial coordinate q = {q:?}")]
-    NoInitialPosition {
-        /// Initial coordinates.
-        q: Vec<f64>,
+    #[error("{0}: a run cannot start there (q0)")]
+    NoInitialPosition(Failure),
+    /// Accelerations become infinite or NaN.
+    #[error(
+        "the motion is not finite at {along} = {at:e}: a load, a speed or a mass is too great there"
+    )]
+    NotFinite {
+        /// "t" or "q".
+        along: &'static str,
+        /// Time, s, or coordinate.
+        at: f64,
     },
+    /// Options that the integrator refuses.
+    #[error("{0}")]
+    Options(String),
     /// A list of the wrong length.
     #[error("{given} {what} are given: {needed} are needed")]
     WrongCount {
@@ -58,6 +74,33 @@ pub enum RunError<E> {
         /// The initial coordinate or speed.
         q: f64,
     },
+}
+
+impl<E: std::fmt::Display> Hint for RunError<E> {
+    fn hint(&self) -> Option<String> {
+        match self {
+            Self::NoInertia { driver: Some(driver), .. } => Some(format!(
+                "give {driver:?}, or the links that move with it, a Body with a mass or an inertia"
+            )),
+            Self::NoInitialPosition(failure) => failure.hint(),
+            _ => None,
+        }
+    }
+}
+
+impl<E: std::fmt::Display> RunError<E> {
+    /// The error of an integration along a variable.
+    pub(crate) fn of_integrator(error: IntegratorError<Self>, along: Variable) -> Self {
+        let along = match along {
+            Variable::Time => "t",
+            Variable::Coordinate => "q",
+        };
+        match error {
+            IntegratorError::System(error) => error,
+            IntegratorError::NotFinite { t, .. } => Self::NotFinite { along, at: t },
+            other => Self::Options(other.to_string()),
+        }
+    }
 }
 
 /// The error for `q` outside a table.

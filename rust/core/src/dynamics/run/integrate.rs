@@ -11,20 +11,17 @@ use super::system::{Ended, RunSystem};
 use super::table_cursor::SAME_KNOT_RTOL;
 use super::tolerances::tolerances;
 use super::trajectory::{EventRecord, Run, StopReason, sample_at};
+use crate::description::error::Hint;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::tables::table::Table;
 use crate::math::derivatives::DerivativeTables;
-use crate::ode::error::Error;
 use crate::ode::integrator::Integrator;
 use crate::ode::options::{Options, Output};
 use crate::ode::solution::{End, Solution};
 use crate::ode::system::System;
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::NearMiss;
-use crate::state::status::Status;
-
-/// Why a run could not be made.
-pub type IntegrationError<E> = Error<RunError<E>>;
+use crate::state::status::{Rejection, Status};
 
 impl Machine {
     /// Integrates the motion of a design of the mechanism.
@@ -39,11 +36,11 @@ impl Machine {
         dimensions: &[f64],
         options: &RunOptions<'_>,
         callbacks: O,
-    ) -> Result<Run, IntegrationError<O::Error>> {
+    ) -> Result<Run, RunError<O::Error>> {
         let drivers = mechanism.q0().len();
-        options.check(drivers, &self.motors).map_err(Error::System)?;
+        options.check(drivers, &self.motors)?;
         let needed = mechanism.dimensions().len();
-        check_counts(&[("dimensions", needed, dimensions.len())]).map_err(Error::System)?;
+        check_counts(&[("dimensions", needed, dimensions.len())])?;
         let derivatives = DerivativeTables::new(drivers, 2);
         let model = MechanismModel::new(self, mechanism, dimensions, &derivatives);
         let sizes: Vec<f64> = (0..options.q.len()).map(|driver| model.unit(driver)).collect();
@@ -62,9 +59,9 @@ impl TabulatedMachine {
         &self,
         options: &RunOptions<'_>,
         callbacks: O,
-    ) -> Result<Run, IntegrationError<O::Error>> {
-        options.check(1, &self.motors).map_err(Error::System)?;
-        self.check().map_err(Error::System)?;
+    ) -> Result<Run, RunError<O::Error>> {
+        options.check(1, &self.motors)?;
+        self.check()?;
         run(Equation::new(self, callbacks, &self.tables, &self.motors, 1), options, &[1.0])
     }
 
@@ -79,11 +76,11 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     mut equation: Equation<'_, S, O>,
     options: &RunOptions<'_>,
     sizes: &[f64],
-) -> Result<Run, IntegrationError<O::Error>> {
+) -> Result<Run, RunError<O::Error>> {
     equation.flywheel = options.flywheel;
-    equation.begin(options.q[0], options.speed).map_err(Error::System)?;
+    equation.begin(options.q[0], options.speed)?;
     let mut system = RunSystem::new(equation, options);
-    system.store_initial_energy(options).map_err(Error::System)?;
+    system.store_initial_energy(options)?;
     let (from, end) = match options.along {
         Variable::Time => (options.t, options.end),
         Variable::Coordinate => (options.q[0], options.end),
@@ -94,11 +91,9 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     };
     let breaks = match options.along {
         Variable::Time => options.breaks.to_vec(),
-        Variable::Coordinate => {
-            breaks_of(system.equation.tables, options.breaks, [from, to]).map_err(Error::System)?
-        }
+        Variable::Coordinate => breaks_of(system.equation.tables, options.breaks, [from, to])?,
     };
-    let [relative, absolute] = tolerances(&mut system, options, sizes).map_err(Error::System)?;
+    let [relative, absolute] = tolerances(&mut system, options, sizes)?;
     let crossings = system.crossings();
     // Wide steps of a smooth motion could skip over an angle's event.
     let has_angle_events =
@@ -124,7 +119,9 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     };
     let mut integrator = Integrator::new(options.method, system.len());
     let start = RunSystem::<S, O>::initial_state(options);
-    let solution = integrator.run(&mut system, from, &start, to, &ode_options)?;
+    let solution = integrator
+        .run(&mut system, from, &start, to, &ode_options)
+        .map_err(|error| RunError::of_integrator(error, options.along))?;
     Ok(assemble_run(system, options, from, solution, clipped))
 }
 
@@ -176,13 +173,19 @@ pub(crate) fn breaks_of<E>(
 
 /// Why a motion cannot be continued, and where.
 fn edge_reason<S: ReducedModel, O: Callbacks>(equation: &mut Equation<'_, S, O>) -> StopReason {
-    let (status, q) = equation.rejected.take().unwrap_or((Status::Singular, Vec::new()));
-    if let (Status::NearSingular, &[at]) = (status, &q[..])
+    let failure = equation.failure();
+    let Some((rejection, q)) = equation.rejected.take() else { return StopReason::DeadPoint };
+    if let (Rejection::NearMiss { .. }, &[at]) = (rejection, &q[..])
         && let Some(NearMiss { dyad, miss, q }) = equation.model.near_miss(at)
     {
         return StopReason::NearChangePoint { dyad, miss, q };
     }
-    StopReason::Edge(status, q)
+    match failure {
+        Some(failure) if matches!(failure.status, Status::Lost | Status::NotConverged) => {
+            StopReason::Lost(failure.with_hint())
+        }
+        _ => StopReason::DeadPoint,
+    }
 }
 
 fn assemble_run<S: ReducedModel, O: Callbacks>(
@@ -239,7 +242,7 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
     }
     path.each_end(|x, y, rates| samples.push_state(along, sign, x, y, rates));
     let tail = match (&stop_reason, samples.last()) {
-        (StopReason::Edge(..), Some(last)) if last.q.len() == 1 => {
+        (StopReason::DeadPoint | StopReason::Lost(_), Some(last)) if last.q.len() == 1 => {
             let dead_point = system.equation.model.dead_point_ahead(last.q[0], last.speed[0]);
             dead_point.and_then(|dead_point| Tail::of(&last, dead_point))
         }

@@ -11,7 +11,8 @@ use crate::math::derivatives::DerivativeTables;
 use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Evaluator, NearMiss, Queries};
-use crate::state::status::Status;
+use crate::query::failure::Failure;
+use crate::state::status::{Rejection, Status};
 
 /// A machine referred to its drivers, at one position after another.
 pub(crate) trait ReducedModel {
@@ -19,13 +20,19 @@ pub(crate) trait ReducedModel {
     ///
     /// # Errors
     ///
-    /// The status of a position that cannot be used.
+    /// How a position that cannot be used failed.
     fn set_configuration(
         &mut self,
         q: &[f64],
         numbers: Numbers<'_>,
         out: &mut Reduced,
-    ) -> Result<(), Status>;
+    ) -> Result<(), Rejection>;
+
+    /// Names what failed at coordinates that were rejected.
+    fn failure(&self, rejection: Rejection, q: &[f64]) -> Option<Failure>;
+
+    /// Name of the link or slide that is a driver.
+    fn driver_name(&self, driver: usize) -> Option<String>;
 
     /// Reduces the other loads at the last position and these speeds.
     fn apply_loads(&mut self, speed: &[f64], numbers: Numbers<'_>, out: &mut Reduced);
@@ -99,14 +106,14 @@ impl<'m> MechanismModel<'m> {
     /// Rejects a position beside a dead point or a near miss of a change point.
     #[cold]
     #[inline(never)]
-    fn check_singularity(&mut self, q: &[f64]) -> Result<(), Status> {
+    fn check_singularity(&mut self, q: &[f64]) -> Result<(), Rejection> {
         let (step, condition) = self.evaluator.worst_condition();
         if condition > MAX_CONDITION {
             if self.has_dead_point_near(q, f64::INFINITY) {
-                return Err(Status::Singular);
+                return Err(Rejection::DeadPoint { step });
             }
-            if q.len() == 1 && step.is_some() && condition > NEAR_SINGULAR_CONDITION {
-                return Err(Status::NearSingular);
+            if let (1, Some(step), true) = (q.len(), step, condition > NEAR_SINGULAR_CONDITION) {
+                return Err(Rejection::NearMiss { step });
             }
             self.evaluator.solve(q)?;
         }
@@ -131,7 +138,7 @@ impl ReducedModel for MechanismModel<'_> {
         q: &[f64],
         _: Numbers<'_>,
         out: &mut Reduced,
-    ) -> Result<(), Status> {
+    ) -> Result<(), Rejection> {
         self.evaluator.solve(q)?;
         // The product bounds the condition of each dyad.
         if self.evaluator.total_condition() > MAX_CONDITION {
@@ -140,6 +147,14 @@ impl ReducedModel for MechanismModel<'_> {
         self.machine
             .add_configuration(&Pose::new(self.evaluator.position(), self.derivatives), out);
         Ok(())
+    }
+
+    fn failure(&self, rejection: Rejection, q: &[f64]) -> Option<Failure> {
+        Some(self.evaluator.failure(rejection, q))
+    }
+
+    fn driver_name(&self, driver: usize) -> Option<String> {
+        Some(self.evaluator.driver_name(driver))
     }
 
     fn apply_loads(&mut self, speed: &[f64], numbers: Numbers<'_>, out: &mut Reduced) {
@@ -237,11 +252,19 @@ impl ReducedModel for &TabulatedMachine {
         _: &[f64],
         numbers: Numbers<'_>,
         out: &mut Reduced,
-    ) -> Result<(), Status> {
+    ) -> Result<(), Rejection> {
         let [inertia, rate] = numbers.tables[0];
         out.inertia[0] = inertia + self.motors.iter().map(Motor::inertia).sum::<f64>();
         out.d_inertia[0] = rate;
         Ok(())
+    }
+
+    fn failure(&self, _: Rejection, _: &[f64]) -> Option<Failure> {
+        None
+    }
+
+    fn driver_name(&self, _: usize) -> Option<String> {
+        None
     }
 
     fn apply_loads(&mut self, _: &[f64], numbers: Numbers<'_>, out: &mut Reduced) {

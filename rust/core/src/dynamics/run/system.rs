@@ -8,7 +8,7 @@ use super::error::RunError;
 use super::model::ReducedModel;
 use super::options::{EventKind, EventSpec, RunOptions, Variable};
 use crate::ode::system::{Action, Crossing, Fault, System};
-use crate::state::status::Status;
+use crate::state::status::Rejection;
 
 /// What ended a run early.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,9 +87,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         match self.equation.set_configuration(options.q) {
             Ok(()) => {}
             Err(Fault::Error(error)) => return Err(error),
-            Err(Fault::OutOfDomain) => {
-                return Err(RunError::NoInitialPosition { q: options.q.to_vec() });
-            }
+            Err(Fault::OutOfDomain) => return Err(self.equation.no_initial_position(options.q)),
         }
         let reduced = &self.equation.reduced;
         self.energy = Some([reduced.kinetic(options.speed), reduced.potential]);
@@ -194,7 +192,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         if !at_dead_point {
             return Action::Continue;
         }
-        self.equation.rejected = Some((Status::Singular, y[..n].to_vec()));
+        self.equation.rejected = Some((Rejection::DeadPoint { step: None }, y[..n].to_vec()));
         self.ended = Some(Ended::DeadPoint);
         Action::Stop
     }

@@ -5,7 +5,6 @@ use super::options::Variable;
 use super::sample::{Sample, Samples};
 use crate::ode::dense::DenseOutput;
 use crate::ode::solution::Statistics;
-use crate::state::status::Status;
 
 /// Why a run ended.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -18,9 +17,10 @@ pub enum StopReason {
     Event(usize),
     /// At rest; a run along the coordinate cannot go on.
     Rest,
-    /// At a dead point, or where the branch is unknown: status and coordinates of the rejected
-    /// position.
-    Edge(Status, Vec<f64>),
+    /// At a dead point: the assembly has no motion beyond it.
+    DeadPoint,
+    /// Where the branch cannot be tracked: the reason.
+    Lost(String),
     /// Beside a near miss of a change point: the lengths of a dyad miss one by `miss`, and the
     /// motion turns there within less than can be integrated.
     NearChangePoint {

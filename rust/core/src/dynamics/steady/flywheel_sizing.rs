@@ -50,12 +50,12 @@ impl Machine {
     ) -> Result<Steady, SteadyError<O::Error>> {
         let needed = mechanism.dimensions().len();
         check_counts(&[("dimensions", needed, dimensions.len())]).map_err(SteadyError::Run)?;
-        let jets = DerivativeTables::new(1, 2);
+        let derivatives = DerivativeTables::new(1, 2);
         if mechanism.q0().len() != 1 || mechanism.plan().driven_slide(0).is_some() {
-            return Err(SteadyError::Other("a periodic motion is of one driver that turns".into()));
+            return Err(SteadyError::NotRotary);
         }
         size_flywheel(options, target, |options, guess| {
-            let model = MechanismModel::new(self, mechanism, dimensions, &jets);
+            let model = MechanismModel::new(self, mechanism, dimensions, &derivatives);
             let equation = Equation::new(model, &mut callbacks, &self.tables, &self.motors, 1);
             solve_period(equation, options, guess)
         })

@@ -11,7 +11,7 @@ use crate::dynamics::run::callbacks::Callbacks;
 use crate::dynamics::run::equation::Equation;
 use crate::dynamics::run::error::RunError;
 use crate::dynamics::run::model::ReducedModel;
-use crate::ode::error::Error;
+use crate::dynamics::run::options::Variable;
 use crate::ode::integrator::Integrator;
 use crate::ode::options::{Options, Output};
 use crate::ode::solution::{End, Solution};
@@ -136,6 +136,15 @@ impl<S: ReducedModel, O: Callbacks> System for PeriodSystem<'_, '_, S, O> {
     }
 }
 
+/// The error of a period that ends at a dead point, with the dyad or group that folds there.
+fn dead_point<S: ReducedModel, O: Callbacks>(
+    equation: &Equation<'_, S, O>,
+    q: f64,
+) -> SteadyError<O::Error> {
+    let beside = equation.failure().filter(|failure| (failure.q[0] - q).abs() <= BESIDE);
+    SteadyError::DeadPoint { q, group: beside.and_then(|failure| failure.reason.group().cloned()) }
+}
+
 /// Integrates one period.
 pub(crate) fn period<S: ReducedModel, O: Callbacks>(
     equation: &mut Equation<'_, S, O>,
@@ -175,16 +184,14 @@ pub(crate) fn period<S: ReducedModel, O: Callbacks>(
     let integrator = integrator.get_or_insert_with(|| Integrator::new(options.method, LEN));
     let solved = integrator.run(&mut system, from, &y0, from + options.span, &ode_options);
     let (table_ended, depends_on_speed) = (system.table_ended, system.depends_on_speed);
-    let Solution { t: q, y, end, .. } = solved.map_err(|error| match error {
-        Error::System(broken) => SteadyError::Run(broken),
-        other => SteadyError::Other(other.to_string()),
-    })?;
+    let Solution { t: q, y, end, .. } = solved
+        .map_err(|error| SteadyError::Run(RunError::of_integrator(error, Variable::Coordinate)))?;
     match end {
         End::Reached => {}
         End::DomainBoundary { .. } | End::Stalled { .. }
             if system.equation.model.is_near_dead_point(&[q], BESIDE) =>
         {
-            return Err(SteadyError::DeadPoint { q });
+            return Err(dead_point(system.equation, q));
         }
         End::DomainBoundary { .. } | End::Stalled { .. } if y[0] <= AT_REST * start.speed2 => {
             return Ok(PeriodOutcome::Stops { q });
@@ -196,12 +203,12 @@ pub(crate) fn period<S: ReducedModel, O: Callbacks>(
             let near = system.equation.is_near_miss().then(|| system.equation.model.near_miss(q));
             return Err(match near.flatten() {
                 Some(NearMiss { dyad, miss, q }) => SteadyError::NearChangePoint { dyad, miss, q },
-                None => SteadyError::DeadPoint { q },
+                None => dead_point(system.equation, q),
             });
         }
         End::Cancelled { .. } => return Err(SteadyError::Cancelled { q }),
         End::StepLimit { t: q, .. } => return Err(SteadyError::TooManySteps { q }),
-        other => return Err(SteadyError::Other(other.to_string())),
+        End::Stalled { .. } | End::Event { .. } => return Err(SteadyError::Stalled { q }),
     }
     Ok(PeriodOutcome::Whole(Period {
         speed2: y[0],

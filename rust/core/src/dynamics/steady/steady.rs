@@ -5,7 +5,6 @@ use super::options::SteadyOptions;
 use super::period::{Period, PeriodOutcome, PeriodStart, period};
 use crate::dynamics::run::callbacks::Callbacks;
 use crate::dynamics::run::equation::Equation;
-use crate::dynamics::run::error::RunError;
 use crate::dynamics::run::integrate::{breaks_of, run};
 use crate::dynamics::run::model::ReducedModel;
 use crate::dynamics::run::options::{EventKind, EventSpec, RunOptions, Variable};
@@ -88,10 +87,15 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
     /// Checks that the machine is the same one period later.
     fn check_periodic(&mut self) -> Result<(), SteadyError<O::Error>> {
         let SteadyOptions { q: from, span, .. } = self.options;
+        let mut at_start = None;
         let mut inertia = |q: f64| {
             let is_reachable =
                 self.equation.ensure_tables_at(q) && self.equation.set_configuration(&[q]).is_ok();
-            if is_reachable { self.equation.reduced.inertia[0] } else { f64::NAN }
+            let inertia = if is_reachable { self.equation.reduced.inertia[0] } else { f64::NAN };
+            if q == from && inertia.is_nan() {
+                at_start = Some(self.equation.no_initial_position(&[q]));
+            }
+            inertia
         };
         let samples = (0..SAMPLES).map(|part| {
             let here = from + span * f64::from(part) / f64::from(SAMPLES);
@@ -100,8 +104,8 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         });
         let samples: Vec<_> = samples.collect();
         self.equation.rejected = None;
-        if samples[0].1[0].is_nan() {
-            return Err(SteadyError::Run(RunError::NoInitialPosition { q: vec![from] }));
+        if let Some(error) = at_start {
+            return Err(SteadyError::Run(error));
         }
         // The periods themselves report unreachable positions.
         if samples.iter().any(|(_, pair)| pair.iter().any(|value| value.is_nan())) {
@@ -112,7 +116,7 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         let massless =
             samples.iter().find(|(_, [inertia, _])| *inertia <= INERTIA_NOISE * greatest);
         if let Some(&([q, _], [value, _])) = massless {
-            return Err(SteadyError::Run(RunError::NoInertia { q, value }));
+            return Err(SteadyError::Run(self.equation.no_inertia(q, value)));
         }
         let different =
             samples.into_iter().find(|(_, [a, b])| (b - a).abs() > PERIODIC_RTOL * a.abs());
@@ -176,18 +180,14 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
             flywheel,
         };
         self.equation.wants_slopes = false;
-        let run = run(self.equation, &run_options, &[1.0]).map_err(|error| match error {
-            crate::ode::error::Error::System(error) => SteadyError::Run(error),
-            other => SteadyError::Other(other.to_string()),
-        })?;
+        let run = run(self.equation, &run_options, &[1.0]).map_err(SteadyError::Run)?;
         match run.stop_reason {
             StopReason::Reached => {}
             StopReason::TimeLimit | StopReason::Cancelled => {
                 return Err(SteadyError::Cancelled { q });
             }
-            ref other => {
-                return Err(SteadyError::Other(format!("the period ended early: {other:?}")));
-            }
+            // The shooting integrated the same period to its end.
+            _ => return Err(SteadyError::TooManySteps { q }),
         }
         let change = |list: &[f64]| list.last().zip(list.first()).map_or(f64::NAN, |(b, a)| b - a);
         let stored: Vec<f64> = run.energies.iter().map(|pair| pair[1]).collect();

@@ -1,5 +1,6 @@
 //! Errors of tables and of flywheel sizing.
 
+use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
 
 /// Formats a number with six digits, for messages.
@@ -23,7 +24,8 @@ fn full(value: f64) -> String {
 }
 
 /// Why a table is invalid or gives no flywheel.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Error, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "snake_case")]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the sentences say what the fields are")]
 pub enum TableError {
