@@ -57,7 +57,6 @@ pub(crate) mod event_location;
 pub(crate) mod integrator;
 pub(crate) mod options;
 pub(crate) mod record;
-pub(crate) mod root;
 pub(crate) mod run;
 pub(crate) mod solution;
 pub(crate) mod stages;

@@ -9,6 +9,8 @@ use std::f64::consts::{PI, TAU};
 use libm::{acos, hypot};
 
 use super::motion::{Assembly, position};
+use crate::math::root::bisection::{TO_ROUNDING, bisect};
+use crate::math::root::golden_section::{Bracket, golden_section};
 use crate::math::trig::sin_cos;
 
 /// Crank angle between samples, rad. A jam that begins and ends between two samples is found by its
@@ -21,8 +23,6 @@ const GROUND_STEP: f64 = 1.0e-3;
 const EVENT_OFFSET: f64 = 1.0e-9;
 /// Step of the slopes that show a peak between two samples, as a fraction of the interval.
 const SLOPE_STEP: f64 = 1.0e-6;
-/// Limit of golden section steps toward that peak.
-const MAX_PEAK_STEPS: u32 = 40;
 /// Dead point: the rod is within this fraction of its length of not reaching the line of centres.
 const DEAD_POINT_RTOL: f64 = 1.0e-12;
 
@@ -288,39 +288,17 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> Simulation<F> {
                 return Ok(None);
             }
         }
-        let (mut low, mut high) = (start, past_end);
-        loop {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                return Ok(Some(high));
-            }
-            if self.mode_end(middle, mode)? > 0.0 { high = middle } else { low = middle }
-        }
+        let has_ended = |t| Ok(self.mode_end(t, mode)? > 0.0);
+        let [event, _] = bisect([past_end, start], TO_ROUNDING, has_ended)?;
+        Ok(Some(event))
     }
 
     /// A time at which an event function that rises and falls is positive, or its maximum (golden
     /// section).
     fn peak(&mut self, low: f64, high: f64, mode: Mode) -> Result<f64, Refused<E>> {
-        /// (√5 − 1)/2.
-        const GOLDEN: f64 = 0.618_033_988_749_894_8;
-        let (mut a, mut b) = (low, high);
-        let (mut c, mut d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-        let (mut at_c, mut at_d) = (self.mode_end(c, mode)?, self.mode_end(d, mode)?);
-        for _ in 0..MAX_PEAK_STEPS {
-            if at_c > 0.0 || at_d > 0.0 {
-                break;
-            }
-            if at_c > at_d {
-                (b, d, at_d) = (d, c, at_c);
-                c = b - GOLDEN * (b - a);
-                at_c = self.mode_end(c, mode)?;
-            } else {
-                (a, c, at_c) = (c, d, at_d);
-                d = a + GOLDEN * (b - a);
-                at_d = self.mode_end(d, mode)?;
-            }
-        }
-        Ok(if at_c > at_d { c } else { d })
+        let has_ended = |bracket: &Bracket| bracket.inner.iter().any(|point| point.1 > 0.0);
+        let bracket = golden_section([low, high], has_ended, |t| self.mode_end(t, mode))?;
+        Ok(bracket.best().0)
     }
 
     /// Applies an event to the mode and records it. Returns whether the run ends.
