@@ -203,6 +203,7 @@ impl Flywheel {
         let (since, width) = (time - self.times[piece], high - low);
         let state = [self.inertia, self.constant];
         let mut x = since / (self.times[piece + 1] - self.times[piece]) * width;
+        // Newton's method. The time grows with x, so the piece is all the bracket that it needs.
         for _ in 0..MAX_STEPS {
             let residual = since - time_within(&self.cycle, state, piece, x);
             let next =
