@@ -100,7 +100,8 @@ fn locate(
 ) -> Option<(f64, bool)> {
     let (mut low, mut high) = (a, b);
     let step = CHANGE_STEP * (b - a);
-    // Golden-section search avoids the change point itself, which is often in the middle.
+    // Bisection of the slope of N², but at the golden section (`math::root` halves): the change point
+    // itself, where nothing is known, is often in the middle.
     while (high - low).abs() > 4.0 * step.abs() {
         let middle = low + GOLDEN * (high - low);
         if tracer.solve(middle) <= step_index {

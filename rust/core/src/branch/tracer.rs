@@ -1,12 +1,15 @@
 //! Traces a branch from the drawing, with knots close enough together to show every change point
 //! and to count the turns of every angle.
 
+use std::convert::Infallible;
+
 use super::hermite::HermiteCell;
 use super::knot::{
     ChangePoint, InitialGuess, Knot, SignInterval, Taylor2, closes, may_vanish, predict,
     prediction_error, prediction_failed,
 };
 use crate::math::angle::unwrap_to;
+use crate::math::root::bisection::{TO_ROUNDING, bisect};
 use crate::math::tolerance::{KNOT_MAX_HALVINGS, KNOT_MAX_TURN};
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Dyad, Form, Unknown};
@@ -338,14 +341,10 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
     }
 
     /// The last parameter that can be reached, between one that can be and one that cannot.
-    pub(crate) fn find_edge(&mut self, [mut inside, mut outside]: [f64; 2]) -> f64 {
-        loop {
-            let middle = 0.5 * (inside + outside);
-            if middle == inside || middle == outside {
-                return inside;
-            }
-            if self.visit(middle) { inside = middle } else { outside = middle }
-        }
+    pub(crate) fn find_edge(&mut self, inside_and_outside: [f64; 2]) -> f64 {
+        let is_inside = |at: f64| Ok::<_, Infallible>(self.visit(at));
+        let Ok([inside, _]) = bisect(inside_and_outside, TO_ROUNDING, is_inside);
+        inside
     }
 
     /// Unwraps the angles of a knot at the very edge of the gap between it and the knot before.

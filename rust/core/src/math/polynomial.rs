@@ -1,7 +1,6 @@
 //! Polynomials: evaluation, and the roots of a cubic in an interval.
 
-/// Limit of iterations for a root: bisection alone converges within it.
-const MAX_STEPS: u32 = 80;
+use super::root::newton::newton_in_bracket;
 
 /// Evaluates a polynomial in powers of `x`, constant term first.
 #[must_use]
@@ -35,10 +34,8 @@ pub(crate) fn roots(cubic: &[f64; 4], width: f64, mut found: impl FnMut(f64)) {
     }
 }
 
-/// The root between two points whose values differ in sign: Newton steps, or bisection where they
-/// leave the bracket.
+/// The root between two points, if their values differ in sign or one of them is zero.
 fn root_between(cubic: &[f64; 4], low: f64, high: f64) -> Option<f64> {
-    let (mut low, mut high) = (low, high);
     let (at_low, at_high) = (value(cubic, low), value(cubic, high));
     if at_low == 0.0 {
         return Some(low);
@@ -48,26 +45,8 @@ fn root_between(cubic: &[f64; 4], low: f64, high: f64) -> Option<f64> {
         return (at_high == 0.0 && high > low).then_some(high);
     }
     let [_, c1, c2, c3] = *cubic;
-    let mut x = low + (high - low) * (at_low / (at_low - at_high));
-    for _ in 0..MAX_STEPS {
-        let at_x = value(cubic, x);
-        if at_x == 0.0 {
-            break;
-        }
-        if (at_x > 0.0) == (at_low > 0.0) {
-            low = x;
-        } else {
-            high = x;
-        }
-        let step = at_x / value(&[c1, 2.0 * c2, 3.0 * c3], x);
-        let next = x - step;
-        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-        if next == x {
-            break;
-        }
-        x = next;
-    }
-    Some(x)
+    let slope = |x: f64| value(&[c1, 2.0 * c2, 3.0 * c3], x);
+    Some(newton_in_bracket((low, at_low), (high, at_high), |x| value(cubic, x), slope))
 }
 
 #[cfg(test)]

@@ -72,10 +72,8 @@ pub const CLOSURE_PER_CONDITION: f64 = 8.0 * UNIT_ROUNDOFF;
 /// Error of an analogue per unit of squared condition, relative to the analogue.
 pub const ANALOGUE_PER_CONDITION_SQUARED: f64 = 64.0 * UNIT_ROUNDOFF;
 
-/// A position is near-singular when the relative error of its analogues exceeds this.
-pub const DIGITS_LEFT: f64 = 1.0e-6;
-
-/// Condition from which a position is near-singular: 64 u κ² reaches [`DIGITS_LEFT`].
+/// Condition from which a position is near-singular: 64 u κ², the relative error of its analogues
+/// ([`ANALOGUE_PER_CONDITION_SQUARED`]), reaches 1e-6.
 pub const NEAR_SINGULAR_CONDITION: f64 = 8388.608;
 
 /// Condition from which a dyad cannot be distinguished from a flat one. 1/κ is the square root of a

@@ -2,9 +2,9 @@
 
 use libm::pow;
 
-use super::stages::{Block, Refusal, Scale, Stages};
+use super::pair::stages::{Block, Refusal, Scale, Stages};
+use super::pair::tableau::Tableau;
 use super::system::System;
-use super::tableau::Tableau;
 
 /// Fraction of the width that would just meet the tolerance, so that few steps are rejected.
 const SAFETY: f64 = 0.9;

@@ -1,7 +1,8 @@
 //! Events of a step: which event functions change sign, and between which samples.
 
-use super::root::{find_double_root, itp};
 use super::system::Crossing;
+use crate::math::root::double_root::find_double_root;
+use crate::math::root::itp::itp;
 
 /// Where event functions are sampled, as fractions of a step: near both ends, so that the slope
 /// shows a minimum just inside, and often enough that two roots between samples are rare for a
@@ -245,7 +246,8 @@ impl EventTracker {
         let mut b = (self.thetas[to], side * self.value(to, j));
         let values = &mut self.current;
         let mut g = |theta: f64| f(theta, values).map(|()| side * values[j]);
-        // A start on the boundary itself or on the other side of a break: find a point inside.
+        // A start on the boundary itself or on the other side of a break: find a point inside. (Not
+        // `math::root`'s bisection: it rounds the middle otherwise and goes on inside.)
         let mut halvings = MAX_HALVINGS;
         while a.1 <= 0.0 && halvings > 0 {
             halvings -= 1;

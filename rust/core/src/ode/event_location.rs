@@ -1,8 +1,8 @@
 //! Events of a step: their exact location and their actions.
 
-use super::dense::Interpolant;
 use super::event::EventTracker;
-use super::stages::{Block, Refusal, Stages};
+use super::pair::dense::Interpolant;
+use super::pair::stages::{Block, Refusal, Stages};
 use super::system::{Action, System};
 
 /// Limit of Newton steps that polish the location of an event.

@@ -1,9 +1,9 @@
 //! The integrator: a method and its workspace.
 
-use super::dense::Interpolant;
 use super::event::EventTracker;
 use super::options::Method;
-use super::stages::{Block, Stages, blocks};
+use super::pair::dense::Interpolant;
+use super::pair::stages::{Block, Stages, blocks};
 
 /// An integrator of systems of n equations, with its workspace. It can be reused for any number of
 /// runs.

@@ -49,26 +49,22 @@
 
 pub(crate) mod check;
 pub(crate) mod control;
-pub(crate) mod dense;
-pub(crate) mod dop853;
 pub(crate) mod error;
 pub(crate) mod event;
 pub(crate) mod event_location;
 pub(crate) mod integrator;
 pub(crate) mod options;
+pub(crate) mod pair;
 pub(crate) mod record;
-pub(crate) mod root;
 pub(crate) mod run;
 pub(crate) mod solution;
-pub(crate) mod stages;
 pub(crate) mod system;
-pub(crate) mod tableau;
 #[cfg(test)]
 mod tests;
 
-pub use dense::DenseOutput;
 pub use error::Error;
 pub use integrator::Integrator;
 pub use options::{LEAST_RELATIVE, Method, Options, Output};
+pub use pair::dense::DenseOutput;
 pub use solution::{End, Event, Solution, Statistics};
 pub use system::{Action, Crossing, Fault, Rates, System};

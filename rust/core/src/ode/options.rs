@@ -1,8 +1,8 @@
 //! Options of a run.
 
-use super::dop853::DORMAND_PRINCE_853;
+use super::pair::dop853::DORMAND_PRINCE_853;
+use super::pair::tableau::{DORMAND_PRINCE_54, Tableau};
 use super::system::Crossing;
-use super::tableau::{DORMAND_PRINCE_54, Tableau};
 
 /// The Runge-Kutta pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

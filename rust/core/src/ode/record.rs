@@ -1,7 +1,7 @@
 //! Output of a run while it is computed.
 
-use super::dense::{DenseOutput, Interpolant};
 use super::options::Output;
+use super::pair::dense::{DenseOutput, Interpolant};
 use super::solution::Event;
 
 /// Events, output and steps of a run so far.

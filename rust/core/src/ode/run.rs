@@ -5,9 +5,9 @@ use super::error::Error;
 use super::event_location::{Cut, Step};
 use super::integrator::Integrator;
 use super::options::Options;
+use super::pair::stages::{Refusal, Scale};
 use super::record::Record;
 use super::solution::{End, Solution, Statistics};
-use super::stages::{Refusal, Scale};
 use super::system::System;
 
 /// Attempted steps between two calls of [`System::cancelled`]: a call may read a clock or take a

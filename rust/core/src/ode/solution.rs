@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::dense::DenseOutput;
+use super::pair::dense::DenseOutput;
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,18 +9,15 @@ impl FourBar {
     /// [`FourBar::description`].
     #[must_use]
     pub fn dimensions(&self, mechanism: &Mechanism) -> Vec<f64> {
-        mechanism
-            .dimensions()
-            .iter()
-            .zip(mechanism.drawing())
-            .map(|((name, _), &drawn)| match name {
-                "crank.length" => self.crank,
-                "coupler.length" => self.coupler,
-                "rocker.length" => self.rocker,
-                "ground.D.x" => self.ground,
-                _ => drawn,
-            })
-            .collect()
+        drawing_with(
+            mechanism,
+            &[
+                ("crank.length", self.crank),
+                ("coupler.length", self.coupler),
+                ("rocker.length", self.rocker),
+                ("ground.D.x", self.ground),
+            ],
+        )
     }
 }
 
@@ -29,16 +26,18 @@ impl SliderCrank {
     /// [`SliderCrank::description`].
     #[must_use]
     pub fn dimensions(&self, mechanism: &Mechanism) -> Vec<f64> {
-        mechanism
-            .dimensions()
-            .iter()
-            .zip(mechanism.drawing())
-            .map(|((name, _), &drawn)| match name {
-                "crank.length" => self.crank,
-                "rod.length" => self.rod,
-                "bore.offset" => self.offset,
-                _ => drawn,
-            })
-            .collect()
+        drawing_with(
+            mechanism,
+            &[("crank.length", self.crank), ("rod.length", self.rod), ("bore.offset", self.offset)],
+        )
     }
+}
+
+/// The dimensions of the drawing with some values replaced by name.
+fn drawing_with(mechanism: &Mechanism, replaced: &[(&str, f64)]) -> Vec<f64> {
+    let names = mechanism.dimensions().iter().map(|(name, _)| name);
+    let value = |(name, &drawn): (&str, &f64)| {
+        replaced.iter().find(|(own, _)| *own == name).map_or(drawn, |&(_, value)| value)
+    };
+    names.zip(mechanism.drawing()).map(value).collect()
 }

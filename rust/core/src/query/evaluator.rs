@@ -9,6 +9,7 @@ use crate::branch::knot::{InitialGuess, Taylor2};
 use crate::branch::units::Units;
 use crate::math::angle::unwrap_to;
 use crate::math::derivatives::DerivativeTables;
+use crate::math::root::ternary::ternary_search;
 use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::mechanism::Mechanism;
@@ -182,13 +183,8 @@ impl<'m> Evaluator<'m> {
         let name = plan.dyad_names.get(dyad.sign?)?;
         // A dyad's sine is its distance from the flat position, up to a factor.
         let reach = NEAR_MISS_REACH / condition * self.unit(0);
-        let (mut low, mut high) = (q - reach, q + reach);
-        for _ in 0..NARROWINGS {
-            let third = (high - low) / 3.0;
-            let [a, b] = [low + third, high - third].map(|at| self.excess_to_flat(dyad, at));
-            if a < b { high -= third } else { low += third }
-        }
-        let at = 0.5 * (low + high);
+        let ends = [q - reach, q + reach];
+        let at = ternary_search(ends, NARROWINGS, |at| self.excess_to_flat(dyad, at));
         let miss = self.excess_to_flat(dyad, at).abs() * self.design.constants.scale;
         miss.is_finite().then(|| NearMiss { dyad: name.clone(), miss, q: at })
     }

@@ -11,8 +11,9 @@ use std::sync::atomic::AtomicBool;
 use nalgebra::{DMatrix, DVector};
 
 use super::closure::{Closure, LeftOut, rotations};
-use super::freedom::{Pose, Skeleton, System};
 use super::least_norm::least_norm;
+use super::skeleton::Skeleton;
+use super::system::{Pose, System};
 use crate::description::Linkage;
 use crate::description::error::StructureError;
 use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_CLOSURE, UNIT_ROUNDOFF};

@@ -10,6 +10,8 @@ pub(crate) mod least_norm;
 pub(crate) mod matching;
 pub(crate) mod rank;
 pub(crate) mod redundancy;
+pub(crate) mod skeleton;
+pub(crate) mod system;
 
 pub(crate) use adjust::adjust;
 pub(crate) use assur_group::{Group, roman};
@@ -19,8 +21,9 @@ use std::fmt::Write as _;
 use std::sync::atomic::AtomicBool;
 
 use self::closure::rotations;
-use self::freedom::{Pose, Skeleton, System};
 use self::rank::Rank;
+use self::skeleton::Skeleton;
+use self::system::{Pose, System};
 use crate::description::error::{DriverFault, Overconstraint, StructureError};
 use crate::description::{Driver, Linkage};
 

@@ -1,8 +1,9 @@
 //! Redundant links and slides: the linkage moves in the same way without them.
 
 use super::closure::{Closure, LeftOut, rotations};
-use super::freedom::{Pose, Skeleton, System};
 use super::rank::Rank;
+use super::skeleton::Skeleton;
+use super::system::{Pose, System};
 use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
 

@@ -10,7 +10,7 @@
 use super::cycle::{Cycle, Extreme, wrap_to_period};
 use crate::dynamics::tables::error::TableError;
 use crate::math::quadrature::integral;
-use crate::math::root;
+use crate::math::root::illinois;
 
 /// Iteration limit for an extreme speed and for the coordinate at a time; about five are needed.
 const MAX_STEPS: u32 = 64;
@@ -68,7 +68,7 @@ impl Flywheel {
                     let [inertia, constant] = tangents(&cycle, [least, least + range]);
                     cycle.period() / duration(&cycle, inertia, constant) - mean
                 };
-                root::find_root(residual, mean - 0.5 * range)
+                illinois::find_root(residual, mean - 0.5 * range)
             }
         };
         let found = least.map(|least| tangents(&cycle, [least, least + range]));
@@ -112,7 +112,7 @@ impl Flywheel {
             };
             own_mean - mean
         };
-        let above = root::find_root(residual, guess).ok_or(TableError::NoMean { mean })?;
+        let above = illinois::find_root(residual, guess).ok_or(TableError::NoMean { mean })?;
         Self::with_energy(cycle, inertia, least.value + above, ("mean_speed", mean))
     }
 
@@ -203,6 +203,7 @@ impl Flywheel {
         let (since, width) = (time - self.times[piece], high - low);
         let state = [self.inertia, self.constant];
         let mut x = since / (self.times[piece + 1] - self.times[piece]) * width;
+        // Newton's method. The time grows with x, so the piece is all the bracket that it needs.
         for _ in 0..MAX_STEPS {
             let residual = since - time_within(&self.cycle, state, piece, x);
             let next =

@@ -1,5 +1,7 @@
 //! Sources of reduced inertia and loads: a mechanism, or tables.
 
+use std::convert::Infallible;
+
 use crate::dynamics::angle_between::Angle;
 use crate::dynamics::kinematics::Pose;
 use crate::dynamics::machine::{Machine, ReducedTable};
@@ -8,6 +10,7 @@ use crate::dynamics::reduced::Reduced;
 use crate::dynamics::tables::table::Table;
 use crate::dynamics::value::Numbers;
 use crate::math::derivatives::DerivativeTables;
+use crate::math::root::bisection::bisect;
 use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDITION};
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Evaluator, NearMiss, Queries};
@@ -179,19 +182,12 @@ impl ReducedModel for MechanismModel<'_> {
 
     fn dead_point_ahead(&mut self, q: f64, direction: f64) -> Option<f64> {
         self.evaluator.solve(&[q]).ok()?;
-        let (mut reachable, mut beyond) =
-            (q, q + direction.signum() * self.reach(0, f64::INFINITY));
+        let beyond = q + direction.signum() * self.reach(0, f64::INFINITY);
         if self.evaluator.solve(&[beyond]).is_ok() {
             return None;
         }
-        for _ in 0..MAX_HALVINGS {
-            let middle = 0.5 * (reachable + beyond);
-            if middle == reachable || middle == beyond {
-                break;
-            }
-            let is_reachable = self.evaluator.solve(&[middle]).is_ok();
-            *(if is_reachable { &mut reachable } else { &mut beyond }) = middle;
-        }
+        let is_reachable = |q: f64| Ok::<_, Infallible>(self.evaluator.solve(&[q]).is_ok());
+        let Ok([reachable, _]) = bisect([q, beyond], MAX_HALVINGS, is_reachable);
         Some(reachable)
     }
 

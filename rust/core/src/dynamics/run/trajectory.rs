@@ -3,7 +3,7 @@
 use super::dead_point::Tail;
 use super::options::Variable;
 use super::sample::{Sample, Samples};
-use crate::ode::dense::DenseOutput;
+use crate::ode::pair::dense::DenseOutput;
 use crate::ode::solution::Statistics;
 
 /// Why a run ended.

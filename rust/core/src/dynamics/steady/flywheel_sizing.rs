@@ -11,7 +11,7 @@ use crate::dynamics::run::equation::Equation;
 use crate::dynamics::run::error::{RunError, check_counts};
 use crate::dynamics::run::model::{MechanismModel, ReducedModel, TabulatedMachine};
 use crate::math::derivatives::DerivativeTables;
-use crate::math::root;
+use crate::math::root::illinois;
 use crate::plan::mechanism::Mechanism;
 
 /// Relative accuracy of the flywheel: the motions themselves are no more accurate.
@@ -141,7 +141,7 @@ fn at_mean_speed<E>(
             }
         }
     };
-    root::find_root_to(excess, wanted_mean, options.relative);
+    illinois::find_root_to(excess, wanted_mean, options.relative);
     if let Some(error) = failed {
         return Err(error);
     }
@@ -203,7 +203,7 @@ fn size_flywheel<E>(
             }
         }
     };
-    let found = root::find_root_to(residual, guess, FLYWHEEL_RTOL);
+    let found = illinois::find_root_to(residual, guess, FLYWHEEL_RTOL);
     match (found, failed, last) {
         (_, Some(error), _) => Err(error),
         (Some(flywheel), None, last) => {

@@ -77,7 +77,8 @@ impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
     }
 
     /// Finds the speed that motors and loads determine: a zero of the gain of speed² over a period,
-    /// by Newton's method, bracketed by a speed at which it falls and one at which it grows.
+    /// by Newton's method, bracketed by a speed at which it falls and one at which it grows. (Not
+    /// `math::root`'s, because a machine that stops has no gain, and each slope comes with its value.)
     fn solve_free_speed(&mut self, start: PeriodStart, first: Period) -> Solution<O::Error> {
         let from = start.speed2.sqrt();
         let idle = self.equation.motors.iter().find_map(crate::dynamics::motor::Motor::idle_speed);

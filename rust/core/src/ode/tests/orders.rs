@@ -1,9 +1,9 @@
 //! Orders of convergence, measured with fixed steps.
 
 use super::*;
-use crate::ode::dense::Interpolant;
 use crate::ode::options::Method;
-use crate::ode::stages::{Block, Scale, Stages};
+use crate::ode::pair::dense::Interpolant;
+use crate::ode::pair::stages::{Block, Scale, Stages};
 
 /// Nonlinear, coupled, dependent on t: tan t and e^t / cos t.
 fn rates(t: f64, y: &[f64], rates: &mut [f64]) {

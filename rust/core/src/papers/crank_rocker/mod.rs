@@ -25,12 +25,15 @@
 //! assert!(rows.iter().any(|row| row.sliding));
 //! ```
 
+pub(crate) mod case;
+pub(crate) mod jamming;
 pub(crate) mod motion;
 pub(crate) mod run;
 pub(crate) mod zone;
 
+pub use case::{Case, Event, Kind, Refused, Row, Side};
 pub use motion::{Assembly, Lengths, Position, Rates, position};
-pub use run::{Case, Event, Kind, Refused, Row, Side, run};
+pub use run::run;
 pub use zone::{
     Grashof, blocked, crank_turns, grashof, ground_range, least_gamma, margins,
     transmission_extremes,

@@ -1,10 +1,13 @@
 //! Greatest speed and acceleration of the slider.
 
+use std::convert::Infallible;
 use std::f64::consts::PI;
 
 use super::exact::stroke;
 use super::jet::Jet;
 use super::series::{Series, SlowSeries};
+use crate::math::root::bisection::{TO_ROUNDING, bisect};
+use crate::math::root::golden_section::{Bracket, golden_section};
 use crate::math::trig::atan2;
 
 /// An extreme value and its crank angle.
@@ -23,16 +26,9 @@ pub fn greatest_speed(k: f64) -> Greatest {
     // Divided by k⁴: l²x³ − lx² − x + 1 with l = 1/k² falls from 1 to l² − l < 0.
     let l = 1.0 / (k * k);
     let cubic = |x: f64| ((l * x - 1.0) * l * x - 1.0) * x + 1.0;
-    let (mut low, mut high) = (0.0, 1.0);
-    loop {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if cubic(middle) > 0.0 { low = middle } else { high = middle }
-    }
+    let Ok([_, x]) = bisect([0.0, 1.0], TO_ROUNDING, |x| Ok::<_, Infallible>(cubic(x) > 0.0));
     // φ = asin √x, in a form that is accurate near a right angle too.
-    let at = atan2(high.sqrt(), (1.0 - high).sqrt());
+    let at = atan2(x.sqrt(), (1.0 - x).sqrt());
     Greatest { at, value: stroke(at, 1.0 / k).0[1] }
 }
 
@@ -63,24 +59,11 @@ pub fn greatest_acceleration(k: f64) -> Greatest {
 /// Maximum of a function that rises and then falls: its location by golden section and a parabola
 /// through three points, and its value.
 pub(crate) fn maximum(low: f64, high: f64, f: &impl Fn(f64) -> f64) -> (f64, f64) {
-    /// (√5 − 1)/2.
-    const GOLDEN: f64 = 0.618_033_988_749_894_8;
     /// Below this width rounding hides the differences of the values.
     const WIDTH: f64 = 1.0e-5;
-    let (mut a, mut b) = (low, high);
-    let (mut c, mut d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-    let (mut at_c, mut at_d) = (f(c), f(d));
-    while b - a > WIDTH {
-        if at_c > at_d {
-            (b, d, at_d) = (d, c, at_c);
-            c = b - GOLDEN * (b - a);
-            at_c = f(c);
-        } else {
-            (a, c, at_c) = (c, d, at_d);
-            d = a + GOLDEN * (b - a);
-            at_d = f(d);
-        }
-    }
+    let is_narrow = |bracket: &Bracket| bracket.width() <= WIDTH;
+    let Ok(bracket) = golden_section([low, high], is_narrow, |x| Ok::<_, Infallible>(f(x)));
+    let [a, b] = bracket.ends;
     let (middle, step) = (0.5 * (a + b), 1.0e-4_f64.min(0.25 * (high - low)));
     let [left, center, right] = [middle - step, middle, middle + step].map(f);
     let curvature = left - 2.0 * center + right;

@@ -7,7 +7,7 @@ use super::tableau::Tableau;
 /// and II.10 (estimates of the error of order 5 and 3), with the digits of Hairer's program DOP853.
 /// The method of order 8 with 12 stages is of the family of Prince & Dormand, High order embedded
 /// Runge-Kutta formulae, J. Comp. Appl. Math. 7 (1981), pp. 67-75.
-pub(super) static DORMAND_PRINCE_853: Tableau = Tableau {
+pub(in crate::ode) static DORMAND_PRINCE_853: Tableau = Tableau {
     order: 8,
     stages: 12,
     c: &[

@@ -3,7 +3,7 @@
 //! Rows are sparse: stage and weight. Stages count from zero.
 
 /// A sparse row: (stage, weight).
-pub(super) type Row = &'static [(usize, f64)];
+pub(in crate::ode) type Row = &'static [(usize, f64)];
 
 /// An explicit Runge-Kutta pair with a continuous extension.
 ///
@@ -11,7 +11,7 @@ pub(super) type Row = &'static [(usize, f64)];
 /// the derivative at the new state (index `stages`) and the stages that only the continuous
 /// extension needs.
 #[derive(Debug)]
-pub(super) struct Tableau {
+pub(in crate::ode) struct Tableau {
     /// Order of the new state.
     pub order: u8,
     /// Number of stages of the new state.
@@ -35,30 +35,30 @@ pub(super) struct Tableau {
 
 impl Tableau {
     /// Weights of the new state.
-    pub(super) fn b(&self) -> Row {
+    pub(in crate::ode) fn b(&self) -> Row {
         self.a[self.stages]
     }
 
     /// Number of all stages.
-    pub(super) fn all_stages(&self) -> usize {
+    pub(in crate::ode) fn all_stages(&self) -> usize {
         self.c.len()
     }
 
     /// Number of coefficients of the continuous extension besides the initial state.
-    pub(super) fn extension_rows(&self) -> usize {
+    pub(in crate::ode) fn extension_rows(&self) -> usize {
         HERMITE_ROWS + self.extension.len()
     }
 }
 
 /// Coefficients of the continuous extension from the states and derivatives at both ends.
-pub(super) const HERMITE_ROWS: usize = 3;
+pub(in crate::ode) const HERMITE_ROWS: usize = 3;
 
 /// Dormand & Prince, A family of embedded Runge-Kutta formulae, J. Comp. Appl. Math. 6 (1980),
 /// pp. 19-26, RK5(4)7M; Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, 2nd
 /// ed. 1993, table II.5.2. Continuous extension of order 4: the same, II.6, after Shampine, Some
 /// practical Runge-Kutta formulas, Math. Comp. 46 (1986), pp. 135-150, in the nested form of
 /// Hairer's program DOPRI5.
-pub(super) static DORMAND_PRINCE_54: Tableau = Tableau {
+pub(in crate::ode) static DORMAND_PRINCE_54: Tableau = Tableau {
     order: 5,
     stages: 6,
     c: &[0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0],
@@ -111,8 +111,8 @@ pub(super) static DORMAND_PRINCE_54: Tableau = Tableau {
 
 #[cfg(test)]
 mod tests {
+    use super::super::dop853::DORMAND_PRINCE_853;
     use super::*;
-    use crate::ode::dop853::DORMAND_PRINCE_853;
     use crate::ode::tests::trees::{Tree, trees};
 
     const BOTH: [&Tableau; 2] = [&DORMAND_PRINCE_54, &DORMAND_PRINCE_853];

@@ -3,23 +3,23 @@
 //! Components are stored in blocks of four, so that sums over stages use vector instructions for
 //! any number of equations. The unused components of the last block are zero and stay zero.
 
-use super::system::{Fault, System};
 use super::tableau::{Row, Tableau};
+use crate::ode::system::{Fault, System};
 
 /// Components of a block: two SSE2 registers, or one of AVX2.
 const LANES: usize = 4;
 
 /// Four components of a state.
-pub(super) type Block = [f64; LANES];
+pub(in crate::ode) type Block = [f64; LANES];
 
 /// Number of blocks that hold `n` components.
-pub(super) fn blocks(n: usize) -> usize {
+pub(in crate::ode) fn blocks(n: usize) -> usize {
     n.div_ceil(LANES)
 }
 
 /// Why a step could not be evaluated.
 #[derive(Debug)]
-pub(super) enum Refusal<E> {
+pub(in crate::ode) enum Refusal<E> {
     /// A stage is outside the domain.
     OutOfDomain,
     /// Rates at a stage are NaN or infinite.
@@ -30,14 +30,14 @@ pub(super) enum Refusal<E> {
 
 /// Tolerances of all components.
 #[derive(Debug)]
-pub(super) struct Scale {
+pub(in crate::ode) struct Scale {
     relative: Vec<Block>,
     absolute: Vec<Block>,
 }
 
 impl Scale {
     /// One tolerance for each component, or one for all.
-    pub(super) fn new(relative: &[f64], absolute: &[f64], n: usize) -> Self {
+    pub(in crate::ode) fn new(relative: &[f64], absolute: &[f64], n: usize) -> Self {
         let to_blocks = |list: &[f64]| {
             let mut tolerances = vec![[1.0; LANES]; blocks(n)];
             let all = tolerances.as_flattened_mut().iter_mut();
@@ -48,7 +48,7 @@ impl Scale {
     }
 
     /// Σ (eᵢ / (aᵢ + rᵢ max(|yᵢ|, |zᵢ|)))² (Hairer, Nørsett & Wanner I, eq. II.4.10 and 4.11).
-    pub(super) fn square_sum(&self, e: &[Block], y: &[Block], z: &[Block]) -> f64 {
+    pub(in crate::ode) fn square_sum(&self, e: &[Block], y: &[Block], z: &[Block]) -> f64 {
         let mut total = 0.0;
         let tolerances = self.absolute.iter().zip(&self.relative);
         for (((e, (a, r)), y), z) in e.iter().zip(tolerances).zip(y).zip(z) {
@@ -77,7 +77,7 @@ const WARM_UP_STEPS: u32 = 2;
 
 /// The stages of a step.
 #[derive(Debug)]
-pub(super) struct Stages {
+pub(in crate::ode) struct Stages {
     pub tableau: &'static Tableau,
     n: usize,
     blocks: usize,
@@ -98,7 +98,7 @@ pub(super) struct Stages {
 }
 
 impl Stages {
-    pub(super) fn new(tableau: &'static Tableau, n: usize) -> Self {
+    pub(in crate::ode) fn new(tableau: &'static Tableau, n: usize) -> Self {
         let blocks = blocks(n);
         Self {
             tableau,
@@ -115,18 +115,18 @@ impl Stages {
     }
 
     /// A smooth interval begins: earlier estimates say nothing about it.
-    pub(super) fn begin_interval(&mut self) {
+    pub(in crate::ode) fn begin_interval(&mut self) {
         (self.greatest, self.accepted) = (0.0, 0);
     }
 
     /// Rates of a stage.
-    pub(super) fn rates(&self, stage: usize) -> &[Block] {
+    pub(in crate::ode) fn rates(&self, stage: usize) -> &[Block] {
         &self.k[stage * self.blocks..(stage + 1) * self.blocks]
     }
 
     /// Evaluates the rates of a stage at a state.
     #[inline]
-    pub(super) fn evaluate<S: System>(
+    pub(in crate::ode) fn evaluate<S: System>(
         &mut self,
         system: &mut S,
         stage: usize,
@@ -148,7 +148,7 @@ impl Stages {
     }
 
     /// Evaluates the stages of a step and the new state. The first stage must be evaluated already.
-    pub(super) fn advance<S: System>(
+    pub(in crate::ode) fn advance<S: System>(
         &mut self,
         system: &mut S,
         t: f64,
@@ -165,7 +165,7 @@ impl Stages {
 
     /// Evaluates the stages of the continuous extension. The rates at the new state must be
     /// evaluated already.
-    pub(super) fn extend<S: System>(
+    pub(in crate::ode) fn extend<S: System>(
         &mut self,
         system: &mut S,
         t: f64,
@@ -198,7 +198,13 @@ impl Stages {
     ///
     /// With two estimates, e = e₅² / √(e₅² + 0.01 e₃²) (Hairer, Nørsett & Wanner I, II.10). This
     /// treats them as terms of a series and holds only while they change little from step to step.
-    pub(super) fn error(&mut self, scale: &Scale, y: &[Block], new: &[Block], h: f64) -> f64 {
+    pub(in crate::ode) fn error(
+        &mut self,
+        scale: &Scale,
+        y: &[Block],
+        new: &[Block],
+        h: f64,
+    ) -> f64 {
         let mut mean_square = |row: Row, k: &[Block]| {
             weighted_sum(row, k, &mut self.error);
             scale.square_sum(&self.error, y, new) / self.n as f64
@@ -221,7 +227,13 @@ impl Stages {
     /// (Shampine; Hairer & Wanner II, IV.2, eq. 2.26). Components are weighted by their tolerances,
     /// so that one excluded from error control does not count. Valid only directly after `advance`
     /// and the evaluation at the new state.
-    pub(super) fn is_stiff(&mut self, scale: &Scale, y: &[Block], new: &[Block], h: f64) -> bool {
+    pub(in crate::ode) fn is_stiff(
+        &mut self,
+        scale: &Scale,
+        y: &[Block],
+        new: &[Block],
+        h: f64,
+    ) -> bool {
         let last = self.tableau.stages - 1;
         let k = |stage: usize| &self.k[stage * self.blocks..(stage + 1) * self.blocks];
         subtract(k(last + 1), k(last), &mut self.error);
@@ -232,7 +244,7 @@ impl Stages {
     }
 
     /// Uses the rates at the new state as the first stage of the next step.
-    pub(super) fn next_step(&mut self) {
+    pub(in crate::ode) fn next_step(&mut self) {
         self.greatest = self.greatest.max(self.fine);
         self.accepted = self.accepted.saturating_add(1);
         let end = self.tableau.stages * self.blocks;
@@ -240,7 +252,7 @@ impl Stages {
     }
 
     /// Weighted sum of the rates of the stages.
-    pub(super) fn weighted_sum(&self, row: Row, sum: &mut [Block]) {
+    pub(in crate::ode) fn weighted_sum(&self, row: Row, sum: &mut [Block]) {
         weighted_sum(row, &self.k, sum);
     }
 }

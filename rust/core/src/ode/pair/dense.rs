@@ -9,7 +9,7 @@ use super::tableau::HERMITE_ROWS;
 
 /// The continuous extension of one step.
 #[derive(Debug)]
-pub(super) struct Interpolant {
+pub(in crate::ode) struct Interpolant {
     n: usize,
     /// y₀, then F₀, F₁, …: n numbers each.
     rows: Vec<f64>,
@@ -17,13 +17,13 @@ pub(super) struct Interpolant {
 }
 
 impl Interpolant {
-    pub(super) fn new(stages: &Stages, n: usize) -> Self {
+    pub(in crate::ode) fn new(stages: &Stages, n: usize) -> Self {
         let rows = 1 + stages.tableau.extension_rows();
         Self { n, rows: vec![0.0; rows * n], sum: stages.rates(0).to_vec() }
     }
 
     /// Sets the polynomial of a step whose stages are all evaluated.
-    pub(super) fn set(&mut self, stages: &Stages, y: &[Block], new: &[Block], h: f64) {
+    pub(in crate::ode) fn set(&mut self, stages: &Stages, y: &[Block], new: &[Block], h: f64) {
         let n = self.n;
         let (first, last) = (stages.rates(0), stages.rates(stages.tableau.stages));
         let flat = |b: &'_ [Block], i: usize| b.as_flattened()[i];
@@ -46,12 +46,12 @@ impl Interpolant {
     }
 
     /// Writes the state at θ.
-    pub(super) fn at(&self, theta: f64, y: &mut [f64]) {
+    pub(in crate::ode) fn at(&self, theta: f64, y: &mut [f64]) {
         evaluate(&self.rows, self.n, theta, y);
     }
 
     /// Moves a state from one θ to another, adding the change of the polynomial.
-    pub(super) fn shift(&self, from: f64, to: f64, y: &mut [f64]) {
+    pub(in crate::ode) fn shift(&self, from: f64, to: f64, y: &mut [f64]) {
         for (i, y) in y.iter_mut().enumerate() {
             let [start, end] = [from, to].map(|theta| component(&self.rows, self.n, theta, i));
             *y += end - start;
@@ -60,7 +60,7 @@ impl Interpolant {
 
     /// Corrects the polynomial to pass through a more accurate state at θ. The difference is of the
     /// size of its error and is added in proportion to θ.
-    pub(super) fn correct(&mut self, theta: f64, y: &[f64]) {
+    pub(in crate::ode) fn correct(&mut self, theta: f64, y: &[f64]) {
         for i in 0..self.n {
             let error = y[i] - component(&self.rows, self.n, theta, i);
             self.rows[self.n + i] += error / theta;
@@ -114,7 +114,13 @@ pub struct DenseOutput {
 }
 
 impl DenseOutput {
-    pub(super) fn push(&mut self, interpolant: &Interpolant, start: f64, width: f64, end: f64) {
+    pub(in crate::ode) fn push(
+        &mut self,
+        interpolant: &Interpolant,
+        start: f64,
+        width: f64,
+        end: f64,
+    ) {
         self.n = interpolant.n;
         self.stride = interpolant.rows.len();
         self.starts.push(start);
