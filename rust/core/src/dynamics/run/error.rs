@@ -3,7 +3,6 @@
 use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
 
-use super::options::Variable;
 use crate::description::error::Hint;
 use crate::dynamics::tables::table::Table;
 use crate::ode::error::Error as IntegratorError;
@@ -89,12 +88,8 @@ impl<E: std::fmt::Display> Hint for RunError<E> {
 }
 
 impl<E: std::fmt::Display> RunError<E> {
-    /// The error of an integration along a variable.
-    pub(crate) fn of_integrator(error: IntegratorError<Self>, along: Variable) -> Self {
-        let along = match along {
-            Variable::Time => "t",
-            Variable::Coordinate => "q",
-        };
+    /// The error of an integration along "t" or "q".
+    pub(crate) fn of_integrator(error: IntegratorError<Self>, along: &'static str) -> Self {
         match error {
             IntegratorError::System(error) => error,
             IntegratorError::NotFinite { t, .. } => Self::NotFinite { along, at: t },

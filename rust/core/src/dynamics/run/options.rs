@@ -18,6 +18,16 @@ pub enum Variable {
     Coordinate,
 }
 
+impl Variable {
+    /// Its symbol in messages.
+    pub(crate) fn symbol(self) -> &'static str {
+        match self {
+            Self::Time => "t",
+            Self::Coordinate => "q",
+        }
+    }
+}
+
 /// What an event looks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EventKind {

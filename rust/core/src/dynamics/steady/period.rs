@@ -184,8 +184,9 @@ pub(crate) fn period<S: ReducedModel, O: Callbacks>(
     let integrator = integrator.get_or_insert_with(|| Integrator::new(options.method, LEN));
     let solved = integrator.run(&mut system, from, &y0, from + options.span, &ode_options);
     let (table_ended, depends_on_speed) = (system.table_ended, system.depends_on_speed);
-    let Solution { t: q, y, end, .. } = solved
-        .map_err(|error| SteadyError::Run(RunError::of_integrator(error, Variable::Coordinate)))?;
+    let Solution { t: q, y, end, .. } = solved.map_err(|error| {
+        SteadyError::Run(RunError::of_integrator(error, Variable::Coordinate.symbol()))
+    })?;
     match end {
         End::Reached => {}
         End::DomainBoundary { .. } | End::Stalled { .. }
