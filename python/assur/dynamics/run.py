@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur import _core
 from assur._arrays import real_array
 from assur._validate import one_of
 from assur.description.words import Status
@@ -17,6 +16,7 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from typing_extensions import Self
 
+    from assur import _core
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statistics"]
@@ -202,8 +202,7 @@ class Run:
             self.events.append(EventRecord(event, float(self.t[-1]), self.q[-1], self.speed[-1]))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        core, *others = self._init_args
-        return _rebuild, (core.to_bytes(), *others)
+        return Run, self._init_args
 
     def __repr__(self) -> str:
         return (
@@ -333,7 +332,3 @@ class Run:
         if mechanism is not None:
             why = ": " + mechanism.solve(self._per_driver(q), order=1, on_error="nan").explain()
         return "lost", f"the branch cannot be tracked beyond {place}{why}"
-
-
-def _rebuild(core: bytes, *others: Any) -> Run:
-    return Run(_core.Run.from_bytes(core), *others)

@@ -72,14 +72,14 @@ class SolveRequest:
         links: dict[str, int],
         slides: dict[str, int],
         buffers: Buffers | None = None,
-        by: int | None = None,
+        dimension: int | None = None,
     ) -> tuple[Results, npt.NDArray[np.uint8]]:
         """Solve for joints, angles of links, and slides, into the buffers if given.
 
-        With `by`, the index of a dimension, return the derivatives by that dimension.
+        With the index of a dimension, return the derivatives by that dimension.
         """
         wanted = [list(of.values()) for of in (joints, links, slides)]
-        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]), buffers, by)
+        found, status = self._solve((wanted[0], wanted[1], [], wanted[2]), buffers, dimension)
         shape = self.shape
         results = Results(
             joints=self._named("joint", joints, found, (*shape, 2)),
@@ -102,7 +102,7 @@ class SolveRequest:
         values = np.ascontiguousarray(self.mechanism._values).reshape(-1)
         if self.per_design and 0 in self.mechanism.shape:
             # With no designs the number of coordinates per design is undefined.
-            drivers = len(self.mechanism._core.q0)
+            drivers = self.mechanism._driver_count
             return values, np.zeros(drivers * math.prod(self.positions)), False
         return values, np.ascontiguousarray(self.q).reshape(-1), self.per_design
 
@@ -110,10 +110,10 @@ class SolveRequest:
         self,
         outputs: Outputs,
         buffers: Buffers | None = None,
-        by: int | None = None,
+        dimension: int | None = None,
     ) -> tuple[dict[tuple[str, int, int], Float], npt.NDArray[np.uint8]]:
         return self.mechanism._core.solve(
-            *self.flat(), self.signs, self.order, outputs, self.threads, buffers, by
+            *self.flat(), self.signs, self.order, outputs, self.threads, buffers, dimension
         )
 
     def _named(
@@ -124,7 +124,7 @@ class SolveRequest:
         shape: tuple[int, ...],
     ) -> Held:
         """Return arrays by name and order; with several drivers each order adds an axis."""
-        drivers = len(self.mechanism._core.q0)
+        drivers = self.mechanism._driver_count
         held = {}
         for name, index in names.items():
             arrays = []
