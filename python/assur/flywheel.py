@@ -13,7 +13,6 @@ fluctuation in Mathcad*, equations 1 to 6. F. Wittenbauer, *Graphische Dynamik* 
 from __future__ import annotations
 
 import csv
-import operator
 import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
@@ -22,8 +21,8 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import real_array, short
-from assur._validate import checked_index, checked_threads, one_of
+from assur._arrays import real_array
+from assur._validate import checked_index, checked_threads, one_of, whole_number
 from assur.errors import AssurWarning, InputError
 
 if TYPE_CHECKING:
@@ -34,6 +33,8 @@ __all__ = ["Extremum", "Flywheel", "Table", "evaluate", "from_table", "read_tabl
 Float: TypeAlias = npt.NDArray[np.float64]
 Mean: TypeAlias = Literal["extremes", "period"]
 Spline: TypeAlias = Literal["not-a-knot", "natural", "clamped", "periodic", "linear"]
+# The requirement besides the mean or initial speed; "mean speed" and "initial speed": a flywheel.
+Task: TypeAlias = Literal["fluctuation", "mean speed", "initial speed"]
 
 MEANS = ("extremes", "period")
 SPLINES = ("not-a-knot", "natural", "clamped", "periodic", "linear")
@@ -192,7 +193,8 @@ class Flywheel:
             flywheel at the start, J. The tangents with slopes ω²/2 at the extreme speeds meet at
             (−I_f, −I_f ω0²/2).
         """
-        q = np.linspace(*self._span, _row_count(points))
+        needed = "a whole number of at least 2 is needed"
+        q = np.linspace(*self._span, whole_number(points, "points", 2, needed=needed))
         inertia = self.reduced_inertia(q)
         start = np.asarray(self.reduced_inertia(self._span[0]) * np.square(self.speed0) / 2.0)
         return inertia, self.work(q) + start[..., np.newaxis]
@@ -220,7 +222,7 @@ class Flywheel:
         one_of(what, ("speed", "time", "energy-mass"), "what")
         return flywheel_picture(self, what, self._span, PLOT_POINTS, ax)
 
-    def _curve(self, what: str, points: npt.ArrayLike, name: str) -> Any:
+    def _curve(self, quantity: str, points: npt.ArrayLike, name: str) -> Any:
         x = real_array(points, name)
         if not np.isfinite(x).all():
             value = float(x[~np.isfinite(x)][0])
@@ -228,7 +230,7 @@ class Flywheel:
             raise InputError(message, value=value)
         shape = self.shape + x.shape
         flat = np.ascontiguousarray(np.broadcast_to(x, shape)).ravel()
-        return _shaped(self._core.curve(what, flat), shape)
+        return _shaped(self._core.curve(quantity, flat), shape)
 
 
 @overload
@@ -340,9 +342,8 @@ def from_table(
         missing = "fluctuation" if fluctuation is None else "mean_speed"
         message = f"{missing} is missing: both fluctuation and mean_speed are needed"
         raise InputError(message)
-    task = f"sized {one_of(mean, MEANS, 'mean')}"
     wanted = (fluctuation, "fluctuation"), (mean_speed, "mean_speed")
-    return _flywheel(phi, moment, inertia, spline, task, wanted, mean, on_error, threads)
+    return _flywheel(phi, moment, inertia, spline, "fluctuation", wanted, mean, on_error, threads)
 
 
 def evaluate(
@@ -395,8 +396,7 @@ def evaluate(
     if (speed0 is None) == (mean_speed is None):
         message = "one of speed0 and mean_speed is needed, not both"
         raise InputError(message)
-    one_of(mean, MEANS, "mean")
-    task = "given" if mean_speed is None else f"driven {mean}"
+    task: Task = "initial speed" if mean_speed is None else "mean speed"
     second = (speed0, "speed0") if mean_speed is None else (mean_speed, "mean_speed")
     wanted = (flywheel, "flywheel"), second
     return _flywheel(phi, moment, inertia, spline, task, wanted, mean, on_error, threads)
@@ -465,13 +465,14 @@ def _flywheel(
     moment: npt.ArrayLike,
     inertia: npt.ArrayLike,
     spline: Spline,
-    task: str,
+    task: Task,
     wanted: tuple[tuple[Any, str], tuple[Any, str]],
     mean: Mean,
     on_error: str,
     threads: int | None,
     corners: list[int] | None = None,
 ) -> Flywheel:
+    one_of(mean, MEANS, "mean")
     one_of(spline, SPLINES, "spline")
     one_of(on_error, ("raise", "nan"), "on_error")
     x, m, i = real_array(phi, "phi"), real_array(moment, "moment"), real_array(inertia, "inertia")
@@ -500,7 +501,7 @@ def _flywheel(
     full = (*shape, x.size)
     flat = [np.ascontiguousarray(np.broadcast_to(a, full)).ravel() for a in (m, i)]
     first, second = (np.ascontiguousarray(np.broadcast_to(n, shape)).ravel() for n in numbers)
-    arguments = (np.ascontiguousarray(x), *flat, spline, task, first, second)
+    arguments = (np.ascontiguousarray(x), *flat, spline, task, mean, first, second)
     result = Flywheel((*arguments, checked_threads(threads), corners), shape, mean)
     failed = np.flatnonzero(np.isnan(np.asarray(result.inertia)).ravel())
     if on_error == "raise" and failed.size:
@@ -526,17 +527,6 @@ def warn_if_degrees(span: float, periodic: bool = True) -> None:
             "a part of one. Is phi in degrees?"
         )
         warnings.warn(message, AssurWarning, stacklevel=4)
-
-
-def _row_count(points: Any) -> int:
-    try:
-        number = operator.index(points)
-    except TypeError:
-        number = 0
-    if number < 2:
-        message = f"points is {short(points)}: a whole number of at least 2 is needed"
-        raise InputError(message)
-    return number
 
 
 def _shaped(flat: Float, shape: tuple[int, ...]) -> Any:

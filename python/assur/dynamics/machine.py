@@ -13,9 +13,9 @@ import numpy.typing as npt
 from assur import _core
 from assur._arrays import real_array, short
 from assur._validate import checked_name, one_of
-from assur.dynamics import integrate, motors, reduce, size_flywheel
-from assur.dynamics.callbacks import CallbackTable
-from assur.dynamics.loads import Body, Gravity
+from assur.dynamics import integrate, reduce, size_flywheel
+from assur.dynamics.loads import Body, checked_load
+from assur.dynamics.motors import checked_motor
 from assur.dynamics.options import as_list
 from assur.errors import InputError
 from assur.flywheel import SPLINES, warn_if_degrees
@@ -115,31 +115,14 @@ class Machine:
             Machine,
             (mechanism, dict(bodies), self.loads, self.motor),
         )
-        callbacks = CallbackTable()
-        gravity = np.zeros(2)
-        encoded_loads = []
-        for load in self.loads:
-            if isinstance(load, Gravity):
-                gravity = gravity + load.acceleration
-            elif hasattr(load, "_encode"):
-                encoded_loads.append(load._encode(callbacks))
-            else:
-                message = f"{short(load)} is no load: Gravity, Force, Torque, Spring, Damper …"
-                raise InputError(message)
-        callbacks.load_count = len(callbacks.functions)
-        masses = [_body(mechanism, link, body) for link, body in self.bodies.items()]
-        encoded_motors = _motors(self.motor, self._drivers, callbacks)
-        self._callbacks = callbacks
         self._core = _core.Machine(
             mechanism._core,
-            masses,
-            encoded_loads,
-            gravity.tolist(),
-            callbacks.tables,
-            encoded_motors,
+            loads=[checked_load(load) for load in self.loads],
+            bodies=[_body(mechanism, link, body) for link, body in self.bodies.items()],
+            motors=_motors(self.motor, self._drivers),
         )
         if mechanism.driver not in mechanism.slides:
-            for rows, _, _, periodic in callbacks.tables:
+            for rows, periodic in self._core.tables:
                 warn_if_degrees(rows[-1] - rows[0], periodic)
 
     @classmethod
@@ -188,17 +171,15 @@ class Machine:
         self.mechanism, self.loads, self.motor = None, (), motor
         self.bodies = MappingProxyType({})
         self._drivers = 1
-        callbacks = CallbackTable()
         x, columns = _columns(phi, moment, inertia)
         one_of(spline, SPLINES, "spline")
         warn_if_degrees(float(x[-1] - x[0]), periodic)
-        for column in (columns["inertia"], columns["moment"]):
-            callbacks.tables.append((x.tolist(), column.tolist(), spline, bool(periodic)))
         table = x, columns["moment"], columns["inertia"]
         self._rebuild_with = Machine.from_table, (*table, motor, spline, periodic)
-        encoded_motors = _motors(motor, 1, callbacks)
-        self._callbacks = callbacks
-        self._core = _core.Machine(None, [], [], [0.0, 0.0], callbacks.tables, encoded_motors)
+        motors = _motors(motor, 1)
+        self._core = _core.Machine.from_table(
+            x, columns["moment"], columns["inertia"], spline, bool(periodic), *motors
+        )
         return self
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -569,16 +550,16 @@ class Machine:
         return reduce.reduce(self, q, speed, on_error)
 
 
-def _motors(motor: Any, drivers: int, callbacks: CallbackTable) -> list[motors.EncodedMotor]:
+def _motors(motor: Any, drivers: int) -> list[Motor | None]:
+    """Return a motor or None for each driver."""
     if motor is None:
-        return []
+        return [None] * drivers
     many = [motor] if drivers == 1 and not isinstance(motor, list | tuple) else motor
     if not isinstance(many, list | tuple) or len(many) != drivers:
         wanted = f"{drivers} drivers need a sequence of as many (None: none)"
         message = f"motor is {short(motor)}: {wanted}"
         raise InputError(message)
-    pairs = enumerate(many)
-    return [motors.encode(one, driver, callbacks) for driver, one in pairs if one is not None]
+    return [None if one is None else checked_motor(one) for one in many]
 
 
 def _check(mechanism: Any, bodies: Any) -> None:
@@ -614,7 +595,7 @@ def _columns(phi: Any, moment: Any, inertia: Any) -> tuple[Float, dict[str, Floa
     return x, columns
 
 
-def _body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Any, float, float]:
+def _body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Body]:
     if not isinstance(link, str):
         message = f"bodies has {short(link)}: names of links are needed"
         raise InputError(message)
@@ -623,12 +604,8 @@ def _body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Any, float, 
         message = f"bodies[{link!r}] is {short(body)}: an assur.Body is needed"
         raise InputError(message)
     joints = mechanism.links.get(link, ())
-    at: Any = body.at
-    if at is None and joints:
-        at = joints[0]
-    elif not isinstance(at, str):
-        at = link, (0.0, 0.0) if at is None else at
-    elif link in mechanism.links and at not in joints:
+    at = body.at
+    if isinstance(at, str) and link in mechanism.links and at not in joints:
         message = f"bodies[{link!r}]: joint {at!r} is not one of its joints {', '.join(joints)}"
         raise InputError(message, joint=at, link=link)
-    return link, at, body.mass, body.inertia
+    return link, body

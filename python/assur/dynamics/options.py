@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import operator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from assur._arrays import real_array, real_number, short
+from assur._validate import whole_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -114,26 +114,12 @@ def checked_breaks(breaks: Any) -> list[float]:
 
 def turn_count(turns: Any) -> int:
     """Return the number of turns of a period."""
-    try:
-        number = operator.index(turns)
-    except TypeError:
-        number = 0
-    if not 1 <= number <= 1024:
-        message = f"turns is {short(turns)}: a whole number from 1 to 1024 is needed"
-        raise InputError(message)
-    return number
+    return whole_number(turns, "turns", 1, 1024)
 
 
 def step_count(steps: Any) -> int:
     """Return the largest number of steps."""
-    try:
-        number = operator.index(steps)
-    except TypeError:
-        number = 0
-    if not 1 <= number < 2**63:
-        message = f"max_steps is {short(steps)}: a whole number above 0 is needed"
-        raise InputError(message)
-    return number
+    return whole_number(steps, "max_steps", 1, needed="a whole number above 0 is needed")
 
 
 def checked_seconds(seconds: Any) -> float | None:

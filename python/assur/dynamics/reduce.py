@@ -10,6 +10,7 @@ import numpy.typing as npt
 from assur._arrays import real_array
 from assur._validate import one_of
 from assur.description.words import Status
+from assur.dynamics.values import function_values
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -45,7 +46,8 @@ def reduce(
     flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
     given = np.empty(0)
     if speed is not None:
-        given = machine._callbacks.load_values(flat.reshape(-1, n), speeds.reshape(-1, n))
+        functions = machine._core.load_functions
+        given = function_values(functions, flat.reshape(-1, n), speeds.reshape(-1, n))
     values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
     dimensions = np.ascontiguousarray(values).ravel()
     *arrays, status, failure = machine._core.reduce(

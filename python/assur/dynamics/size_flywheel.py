@@ -116,7 +116,7 @@ def _from_tables(
             moment[..., 0],
             inertia[..., 0, 0],
             "not-a-knot",
-            f"sized {one_of(mean, flywheels.MEANS, 'mean')}",
+            "fluctuation",
             ((fluctuation, "fluctuation"), (speed, "mean_speed")),
             mean,
             on_error,
@@ -182,7 +182,7 @@ def _knots(machine: Machine) -> list[float]:
     """Return the coordinates of a turn at which loads are not smooth, its ends included."""
     turn = 2.0 * math.pi
     found = {0.0, turn}
-    for rows, _, _, periodic in machine._callbacks.tables:
+    for rows, periodic in machine._core.tables:
         first, period = rows[0], rows[-1] - rows[0]
         require_whole_periods(period if periodic else None, turn)
         steps = range(math.floor(-first / period) - 1, math.ceil((turn - first) / period) + 1)

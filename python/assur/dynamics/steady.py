@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from assur import _core
 from assur._arrays import real_array
 from assur.dynamics.run import Run
 from assur.errors import InputError
@@ -16,6 +15,7 @@ from assur.flywheel import Extremum
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from assur import _core
     from assur.dynamics.run import State
     from assur.kinematics.mechanism import Mechanism
 
@@ -83,8 +83,7 @@ class SteadyState:
         self.motor_moment = work / math.copysign(span, float(self.q[-1] - self.q[0]))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        core, *others = self._init_args
-        return _rebuild, (core.to_bytes(), *others)
+        return SteadyState, self._init_args
 
     def __repr__(self) -> str:
         flywheel = f", flywheel {self.inertia:.6g} kg·m²" if self.inertia else ""
@@ -135,7 +134,3 @@ class SteadyState:
         from assur.plot import steady_picture
 
         return steady_picture(self, ax)
-
-
-def _rebuild(core: bytes, *others: Any) -> SteadyState:
-    return SteadyState(_core.Run.from_bytes(core), *others)

@@ -50,7 +50,7 @@ class Motion:
         self._status = status
         self._request = request
         self._stored = results
-        self._drivers = len(request.mechanism._core.q0)
+        self._drivers = request.mechanism._driver_count
         self._reference_points: dict[str, tuple[Float, ...]] = {}
         self._diagnostics: tuple[Float, Float] | None = None
 
