@@ -12,13 +12,13 @@ from assur._validate import one_of
 from assur.errors import InputError, PositionError
 
 if TYPE_CHECKING:
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import MachineModel
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
 
 def reduce(
-    machine: Machine, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
+    machine: MachineModel, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
 ) -> tuple[Float, Float, Float, Float]:
     """Return mass matrices, their derivatives, moments and potential energies.
 
@@ -66,7 +66,7 @@ def reduce(
     )
 
 
-def _refuse(machine: Machine, q: Float, shape: tuple[int, ...], flat: int) -> None:
+def _refuse(machine: MachineModel, q: Float, shape: tuple[int, ...], flat: int) -> None:
     entry = tuple(int(k) for k in np.unravel_index(flat, shape)) if shape else ()
     if machine.mechanism is None:
         message = f"q = {q[entry]:g} is beyond the table"
