@@ -10,7 +10,8 @@ from assur.dynamics.loads import Body, Load
 from assur.dynamics.motors import Motor
 from assur.dynamics.values import Function
 from assur.events import AngleLimit, Crossing, Position, Rest, Speed
-from assur.flywheel import Mean, Spline, Task
+from assur.flywheel import Mean, Spline
+from assur.flywheel.sizing import Task
 from assur.kinematics.request import Buffers
 
 __all__ = [

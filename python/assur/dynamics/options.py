@@ -11,7 +11,7 @@ from assur._validate import whole_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import MachineModel
 
 METHODS = ("DOP853", "RK45")
 # Below it, errors drown in rounding (`assur::ode`).
@@ -20,14 +20,14 @@ MIN_RTOL = 2.3e-15
 PERIOD_RTOL = 1e-9
 
 
-def one_design(machine: Machine, what: str) -> None:
+def one_design(machine: MachineModel, what: str) -> None:
     """Raise InputError for a batch."""
     if machine.shape:
         message = f"{what} is for one design, this is a batch {machine.shape}: design(i)"
         raise InputError(message)
 
 
-def require_rotary_driver(machine: Machine, what: str) -> None:
+def require_rotary_driver(machine: MachineModel, what: str) -> None:
     """Raise InputError unless the machine has one driver and that is an angle."""
     driver = None if machine.mechanism is None else machine.mechanism.driver
     slides = {} if machine.mechanism is None else machine.mechanism.slides

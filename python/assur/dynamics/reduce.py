@@ -14,13 +14,13 @@ from assur.dynamics.values import function_values
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import MachineModel
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
 
 def reduce(
-    machine: Machine, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
+    machine: MachineModel, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
 ) -> tuple[Float, Float, Float, Float]:
     """Return mass matrices, their derivatives, moments and potential energies.
 
@@ -71,7 +71,7 @@ def reduce(
     )
 
 
-def _require_within_table(machine: Machine, q: Float, status: npt.NDArray[np.uint8]) -> None:
+def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[np.uint8]) -> None:
     beyond = np.flatnonzero(status > Status.NEAR_SINGULAR)
     if machine.mechanism is None and beyond.size:
         first = float(q[beyond[0]])

@@ -285,7 +285,7 @@ class Run:
         -------
         matplotlib axes
         """
-        from assur.plot import run_picture
+        from assur._plot import run_picture
 
         one_of(what, ("speed", "q", "acceleration", "energy"), "what")
         return run_picture(self, what, ax)

@@ -434,9 +434,9 @@ class Mechanism:
         -------
         matplotlib.axes.Axes
         """
-        from assur import plot
+        from assur._plot import mechanism_picture
 
-        return plot.mechanism(self, q, ax)
+        return mechanism_picture(self, q, ax)
 
 
 def _rebuild(description: Description, values: Float) -> Mechanism:

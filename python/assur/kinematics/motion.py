@@ -309,6 +309,6 @@ class Motion:
 
     def plot(self, joint: str, ax: Any = None) -> Any:
         """Draw a joint's path with the mechanism at the first position (needs matplotlib)."""
-        from assur import plot
+        from assur._plot import path_picture
 
-        return plot.path(self, joint, ax)
+        return path_picture(self, joint, ax)

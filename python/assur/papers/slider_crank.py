@@ -19,6 +19,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import in_range, real_array, real_number
+from assur._extreme import Extreme
 from assur._trig import arctan2
 from assur._validate import one_of, whole_number
 from assur.errors import DimensionError, InputError
@@ -44,13 +45,6 @@ __all__ = [
 Float: TypeAlias = npt.NDArray[np.float64]
 # More terms change no digit of any approximation (k = 1.001 needs some 400).
 MAX_TERMS = 100_000
-
-
-class Extreme(NamedTuple):
-    """A greatest value: its crank angle, rad, and the value."""
-
-    at: Any
-    value: Any
 
 
 class Deviation(NamedTuple):

@@ -166,13 +166,13 @@ def test_curves_belong_together() -> None:
     f = p3()
     q = np.linspace(-20.0, 20.0, 401)
     # Times and angles are each other's inverse, any number of turns on.
-    assert np.abs(f.angle(f.time(q)) - q).max() < 1e-13
+    assert np.abs(f.coordinate(f.time(q)) - q).max() < 1e-13
     assert f.time(TURN) == pytest.approx(f.period, rel=1e-15)
     assert f.time(0.0) == 0.0
     # The speed is the derivative of the angle by the time.
     t = f.time(q)
     step = 1e-5
-    speed = (f.angle(t + step) - f.angle(t - step)) / (2 * step)
+    speed = (f.coordinate(t + step) - f.coordinate(t - step)) / (2 * step)
     assert np.abs(speed / f.speed(q) - 1).max() < 1e-6
     # Energy: the work of a turn is none, and goes into speed.
     energy = 0.5 * (f.reduced_inertia(q) + f.inertia) * f.speed(q) ** 2

@@ -126,7 +126,7 @@ def test_a_machine_of_a_table_may_have_its_rotor_alone() -> None:
     quarter = run.at(q=0.5 * math.pi).speed
     assert quarter == pytest.approx(math.sqrt(40.0**2 + 2.0 * SINE / 200.0), rel=1e-9)
     steady = machine.steady_state(SPEED)
-    assert abs(steady.energy) == pytest.approx(work_of_turn, rel=1e-9)
+    assert abs(steady.motor_work) == pytest.approx(work_of_turn, rel=1e-9)
     assert steady.mean_speed == pytest.approx(SPEED, rel=1e-11)
     wheel = machine.flywheel(DELTA, SPEED)
     assert isinstance(wheel, flywheel.Flywheel)

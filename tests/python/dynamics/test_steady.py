@@ -61,7 +61,7 @@ def test_a_linear_motor_under_a_constant_load() -> None:
         assert math.copysign(1.0, own.speed[0]) == math.copysign(1.0, ratio)
         damping = ratio**2 * 50.0 / 40.0
         assert abs(own.multiplier - math.exp(-TURN * damping / (inertia * speed))) < 1e-10
-        assert abs(own.energy - 20.0 * TURN) < 1e-8
+        assert abs(own.motor_work - 20.0 * TURN) < 1e-8
         assert abs(own.power - 20.0 * speed) < 1e-8
         assert abs(own.motor_moment - math.copysign(20.0, ratio)) < 1e-9
 
@@ -122,7 +122,7 @@ def test_shooting_is_waiting(motor: Any) -> None:
     assert abs(change - own.multiplier) < 1e-7
     assert own.multiplier > 1e-4
     # All work of a turn: that of the motor, of the load, of the weights none.
-    assert abs(own.run.energy.kinetic[-1] - own.run.energy.kinetic[0]) < 1e-9 * own.energy
+    assert abs(own.run.energy.kinetic[-1] - own.run.energy.kinetic[0]) < 1e-9 * own.motor_work
     assert own.run.energy.error < 1e-11
 
 
