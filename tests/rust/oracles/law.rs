@@ -125,7 +125,7 @@ pub fn compare(mechanism: &Mechanism, oracle: &Oracle, at: &mut Position, q: &[f
     assert!(
         matches!(diagnosis.status, Status::Ok | Status::NearSingular),
         "the oracle is there: {}",
-        diagnosis.sentence
+        diagnosis
     );
     assert_eq!(motion.status, [diagnosis.status as u8]);
     let comparison = Comparison { oracle, at, drivers: q.len(), arms: oracle.arms(at) };

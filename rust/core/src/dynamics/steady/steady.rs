@@ -187,7 +187,10 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
                 return Err(SteadyError::Cancelled { q });
             }
             // The shooting integrated the same period to its end.
-            _ => return Err(SteadyError::TooManySteps { q }),
+            _ => {
+                let q = run.samples.q.last().copied().unwrap_or(q);
+                return Err(SteadyError::TooManySteps { q });
+            }
         }
         let change = |list: &[f64]| list.last().zip(list.first()).map_or(f64::NAN, |(b, a)| b - a);
         let stored: Vec<f64> = run.energies.iter().map(|pair| pair[1]).collect();
