@@ -208,7 +208,8 @@ def answered(ask: Callable[[], Any], write: Callable[[Any], list[Any]]) -> Any:
         try:
             found: Any = write(ask())
         except assur.AssurError as error:
-            found = [type(error).__name__, repr(sorted(error.__dict__.items()))]
+            fields = {name: of for name, of in error.__dict__.items() if name != "hint"}
+            found = [type(error).__name__, repr(sorted(fields.items()))]
     return [found, [one.category.__name__ for one in caught]]
 
 
