@@ -212,7 +212,7 @@ def test_a_flywheel_from_the_machine_itself() -> None:
     assert f.inertia == pytest.approx(direct.inertia, rel=1e-4)
     assert f.delta == pytest.approx(0.05, rel=1e-12)
     assert f.mean_speed == pytest.approx(20.0, rel=1e-12)
-    with pytest.raises(assur.InputError, match="a flywheel is of one driver that turns"):
+    with pytest.raises(assur.InputError, match="a flywheel needs a single driver that turns"):
         Machine(cylinder(), {"arm": Body(1.0)}).flywheel(0.1, 10.0)
     swinging = Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), {"crank": Body(inertia=1.0)})
     with pytest.raises(assur.PositionError, match=r"\"C\" cannot be assembled"):
@@ -253,7 +253,7 @@ def pushed(t: float, q: float, speed: float) -> Any:
         (lambda m: Machine(m, {"x": Body()}), 'there is no link "x"'),
         (lambda m: Machine(m, {"crank": Body(at="C")}), "joint 'C' is not one of its joints A, B"),
         (lambda m: Machine(m, {"crank": ANY}), "bodies.'crank'. is 3: an assur.Body is needed"),
-        (lambda m: Machine(m, {}, [ANY]), "3 is no load"),
+        (lambda m: Machine(m, {}, [ANY]), "3 is not a load"),
         (lambda m: Machine(m, {}, [Force("Z", (1, 1))]), 'there is no joint "Z"'),
         (lambda m: Machine(m, {}, [Force("C", ANY)]), r"3 is not two components \(fx, fy\)"),
         (lambda m: Machine(m, {}, [Force(ANY, (1, 1))]), "3 is not a location"),

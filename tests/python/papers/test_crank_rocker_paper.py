@@ -217,7 +217,7 @@ def test_zone_of_figure_3() -> None:
     assert abs(greatest - 4.97753284) < 6e-9
     inside = [least < ground < greatest for ground in GROUNDS]
     assert inside == [True] * 4 + [False]
-    with pytest.raises(assur.InputError, match="no ground is left"):
+    with pytest.raises(assur.InputError, match="no length of the ground fits"):
         cr.ground_range(4.0, 1.02)
 
 
