@@ -266,7 +266,8 @@ def ground_range(
     if least > greatest:
         message = (
             f"no length of the ground fits: with coupler {coupler!r}, rocker {rocker!r}, "
-            f"margin {margin!r} and gamma_min {gamma_min!r} it would be from {least:.6g} to {greatest:.6g}"
+            f"margin {margin!r} and gamma_min {gamma_min!r} it would be from {least:.6g} "
+            f"to {greatest:.6g}"
         )
         raise InputError(message)
     return float(least), float(greatest)

@@ -30,7 +30,7 @@ def test_machines_without_loads_have_any_speed() -> None:
         driven = press(assur.LinearMotor(90.0, 30.0)).steady_state(rtol=rtol, method="RK45")
         exact = press(assur.LinearMotor(90.0, 30.0)).steady_state()
         assert abs(driven.mean_speed - exact.mean_speed) < 1e3 * rtol
-    with pytest.raises(InputError, match="a period is found with"):
+    with pytest.raises(InputError, match="it must be at most"):
         free.steady_state(10.0, rtol=1e-3)
     far = press(assur.InductionMotor(60.0, 0.2, 15.7)).steady_state(100.0, flywheel=5.0)
     near = press(assur.InductionMotor(60.0, 0.2, 15.7)).steady_state(flywheel=5.0)
