@@ -42,7 +42,7 @@ def test_beside_change_points_analogues_are_known() -> None:
 
 
 @pytest.mark.parametrize("lengths", [(1.0, 2.5, 2.5, 1.0), (1.0, 2.0, 4.0, 3.0)])
-def test_periods_through_change_points_know_tight_tolerances(lengths: Any) -> None:
+def test_periods_through_change_points_meet_tight_tolerances(lengths: Any) -> None:
     bodies = {
         "crank": Body(inertia=0.3),
         "rocker": Body(1.0, 0.4, (0.2, 0.3)),

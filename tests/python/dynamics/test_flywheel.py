@@ -186,7 +186,7 @@ def test_curves_belong_together() -> None:
         assert abs(sign * (line - diagram)).min() < 1.0
 
 
-def test_tables_of_one_period_that_is_no_turn() -> None:
+def test_tables_whose_period_is_not_a_turn() -> None:
     """An engine of four strokes repeats after two turns; beginnings may be anywhere."""
     q = np.linspace(1.0, 1.0 + 2 * TURN, 97)
     f = flywheel.from_table(q, 50 * np.cos((q - 1) / 2), 2 + 0.1 * np.cos(q - 1), 0.02, 100.0)
@@ -261,14 +261,14 @@ def test_a_bad_table_of_a_batch_is_nan_in_its_place() -> None:
         ({"on_error": "warn"}, "on_error is 'warn'"),
     ],
 )
-def test_what_cannot_be_is_refused(change: dict[str, Any], told: str) -> None:
+def test_invalid_arguments_are_refused(change: dict[str, Any], told: str) -> None:
     arguments: dict[str, Any] = {"phi": PHI, "moment": MOMENT, "inertia": INERTIA}
     arguments |= {"fluctuation": 1 / 8, "mean_speed": 15.0}
     with pytest.raises(assur.InputError, match=told):
         flywheel.from_table(**(arguments | change))
 
 
-def test_what_cannot_be_evaluated_is_refused() -> None:
+def test_evaluate_refuses_invalid_arguments() -> None:
     cases: tuple[tuple[dict[str, Any], str], ...] = (
         ({}, "one of speed0 and mean_speed is needed"),
         ({"speed0": 1.0, "mean_speed": 1.0}, "not both"),

@@ -290,7 +290,7 @@ def pushed(t: float, q: float, speed: float) -> Any:
         ),
     ],
 )
-def test_what_cannot_be_is_refused(make: Callable[[assur.Mechanism], Any], told: str) -> None:
+def test_invalid_arguments_are_refused(make: Callable[[assur.Mechanism], Any], told: str) -> None:
     with pytest.raises(assur.InputError, match=told):
         make(four_bar())
 

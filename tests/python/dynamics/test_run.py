@@ -274,7 +274,7 @@ def test_dead_point_ends_a_run_as_an_event() -> None:
         assert abs(over.t[-1] - exact) < 1e-9
 
 
-def test_rest_is_no_dead_point() -> None:
+def test_rest_differs_from_a_dead_point() -> None:
     run = pendulum().run(20.0, q0=math.pi - 1.0)
     assert run.end == "reached"
     run = pendulum().run(q_end=7.0, q0=math.pi, speed0=0.5)

@@ -289,7 +289,7 @@ def test_refusals(make: Any, said: str) -> None:
         make()
 
 
-def test_a_stall_is_no_wrong_argument() -> None:
+def test_a_stall_is_a_motion_error() -> None:
     with pytest.raises(assur.MotionError) as caught:
         press(assur.LinearMotor(2.0, 30.0)).steady_state()
     assert (caught.value.kind, caught.value.value) == ("stops", 30.0)

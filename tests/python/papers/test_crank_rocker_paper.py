@@ -307,7 +307,7 @@ def test_designs_at_once() -> None:
     assert np.isnan(angles[1])
 
 
-def test_what_does_not_reach_is_nan() -> None:
+def test_lengths_that_do_not_reach_are_nan() -> None:
     found = cr.solve([0.0, math.pi], 1, 2.0, 1.5, 3.0)
     assert np.isnan(found.S[0])
     assert np.isfinite(found.gamma[1])
