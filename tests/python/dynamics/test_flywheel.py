@@ -236,7 +236,7 @@ def test_a_bad_table_of_a_batch_is_nan_in_its_place() -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "expected"),
     [
         ({"phi": PHI[::-1]}, "row 1 of the table: phi = 5.49.* does not grow"),
         ({"phi": np.ones((9, 2))}, r"phi has the shape \(9, 2\)"),
@@ -261,10 +261,10 @@ def test_a_bad_table_of_a_batch_is_nan_in_its_place() -> None:
         ({"on_error": "warn"}, "on_error is 'warn'"),
     ],
 )
-def test_invalid_arguments_are_refused(change: dict[str, Any], told: str) -> None:
+def test_invalid_arguments_are_refused(change: dict[str, Any], expected: str) -> None:
     arguments: dict[str, Any] = {"phi": PHI, "moment": MOMENT, "inertia": INERTIA}
     arguments |= {"fluctuation": 1 / 8, "mean_speed": 15.0}
-    with pytest.raises(assur.InputError, match=told):
+    with pytest.raises(assur.InputError, match=expected):
         flywheel.from_table(**(arguments | change))
 
 
@@ -275,8 +275,8 @@ def test_evaluate_refuses_invalid_arguments() -> None:
         ({"speed0": 0.0}, "speed0 = 0 rad/s"),
         ({"flywheel": -1.0, "speed0": 15.0}, "flywheel = -1 kg·m²"),
     )
-    for given, told in cases:
-        with pytest.raises(assur.InputError, match=told):
+    for given, expected in cases:
+        with pytest.raises(assur.InputError, match=expected):
             flywheel.evaluate(PHI, MOMENT, INERTIA, **given)
     with pytest.raises(assur.MotionError, match=r"stalls at phi = 2.18.* rad: it lacks 454.1.* J"):
         flywheel.evaluate(PHI, MOMENT, INERTIA, speed0=5.0)
@@ -300,9 +300,9 @@ def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     asked = ["flywheel", str(path), "--mean-speed", "15", "--degrees"]
     picture = tmp_path / "speed.png"
     assert main([*asked, "--fluctuation", "0.125", "--plot", str(picture)]) == 0
-    told = capsys.readouterr().out
-    assert "flywheel      19.9181505 kg·m²" in told
-    assert "motor         184.03476 N·m" in told
+    printed = capsys.readouterr().out
+    assert "flywheel      19.9181505 kg·m²" in printed
+    assert "motor         184.03476 N·m" in printed
     assert picture.stat().st_size > 1000
     assert main([*asked, "--flywheel", "0", "--mean", "period"]) == 0
     assert "mean speed    15 rad/s (period)" in capsys.readouterr().out

@@ -246,7 +246,7 @@ def pushed(t: float, q: float, speed: float) -> Any:
 
 
 @pytest.mark.parametrize(
-    ("make", "told"),
+    ("make", "expected"),
     [
         (lambda _: Body(mass=-1.0), "mass is -1, it must not be negative"),
         (lambda _: Body(inertia=np.nan), "inertia is nan: a finite number"),
@@ -290,8 +290,10 @@ def pushed(t: float, q: float, speed: float) -> Any:
         ),
     ],
 )
-def test_invalid_arguments_are_refused(make: Callable[[assur.Mechanism], Any], told: str) -> None:
-    with pytest.raises(assur.InputError, match=told):
+def test_invalid_arguments_are_refused(
+    make: Callable[[assur.Mechanism], Any], expected: str
+) -> None:
+    with pytest.raises(assur.InputError, match=expected):
         make(four_bar())
 
 

@@ -169,7 +169,7 @@ def test_a_constant_motor_must_be_in_balance() -> None:
     free = press().steady_state(12.0, mean="period")
     assert abs(free.mean_speed - 12.0) < 1e-10
     assert abs(free.multiplier - 1.0) < 1e-9
-    # Rounded to three digits it is mended.
+    # Rounded to three digits it is balanced.
     rounded = press(assur.ConstantTorque(round(free.found_moment, 1)))
     with pytest.warns(assur.AssurWarning, match=r"0\.0487 N·m more than the motor gives"):
         own = rounded.steady_state(12.0)

@@ -36,7 +36,7 @@ pub enum SteadyError<E> {
     #[error("no periodic motion was found below {} rad/s: the motor's moment never makes up for the loads", short(*from))]
     CannotCarry { from: f64 },
     /// The speed grows from period to period.
-    #[error("the machine runs away: the speed still grows over a period begun at {} rad/s", short(*speed))]
+    #[error("the machine runs away: the speed still grows over a period that starts at {} rad/s", short(*speed))]
     RunsAway { speed: f64 },
     /// Nothing depends on the speed, and motor and loads are not in balance.
     #[error("nothing depends on the speed, and over a period the motor's mean moment is {} N·m where {} N·m would be in balance: the machine speeds up or stops (without a motor the moment is found)", short(*motor), short(*needed))]
