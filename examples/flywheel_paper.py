@@ -38,7 +38,10 @@ def table() -> Any:
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained")
     q = np.linspace(0.0, 2.0 * np.pi, 361)
     press = without()
-    curves = ((press.moment(q), MOMENT, "M, N·m"), (press.reduced_inertia(q), INERTIA, "I, kg·m²"))
+    curves = (
+        (press.reduced_moment(q), MOMENT, "M, N·m"),
+        (press.reduced_inertia(q), INERTIA, "I, kg·m²"),
+    )
     for ax, (curve, rows, label) in zip(axes, curves, strict=True):
         ax.plot(q, curve, color="#0072B2")
         ax.plot(PHI, rows, "o", color="#D55E00", markersize=4)

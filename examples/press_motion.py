@@ -43,12 +43,13 @@ def draw(machine: assur.Machine) -> Any:
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.4), layout="constrained")
     start.plot("speed", axes[0])
     axes[0].set(title="from rest", ylabel="ω of the crank, rad/s")
-    for steady, label in (
-        (machine.steady_state(), "as it is"),
-        (evened, f"with a flywheel of {evened.inertia:.2f} kg·m²"),
+    steady = machine.steady_state()
+    q = np.linspace(0.0, 2 * np.pi, 721)
+    for speed, label, delta in (
+        (steady.at(q).speed, "as it is", steady.delta),
+        (evened.speed(q), f"with a flywheel of {evened.inertia:.2f} kg·m²", evened.delta),
     ):
-        q = np.linspace(0.0, 2 * np.pi, 721)
-        axes[1].plot(q, steady.at(q).speed, label=f"{label}: δ = {steady.delta:.3g}")
+        axes[1].plot(q, speed, label=f"{label}: δ = {delta:.3g}")
     axes[1].set(title="periodic", xlabel="q, rad", ylabel="ω, rad/s")
     axes[1].margins(y=0.5)
     axes[1].legend(loc="upper right")
@@ -61,7 +62,7 @@ def main(folder: Path) -> None:
     steady = machine.steady_state(mean="period")
     print(
         f"mean speed {steady.mean_speed:.3f} rad/s, δ = {steady.delta:.3f}, "
-        f"{steady.energy:.1f} J a turn, {steady.power:.0f} W"
+        f"{steady.motor_work:.1f} J a turn, {steady.power:.0f} W"
     )
     folder.mkdir(parents=True, exist_ok=True)
     draw(machine).savefig(folder / "press_motion.png", dpi=150)

@@ -93,7 +93,8 @@ fn batch(c: &mut Criterion, designs_of_each: u32) {
             }
             for threads in [1, 2] {
                 let id = BenchmarkId::new(format!("{simd:?}"), format!("{threads} threads"));
-                let control = Control { threads: NonZeroUsize::new(threads), simd, cancel: None };
+                let control =
+                    Control { threads: NonZeroUsize::new(threads), simd, ..Control::default() };
                 group.bench_function(id, |b| {
                     b.iter(|| {
                         fill(&mechanism, black_box(&request), buffers.arrays(), &control)

@@ -1,9 +1,18 @@
 from collections.abc import Callable
-from typing import Any, TypeAlias, final
+from typing import Any, Literal, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
 from typing_extensions import Self
+
+from assur.description.words import Drive, Slide
+from assur.dynamics.loads import Body, Load
+from assur.dynamics.motors import Motor
+from assur.dynamics.values import Function
+from assur.events import AngleLimit, Crossing, Position, Rest, Speed
+from assur.flywheel import Mean, Spline
+from assur.flywheel.sizing import Task
+from assur.kinematics.request import Buffers
 
 __all__ = [
     "Flywheels",
@@ -13,6 +22,7 @@ __all__ = [
     "acute",
     "asin",
     "atan2",
+    "class_iv_drawing",
     "crank_rocker_blocked",
     "crank_rocker_extremes",
     "crank_rocker_grashof",
@@ -22,11 +32,13 @@ __all__ = [
     "crank_rocker_solve",
     "crank_rocker_turns",
     "curvature",
+    "four_bar_drawing",
     "instant_centre",
     "panic_in_chunk",
     "simd_level",
     "sin_cos",
     "slider_crank_deviation",
+    "slider_crank_drawing",
     "slider_crank_fourier",
     "slider_crank_fraction",
     "slider_crank_greatest_acceleration",
@@ -40,6 +52,13 @@ __all__ = [
 
 _Float: TypeAlias = npt.NDArray[np.float64]
 _Three: TypeAlias = tuple[_Float, _Float, _Float]
+# Joints, links, slides (link, on, angle, origin) by name, and the driver.
+_Drawing: TypeAlias = tuple[
+    list[tuple[str, list[float]]],
+    list[tuple[str, list[str]]],
+    list[tuple[str, tuple[str, str, float, str | None]]],
+    str | None,
+]
 
 @final
 class Mechanism:
@@ -47,8 +66,8 @@ class Mechanism:
         cls,
         joints: list[tuple[str, float, float]],
         links: list[tuple[str, list[str]]],
-        slides: list[tuple[str, str, str, float, str | None]],
-        drivers: list[tuple[str, str | None]],
+        slides: list[tuple[str, Slide]],
+        drivers: list[str | Drive],
         assembly: list[tuple[str, int]],
     ) -> Self: ...
     @property
@@ -85,8 +104,8 @@ class Mechanism:
         order: int,
         outputs: tuple[list[int], list[int], list[int], list[int]],
         threads: int | None,
-        kept: Any,
-        by: int | None,
+        buffers: Buffers | None,
+        dimension: int | None,
         report: list[int] | None,
     ) -> tuple[dict[tuple[str, int, int], _Float], npt.NDArray[np.uint8], Any]: ...
     def diagnostics(
@@ -120,8 +139,9 @@ class Flywheels:
         phi: _Float,
         moment: _Float,
         inertia: _Float,
-        spline: str,
-        task: str,
+        spline: Spline,
+        task: Task,
+        mean: Mean,
         first: _Float,
         second: _Float,
         threads: int | None = None,
@@ -130,15 +150,14 @@ class Flywheels:
     def numbers(self) -> list[_Float]: ...
     def problem(self, index: int) -> str | None: ...
     def failure(self, index: int, place: str, design: list[int] | None) -> Any: ...
-    def curve(self, what: str, places: _Float) -> _Float: ...
+    def curve(self, quantity: str, points: _Float) -> _Float: ...
 
 @final
 class Run:
-    def to_bytes(self) -> bytes: ...
-    @staticmethod
-    def from_bytes(written: bytes) -> Run: ...
+    def __new__(cls, state: dict[str, Any]) -> Self: ...
+    def __reduce__(self) -> tuple[type[Run], tuple[dict[str, Any]]]: ...
     def arrays(self) -> list[_Float]: ...
-    def at(self, places: list[float]) -> list[_Float]: ...
+    def at(self, points: list[float]) -> list[_Float]: ...
     @property
     def events(self) -> list[tuple[int, float, list[float], list[float]]]: ...
     @property
@@ -152,19 +171,30 @@ class Run:
 class Machine:
     def __new__(
         cls,
-        mechanism: Mechanism | None,
-        bodies: list[tuple[str, Any, float, float]],
-        loads: list[tuple[str, list[Any], list[str], list[float], list[Any]]],
-        gravity: list[float],
-        tables: list[tuple[list[float], list[float], str, bool]],
-        motors: list[tuple[int, float, float, str, list[float], list[Any], Any]],
+        mechanism: Mechanism,
+        bodies: list[tuple[str, Body]],
+        loads: list[Load],
+        motors: list[Motor | None],
     ) -> Self: ...
+    @staticmethod
+    def from_table(
+        phi: _Float,
+        moment: _Float,
+        inertia: _Float,
+        spline: Spline,
+        periodic: bool,
+        motor: Motor | None,
+    ) -> Machine: ...
+    @property
+    def tables(self) -> list[tuple[list[float], bool]]: ...
+    @property
+    def load_functions(self) -> list[Function]: ...
     def reduce(
         self,
         dimensions: _Float,
         q: _Float,
         speed: _Float,
-        given: _Float,
+        function_values: _Float,
         threads: int | None,
         report: list[int],
     ) -> tuple[_Float, _Float, _Float, _Float, npt.NDArray[np.uint8], Any]: ...
@@ -178,22 +208,21 @@ class Machine:
         tolerances: tuple[float, list[float] | None],
         limits: tuple[float, int, float | None],
         breaks: list[float],
-        watches: list[tuple[str, int, float, list[Any], bool, int, bool]],
-        functions: tuple[list[Any], list[Any]],
+        events: list[Rest | Position | Speed | AngleLimit | Crossing],
     ) -> Run: ...
     def steady(
         self,
         dimensions: list[float],
-        places: list[float],
+        q: float,
+        span: float,
         speed: float | None,
-        mean: str,
+        mean: Mean,
         low_order: bool,
         relative: float,
         limits: tuple[int, float | None],
         breaks: list[float],
         flywheel: float,
-        wanted: float | None,
-        functions: list[Any],
+        fluctuation: float | None,
     ) -> tuple[Run, list[float]]: ...
 
 def slider_crank_stroke(phi: _Float, lambda_: _Float) -> _Three: ...
@@ -224,5 +253,8 @@ def crank_rocker_run(
     case: list[float], ground: Callable[[float], float]
 ) -> tuple[_Float, list[tuple[str, bool, list[float]]], tuple[str, float] | None]: ...
 def error_kinds() -> list[tuple[str, list[str]]]: ...
+def four_bar_drawing(mode: Literal["open", "crossed"]) -> _Drawing: ...
+def slider_crank_drawing() -> _Drawing: ...
+def class_iv_drawing(joints: list[tuple[float, float]]) -> _Drawing: ...
 def simd_level() -> str: ...
 def version() -> str: ...

@@ -19,12 +19,15 @@ __all__ = [
     "one_of",
     "real_array",
     "real_number",
+    "whole_number",
 ]
 
 # No machine has more; a greater number would only take memory.
 MAX_THREADS = 4096
 # The core takes 64-bit integers, and quotes a wrong sign in its own error.
 MAX_SIGN = 2**53
+# The core counts with 64 bits.
+MAX_COUNT = 2**63 - 1
 
 
 def one_of(value: Any, known: tuple[str, ...], what: str) -> str:
@@ -72,16 +75,24 @@ def _sign(name: str, sign: Any, strict: bool) -> int:
     raise InputError(message, joint=name)
 
 
-def checked_order(order: Any) -> int:
-    """Return an order of analogues, 0 to 3."""
+def whole_number(
+    value: Any, what: str, least: int, most: int = MAX_COUNT, needed: str | None = None
+) -> int:
+    """Return a whole number within limits, no bool; `needed` ends the sentence of the error."""
     try:
-        number = operator.index(order)
+        number = operator.index(value)
     except TypeError:
-        number = -1
-    if isinstance(order, bool) or not 0 <= number <= 3:
-        message = f"order is {short(order)}: 0, 1, 2 or 3"
+        number = least - 1
+    if isinstance(value, bool) or not least <= number <= most:
+        needed = needed or f"a whole number from {least} to {most} is needed"
+        message = f"{what} is {short(value)}: {needed}"
         raise InputError(message)
     return number
+
+
+def checked_order(order: Any) -> int:
+    """Return an order of analogues, 0 to 3."""
+    return whole_number(order, "order", 0, 3, needed="0, 1, 2 or 3")
 
 
 def checked_index(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, ...]:
@@ -103,13 +114,4 @@ def checked_index(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, .
 
 def checked_threads(threads: Any) -> int | None:
     """Return the number of threads, or None."""
-    if threads is None:
-        return None
-    try:
-        number = operator.index(threads)
-    except TypeError:
-        number = 0
-    if isinstance(threads, bool) or not 1 <= number <= MAX_THREADS:
-        message = f"threads is {short(threads)}: a whole number from 1 to {MAX_THREADS} is needed"
-        raise InputError(message)
-    return number
+    return None if threads is None else whole_number(threads, "threads", 1, MAX_THREADS)

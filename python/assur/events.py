@@ -11,16 +11,13 @@ from assur.errors import InputError
 from assur.kinematics import transmission
 
 if TYPE_CHECKING:
-    from assur.dynamics.callbacks import Function
+    from assur.dynamics.values import Function
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Crossing", "Position", "Rest", "Speed", "TransmissionAngle"]
 
 Direction: TypeAlias = Literal["either", "rising", "falling"]
-SIGNS = {"either": 0, "rising": 1, "falling": -1}
-
-# Kind, driver or function, value, lines, whether the complement of their angle, direction, stop.
-EncodedEvent: TypeAlias = tuple[str, int, float, list[Any], bool, int, bool]
+DIRECTIONS = ("either", "rising", "falling")
 
 
 @dataclass(frozen=True)
@@ -123,36 +120,48 @@ class Crossing:
 Event: TypeAlias = Rest | Position | Speed | TransmissionAngle | Crossing
 
 
-def encode(
-    event: Any, mechanism: Mechanism | None, drivers: int, functions: list[Function]
-) -> EncodedEvent:
-    """Encode an event for the core; a function is appended to the list."""
+@dataclass(frozen=True)
+class AngleLimit:
+    """A `TransmissionAngle` of a mechanism: the acute angle of two lines, or its complement."""
+
+    lines: list[transmission.Line]
+    complement: bool
+    limit: float
+    stop: bool
+    direction: Direction
+
+
+def checked(
+    event: Any, mechanism: Mechanism | None, drivers: int
+) -> Rest | Position | Speed | AngleLimit | Crossing:
+    """Return the event with checked fields, which the core reads by name."""
     if not isinstance(event, Event):
         message = (
             f"{short(event)} is no event: Rest, Position, Speed, TransmissionAngle or Crossing of "
             "assur.events"
         )
         raise InputError(message)
-    sign = 0 if isinstance(event, Rest) else _sign(event, event.direction)
-    ending = sign, flag(event.stop, f"{type(event).__name__} stop")
+    direction = "either" if isinstance(event, Rest) else _direction(event, event.direction)
+    stop = flag(event.stop, f"{type(event).__name__} stop")
     if isinstance(event, Crossing):
-        functions.append(_function(event, event.function))
-        return "function", len(functions) - 1, 0.0, [], False, *ending
+        return Crossing(_function(event, event.function), stop, direction)
     if isinstance(event, TransmissionAngle):
-        limit, sides, complement = _angle(event, event.name, mechanism)
-        return "angle", 0, limit, sides, complement, *ending
+        limit, lines, complement = _angle(event, event.name, mechanism)
+        return AngleLimit(lines, complement, limit, stop, direction)
     driver = _driver(event, event.driver, drivers)
+    if isinstance(event, Rest):
+        return Rest(stop, driver)
     if isinstance(event, Position):
-        return "coordinate", driver, real_number(event.q, "Position q"), [], False, *ending
-    value = 0.0 if isinstance(event, Rest) else real_number(event.speed, "Speed speed")
-    return "speed", driver, value, [], False, *ending
+        return Position(real_number(event.q, "Position q"), stop, driver, direction)
+    return Speed(real_number(event.speed, "Speed speed"), stop, driver, direction)
 
 
-def _sign(event: Any, direction: Any) -> int:
-    if not isinstance(direction, str) or direction not in SIGNS:
-        message = f"{event!r}: direction is one of {', '.join(SIGNS)}"
+def _direction(event: Any, direction: Any) -> Direction:
+    if not isinstance(direction, str) or direction not in DIRECTIONS:
+        message = f"{event!r}: direction is one of {', '.join(DIRECTIONS)}"
         raise InputError(message)
-    return SIGNS[direction]
+    known: Direction = direction  # type: ignore[assignment]
+    return known
 
 
 def _function(event: Any, function: Any) -> Function:
@@ -172,7 +181,7 @@ def _driver(event: Any, driver: Any, drivers: int) -> int:
 
 def _angle(
     event: TransmissionAngle, name: Any, mechanism: Mechanism | None
-) -> tuple[float, list[Any], bool]:
+) -> tuple[float, list[transmission.Line], bool]:
     if mechanism is None:
         message = f"{event!r}: this machine is a table and has no joints"
         raise InputError(message)
@@ -184,11 +193,4 @@ def _angle(
         message = f"{event!r}: a transmission angle is acute: more than 0 and up to π/2 rad"
         raise InputError(message, value=limit)
     lines, complement = transmission.lines(mechanism, name, event.between)
-    return limit, [_line(mechanism, line) for line in lines], complement
-
-
-def _line(mechanism: Mechanism, line: transmission.Line) -> tuple[str, Any]:
-    if line.end is not None:
-        return line.start, line.end
-    on = mechanism.slides[line.start].on
-    return on, float(transmission.guide_angle(mechanism, line.start))
+    return limit, lines, complement

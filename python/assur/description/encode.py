@@ -1,4 +1,4 @@
-"""Encode a description as plain tuples: checked, hashable, ready for the core."""
+"""Check a description and keep it as tuples: hashable, ready for the core."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def core_of(description: Description) -> Core:
     return Core(
         joints=list(joints),
         links=[(name, list(on)) for name, on in links],
-        slides=[(name, s.link, s.on, s.angle, s.origin) for name, s in slides],
-        drivers=[(d.link, d.relative_to) if isinstance(d, Drive) else (d, None) for d in drivers],
+        slides=list(slides),
+        drivers=list(drivers),
         assembly=list(assembly),
     )
 

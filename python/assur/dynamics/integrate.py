@@ -33,7 +33,6 @@ from assur.errors import AssurWarning, InputError
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from assur.dynamics.callbacks import Function
     from assur.dynamics.machine import Machine
 
 # Less accurate periods do not determine the speed.
@@ -55,10 +54,9 @@ def run(
     if along_q == (t_end is not None):
         message = "run needs t_end or q_end" + (", not both" if along_q else "")
         raise InputError(message)
-    functions: list[Function] = []
     watched = as_list(options["events"], "events")
     n = machine._drivers
-    watches = [known_events.encode(one, machine.mechanism, n, functions) for one in watched]
+    checked = [known_events.checked(one, machine.mechanism, n) for one in watched]
     start, speeds = _start(machine, q0, "q0"), _start(machine, speed0, "speed0")
     if along_q and n > 1:
         message = f"q_end: there are {n} drivers, a run over q is of one"
@@ -83,8 +81,7 @@ def run(
             checked_seconds(options["max_seconds"]),
         ),
         checked_breaks(options["breaks"]),
-        watches,
-        (machine._callbacks.functions, functions),
+        checked,
     )
     made = Run(core, machine.mechanism, n, watched, along_q)
     if made.end in EARLY_ENDS:
@@ -106,14 +103,14 @@ def steady_state(
     """See `Machine.steady_state`; with `wanted`, size a flywheel for this fluctuation."""
     one_design(machine, "steady_state")
     require_rotary_driver(machine, "a periodic motion")
-    mean = one_of(options["mean"], flywheels.MEANS, "mean")
+    one_of(options["mean"], flywheels.MEANS, "mean")
     guess = None if speed is None else real_number(speed, "speed")
     if guess == 0.0:
         message = "speed is 0: a periodic motion has none at rest"
         raise InputError(message, value=0.0)
     ratio = 1.0 if machine.motor is None else float(getattr(machine.motor, "ratio", 1.0))
     span = math.copysign(2.0 * math.pi * turn_count(turns), ratio if guess is None else guess)
-    for q, _, _, periodic in machine._callbacks.tables:
+    for q, periodic in machine._core.tables:
         require_whole_periods(q[-1] - q[0] if periodic else None, abs(span))
     flywheel = real_number(options["flywheel"], "flywheel")
     if flywheel < 0.0:
@@ -124,16 +121,16 @@ def steady_state(
         raise InputError(message)
     core, numbers = machine._core.steady(
         _dimensions(machine),
-        [_start(machine, q0, "q0")[0], span],
+        _start(machine, q0, "q0")[0],
+        span,
         guess,
-        mean,
+        options["mean"],
         is_low_order(options["method"]),
         relative_tolerance(options["rtol"]),
         (step_count(options["max_steps"]), checked_seconds(options["max_seconds"])),
         checked_breaks(options["breaks"]),
         flywheel,
         wanted,
-        machine._callbacks.functions,
     )
     made = SteadyState(core, numbers, machine.mechanism, options["mean"])
     if machine.motor is not None and abs(made.found_moment) > BALANCE_WARN_RTOL * abs(
@@ -156,11 +153,7 @@ def _dimensions(machine: Machine) -> list[float]:
 
 def _start(machine: Machine, value: npt.ArrayLike | None, name: str) -> list[float]:
     if value is None and name == "q0":
-        value = (
-            machine._callbacks.tables[0][0][0]
-            if machine.mechanism is None
-            else machine.mechanism.q0
-        )
+        value = machine._core.tables[0][0][0] if machine.mechanism is None else machine.mechanism.q0
     array = real_array(value, name)
     n = machine._drivers
     if array.shape not in ((), (n,)):

@@ -1,4 +1,7 @@
-"""Bodies and loads of machines: masses, weight, forces, torques, springs, dampers."""
+"""Bodies and loads of machines: masses, weight, forces, torques, springs, dampers.
+
+The core reads the fields of these classes by name (rust/py/src/convert).
+"""
 
 from __future__ import annotations
 
@@ -9,8 +12,8 @@ import numpy as np
 
 from assur._arrays import not_negative, real_array, real_number, short, two_numbers
 from assur._validate import checked_name
-from assur.dynamics.callbacks import CallbackTable, Encoded, Value, checked_value
 from assur.dynamics.table import Table, replace_fields
+from assur.dynamics.values import Value, checked_value
 from assur.errors import InputError
 
 __all__ = [
@@ -26,8 +29,6 @@ __all__ = [
 ]
 
 PointLike: TypeAlias = str | tuple[str, tuple[float, float]]
-# A load for the core: kind, points, links, numbers, values.
-EncodedLoad: TypeAlias = tuple[str, list[Any], list[str], list[float], list[Encoded]]
 
 
 @dataclass(frozen=True)
@@ -111,10 +112,6 @@ class Force:
             axes=None if self.axes is None else _link(self.axes, "Force axes"),
         )
 
-    def _encode(self, callbacks: CallbackTable) -> EncodedLoad:
-        links = [] if self.axes is None else [self.axes]
-        return "force", [self.at], links, [], [callbacks.encode(value) for value in self.force]
-
 
 @dataclass(frozen=True)
 class Torque:
@@ -137,9 +134,6 @@ class Torque:
     def __post_init__(self) -> None:
         _check_links(self)
         replace_fields(self, torque=checked_value(self.torque))
-
-    def _encode(self, callbacks: CallbackTable) -> EncodedLoad:
-        return "torque", [], [self.link, self.on], [], [callbacks.encode(self.torque)]
 
 
 @dataclass(frozen=True)
@@ -167,15 +161,6 @@ class Spring:
     def __post_init__(self) -> None:
         _check_ends(self)
         _check_numbers(self, "stiffness", "length", "preload")
-
-    def _encode(self, _: CallbackTable) -> EncodedLoad:
-        return (
-            "spring",
-            [self.first, self.second],
-            [],
-            [self.stiffness, self.length, self.preload],
-            [],
-        )
 
 
 @dataclass(frozen=True)
@@ -206,15 +191,6 @@ class TorsionSpring:
         _check_links(self)
         _check_numbers(self, "stiffness", "angle", "preload")
 
-    def _encode(self, _: CallbackTable) -> EncodedLoad:
-        return (
-            "torsion spring",
-            [],
-            [self.link, self.on],
-            [self.stiffness, self.angle, self.preload],
-            [],
-        )
-
 
 @dataclass(frozen=True)
 class Damper:
@@ -227,9 +203,6 @@ class Damper:
     def __post_init__(self) -> None:
         _check_ends(self)
         _check_numbers(self, "damping")
-
-    def _encode(self, _: CallbackTable) -> EncodedLoad:
-        return "damper", [self.first, self.second], [], [self.damping], []
 
 
 @dataclass(frozen=True)
@@ -244,11 +217,16 @@ class TorsionDamper:
         _check_links(self)
         _check_numbers(self, "damping")
 
-    def _encode(self, _: CallbackTable) -> EncodedLoad:
-        return "torsion damper", [], [self.link, self.on], [self.damping], []
-
 
 Load: TypeAlias = Gravity | Force | Torque | Spring | TorsionSpring | Damper | TorsionDamper
+
+
+def checked_load(load: Any) -> Load:
+    """Return a load."""
+    if not isinstance(load, Load):
+        message = f"{short(load)} is no load: Gravity, Force, Torque, Spring, Damper …"
+        raise InputError(message)
+    return load
 
 
 def _check_numbers(load: Any, *names: str) -> None:

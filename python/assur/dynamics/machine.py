@@ -1,60 +1,30 @@
-"""Machines: mechanisms with bodies, loads and motors, referred to their drivers."""
+"""Machines and their motions in time: the face of what is solved in the core."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
-import numpy as np
-import numpy.typing as npt
-
-from assur import _core
-from assur._arrays import real_array, short
-from assur._validate import checked_name, one_of
-from assur.dynamics import integrate, motors, reduce, size_flywheel
-from assur.dynamics.callbacks import CallbackTable
-from assur.dynamics.loads import Body, Gravity
-from assur.dynamics.options import as_list
-from assur.errors import InputError
-from assur.flywheel import SPLINES, warn_if_degrees
+from assur.dynamics import integrate, size_flywheel
+from assur.dynamics.model import MachineModel
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from assur.dynamics.loads import Load
-    from assur.dynamics.motors import Motor
+    import numpy.typing as npt
+
+    from assur.dynamics.model import OnError
     from assur.dynamics.run import Run
     from assur.dynamics.steady import SteadyState
     from assur.events import Event
-    from assur.flywheel import Flywheel, Mean, Spline
-    from assur.kinematics.mechanism import Mechanism
+    from assur.flywheel import Flywheel, Mean
 
-__all__ = ["Machine", "Reduced"]
+__all__ = ["Machine"]
 
-Float: TypeAlias = npt.NDArray[np.float64]
-OnError: TypeAlias = Literal["raise", "nan"]
 Method: TypeAlias = Literal["DOP853", "RK45"]
 
 
-class Reduced(NamedTuple):
-    """The reduced inertia and its exact derivative.
-
-    Attributes
-    ----------
-    value : ndarray
-        kg·m² (driven slide: kg); for n drivers the mass matrix, (..., n, n).
-    d1 : ndarray
-        Its derivative by the coordinate; for n drivers (..., n, n, n), the last axis that of the
-        coordinate.
-    """
-
-    value: Any
-    d1: Any
-
-
-class Machine:
+class Machine(MachineModel):
     """A mechanism with its bodies, loads and motors.
 
     Parameters
@@ -93,228 +63,13 @@ class Machine:
     np.float64(100.0)
     """
 
-    mechanism: Mechanism | None
-
-    def __init__(
-        self,
-        mechanism: Mechanism,
-        bodies: Mapping[str, Body] = MappingProxyType({}),
-        loads: Sequence[Load] = (),
-        motor: Motor | Sequence[Motor | None] | None = None,
-    ) -> None:
-        _check(mechanism, bodies)
-        self.mechanism = mechanism
-        self.bodies = MappingProxyType(dict(bodies))
-        self.loads = tuple(as_list(loads, "loads"))
-        self._drivers = int(np.size(mechanism.q0))
-        # With one driver, the motor itself.
-        self.motor: Any = tuple(motor) if isinstance(motor, list | tuple) else motor
-        if isinstance(self.motor, tuple) and len(self.motor) == 1 == self._drivers:
-            self.motor = self.motor[0]
-        self._rebuild_with: tuple[Any, ...] = (
-            Machine,
-            (mechanism, dict(bodies), self.loads, self.motor),
-        )
-        callbacks = CallbackTable()
-        gravity = np.zeros(2)
-        encoded_loads = []
-        for load in self.loads:
-            if isinstance(load, Gravity):
-                gravity = gravity + load.acceleration
-            elif hasattr(load, "_encode"):
-                encoded_loads.append(load._encode(callbacks))
-            else:
-                message = f"{short(load)} is no load: Gravity, Force, Torque, Spring, Damper …"
-                raise InputError(message)
-        callbacks.load_count = len(callbacks.functions)
-        masses = [_body(mechanism, link, body) for link, body in self.bodies.items()]
-        encoded_motors = _motors(self.motor, self._drivers, callbacks)
-        self._callbacks = callbacks
-        self._core = _core.Machine(
-            mechanism._core,
-            masses,
-            encoded_loads,
-            gravity.tolist(),
-            callbacks.tables,
-            encoded_motors,
-        )
-        if mechanism.driver not in mechanism.slides:
-            for rows, _, _, periodic in callbacks.tables:
-                warn_if_degrees(rows[-1] - rows[0], periodic)
-
-    @classmethod
-    def from_table(
-        cls,
-        phi: npt.ArrayLike,
-        moment: npt.ArrayLike,
-        inertia: npt.ArrayLike = 0.0,
-        motor: Motor | None = None,
-        spline: Spline = "not-a-knot",
-        periodic: bool = True,
-    ) -> Machine:
-        """Return a machine given only by its reduced moment and inertia.
-
-        Parameters
-        ----------
-        phi : array_like
-            Coordinates of the driver, rad, ascending, both ends of the period included: (K,).
-        moment : array_like
-            Reduced moment of the loads there, N·m: (K,).
-        inertia : array_like
-            Reduced inertia there, kg·m²: (K,), or one number; not negative. Where it is 0, a rotor
-            or flywheel must add some.
-        motor : ConstantTorque, LinearMotor, InductionMotor or Table, optional
-            Motor of the driver.
-        spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
-            Interpolation between the rows.
-        periodic : bool
-            Whether the table is one period; otherwise motions end where the table ends.
-
-        Returns
-        -------
-        Machine
-            A machine without a mechanism.
-
-        Examples
-        --------
-        >>> import assur
-        >>> import numpy as np
-        >>> phi = np.linspace(0.0, 2 * np.pi, 25)
-        >>> machine = assur.Machine.from_table(phi, -10 * np.sin(phi), np.full(25, 2.0))
-        >>> machine.run(t_end=3.0, q0=0.1).energy.error < 1e-9
-        True
-        """
-        self = cls.__new__(cls)
-        self.mechanism, self.loads, self.motor = None, (), motor
-        self.bodies = MappingProxyType({})
-        self._drivers = 1
-        callbacks = CallbackTable()
-        x, columns = _columns(phi, moment, inertia)
-        one_of(spline, SPLINES, "spline")
-        warn_if_degrees(float(x[-1] - x[0]), periodic)
-        for column in (columns["inertia"], columns["moment"]):
-            callbacks.tables.append((x.tolist(), column.tolist(), spline, bool(periodic)))
-        table = x, columns["moment"], columns["inertia"]
-        self._rebuild_with = Machine.from_table, (*table, motor, spline, periodic)
-        encoded_motors = _motors(motor, 1, callbacks)
-        self._callbacks = callbacks
-        self._core = _core.Machine(None, [], [], [0.0, 0.0], callbacks.tables, encoded_motors)
-        return self
-
-    def __setattr__(self, name: str, value: object) -> None:
-        # The core has copied everything: a change here would have no effect.
-        if "_core" in self.__dict__:
-            message = f"Machine is immutable ({name!r}): make another one"
-            raise AttributeError(message)
-        super().__setattr__(name, value)
-
-    def __delattr__(self, name: str) -> None:
-        message = f"Machine is immutable ({name!r}): make another one"
-        raise AttributeError(message)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return self._rebuild_with
-
-    def __repr__(self) -> str:
-        if self.mechanism is None:
-            return "<assur.Machine of a table>"
-        formula = self.mechanism.structure.formula
-        return f"<assur.Machine {formula}, {len(self.bodies)} bodies, {len(self.loads)} loads>"
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Shape of the batch of designs; () for one design."""
-        return () if self.mechanism is None else self.mechanism.shape
-
-    def design(self, index: Any) -> Machine:
-        """Return one design of a batch as a single machine."""
-        if self.mechanism is None:
-            message = "this machine is a table: there is no batch"
-            raise InputError(message)
-        return Machine(self.mechanism.design(index), self.bodies, self.loads, self.motor)
-
-    def reduced_inertia(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Reduced:
-        """Return the reduced inertia Σ m (dS/dq)² + I (dθ/dq)² and its exact derivative.
-
-        Parameters
-        ----------
-        q : array_like
-            Coordinates, rad or m: a number, (N,) or, for a batch of shape S, S + (N,); for n
-            drivers (..., n).
-        on_error : {"raise", "nan"}
-            Where there is no position or no analogue: raise an error, or return NaN.
-
-        Returns
-        -------
-        Reduced
-            `value` and `d1`, of shape S + (N,), rotors of motors included.
-
-        Examples
-        --------
-        >>> import assur
-        >>> wheel = assur.FourBar(1.0, 3.0, 3.0, 3.0)
-        >>> machine = assur.Machine(wheel, {"rocker": assur.Body(inertia=2.0)})
-        >>> value, d1 = machine.reduced_inertia([0.0, 1.0])
-        >>> value.round(6)
-        array([0.5     , 0.015382])
-        """
-        inertia, rates, _, _ = self._reduce(q, None, on_error)
-        if self._drivers == 1:
-            return Reduced(inertia[..., 0, 0][()], rates[..., 0, 0, 0][()])
-        return Reduced(inertia, np.moveaxis(rates, -3, -1))
-
-    def reduced_moment(
-        self, q: npt.ArrayLike, speed: npt.ArrayLike = 0.0, on_error: OnError = "raise"
-    ) -> Any:
-        """Return the reduced moment of all loads, without the motor.
-
-        Parameters
-        ----------
-        q : array_like
-            Coordinates, see `reduced_inertia`.
-        speed : array_like
-            Speeds of the drivers, rad/s or m/s, broadcast to q; dampers and functions need them.
-            (Functions of time are evaluated at t = 0.)
-        on_error : {"raise", "nan"}
-            See `reduced_inertia`.
-
-        Returns
-        -------
-        ndarray
-            N·m (driven slide: N), of shape S + (N,); for n drivers (..., n).
-        """
-        moment = self._reduce(q, real_array(speed, "speed"), on_error)[2]
-        return moment[..., 0][()] if self._drivers == 1 else moment
-
-    def potential(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Any:
-        """Return the potential energy of weights and springs, J."""
-        return self._reduce(q, None, on_error)[3][()]
-
-    @overload
-    def flywheel(
-        self,
-        fluctuation: npt.ArrayLike,
-        mean_speed: npt.ArrayLike,
-        mean: Mean = ...,
-        on_error: OnError = ...,
-    ) -> Flywheel: ...
-
-    @overload
-    def flywheel(
-        self,
-        fluctuation: float,
-        mean_speed: None = None,
-        mean: Mean = ...,
-        on_error: OnError = ...,
-    ) -> SteadyState: ...
-
     def flywheel(
         self,
         fluctuation: npt.ArrayLike,
         mean_speed: npt.ArrayLike | None = None,
         mean: Mean = "extremes",
         on_error: OnError = "raise",
-    ) -> Flywheel | SteadyState:
+    ) -> Flywheel:
         """Return the flywheel that limits the speed fluctuation to a given fraction of the mean.
 
         Parameters
@@ -333,10 +88,10 @@ class Machine:
 
         Returns
         -------
-        Flywheel or SteadyState
-            With a mean speed a `Flywheel`, from tables refined until it changes by less than 1e-9
-            of the inertia. With the machine's own motor the periodic motion, whose `inertia` is the
-            flywheel's.
+        Flywheel
+            The same attributes and methods whatever the motor. With a mean speed from tables,
+            refined until the inertia changes by less than 1e-9; with the machine's own motor from
+            the integrated motion, which is its `steady`.
 
         Raises
         ------
@@ -562,73 +317,3 @@ class Machine:
             max_steps=max_steps,
             max_seconds=max_seconds,
         )
-
-    def _reduce(
-        self, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
-    ) -> tuple[Float, Float, Float, Float]:
-        return reduce.reduce(self, q, speed, on_error)
-
-
-def _motors(motor: Any, drivers: int, callbacks: CallbackTable) -> list[motors.EncodedMotor]:
-    if motor is None:
-        return []
-    many = [motor] if drivers == 1 and not isinstance(motor, list | tuple) else motor
-    if not isinstance(many, list | tuple) or len(many) != drivers:
-        wanted = f"{drivers} drivers need a sequence of as many (None: none)"
-        message = f"motor is {short(motor)}: {wanted}"
-        raise InputError(message)
-    pairs = enumerate(many)
-    return [motors.encode(one, driver, callbacks) for driver, one in pairs if one is not None]
-
-
-def _check(mechanism: Any, bodies: Any) -> None:
-    if not hasattr(mechanism, "q0"):
-        message = f"{short(mechanism)} is no assur.Mechanism"
-        raise InputError(message)
-    if not isinstance(bodies, Mapping):
-        message = f"bodies is {short(bodies)}: a mapping of links to assur.Body is needed"
-        raise InputError(message)
-
-
-def _columns(phi: Any, moment: Any, inertia: Any) -> tuple[Float, dict[str, Float]]:
-    """Check a table's coordinates, moments and inertias; one inertia holds for all rows."""
-    x = real_array(phi, "phi")
-    columns = {"moment": real_array(moment, "moment"), "inertia": real_array(inertia, "inertia")}
-    if x.ndim == 1 and columns["inertia"].ndim == 0:
-        columns["inertia"] = np.full(x.shape, columns["inertia"])
-    for name, column in columns.items():
-        if x.ndim != 1 or x.shape != column.shape:
-            message = f"phi has the shape {x.shape}, {name} {column.shape}: two lists are needed"
-            raise InputError(message)
-    if x.size < 2:
-        message = f"the table has {x.size} rows: at least 2 are needed"
-        raise InputError(message)
-    row = int(np.argmin(columns["inertia"]))
-    least = float(columns["inertia"][row])
-    if least < 0.0:
-        message = (
-            f"the inertia is {least:g} kg·m² at phi = {x[row]:g} rad in the table, it must not be "
-            "negative"
-        )
-        raise InputError(message, value=least)
-    return x, columns
-
-
-def _body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Any, float, float]:
-    if not isinstance(link, str):
-        message = f"bodies has {short(link)}: names of links are needed"
-        raise InputError(message)
-    checked_name(link, "bodies")
-    if not isinstance(body, Body):
-        message = f"bodies[{link!r}] is {short(body)}: an assur.Body is needed"
-        raise InputError(message)
-    joints = mechanism.links.get(link, ())
-    at: Any = body.at
-    if at is None and joints:
-        at = joints[0]
-    elif not isinstance(at, str):
-        at = link, (0.0, 0.0) if at is None else at
-    elif link in mechanism.links and at not in joints:
-        message = f"bodies[{link!r}]: joint {at!r} is not one of its joints {', '.join(joints)}"
-        raise InputError(message, joint=at, link=link)
-    return link, at, body.mass, body.inertia

@@ -1,4 +1,7 @@
-"""Motors: the torque on a driver as a function of its speed."""
+"""Motors: the torque on a driver as a function of its speed.
+
+The core reads the fields of these classes by name (rust/py/src/convert).
+"""
 
 from __future__ import annotations
 
@@ -6,14 +9,11 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from assur._arrays import not_negative, real_number, short
-from assur.dynamics.callbacks import CallbackTable, Encoded, Value, checked_value
-from assur.dynamics.table import Rows, Table, checked_ratio, replace_fields
+from assur.dynamics.table import Table, checked_ratio, replace_fields
+from assur.dynamics.values import Value, checked_value
 from assur.errors import InputError
 
 __all__ = ["ConstantTorque", "InductionMotor", "LinearMotor"]
-
-# Driver, ratio, rotor's inertia, kind, numbers, values, table over the speed.
-EncodedMotor: TypeAlias = tuple[int, float, float, str, list[float], list[Encoded], Rows | None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,23 +116,15 @@ class InductionMotor:
 Motor: TypeAlias = ConstantTorque | LinearMotor | InductionMotor | Table
 
 
-def encode(motor: Any, driver: int, callbacks: CallbackTable) -> EncodedMotor:
-    """Encode a motor for the core; its functions are added to `callbacks`."""
+def checked_motor(motor: Any) -> Motor:
+    """Return a motor."""
     if not isinstance(motor, Motor):
         message = (
             f"{short(motor)} is not a motor: ConstantTorque, LinearMotor, InductionMotor, "
             "or a Table of torque over speed"
         )
         raise InputError(message)
-    common = driver, motor.ratio, motor.rotor_inertia
-    if isinstance(motor, ConstantTorque):
-        return (*common, "value", [], [callbacks.encode(motor.torque)], None)
-    if isinstance(motor, Table):
-        return (*common, "table", [], [], motor._rows(periodic=False))
-    if isinstance(motor, LinearMotor):
-        return (*common, "linear", [motor.stall, motor.no_load], [], None)
-    numbers = [motor.breakdown, motor.slip, motor.synchronous]
-    return (*common, "induction", numbers, [], None)
+    return motor
 
 
 def _check_shaft(motor: Any) -> None:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import operator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from assur._arrays import real_array, real_number, short
+from assur._validate import whole_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import MachineModel
 
 METHODS = ("DOP853", "RK45")
 # Below it, errors drown in rounding (`assur::ode`).
@@ -20,14 +20,14 @@ MIN_RTOL = 2.3e-15
 PERIOD_RTOL = 1e-9
 
 
-def one_design(machine: Machine, what: str) -> None:
+def one_design(machine: MachineModel, what: str) -> None:
     """Raise InputError for a batch."""
     if machine.shape:
         message = f"{what} is for one design, this is a batch {machine.shape}: design(i)"
         raise InputError(message)
 
 
-def require_rotary_driver(machine: Machine, what: str) -> None:
+def require_rotary_driver(machine: MachineModel, what: str) -> None:
     """Raise InputError unless the machine has one driver and that is an angle."""
     driver = None if machine.mechanism is None else machine.mechanism.driver
     slides = {} if machine.mechanism is None else machine.mechanism.slides
@@ -114,26 +114,12 @@ def checked_breaks(breaks: Any) -> list[float]:
 
 def turn_count(turns: Any) -> int:
     """Return the number of turns of a period."""
-    try:
-        number = operator.index(turns)
-    except TypeError:
-        number = 0
-    if not 1 <= number <= 1024:
-        message = f"turns is {short(turns)}: a whole number from 1 to 1024 is needed"
-        raise InputError(message)
-    return number
+    return whole_number(turns, "turns", 1, 1024)
 
 
 def step_count(steps: Any) -> int:
     """Return the largest number of steps."""
-    try:
-        number = operator.index(steps)
-    except TypeError:
-        number = 0
-    if not 1 <= number < 2**63:
-        message = f"max_steps is {short(steps)}: a whole number above 0 is needed"
-        raise InputError(message)
-    return number
+    return whole_number(steps, "max_steps", 1, needed="a whole number above 0 is needed")
 
 
 def checked_seconds(seconds: Any) -> float | None:

@@ -10,16 +10,17 @@ import numpy.typing as npt
 from assur._arrays import real_array
 from assur._validate import one_of
 from assur.description.words import Status
+from assur.dynamics.values import function_values
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import MachineModel
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
 
 def reduce(
-    machine: Machine, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
+    machine: MachineModel, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
 ) -> tuple[Float, Float, Float, Float]:
     """Return mass matrices, their derivatives, moments and potential energies.
 
@@ -45,7 +46,8 @@ def reduce(
     flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
     given = np.empty(0)
     if speed is not None:
-        given = machine._callbacks.load_values(flat.reshape(-1, n), speeds.reshape(-1, n))
+        functions = machine._core.load_functions
+        given = function_values(functions, flat.reshape(-1, n), speeds.reshape(-1, n))
     values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
     dimensions = np.ascontiguousarray(values).ravel()
     *arrays, status, failure = machine._core.reduce(
@@ -69,7 +71,7 @@ def reduce(
     )
 
 
-def _require_within_table(machine: Machine, q: Float, status: npt.NDArray[np.uint8]) -> None:
+def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[np.uint8]) -> None:
     beyond = np.flatnonzero(status > Status.NEAR_SINGULAR)
     if machine.mechanism is None and beyond.size:
         first = float(q[beyond[0]])

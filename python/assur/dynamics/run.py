@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur import _core
 from assur._arrays import real_array
 from assur._validate import one_of
 from assur.errors import InputError
@@ -16,6 +15,7 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from typing_extensions import Self
 
+    from assur import _core
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statistics"]
@@ -201,8 +201,7 @@ class Run:
             self.events.append(EventRecord(event, float(self.t[-1]), self.q[-1], self.speed[-1]))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        core, *others = self._init_args
-        return _rebuild, (core.to_bytes(), *others)
+        return Run, self._init_args
 
     def __repr__(self) -> str:
         return (
@@ -286,7 +285,7 @@ class Run:
         -------
         matplotlib axes
         """
-        from assur.plot import run_picture
+        from assur._plot import run_picture
 
         one_of(what, ("speed", "q", "acceleration", "energy"), "what")
         return run_picture(self, what, ax)
@@ -322,7 +321,3 @@ class Run:
             "time limit": f"max_seconds was reached at {place}",
         }
         return kind, sentences[kind]
-
-
-def _rebuild(core: bytes, *others: Any) -> Run:
-    return Run(_core.Run.from_bytes(core), *others)

@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur import flywheel as flywheels
 from assur._arrays import real_array, real_number
 from assur._validate import one_of
 from assur.dynamics.integrate import steady_state
 from assur.dynamics.motors import ConstantTorque
 from assur.dynamics.options import PERIOD_RTOL, require_rotary_driver, require_whole_periods
+from assur.dynamics.steady_flywheel import SteadyFlywheel
 from assur.dynamics.table import Table
 from assur.errors import AssurWarning, InputError
+from assur.flywheel.sizing import tabulated_flywheel
 
 if TYPE_CHECKING:
     from assur.dynamics.machine import Machine
-    from assur.dynamics.steady import SteadyState
     from assur.flywheel import Flywheel
 
 # Options of the periodic motion: the defaults of `Machine.steady_state`.
@@ -50,7 +50,7 @@ CONVERGED_RTOL = 1e-9
 
 def flywheel(
     machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, on_error: str
-) -> Flywheel | SteadyState:
+) -> Flywheel:
     """See `Machine.flywheel`."""
     require_rotary_driver(machine, "a flywheel")
     one_of(on_error, ("raise", "nan"), "on_error")
@@ -64,7 +64,8 @@ def flywheel(
         if not 0.0 < wanted < 2.0:
             message = f"fluctuation = {wanted:g}: it must be more than 0 and less than 2"
             raise InputError(message, value=wanted)
-        return steady_state(machine, None, 1, None, wanted, mean=mean, **STEADY_OPTIONS)
+        steady = steady_state(machine, None, 1, None, wanted, mean=mean, **STEADY_OPTIONS)
+        return SteadyFlywheel(machine, steady)
     if not constant:
         message = (
             f"{machine.motor!r} is not a constant motor, which mean_speed needs: omit "
@@ -111,12 +112,12 @@ def _from_tables(
         inertia[others], moment[others] = math.nan, math.nan
         # The last row equals the first up to rounding: make it exact.
         moment[..., -1, :], inertia[..., -1, :, :] = moment[..., 0, :], inertia[..., 0, :, :]
-        own = flywheels._flywheel(
+        own = tabulated_flywheel(
             phi,
             moment[..., 0],
             inertia[..., 0, 0],
             "not-a-knot",
-            f"sized {one_of(mean, flywheels.MEANS, 'mean')}",
+            "fluctuation",
             ((fluctuation, "fluctuation"), (speed, "mean_speed")),
             mean,
             on_error,
@@ -182,7 +183,7 @@ def _knots(machine: Machine) -> list[float]:
     """Return the coordinates of a turn at which loads are not smooth, its ends included."""
     turn = 2.0 * math.pi
     found = {0.0, turn}
-    for rows, _, _, periodic in machine._callbacks.tables:
+    for rows, periodic in machine._core.tables:
         first, period = rows[0], rows[-1] - rows[0]
         require_whole_periods(period if periodic else None, turn)
         steps = range(math.floor(-first / period) - 1, math.ceil((turn - first) / period) + 1)

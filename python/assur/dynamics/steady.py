@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from assur import _core
 from assur._arrays import real_array
+from assur._extreme import Extreme
 from assur.dynamics.run import Run
 from assur.errors import InputError
-from assur.flywheel import Extremum
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from assur import _core
     from assur.dynamics.run import State
     from assur.kinematics.mechanism import Mechanism
 
@@ -29,7 +29,7 @@ EXTREME = "extreme speed"
 class SteadyState:
     """A machine in periodic motion.
 
-    Made by `Machine.steady_state` and, with a motor, by `Machine.flywheel`.
+    Made by `Machine.steady_state`; that of a flywheel with the machine's own motor is its `steady`.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class SteadyState:
         Coordinate and speed at the ends of its steps, rad and rad/s.
     period : float
         Time of a period, s.
-    greatest, least : Extremum
+    greatest, least : Extreme
         The extreme speeds (absolute values) and their coordinates.
     mean_speed : float
         Mean speed by the chosen definition, rad/s; the speed passed to `Machine.steady_state` if
@@ -49,7 +49,7 @@ class SteadyState:
     multiplier : float
         Floquet multiplier: factor by which a perturbation of the energy changes each period;
         stable below 1, and reached the faster the smaller it is; 1 if nothing depends on the speed.
-    energy : float
+    motor_work : float
         Work of the motor in a period, J.
     power : float
         Mean power of the motor, W.
@@ -73,18 +73,17 @@ class SteadyState:
         multiplier, found, work, inertia, least_at, least, greatest_at, greatest = numbers
         self.q, self.speed = self.run.q, self.run.speed
         self.period = float(self.run.t[-1] - self.run.t[0])
-        self.greatest, self.least = Extremum(greatest_at, greatest), Extremum(least_at, least)
+        self.greatest, self.least = Extreme(greatest_at, greatest), Extreme(least_at, least)
         span = abs(float(self.q[-1] - self.q[0]))
         self.mean = mean
         self.mean_speed = span / self.period if mean == "period" else 0.5 * (least + greatest)
         self.delta = (greatest - least) / self.mean_speed
         self.multiplier, self.found_moment, self.inertia = multiplier, found, inertia
-        self.energy, self.power = work, work / self.period
+        self.motor_work, self.power = work, work / self.period
         self.motor_moment = work / math.copysign(span, float(self.q[-1] - self.q[0]))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        core, *others = self._init_args
-        return _rebuild, (core.to_bytes(), *others)
+        return SteadyState, self._init_args
 
     def __repr__(self) -> str:
         flywheel = f", flywheel {self.inertia:.6g} kg·m²" if self.inertia else ""
@@ -132,10 +131,6 @@ class SteadyState:
         -------
         matplotlib axes
         """
-        from assur.plot import steady_picture
+        from assur._plot import steady_picture
 
         return steady_picture(self, ax)
-
-
-def _rebuild(core: bytes, *others: Any) -> SteadyState:
-    return SteadyState(_core.Run.from_bytes(core), *others)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -13,10 +13,7 @@ from assur._validate import one_of
 from assur.errors import InputError
 from assur.flywheel import SPLINES, Spline
 
-__all__ = ["Rows", "Table", "checked_ratio", "replace_fields"]
-
-# A table for the core: q, value, spline, whether periodic.
-Rows: TypeAlias = tuple[list[float], list[float], str, bool]
+__all__ = ["Table", "checked_ratio", "replace_fields"]
 
 
 def replace_fields(instance: Any, **values: Any) -> None:
@@ -93,10 +90,6 @@ class Table:
     def __reduce__(self) -> tuple[Any, ...]:
         # Through the constructor, so that a copy is checked and read-only too.
         return type(self), tuple(getattr(self, one.name) for one in fields(self))
-
-    def _rows(self, periodic: bool | None = None) -> Rows:
-        whole = self.periodic if periodic is None else periodic
-        return self.q.tolist(), self.value.tolist(), self.spline, whole
 
 
 def _check_rows(q: Float, value: Float, least: int) -> None:

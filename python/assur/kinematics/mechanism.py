@@ -200,6 +200,10 @@ class Mechanism:
         q0 = self._q0_array()
         return float(q0) if q0.ndim == 0 else q0
 
+    @property
+    def _driver_count(self) -> int:
+        return len(self._core.q0)
+
     def _q0_array(self) -> Float:
         q0 = np.array(self._core.q0)
         return q0[0] if len(q0) == 1 else q0
@@ -406,8 +410,8 @@ class Mechanism:
             message = f"assemblies: take one design of the {self.shape} first, with design(i)"
             raise InputError(message)
         one = np.atleast_1d(real_array(q, "q"))
-        if one.shape != (len(self._core.q0),):
-            message = f"q has shape {one.shape}: one position of {len(self._core.q0)} drivers"
+        if one.shape != (self._driver_count,):
+            message = f"q has shape {one.shape}: one position of {self._driver_count} drivers"
             raise InputError(message)
         if not np.isfinite(one).all():
             message = f"q = {q!r}: a finite coordinate is needed"
@@ -430,9 +434,9 @@ class Mechanism:
         -------
         matplotlib.axes.Axes
         """
-        from assur import plot
+        from assur._plot import mechanism_picture
 
-        return plot.mechanism(self, q, ax)
+        return mechanism_picture(self, q, ax)
 
 
 def _rebuild(description: Description, values: Float) -> Mechanism:

@@ -50,7 +50,7 @@ class Motion:
         self._status = status
         self._request = request
         self._stored = results
-        self._drivers = len(request.mechanism._core.q0)
+        self._drivers = request.mechanism._driver_count
         self._reference_points: dict[str, tuple[Float, ...]] = {}
         self._diagnostics: tuple[Float, Float] | None = None
 
@@ -309,6 +309,6 @@ class Motion:
 
     def plot(self, joint: str, ax: Any = None) -> Any:
         """Draw a joint's path with the mechanism at the first position (needs matplotlib)."""
-        from assur import plot
+        from assur._plot import path_picture
 
-        return plot.path(self, joint, ax)
+        return path_picture(self, joint, ax)

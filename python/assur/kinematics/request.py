@@ -73,17 +73,17 @@ class SolveRequest:
         links: dict[str, int],
         slides: dict[str, int],
         buffers: Buffers | None = None,
-        by: int | None = None,
+        dimension: int | None = None,
         report: bool = False,
     ) -> tuple[Results, npt.NDArray[np.uint8], AssurError | None]:
         """Solve for joints, angles of links, and slides, into the buffers if given.
 
-        With `by`, the index of a dimension, return the derivatives by that dimension. With
+        With the index of a dimension, return the derivatives by that dimension. With
         `report`, return the exception of the first position that failed.
         """
         wanted = [list(of.values()) for of in (joints, links, slides)]
         outputs = (wanted[0], wanted[1], list[int](), wanted[2])
-        found, status, failure = self._solve(outputs, buffers, by, report)
+        found, status, failure = self._solve(outputs, buffers, dimension, report)
         shape = self.shape
         results = Results(
             joints=self._named("joint", joints, found, (*shape, 2)),
@@ -106,7 +106,7 @@ class SolveRequest:
         values = np.ascontiguousarray(self.mechanism._values).reshape(-1)
         if self.per_design and 0 in self.mechanism.shape:
             # With no designs the number of coordinates per design is undefined.
-            drivers = len(self.mechanism._core.q0)
+            drivers = self.mechanism._driver_count
             return values, np.zeros(drivers * math.prod(self.positions)), False
         return values, np.ascontiguousarray(self.q).reshape(-1), self.per_design
 
@@ -114,12 +114,19 @@ class SolveRequest:
         self,
         outputs: Outputs,
         buffers: Buffers | None = None,
-        by: int | None = None,
+        dimension: int | None = None,
         report: bool = False,
     ) -> tuple[dict[tuple[str, int, int], Float], npt.NDArray[np.uint8], AssurError | None]:
         shape = list(self.mechanism.shape) if report else None
         return self.mechanism._core.solve(
-            *self.flat(), self.signs, self.order, outputs, self.threads, buffers, by, shape
+            *self.flat(),
+            self.signs,
+            self.order,
+            outputs,
+            self.threads,
+            buffers,
+            dimension,
+            shape,
         )
 
     def _named(
@@ -130,7 +137,7 @@ class SolveRequest:
         shape: tuple[int, ...],
     ) -> Held:
         """Return arrays by name and order; with several drivers each order adds an axis."""
-        drivers = len(self.mechanism._core.q0)
+        drivers = self.mechanism._driver_count
         held = {}
         for name, index in names.items():
             arrays = []

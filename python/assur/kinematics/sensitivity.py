@@ -33,8 +33,8 @@ class Sensitivity:
         index = motion.mechanism._core.dimension(checked_name(dimension, "sensitivity"))
         outputs = motion._held_indices()
         self.dimension = dimension
-        self._drivers = len(motion.mechanism._core.q0)
-        self._results, self.status, _ = motion._request.arrays(*outputs, by=index)
+        self._drivers = motion.mechanism._driver_count
+        self._results, self.status, _ = motion._request.arrays(*outputs, dimension=index)
 
     def joint(self, name: str) -> Analogues:
         """Return derivatives of a joint's position and analogues, m/m or m/rad, S + (N, 2)."""

@@ -70,7 +70,7 @@ def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
         raise InputError(message)
     held = motion._stored
     names = [list(of) for of in (held.joints, held.links, held.slides)]
-    drivers = len(request.mechanism._core.q0)
+    drivers = request.mechanism._driver_count
     given = (motion._status.shape, motion.order, motion._drivers, *names)
     needed = (request.shape, request.order, drivers, *(list(of) for of in wanted))
     what = ("shape", "order", "number of drivers", "joints", "links", "slides")
@@ -87,7 +87,7 @@ def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
 def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[int, ...], bool]:
     """Return coordinates, the shape of positions, and whether each design has its own."""
     array = np.array(real_array(q, "q"), order="C")
-    drivers = len(mechanism._core.q0)
+    drivers = mechanism._driver_count
     shape = array.shape
     if drivers > 1:
         if not shape or shape[-1] != drivers:

@@ -20,11 +20,21 @@ if TYPE_CHECKING:
 Float: TypeAlias = npt.NDArray[np.float64]
 
 
-class Line(NamedTuple):
-    """A line from joint to joint; without an end, a slide's guide."""
+class JointLine(NamedTuple):
+    """A line from joint to joint."""
 
     start: str
-    end: str | None = None
+    end: str
+
+
+class LinkLine(NamedTuple):
+    """A line fixed to a link, at this angle in its frame, rad (an array for a batch)."""
+
+    link: str
+    angle: Any
+
+
+Line: TypeAlias = JointLine | LinkLine
 
 
 def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
@@ -47,7 +57,7 @@ def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bo
             raise InputError(message, joint=name)
         for joint in joints:
             mechanism._core.require("joint", joint)
-        return [Line(name, other) for other in between], False
+        return [JointLine(name, other) for other in between], False
     slide = name if name in mechanism.slides else _slide_at(mechanism, name)
     if slide is not None:
         return _at_slide(mechanism, slide), True
@@ -59,12 +69,11 @@ def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bo
     if len(meeting) != 2:
         message = f"{len(meeting)} links meet at joint {name!r}: say between=(joint, joint)"
         raise InputError(message, joint=name)
-    return [Line(name, _other_joint(mechanism, link, name)) for link in meeting], False
+    return [JointLine(name, _other_joint(mechanism, link, name)) for link in meeting], False
 
 
-def guide_angle(mechanism: Mechanism, slide: str) -> Any:
-    """Return a guide's angle in the frame of the link that carries it, rad."""
-    return mechanism.dimensions.get(f"{slide}.angle", 0.0)
+def _guide(mechanism: Mechanism, slide: str) -> LinkLine:
+    return LinkLine(mechanism.slides[slide].on, mechanism.dimensions.get(f"{slide}.angle", 0.0))
 
 
 def _acute(motion: Motion, a: Float, b: Float) -> Float:
@@ -76,13 +85,13 @@ def _acute(motion: Motion, a: Float, b: Float) -> Float:
 def _direction(motion: Motion, line: Line) -> Float:
     """Return the direction of a line, S + (N, 2), not normalised."""
     mechanism = motion.mechanism
-    if line.end is not None:
+    if isinstance(line, JointLine):
         along: Float = motion.joint(line.end).value - motion.joint(line.start).value
         return along
-    own = np.asarray(guide_angle(mechanism, line.start))
+    own = np.asarray(line.angle)
     if motion.shape[len(mechanism.shape) :]:
         own = own[..., np.newaxis]
-    direction = motion.link(mechanism.slides[line.start].on).value + own
+    direction = motion.link(line.link).value + own
     sine, cosine = sin_cos(direction)
     return np.stack([cosine, sine], axis=-1)
 
@@ -126,12 +135,12 @@ def _at_slide(mechanism: Mechanism, name: str) -> list[Line]:
         raise InputError(message, slide=name)
     at = joints[0]
     if slide.on != "ground":
-        return [Line(at, _pivot(mechanism, slide.on)), Line(name)]
+        return [JointLine(at, _pivot(mechanism, slide.on)), _guide(mechanism, name)]
     pushing = [k for k, on in mechanism.links.items() if at in on and k != slide.link]
     if len(pushing) != 1:
         message = f"slide {name!r}: {len(pushing)} links push joint {at!r}: say between="
         raise InputError(message, slide=name, joint=at)
-    return [Line(at, _other_joint(mechanism, pushing[0], at)), Line(name)]
+    return [JointLine(at, _other_joint(mechanism, pushing[0], at)), _guide(mechanism, name)]
 
 
 def _pivot(mechanism: Mechanism, link: str) -> str:

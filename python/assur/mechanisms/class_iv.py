@@ -6,11 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur import _core
 from assur._arrays import real_array, short
 from assur._trig import sin_cos
+from assur.description import encode
 from assur.description.words import Status
 from assur.errors import DimensionError, InputError
 from assur.kinematics.mechanism import Mechanism
+from assur.mechanisms.named import from_drawing
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -22,16 +25,6 @@ if TYPE_CHECKING:
 __all__ = ["ClassIV"]
 
 JOINTS = tuple(str(i) for i in range(1, 11))
-LINKS = {
-    "ground": ["1", "9", "10"],
-    "crank": ["1", "2"],
-    "l234": ["2", "3", "4"],
-    "l365": ["3", "6", "5"],
-    "l48": ["4", "8"],
-    "l876": ["8", "7", "6"],
-    "l95": ["9", "5"],
-    "l107": ["10", "7"],
-}
 # The paper's names: lengths l, angles U (from the first leg to the last, at the middle joint),
 # fixed pivots, and the starting angles f of its iteration (that of "1-2" is the crank's).
 LENGTHS = ("1-2", "2-3", "2-4", "3-5", "3-6", "4-8", "6-8", "7-8", "5-9", "7-10")
@@ -103,7 +96,7 @@ class ClassIV(Mechanism):
         paper = (lengths, angles, pivots, start)
         if joints is not None and all(part is None for part in paper):
             _require_names(joints, JOINTS, "joints")
-            _copy_from(self, Mechanism({name: joints[name] for name in JOINTS}, LINKS, "crank"))
+            _copy_from(self, _drawn(joints))
             return
         if joints is not None or any(part is None for part in paper):
             message = "ClassIV needs joints=, or lengths=, angles=, pivots= and start= together"
@@ -164,6 +157,11 @@ def _squared(z: npt.NDArray[np.complex128]) -> npt.NDArray[np.float64]:
 
 def _complex(points: npt.NDArray[np.float64]) -> npt.NDArray[np.complex128]:
     return np.asarray(points[..., 0] + 1j * points[..., 1])
+
+
+def _drawn(joints: Mapping[str, Sequence[float]]) -> Mechanism:
+    points = [encode.joint(name, joints[name])[1:] for name in JOINTS]
+    return from_drawing(_core.class_iv_drawing(points))
 
 
 def _copy_from(mechanism: Mechanism, made: Mechanism) -> None:
@@ -235,7 +233,7 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
     dimensions |= {"l107.length": length["7-10"]}
     dimensions |= {f"{name}.x": point.real for name, point in corner.items()}
     dimensions |= {f"{name}.y": point.imag for name, point in corner.items()}
-    drawn = Mechanism({n: (at[n].real, at[n].imag) for n in JOINTS}, LINKS, "crank")
+    drawn = _drawn({n: (at[n].real, at[n].imag) for n in JOINTS})
     sized = drawn.with_dimensions(dimensions)
     found = sized.solve(sized.q0, order=0, on_error="nan")
     if found.status > Status.NEAR_SINGULAR:
@@ -247,4 +245,4 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
         )
         raise InputError(message, q=first["1-2"])
     joints = {name: tuple(found.joint(name).value.tolist()) for name in JOINTS}
-    return Mechanism(joints, LINKS, "crank").with_dimensions(dimensions)
+    return _drawn(joints).with_dimensions(dimensions)

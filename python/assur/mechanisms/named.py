@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from assur import _core
 from assur._arrays import real_array
 from assur._validate import one_of
 from assur.description.words import Slide
@@ -55,26 +56,9 @@ class FourBar(Mechanism):
             message = f"ground is {ground!r}: a length must be positive"
             raise DimensionError(message, dimension="ground.D.x", value=float(length))
         one_of(mode, ("open", "crossed"), "mode")
-        # Drawn with fixed lengths, so that neither the assembly nor q0 depends on
-        # the dimensions (or on other designs of a batch).
-        drawn = Mechanism(
-            joints={
-                "A": (0.0, 0.0),
-                "B": (0.0, 1.0),
-                "C": (2.5, 2.0) if mode == "open" else (1.8, -1.6),
-                "D": (3.0, 0.0),
-            },
-            links={
-                "ground": ["A", "D"],
-                "crank": ["A", "B"],
-                "coupler": ["B", "C"],
-                "rocker": ["D", "C"],
-            },
-            driver="crank",
-        )
         _copy_from(
             self,
-            drawn,
+            _core.four_bar_drawing(mode),
             {
                 "crank.length": crank,
                 "coupler.length": coupler,
@@ -110,17 +94,19 @@ class SliderCrank(Mechanism):
     def __init__(
         self, crank: npt.ArrayLike, rod: npt.ArrayLike, offset: npt.ArrayLike = 0.0
     ) -> None:
-        drawn = Mechanism(
-            joints={"O": (0.0, 0.0), "A": (1.0, 0.0), "B": (4.0, 0.0)},
-            links={"ground": ["O"], "crank": ["O", "A"], "rod": ["A", "B"], "piston": ["B"]},
-            slides={"bore": Slide("piston", on="ground", angle=0.0, origin="O")},
-            driver="crank",
-        )
-        _copy_from(self, drawn, {"crank.length": crank, "rod.length": rod, "bore.offset": offset})
+        dimensions = {"crank.length": crank, "rod.length": rod, "bore.offset": offset}
+        _copy_from(self, _core.slider_crank_drawing(), dimensions)
 
 
-def _copy_from(
-    mechanism: Mechanism, drawn: Mechanism, dimensions: dict[str, npt.ArrayLike]
-) -> None:
-    sized = drawn.with_dimensions(dimensions)
+def from_drawing(drawing: Any) -> Mechanism:
+    """Return the mechanism of a drawing that the core made."""
+    joints, links, slides, driver = drawing
+    guides = {name: Slide(*fields) for name, fields in slides}
+    return Mechanism(dict(joints), dict(links), driver, guides)
+
+
+def _copy_from(mechanism: Mechanism, drawing: Any, dimensions: dict[str, npt.ArrayLike]) -> None:
+    # The drawing has fixed lengths, so that neither the assembly nor q0 depends on the dimensions
+    # (or on other designs of a batch).
+    sized = from_drawing(drawing).with_dimensions(dimensions)
     mechanism._initialise(sized._description, sized._values, sized._core)

@@ -28,7 +28,7 @@ __all__ = [
     "Event",
     "Run",
     "Solution",
-    "Table",
+    "Table1",
     "blocked",
     "crank_turns",
     "grashof",
@@ -96,7 +96,7 @@ class Solution:
         return f"<assur.crank_rocker.Solution, shape {self.S.shape}>"
 
 
-class Table(NamedTuple):
+class Table1(NamedTuple):
     """Table 1: crank angles, degrees; grounds; transmission angles, rad (angles × grounds)."""
 
     phi1_deg: Float
@@ -368,7 +368,7 @@ def blocked(
     return [(start, end) for start, end in found]
 
 
-def table1() -> Table:
+def table1() -> Table1:
     """Return Table 1, as printed (with π = 3.14) and with the true π.
 
     Transmission angles for l1 = 1, l2 = 4.5, l3 = 1.5, every 30°.
@@ -384,7 +384,7 @@ def table1() -> Table:
     rough = solve(degrees[:, np.newaxis] * PRINTED_PI / 180.0, *TABLE, grounds).gamma23
     printed = np.where(rough < PRINTED_PI / 2, rough, PRINTED_PI - rough)
     true = solve(np.radians(degrees)[:, np.newaxis], *TABLE, grounds).gamma
-    return Table(degrees, grounds, printed, true)
+    return Table1(degrees, grounds, printed, true)
 
 
 def _finite(value: Any, name: str) -> Float:

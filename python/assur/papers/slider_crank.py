@@ -12,7 +12,6 @@ kinematic parameters of planar lever mechanisms* (2021). R. V. Ambarcumyanc, M. 
 
 from __future__ import annotations
 
-import operator
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -20,8 +19,9 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import in_range, real_array, real_number
+from assur._extreme import Extreme
 from assur._trig import arctan2
-from assur._validate import one_of
+from assur._validate import one_of, whole_number
 from assur.errors import DimensionError, InputError
 from assur.kinematics.quantity import Analogues
 
@@ -45,13 +45,6 @@ __all__ = [
 Float: TypeAlias = npt.NDArray[np.float64]
 # More terms change no digit of any approximation (k = 1.001 needs some 400).
 MAX_TERMS = 100_000
-
-
-class Extreme(NamedTuple):
-    """A greatest value: its crank angle, rad, and the value."""
-
-    at: Any
-    value: Any
 
 
 class Deviation(NamedTuple):
@@ -161,7 +154,7 @@ def stroke(
     if method == "exact":
         found = _core.slider_crank_stroke(flat, ratios)
     elif method == "fraction":
-        found = _core.slider_crank_fraction(flat, ratios, _whole(n, "n", 1))
+        found = _core.slider_crank_fraction(flat, ratios, whole_number(n, "n", 1, MAX_TERMS))
     else:
         last, kept = _harmonics(harmonics), _terms(terms)
         found = _core.slider_crank_series(flat, inverse, last, kept)
@@ -358,7 +351,7 @@ def deviation(
         raise InputError(message, value=value)
     orders = {"stroke": 0, "d1": 1, "d2": 2}
     one_of(quantity, tuple(orders), "quantity")
-    number = _whole(n, "n", 1)
+    number = whole_number(n, "n", 1, MAX_TERMS)
     flat = np.ascontiguousarray(ratios).reshape(-1)
     found = _core.slider_crank_deviation(flat, number, orders[quantity])
     return Deviation(*(part.reshape(ratios.shape) for part in found))
@@ -444,19 +437,8 @@ def _scaled(name: str, lengths: Float, found: Sequence[Float]) -> Analogues:
     return Analogues(name, arrays, 1, point=False)
 
 
-def _whole(value: Any, name: str, least: int) -> int:
-    try:
-        number = operator.index(value)
-    except TypeError:
-        number = least - 1
-    if isinstance(value, bool) or not least <= number <= MAX_TERMS:
-        message = f"{name} is {value!r}: a whole number from {least} to {MAX_TERMS} is needed"
-        raise InputError(message)
-    return number
-
-
 def _harmonics(harmonics: Any) -> int:
-    number = _whole(harmonics, "harmonics", 0)
+    number = whole_number(harmonics, "harmonics", 0, MAX_TERMS)
     if number % 2:
         message = f"harmonics is {harmonics!r}: an even number is needed (odd ones are 0 but A1)"
         raise InputError(message)
@@ -464,4 +446,4 @@ def _harmonics(harmonics: Any) -> int:
 
 
 def _terms(terms: Any) -> int | None:
-    return None if terms is None else _whole(terms, "terms", 0)
+    return None if terms is None else whole_number(terms, "terms", 0, MAX_TERMS)

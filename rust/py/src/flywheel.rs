@@ -6,6 +6,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 
+use crate::convert::word::{Word, Words};
 use crate::parallel_map::parallel_map;
 use crate::{detach, error, error_map};
 
@@ -20,43 +21,66 @@ const TABLES_PER_THREAD: usize = 64;
 #[derive(Clone, Copy)]
 enum Task {
     /// The flywheel for a fluctuation at a mean speed.
-    Sized(Mean),
+    Fluctuation,
     /// The motion with a flywheel at a mean speed.
-    Driven(Mean),
+    MeanSpeed,
     /// The motion with a flywheel from an initial speed.
-    Given,
+    InitialSpeed,
+}
+
+impl Words for Task {
+    const WHAT: &'static str = "task";
+    const KNOWN: &'static [(&'static str, Self)] = &[
+        ("fluctuation", Self::Fluctuation),
+        ("mean speed", Self::MeanSpeed),
+        ("initial speed", Self::InitialSpeed),
+    ];
 }
 
 impl Task {
-    fn of(name: &str) -> PyResult<Self> {
-        Ok(match name {
-            "sized extremes" => Self::Sized(Mean::Extremes),
-            "sized period" => Self::Sized(Mean::Period),
-            "driven extremes" => Self::Driven(Mean::Extremes),
-            "driven period" => Self::Driven(Mean::Period),
-            "given" => Self::Given,
-            _ => return Err(error::input(&format!("no such task: {name:?}"), None)),
-        })
-    }
-
-    fn solve(self, turn: Cycle, [first, second]: [f64; 2]) -> Outcome {
+    fn solve(self, turn: Cycle, [first, second]: [f64; 2], mean: Mean) -> Outcome {
         match self {
-            Self::Sized(mean) => Flywheel::for_fluctuation(turn, first, second, mean),
-            Self::Driven(mean) => Flywheel::for_mean_speed(turn, first, second, mean),
-            Self::Given => Flywheel::for_initial_speed(turn, first, second),
+            Self::Fluctuation => Flywheel::for_fluctuation(turn, first, second, mean),
+            Self::MeanSpeed => Flywheel::for_mean_speed(turn, first, second, mean),
+            Self::InitialSpeed => Flywheel::for_initial_speed(turn, first, second),
         }
     }
 }
 
-pub(crate) fn ends(name: &str) -> PyResult<EndCondition> {
-    Ok(match name {
-        "not-a-knot" => EndCondition::NotAKnot,
-        "natural" => EndCondition::Natural,
-        "clamped" => EndCondition::Clamped,
-        "periodic" => EndCondition::Periodic,
-        "linear" => EndCondition::Linear,
-        _ => return Err(error::input(&format!("no such spline: {name:?}"), None)),
-    })
+/// A quantity over the angle, or over the time.
+#[derive(Clone, Copy)]
+enum Curve {
+    Speed,
+    Time,
+    Angle,
+    Moment,
+    Inertia,
+    Work,
+}
+
+impl Words for Curve {
+    const WHAT: &'static str = "quantity";
+    const KNOWN: &'static [(&'static str, Self)] = &[
+        ("speed", Self::Speed),
+        ("time", Self::Time),
+        ("angle", Self::Angle),
+        ("moment", Self::Moment),
+        ("inertia", Self::Inertia),
+        ("work", Self::Work),
+    ];
+}
+
+impl Curve {
+    fn at(self, flywheel: &Flywheel, x: f64) -> f64 {
+        match self {
+            Self::Speed => flywheel.speed(x),
+            Self::Time => flywheel.time(x),
+            Self::Angle => flywheel.angle(x),
+            Self::Moment => flywheel.cycle.moment(x),
+            Self::Inertia => flywheel.cycle.inertia(x),
+            Self::Work => flywheel.cycle.work(x),
+        }
+    }
 }
 
 /// The flywheels of several tables with the same angles.
@@ -65,24 +89,25 @@ pub(crate) struct Flywheels(Vec<Outcome>);
 
 #[pymethods]
 impl Flywheels {
-    /// `moment` and `inertia`: table after table. `first` and `second`: two numbers for each table;
-    /// `task` sets their meaning.
+    /// `moment` and `inertia`: table after table. `first` and `second`: two numbers for each table,
+    /// the fluctuation or the flywheel, and the mean or initial speed (`task`).
     #[new]
-    #[pyo3(signature = (phi, moment, inertia, spline, task, first, second, threads=None, corners=None))]
+    #[pyo3(signature = (phi, moment, inertia, spline, task, mean, first, second, threads=None, corners=None))]
     #[allow(clippy::too_many_arguments, reason = "flat arrays")]
     fn new(
         py: Python<'_>,
         phi: Flat<'_>,
         moment: Flat<'_>,
         inertia: Flat<'_>,
-        spline: &str,
-        task: &str,
+        spline: Word<EndCondition>,
+        task: Word<Task>,
+        mean: Word<Mean>,
         first: Flat<'_>,
         second: Flat<'_>,
         threads: Option<usize>,
         corners: Option<Vec<usize>>,
     ) -> PyResult<Self> {
-        let (ends, task) = (ends(spline)?, Task::of(task)?);
+        let (Word(ends), Word(task), Word(mean)) = (spline, task, mean);
         let [phi, moment, inertia, first, second] =
             [&phi, &moment, &inertia, &first, &second].map(|a| a.as_slice().map(<[f64]>::to_vec));
         let (phi, moment, inertia, first, second) = (phi?, moment?, inertia?, first?, second?);
@@ -94,7 +119,7 @@ impl Flywheels {
         let one = |i: usize| {
             let table = |all: &[f64]| all[i * rows..(i + 1) * rows].to_vec();
             Cycle::with_corners(&phi, &table(&moment), &table(&inertia), ends, &corners)
-                .and_then(|turn| task.solve(turn, [first[i], second[i]]))
+                .and_then(|turn| task.solve(turn, [first[i], second[i]], mean))
         };
         detach::run(py, count <= TABLES_PER_THREAD, |cancel| {
             parallel_map(count, TABLES_PER_THREAD, threads, cancel, &one)
@@ -141,22 +166,18 @@ impl Flywheels {
         Some(error_map::table(error, place, design).into_value(py))
     }
 
-    /// A quantity of every table at the same number of angles, table after table.
-    fn curve<'py>(&self, py: Python<'py>, what: &str, places: Flat<'py>) -> PyResult<Array<'py>> {
-        let quantity: fn(&Flywheel, f64) -> f64 = match what {
-            "speed" => Flywheel::speed,
-            "time" => Flywheel::time,
-            "angle" => Flywheel::angle,
-            "moment" => |f, phi| f.cycle.moment(phi),
-            "inertia" => |f, phi| f.cycle.inertia(phi),
-            "work" => |f, phi| f.cycle.work(phi),
-            _ => return Err(error::input(&format!("no such curve: {what:?}"), None)),
-        };
-        let places = places.as_slice()?.to_vec();
-        let per_table = places.len().checked_div(self.0.len()).unwrap_or(0).max(1);
-        let values = detach::map(py, places.len(), |i| {
-            let (x, one) = (places[i], self.0.get(i / per_table).and_then(|one| one.as_ref().ok()));
-            one.filter(|_| x.is_finite()).map_or(f64::NAN, |f| quantity(f, x))
+    /// A quantity of every table at the same number of angles or times, table after table.
+    fn curve<'py>(
+        &self,
+        py: Python<'py>,
+        quantity: Word<Curve>,
+        points: Flat<'py>,
+    ) -> PyResult<Array<'py>> {
+        let points = points.as_slice()?.to_vec();
+        let per_table = points.len().checked_div(self.0.len()).unwrap_or(0).max(1);
+        let values = detach::map(py, points.len(), |i| {
+            let (x, one) = (points[i], self.0.get(i / per_table).and_then(|one| one.as_ref().ok()));
+            one.filter(|_| x.is_finite()).map_or(f64::NAN, |f| quantity.0.at(f, x))
         })?;
         Ok(PyArray1::from_vec(py, values))
     }

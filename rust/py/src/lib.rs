@@ -10,9 +10,12 @@ mod flywheel;
 mod machine;
 mod mechanism;
 mod metrics;
+mod named;
 mod parallel_map;
 mod run;
+mod run_state;
 mod slider_crank;
+mod stop_reason;
 #[cfg(feature = "test-hooks")]
 mod test_hooks;
 mod trig;
@@ -38,6 +41,8 @@ mod _core {
     use super::mechanism::Mechanism;
     #[pymodule_export]
     use super::metrics::{acute, curvature, instant_centre};
+    #[pymodule_export]
+    use super::named::{class_iv_drawing, four_bar_drawing, slider_crank_drawing};
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]

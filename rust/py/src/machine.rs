@@ -3,17 +3,22 @@
 use std::time::{Duration, Instant};
 
 use assur::dynamics::{
-    FluctuationTarget, Mean, ReducedTable, RunOptions, SteadyOptions, TabulatedMachine, Variable,
+    EndCondition, FluctuationTarget, Mean, ReducedTable, RunOptions, SteadyOptions,
+    TabulatedMachine, Variable,
 };
 use assur::ode::Method;
 use assur::{FirstFailure, SolveError, Status};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
+use pyo3::{PyTraverseError, PyVisit};
 
-use crate::convert::{
-    self, BodyArguments, EventArguments, LoadArguments, MotorArguments, TableArguments,
-};
+use crate::convert::body::Body;
+use crate::convert::event::event;
+use crate::convert::load::loads;
+use crate::convert::motor::motors;
+use crate::convert::value::{Values, table};
+use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
 use crate::error_map;
 use crate::mechanism::Mechanism;
@@ -44,42 +49,88 @@ enum Inner {
 
 /// A machine: a mechanism with bodies and loads, or tables of inertia and moment; and motors.
 #[pyclass(frozen, module = "assur._core")]
-pub(crate) struct Machine(Inner);
+pub(crate) struct Machine {
+    inner: Inner,
+    /// Python functions: those of loads, then those of motors.
+    functions: Vec<Py<PyAny>>,
+    load_functions: usize,
+}
 
 #[pymethods]
 impl Machine {
-    /// Without a mechanism, the first two tables are inertia and moment.
+    /// Reads the dataclasses of loads, bodies by link, and motors by driver.
     #[new]
     fn new(
         py: Python<'_>,
-        mechanism: Option<Py<Mechanism>>,
-        bodies: Vec<BodyArguments>,
-        loads: Vec<LoadArguments>,
-        gravity: [f64; 2],
-        tables: Vec<TableArguments>,
-        motors: Vec<MotorArguments>,
+        mechanism: Py<Mechanism>,
+        bodies: Vec<(String, Body)>,
+        loads: Vec<Bound<'_, PyAny>>,
+        motors: Vec<Option<Bound<'_, PyAny>>>,
     ) -> PyResult<Self> {
-        let tables =
-            catch_panic(|| tables.into_iter().map(convert::table).collect::<PyResult<_>>())?;
-        let motors =
-            catch_panic(|| motors.into_iter().map(convert::motor).collect::<PyResult<_>>())?;
-        let Some(mechanism) = mechanism else {
-            return Ok(Self(Inner::Tables(TabulatedMachine { tables, motors })));
-        };
         let core = &mechanism.bind(py).get().inner;
-        let inner = catch_panic(|| {
-            let bodies =
-                bodies.into_iter().map(|one| convert::body(core, one)).collect::<PyResult<_>>()?;
-            let loads =
-                loads.into_iter().map(|one| convert::load(core, one)).collect::<PyResult<_>>()?;
-            Ok(assur::dynamics::Machine { bodies, loads, gravity, tables, motors })
-        })?;
-        Ok(Self(Inner::Mechanism(mechanism, inner)))
+        catch_panic(|| {
+            let mut values = Values::default();
+            let (loads, gravity) = self::loads(core, &loads, &mut values)?;
+            let load_functions = values.functions.len();
+            let motors = self::motors(&motors, &mut values)?;
+            let body = |(link, body): &(String, Body)| body.of_link(core, link);
+            let bodies = bodies.iter().map(body).collect::<PyResult<_>>()?;
+            let Values { tables, functions } = values;
+            let machine = assur::dynamics::Machine { bodies, loads, gravity, tables, motors };
+            Ok((machine, functions, load_functions))
+        })
+        .map(|(machine, functions, load_functions)| Self {
+            inner: Inner::Mechanism(mechanism, machine),
+            functions,
+            load_functions,
+        })
+    }
+
+    /// A machine of tables of inertia and moment over the angle.
+    #[staticmethod]
+    fn from_table(
+        phi: Flat<'_>,
+        moment: Flat<'_>,
+        inertia: Flat<'_>,
+        spline: Word<EndCondition>,
+        periodic: bool,
+        motor: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        catch_panic(|| {
+            let column = |values: &Flat<'_>| table(&phi, values, spline.0, periodic);
+            let tables = vec![column(&inertia)?, column(&moment)?];
+            let mut values = Values { tables, ..Values::default() };
+            let motors = motors(&[motor], &mut values)?;
+            let Values { tables, functions } = values;
+            let inner = Inner::Tables(TabulatedMachine { tables, motors });
+            Ok(Self { inner, functions, load_functions: 0 })
+        })
+    }
+
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.functions.iter().try_for_each(|function| visit.call(function))
+    }
+
+    /// Tables over the coordinate: the coordinates of their rows, and whether they are periodic.
+    #[getter]
+    fn tables(&self) -> Vec<(Vec<f64>, bool)> {
+        let tables = match &self.inner {
+            Inner::Mechanism(_, machine) => &machine.tables,
+            Inner::Tables(machine) => &machine.tables,
+        };
+        tables.iter().map(|table| (table.knots().to_vec(), table.period().is_some())).collect()
+    }
+
+    /// Python functions of the loads.
+    #[getter]
+    fn load_functions(&self, py: Python<'_>) -> Vec<Py<PyAny>> {
+        let functions = &self.functions[..self.load_functions];
+        functions.iter().map(|function| function.clone_ref(py)).collect()
     }
 
     /// Reduces the inertia and loads of designs to the drivers, each at the same number of
-    /// positions. `given`: the values of Python functions at every position; `report`: the shape of
-    /// the designs, for the exception of the first that failed.
+    /// positions. `function_values`: of the loads' Python functions at every position; `report`:
+    /// the shape of the designs, for the exception of the first that failed.
     #[allow(clippy::too_many_arguments, reason = "flat arrays")]
     fn reduce<'py>(
         &self,
@@ -87,11 +138,11 @@ impl Machine {
         dimensions: Flat<'py>,
         q: Flat<'py>,
         speed: Flat<'py>,
-        given: Flat<'py>,
+        function_values: Flat<'py>,
         threads: Option<usize>,
         report: Vec<usize>,
     ) -> PyResult<Arrays<'py>> {
-        let (mechanism, machine) = match &self.0 {
+        let (mechanism, machine) = match &self.inner {
             Inner::Mechanism(mechanism, machine) => (mechanism, machine),
             Inner::Tables(tabulated) => {
                 let q = q.as_slice()?;
@@ -101,7 +152,7 @@ impl Machine {
         let mechanism = &mechanism.get().inner;
         let drivers = mechanism.q0().len();
         let [dimensions, q, speed, given] =
-            [&dimensions, &q, &speed, &given].map(|a| a.as_slice().map(<[f64]>::to_vec));
+            [&dimensions, &q, &speed, &function_values].map(|a| a.as_slice().map(<[f64]>::to_vec));
         let (dimensions, q, speed, given) = (dimensions?, q?, speed?, given?);
         let size = mechanism.dimensions().len();
         let designs = dimensions.len() / size;
@@ -136,8 +187,7 @@ impl Machine {
         Ok(arrays(py, &all, failure))
     }
 
-    /// Integrates a run over time or, with `along_q`, over the coordinate. `functions`: those of
-    /// loads and motors, then those of events.
+    /// Integrates a run over time or, with `along_q`, over the coordinate.
     #[allow(clippy::too_many_arguments, reason = "what is asked of a run")]
     fn run(
         &self,
@@ -150,16 +200,16 @@ impl Machine {
         tolerances: (f64, Option<[f64; 2]>),
         limits: (f64, u64, Option<f64>),
         breaks: Vec<f64>,
-        watches: Vec<EventArguments>,
-        functions: (Vec<Py<PyAny>>, Vec<Py<PyAny>>),
+        events: Vec<Bound<'_, PyAny>>,
     ) -> PyResult<Run> {
-        let core = match &self.0 {
+        let core = match &self.inner {
             Inner::Mechanism(mechanism, _) => Some(&mechanism.get().inner),
             Inner::Tables(_) => None,
         };
-        let watches = watches
-            .into_iter()
-            .map(|one| convert::event(core, one))
+        let mut event_functions = Vec::new();
+        let events = events
+            .iter()
+            .map(|object| event(core, object, &mut event_functions))
             .collect::<PyResult<Vec<_>>>()?;
         let (t, q, speed) = start;
         let (max_step, max_steps, seconds) = limits;
@@ -176,10 +226,10 @@ impl Machine {
             max_steps,
             deadline: deadline(seconds),
             breaks: &breaks,
-            events: &watches,
+            events: &events,
             flywheel: 0.0,
         };
-        let run = with_callbacks(py, functions, |calls| match &self.0 {
+        let run = self.with_callbacks(py, event_functions, |calls| match &self.inner {
             Inner::Mechanism(mechanism, machine) => {
                 machine.run(&mechanism.get().inner, &dimensions, &options, calls)
             }
@@ -188,8 +238,8 @@ impl Machine {
         run.map(Run::new).map_err(error_map::run)
     }
 
-    /// The steady state, with a given flywheel or one sized for a fluctuation (`wanted`).
-    /// `places`: initial q and span; `mean`: definition of the mean speed. Returns the run over one
+    /// The steady state from `q` over a span, with a given flywheel or one sized for a fluctuation.
+    /// `mean`: definition of the mean speed. Returns the run over one
     /// period, and: multiplier, moment, work of the motors, flywheel, coordinate and value of the
     /// least and of the greatest speed.
     #[allow(clippy::too_many_arguments, reason = "what is asked of it")]
@@ -197,19 +247,18 @@ impl Machine {
         &self,
         py: Python<'_>,
         dimensions: Vec<f64>,
-        places: [f64; 2],
+        q: f64,
+        span: f64,
         speed: Option<f64>,
-        mean: &str,
+        mean: Word<Mean>,
         low_order: bool,
         relative: f64,
         limits: (u64, Option<f64>),
         breaks: Vec<f64>,
         flywheel: f64,
-        wanted: Option<f64>,
-        functions: Vec<Py<PyAny>>,
+        fluctuation: Option<f64>,
     ) -> PyResult<(Run, Vec<f64>)> {
-        let [q, span] = places;
-        let mean = if mean == "period" { Mean::Period } else { Mean::Extremes };
+        let Word(mean) = mean;
         let options = SteadyOptions {
             q,
             span,
@@ -222,12 +271,12 @@ impl Machine {
             breaks: &breaks,
             flywheel,
         };
-        let wanted = wanted.map(|fluctuation| FluctuationTarget { fluctuation, mean });
-        let steady = with_callbacks(py, (functions, Vec::new()), |calls| match &self.0 {
+        let target = fluctuation.map(|fluctuation| FluctuationTarget { fluctuation, mean });
+        let steady = self.with_callbacks(py, Vec::new(), |calls| match &self.inner {
             Inner::Mechanism(mechanism, machine) => {
-                machine.steady(&mechanism.get().inner, &dimensions, &options, wanted, calls)
+                machine.steady(&mechanism.get().inner, &dimensions, &options, target, calls)
             }
-            Inner::Tables(tabulated) => tabulated.steady(&options, wanted, calls),
+            Inner::Tables(tabulated) => tabulated.steady(&options, target, calls),
         })?;
         let steady = steady.map_err(error_map::steady)?;
         let [least, greatest] = steady.extremes();
@@ -245,22 +294,26 @@ impl Machine {
     }
 }
 
-/// Does work with Python functions. The GIL is held throughout if there are any. Raises what a
-/// signal handler raised meanwhile.
-fn with_callbacks<T: Send>(
-    py: Python<'_>,
-    functions: (Vec<Py<PyAny>>, Vec<Py<PyAny>>),
-    work: impl FnOnce(&mut PythonCallbacks) -> T + Send,
-) -> PyResult<T> {
-    let mut callbacks = PythonCallbacks::new(functions.0, functions.1);
-    let result = catch_panic(|| {
-        Ok(if callbacks.need_gil() {
-            work(&mut callbacks)
-        } else {
-            py.detach(|| work(&mut callbacks))
-        })
-    })?;
-    callbacks.signal.map_or(Ok(result), Err)
+impl Machine {
+    /// Does work with the Python functions of the machine and of events. The GIL is held throughout
+    /// if there are any. Raises what a signal handler raised meanwhile.
+    fn with_callbacks<T: Send>(
+        &self,
+        py: Python<'_>,
+        event_functions: Vec<Py<PyAny>>,
+        work: impl FnOnce(&mut PythonCallbacks) -> T + Send,
+    ) -> PyResult<T> {
+        let functions = self.functions.iter().map(|function| function.clone_ref(py)).collect();
+        let mut callbacks = PythonCallbacks::new(functions, event_functions);
+        let result = catch_panic(|| {
+            Ok(if callbacks.need_gil() {
+                work(&mut callbacks)
+            } else {
+                py.detach(|| work(&mut callbacks))
+            })
+        })?;
+        callbacks.signal.map_or(Ok(result), Err)
+    }
 }
 
 fn method(low_order: bool) -> Method {

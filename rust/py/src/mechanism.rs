@@ -6,14 +6,16 @@ use std::sync::Mutex;
 use std::sync::atomic::Ordering;
 
 use assur::{
-    Arrays, Control, Coordinates, Description, DriverDescription, FailureLog, Outputs, Quantity,
-    Request, SlideDescription, SolveError, Status, fill,
+    Arrays, Control, Coordinates, Description, FailureLog, Named, Outputs, Quantity, Request,
+    SolveError, Status, fill,
 };
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyBaseException, PyMemoryError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice};
 
+use crate::convert::description::{Driver, Slide};
+use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
 use crate::{error, error_map};
 
@@ -33,7 +35,6 @@ const POSITIONS_PER_CHECK: usize = 8192;
 type Solution<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>, Option<Py<PyBaseException>>);
 /// Residuals and conditions.
 type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
-type SlideArguments = (String, String, String, f64, Option<String>);
 type GroupFields =
     (usize, usize, Option<&'static str>, Option<usize>, Vec<String>, Vec<String>, Vec<String>);
 
@@ -50,30 +51,15 @@ impl Mechanism {
         py: Python<'_>,
         joints: Vec<(String, f64, f64)>,
         links: Vec<(String, Vec<String>)>,
-        slides: Vec<SlideArguments>,
-        drivers: Vec<(String, Option<String>)>,
+        slides: Vec<(String, Slide)>,
+        drivers: Vec<Driver>,
         assembly: Vec<(String, i64)>,
     ) -> PyResult<Self> {
         let description = Description {
             joints: joints.into_iter().map(|(name, x, y)| (name, [x, y])).collect(),
             links,
-            slides: slides
-                .into_iter()
-                .map(|(name, link, on, angle, origin)| SlideDescription {
-                    name,
-                    link,
-                    on,
-                    angle,
-                    origin,
-                })
-                .collect(),
-            drivers: drivers
-                .into_iter()
-                .map(|(name, relative_to)| match relative_to {
-                    None => DriverDescription::Named(name),
-                    Some(relative_to) => DriverDescription::Relative { link: name, relative_to },
-                })
-                .collect(),
+            slides: slides.into_iter().map(|(name, slide)| slide.named(name)).collect(),
+            drivers: drivers.into_iter().map(|driver| driver.0).collect(),
             assembly,
         };
         let small = description.links.len() < FEW_LINKS;
@@ -167,10 +153,10 @@ impl Mechanism {
     }
 
     /// Index of a joint, link or slide. Raises `InputError` if the name is unknown.
-    fn require(&self, kind: &str, name: &str) -> PyResult<usize> {
-        let index = || match kind {
-            "joint" => self.inner.joint(name),
-            "link" => self.inner.link(name),
+    fn require(&self, kind: Word<Named>, name: &str) -> PyResult<usize> {
+        let index = || match kind.0 {
+            Named::Joint => self.inner.joint(name),
+            Named::Link => self.inner.link(name),
             _ => self.inner.slide(name),
         };
         catch_panic(|| index().map_err(error_map::solve))
@@ -183,10 +169,10 @@ impl Mechanism {
     }
 
     /// Solves designs at positions; see `assur.Mechanism.solve`. `outputs`: indices of joints,
-    /// links (angles), links (points) and slides. `kept`: an earlier result whose arrays
-    /// (`columns`, `status`) are overwritten; its `complete` is false meanwhile. `by`: the
-    /// dimension by which the results are differentiated. `report`: the shape of the designs, for
-    /// the exception of the first position that failed.
+    /// links (angles), links (points) and slides. `buffers`: the arrays of an
+    /// earlier result (`columns`, `status`) to overwrite; its `complete` is false meanwhile.
+    /// `dimension`: that by which the results are differentiated. `report`: the shape of
+    /// the designs, for the exception of the first position that failed.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     fn solve<'py>(
         &self,
@@ -198,8 +184,8 @@ impl Mechanism {
         order: usize,
         outputs: [Vec<usize>; 4],
         threads: Option<NonZeroUsize>,
-        kept: Option<Bound<'py, PyAny>>,
-        by: Option<usize>,
+        buffers: Option<Bound<'py, PyAny>>,
+        dimension: Option<usize>,
         report: Option<Vec<usize>>,
     ) -> PyResult<Solution<'py>> {
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
@@ -213,15 +199,15 @@ impl Mechanism {
             signs: &signs,
             order,
             outputs: &outputs,
-            by,
+            by: dimension,
         };
         let shape = || request.shape(&self.inner).map_err(error_map::solve);
         let [designs, positions] = catch_panic(shape)?;
         let columns = request.columns(&self.inner);
         let count = designs.saturating_mul(positions);
         let (values, status): (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>) =
-            if let Some(kept) = &kept {
-                (kept.getattr("columns")?.extract()?, kept.getattr("status")?.extract()?)
+            if let Some(buffers) = &buffers {
+                (buffers.getattr("columns")?.extract()?, buffers.getattr("status")?.extract()?)
             } else {
                 let status = uninitialized::<u8>(py, count, 1)?;
                 let new =
@@ -242,8 +228,8 @@ impl Mechanism {
         let arrays = Mutex::new(Some(arrays));
         let cost = count.saturating_add(designs.saturating_mul(POSITIONS_PER_BRANCH));
         let small = self.inner.q0().len() == 1 && cost < FEW_POSITIONS;
-        if let Some(kept) = &kept {
-            kept.setattr("complete", false)?;
+        if let Some(buffers) = &buffers {
+            buffers.setattr("complete", false)?;
         }
         let log = FailureLog::default();
         let failures = report.is_some().then_some(&log);
@@ -255,7 +241,7 @@ impl Mechanism {
             })
         });
         drop(arrays);
-        if let (Some(_), Err(error)) = (&kept, &solved)
+        if let (Some(_), Err(error)) = (&buffers, &solved)
             && error::is_internal(py, error)
         {
             // The user may still hold these arrays: they must not mix two motions.
@@ -265,8 +251,8 @@ impl Mechanism {
             borrowed_status.as_slice_mut()?.fill(Status::Lost as u8);
         }
         solved?.map_err(error_map::solve)?;
-        if let Some(kept) = &kept {
-            kept.setattr("complete", true)?;
+        if let Some(buffers) = &buffers {
+            buffers.setattr("complete", true)?;
         }
         drop((borrowed, borrowed_status));
         let dict = PyDict::new(py);
@@ -348,20 +334,21 @@ impl Mechanism {
     /// Names and codes of the statuses.
     #[staticmethod]
     fn statuses() -> Vec<(&'static str, u8)> {
-        [
-            ("OK", Status::Ok),
-            ("NEAR_SINGULAR", Status::NearSingular),
-            ("SINGULAR", Status::Singular),
-            ("UNREACHABLE", Status::Unreachable),
-            ("LOST", Status::Lost),
-            ("NOT_CONVERGED", Status::NotConverged),
-            ("BAD_DIMENSION", Status::BadDimension),
-            ("BAD_INPUT", Status::BadInput),
-        ]
-        .map(|(name, status)| (name, status as u8))
-        .to_vec()
+        STATUSES.map(|(name, status)| (name, status as u8)).to_vec()
     }
 }
+
+/// The statuses and their names in Python.
+pub(crate) const STATUSES: [(&str, Status); 8] = [
+    ("OK", Status::Ok),
+    ("NEAR_SINGULAR", Status::NearSingular),
+    ("SINGULAR", Status::Singular),
+    ("UNREACHABLE", Status::Unreachable),
+    ("LOST", Status::Lost),
+    ("NOT_CONVERGED", Status::NotConverged),
+    ("BAD_DIMENSION", Status::BadDimension),
+    ("BAD_INPUT", Status::BadInput),
+];
 
 /// An uninitialized NumPy array; `MemoryError` if it does not fit in memory.
 fn uninitialized<T: numpy::Element>(

@@ -5,10 +5,11 @@ use std::time::{Duration, Instant};
 use assur::dynamics::{Callbacks, EventRecord, Sample, Samples, StopReason};
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyFloat, PyTuple};
+use pyo3::types::{PyDict, PyFloat, PyTuple, PyType};
 
 use crate::detach::{self, catch_panic};
 use crate::error;
+use crate::run_state::{self, RunState};
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 /// Index of the event, time, coordinates, speeds.
@@ -133,6 +134,12 @@ impl Run {
 
 #[pymethods]
 impl Run {
+    /// The run of a state, which `__reduce__` gives.
+    #[new]
+    fn from_state(state: &Bound<'_, PyAny>) -> PyResult<Self> {
+        catch_panic(|| run_state::run(state).map(Self))
+    }
+
     /// At the ends of steps: time, coordinates, speeds, accelerations, work, kinetic and potential
     /// energy.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Vec<Array<'py>>> {
@@ -147,7 +154,7 @@ impl Run {
 
     /// The same without energies at given times, or coordinates for a run over the coordinate; NaN
     /// outside the run.
-    fn at<'py>(&self, py: Python<'py>, places: Vec<f64>) -> PyResult<Vec<Array<'py>>> {
+    fn at<'py>(&self, py: Python<'py>, points: Vec<f64>) -> PyResult<Vec<Array<'py>>> {
         let own = &self.0.samples;
         let nan = vec![f64::NAN; own.q.len() / own.len().max(1)];
         let nothing = Sample {
@@ -157,7 +164,7 @@ impl Run {
             acceleration: nan,
             work: f64::NAN,
         };
-        let found = detach::map(py, places.len(), |i| self.0.at(places[i]))?;
+        let found = detach::map(py, points.len(), |i| self.0.at(points[i]))?;
         let mut all = Samples::default();
         for one in &found {
             all.push(one.as_ref().unwrap_or(&nothing));
@@ -165,26 +172,9 @@ impl Run {
         Ok(arrays(py, all))
     }
 
-    /// The run as bytes, readable only by the same version.
-    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        catch_panic(|| {
-            let bytes =
-                postcard::to_stdvec(&self.0).map_err(|e| error::input(&e.to_string(), None))?;
-            Ok(PyBytes::new(py, &bytes))
-        })
-    }
-
-    /// The run from these bytes.
-    #[staticmethod]
-    fn from_bytes(written: &[u8]) -> PyResult<Self> {
-        catch_panic(|| match postcard::take_from_bytes(written) {
-            Ok((run, [])) => Ok(Self(run)),
-            Ok((_, rest)) => {
-                let message = format!("these bytes are no run: {} too many", rest.len());
-                Err(error::input(&message, None))
-            }
-            Err(e) => Err(error::input(&format!("these bytes are no run: {e}"), None)),
-        })
+    /// The run's type and its state.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyType>, (RunState<'py>,))> {
+        catch_panic(|| Ok((py.get_type::<Self>(), (run_state::state(py, &self.0),))))
     }
 
     /// Events of the run.

@@ -215,7 +215,7 @@ def test_a_flywheel_from_the_machine_itself() -> None:
     with pytest.raises(assur.InputError, match="a flywheel is of one driver that turns"):
         Machine(cylinder(), {"arm": Body(1.0)}).flywheel(0.1, 10.0)
     swinging = Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), {"crank": Body(inertia=1.0)})
-    with pytest.raises(assur.PositionError, match="reduced inertia and moment are undefined there"):
+    with pytest.raises(assur.PositionError, match=r"\"C\" cannot be assembled"):
         swinging.flywheel(0.1, 10.0)
 
 

@@ -126,7 +126,7 @@ def test_a_machine_of_a_table_may_have_its_rotor_alone() -> None:
     quarter = run.at(q=0.5 * math.pi).speed
     assert quarter == pytest.approx(math.sqrt(40.0**2 + 2.0 * SINE / 200.0), rel=1e-9)
     steady = machine.steady_state(SPEED)
-    assert abs(steady.energy) == pytest.approx(work_of_turn, rel=1e-9)
+    assert abs(steady.motor_work) == pytest.approx(work_of_turn, rel=1e-9)
     assert steady.mean_speed == pytest.approx(SPEED, rel=1e-11)
     wheel = machine.flywheel(DELTA, SPEED)
     assert isinstance(wheel, flywheel.Flywheel)
@@ -154,7 +154,7 @@ def test_without_any_inertia_a_machine_of_a_table_does_not_move() -> None:
         lambda: machine.run(q_end=1.0, q0=0.0, speed0=5.0),
         lambda: machine.steady_state(5.0),
     ):
-        with pytest.raises(InputError, match="the reduced inertia is 0 at q = 0"):
+        with pytest.raises(InputError, match="the reduced inertia is 0 kg·m² at q = 0"):
             ask()
 
 
@@ -162,7 +162,7 @@ def test_a_place_without_inertia_is_named() -> None:
     """A piston alone: at its dead points nothing resists the crank, but for rounding."""
     press = Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(20.0)})
     for q0 in (0.0, math.pi):
-        with pytest.raises(InputError, match=r"the reduced inertia is \S+ at q = .*positive"):
+        with pytest.raises(InputError, match=r"the reduced inertia is \S+ kg·m² at q = .*positive"):
             press.steady_state(5.0, q0=q0)
     # With a flywheel it runs, and the flywheel is found.
     wheel = press.flywheel(0.05, 20.0)

@@ -99,7 +99,7 @@ INSIDE: dict[type, Any] = {
     ),
     assur.Mechanism: lambda one: dict(one.dimensions),
     assur.Analogues: lambda one: one._arrays,
-    assur.Machine: lambda one: one._callbacks.tables,
+    assur.Machine: lambda one: one._rebuild_with[1],
     assur.SteadyState: lambda one: (one.run, one.mean_speed, one.delta),
     assur.Run: lambda one: (one.t, one.q, one.speed, one.acceleration),
     assur.flywheel.Flywheel: lambda one: (one.inertia, one.speed0, one.motor_moment, one.period),

@@ -51,3 +51,8 @@ def press(motor: Any = None, **more: Any) -> assur.Machine:
         [assur.Gravity(), Force("B", (work, 0.0)), *more.get("loads", [])],
         motor,
     )
+
+
+def wheel(*loads: Any, inertia: float = 2.0) -> assur.Machine:
+    """A crank with an inertia; nothing else has mass."""
+    return assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": Body(inertia=inertia)}, loads)

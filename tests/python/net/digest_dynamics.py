@@ -73,7 +73,7 @@ def of_run(run: Any, over_q: bool = False) -> list[Any]:
 
 def of_steady(own: Any) -> list[Any]:
     numbers = [own.period, *own.greatest, *own.least, own.mean_speed, own.delta, own.multiplier]
-    numbers += [own.energy, own.power, own.motor_moment, own.found_moment, own.inertia]
+    numbers += [own.motor_work, own.power, own.motor_moment, own.found_moment, own.inertia]
     return [np.array(numbers), own.q, own.speed, *own.at(np.arange(-3, 9) * 0.9)]
 
 
@@ -83,7 +83,12 @@ def of_flywheel(own: Any) -> list[Any]:
     found: list[Any] = [np.array(numbers)]
     if not own.shape:
         phi = np.arange(13) * (TURN / 12.0)
-        found += [own.speed(phi), own.time(phi), own.angle(own.time(phi)), own.moment(phi)]
+        found += [
+            own.speed(phi),
+            own.time(phi),
+            own.coordinate(own.time(phi)),
+            own.reduced_moment(phi),
+        ]
         found += [own.work(phi), own.reduced_inertia(phi), *own.energy_mass(20)]
     return found
 
@@ -170,7 +175,7 @@ STEADY: dict[str, Callable[[], Any]] = {
     "induction": lambda: press(INDUCTION).steady_state(mean="period"),
     "by speed": lambda: press().steady_state(11.0),
     "two turns": lambda: table().steady_state(15.0, turns=2, mean="period", flywheel=19.9),
-    "with a flywheel": lambda: press(LINEAR).flywheel(0.05),
+    "with a flywheel": lambda: press(LINEAR).flywheel(0.05).steady,
 }
 SPLINES: tuple[flywheel.Spline, ...] = ("not-a-knot", "natural", "clamped", "periodic", "linear")
 
@@ -203,7 +208,8 @@ def answered(ask: Callable[[], Any], write: Callable[[Any], list[Any]]) -> Any:
         try:
             found: Any = write(ask())
         except assur.AssurError as error:
-            found = [type(error).__name__, repr(sorted(error.__dict__.items()))]
+            fields = {name: of for name, of in error.__dict__.items() if name != "hint"}
+            found = [type(error).__name__, repr(sorted(fields.items()))]
     return [found, [one.category.__name__ for one in caught]]
 
 

@@ -122,7 +122,7 @@ def test_the_triad_that_is_elsewhere_after_a_turn() -> None:
     assert (motion.status[lost[0] :] == Status.LOST).all()
     assert np.isnan(motion.joint("P").value[lost]).all()
     assert "dead point" in motion.explain(int(lost[0]))
-    with pytest.raises(assur.PositionError, match=r"III\(.*\) reaches from"):
+    with pytest.raises(assur.PositionError, match=r"III\(.*\) ends at"):
         m.solve(q)
 
 

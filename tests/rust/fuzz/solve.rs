@@ -197,12 +197,12 @@ impl Case<'_> {
             let diagnosis = self.mechanism.diagnose(position.dimensions, position.q, signs);
             let diagnosis = &diagnosis.expect("an assembly of this mechanism")[0];
             let status = diagnosis.status as u8;
-            assert!(status <= LAST_WITH_POSITION, "{signs:?}: {}", diagnosis.sentence);
+            assert!(status <= LAST_WITH_POSITION, "{signs:?}: {diagnosis}");
             // Of a flat dyad both assemblies are one, and a redundant link may fit both by its
             // tolerance.
             let is_one = status == LAST_WITH_POSITION || self.has_redundant_parts();
             let again = !is_one && found[..place].contains(signs);
-            assert!(!again, "{signs:?} twice: {}", diagnosis.sentence);
+            assert!(!again, "{signs:?} twice: {diagnosis}");
         }
     }
 
@@ -236,8 +236,8 @@ impl Case<'_> {
 
     fn check_position(&self, whole: &Motion, position: &Position<'_>, diagnosis: &Diagnosis) {
         let status = whole.status[position.row];
-        check_sentence(&diagnosis.sentence);
-        assert_eq!(diagnosis.status as u8, status, "{}", diagnosis.sentence);
+        check_sentence(&diagnosis.to_string());
+        assert_eq!(diagnosis.status as u8, status, "{diagnosis}");
         if status > LAST_WITH_POSITION {
             return;
         }
@@ -254,9 +254,9 @@ impl Case<'_> {
             index: position.row,
         };
         let (residual, allowed) = (diagnosis.residual, law * row.reach().max(1.0));
-        assert!(residual <= allowed, "residual {residual:e} > {allowed:e}: {}", diagnosis.sentence);
+        assert!(residual <= allowed, "residual {residual:e} > {allowed:e}: {diagnosis}");
         // Two points and the angle between them are each good to the law.
         let (misfit, allowed) = (row.misfit(position.q), 3.0 * law * row.size(position.q));
-        assert!(misfit <= allowed, "misfit {misfit:e} m > {allowed:e}: {}", diagnosis.sentence);
+        assert!(misfit <= allowed, "misfit {misfit:e} m > {allowed:e}: {diagnosis}");
     }
 }

@@ -124,8 +124,7 @@ pub fn compare(mechanism: &Mechanism, oracle: &Oracle, at: &mut Position, q: &[f
         .expect("a class II mechanism")[0];
     assert!(
         matches!(diagnosis.status, Status::Ok | Status::NearSingular),
-        "the oracle is there: {}",
-        diagnosis.sentence
+        "the oracle is there: {diagnosis}"
     );
     assert_eq!(motion.status, [diagnosis.status as u8]);
     let comparison = Comparison { oracle, at, drivers: q.len(), arms: oracle.arms(at) };

@@ -64,7 +64,6 @@ impl fmt::Display for End {
 }
 
 /// Cost of a run.
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Statistics {
     /// Steps accepted.

@@ -6,7 +6,6 @@ use crate::math::tolerance::SINGULAR_CONDITION;
 pub(crate) const FLAT2: f64 = 1.0 / (SINGULAR_CONDITION * SINGULAR_CONDITION);
 
 /// Status of a position; its value is the code in the arrays of results.
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Status {

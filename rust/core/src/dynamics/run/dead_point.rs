@@ -8,16 +8,22 @@
 use super::options::Variable;
 use super::sample::Sample;
 
-/// The motion from the last integrated sample to the dead point.
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+/// The motion from the last integrated sample to the dead point: speed = s (b + slope (s − root)),
+/// s the square root of the remaining coordinate.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Tail {
-    last: Sample,
-    dead_point: f64,
-    sign: f64,
-    root: f64,
-    b: f64,
-    slope: f64,
+pub struct Tail {
+    /// The last integrated sample.
+    pub last: Sample,
+    /// Coordinate of the dead point.
+    pub dead_point: f64,
+    /// Direction of the motion.
+    pub sign: f64,
+    /// s at the last sample.
+    pub root: f64,
+    /// b at the last sample.
+    pub b: f64,
+    /// Its derivative by s.
+    pub slope: f64,
 }
 
 impl Tail {

@@ -7,6 +7,7 @@ pub(crate) mod error;
 pub(crate) mod integrate;
 pub(crate) mod model;
 pub(crate) mod options;
+pub(crate) mod parts;
 pub(crate) mod sample;
 pub(crate) mod system;
 pub(crate) mod table_cursor;

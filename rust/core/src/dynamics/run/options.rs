@@ -9,7 +9,6 @@ use crate::ode::options::Method;
 use crate::ode::system::Crossing;
 
 /// Independent variable of a run.
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variable {
     /// The time.

@@ -2,7 +2,6 @@
 
 use super::options::Variable;
 /// A motion at one time.
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sample {
     /// Time, s.
@@ -18,7 +17,6 @@ pub struct Sample {
 }
 
 /// Samples one after another; with several drivers, drivers fastest.
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Samples {
     /// Times, s.

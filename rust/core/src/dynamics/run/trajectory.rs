@@ -7,7 +7,6 @@ use crate::ode::pair::dense::DenseOutput;
 use crate::ode::solution::Statistics;
 
 /// Why a run ended.
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum StopReason {
@@ -46,7 +45,6 @@ pub enum StopReason {
 }
 
 /// An event that occurred.
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventRecord {
     /// Index of its `EventSpec`.
@@ -60,7 +58,6 @@ pub struct EventRecord {
 }
 
 /// A motion of a machine.
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     /// The samples at the ends of the steps.

@@ -56,6 +56,12 @@ impl Table {
         self.cell(within).map(|cell| self.read(cell, within))
     }
 
+    /// The coordinates of its rows.
+    #[must_use]
+    pub fn knots(&self) -> &[f64] {
+        &self.knots
+    }
+
     /// Its period, if it has one.
     #[must_use]
     pub fn period(&self) -> Option<f64> {

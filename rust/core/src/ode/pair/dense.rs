@@ -7,6 +7,9 @@
 use super::stages::{Block, Stages};
 use super::tableau::HERMITE_ROWS;
 
+/// Least rows of a step: y₀ and the cubic of Hermite.
+pub(crate) const LEAST_ROWS: usize = 1 + HERMITE_ROWS;
+
 /// The continuous extension of one step.
 #[derive(Debug)]
 pub(in crate::ode) struct Interpolant {
@@ -38,7 +41,7 @@ impl Interpolant {
         }
         for (r, row) in stages.tableau.extension.iter().enumerate() {
             stages.weighted_sum(row, &mut self.sum);
-            let at = (1 + HERMITE_ROWS + r) * n;
+            let at = (LEAST_ROWS + r) * n;
             for (out, sum) in self.rows[at..at + n].iter_mut().zip(self.sum.as_flattened()) {
                 *out = h * sum;
             }
@@ -100,17 +103,16 @@ fn evaluate(rows: &[f64], n: usize, theta: f64, y: &mut [f64]) {
 }
 
 /// Dense output of a run: the state at any t.
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DenseOutput {
-    n: usize,
+    pub(crate) n: usize,
     /// Numbers stored per step.
-    stride: usize,
-    starts: Vec<f64>,
+    pub(crate) stride: usize,
+    pub(crate) starts: Vec<f64>,
     /// Full widths; a step cut by an event ends earlier.
-    widths: Vec<f64>,
-    ends: Vec<f64>,
-    rows: Vec<f64>,
+    pub(crate) widths: Vec<f64>,
+    pub(crate) ends: Vec<f64>,
+    pub(crate) rows: Vec<f64>,
 }
 
 impl DenseOutput {

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from assur._arrays import Float, real_array, real_number, short
-from assur.dynamics.table import Rows, Table
+from assur.dynamics.table import Table
 from assur.errors import InputError
 
-__all__ = ["CallbackTable", "Function", "Value", "checked_value"]
+__all__ = ["Function", "Value", "checked_value", "function_values"]
 
-# A value for the core: a number, or ("table" or "function", index).
-Encoded: TypeAlias = float | tuple[str, int]
 # Called with floats (t, q, speed); with several drivers q and speed are tuples.
 Function: TypeAlias = Callable[[float, Any, Any], float]
 # A number, a table over q, or a function of (t, q, speed).
@@ -35,35 +32,15 @@ def checked_value(value: Any, what: str = "the value of a load") -> Value:
     return real_number(value, what)
 
 
-@dataclass
-class CallbackTable:
-    """The tables and functions of a machine, in the order of the core's indices."""
-
-    tables: list[Rows] = field(default_factory=list)
-    functions: list[Function] = field(default_factory=list)
-    # The first functions are those of loads; those of motors follow.
-    load_count: int = 0
-
-    def encode(self, value: Value) -> Encoded:
-        """Encode a constant, Table or callable for the core; the latter two are stored here."""
-        if isinstance(value, Table):
-            self.tables.append(value._rows())
-            return "table", len(self.tables) - 1
-        if callable(value):
-            self.functions.append(value)
-            return "function", len(self.functions) - 1
-        return float(value)
-
-    def load_values(self, q: Float, speed: Float) -> Float:
-        """Evaluate the functions of loads at rows of coordinates and speeds, at t = 0."""
-        functions = self.functions[: self.load_count]
-        if not functions:
-            return np.empty(0)
-        one = q.shape[1] == 1
-        rows = zip(q.tolist(), speed.tolist(), strict=True)
-        pairs = ((a[0], b[0]) if one else (tuple(a), tuple(b)) for a, b in rows)
-        table = [[_called(f, a, b) for f in functions] for a, b in pairs]
-        return np.array(table, np.float64).ravel()
+def function_values(functions: list[Function], q: Float, speed: Float) -> Float:
+    """Evaluate functions at rows of coordinates and speeds, at t = 0."""
+    if not functions:
+        return np.empty(0)
+    one = q.shape[1] == 1
+    rows = zip(q.tolist(), speed.tolist(), strict=True)
+    pairs = ((a[0], b[0]) if one else (tuple(a), tuple(b)) for a, b in rows)
+    table = [[_called(f, a, b) for f in functions] for a, b in pairs]
+    return np.array(table, np.float64).ravel()
 
 
 def _called(function: Function, q: Any, speed: Any) -> float:

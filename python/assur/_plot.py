@@ -9,6 +9,8 @@ import numpy as np
 from assur.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from assur.dynamics.run import Run
     from assur.dynamics.steady import SteadyState
     from assur.flywheel import Flywheel
@@ -33,7 +35,7 @@ def _axes(ax: Any) -> Any:
     return plt.subplots(layout="constrained")[1]
 
 
-def mechanism(mechanism: Mechanism, q: float | None, ax: Any) -> Any:
+def mechanism_picture(mechanism: Mechanism, q: float | None, ax: Any) -> Any:
     """See `Mechanism.plot`."""
     if mechanism.shape:
         message = f"plot draws one mechanism: take one of the designs {mechanism.shape}: design(i)"
@@ -45,7 +47,7 @@ def mechanism(mechanism: Mechanism, q: float | None, ax: Any) -> Any:
     return _draw(motion, (), _axes(ax))
 
 
-def path(motion: Motion, joint: str, ax: Any) -> Any:
+def path_picture(motion: Motion, joint: str, ax: Any) -> Any:
     """See `Motion.plot`."""
     if motion.mechanism.shape or not motion.shape:
         message = f"plot draws a path over q of one mechanism; this motion has shape {motion.shape}"
@@ -155,12 +157,12 @@ def flywheel_picture(
         ax.legend()
         return ax
     speed = flywheel.speed(q)
-    x, label = (q, "φ, rad") if what == "speed" else (flywheel.time(q), "t, s")
+    x, label = (q, "q, rad") if what == "speed" else (flywheel.time(q), "t, s")
     ax.plot(x, speed, color=_COLOURS[0])
-    for extremum in (flywheel.greatest, flywheel.least):
-        at = extremum.at if what == "speed" else flywheel.time(extremum.at)
-        _mark(ax, at, extremum.value, extremum is flywheel.greatest)
-    ax.axhline(flywheel.mean_speed, color="0.6", linewidth=0.8)
+    if what == "speed":
+        _mark_speeds(ax, flywheel, flywheel.speed0)
+    else:
+        _mark_speeds(ax, flywheel, flywheel.speed0, flywheel.time)
     ax.set(xlabel=label, ylabel="ω, rad/s")
     return ax
 
@@ -195,6 +197,16 @@ def _unit(mechanism: Mechanism | None) -> str:
     return "m" if sliding == {True} else "rad" if sliding == {False} else "(rad or m)"
 
 
+def _mark_speeds(
+    ax: Any, motion: Flywheel | SteadyState, speed0: float, along: Callable[[float], float] = float
+) -> None:
+    """Mark extreme and mean speeds, with the sign of the speed at the start."""
+    for extreme in (motion.greatest, motion.least):
+        value = float(np.copysign(extreme.value, speed0))
+        _mark(ax, along(extreme.at), value, (extreme is motion.greatest) == (value > 0.0))
+    ax.axhline(np.copysign(motion.mean_speed, speed0), color="0.6", linewidth=0.8)
+
+
 def _mark(ax: Any, x: float, y: float, above: bool) -> None:
     """Mark a point of a curve, its value on the side away from the curve."""
     ax.plot(x, y, "o", color=_COLOURS[1], markersize=5)
@@ -214,9 +226,6 @@ def steady_picture(steady: SteadyState, ax: Any) -> Any:
     ax = _axes(ax)
     q = np.linspace(steady.q[0], steady.q[-1], RUN_PLOT_POINTS)
     ax.plot(q, steady.at(q).speed, color=_COLOURS[0])
-    for extremum in (steady.greatest, steady.least):
-        value = float(np.copysign(extremum.value, steady.speed[0]))
-        _mark(ax, extremum.at, value, (extremum is steady.greatest) == (value > 0.0))
-    ax.axhline(np.copysign(steady.mean_speed, steady.speed[0]), color="0.6", linewidth=0.8)
+    _mark_speeds(ax, steady, steady.speed[0])
     ax.set(xlabel="q, rad", ylabel="ω, rad/s")
     return ax

@@ -1,0 +1,20 @@
+"""Extremes of a quantity along the driver's coordinate."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+
+class Extreme(NamedTuple):
+    """An extreme value and where it is.
+
+    Attributes
+    ----------
+    at : float or array
+        The driver's coordinate (of a slider-crank the crank's angle), rad.
+    value : float or array
+        The value there.
+    """
+
+    at: Any
+    value: Any

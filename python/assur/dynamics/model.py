@@ -1,0 +1,235 @@
+"""Machines: mechanisms with bodies, loads and motors, referred to their drivers."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from assur import _core
+from assur._arrays import real_array
+from assur._validate import one_of
+from assur.dynamics import parts, reduce
+from assur.dynamics.loads import checked_load
+from assur.dynamics.options import as_list
+from assur.errors import InputError
+from assur.flywheel import SPLINES
+from assur.flywheel.sizing import warn_if_degrees
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    import numpy.typing as npt
+    from typing_extensions import Self
+
+    from assur._arrays import Float
+    from assur.dynamics.loads import Body, Load
+    from assur.dynamics.motors import Motor
+    from assur.flywheel import Spline
+    from assur.kinematics.mechanism import Mechanism
+
+OnError: TypeAlias = Literal["raise", "nan"]
+
+
+class Reduced(NamedTuple):
+    """The reduced inertia and its exact derivative.
+
+    Attributes
+    ----------
+    value : ndarray
+        kg·m² (driven slide: kg); for n drivers the mass matrix, (..., n, n).
+    d1 : ndarray
+        Its derivative by the coordinate; for n drivers (..., n, n, n), the last axis that of the
+        coordinate.
+    """
+
+    value: Any
+    d1: Any
+
+
+class MachineModel:
+    """What a machine consists of, and its inertia and moment referred to the driver."""
+
+    mechanism: Mechanism | None
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        bodies: Mapping[str, Body] = MappingProxyType({}),
+        loads: Sequence[Load] = (),
+        motor: Motor | Sequence[Motor | None] | None = None,
+    ) -> None:
+        parts.check_types(mechanism, bodies)
+        self.mechanism = mechanism
+        self.bodies = MappingProxyType(dict(bodies))
+        self.loads = tuple(as_list(loads, "loads"))
+        self._drivers = int(np.size(mechanism.q0))
+        # With one driver, the motor itself.
+        self.motor: Any = tuple(motor) if isinstance(motor, list | tuple) else motor
+        if isinstance(self.motor, tuple) and len(self.motor) == 1 == self._drivers:
+            self.motor = self.motor[0]
+        self._rebuild_with: tuple[Any, ...] = (
+            type(self),
+            (mechanism, dict(bodies), self.loads, self.motor),
+        )
+        self._core = _core.Machine(
+            mechanism._core,
+            loads=[checked_load(load) for load in self.loads],
+            bodies=[parts.body(mechanism, link, body) for link, body in self.bodies.items()],
+            motors=parts.motors(self.motor, self._drivers),
+        )
+        if mechanism.driver not in mechanism.slides:
+            for rows, periodic in self._core.tables:
+                warn_if_degrees(rows[-1] - rows[0], periodic)
+
+    @classmethod
+    def from_table(
+        cls,
+        phi: npt.ArrayLike,
+        moment: npt.ArrayLike,
+        inertia: npt.ArrayLike = 0.0,
+        motor: Motor | None = None,
+        spline: Spline = "not-a-knot",
+        periodic: bool = True,
+    ) -> Self:
+        """Return a machine given only by its reduced moment and inertia.
+
+        Parameters
+        ----------
+        phi : array_like
+            Coordinates of the driver, rad, ascending, both ends of the period included: (K,).
+        moment : array_like
+            Reduced moment of the loads there, N·m: (K,).
+        inertia : array_like
+            Reduced inertia there, kg·m²: (K,), or one number; not negative. Where it is 0, a rotor
+            or flywheel must add some.
+        motor : ConstantTorque, LinearMotor, InductionMotor or Table, optional
+            Motor of the driver.
+        spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
+            Interpolation between the rows.
+        periodic : bool
+            Whether the table is one period; otherwise motions end where the table ends.
+
+        Returns
+        -------
+        Machine
+            A machine without a mechanism.
+
+        Examples
+        --------
+        >>> import assur
+        >>> import numpy as np
+        >>> phi = np.linspace(0.0, 2 * np.pi, 25)
+        >>> machine = assur.Machine.from_table(phi, -10 * np.sin(phi), np.full(25, 2.0))
+        >>> machine.run(t_end=3.0, q0=0.1).energy.error < 1e-9
+        True
+        """
+        self = cls.__new__(cls)
+        self.mechanism, self.loads, self.motor = None, (), motor
+        self.bodies = MappingProxyType({})
+        self._drivers = 1
+        x, columns = parts.columns(phi, moment, inertia)
+        one_of(spline, SPLINES, "spline")
+        warn_if_degrees(float(x[-1] - x[0]), periodic)
+        table = x, columns["moment"], columns["inertia"]
+        self._rebuild_with = cls.from_table, (*table, motor, spline, periodic)
+        motors = parts.motors(motor, 1)
+        self._core = _core.Machine.from_table(
+            x, columns["moment"], columns["inertia"], spline, bool(periodic), *motors
+        )
+        return self
+
+    def __setattr__(self, name: str, value: object) -> None:
+        # The core has copied everything: a change here would have no effect.
+        if "_core" in self.__dict__:
+            message = f"Machine is immutable ({name!r}): make another one"
+            raise AttributeError(message)
+        super().__setattr__(name, value)
+
+    def __delattr__(self, name: str) -> None:
+        message = f"Machine is immutable ({name!r}): make another one"
+        raise AttributeError(message)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return self._rebuild_with
+
+    def __repr__(self) -> str:
+        if self.mechanism is None:
+            return "<assur.Machine of a table>"
+        formula = self.mechanism.structure.formula
+        return f"<assur.Machine {formula}, {len(self.bodies)} bodies, {len(self.loads)} loads>"
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the batch of designs; () for one design."""
+        return () if self.mechanism is None else self.mechanism.shape
+
+    def design(self, index: Any) -> Self:
+        """Return one design of a batch as a single machine."""
+        if self.mechanism is None:
+            message = "this machine is a table: there is no batch"
+            raise InputError(message)
+        return type(self)(self.mechanism.design(index), self.bodies, self.loads, self.motor)
+
+    def reduced_inertia(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Reduced:
+        """Return the reduced inertia Σ m (dS/dq)² + I (dθ/dq)² and its exact derivative.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, rad or m: a number, (N,) or, for a batch of shape S, S + (N,); for n
+            drivers (..., n).
+        on_error : {"raise", "nan"}
+            Where there is no position or no analogue: raise an error, or return NaN.
+
+        Returns
+        -------
+        Reduced
+            `value` and `d1`, of shape S + (N,), rotors of motors included.
+
+        Examples
+        --------
+        >>> import assur
+        >>> wheel = assur.FourBar(1.0, 3.0, 3.0, 3.0)
+        >>> machine = assur.Machine(wheel, {"rocker": assur.Body(inertia=2.0)})
+        >>> value, d1 = machine.reduced_inertia([0.0, 1.0])
+        >>> value.round(6)
+        array([0.5     , 0.015382])
+        """
+        inertia, rates, _, _ = self._reduce(q, None, on_error)
+        if self._drivers == 1:
+            return Reduced(inertia[..., 0, 0][()], rates[..., 0, 0, 0][()])
+        return Reduced(inertia, np.moveaxis(rates, -3, -1))
+
+    def reduced_moment(
+        self, q: npt.ArrayLike, speed: npt.ArrayLike = 0.0, on_error: OnError = "raise"
+    ) -> Any:
+        """Return the reduced moment of all loads, without the motor.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, see `reduced_inertia`.
+        speed : array_like
+            Speeds of the drivers, rad/s or m/s, broadcast to q; dampers and functions need them.
+            (Functions of time are evaluated at t = 0.)
+        on_error : {"raise", "nan"}
+            See `reduced_inertia`.
+
+        Returns
+        -------
+        ndarray
+            N·m (driven slide: N), of shape S + (N,); for n drivers (..., n).
+        """
+        moment = self._reduce(q, real_array(speed, "speed"), on_error)[2]
+        return moment[..., 0][()] if self._drivers == 1 else moment
+
+    def potential(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Any:
+        """Return the potential energy of weights and springs, J."""
+        return self._reduce(q, None, on_error)[3][()]
+
+    def _reduce(
+        self, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
+    ) -> tuple[Float, Float, Float, Float]:
+        return reduce.reduce(self, q, speed, on_error)

@@ -1,0 +1,81 @@
+"""Bodies, motors and tables of a machine, checked before the core reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._arrays import Float, real_array, short
+from assur._validate import checked_name
+from assur.dynamics.loads import Body
+from assur.dynamics.motors import checked_motor
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from assur.dynamics.motors import Motor
+    from assur.kinematics.mechanism import Mechanism
+
+
+def check_types(mechanism: Any, bodies: Any) -> None:
+    """Raise InputError for a mechanism or bodies of a wrong type."""
+    if not hasattr(mechanism, "q0"):
+        message = f"{short(mechanism)} is no assur.Mechanism"
+        raise InputError(message)
+    if not isinstance(bodies, Mapping):
+        message = f"bodies is {short(bodies)}: a mapping of links to assur.Body is needed"
+        raise InputError(message)
+
+
+def motors(motor: Any, drivers: int) -> list[Motor | None]:
+    """Return a motor or None for each driver."""
+    if motor is None:
+        return [None] * drivers
+    many = [motor] if drivers == 1 and not isinstance(motor, list | tuple) else motor
+    if not isinstance(many, list | tuple) or len(many) != drivers:
+        wanted = f"{drivers} drivers need a sequence of as many (None: none)"
+        message = f"motor is {short(motor)}: {wanted}"
+        raise InputError(message)
+    return [None if one is None else checked_motor(one) for one in many]
+
+
+def body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Body]:
+    """Return a link and its body, if they fit the mechanism."""
+    if not isinstance(link, str):
+        message = f"bodies has {short(link)}: names of links are needed"
+        raise InputError(message)
+    checked_name(link, "bodies")
+    if not isinstance(body, Body):
+        message = f"bodies[{link!r}] is {short(body)}: an assur.Body is needed"
+        raise InputError(message)
+    joints = mechanism.links.get(link, ())
+    at = body.at
+    if isinstance(at, str) and link in mechanism.links and at not in joints:
+        message = f"bodies[{link!r}]: joint {at!r} is not one of its joints {', '.join(joints)}"
+        raise InputError(message, joint=at, link=link)
+    return link, body
+
+
+def columns(phi: Any, moment: Any, inertia: Any) -> tuple[Float, dict[str, Float]]:
+    """Check a table's coordinates, moments and inertias; one inertia holds for all rows."""
+    x = real_array(phi, "phi")
+    numbers = {"moment": real_array(moment, "moment"), "inertia": real_array(inertia, "inertia")}
+    if x.ndim == 1 and numbers["inertia"].ndim == 0:
+        numbers["inertia"] = np.full(x.shape, numbers["inertia"])
+    for name, column in numbers.items():
+        if x.ndim != 1 or x.shape != column.shape:
+            message = f"phi has the shape {x.shape}, {name} {column.shape}: two lists are needed"
+            raise InputError(message)
+    if x.size < 2:
+        message = f"the table has {x.size} rows: at least 2 are needed"
+        raise InputError(message)
+    row = int(np.argmin(numbers["inertia"]))
+    least = float(numbers["inertia"][row])
+    if least < 0.0:
+        message = (
+            f"the inertia is {least:g} kg·m² at phi = {x[row]:g} rad in the table, it must not be "
+            "negative"
+        )
+        raise InputError(message, value=least)
+    return x, numbers

@@ -1,0 +1,221 @@
+"""What is known of a machine with a flywheel in steady motion, whatever its motor."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur._arrays import Float, real_array
+from assur._validate import checked_index, one_of, whole_number
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from assur._extreme import Extreme
+    from assur.dynamics.steady import SteadyState
+
+Mean: TypeAlias = Literal["extremes", "period"]
+Curve: TypeAlias = Literal["speed", "time", "coordinate", "moment", "inertia", "work"]
+
+MEANS = ("extremes", "period")
+# Points of a plotted curve.
+PLOT_POINTS = 721
+
+
+class Flywheel(ABC):
+    """A machine with its flywheel in steady motion, whatever its motor.
+
+    Made by `from_table` and `evaluate` (with a constant motor) and by `Machine.flywheel`. Numbers
+    and curves have the shape of the batch.
+
+    Attributes
+    ----------
+    inertia : float or array
+        The flywheel's moment of inertia I_f, kg·m².
+    speed0 : float or array
+        Speed at the start of the turn, rad/s: at the first row of a table, at q = 0 of a
+        `Machine`. As `speed`, negative if the motor turns the driver backward.
+    delta : float or array
+        Coefficient of speed fluctuation: (greatest − least) / `mean_speed`.
+    mean_speed : float or array
+        Mean speed by the chosen definition (`mean`), rad/s; positive.
+    mean : {"extremes", "period"}
+        Definition of the mean speed.
+    greatest, least : Extreme
+        The extreme speeds (absolute values) and their coordinates in the turn.
+    motor_moment : float or array
+        Mean moment of the motor on the driver, N·m; a constant motor has it everywhere.
+    power : float or array
+        Mean power of the motor, W.
+    period : float or array
+        Time of one period (of a `Machine` one turn), s.
+    shape : tuple of int
+        Shape of the batch; () for one table or machine.
+    steady : SteadyState or None
+        The integrated motion, if the machine's own motor sets the speed.
+    """
+
+    def __init__(
+        self,
+        *,
+        inertia: Any,
+        speed0: Any,
+        motor_moment: Any,
+        extremes: tuple[Extreme, Extreme],
+        period: Any,
+        mean: Mean,
+        turn: tuple[float, float],
+        shape: tuple[int, ...] = (),
+        steady: SteadyState | None = None,
+    ) -> None:
+        self.shape, self.mean, self.steady = shape, mean, steady
+        self._turn = turn
+        self.inertia, self.speed0, self.motor_moment = inertia, speed0, motor_moment
+        self.greatest, self.least = extremes
+        self.period = period
+        width = turn[1] - turn[0]
+        half = (self.greatest.value + self.least.value) / 2.0
+        self.mean_speed = half if mean == "extremes" else abs(width) / period
+        self.delta = (self.greatest.value - self.least.value) / self.mean_speed
+        self.power = motor_moment * width / period
+
+    @abstractmethod
+    def _curve(self, what: Curve, x: Float) -> Any:
+        """Return a curve at finite coordinates or times, of the batch's shape and that of x."""
+
+    @abstractmethod
+    def _problem(self, entry: tuple[int, ...]) -> str | None:
+        """Return why an entry of the batch has no flywheel; None if it has one."""
+
+    def __repr__(self) -> str:
+        if self.shape:
+            return f"<assur.flywheel.Flywheel of {self.shape} tables>"
+        return (
+            f"<assur.flywheel.Flywheel {self.inertia:.6g} kg·m², δ = {self.delta:.4g}, "
+            f"mean {self.mean_speed:.6g} rad/s, speed0 {self.speed0:.6g} rad/s>"
+        )
+
+    def speed(self, q: npt.ArrayLike) -> Any:
+        """Return the speed at coordinates of the driver, over any number of turns.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, rad: a number or (N,), the same for every table.
+
+        Returns
+        -------
+        float or ndarray
+            rad/s, of the batch's shape followed by that of q; negative if the motor turns the
+            driver backward.
+
+        Examples
+        --------
+        >>> from assur import flywheel
+        >>> import numpy as np
+        >>> phi = np.linspace(0.0, 2 * np.pi, 25)
+        >>> f = flywheel.evaluate(phi, 10 * np.sin(phi), np.full(25, 2.0), speed0=10.0)
+        >>> round(f.speed(np.pi), 3)
+        10.954
+        """
+        return self._curve("speed", _finite(q, "q"))
+
+    def time(self, q: npt.ArrayLike) -> Any:
+        """Return the time at which coordinates are reached, s; 0 at the start of the turn."""
+        return self._curve("time", _finite(q, "q"))
+
+    def coordinate(self, t: npt.ArrayLike) -> Any:
+        """Return the coordinate at times t (s), rad; the inverse of `time`."""
+        return self._curve("coordinate", _finite(t, "t"))
+
+    def speed_at(self, t: npt.ArrayLike) -> Any:
+        """Return the speed at times t (s), rad/s."""
+        if self.shape:
+            message = "speed_at is for one table: take one of the batch by evaluating it by itself"
+            raise InputError(message)
+        return self.speed(self.coordinate(t))
+
+    def reduced_moment(self, q: npt.ArrayLike) -> Any:
+        """Return the reduced moment of the loads at coordinates, N·m, without the motor.
+
+        Of a `Machine` the loads are those at the mean speed, or with its own motor at `speed(q)`.
+        """
+        return self._curve("moment", _finite(q, "q"))
+
+    def reduced_inertia(self, q: npt.ArrayLike) -> Any:
+        """Return the reduced inertia at coordinates, kg·m², without the flywheel."""
+        return self._curve("inertia", _finite(q, "q"))
+
+    def work(self, q: npt.ArrayLike) -> Any:
+        """Return the work of loads and motor since the start of the turn, J."""
+        return self._curve("work", _finite(q, "q"))
+
+    def explain(self, index: Any = ()) -> str:
+        """Return why one of a batch has no flywheel, or the flywheel it has.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Index into the batch; omit it for one flywheel.
+        """
+        entry = checked_index(index, self.shape, "explain")
+        problem = self._problem(entry)
+        if problem is not None:
+            return problem
+        inertia = np.asarray(self.inertia)[entry]
+        return f"a flywheel of {inertia:.9g} kg·m², δ = {np.asarray(self.delta)[entry]:.6g}"
+
+    def energy_mass(self, points: int = PLOT_POINTS) -> tuple[Float, Float]:
+        """Return Wittenbauer's diagram of one turn.
+
+        Parameters
+        ----------
+        points : int
+            Number of points, equally spaced along the turn.
+
+        Returns
+        -------
+        inertia, energy : ndarray
+            Reduced inertia without the flywheel, kg·m², and the kinetic energy minus that of the
+            flywheel at the start, J. The tangents with slopes ω²/2 at the extreme speeds meet at
+            (−I_f, −I_f ω0²/2).
+        """
+        needed = "a whole number of at least 2 is needed"
+        q = np.linspace(*self._turn, whole_number(points, "points", 2, needed=needed))
+        inertia = self.reduced_inertia(q)
+        start = np.asarray(self.reduced_inertia(self._turn[0]) * np.square(self.speed0) / 2.0)
+        return inertia, self.work(q) + start[..., np.newaxis]
+
+    def plot(self, what: Literal["speed", "time", "energy-mass"] = "speed", ax: Any = None) -> Any:
+        """Draw the speed over the turn or over the time, or the energy-mass diagram.
+
+        Parameters
+        ----------
+        what : {"speed", "time", "energy-mass"}
+            ω(q), ω(t), or Wittenbauer's diagram with the tangents at the extreme speeds.
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; a new figure by default.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes drawn on.
+        """
+        from assur._plot import flywheel_picture
+
+        if self.shape:
+            message = "plot is for one table, this is a batch"
+            raise InputError(message)
+        one_of(what, ("speed", "time", "energy-mass"), "what")
+        return flywheel_picture(self, what, self._turn, PLOT_POINTS, ax)
+
+
+def _finite(value: npt.ArrayLike, name: str) -> Float:
+    x = real_array(value, name)
+    if not np.isfinite(x).all():
+        wrong = float(x[~np.isfinite(x)].flat[0])
+        message = f"{name} has {wrong}: finite numbers are needed"
+        raise InputError(message, value=wrong)
+    return x

@@ -1,0 +1,90 @@
+"""Tables of reduced moment and inertia in files of comma-separated values."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from assur._arrays import Float
+
+
+class ReducedTable(NamedTuple):
+    """A machine referred to its driver, over one period.
+
+    Attributes
+    ----------
+    phi : ndarray
+        Coordinates, rad.
+    moment, inertia : ndarray
+        Reduced moment, N·m, and reduced inertia, kg·m², there.
+    """
+
+    phi: Float
+    moment: Float
+    inertia: Float
+
+
+def read_table(path: str | PathLike[str], degrees: bool = False) -> ReducedTable:
+    """Read a table from a file of comma-separated values.
+
+    Parameters
+    ----------
+    path : path-like
+        The file: columns phi, moment and inertia, in any order under a header that names them, or
+        in this order without one. Other columns and lines that begin with # are ignored.
+    degrees : bool
+        Whether phi is in degrees.
+
+    Returns
+    -------
+    ReducedTable
+        phi (rad), moment (N·m), inertia (kg·m²).
+
+    Raises
+    ------
+    InputError
+        A file that cannot be read or has fewer than two rows, or a row that is not three numbers
+        (the message gives its line).
+    """
+    try:
+        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+        kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line[:1] != "#"]
+        cells = list(csv.reader(line for _, line in kept))
+    except (OSError, ValueError, csv.Error) as error:
+        message = f"{path}: the table cannot be read ({error})"
+        raise InputError(message) from error
+    columns = [0, 1, 2]
+    if cells and _number(cells[0], 0) is None:
+        names = [cell.strip().lower() for cell in cells[0]]
+        missing = [name for name in ReducedTable._fields if name not in names]
+        if missing:
+            message = f"{path}: the header has no column {missing[0]!r}, it has {', '.join(names)}"
+            raise InputError(message)
+        columns = [names.index(name) for name in ReducedTable._fields]
+        kept, cells = kept[1:], cells[1:]
+    rows = [[_number(row, column) for column in columns] for row in cells]
+    bad = next((i for i, row in enumerate(rows) if None in row), None)
+    if bad is not None:
+        line, text = kept[bad]
+        message = f"{path}, line {line}: {text!r} is not three numbers phi, moment, inertia"
+        raise InputError(message)
+    if len(rows) < 2:
+        message = f"{path}: the table has {len(rows)} rows: at least 2 are needed"
+        raise InputError(message)
+    phi, moment, inertia = np.array(rows, np.float64).reshape(-1, 3).T
+    return ReducedTable(np.deg2rad(phi) if degrees else phi, moment, inertia)
+
+
+def _number(row: list[str], column: int) -> float | None:
+    try:
+        return float(row[column])
+    except (ValueError, IndexError):
+        return None

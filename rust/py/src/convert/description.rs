@@ -1,0 +1,43 @@
+//! Slides and drivers of a description.
+
+use assur::{DriverDescription, SlideDescription};
+use pyo3::Borrowed;
+use pyo3::prelude::*;
+use pyo3::types::PyString;
+
+/// `assur.Slide`.
+#[derive(FromPyObject)]
+pub(crate) struct Slide {
+    link: String,
+    on: String,
+    angle: f64,
+    origin: Option<String>,
+}
+
+impl Slide {
+    pub(crate) fn named(self, name: String) -> SlideDescription {
+        let Self { link, on, angle, origin } = self;
+        SlideDescription { name, link, on, angle, origin }
+    }
+}
+
+/// A link or slide, or an `assur.Drive`.
+pub(crate) struct Driver(pub(crate) DriverDescription);
+
+#[derive(FromPyObject)]
+struct Drive {
+    link: String,
+    relative_to: String,
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Driver {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if object.is_instance_of::<PyString>() {
+            return Ok(Self(DriverDescription::Named(object.extract()?)));
+        }
+        let Drive { link, relative_to } = object.extract()?;
+        Ok(Self(DriverDescription::Relative { link, relative_to }))
+    }
+}

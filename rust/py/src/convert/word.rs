@@ -1,0 +1,64 @@
+//! Words that stand for one of several cases.
+
+use assur::Named;
+use assur::dynamics::{EndCondition, Mean};
+use assur::ode::Crossing;
+use pyo3::Borrowed;
+use pyo3::prelude::*;
+
+use crate::error;
+
+/// Cases with a word for each.
+pub(crate) trait Words: Copy + 'static {
+    /// What the word says, for the message.
+    const WHAT: &'static str;
+    const KNOWN: &'static [(&'static str, Self)];
+}
+
+/// A case, read from its word. Raises `InputError` if the word is unknown.
+pub(crate) struct Word<T>(pub(crate) T);
+
+impl<'a, 'py, T: Words> FromPyObject<'a, 'py> for Word<T> {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let given = object.extract::<String>().ok();
+        let known = T::KNOWN.iter().find(|(word, _)| given.as_deref() == Some(word));
+        let refuse = || -> PyResult<PyErr> {
+            let words: Vec<_> = T::KNOWN.iter().map(|(word, _)| format!("'{word}'")).collect();
+            let (given, words) = (object.repr()?, words.join(", "));
+            Ok(error::input(&format!("{} is {given}: one of {words} is needed", T::WHAT), None))
+        };
+        known.map(|&(_, case)| Self(case)).ok_or_else(|| refuse().unwrap_or_else(|error| error))
+    }
+}
+
+impl Words for EndCondition {
+    const WHAT: &'static str = "spline";
+    const KNOWN: &'static [(&'static str, Self)] = &[
+        ("not-a-knot", Self::NotAKnot),
+        ("natural", Self::Natural),
+        ("clamped", Self::Clamped),
+        ("periodic", Self::Periodic),
+        ("linear", Self::Linear),
+    ];
+}
+
+impl Words for Mean {
+    const WHAT: &'static str = "mean";
+    const KNOWN: &'static [(&'static str, Self)] =
+        &[("extremes", Self::Extremes), ("period", Self::Period)];
+}
+
+impl Words for Crossing {
+    const WHAT: &'static str = "direction";
+    const KNOWN: &'static [(&'static str, Self)] =
+        &[("either", Self::Either), ("rising", Self::Rising), ("falling", Self::Falling)];
+}
+
+/// The parts of a mechanism that outputs name.
+impl Words for Named {
+    const WHAT: &'static str = "kind";
+    const KNOWN: &'static [(&'static str, Self)] =
+        &[("joint", Self::Joint), ("link", Self::Link), ("slide", Self::Slide)];
+}

@@ -1,0 +1,126 @@
+"""Reductions, runs and periods through change points and beside them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import mpmath as mp  # type: ignore[import-untyped]
+import numpy as np
+import pytest
+
+import assur
+from assur import Body, Gravity, Torque
+
+TURN = math.tau
+
+
+def test_change_points_have_reductions() -> None:
+    machine = assur.Machine(assur.FourBar(1.0, 3.0, 1.0, 3.0), {"rocker": Body(inertia=2.0)})
+    beside = np.array([0.0, 1e-9, 1e-6, 1e-3, 0.02, 0.029])
+    value, d1 = machine.reduced_inertia([beside, math.pi - beside])
+    assert np.abs(value - 2.0).max() < 1e-12
+    assert np.abs(d1).max() < 1e-10
+
+
+def test_beside_change_points_analogues_are_known() -> None:
+    """The joint of a kite is on its axis: its place and two derivatives in closed form."""
+    machine = assur.Machine(assur.FourBar(1.0, 2.5, 2.5, 1.0), {"rocker": Body(1.0, at="C")})
+    steps = np.logspace(-9, math.log10(0.4), 60)
+    for change in (0.0, TURN):
+        q = change + np.concatenate([-steps, [0.0], steps])
+        value, d1 = machine.reduced_inertia(q)
+        c, s = np.cos(0.5 * q), np.sin(0.5 * q)
+        root = np.sqrt(5.25 + c * c)
+        first = -0.5 * c * s / root
+        second = -0.25 * (c * c - s * s) / root - first**2 / root
+        # Along the axis, and around it.
+        along, rate, bend = c + root, -0.5 * s + first, -0.25 * c + second
+        assert np.abs(value - (rate**2 + 0.25 * along**2)).max() < 1e-12
+        exact = 2.0 * rate * bend + 0.5 * along * rate
+        assert np.abs(d1 - exact).max() < 4e-11
+
+
+@pytest.mark.parametrize("lengths", [(1.0, 2.5, 2.5, 1.0), (1.0, 2.0, 4.0, 3.0)])
+def test_periods_through_change_points_know_tight_tolerances(lengths: Any) -> None:
+    bodies = {
+        "crank": Body(inertia=0.3),
+        "rocker": Body(1.0, 0.4, (0.2, 0.3)),
+        "coupler": Body(2.0, 0.3, (1.0, 0.5)),
+    }
+    loads = (Torque("rocker", -1.0), Gravity())
+    machine = assur.Machine(assur.FourBar(*lengths), bodies, loads, assur.LinearMotor(30.0, 30.0))
+    with pytest.raises(assur.MotionError, match=r"not periodic over this span.*turns=2"):
+        machine.steady_state()
+    loose, tight = (machine.steady_state(turns=2, rtol=rtol) for rtol in (1e-9, 1e-12))
+    assert abs(tight.mean_speed / loose.mean_speed - 1.0) < 1e-7
+    assert tight.run.statistics.steps < 400
+    assert tight.run.energy.error < 1e-9
+
+
+def four_bar_rates(lengths: Any, q: float, sign: int) -> tuple[float, float]:
+    """Rocker's two analogues of a four-bar, with 50 digits; `sign` of its assembly."""
+    with mp.workdps(50):
+        a, b, c, d, q = (mp.mpf(x) for x in (*lengths, q))
+
+        def angle(q: Any) -> Any:
+            x, y = a * mp.cos(q) - d, a * mp.sin(q)
+            far = mp.hypot(x, y)
+            return mp.atan2(y, x) + sign * mp.acos((c * c + far * far - b * b) / (2 * c * far))
+
+        return float(mp.diff(angle, q, 1, h=mp.mpf(10) ** -16)), float(
+            mp.diff(angle, q, 2, h=mp.mpf(10) ** -14)
+        )
+
+
+@pytest.mark.parametrize(
+    ("lengths", "accuracy"),
+    [
+        # Nearly a deltoid: beside the change point the rocker turns 128 times as fast as the crank.
+        ((1.0, 1.5, 1.5 + 1 / 64, 1.0 + 1 / 64), 1e-7),
+        ((50.0, 80.0, 82.0, 52.0), 1e-8),
+        # A dead point beside the change point.
+        ((1.0, 2.00146484375, 0.00146484375, 3.0), 1e-7),
+        ((1.0, 2.00048828125, 0.00048828125, 3.0), 1e-6),
+        ((1.0, 2.0020751953125, 0.0020751953125, 3.0), 1e-7),
+    ],
+)
+def test_change_points_with_something_beside(lengths: Any, accuracy: float) -> None:
+    linkage = assur.FourBar(*lengths)
+    machine = assur.Machine(linkage, {"rocker": Body(inertia=1.0)})
+    motion = linkage.solve([1e-6, -1e-6], order=1)
+    for q in (1e-7, 1e-6, 1e-4, 1e-3, 0.01, 0.02):
+        for at in (-q, q):
+            both = [four_bar_rates(lengths, at, sign) for sign in (1, -1)]
+            value, d1 = machine.reduced_inertia(at)
+            first, second = min(both, key=lambda pair: abs(pair[0] ** 2 - value))
+            assert abs(value - first**2) < accuracy * first**2
+            assert abs(d1 - 2.0 * first * second) < accuracy * (first**2 + abs(first * second))
+            if q == 1e-6:
+                own = motion.link("rocker").d1[0 if at > 0.0 else 1]
+                assert abs(own - first) < accuracy * abs(first)
+
+
+def test_motions_through_near_deltoids_come_to_an_end() -> None:
+    machine = assur.Machine(
+        assur.FourBar(0.05, 0.08, 0.082, 0.052),
+        {"crank": Body(inertia=1e-3), "coupler": Body(0.2, 1e-4), "rocker": Body(0.1, 1e-4)},
+        [Torque("crank", -0.1)],
+        assur.LinearMotor(1.0, 30.0),
+    )
+    run = machine.run(3.0, max_seconds=20.0)
+    assert run.end == "reached"
+    assert run.energy.error < 1e-7
+    assert machine.steady_state(turns=2).multiplier < 1.0
+
+
+def test_nearly_a_parallelogram_ends_at_its_near_change_point() -> None:
+    """Between a change point and a gap of 1e-6 rad nobody knows."""
+    nearly = assur.FourBar(1.0 - 3e-14, 3.0, 1.0, 3.0)
+    machine = assur.Machine(
+        nearly, {"crank": Body(inertia=0.1), "rocker": Body(1.0, 0.2), "coupler": Body(2.0, 0.3)}
+    )
+    run = machine.run(q_end=7.0, q0=1.0, speed0=1.0)
+    assert run.end == "near_change_point"
+    assert run.events[-1].event.miss == pytest.approx(3e-14, rel=0.2)
+    assert run.energy.error < 1e-6
