@@ -217,7 +217,10 @@ pub enum StructureError {
     #[error("driver {driver:?} is given twice")]
     DoubledDriver { driver: String },
     /// Links are not connected to the ground.
-    #[error("not connected to the ground by any joint or slide: {}", link_list(links))]
+    #[error(
+        "{} {} not connected to the ground by any joint or slide",
+        link_list(links), if links.len() == 1 { "is" } else { "are" }
+    )]
     Unconnected { links: Vec<String> },
     /// Sliding pairs alone form a closed chain.
     #[error(
@@ -248,7 +251,7 @@ pub enum StructureError {
     CannotDrive { drivers: Vec<String>, fault: DriverFault },
     /// The linkage is over-constrained and no whole link or slide is redundant.
     #[error(
-        "over-constrained by {excess}: {}; no whole link or slide can be left out of them without freeing the linkage",
+        "{} are over-constrained by {excess}, and none of them can be left out as a whole without freeing the linkage",
         quoted_list(links)
     )]
     OverConstrained { excess: usize, links: Vec<String> },
@@ -290,6 +293,14 @@ impl Hint for StructureError {
                 format!("give the slide an origin, a joint of link {on:?}")
             }
             Self::NoDriver => "name a link, a slide or a Drive".into(),
+            Self::SlidesOnly { .. } => "join two of these links by a joint".into(),
+            Self::CannotDrive { fault: DriverFault::LeavesFree { .. }, .. } => {
+                "drive one of these instead".into()
+            }
+            Self::CannotDrive { .. } => "drive a slide or another link".into(),
+            Self::OverConstrained { .. } => {
+                "move what hangs on one of them to another link, so that it can be left out".into()
+            }
             Self::Immovable { .. } => "take out a link or a pair there; a link that changes its length, such as a cylinder, needs two links (barrel and rod) with a Slide between them".into(),
             Self::Mobility { free, drivers, mobility, .. } if free.is_empty() && drivers > mobility => {
                 match drivers - mobility {

@@ -113,7 +113,7 @@ pub enum Reason {
     DesignNotTracked { groups: Vec<String>, part: f64 },
     /// Beyond a dead point of the groups above class II.
     #[error(
-        "cannot be reached: from the drawing the motion of {} ends at q = {}, at a dead point or where two branches cross or a joint goes to infinity",
+        "cannot be reached: from the drawing, the motion of {} ends at q = {}, at a dead point or where two branches cross or a joint goes to infinity",
         group_list(groups), number(*end)
     )]
     BeyondDeadPoint { groups: Vec<String>, end: f64 },
@@ -125,7 +125,7 @@ pub enum Reason {
     JointGoesToInfinity { groups: Vec<String>, end: f64, distance: f64 },
     /// A dead point on the straight path from the drawing.
     #[error(
-        "cannot be reached: on the straight path from the drawing {} reaches a dead point",
+        "cannot be reached: on the straight path from the drawing, {} reaches a dead point",
         group_list(groups)
     )]
     DeadPointOnPath { groups: Vec<String> },
@@ -152,7 +152,7 @@ impl Hint for Failure {
     fn hint(&self) -> Option<String> {
         let hint = match &self.reason {
             Reason::DesignNotTracked { .. } => "draw the mechanism with these dimensions",
-            Reason::BeyondDeadPoint { .. } => "with_driver: another driver may go on",
+            Reason::BeyondDeadPoint { .. } => "another driver (with_driver) may lead past it",
             _ => return None,
         };
         Some(hint.into())

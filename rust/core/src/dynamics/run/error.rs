@@ -34,7 +34,7 @@ pub enum RunError<E> {
     NoInitialPosition(Failure),
     /// Accelerations become infinite or NaN.
     #[error(
-        "the motion is not finite at {along} = {}: a load, a speed or a mass is too great there",
+        "the motion is not finite at {along} = {}: a load, a speed or a mass is too great there, or a damper or spring has length zero",
         number(*at)
     )]
     NotFinite {
@@ -90,6 +90,7 @@ impl<E: std::fmt::Display> Hint for RunError<E> {
                 "give {driver:?}, or the links that move with it, a Body with a mass or an inertia"
             )),
             Self::NoInitialPosition(failure) => failure.hint(),
+            Self::TableEnds { .. } => Some("extend the table, or start within it".into()),
             _ => None,
         }
     }

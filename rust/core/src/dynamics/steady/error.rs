@@ -37,7 +37,7 @@ pub enum SteadyError<E> {
     #[error("no initial speed follows from the motor or loads")]
     NeedsSpeed,
     /// The machine stalls within the period.
-    #[error("the motor cannot carry the load: even at {} rad/s the machine stalls within the turn, at q = {}", short(*from), short(*q))]
+    #[error("the motor cannot carry the load: even at {} rad/s the machine stalls at q = {}", short(*from), short(*q))]
     Stops { q: f64, from: f64 },
     /// No speed is low enough for the motor to balance the loads.
     #[error("the motor cannot carry the load: no periodic motion was found below {} rad/s, where its moment never makes up for the loads", short(*from))]
@@ -71,7 +71,7 @@ pub enum SteadyError<E> {
     )]
     DeadPoint { q: f64, group: Option<GroupName> },
     /// Lengths that nearly, but not quite, agree for a change point.
-    #[error("near q = {}, dyad {dyad:?} nearly has a change point: its lengths miss one by {} m, and the motion turns too sharply there to be integrated", short(*q), short(*miss))]
+    #[error("dyad {dyad:?} nearly has a change point near q = {}: its lengths miss one by {} m, and the motion turns too sharply there to be integrated", short(*q), rounded(*miss, 2))]
     NearChangePoint { dyad: String, miss: f64, q: f64 },
     /// The motor's table over its speed ends.
     #[error("the motor's table ends at {} rad/s (speed of the driver), which is reached at q = {}", short(*speed), short(*q))]

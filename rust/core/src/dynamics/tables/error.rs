@@ -81,7 +81,7 @@ pub enum TableError {
     Infinite { name: &'static str, speed: f64, flywheel: f64 },
     /// No speed has this mean.
     #[error(
-        "no motion with a mean speed of {} rad/s was found: so slow a machine stalls within the turn, and the energy of too fast a one is infinite",
+        "no motion with a mean speed of {} rad/s was found: at low speeds the machine stalls within the turn, at very high ones its energy is infinite",
         short(*mean)
     )]
     NoMean { mean: f64 },
