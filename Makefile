@@ -55,6 +55,7 @@ check: lint-tools $(EXTENSION) $(DEV_STAMP)
 	$(VENV)/bin/lint-imports --no-logo --no-cache
 	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) -m mypy
+	$(PY) tools/error_page --check
 	$(PY) -m pytest -q -n auto tests/python/net/test_digests.py tests/python/description \
 	  tests/python/papers tests/python/package/test_readme.py
 
@@ -75,6 +76,7 @@ python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) -m mypy
 	$(PY) -m mypy.stubtest --mypy-config-file pyproject.toml assur._core
+	$(PY) tools/error_page --check
 	$(PY) -m pytest -q -n auto
 
 # As released: without test-hooks, audited, installed away from the checkout and tested there.

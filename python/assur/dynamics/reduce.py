@@ -60,9 +60,13 @@ def reduce(
     inertia, rates, moment, potential = arrays
     beyond = np.flatnonzero(np.isnan(moment).reshape(-1, n).any(axis=1) & (status < 2))
     if speed is not None and on_error == "raise" and beyond.size:
-        at = flat.reshape(-1, n)[beyond[0]]
-        message = f"q = {at[0]:g}: a load has no value there (a table ends, or a function gave nan)"
-        raise InputError(message, q=x[np.unravel_index(int(beyond[0]), shape) if shape else ()])
+        at = flat.reshape(-1, n)[beyond[0]].tolist()
+        shown = ", ".join(f"{number:.15g}" for number in at)
+        message = (
+            f"q = {shown if n == 1 else f'({shown})'}: a load has no value there (a table ends, a "
+            "function gave nan, or a damper or spring has length zero)"
+        )
+        raise InputError(message, q=at[0] if n == 1 else tuple(at))
     return (
         inertia.reshape(*shape, n, n),
         rates.reshape(*shape, n, n, n),

@@ -288,7 +288,7 @@ class Motion:
         >>> import assur
         >>> m = assur.FourBar(40, 120, 80, 300)
         >>> m.solve([0.0, 3.0], on_error="nan").explain(1)
-        'at q = 3 dyad "C" cannot be assembled: its links are 139.6 m too short to meet'
+        'at q = 3, dyad "C" cannot be assembled: its links miss each other by 139.6 m'
         """
         entry = checked_index(index, self.shape, "index")
         q = self.coordinate(entry)

@@ -92,8 +92,8 @@ pub(crate) fn structure(error: StructureError) -> PyErr {
             value: Some(*mobility as f64),
             ..none()
         },
-        E::FlatDyad { dyad, name, sine } => {
-            Fields { joint: Some(name), group: Some(dyad), value: Some(*sine), ..none() }
+        E::FlatDyad { inner, name, sine, .. } => {
+            Fields { group: Some(name), value: Some(*sine), ..named(*inner, name) }
         }
         E::BadSign { name, value } => {
             Fields { joint: Some(name), value: Some(*value as f64), ..none() }
@@ -126,7 +126,8 @@ pub(crate) fn solve(error: SolveError) -> PyErr {
         E::BadDimension { name, value, .. } => {
             (Class::Dimension, Fields { dimension: Some(name), value: Some(*value), ..none() })
         }
-        E::Redundant { name } => (Class::Input, Fields { link: Some(name), ..none() }),
+        E::Redundant { kind, name } => (Class::Input, named(*kind, name)),
+        E::CoordinateTooFar { q } => (Class::Input, Fields { q: Some(q), ..none() }),
         E::Unknown { kind, name, .. } => (Class::Input, named(*kind, name)),
         E::Order(order) => (Class::Input, Fields { value: Some(*order as f64), ..none() }),
         _ => (Class::Input, none()),
@@ -225,8 +226,8 @@ pub(crate) fn run(error: RunError<PyErr>) -> PyErr {
             return raised(&error, class, kind, &fields);
         }
         RunError::NoInertia { q, value, driver } => {
-            let (driver, q) = (driver.as_deref(), Some(std::slice::from_ref(q)));
-            (Class::Input, Fields { driver, q, value: Some(*value), ..none() })
+            let driver = driver.as_deref();
+            (Class::Input, Fields { driver, q: Some(q), value: Some(*value), ..none() })
         }
         RunError::NotFinite { along, at } if *along == "t" => {
             (Class::Motion, Fields { t: Some(*at), ..none() })
@@ -288,7 +289,7 @@ pub(crate) fn table(error: &TableError, where_: &str, design: Option<Vec<usize>>
     let (class, fields) = match error {
         E::TooShort { count, .. } => (Class::Input, value(&(*count as f64))),
         E::NotIncreasing { value: q, .. } => (Class::Input, at(q, q)),
-        E::Negative { value: number, at: q } | E::NoInertia { value: number, at: q, .. } => {
+        E::Negative { value: number, at: q, .. } | E::NoInertia { value: number, at: q, .. } => {
             (Class::Input, at(q, number))
         }
         E::NotFinite { value: number, .. }
@@ -299,8 +300,10 @@ pub(crate) fn table(error: &TableError, where_: &str, design: Option<Vec<usize>>
         E::Infinite { speed, .. } => (Class::Input, value(speed)),
         E::Stalls { speed0, at: q, .. } => (Class::Motion, at(q, speed0)),
         E::NoMean { mean } => (Class::Motion, value(mean)),
+        E::NoFlywheel { wanted } => (Class::Motion, value(wanted)),
         _ => (Class::Input, none()),
     };
-    let message = format!("{where_}{error}");
-    exception(class, Some(error.into()), &message, None, &Fields { design, ..fields })
+    let message = format!("{where_}{}", error.with_hint());
+    let hint = error.hint();
+    exception(class, Some(error.into()), &message, hint.as_deref(), &Fields { design, ..fields })
 }

@@ -1,5 +1,6 @@
 //! Flywheels of many tables. Python checks, broadcasts and reshapes the arrays.
 
+use assur::Hint;
 use assur::dynamics::{Cycle, EndCondition, Flywheel, Mean, TableError};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyBaseException;
@@ -149,7 +150,7 @@ impl Flywheels {
 
     /// Why a table has no flywheel.
     fn problem(&self, index: usize) -> Option<String> {
-        self.0.get(index)?.as_ref().err().map(ToString::to_string)
+        self.0.get(index)?.as_ref().err().map(Hint::with_hint)
     }
 
     /// The exception of a table without a flywheel. `place`: its name at the beginning of the

@@ -10,7 +10,7 @@ use assur::{
     SolveError, Status, fill,
 };
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyBaseException, PyMemoryError, PyRuntimeError};
+use pyo3::exceptions::{PyBaseException, PyMemoryError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice};
 
@@ -374,7 +374,7 @@ fn uninitialized<T: numpy::Element>(
 const CACHE_LINE: usize = 64;
 
 fn in_use(error: numpy::BorrowError) -> PyErr {
-    PyRuntimeError::new_err(format!("the arrays given to out= are in use: {error}"))
+    error::input(&format!("out: its arrays are in use ({error}): another call writes them"), None)
 }
 
 /// The memory of an array borrowed for writing.

@@ -151,7 +151,7 @@ def test_a_branch_to_infinity_ends_with_its_reason() -> None:
     motion = m.solve(-1.46, on_error="nan")
     assert motion.status == Status.LOST
     sentence = str(motion.explain())
-    end = float(re.findall(r"to (-[0-9.]+), where a joint is 530 times", sentence)[0])
+    end = float(re.findall(r"to q = (-[0-9.]+), where a joint is 530 times", sentence)[0])
     assert "size away" in sentence
     assert "dead point" not in sentence
     before = m.solve(np.linspace(-1.99, end, 2000), on_error="nan")

@@ -88,6 +88,6 @@ def test_drawings_of_eleven_digits_are_named() -> None:
 
 def test_a_periodic_motion_through_a_near_miss_is_refused_with_it() -> None:
     with pytest.raises(
-        assur.PositionError, match=r"nearly has a change point.*miss one by 1\.0*e-10"
+        assur.PositionError, match=r"nearly has a change point.*miss one by 1e-10 m"
     ):
         in_line(1e-10).steady_state(1.0)

@@ -154,7 +154,7 @@ REFUSED: dict[str, Refusal] = {
     "diagonal": (link(diagonal="AC"), ("mobility 0", '"diagonal"'), {"value": 0.0}),
     "third rod 1e-3 too long": (
         {"joints": {**LOCOMOTIVE, "E": (1.49925, -0.001)}, "links": RODS},
-        ("lengths agree", "2.2e-4 m off", '"third"'),
+        ("lengths agree", "0.00022 m off", '"third"'),
         {},
     ),
     "third rod 1e-2 too long": (

@@ -4,6 +4,7 @@ use super::outputs::{Arrays, Column, Outputs, columns};
 use crate::description::error::SolveError;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
+use crate::query::failure::redundant_name;
 
 /// Coordinates of the drivers: one number per driver for each position.
 #[derive(Debug, Clone, Copy)]
@@ -138,12 +139,11 @@ impl Shape {
             if index >= dimensions {
                 return Err(SolveError::Shape(format!("there is no dimension number {index}")));
             }
-            let redundant = mechanism.plan().steps.iter().find_map(|step| match step {
-                Step::Redundant(fit) => Some(fit.name.clone()),
-                _ => None,
-            });
-            if let Some(name) = redundant {
-                return Err(SolveError::Redundant { name });
+            let steps = &mechanism.plan().steps;
+            let redundant = steps.iter().position(|step| matches!(step, Step::Redundant(_)));
+            if let Some(step) = redundant {
+                let (kind, name) = redundant_name(mechanism, step);
+                return Err(SolveError::Redundant { kind, name });
             }
         }
         let linkage = mechanism.linkage();

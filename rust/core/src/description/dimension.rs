@@ -50,10 +50,12 @@ impl Dimension {
             Some("a finite number is needed")
         } else if matches!(self, Self::Length { .. }) && value <= 0.0 {
             Some("a length must be positive")
-        } else if value.abs() > GREATEST_LENGTH
-            || (matches!(self, Self::Length { .. }) && value < LEAST_LENGTH)
+        } else if matches!(self, Self::Length { .. })
+            && !(LEAST_LENGTH..=GREATEST_LENGTH).contains(&value)
         {
-            Some("it must be within 1e-153 to 1e153")
+            Some("a length must be from 1e-153 to 1e153 m")
+        } else if value.abs() > GREATEST_LENGTH {
+            Some("it must be within ±1e153")
         } else {
             None
         }

@@ -42,9 +42,13 @@ pub(crate) fn quoted_list(names: &[String]) -> String {
     names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ")
 }
 
-/// The same with "link" or "links" before them.
+/// The same with a noun before them.
+fn counted_list(noun: &str, names: &[String]) -> String {
+    format!("{noun}{} {}", if names.len() == 1 { "" } else { "s" }, quoted_list(names))
+}
+
 fn link_list(links: &[String]) -> String {
-    format!("{} {}", if links.len() == 1 { "link" } else { "links" }, quoted_list(links))
+    counted_list("link", links)
 }
 
 /// Constraints of a linkage that exceed those that are independent.
@@ -87,8 +91,8 @@ pub enum DriverFault {
         /// The slide.
         slide: String,
     },
-    /// With the driver held still, links can still move.
-    #[error("with it held still, {} can still move", link_list(links))]
+    /// With the drivers held still, links can still move.
+    #[error("with every driver held still, {} can still move", link_list(links))]
     LeavesFree {
         /// The links.
         links: Vec<String>,
@@ -103,6 +107,19 @@ fn some_links(links: &[String]) -> String {
     match links {
         [one] => format!("{one:?} and others"),
         links => quoted_list(links),
+    }
+}
+
+fn drivers_text(drivers: usize) -> String {
+    if drivers == 1 { "is 1 driver".into() } else { format!("are {drivers} drivers") }
+}
+
+/// What numbers a drawing may have; `what`: the kind of object that the number belongs to.
+fn range(what: Named) -> &'static str {
+    match what {
+        Named::Link => "a length must be from 1e-153 to 1e153 m",
+        Named::Slide => "an angle must be within ±1e153 rad",
+        _ => "a coordinate must be within ±1e153 m",
     }
 }
 
@@ -140,7 +157,7 @@ impl std::fmt::Display for Named {
 pub enum StructureError {
     /// A name is empty or contains a blank, dot, slash, quote or bracket.
     #[error(
-        "{kind} name {name:?} is not allowed: a name is not empty and has no blanks, dots, slashes, quotes or brackets"
+        "{kind} name {name:?} is not allowed: a name must not be empty or contain blanks, dots, slashes, quotes or brackets"
     )]
     BadName { kind: Named, name: String },
     /// Two objects share a name.
@@ -158,16 +175,15 @@ pub enum StructureError {
     #[error("{what} of {kind} {name:?} is {}: a finite number is needed", number(*value))]
     NotFinite { kind: Named, name: String, what: &'static str, value: f64 },
     /// A coordinate or length is outside the range from 1e-153 to 1e153.
-    #[error(
-        "{what} of {kind} {name:?} is {value:e}: lengths from 1e-153 to 1e153 can be computed with"
-    )]
+    #[error("{what} of {kind} {name:?} is {value:e}: {}", range(*kind))]
     OutOfRange { kind: Named, name: String, what: &'static str, value: f64 },
     /// A joint belongs to no link.
     #[error("joint {joint:?} is on no link")]
     LooseJoint { joint: String },
     /// First and second joint of a link coincide.
     #[error(
-        "link {link:?} has length zero: its first two joints {first:?} and {second:?} are both at ({x}, {y})"
+        "link {link:?} has length zero: its first two joints {first:?} and {second:?} are both at ({}, {})",
+        number(*x), number(*y)
     )]
     ZeroLength { link: String, first: String, second: String, x: f64, y: f64 },
     /// There is no link called `ground`.
@@ -195,17 +211,20 @@ pub enum StructureError {
     #[error("the mechanism has no driver")]
     NoDriver,
     /// The ground is given as a driver.
-    #[error("driver {driver}: the ground does not move")]
+    #[error("driver {driver:?}: the ground does not move")]
     GroundDriven { driver: String },
     /// The same coordinate is driven twice.
-    #[error("driver {driver} is given twice")]
+    #[error("driver {driver:?} is given twice")]
     DoubledDriver { driver: String },
     /// Links are not connected to the ground.
-    #[error("not connected to the ground by any joint or slide: {}", link_list(links))]
+    #[error(
+        "{} {} not connected to the ground by any joint or slide",
+        link_list(links), if links.len() == 1 { "is" } else { "are" }
+    )]
     Unconnected { links: Vec<String> },
     /// Sliding pairs alone form a closed chain.
     #[error(
-        "slides {} form a closed chain of sliding pairs only (PPP): links joined so cannot turn, and the chain is not an Assur group",
+        "slides {} form a closed chain of sliding pairs only (PPP): links joined this way cannot turn relative to each other, and the chain is not an Assur group",
         quoted_list(slides)
     )]
     SlidesOnly { slides: Vec<String> },
@@ -218,8 +237,7 @@ pub enum StructureError {
     /// The mobility by rank differs from the number of drivers.
     #[error(
         "mobility is {mobility} (counted {counted} by Chebyshev-Grübler) but there {}{}{}",
-        if *drivers == 1 { "is 1 driver".into() } else { format!("are {drivers} drivers") },
-        free_links(free), optional(overconstraint.as_ref())
+        drivers_text(*drivers), free_links(free), optional(overconstraint.as_ref())
     )]
     Mobility {
         mobility: usize,
@@ -229,23 +247,24 @@ pub enum StructureError {
         overconstraint: Option<Overconstraint>,
     },
     /// A driver cannot move the linkage, or several together cannot.
-    #[error("driver {} cannot drive: {fault}", drivers.join(", "))]
+    #[error("{} cannot drive: {fault}", counted_list("driver", drivers))]
     CannotDrive { drivers: Vec<String>, fault: DriverFault },
     /// The linkage is over-constrained and no whole link or slide is redundant.
     #[error(
-        "over-constrained by {excess}: {}; no whole link or slide can be left out of them without freeing the linkage",
+        "{} are over-constrained by {excess}, and none of them can be left out as a whole without freeing the linkage",
         quoted_list(links)
     )]
     OverConstrained { excess: usize, links: Vec<String> },
     /// A dyad is drawn flat.
     #[error(
-        "dyad {dyad} is drawn flat (sine {sine:.1e} between its legs): the drawing does not say on which side {name:?} is"
+        "dyad {name:?} ({dyad}) is drawn flat (sine {} between its legs): the drawing does not say on which side {name:?} is",
+        rounded(*sine, 2)
     )]
-    FlatDyad { dyad: String, name: String, sine: f64 },
+    FlatDyad { dyad: String, inner: Named, name: String, sine: f64 },
     /// Links would be redundant if the drawing were more accurate.
     #[error(
-        "{} can only move together if their lengths agree, and these are {gap:.1e} m off ({part:.0e} of the size; up to 2e-9 a drawing is adjusted)",
-        some_links(links)
+        "{} can only move together if their lengths agree, but they are {} m off ({} of the size; a drawing is adjusted up to 2e-9)",
+        some_links(links), rounded(*gap, 2), rounded(*part, 1)
     )]
     AlmostFits { links: Vec<String>, gap: f64, part: f64 },
     /// The caller cancelled the analysis.
@@ -260,18 +279,34 @@ impl Hint for StructureError {
     fn hint(&self) -> Option<String> {
         Some(match self {
             Self::Unknown { hint, .. } => return hint.clone(),
-            Self::OutOfRange { .. } => "choose another unit".into(),
+            Self::OutOfRange { kind: Named::Joint | Named::Link, .. } => {
+                "choose another unit".into()
+            }
             Self::LooseJoint { .. } => {
                 "add it to the list of the link it belongs to, or leave it out".into()
             }
             Self::NoGround => "add links[\"ground\"] with the fixed joints (an empty list if only slides are fixed)".into(),
+            Self::OriginNotOnLink { link, .. } => {
+                format!("name a joint of {link:?}, or leave the origin out")
+            }
             Self::GuideNowhere { on, .. } => {
                 format!("give the slide an origin, a joint of link {on:?}")
             }
             Self::NoDriver => "name a link, a slide or a Drive".into(),
+            Self::SlidesOnly { .. } => "join two of these links by a joint".into(),
+            Self::CannotDrive { fault: DriverFault::LeavesFree { .. }, .. } => {
+                "drive one of these instead".into()
+            }
+            Self::CannotDrive { .. } => "drive a slide or another link".into(),
+            Self::OverConstrained { .. } => {
+                "move what hangs on one of them to another link, so that it can be left out".into()
+            }
             Self::Immovable { .. } => "take out a link or a pair there; a link that changes its length, such as a cylinder, needs two links (barrel and rod) with a Slide between them".into(),
             Self::Mobility { free, drivers, mobility, .. } if free.is_empty() && drivers > mobility => {
-                "leave out drivers".into()
+                match drivers - mobility {
+                    1 => "leave out one of them".into(),
+                    surplus => format!("leave out {surplus} of them"),
+                }
             }
             Self::Mobility { free, .. } if !free.is_empty() => {
                 "add a driver or a link there".into()
@@ -306,6 +341,23 @@ pub(crate) fn number(x: f64) -> String {
     }
 }
 
+/// The same, rounded to a number of digits.
+pub(crate) fn rounded(x: f64, digits: usize) -> String {
+    number(format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x))
+}
+
+/// Coordinates as text.
+pub(crate) fn coordinate_text(q: &[f64]) -> String {
+    match q {
+        [one] => number(*one),
+        many => format!("({})", many.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// The end of a sentence on coordinates too far from the drawing.
+pub(crate) const TOO_FAR: &str = "is too far from the drawing to be tracked: an angle may be 1000 \
+     turns away, a slide 3000 times the mechanism's size";
+
 /// Why no position can be computed.
 #[derive(Debug, Clone, PartialEq, Error, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "snake_case")]
@@ -323,9 +375,12 @@ pub enum SolveError {
     BadDimension { name: String, value: f64, need: &'static str },
     /// A redundant link ties dimensions together, so there are no sensitivities to one alone.
     #[error(
-        "the redundant {name:?} fits only as long as several dimensions change together: there are no sensitivities by one of them"
+        "there are no sensitivities to single dimensions: the redundant {kind} {name:?} fits only while several of them change together"
     )]
-    Redundant { name: String },
+    Redundant { kind: Named, name: String },
+    /// A coordinate too far from the drawing.
+    #[error("q = {} {TOO_FAR}", coordinate_text(q))]
+    CoordinateTooFar { q: Vec<f64> },
     /// An unknown name.
     #[error("there is no {kind} {name:?}")]
     Unknown { kind: Named, name: String, hint: Option<String> },
@@ -344,7 +399,8 @@ impl Hint for SolveError {
             Self::HigherClass { .. } => {
                 Some("for another assembly draw the mechanism that way".into())
             }
-            Self::Redundant { name } => Some(format!("leave {name:?} out")),
+            Self::CoordinateTooFar { .. } => Some("take whole turns off an angle".into()),
+            Self::Redundant { name, .. } => Some(format!("leave {name:?} out")),
             _ => None,
         }
     }

@@ -2,23 +2,28 @@
 
 use super::error::Named;
 
-/// Advice on an unknown name: "did you mean …?" with up to three similar names, else the first
-/// twelve of `known` in order of distance. `None` if `known` is empty.
+/// Advice on an unknown name: "did you mean …?" with up to three names about as similar as the
+/// nearest, else the first twelve of `known` in order of distance. `None` if `known` is empty.
 #[must_use]
 pub(crate) fn suggest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     let mut ranked: Vec<(usize, &str)> = known.map(|k| (distance(name, k), k)).collect();
     ranked.sort_unstable();
-    if ranked.is_empty() {
-        return None;
-    }
-    let limit = name.chars().count().div_ceil(2).max(2);
+    let &(nearest, _) = ranked.first()?;
+    // More than half of a similar name is the same, and swapped letters count twice.
+    let limit = (nearest + 1).min(name.chars().count() / 2);
     let similar: Vec<String> =
         ranked.iter().take(3).filter(|(d, _)| *d <= limit).map(|(_, k)| format!("{k:?}")).collect();
     if !similar.is_empty() {
         return Some(format!("did you mean {}?", similar.join(" or ")));
     }
     let first: Vec<String> = ranked.iter().take(12).map(|(_, k)| format!("{k:?}")).collect();
-    Some(format!("there are {}{}", first.join(", "), if ranked.len() > 12 { " …" } else { "" }))
+    Some(match &first[..] {
+        [only] => format!("there is only {only}"),
+        _ => {
+            let more = if ranked.len() > first.len() { ", …" } else { "" };
+            format!("there are {}{more}", first.join(", "))
+        }
+    })
 }
 
 /// Advice on a joint given for a link, or a link given for a joint.
@@ -66,6 +71,14 @@ mod tests {
     fn similar_names_come_first() {
         let hint = suggest("cuopler.length", ["coupler.length", "rocker.length"].into_iter());
         let hint = hint.expect("two names are known");
-        assert!(hint.starts_with("did you mean \"coupler.length\""), "{hint}");
+        assert_eq!(hint, "did you mean \"coupler.length\"?");
+    }
+
+    #[test]
+    fn names_that_are_not_similar_are_listed() {
+        let hint = |known: &[&'static str]| suggest("Z", known.iter().copied());
+        assert_eq!(hint(&["B", "A"]).as_deref(), Some("there are \"A\", \"B\""));
+        assert_eq!(hint(&["C"]).as_deref(), Some("there is only \"C\""));
+        assert_eq!(hint(&[]), None);
     }
 }

@@ -69,7 +69,7 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
                 write!(f, "{given} numbers were given for {expected} equations")
             }
             Self::Span { from, to } => {
-                write!(f, "the interval from {from:e} to {to:e} is not finite")
+                write!(f, "the length of the run from {from:e} to {to:e} is not finite")
             }
             Self::InitialState { component, value } => {
                 write!(f, "component {component} of the first state is {value}")

@@ -245,8 +245,10 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
                 }
             }
             None => {
+                let is_slide = linkage.slides.iter().any(|slide| slide.name == *name);
                 return Err(StructureError::FlatDyad {
                     dyad: plan.dyad_links[sign].clone(),
+                    inner: if is_slide { Named::Slide } else { Named::Joint },
                     name: name.clone(),
                     sine,
                 });

@@ -2,7 +2,6 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::failure::coordinate_text;
 use crate::branch::design::Design;
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
@@ -49,10 +48,7 @@ impl Mechanism {
         design.bind(dimensions);
         let scaled = design.scaled(q);
         if design.is_too_far(&scaled) {
-            return Err(SolveError::Shape(format!(
-                "q = {} is too far from the drawing to be followed: take off whole turns (at most 1000, or a slide 3000 times the size)",
-                coordinate_text(q)
-            )));
+            return Err(SolveError::CoordinateTooFar { q: q.to_vec() });
         }
         let mut state = design.state(&derivatives);
         let mut found: Vec<Vec<f64>> = vec![Vec::new()];

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use super::failure::{Failure, GroupName, coordinate_text, group_name};
+use super::failure::{Failure, GroupName, group_name};
 use crate::branch::design::Design;
-use crate::description::error::{Hint, SolveError};
+use crate::description::error::{Hint, SolveError, coordinate_text, rounded};
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
 use crate::state::state::State;
@@ -33,17 +33,17 @@ impl fmt::Display for Diagnosis {
         if let Some(failure) = &self.failure {
             return f.write_str(&failure.with_hint());
         }
-        let (q, condition) = (coordinate_text(&self.q), self.condition);
+        let (q, condition) = (coordinate_text(&self.q), rounded(self.condition, 2));
         match (&self.change_point, self.status) {
             (Some(dyad), _) => write!(
                 f,
-                "at q = {q} {dyad} is flat: a change point, the smooth motion goes on through it"
+                "at q = {q}, {dyad} is flat: a change point, through which the smooth motion goes on"
             ),
             (None, Status::NearSingular) => write!(
                 f,
-                "at q = {q} the condition is {condition:.1e}: fewer than 6 digits of the analogues remain"
+                "at q = {q}, the condition is {condition}: fewer than 6 digits of the analogues remain"
             ),
-            _ => write!(f, "at q = {q} the position is solved, condition {condition:.1e}"),
+            _ => write!(f, "at q = {q}, the position is solved, condition {condition}"),
         }
     }
 }

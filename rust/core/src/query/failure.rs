@@ -7,7 +7,9 @@ use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
 
 use crate::branch::design::Design;
-use crate::description::error::{Hint, Named, SolveError, number};
+use crate::description::error::{
+    Hint, Named, SolveError, TOO_FAR, coordinate_text, number, rounded,
+};
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::{EdgeSlide, Step};
 use crate::state::status::{Fault, Rejection, Status};
@@ -62,67 +64,70 @@ pub enum Reason {
     #[error("a finite coordinate is needed")]
     CoordinateNotFinite,
     /// With several drivers, a coordinate too far from the drawing.
-    #[error(
-        "is too far from the drawing to be followed with several drivers: at most 1000 turns, or a slide 3000 times the size"
-    )]
+    #[error("{TOO_FAR}")]
     CoordinateTooFar,
     /// The links of a dyad do not meet.
-    #[error("{group} cannot be assembled: its links are {} m too short to meet", rounded(*gap))]
+    #[error("{group} cannot be assembled: its links miss each other by {} m", rounded(*gap, 4))]
     NotClosed { group: GroupName, gap: f64 },
-    /// The links of a dyad are shorter than its distance by an infinite amount.
-    #[error("{group} cannot be assembled: its links are far too short to meet")]
-    FarTooShort { group: GroupName },
+    /// The distance that the links of a dyad must span is infinite.
+    #[error("{group} cannot be assembled: it would have to span more than 1e154 times the size")]
+    TooFarApart { group: GroupName },
     /// Both outer joints of a dyad coincide, or a leg has no length.
     #[error(
-        "{group} has coinciding outer joints, or a leg of no length: its links may stand in any direction"
+        "{group} has coinciding outer joints, or a leg of length zero: its links can point in any direction"
     )]
     Undetermined { group: GroupName },
     /// The two guides of a dyad are parallel.
-    #[error("the guides \"{}\" are parallel", slides.join("-"))]
+    #[error("the guides of {} are parallel and do not cross", all_quoted(slides))]
     ParallelGuides { slides: Vec<String> },
     /// A redundant link or slide does not fit.
-    #[error("the redundant {name:?} does not fit: it misses by {} m", rounded(*gap))]
+    #[error("the redundant {kind} {name:?} does not fit: it misses by {} m", rounded(*gap, 4))]
     RedundantMisfit { kind: Named, name: String, gap: f64 },
     /// The links of a dyad or group are in a dead position: no analogues.
-    #[error("{group} is flat: the position is given, its analogues do not exist")]
+    #[error("{group} is flat: the position exists, but its analogues do not")]
     Flat { group: GroupName },
     /// Newton's method did not converge for a group.
     #[error("the iteration of {group} did not converge")]
     NotConverged { group: GroupName },
     /// Beside a dead point, too close for a motion to be integrated.
-    #[error("a dead point is beside it{}", group.as_ref().map_or(String::new(), |group| format!(": there {group} folds")))]
+    #[error("is beside a dead point{}", group.as_ref().map_or(String::new(), |group| format!(", where {group} folds")))]
     BesideDeadPoint { group: Option<GroupName> },
     /// Beside a near miss of a change point, too close for a motion to be integrated.
     #[error(
-        "{group} nearly has a change point, and the motion turns within less than can be integrated"
+        "{group} nearly has a change point: the motion turns too sharply there to be integrated"
     )]
     NearChangePoint { group: GroupName },
     /// The signs of a driven angle do not return.
-    #[error("the assembly is unknown: its signs do not return within 64 turns")]
+    #[error("the assembly is unknown: its signs do not repeat within 64 turns of the driver")]
     SignsDoNotReturn,
     /// Too long a step of several drivers.
-    #[error("is too far from the position before: with several drivers at most 50 rad or sizes")]
+    #[error(
+        "is too far from the position before: with several drivers a step may be 50 rad, or 50 times the mechanism's size"
+    )]
     StepTooLong,
     /// The assembly cannot be tracked from the drawing's dimensions to those of the design.
     #[error(
         "cannot track the assembly from the drawing to these dimensions: {} reaches a dead point {:.4} % of the way",
-        groups.join(" → "), 100.0 * part
+        group_list(groups), 100.0 * part
     )]
     DesignNotTracked { groups: Vec<String>, part: f64 },
     /// Beyond a dead point of the groups above class II.
     #[error(
-        "is beyond a dead point (or a place where two branches cross or a joint goes to infinity): from the drawing the motion of {} ends at q = {}",
-        groups.join(" → "), number(*end)
+        "cannot be reached: from the drawing, the motion of {} ends at q = {}, at a dead point or where two branches cross or a joint goes to infinity",
+        group_list(groups), number(*end)
     )]
     BeyondDeadPoint { groups: Vec<String>, end: f64 },
     /// A joint goes to infinity on the way.
     #[error(
         "cannot be reached: the motion of {} is tracked from the drawing to q = {}, where a joint is {distance:.0} times the mechanism's size away",
-        groups.join(" → "), number(*end)
+        group_list(groups), number(*end)
     )]
     JointGoesToInfinity { groups: Vec<String>, end: f64, distance: f64 },
     /// A dead point on the straight path from the drawing.
-    #[error("cannot be reached: on the straight path from the drawing {} reaches a dead point", groups.join(" → "))]
+    #[error(
+        "cannot be reached: on the straight path from the drawing, {} reaches a dead point",
+        group_list(groups)
+    )]
     DeadPointOnPath { groups: Vec<String> },
 }
 
@@ -134,10 +139,11 @@ impl fmt::Display for Failure {
             Reason::CoordinateNotFinite => write!(f, "q = {q}: {reason}"),
             Reason::CoordinateTooFar
             | Reason::StepTooLong
+            | Reason::BesideDeadPoint { .. }
             | Reason::BeyondDeadPoint { .. }
             | Reason::JointGoesToInfinity { .. }
             | Reason::DeadPointOnPath { .. } => write!(f, "q = {q} {reason}"),
-            _ => write!(f, "at q = {q} {reason}"),
+            _ => write!(f, "at q = {q}, {reason}"),
         }
     }
 }
@@ -145,10 +151,8 @@ impl fmt::Display for Failure {
 impl Hint for Failure {
     fn hint(&self) -> Option<String> {
         let hint = match &self.reason {
-            Reason::DesignNotTracked { .. } => {
-                "use smaller steps, or draw the mechanism with these dimensions"
-            }
-            Reason::BeyondDeadPoint { .. } => "another driver (with_driver) leads on",
+            Reason::DesignNotTracked { .. } => "draw the mechanism with these dimensions",
+            Reason::BeyondDeadPoint { .. } => "another driver (with_driver) may lead past it",
             _ => return None,
         };
         Some(hint.into())
@@ -161,7 +165,7 @@ impl Reason {
     pub fn group(&self) -> Option<&GroupName> {
         match self {
             Self::NotClosed { group, .. }
-            | Self::FarTooShort { group }
+            | Self::TooFarApart { group }
             | Self::Undetermined { group }
             | Self::Flat { group }
             | Self::NotConverged { group }
@@ -218,7 +222,7 @@ fn of_fault(mechanism: &Mechanism, fault: Fault, scale: f64) -> Reason {
             Reason::ParallelGuides { slides: guides(mechanism, step) }
         }
         (Fault::NotClosed { gap, .. }, _) if !gap.is_finite() => {
-            Reason::FarTooShort { group: group() }
+            Reason::TooFarApart { group: group() }
         }
         (Fault::NotClosed { gap, .. }, _) => Reason::NotClosed { group: group(), gap: gap * scale },
         (Fault::Singular { .. }, _) => Reason::Flat { group: group() },
@@ -274,7 +278,8 @@ pub(crate) fn group_name(mechanism: &Mechanism, step: usize) -> GroupName {
     GroupName { name, inner, is_dyad }
 }
 
-fn redundant_name(mechanism: &Mechanism, step: usize) -> (Named, String) {
+/// What the redundant object of a step is, and its name.
+pub(crate) fn redundant_name(mechanism: &Mechanism, step: usize) -> (Named, String) {
     let GroupName { name, inner, .. } = group_name(mechanism, step);
     (inner.unwrap_or(Named::Link), name)
 }
@@ -290,15 +295,11 @@ fn guides(mechanism: &Mechanism, step: usize) -> Vec<String> {
     dyad.path.iter().filter_map(name).collect()
 }
 
-/// A number to four digits, without an exponent where it reads well.
-fn rounded(x: f64) -> String {
-    number(format!("{x:.3e}").parse().unwrap_or(x))
+fn all_quoted(names: &[String]) -> String {
+    names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(" and ")
 }
 
-/// Coordinates as text.
-pub(crate) fn coordinate_text(q: &[f64]) -> String {
-    match q {
-        [one] => number(*one),
-        many => format!("({})", many.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", ")),
-    }
+/// Groups in solving order.
+fn group_list(groups: &[String]) -> String {
+    format!("group{} {}", if groups.len() == 1 { "" } else { "s" }, groups.join(" → "))
 }

@@ -89,7 +89,7 @@ impl Cycle {
         // NaN must fail too.
         let is_positive = least.value >= -UNDERSHOOT_RTOL * greatest.value;
         if !is_positive {
-            return Err(TableError::Negative { value: least.value, at: least.at });
+            return Err(TableError::Negative { value: least.value, at: least.at, in_row: false });
         }
         Ok(cycle)
     }
@@ -216,7 +216,7 @@ fn check(knots: &[f64], columns: [(&'static str, &[f64]); 2]) -> Result<(), Tabl
     check_columns(knots, &columns, true)?;
     let inertia = columns[1].1;
     if let Some(row) = inertia.iter().position(|&x| x < 0.0) {
-        return Err(TableError::Negative { value: inertia[row], at: knots[row] });
+        return Err(TableError::Negative { value: inertia[row], at: knots[row], in_row: true });
     }
     Ok(())
 }

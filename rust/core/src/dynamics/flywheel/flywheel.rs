@@ -75,6 +75,9 @@ impl Flywheel {
         if let Some([inertia, constant]) = found
             && inertia >= 0.0
         {
+            if inertia.is_infinite() {
+                return Err(TableError::NoFlywheel { wanted: fluctuation });
+            }
             return Self::with_energy(cycle, inertia, constant, ("mean_speed", mean));
         }
         let without = Self::for_mean_speed(cycle, 0.0, mean, by)?.fluctuation(by);

@@ -171,13 +171,13 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     pub(crate) fn no_initial_position(&self, q: &[f64]) -> RunError<O::Error> {
         match self.failure() {
             Some(failure) => RunError::NoInitialPosition(failure),
-            None => self.no_inertia(q[0], f64::NAN),
+            None => self.no_inertia(q, f64::NAN, 0),
         }
     }
 
-    /// The error of a reduced inertia that is not positive.
-    pub(crate) fn no_inertia(&self, q: f64, value: f64) -> RunError<O::Error> {
-        RunError::NoInertia { q, value, driver: self.model.driver_name(0) }
+    /// The error of a reduced inertia of a driver that is not positive.
+    pub(crate) fn no_inertia(&self, q: &[f64], value: f64, driver: usize) -> RunError<O::Error> {
+        RunError::NoInertia { q: q.to_vec(), value, driver: self.model.driver_name(driver) }
     }
 
     /// Whether the last rejected position is beside a near miss of a change point.
@@ -262,7 +262,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     pub(crate) fn inertia(&self, q: f64) -> Result<f64, EquationFault<O::Error>> {
         let value = self.reduced.inertia[0];
         // NaN must fail too.
-        if value > 0.0 { Ok(value) } else { Err(Fault::Error(self.no_inertia(q, value))) }
+        if value > 0.0 { Ok(value) } else { Err(Fault::Error(self.no_inertia(&[q], value, 0))) }
     }
 
     /// Accelerations of the drivers.
@@ -279,9 +279,9 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             return Ok(());
         }
         let matrix = DMatrix::from_row_slice(n, n, &self.reduced.inertia);
-        let least = matrix.diagonal().min();
+        let (driver, least) = matrix.diagonal().argmin();
         let Some(factors) = Cholesky::new(matrix) else {
-            return Err(Fault::Error(self.no_inertia(q[0], least.min(0.0))));
+            return Err(Fault::Error(self.no_inertia(q, least.min(0.0), driver)));
         };
         let solved = factors.solve(&DVector::from_fn(n, |driver, _| net(driver)));
         out.copy_from_slice(solved.as_slice());

@@ -3,7 +3,8 @@
 use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
 
-use crate::description::error::Hint;
+use crate::description::error::{Hint, coordinate_text, number};
+use crate::dynamics::tables::error::short;
 use crate::dynamics::tables::table::Table;
 use crate::ode::error::Error as IntegratorError;
 use crate::query::failure::Failure;
@@ -16,21 +17,25 @@ pub enum RunError<E> {
     #[error("{0}")]
     Callback(E),
     /// The reduced inertia is not positive.
-    #[error("the reduced inertia is {value} kg·m² at q = {q}: it must be positive everywhere")]
+    #[error(
+        "the reduced inertia is {} kg·m² at q = {}: it must be positive everywhere",
+        short(*value), coordinate_text(q)
+    )]
     NoInertia {
-        /// Coordinate.
-        q: f64,
+        /// Coordinates.
+        q: Vec<f64>,
         /// Inertia there, kg·m².
         value: f64,
-        /// The driver, of a mechanism.
+        /// The driver that it belongs to, of a mechanism.
         driver: Option<String>,
     },
     /// The mechanism has no valid position at the initial coordinates.
-    #[error("{0}: a run cannot start there (q0)")]
+    #[error("the motion cannot start at q0: {0}")]
     NoInitialPosition(Failure),
     /// Accelerations become infinite or NaN.
     #[error(
-        "the motion is not finite at {along} = {at:e}: a load, a speed or a mass is too great there"
+        "the motion is not finite at {along} = {}: a load, a speed or a mass is too great there, or a damper or spring has length zero",
+        number(*at)
     )]
     NotFinite {
         /// "t" or "q".
@@ -52,7 +57,10 @@ pub enum RunError<E> {
         given: usize,
     },
     /// Too many knots of tables.
-    #[error("the tables have more than {most:e} knots between q = {from} and {to}")]
+    #[error(
+        "the tables have more than {most:e} knots between q = {} and {}, or these are too far from 0 to tell knots apart",
+        number(*from), number(*to)
+    )]
     TooManyKnots {
         /// The limit.
         most: f64,
@@ -62,7 +70,7 @@ pub enum RunError<E> {
         to: f64,
     },
     /// A table does not cover the initial state.
-    #[error("a {what} covers {from} to {to}: {q} is not in it")]
+    #[error("a {what} covers {} to {}: {} is not in it", number(*from), number(*to), number(*q))]
     TableEnds {
         /// The kind of table.
         what: &'static str,
@@ -82,17 +90,23 @@ impl<E: std::fmt::Display> Hint for RunError<E> {
                 "give {driver:?}, or the links that move with it, a Body with a mass or an inertia"
             )),
             Self::NoInitialPosition(failure) => failure.hint(),
+            Self::TableEnds { .. } => Some("extend the table, or start within it".into()),
             _ => None,
         }
     }
 }
 
 impl<E: std::fmt::Display> RunError<E> {
-    /// The error of an integration along "t" or "q".
-    pub(crate) fn of_integrator(error: IntegratorError<Self>, along: &'static str) -> Self {
+    /// The error of an integration along "t" or "q" from a value of it.
+    pub(crate) fn of_integrator(
+        error: IntegratorError<Self>,
+        along: &'static str,
+        from: f64,
+    ) -> Self {
         match error {
             IntegratorError::System(error) => error,
             IntegratorError::NotFinite { t, .. } => Self::NotFinite { along, at: t },
+            IntegratorError::InitialState { .. } => Self::NotFinite { along, at: from },
             other => Self::Options(other.to_string()),
         }
     }

@@ -121,7 +121,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     let start = RunSystem::<S, O>::initial_state(options);
     let solution = integrator
         .run(&mut system, from, &start, to, &ode_options)
-        .map_err(|error| RunError::of_integrator(error, options.along.symbol()))?;
+        .map_err(|error| RunError::of_integrator(error, options.along.symbol(), from))?;
     Ok(assemble_run(system, options, from, solution, clipped))
 }
 

@@ -3,7 +3,7 @@
 use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
 
-use crate::description::error::Hint;
+use crate::description::error::{Hint, rounded};
 use crate::dynamics::flywheel::flywheel::Mean;
 use crate::dynamics::run::error::RunError;
 use crate::dynamics::tables::error::short;
@@ -14,6 +14,13 @@ fn mean_named(mean: Mean) -> &'static str {
     match mean {
         Mean::Extremes => "mean=\"extremes\", half the sum of the extreme speeds",
         Mean::Period => "mean=\"period\", the turn by its time",
+    }
+}
+
+fn dead_point_of(group: Option<&GroupName>) -> String {
+    match group {
+        Some(group) => format!("there is a dead point of {group}"),
+        None => "there is a dead point, or a load stops the machine,".into(),
     }
 }
 
@@ -30,16 +37,20 @@ pub enum SteadyError<E> {
     #[error("no initial speed follows from the motor or loads")]
     NeedsSpeed,
     /// The machine stalls within the period.
-    #[error("the motor cannot carry the load: from {} rad/s or less the machine stalls at q = {} rad", short(*from), short(*q))]
+    #[error("the motor cannot carry the load: even at {} rad/s the machine stalls at q = {}", short(*from), short(*q))]
     Stops { q: f64, from: f64 },
     /// No speed is low enough for the motor to balance the loads.
-    #[error("no periodic motion was found below {} rad/s: the motor's moment never makes up for the loads", short(*from))]
+    #[error("the motor cannot carry the load: no periodic motion was found below {} rad/s, where its moment never makes up for the loads", short(*from))]
     CannotCarry { from: f64 },
-    /// The speed grows from period to period.
-    #[error("the machine runs away: the speed still grows over a period that starts at {} rad/s", short(*speed))]
+    /// The speed grows from period to period, or the work of a period is below the rounding of the
+    /// kinetic energy.
+    #[error(
+        "no periodic motion was found up to {} rad/s: the machine runs away, or it has so much kinetic energy that the work of a period is lost in rounding",
+        short(*speed)
+    )]
     RunsAway { speed: f64 },
     /// Nothing depends on the speed, and motor and loads are not in balance.
-    #[error("nothing depends on the speed, and over a period the motor's mean moment is {} N·m where {} N·m would be in balance: the machine speeds up or stops (without a motor the moment is found)", short(*motor), short(*needed))]
+    #[error("nothing depends on the speed, and over a period the motor's mean moment is {} N·m where {} N·m would be in balance: the machine speeds up or stops", short(*motor), short(*needed))]
     Unbalanced { motor: f64, needed: f64 },
     /// No motion has the mean speed.
     #[error(
@@ -49,21 +60,21 @@ pub enum SteadyError<E> {
     MeanNotReached { speed: f64, mean: Mean },
     /// A perturbation decays too slowly for the tolerance.
     #[error(
-        "the steady speed is poorly determined: a perturbation decays by only {} per period, which this tolerance (rtol) cannot resolve",
-        short(*part)
+        "the steady speed is poorly determined: a perturbation decays by only {} of itself per period, which this tolerance (rtol) cannot resolve",
+        rounded(*part, 2)
     )]
     PoorlyDetermined { part: f64 },
     /// The driver does not turn fully.
     #[error(
-        "there is a dead point{} at q = {}: the driver does not turn fully",
-        group.as_ref().map_or(String::new(), |group| format!(" of {group}")), short(*q)
+        "{} at q = {}: the driver does not turn fully",
+        dead_point_of(group.as_ref()), short(*q)
     )]
     DeadPoint { q: f64, group: Option<GroupName> },
     /// Lengths that nearly, but not quite, agree for a change point.
-    #[error("near q = {} the mechanism nearly has a change point: its lengths miss one by {} m at dyad {dyad:?}, and the motion turns there within less than can be integrated", short(*q), short(*miss))]
+    #[error("dyad {dyad:?} nearly has a change point near q = {}: its lengths miss one by {} m, and the motion turns too sharply there to be integrated", short(*q), rounded(*miss, 2))]
     NearChangePoint { dyad: String, miss: f64, q: f64 },
     /// The motor's table over its speed ends.
-    #[error("the motor's table ends at {} rad/s of the driver, met at q = {}", short(*speed), short(*q))]
+    #[error("the motor's table ends at {} rad/s (speed of the driver), which is reached at q = {}", short(*speed), short(*q))]
     MotorTableEnds { q: f64, speed: f64 },
     /// Two periods differ.
     #[error(
@@ -77,16 +88,16 @@ pub enum SteadyError<E> {
     )]
     InertiaNotPeriodic { q: [f64; 2], inertia: [f64; 2] },
     /// The machine needs no flywheel.
-    #[error("the fluctuation is {} without a flywheel, not more than the {} asked for: none is needed", short(*without), short(*wanted))]
+    #[error("the fluctuation is {} without a flywheel, not more than the {} wanted: none is needed", short(*without), short(*wanted))]
     AlreadyMet { without: f64, wanted: f64 },
     /// No flywheel gives the fluctuation.
     #[error("no flywheel gives a fluctuation of {}", short(*wanted))]
     NoFlywheel { wanted: f64 },
     /// The limit of steps.
-    #[error("max_steps was reached at q = {}: beside change points a tolerance may be too tight (rtol), or the machine is stiff", short(*q))]
+    #[error("max_steps was reached at q = {}", short(*q))]
     TooManySteps { q: f64 },
     /// The limit of time.
-    #[error("the time limit was reached at q = {}", short(*q))]
+    #[error("the time limit was reached at q = {} (max_seconds)", short(*q))]
     Cancelled { q: f64 },
     /// The tolerance cannot be met.
     #[error("the tolerance cannot be met with any step at q = {}", short(*q))]
@@ -101,8 +112,21 @@ impl<E: std::fmt::Display> Hint for SteadyError<E> {
         let hint = match self {
             Self::Run(error) => return error.hint(),
             Self::NeedsSpeed => "pass speed= (the mean speed, or with dampers a first guess)",
+            Self::RunsAway { .. } => {
+                "choose a lower speed, a smaller flywheel or a greater fluctuation"
+            }
+            Self::Unbalanced { .. } => {
+                "build the machine without a motor: the balancing moment is then found"
+            }
             Self::MeanNotReached { .. } => "add flywheel=, or choose another speed",
             Self::NearChangePoint { .. } => "draw the change point exactly, or lengths clear of it",
+            Self::MotorTableEnds { .. } => "extend the table",
+            Self::TooManySteps { .. } => {
+                "raise max_steps, or loosen rtol: beside change points it may be too tight, or the machine is stiff"
+            }
+            Self::Stalled { .. } => {
+                "loosen rtol; where a load jumps, name the coordinate in breaks="
+            }
             Self::InertiaNotPeriodic { .. } => {
                 "a motion through change points may take two turns: turns=2"
             }

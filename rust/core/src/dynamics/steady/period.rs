@@ -185,7 +185,7 @@ pub(crate) fn period<S: ReducedModel, O: Callbacks>(
     let solved = integrator.run(&mut system, from, &y0, from + options.span, &ode_options);
     let (table_ended, depends_on_speed) = (system.table_ended, system.depends_on_speed);
     let Solution { t: q, y, end, .. } = solved.map_err(|error| {
-        SteadyError::Run(RunError::of_integrator(error, Variable::Coordinate.symbol()))
+        SteadyError::Run(RunError::of_integrator(error, Variable::Coordinate.symbol(), from))
     })?;
     match end {
         End::Reached => {}

@@ -116,7 +116,7 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         let massless =
             samples.iter().find(|(_, [inertia, _])| *inertia <= INERTIA_NOISE * greatest);
         if let Some(&([q, _], [value, _])) = massless {
-            return Err(SteadyError::Run(self.equation.no_inertia(q, value)));
+            return Err(SteadyError::Run(self.equation.no_inertia(&[q], value, 0)));
         }
         let different =
             samples.into_iter().find(|(_, [a, b])| (b - a).abs() > PERIODIC_RTOL * a.abs());
@@ -181,16 +181,14 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         };
         self.equation.wants_slopes = false;
         let run = run(self.equation, &run_options, &[1.0]).map_err(SteadyError::Run)?;
+        let end = run.samples.q.last().copied().unwrap_or(q);
         match run.stop_reason {
             StopReason::Reached => {}
             StopReason::TimeLimit | StopReason::Cancelled => {
-                return Err(SteadyError::Cancelled { q });
+                return Err(SteadyError::Cancelled { q: end });
             }
             // The shooting integrated the same period to its end.
-            _ => {
-                let q = run.samples.q.last().copied().unwrap_or(q);
-                return Err(SteadyError::TooManySteps { q });
-            }
+            _ => return Err(SteadyError::TooManySteps { q: end }),
         }
         let change = |list: &[f64]| list.last().zip(list.first()).map_or(f64::NAN, |(b, a)| b - a);
         let stored: Vec<f64> = run.energies.iter().map(|pair| pair[1]).collect();

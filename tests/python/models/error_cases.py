@@ -1,0 +1,42 @@
+"""Every kind of error by its origin: a case, or why no input of Python reaches it."""
+
+from __future__ import annotations
+
+from error_case import FIELDS, Case
+from error_cases_dynamics import RUN, STEADY, TABLE
+from error_cases_kinematics import POSITION, REQUEST, STRUCTURE
+
+__all__ = ["CASES", "FIELDS", "UNREACHABLE", "Case"]
+
+CASES: dict[str, dict[str, Case]] = {
+    "structure": STRUCTURE,
+    "request": REQUEST,
+    "position": POSITION,
+    "run": RUN,
+    "steady state": STEADY,
+    "table": TABLE,
+}
+
+UNREACHABLE: dict[str, dict[str, str]] = {
+    "structure": {"interrupted": "Ctrl-C raises KeyboardInterrupt."},
+    "request": {
+        "interrupted": "Ctrl-C raises KeyboardInterrupt.",
+        "shape": "Python checks shapes first.",
+        "order": "Python checks the order first.",
+    },
+    "position": {
+        "not_converged": "No such position is known: iterations begin beside the solution.",
+        "step_too_long": "Steps of a run are shorter.",
+    },
+    "run": {
+        "callback": "An exception of a function is raised as it is.",
+        "no_initial_position": "The error has the kind of the position.",
+        "wrong_count": "Python checks the numbers of drivers and dimensions first.",
+    },
+    "steady state": {
+        "run": "The error has the kind of the run.",
+        "no_flywheel": "A great flywheel evens every motion, or leaves it `poorly_determined`.",
+        "not_rotary": "Python checks the driver first.",
+    },
+    "table": {"unequal": "Python checks shapes first."},
+}
