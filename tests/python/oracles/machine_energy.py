@@ -207,6 +207,9 @@ class Balance:
             elif isinstance(load, assur.TorsionDamper):
                 what = self.relative(load)
                 yield -load.damping * self.velocity(what), what.rates, True
+            elif not isinstance(load, assur.Gravity | assur.Spring | assur.TorsionSpring):
+                message = f"the oracle does not know the load {load}"
+                raise TypeError(message)
 
     def motors(self) -> list[tuple[int, Any]]:
         motor = self.machine.motor
