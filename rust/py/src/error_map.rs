@@ -126,9 +126,10 @@ pub(crate) fn solve(error: SolveError) -> PyErr {
         E::BadDimension { name, value, .. } => {
             (Class::Dimension, Fields { dimension: Some(name), value: Some(*value), ..none() })
         }
-        E::Redundant { kind, name } => (Class::Input, named(*kind, name)),
         E::CoordinateTooFar { q } => (Class::Input, Fields { q: Some(q), ..none() }),
-        E::Unknown { kind, name, .. } => (Class::Input, named(*kind, name)),
+        E::Redundant { kind, name } | E::Unknown { kind, name, .. } => {
+            (Class::Input, named(*kind, name))
+        }
         E::Order(order) => (Class::Input, Fields { value: Some(*order as f64), ..none() }),
         _ => (Class::Input, none()),
     };

@@ -17,13 +17,11 @@ pub(crate) fn suggest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> O
         return Some(format!("did you mean {}?", similar.join(" or ")));
     }
     let first: Vec<String> = ranked.iter().take(12).map(|(_, k)| format!("{k:?}")).collect();
-    Some(match &first[..] {
-        [only] => format!("there is only {only}"),
-        _ => {
-            let more = if ranked.len() > first.len() { ", …" } else { "" };
-            format!("there are {}{more}", first.join(", "))
-        }
-    })
+    if let [only] = &first[..] {
+        return Some(format!("there is only {only}"));
+    }
+    let more = if ranked.len() > first.len() { ", …" } else { "" };
+    Some(format!("there are {}{more}", first.join(", ")))
 }
 
 /// Advice on a joint given for a link, or a link given for a joint.
