@@ -38,7 +38,9 @@ def _axes(ax: Any) -> Any:
 def mechanism_picture(mechanism: Mechanism, q: float | None, ax: Any) -> Any:
     """See `Mechanism.plot`."""
     if mechanism.shape:
-        message = f"plot draws one mechanism: take one of the designs {mechanism.shape}: design(i)"
+        message = (
+            f"plot draws one mechanism, this is a batch {mechanism.shape}: take one with design(i)"
+        )
         raise InputError(message)
     motion = mechanism.solve(mechanism._q0_array() if q is None else q, order=0)
     if motion.shape:

@@ -137,8 +137,8 @@ def checked(
     """Return the event with checked fields, which the core reads by name."""
     if not isinstance(event, Event):
         message = (
-            f"{short(event)} is no event: Rest, Position, Speed, TransmissionAngle or Crossing of "
-            "assur.events"
+            f"{short(event)} is not an event: Rest, Position, Speed, TransmissionAngle or Crossing "
+            "of assur.events"
         )
         raise InputError(message)
     direction = "either" if isinstance(event, Rest) else _direction(event, event.direction)

@@ -59,10 +59,10 @@ def run(
     checked = [known_events.checked(one, machine.mechanism, n) for one in watched]
     start, speeds = _start(machine, q0, "q0"), _start(machine, speed0, "speed0")
     if along_q and n > 1:
-        message = f"q_end: there are {n} drivers, a run over q is of one"
+        message = f"q_end: a run over q needs a single driver, this mechanism has {n}"
         raise InputError(message)
     if along_q and speeds[0] == 0.0:
-        message = "q_end: a run over q begins with a motion, speed0 is 0"
+        message = "q_end: a run over q needs an initial speed, speed0 is 0"
         raise InputError(message, value=0.0)
     end = real_number(q_end if along_q else t_end, "q_end" if along_q else "t_end")
     if along_q and (end - start[0]) * speeds[0] < 0.0:
@@ -91,7 +91,7 @@ def run(
     if off > max(IMBALANCE_WARN_FLOOR, IMBALANCE_WARN_RTOLS * float(options["rtol"])):
         message = (
             f"the balance of energy is off by {off:.1e} of the greatest energy: beside singular "
-            "positions, or where a function jumps (breaks=), the motion is not known better"
+            "positions, or where a function jumps (breaks=), the motion is no more accurate"
         )
         warnings.warn(message, AssurWarning, stacklevel=3)
     return made
@@ -106,7 +106,7 @@ def steady_state(
     one_of(options["mean"], flywheels.MEANS, "mean")
     guess = None if speed is None else real_number(speed, "speed")
     if guess == 0.0:
-        message = "speed is 0: a periodic motion has none at rest"
+        message = "speed is 0: a periodic motion needs a speed"
         raise InputError(message, value=0.0)
     ratio = 1.0 if machine.motor is None else float(getattr(machine.motor, "ratio", 1.0))
     span = math.copysign(2.0 * math.pi * turn_count(turns), ratio if guess is None else guess)
@@ -117,7 +117,7 @@ def steady_state(
         message = f"flywheel = {flywheel:g} kg·m²: it must be 0 or more"
         raise InputError(message, value=flywheel)
     if relative_tolerance(options["rtol"]) > LOOSEST_RTOL:
-        message = f"rtol is {options['rtol']!r}: a period is found with {LOOSEST_RTOL} or less"
+        message = f"rtol is {options['rtol']!r}: it must be at most {LOOSEST_RTOL}"
         raise InputError(message)
     core, numbers = machine._core.steady(
         _dimensions(machine),

@@ -224,7 +224,7 @@ Load: TypeAlias = Gravity | Force | Torque | Spring | TorsionSpring | Damper | T
 def checked_load(load: Any) -> Load:
     """Return a load."""
     if not isinstance(load, Load):
-        message = f"{short(load)} is no load: Gravity, Force, Torque, Spring, Damper …"
+        message = f"{short(load)} is not a load: Gravity, Force, Torque, Spring, Damper …"
         raise InputError(message)
     return load
 
@@ -245,7 +245,7 @@ def _check_links(load: Any) -> None:
     kind = type(load).__name__
     link, on = _link(load.link, f"{kind} link"), _link(load.on, f"{kind} on")
     if link == on:
-        message = f"{kind}: link and on are both {link!r}: between them nothing turns"
+        message = f"{kind}: link and on are both {link!r}: give two links"
         raise InputError(message, link=link)
 
 

@@ -168,7 +168,7 @@ class MachineModel:
     def design(self, index: Any) -> Self:
         """Return one design of a batch as a single machine."""
         if self.mechanism is None:
-            message = "this machine is a table: there is no batch"
+            message = "this machine is a single table, not a batch"
             raise InputError(message)
         return type(self)(self.mechanism.design(index), self.bodies, self.loads, self.motor)
 

@@ -23,7 +23,9 @@ PERIOD_RTOL = 1e-9
 def one_design(machine: MachineModel, what: str) -> None:
     """Raise InputError for a batch."""
     if machine.shape:
-        message = f"{what} is for one design, this is a batch {machine.shape}: design(i)"
+        message = (
+            f"{what} is for one design, this is a batch {machine.shape}: take one with design(i)"
+        )
         raise InputError(message)
 
 
@@ -32,7 +34,7 @@ def require_rotary_driver(machine: MachineModel, what: str) -> None:
     driver = None if machine.mechanism is None else machine.mechanism.driver
     slides = {} if machine.mechanism is None else machine.mechanism.slides
     if machine._drivers > 1 or (isinstance(driver, str) and driver in slides):
-        message = f"driver {driver!r}: {what} is of one driver that turns"
+        message = f"driver {driver!r}: {what} needs a single driver that turns"
         raise InputError(message)
 
 
@@ -52,10 +54,10 @@ def require_whole_periods(period: float | None, span: float) -> None:
 def as_list(value: Any, name: str) -> list[Any]:
     """Return a sequence as a list."""
     if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
-        message = f"{name} is {short(value)}: a sequence of them is needed"
+        message = f"{name} must be a sequence, got {short(value)}"
         raise InputError(message)
     if getattr(value, "ndim", 1) == 0:
-        message = f"{name} is {short(value)}: a sequence of them is needed"
+        message = f"{name} must be a sequence, got {short(value)}"
         raise InputError(message)
     return list(value)
 

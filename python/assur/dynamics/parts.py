@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def check_types(mechanism: Any, bodies: Any) -> None:
     """Raise InputError for a mechanism or bodies of a wrong type."""
     if not hasattr(mechanism, "q0"):
-        message = f"{short(mechanism)} is no assur.Mechanism"
+        message = f"{short(mechanism)} is not an assur.Mechanism"
         raise InputError(message)
     if not isinstance(bodies, Mapping):
         message = f"bodies is {short(bodies)}: a mapping of links to assur.Body is needed"

@@ -232,7 +232,7 @@ class Run:
         """
         own, other, name = (q, t, "q") if self._along_q else (t, q, "t")
         if own is None or other is not None:
-            message = f"this run goes along {name}: ask for at({name}=...)"
+            message = f"this run goes along {name}: call at({name}=...)"
             raise InputError(message)
         x = self._clip_to_run(real_array(own, name), name)
         arrays = self._core.at(x.ravel().tolist())

@@ -80,7 +80,7 @@ def flywheel(
             needed = np.asarray(made.motor_moment).ravel()[int(np.argmax(off))]
             message = (
                 f"the motor gives the driver {own:g} N·m, the loads take {needed:g} on average: "
-                "the flywheel is that of the latter"
+                "the flywheel is sized for the loads"
             )
             warnings.warn(message, AssurWarning, stacklevel=3)
     return made

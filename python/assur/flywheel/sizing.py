@@ -298,7 +298,7 @@ def warn_if_degrees(span: float, periodic: bool = True) -> None:
     ratio = max(turns, 1.0 / turns) if turns > 0.0 else 1.0
     if abs(ratio - round(ratio)) > WHOLE_TURNS_RTOL * ratio:
         message = (
-            f"phi covers {span:g} rad, {turns:.6g} turns: a period is mostly a number of turns or "
-            "a part of one. Is phi in degrees?"
+            f"phi covers {span:g} rad, {turns:.6g} turns: a period is usually a whole number of "
+            "turns or a part of one. Is phi in degrees?"
         )
         warnings.warn(message, AssurWarning, stacklevel=4)

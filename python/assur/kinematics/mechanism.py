@@ -407,7 +407,8 @@ class Mechanism:
         [Assembly({'C': 1}), Assembly({'C': -1})]
         """
         if self.shape:
-            message = f"assemblies: take one design of the {self.shape} first, with design(i)"
+            batch = f"this is a batch {self.shape}"
+            message = f"assemblies() is for one design, {batch}: take one with design(i)"
             raise InputError(message)
         one = np.atleast_1d(real_array(q, "q"))
         if one.shape != (self._driver_count,):

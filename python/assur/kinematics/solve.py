@@ -99,7 +99,8 @@ def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[i
         return array, shape, False
     if shape[:-1] == designs:
         return array, shape[-1:], True
-    message = f"q has shape {shape}: for designs {designs} a scalar, (N,) or {(*designs, 'N')}"
+    batch = ", ".join(map(str, designs))
+    message = f"q has shape {shape}: for designs {designs} pass a scalar, (N,) or ({batch}, N)"
     raise InputError(message)
 
 

@@ -64,10 +64,10 @@ def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bo
     mechanism._core.require("joint", name)
     meeting = [link for link, on in mechanism.links.items() if name in on]
     if len(meeting) == 1:
-        message = f"joint {name!r} is on link {meeting[0]!r} alone: say between=(joint, joint)"
+        message = f"joint {name!r} is on link {meeting[0]!r} alone: pass between=(joint, joint)"
         raise InputError(message, joint=name, link=meeting[0])
     if len(meeting) != 2:
-        message = f"{len(meeting)} links meet at joint {name!r}: say between=(joint, joint)"
+        message = f"{len(meeting)} links meet at joint {name!r}: pass between=(joint, joint)"
         raise InputError(message, joint=name)
     return [JointLine(name, _other_joint(mechanism, link, name)) for link in meeting], False
 
@@ -109,7 +109,7 @@ def _other_joint(mechanism: Mechanism, link: str, joint: str) -> str:
     if not joined and len(others) == 1:
         return others[0]
     what = "several other joints" if others else "no other joint"
-    message = f"link {link!r} has {what} besides {joint!r}: say between=(joint, joint)"
+    message = f"link {link!r} has {what} besides {joint!r}: pass between=(joint, joint)"
     raise InputError(message, link=link, joint=joint)
 
 
@@ -138,7 +138,7 @@ def _at_slide(mechanism: Mechanism, name: str) -> list[Line]:
         return [JointLine(at, _pivot(mechanism, slide.on)), _guide(mechanism, name)]
     pushing = [k for k, on in mechanism.links.items() if at in on and k != slide.link]
     if len(pushing) != 1:
-        message = f"slide {name!r}: {len(pushing)} links push joint {at!r}: say between="
+        message = f"slide {name!r}: {len(pushing)} links push joint {at!r}: pass between="
         raise InputError(message, slide=name, joint=at)
     return [JointLine(at, _other_joint(mechanism, pushing[0], at)), _guide(mechanism, name)]
 

@@ -265,8 +265,9 @@ def ground_range(
         return np.where(nothing, np.nan, least), np.where(nothing, np.nan, greatest)
     if least > greatest:
         message = (
-            f"no ground is left: with coupler {coupler!r}, rocker {rocker!r}, margin {margin!r} "
-            f"and gamma_min {gamma_min!r} it would be from {least:.6g} to {greatest:.6g}"
+            f"no length of the ground fits: with coupler {coupler!r}, rocker {rocker!r}, "
+            f"margin {margin!r} and gamma_min {gamma_min!r} it would be from {least:.6g} "
+            f"to {greatest:.6g}"
         )
         raise InputError(message)
     return float(least), float(greatest)

@@ -13,9 +13,7 @@ mod metrics;
 mod named;
 mod parallel_map;
 mod run;
-mod run_state;
 mod slider_crank;
-mod stop_reason;
 #[cfg(feature = "test-hooks")]
 mod test_hooks;
 mod trig;

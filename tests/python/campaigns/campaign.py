@@ -63,7 +63,7 @@ class Check(Findings):
             self.fail("refused", str(error))
             return
         self.higher = self.m.structure.cls > 2
-        # Of a group above class II nothing is told beyond a fold.
+        # Of a group above class II nothing is known beyond a fold.
         self.ends = Status.LOST if self.higher else Status.UNREACHABLE
         self.report.counts["mechanisms"] += 1
         self.report.counts[f"class {self.m.structure.cls}"] += 1

@@ -31,7 +31,7 @@ def solver(m: assur.Mechanism) -> Callable[[Array], Sample]:
 
 
 @pytest.mark.parametrize("first", range(0, SEEDS, 25))
-def test_nothing_goes_wrong(first: int) -> None:
+def test_the_sample_has_no_failures(first: int) -> None:
     classes = set()
     for seed in range(first, first + 25):
         case = higher_models.higher_case(seed)
@@ -145,7 +145,7 @@ def test_slides_drive_them_as_well() -> None:
     assert seen > 20
 
 
-def test_a_way_to_infinity_ends_and_says_so() -> None:
+def test_a_branch_to_infinity_ends_with_its_reason() -> None:
     """Guides become parallel: a block runs off as A / (distance to that), with no dead point."""
     m = assur.Mechanism(**arguments(higher_models.higher_case(1313).description))
     motion = m.solve(-1.46, on_error="nan")

@@ -37,7 +37,7 @@ def test_campaign(part: int) -> None:
 
 # Islands between gaps, and guides that pass parallel beside a gap, found in longer scans.
 @pytest.mark.parametrize("seed", [649, 1276, 1636, 5571, 17859, 22685, 66560])
-def test_nothing_jumps_where_it_once_did(seed: int) -> None:
+def test_former_jumps_are_gone(seed: int) -> None:
     assert not campaign.run([("random", seed)]).failures
 
 
@@ -129,7 +129,7 @@ def test_the_same_way_back_is_a_bend() -> None:
     assert found(turned(samples(1)), checks.bends)
 
 
-def test_what_does_not_close_is_false() -> None:
+def test_the_check_finds_loops_that_do_not_close() -> None:
     geometry = Geometry(four_bar())
     motion = samples(0)(GRID)
     assert geometry.misfit(motion)[0].max() < 1.0

@@ -144,7 +144,7 @@ def test_any_link_of_a_four_bar_drives(driver: Any) -> None:
     assert build(driver=driver).structure.mobility == 1
 
 
-def test_links_of_one_joint_and_of_none() -> None:
+def test_links_with_one_joint_or_without_joints() -> None:
     assert build(**oldham(tongue2=slide("disc", "shaft2", 2.0, "O2"))).structure.cls == 2
     trammel = {
         "joints": {"B": (1, 0), "C": (0, 1)},

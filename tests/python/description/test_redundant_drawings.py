@@ -47,7 +47,7 @@ def test_a_locomotive_typed_with_ten_digits_moves_through_its_change_points(digi
 
 
 @pytest.mark.parametrize("digits", [9, 10, 12])
-def test_the_adjustment_is_no_more_than_the_digits_that_were_typed(digits: int) -> None:
+def test_the_adjustment_stays_within_the_typed_digits(digits: int) -> None:
     m = locomotive(digits)
     half_a_unit = 0.5 * 10.0 ** (1 - digits)  # of places from 1 m to 10 m
     assert 0.0 < m.structure.adjustment < half_a_unit

@@ -42,7 +42,7 @@ def test_beside_change_points_analogues_are_known() -> None:
 
 
 @pytest.mark.parametrize("lengths", [(1.0, 2.5, 2.5, 1.0), (1.0, 2.0, 4.0, 3.0)])
-def test_periods_through_change_points_know_tight_tolerances(lengths: Any) -> None:
+def test_periods_through_change_points_meet_tight_tolerances(lengths: Any) -> None:
     bodies = {
         "crank": Body(inertia=0.3),
         "rocker": Body(1.0, 0.4, (0.2, 0.3)),
@@ -115,7 +115,7 @@ def test_motions_through_near_deltoids_come_to_an_end() -> None:
 
 
 def test_nearly_a_parallelogram_ends_at_its_near_change_point() -> None:
-    """Between a change point and a gap of 1e-6 rad nobody knows."""
+    """Within 1e-6 rad a change point and a gap cannot be told apart."""
     nearly = assur.FourBar(1.0 - 3e-14, 3.0, 1.0, 3.0)
     machine = assur.Machine(
         nearly, {"crank": Body(inertia=0.1), "rocker": Body(1.0, 0.2), "coupler": Body(2.0, 0.3)}

@@ -186,7 +186,7 @@ def test_curves_belong_together() -> None:
         assert abs(sign * (line - diagram)).min() < 1.0
 
 
-def test_tables_of_one_period_that_is_no_turn() -> None:
+def test_tables_whose_period_is_not_a_turn() -> None:
     """An engine of four strokes repeats after two turns; beginnings may be anywhere."""
     q = np.linspace(1.0, 1.0 + 2 * TURN, 97)
     f = flywheel.from_table(q, 50 * np.cos((q - 1) / 2), 2 + 0.1 * np.cos(q - 1), 0.02, 100.0)
@@ -236,7 +236,7 @@ def test_a_bad_table_of_a_batch_is_nan_in_its_place() -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "expected"),
     [
         ({"phi": PHI[::-1]}, "row 1 of the table: phi goes from 6.28.* to 5.49"),
         ({"phi": np.ones((9, 2))}, r"phi has the shape \(9, 2\)"),
@@ -261,22 +261,22 @@ def test_a_bad_table_of_a_batch_is_nan_in_its_place() -> None:
         ({"on_error": "warn"}, "on_error is 'warn'"),
     ],
 )
-def test_what_cannot_be_is_refused(change: dict[str, Any], told: str) -> None:
+def test_invalid_arguments_are_refused(change: dict[str, Any], expected: str) -> None:
     arguments: dict[str, Any] = {"phi": PHI, "moment": MOMENT, "inertia": INERTIA}
     arguments |= {"fluctuation": 1 / 8, "mean_speed": 15.0}
-    with pytest.raises(assur.InputError, match=told):
+    with pytest.raises(assur.InputError, match=expected):
         flywheel.from_table(**(arguments | change))
 
 
-def test_what_cannot_be_evaluated_is_refused() -> None:
+def test_evaluate_refuses_invalid_arguments() -> None:
     cases: tuple[tuple[dict[str, Any], str], ...] = (
         ({}, "one of speed0 and mean_speed is needed"),
         ({"speed0": 1.0, "mean_speed": 1.0}, "not both"),
         ({"speed0": 0.0}, "speed0 = 0 rad/s"),
         ({"flywheel": -1.0, "speed0": 15.0}, "flywheel = -1 kg·m²"),
     )
-    for given, told in cases:
-        with pytest.raises(assur.InputError, match=told):
+    for given, expected in cases:
+        with pytest.raises(assur.InputError, match=expected):
             flywheel.evaluate(PHI, MOMENT, INERTIA, **given)
     with pytest.raises(assur.MotionError, match=r"stalls at phi = 2.18.* rad: it lacks 454.1.* J"):
         flywheel.evaluate(PHI, MOMENT, INERTIA, speed0=5.0)
@@ -300,9 +300,9 @@ def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     asked = ["flywheel", str(path), "--mean-speed", "15", "--degrees"]
     picture = tmp_path / "speed.png"
     assert main([*asked, "--fluctuation", "0.125", "--plot", str(picture)]) == 0
-    told = capsys.readouterr().out
-    assert "flywheel      19.9181505 kg·m²" in told
-    assert "motor         184.03476 N·m" in told
+    printed = capsys.readouterr().out
+    assert "flywheel      19.9181505 kg·m²" in printed
+    assert "motor         184.03476 N·m" in printed
     assert picture.stat().st_size > 1000
     assert main([*asked, "--flywheel", "0", "--mean", "period"]) == 0
     assert "mean speed    15 rad/s (period)" in capsys.readouterr().out

@@ -50,7 +50,7 @@ def test_change_points_themselves_and_misses_that_can_be_integrated_are_passed()
         assert run.energy.error < 1e-8
 
 
-def test_lengths_off_the_other_way_are_named_as_well() -> None:
+def test_lengths_off_in_the_other_direction_are_named() -> None:
     """The crank cannot pass, and the dead point is too near the near miss to be integrated to."""
     run = in_line(-1e-10).run(q_end=7.0, q0=1.0, speed0=1.0)
     assert run.end == "near_change_point"

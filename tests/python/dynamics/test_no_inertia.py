@@ -72,7 +72,7 @@ def test_the_inertia_may_be_zero_in_a_part_of_the_turn(spline: Any) -> None:
     np.testing.assert_allclose(gain, 2.0 * made.work(q), rtol=1e-9, atol=1e-6 * ENERGY)
 
 
-def test_without_any_inertia_there_is_no_motion() -> None:
+def test_a_machine_without_inertia_is_refused() -> None:
     wheels: list[Any] = [0.0, [5000.0, 0.0]]
     for wheel in wheels:
         with pytest.raises(InputError, match=r"flywheel of 0 kg·m².*give the machine an inertia"):

@@ -113,7 +113,7 @@ def test_the_order_of_the_grounds_joints_does_not_matter() -> None:
     np.testing.assert_array_equal(one.reduced_moment(Q, 2.0), other.reduced_moment(Q, 2.0))
 
 
-def test_moving_the_drawing_moves_nothing_else() -> None:
+def test_moving_the_drawing_changes_only_positions() -> None:
     shift = (-37.0, 64.0)
     one, other = machine(), machine(shift=shift)
     moments = [own.reduced_moment(Q, 2.0) for own in (one, other)]
@@ -141,7 +141,7 @@ def test_a_force_on_the_ground_does_no_work() -> None:
     np.testing.assert_array_equal(own.reduced_moment(Q), np.zeros(Q.size))
 
 
-def test_a_damper_to_the_ground_takes_what_its_length_changes() -> None:
+def test_a_damper_to_the_ground_dissipates_by_its_rate_of_length() -> None:
     own = assur.Machine(four_bar("DA"), {}, [Damper(("ground", (14.0, 2.0)), "B", 5.0)])
     pin = four_bar().solve(Q).joint("B")
     span = pin.value - [14.0, 2.0]

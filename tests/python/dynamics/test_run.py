@@ -170,15 +170,15 @@ def test_event_times_are_those_of_a_pendulum() -> None:
     watched: list[Any] = [events.Position(math.pi, stop=False), events.Rest(stop=False)]
     run = pendulum().run(60.0, q0=math.pi - 1.0, rtol=1e-12, events=watched)
     own = quarter(1.0)
-    told: dict[Any, list[float]] = {watched[0]: [], watched[1]: []}
+    times: dict[Any, list[float]] = {watched[0]: [], watched[1]: []}
     for one in run.events:
-        told[one.event].append(one.t)
-    odd = own * (2 * np.arange(len(told[watched[0]])) + 1)
-    even = own * 2 * (np.arange(len(told[watched[1]])) + 1)
+        times[one.event].append(one.t)
+    odd = own * (2 * np.arange(len(times[watched[0]])) + 1)
+    even = own * 2 * (np.arange(len(times[watched[1]])) + 1)
     assert len(odd) > 8
     assert len(even) > 8
-    assert np.abs(np.array(told[watched[0]]) - odd).max() < 1e-10
-    assert np.abs(np.array(told[watched[1]]) - even).max() < 1e-10
+    assert np.abs(np.array(times[watched[0]]) - odd).max() < 1e-10
+    assert np.abs(np.array(times[watched[1]]) - even).max() < 1e-10
     # The speed at the bottom is 2 sin(1/2).
     fast = events.Speed(2.0 * math.sin(0.5) * 0.5)
     run = pendulum().run(60.0, q0=math.pi - 1.0, rtol=1e-12, events=[fast])
@@ -274,7 +274,7 @@ def test_dead_point_ends_a_run_as_an_event() -> None:
         assert abs(over.t[-1] - exact) < 1e-9
 
 
-def test_rest_is_no_dead_point() -> None:
+def test_rest_differs_from_a_dead_point() -> None:
     run = pendulum().run(20.0, q0=math.pi - 1.0)
     assert run.end == "reached"
     run = pendulum().run(q_end=7.0, q0=math.pi, speed0=0.5)

@@ -69,7 +69,7 @@ def test_a_run_of_no_length_has_its_one_place() -> None:
     refused(assur.InputError, "t = 1.1 outside", lambda: run.at(1.1))
 
 
-def test_a_periodic_motion_is_known_at_every_coordinate() -> None:
+def test_a_periodic_motion_has_a_value_at_every_coordinate() -> None:
     steady = coasting().steady_state(5.0, mean="period")
     turn = 2.0 * math.pi
     first = float(steady.q[0])

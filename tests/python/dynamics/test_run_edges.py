@@ -33,7 +33,7 @@ def four_bar() -> assur.Mechanism:
     return assur.FourBar(1.0, 3.0, 2.5, 3.2)
 
 
-def test_turning_points_are_no_dead_points() -> None:
+def test_turning_points_differ_from_dead_points() -> None:
     """At two of them the potential is the same: no energy tells them from rest but the geometry."""
     run = wheel(TorsionSpring("crank", 50.0)).run(100.0, q0=1.0, rtol=1e-12)
     assert run.end == "reached"
@@ -109,7 +109,7 @@ def test_two_driven_slides_of_any_size(scale: float) -> None:
     assert np.abs(own.speed / scale - speeds).max() < 1e-11
 
 
-def test_a_narrow_barrier_is_no_way() -> None:
+def test_a_narrow_barrier_is_not_crossed() -> None:
     """Almost at rest beside the top, on the way up: it must turn back."""
     for q0, speed in ((0.01, 1e-8), (0.003, 1e-9), (0.05, 1e-6)):
         run = pendulum().run(q_end=30.0, q0=q0, speed0=speed)
@@ -199,7 +199,7 @@ def test_a_machine_does_not_change() -> None:
         machine.motor = assur.ConstantTorque(1.0)
 
 
-def test_no_way_has_an_acceleration_too() -> None:
+def test_a_run_of_zero_length_has_an_acceleration() -> None:
     machine = wheel(Torque("crank", 3.0))
     assert machine.run(0.0).acceleration == pytest.approx([1.5])
     assert machine.run(q_end=1.0, q0=1.0, speed0=2.0).acceleration == pytest.approx([1.5])
@@ -235,7 +235,7 @@ def test_motions_are_pickled() -> None:
         (lambda: press().flywheel(0.1, math.nan), "mean_speed is nan"),
         (lambda: wheel().run(), "run needs t_end or q_end"),
         (lambda: wheel().run(1.0, q_end=2.0), "run needs t_end or q_end"),
-        (lambda: wheel().run(q_end=2.0), "begins with a motion"),
+        (lambda: wheel().run(q_end=2.0), "needs an initial speed"),
         (lambda: wheel().run(q_end=-2.0, q0=0.0, speed0=1.0), "lies behind q0"),
         (lambda: wheel().run(1.0, breaks=[-np.inf]), "breaks is"),
         (lambda: wheel().run(1.0, rtol=0.0), "rtol is 0.0"),
@@ -244,18 +244,18 @@ def test_motions_are_pickled() -> None:
         (lambda: wheel().run(1.0, max_steps=0), "max_steps is 0"),
         (lambda: wheel().run(1.0, max_seconds=-1.0), "max_seconds is -1"),
         (lambda: wheel().run(1.0, method=ANY), "method is None"),
-        (lambda: wheel().run(1.0, events=ANY), "events is None"),
-        (lambda: wheel().run(1.0, events=[ANY]), "None is no event"),
+        (lambda: wheel().run(1.0, events=ANY), "events must be a sequence"),
+        (lambda: wheel().run(1.0, events=[ANY]), "None is not an event"),
         (lambda: wheel().run(1.0, events=[events.TransmissionAngle("A", 50.0)]), "acute"),
         (lambda: wheel().run(1.0, events=[events.Rest(driver=1)]), "there are 1 drivers"),
         (lambda: wheel().run(1.0, events=[events.Crossing(ANY)]), "a function of"),
         (lambda: wheel().run(1.0, q0=[1.0, 2.0]), "q0 has the shape"),
         (lambda: wheel().run(math.inf), "t_end is inf"),
-        (lambda: assur.Machine(ANY, {}), "None is no assur.Mechanism"),
+        (lambda: assur.Machine(ANY, {}), "None is not an assur.Mechanism"),
         (lambda: assur.Machine(four_bar(), ANY), "bodies is None"),
-        (lambda: assur.Machine(four_bar(), {}, ANY), "loads is None"),
+        (lambda: assur.Machine(four_bar(), {}, ANY), "loads must be a sequence"),
         (lambda: wheel(Torque(ANY, 1.0)), "Torque link is None"),
-        (lambda: wheel(Torque("crank", 1.0, on="crank")), "nothing turns"),
+        (lambda: wheel(Torque("crank", 1.0, on="crank")), "give two links"),
         (lambda: wheel(assur.Spring("A", "A", 1.0, 0.0)), "it has no length"),
         (lambda: assur.Machine.from_table([], [], []), "0 rows"),
         (lambda: wheel(inertia=0.0).run(1.0, speed0=1.0), "must be positive everywhere"),
@@ -279,7 +279,7 @@ def test_refusals(make: Any, said: str) -> None:
         make()
 
 
-def test_a_start_where_nothing_is() -> None:
+def test_a_start_without_a_position_is_refused() -> None:
     swinging = assur.Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), {"crank": Body(inertia=1.0)})
     with pytest.raises(assur.PositionError, match="cannot start at q0: at q = 3, dyad"):
         swinging.run(1.0, q0=3.0)
@@ -308,7 +308,7 @@ def test_tables_and_limits_end_a_run_with_a_warning() -> None:
 
 
 @pytest.mark.parametrize("method", ["DOP853", "RK45"])
-def test_stiff_machines_are_told(method: Any) -> None:
+def test_stiff_machines_are_reported(method: Any) -> None:
     braked = wheel(TorsionDamper("crank", 1e6), Torque("crank", 100.0))
     with pytest.warns(assur.AssurWarning, match="stiff"):
         assert braked.run(1.0, method=method, max_steps=5000).end == "step limit"

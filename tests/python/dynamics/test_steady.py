@@ -169,7 +169,7 @@ def test_a_constant_motor_must_be_in_balance() -> None:
     free = press().steady_state(12.0, mean="period")
     assert abs(free.mean_speed - 12.0) < 1e-10
     assert abs(free.multiplier - 1.0) < 1e-9
-    # Rounded to three digits it is mended.
+    # Rounded to three digits it is balanced.
     rounded = press(assur.ConstantTorque(round(free.found_moment, 1)))
     with pytest.warns(assur.AssurWarning, match=r"0\.0487 N·m more than the motor gives"):
         own = rounded.steady_state(12.0)
@@ -289,7 +289,7 @@ def test_refusals(make: Any, said: str) -> None:
         make()
 
 
-def test_a_stall_is_no_wrong_argument() -> None:
+def test_a_stall_is_a_motion_error() -> None:
     with pytest.raises(assur.MotionError) as caught:
         press(assur.LinearMotor(2.0, 30.0)).steady_state()
     assert (caught.value.kind, caught.value.value) == ("stops", 30.0)

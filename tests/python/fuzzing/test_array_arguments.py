@@ -145,7 +145,7 @@ def test_an_array_is_the_numbers_it_holds(name: str, data: st.DataObject) -> Non
 
 
 @pytest.mark.parametrize("name", list(ENTRIES))
-def test_what_an_entry_takes_is_taken(name: str) -> None:
+def test_entries_accept_valid_arrays(name: str) -> None:
     """Else two refusals would count as agreement."""
     entry = ENTRIES[name]
     assert any(not isinstance(outcome(entry.call, array), type) for array in entry.arrays)
@@ -181,7 +181,7 @@ OPTIONAL = ("Machine.run", "Run.at", "Machine.flywheel", "Machine.steady_state",
 
 
 @pytest.mark.parametrize("name", list(ENTRIES))
-def test_what_holds_no_numbers_is_refused(name: str) -> None:
+def test_arrays_without_numbers_are_refused(name: str) -> None:
     entry = ENTRIES[name]
     for array in entry.arrays:
         for what, value in not_numbers(array).items() if array.size else ():

@@ -109,7 +109,7 @@ NOT_NUMBERS: dict[str, Any] = {
 
 @pytest.mark.parametrize("what", list(NOT_NUMBERS))
 @pytest.mark.parametrize("name", list(ASKS))
-def test_what_is_not_a_number_is_refused(name: str, what: str) -> None:
+def test_non_numbers_are_refused(name: str, what: str) -> None:
     with pytest.raises(assur.InputError):
         ASKS[name](NOT_NUMBERS[what])
 
@@ -168,7 +168,7 @@ TOO_GREAT: dict[str, Callable[[], object]] = {
 
 @pytest.mark.parametrize("name", list(TOO_GREAT))
 @pytest.mark.filterwarnings("error")
-def test_what_overflows_is_refused_by_name(name: str) -> None:
+def test_overflow_is_refused_by_name(name: str) -> None:
     with pytest.raises(assur.InputError, match=f"^{name} is beyond the greatest number"):
         TOO_GREAT[name]()
 

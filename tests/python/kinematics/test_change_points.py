@@ -402,7 +402,7 @@ def above_diagonal(lengths: tuple[float, float, float, float], q: Float) -> Floa
     return np.asarray(np.arctan2(np.sin(angle), np.cos(angle)))
 
 
-def test_a_near_miss_is_no_change_point() -> None:
+def test_a_near_miss_is_not_a_change_point() -> None:
     """Lengths off by 1e-4: the crank turns, the assembly stays, the rocker comes back."""
     lengths = (1.0, 3.0, 1.0 + 1e-4, 3.0)
     q = np.linspace(0, 2 * np.pi, 3601)
@@ -415,7 +415,7 @@ def test_a_near_miss_is_no_change_point() -> None:
     assert rocker[-1] == pytest.approx(rocker[0], abs=1e-13)
 
 
-def test_a_gap_is_no_change_point() -> None:
+def test_a_gap_is_not_a_change_point() -> None:
     """Lengths off the other way: two dead points close together, the same assembly beyond.
 
     At the dead points coupler and rocker are in one line: their sum is the distance from B to D.

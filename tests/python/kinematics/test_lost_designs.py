@@ -40,7 +40,7 @@ def test_a_design_that_is_not_reached_is_lost_and_the_others_are_not(order: int)
     assert caught.value.design == (1,)
 
 
-def test_what_else_asks_for_positions_says_the_same() -> None:
+def test_other_methods_raise_the_same_error() -> None:
     m = with_dyad().with_dimensions(FAR)
     assert np.isnan(m.joints["K"][1]).all()
     assert np.isfinite(m.joints["K"][0]).all()

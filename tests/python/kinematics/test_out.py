@@ -73,7 +73,7 @@ def test_unreachable_positions_are_nan_again() -> None:
         ({"out": "motion"}, "a motion is needed"),
     ],
 )
-def test_what_does_not_fit_is_refused(change: dict[str, Any], sentence: str) -> None:
+def test_motions_that_do_not_fit_are_refused(change: dict[str, Any], sentence: str) -> None:
     motion = batch().solve(Q)
     kept = [a.copy() for a in everything(motion)]
     arguments: dict[str, Any] = {"q": Q, "out": motion} | change

@@ -93,7 +93,7 @@ def test_a_locked_angle_makes_a_group_of_class_three() -> None:
     assert np.abs(motion.joint("B").d1).max() > 0.0
 
 
-def test_a_leg_of_no_length_is_no_position() -> None:
+def test_a_leg_without_length_has_no_position() -> None:
     m = assur.Mechanism(
         joints={"A": (0, 0), "B": (1, 0), "C": (4.1, 3.2), "D": (4.8, 0), "E": (3, 4)},
         links={"ground": "AD", "crank": "AB", "coupler": "BEC", "rocker": "DC"},

@@ -127,7 +127,7 @@ def test_the_frames_first_joint_moves_all() -> None:
         np.testing.assert_allclose(total, [1.0, 0.0], atol=1e-14)
 
 
-def test_scale_is_no_matter() -> None:
+def test_scale_does_not_matter() -> None:
     one = assur.FourBar(1.0, 4.1, 2.5, 4.8).solve(0.5).sensitivity("coupler.length")
     for power in (-400, 400):
         s = 2.0**power
@@ -148,7 +148,7 @@ def test_batches_are_the_designs_by_themselves() -> None:
         np.testing.assert_array_equal(again.link("coupler").d1, found.link("coupler").d1)
 
 
-def test_what_does_not_exist_is_nan_with_its_status() -> None:
+def test_missing_derivatives_are_nan_with_a_status() -> None:
     m = assur.FourBar(1.0, 3.0, 2.5, 6.0)
     motion = m.solve([0.5, math.pi], on_error="nan", order=1)
     found = motion.sensitivity("coupler.length")
@@ -174,7 +174,7 @@ def test_names_are_looked_up() -> None:
     assert "coupler.length" in repr(found)
 
 
-def test_redundant_links_have_none() -> None:
+def test_redundant_links_have_no_sensitivities() -> None:
     d = named_models.parallelogram()
     motion = assur.Mechanism(**arguments(d)).solve(oracle_guess.drawing_q(d)[0])
     with pytest.raises(assur.InputError, match="redundant"):

@@ -1,4 +1,7 @@
-"""Ctrl-C in the midst of a long call: after processor time, not after time on the wall clock."""
+"""Ctrl-C in the midst of a long call: after processor time, not after time on the wall clock.
+
+The process has then done a known part of the work, however busy the machine is.
+"""
 
 from __future__ import annotations
 
@@ -10,30 +13,32 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-# The process has then done this much of the work, however busy the machine is.
-WORKED = 0.1
-# Processor time of the work that is interrupted, s, and the parts of it of which one is timed.
-WHOLE, PARTS = 4.0, 32
+# Processor time of the work that is interrupted, s, and the part of it that is timed at least.
+WHOLE, PART = 2.0, 1 / 8
+# Processor time after which it is interrupted, and in which it is then to be heard, s. A machine
+# that is busy does the same work in half of the time or in twice: half is longer than both.
+WORKED, SOON = 0.3, 0.4
+# A busy machine may keep the thread that listens waiting; what hears nothing is late every time.
+ATTEMPTS = 3
 LARGEST = 1e8
 
 
-def interrupted(call: Callable[[], object]) -> float | None:
-    """Send SIGINT once the call has worked for a while; processor time until it raised, s.
+def interrupted(call: Callable[[], object], worked: float) -> float | None:
+    """Send SIGINT once the call has worked for so long; processor time until it raised, s.
 
-    None if the call ended before.
+    If the call holds the lock the signal cannot be sent before it ends: so late it is then. None if
+    the call ended before it was due.
     """
-    sent: list[float] = []
     ended = threading.Event()
     lock = threading.Lock()
     started = time.process_time()
 
     def ctrl_c() -> None:
-        while time.process_time() - started < WORKED:
+        while time.process_time() - started < worked:
             if ended.wait(0.005):
                 return
         with lock:
             if not ended.is_set():
-                sent.append(time.process_time())
                 signal.raise_signal(signal.SIGINT)
 
     thread = threading.Thread(target=ctrl_c)
@@ -43,26 +48,63 @@ def interrupted(call: Callable[[], object]) -> float | None:
         with lock:
             ended.set()
     except KeyboardInterrupt:
-        return time.process_time() - sent[0]
+        return time.process_time() - started - worked
     finally:
         ended.set()
         thread.join()
     return None
 
 
-def heard_after(make: Callable[[int], Callable[[], object]], size: int) -> float:
-    """Interrupt work of more than `WHOLE`; processor time until it raised, s.
+def is_heard(make: Callable[[int], Callable[[], object]], size: int) -> bool:
+    """Whether Ctrl-C stops work soon: `make` makes work of a size, from `size` on."""
+    return any(heard_after(make, size) < SOON for _ in range(ATTEMPTS))
 
-    A part of the work shows how long the whole would be: what is not heard is heard `WHOLE` late.
+
+def heard_after(make: Callable[[int], Callable[[], object]], size: int) -> float:
+    """Interrupt work of the time `WHOLE`; processor time until it raised, s.
+
+    A part of the work shows how large the whole is. What is not heard is heard at its end.
     """
     while True:
         part = make(size)
+        part()  # the first time memory is new
         started = time.process_time()
         part()
-        if (time.process_time() - started) * PARTS > WHOLE:
+        worked = time.process_time() - started
+        if worked > PART * WHOLE:
             break
         size *= 2
         assert size < LARGEST, "the work does not grow"
-    after = interrupted(make(PARTS * size))
+    after = interrupted(make(round(size * WHOLE / worked)), WORKED)
     assert after is not None, "the work ended before it was interrupted"
     return after
+
+
+def longest_standstill(call: Callable[[], object]) -> tuple[float, float]:
+    """Processor time of a call, s, and the most of it in which another thread did not go on.
+
+    A lock that is held throughout stops the other thread throughout; a busy machine stops all.
+    """
+    longest = 0.0
+    done, ready = threading.Event(), threading.Event()
+
+    def tick() -> None:
+        nonlocal longest
+        last = time.process_time()
+        while not done.is_set():
+            time.sleep(0.001)
+            now = time.process_time()
+            longest, last = max(longest, now - last), now
+            ready.set()
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    try:
+        ready.wait()
+        started = time.process_time()
+        call()
+        worked = time.process_time() - started
+    finally:
+        done.set()
+        thread.join()
+    return worked, longest

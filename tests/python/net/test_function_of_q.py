@@ -142,7 +142,7 @@ def test_pin_in_two_guides_beside_where_they_are_parallel(near: float) -> None:
 
 
 @pytest.mark.parametrize("designs", [7, 8, 9, 100])
-def test_designs_beside_ones_that_are_none(designs: int) -> None:
+def test_designs_beside_invalid_ones(designs: int) -> None:
     rng = np.random.default_rng(designs)
     rocker = np.where(rng.random(designs) < 0.3, -1.0, rng.uniform(1.0, 3.0, designs))
     batch = assur.FourBar(1.0, rng.uniform(2.0, 4.0, designs), rocker, 3.0)

@@ -88,7 +88,7 @@ def test_a_picture_that_cannot_be_drawn_is_one_line_after_the_figures(
     assert (tmp_path / "p.png").stat().st_size > 1000
 
 
-def test_a_table_that_is_no_table_is_one_line_with_its_name(tmp_path: Path) -> None:
+def test_an_invalid_table_gives_one_line_with_its_name(tmp_path: Path) -> None:
     path = tmp_path / "table.csv"
     for text, words in (
         ("", "table.csv: the table has 0 rows"),

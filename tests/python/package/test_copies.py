@@ -148,5 +148,5 @@ def test_a_table_has_its_own_rows_and_they_do_not_change() -> None:
         (lambda: Table(["0", "1"], [1.0, 1.0]), "Table q real numbers"),
     ],
 )
-def test_a_table_refuses_what_a_machine_could_not_use(make: Any, said: str) -> None:
+def test_a_table_refuses_unusable_numbers(make: Any, said: str) -> None:
     refused(assur.InputError, said, make)

@@ -165,7 +165,7 @@ def test_both_assemblies_are_those_of_the_reference() -> None:
 
 
 @pytest.mark.parametrize(("degrees", "rotations", "gap"), EXTRA_ROOTS)
-def test_extra_roots_of_the_paper_are_no_positions_here(
+def test_extra_roots_of_the_paper_are_not_positions(
     degrees: float, rotations: tuple[float, ...], gap: float
 ) -> None:
     phi = math.radians(degrees)
@@ -215,7 +215,7 @@ def test_determinants_differ_by_the_rockers() -> None:
         assert math.isclose(abs(of_paper), abs(4 * cross * of_closures), rel_tol=1e-11)
 
 
-def test_parallel_rockers_are_nothing_special() -> None:
+def test_parallel_rockers_need_no_special_case() -> None:
     """Pivot 10 moved: the rockers are parallel at φ = 0, where the paper's equations fail."""
     ten = (4.46, 2.582)
     paper, zero = Paper(0.0, complex(*ten)), np.zeros(4)
@@ -272,7 +272,7 @@ def test_numbers_must_be_finite() -> None:
         assur.ClassIV(joints={name: place for name, place in JOINTS.items() if name != "8"})
 
 
-def test_links_that_cannot_meet_are_told() -> None:
+def test_links_that_cannot_meet_are_named() -> None:
     words = in_papers_words()
     words["lengths"]["5-9"] = 9.0
     with pytest.raises(assur.InputError, match="no assembly is reached"):

@@ -217,7 +217,7 @@ def test_zone_of_figure_3() -> None:
     assert abs(greatest - 4.97753284) < 6e-9
     inside = [least < ground < greatest for ground in GROUNDS]
     assert inside == [True] * 4 + [False]
-    with pytest.raises(assur.InputError, match="no ground is left"):
+    with pytest.raises(assur.InputError, match="no length of the ground fits"):
         cr.ground_range(4.0, 1.02)
 
 
@@ -307,7 +307,7 @@ def test_designs_at_once() -> None:
     assert np.isnan(angles[1])
 
 
-def test_what_does_not_reach_is_nan() -> None:
+def test_lengths_that_do_not_reach_are_nan() -> None:
     found = cr.solve([0.0, math.pi], 1, 2.0, 1.5, 3.0)
     assert np.isnan(found.S[0])
     assert np.isfinite(found.gamma[1])

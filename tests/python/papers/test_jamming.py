@@ -98,7 +98,7 @@ def test_backwards_and_many_turns() -> None:
     )
 
 
-def test_nothing_happens_where_nothing_jams() -> None:
+def test_no_events_without_jamming() -> None:
     run = cr.run(*LENGTHS, 4.8, gamma_min=0.2, turns=2)
     check_geometry(run)
     assert not run.events

@@ -207,7 +207,7 @@ def test_errata_of_the_vector_paper() -> None:
     assert abs(printed + 68.810417) < 6e-7
     right = -(l1 * w**2 * math.cos(phi - f2) + l2 * w2**2) / math.cos(f2)
     assert math.isclose(right, float(x.acceleration(w)), rel_tol=1e-14)
-    # (5) with the sign mended is (7), (23), (25).
+    # (5) with the sign corrected is (7), (23), (25).
     delta, rate = -f2, -w2
     speed = l1 * (w * math.sin(phi) + (l2 / l1) * math.sin(delta) * rate)
     assert math.isclose(speed, float(sc.stroke(phi, l1, l2).velocity(w)), rel_tol=1e-14)

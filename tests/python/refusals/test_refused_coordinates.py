@@ -17,7 +17,7 @@ nan, inf = math.nan, math.inf
 
 
 @pytest.mark.parametrize("q", [nan, inf, -inf])
-def test_a_coordinate_that_is_no_number(q: float) -> None:
+def test_non_finite_coordinates_are_refused(q: float) -> None:
     refused(assur.InputError, "q finite", lambda: M.solve([1.0, q]), q=q)
     assert M.solve([1.0, q], on_error="nan").status.tolist() == [Status.OK, Status.BAD_INPUT]
     refused(assur.InputError, "q finite", lambda: M.assemblies(q), value=q)
@@ -33,7 +33,7 @@ def test_a_coordinate_that_is_no_number(q: float) -> None:
         ),
     ],
 )
-def test_q_that_is_no_array(q: Any, words: str) -> None:
+def test_q_that_is_not_an_array(q: Any, words: str) -> None:
     refused(assur.InputError, words, lambda: M.solve(q))
 
 

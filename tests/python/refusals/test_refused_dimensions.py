@@ -19,7 +19,7 @@ nan, inf = math.nan, math.inf
 
 
 @pytest.mark.parametrize("value", [0, -0.0, -1, nan, inf, -inf])
-def test_a_length_that_is_none(value: float) -> None:
+def test_invalid_lengths_are_refused(value: float) -> None:
     def ask() -> object:
         return M.with_dimensions({"coupler.length": value})
 
@@ -55,7 +55,7 @@ def test_unknown_dimensions_name_the_nearest() -> None:
         *((value, "number array of numbers") for value in ([[1, 2], [3]], 10**400)),
     ],
 )
-def test_values_that_are_no_numbers(value: Any, words: str) -> None:
+def test_non_numeric_dimensions_are_refused(value: Any, words: str) -> None:
     refused(
         assur.InputError,
         f"coupler.length {words}",

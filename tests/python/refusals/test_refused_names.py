@@ -50,7 +50,7 @@ NAMES: dict[str, Callable[[Any], object]] = {
 
 @pytest.mark.parametrize("name", list(NAMES))
 @pytest.mark.parametrize("wrong", [HALF, 7, ("A", "B"), b"A"], ids=["half", "7", "pair", "bytes"])
-def test_what_is_not_a_name_is_refused(name: str, wrong: Any) -> None:
+def test_non_names_are_refused(name: str, wrong: Any) -> None:
     with pytest.raises(assur.AssurError) as caught:
         NAMES[name](wrong)
     # The message itself can be printed.

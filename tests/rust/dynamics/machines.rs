@@ -48,7 +48,7 @@ fn search(span: f64, speed: Option<f64>) -> SteadyOptions<'static> {
 }
 
 #[test]
-fn what_does_not_fit_is_named() {
+fn options_that_do_not_fit_are_named() {
     let table = |values: [f64; 2]| Table::new(&[0.0, TAU], &values, EndCondition::Linear, true);
     let tabulated =
         TabulatedMachine { tables: vec![table([1.0; 2]).expect("a table")], motors: Vec::new() };

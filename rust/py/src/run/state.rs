@@ -5,8 +5,8 @@ use assur::ode::Statistics;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 
+use super::stop_reason::StopReasonState;
 use crate::error;
-use crate::stop_reason::StopReasonState;
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 

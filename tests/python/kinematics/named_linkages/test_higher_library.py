@@ -75,7 +75,7 @@ def test_agrees_with_the_oracle(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", HIGHER)
-def test_bits_depend_on_nothing_else(name: str) -> None:
+def test_bits_depend_on_dimensions_assembly_and_q_alone(name: str) -> None:
     """Neighbours in a batch, blocks of positions, threads, order, other positions asked for."""
     m, rng = HIGHER[name](), np.random.default_rng(1)
     free = [n for n in m.dimensions if n.endswith(".length")]
@@ -160,7 +160,7 @@ def test_past_a_dead_point_by_another_driver_and_back() -> None:
     np.testing.assert_allclose(again.joint("D").value[-1], m.joints["D"], atol=1e-10)
 
 
-def test_a_ring_of_ternary_links_alone_is_no_class_v() -> None:
+def test_a_ring_of_ternary_links_is_not_class_v() -> None:
     """Five links in a ring, each pinned to the frame: the counts forbid it."""
     joints = {"O": (0, 0), "A": (0.3, 0.2), "p": (1, 2), "r": (2.5, 2.4), "s": (3.4, 1.3)}
     joints |= {"t": (2.6, 0.1), "u": (1.1, 0.3), "B": (1.6, 3.1), "C": (3.9, 2.4)}

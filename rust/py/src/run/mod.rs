@@ -1,5 +1,8 @@
 //! Runs of machines for Python: calls functions, returns arrays.
 
+mod state;
+mod stop_reason;
+
 use std::time::{Duration, Instant};
 
 use assur::dynamics::{Callbacks, EventRecord, Sample, Samples, StopReason};
@@ -7,9 +10,9 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyTuple, PyType};
 
+use self::state::RunState;
 use crate::detach::{self, catch_panic};
 use crate::error;
-use crate::run_state::{self, RunState};
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 /// Index of the event, time, coordinates, speeds.
@@ -137,7 +140,7 @@ impl Run {
     /// The run of a state, which `__reduce__` gives.
     #[new]
     fn from_state(state: &Bound<'_, PyAny>) -> PyResult<Self> {
-        catch_panic(|| run_state::run(state).map(Self))
+        catch_panic(|| state::run(state).map(Self))
     }
 
     /// At the ends of steps: time, coordinates, speeds, accelerations, work, kinetic and potential
@@ -174,7 +177,7 @@ impl Run {
 
     /// The run's type and its state.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyType>, (RunState<'py>,))> {
-        catch_panic(|| Ok((py.get_type::<Self>(), (run_state::state(py, &self.0),))))
+        catch_panic(|| Ok((py.get_type::<Self>(), (state::state(py, &self.0),))))
     }
 
     /// Events of the run.
