@@ -32,6 +32,7 @@ __all__ = [
     "crank_rocker_solve",
     "crank_rocker_turns",
     "curvature",
+    "error_kinds",
     "four_bar_drawing",
     "instant_centre",
     "panic_in_chunk",
