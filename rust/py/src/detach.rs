@@ -19,6 +19,8 @@ const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
 const ITEMS_PER_CHECK: usize = 256;
 /// Length from which a list takes long enough to check for signals.
 const LONG_LIST: usize = 16_384;
+/// The same for items that take some tenth of a millisecond each.
+const LONG_LIST_OF_SLOW_ITEMS: usize = 512;
 
 /// Source location of the last panic.
 static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
@@ -67,7 +69,25 @@ pub(crate) fn map<T: Send>(
     count: usize,
     one: impl Fn(usize) -> T + Sync,
 ) -> PyResult<Vec<T>> {
-    run(py, count < LONG_LIST, |cancel| {
+    map_list(py, count, LONG_LIST, one)
+}
+
+/// [`map`] for items that take some tenth of a millisecond each.
+pub(crate) fn map_slow<T: Send>(
+    py: Python<'_>,
+    count: usize,
+    one: impl Fn(usize) -> T + Sync,
+) -> PyResult<Vec<T>> {
+    map_list(py, count, LONG_LIST_OF_SLOW_ITEMS, one)
+}
+
+fn map_list<T: Send>(
+    py: Python<'_>,
+    count: usize,
+    long: usize,
+    one: impl Fn(usize) -> T + Sync,
+) -> PyResult<Vec<T>> {
+    run(py, count < long, |cancel| {
         let mut results = Vec::with_capacity(count);
         for index in 0..count {
             if index.is_multiple_of(ITEMS_PER_CHECK) && cancel.load(Ordering::Relaxed) {

@@ -183,7 +183,7 @@ pub(crate) fn slider_crank_deviation<'py>(
 ) -> PyResult<(Array<'py>, Array<'py>, Array<'py>, Array<'py>)> {
     let quantity = [Quantity::Stroke, Quantity::First, Quantity::Second][order.min(2)];
     let lambda = lambda_.as_slice()?.to_vec();
-    let found = detach::map(py, lambda.len(), |i| core::deviation(lambda[i], n, quantity))?;
+    let found = detach::map_slow(py, lambda.len(), |i| core::deviation(lambda[i], n, quantity))?;
     let relative = |of: fn(&core::Greatest) -> f64| {
         let one = |d: &core::Deviation| d.relative.as_ref().map_or(f64::NAN, of);
         PyArray1::from_vec(py, found.iter().map(one).collect())
