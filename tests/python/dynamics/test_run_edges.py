@@ -34,7 +34,7 @@ def four_bar() -> assur.Mechanism:
 
 
 def test_turning_points_differ_from_dead_points() -> None:
-    """At two of them the potential is the same: no energy tells them from rest but the geometry."""
+    """At two of them the potential is the same: only the geometry distinguishes them from rest."""
     run = wheel(TorsionSpring("crank", 50.0)).run(100.0, q0=1.0, rtol=1e-12)
     assert run.end == "reached"
     assert abs(run.q[-1] - math.cos(500.0)) < 1e-8

@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyTuple, PyType};
 
 use self::state::RunState;
+use self::stop_reason::StopReasonState;
 use crate::detach::{self, catch_panic};
 use crate::error;
 
@@ -199,22 +200,8 @@ impl Run {
 
     /// End of the run: kind, index of the event, table or motor, reason.
     #[getter]
-    fn ending(&self) -> (&'static str, usize, String) {
-        let plain = |kind| (kind, 0, String::new());
-        match &self.0.stop_reason {
-            StopReason::Reached => plain("reached"),
-            StopReason::Event(which) => ("event", *which, String::new()),
-            StopReason::Rest => plain("rest"),
-            StopReason::DeadPoint => plain("dead point"),
-            StopReason::Lost(why) => ("lost", 0, why.clone()),
-            StopReason::NearChangePoint { .. } => plain("near_change_point"),
-            StopReason::TableEnds(which) => ("table ends", *which, String::new()),
-            StopReason::MotorTableEnds(which) => ("motor table ends", *which, String::new()),
-            StopReason::StepLimit(stiff) => ("step limit", usize::from(*stiff), String::new()),
-            StopReason::TimeLimit => plain("time limit"),
-            StopReason::Cancelled => plain("cancelled"),
-            _ => plain("stalled"),
-        }
+    fn ending(&self) -> (String, usize, String) {
+        StopReasonState::from(self.0.stop_reason.clone()).described()
     }
 
     /// Statistics of the integration.

@@ -39,6 +39,11 @@ impl From<StopReason> for StopReasonState {
 }
 
 impl StopReasonState {
+    /// Kind, index, and name or text.
+    pub(crate) fn described(self) -> (String, usize, String) {
+        (self.kind, self.index, self.name)
+    }
+
     /// The reason. Raises `InputError` for an unknown kind.
     pub(crate) fn reason(self) -> PyResult<StopReason> {
         let Self { kind, index, name, numbers } = self;
