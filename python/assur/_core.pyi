@@ -7,6 +7,7 @@ from typing_extensions import Self
 
 from assur.description.words import Drive, Slide
 from assur.dynamics.loads import Body, Load
+from assur.dynamics.machine import Method
 from assur.dynamics.motors import Motor
 from assur.dynamics.values import Function
 from assur.events import AngleLimit, Crossing, Position, Rest, Speed
@@ -205,7 +206,7 @@ class Machine:
         along_q: bool,
         start: tuple[float, list[float], list[float]],
         end: float,
-        low_order: bool,
+        method: Method,
         tolerances: tuple[float, list[float] | None],
         limits: tuple[float, int, float | None],
         breaks: list[float],
@@ -218,7 +219,7 @@ class Machine:
         span: float,
         speed: float | None,
         mean: Mean,
-        low_order: bool,
+        method: Method,
         relative: float,
         limits: tuple[int, float | None],
         breaks: list[float],

@@ -13,7 +13,6 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from assur.dynamics.model import MachineModel
 
-METHODS = ("DOP853", "RK45")
 # Below it, errors drown in rounding (`assur::ode`).
 MIN_RTOL = 2.3e-15
 # Tables end with typed numbers: their period may differ by this fraction.
@@ -78,14 +77,6 @@ def relative_tolerance(rtol: Any) -> float:
         message = f"rtol is {short(rtol)}: it must be from {MIN_RTOL} to below 1"
         raise InputError(message, value=number)
     return number
-
-
-def is_low_order(method: Any) -> bool:
-    """Whether the method is RK45, that of lower order."""
-    if not isinstance(method, str) or method not in METHODS:
-        message = f"method is {short(method)}: one of {', '.join(map(repr, METHODS))}"
-        raise InputError(message)
-    return bool(method == "RK45")
 
 
 def tolerance_pair(atol: Any) -> list[float] | None:

@@ -109,7 +109,7 @@ def _check_rows(q: Float, value: Float, least: int) -> None:
     if back.size:
         row = int(back[0]) + 1
         message = (
-            f"Table: q[{row}] = {q[row]!s} does not grow beyond {q[row - 1]!s} before it: "
+            f"Table: q[{row}] = {q[row]!s} is not above q[{row - 1}] = {q[row - 1]!s}: "
             "coordinates must ascend without repeats"
         )
         raise InputError(message, value=float(q[row]))

@@ -76,7 +76,7 @@ def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
     what = ("shape", "order", "number of drivers", "joints", "links", "slides")
     for of, one, other in zip(what, given, needed, strict=True):
         if one != other:
-            message = f"out: its {of} is {one}, this call needs {other}"
+            message = f"out has {of} {one}, this call needs {other}"
             raise InputError(message)
     if held.buffers is None:
         message = "out: a copy cannot be overwritten, only a motion as solve returned it"

@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use crate::error;
 
 /// Time between two checks for signals.
-const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
+pub(crate) const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
 /// Items between two checks whether the work is cancelled.
 const ITEMS_PER_CHECK: usize = 256;
 /// Length from which a list takes long enough to check for signals.

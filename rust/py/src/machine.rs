@@ -196,7 +196,7 @@ impl Machine {
         along_q: bool,
         start: (f64, Vec<f64>, Vec<f64>),
         end: f64,
-        low_order: bool,
+        method: Word<Method>,
         tolerances: (f64, Option<[f64; 2]>),
         limits: (f64, u64, Option<f64>),
         breaks: Vec<f64>,
@@ -219,7 +219,7 @@ impl Machine {
             q: &q,
             speed: &speed,
             end,
-            method: method(low_order),
+            method: method.0,
             relative: tolerances.0,
             absolute: tolerances.1,
             max_step,
@@ -251,7 +251,7 @@ impl Machine {
         span: f64,
         speed: Option<f64>,
         mean: Word<Mean>,
-        low_order: bool,
+        method: Word<Method>,
         relative: f64,
         limits: (u64, Option<f64>),
         breaks: Vec<f64>,
@@ -264,7 +264,7 @@ impl Machine {
             span,
             speed,
             mean,
-            method: method(low_order),
+            method: method.0,
             relative,
             max_steps: limits.0,
             deadline: deadline(limits.1),
@@ -314,10 +314,6 @@ impl Machine {
         })?;
         callbacks.signal.map_or(Ok(result), Err)
     }
-}
-
-fn method(low_order: bool) -> Method {
-    if low_order { Method::DormandPrince54 } else { Method::DormandPrince853 }
 }
 
 fn deadline(seconds: Option<f64>) -> Option<Instant> {

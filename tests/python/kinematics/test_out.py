@@ -66,10 +66,10 @@ def test_unreachable_positions_are_nan_again() -> None:
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"q": Q[:-1]}, r"shape is \(40, 50\), this call needs \(40, 49\)"),
-        ({"order": 1}, "order is 2, this call needs 1"),
-        ({"outputs": ["C", "rocker"]}, r"joints is \['A', 'B', 'C', 'D'\]"),
-        ({"outputs": ["A", "B", "C", "D", "coupler", "rocker"]}, "links is"),
+        ({"q": Q[:-1]}, r"shape \(40, 50\), this call needs \(40, 49\)"),
+        ({"order": 1}, "order 2, this call needs 1"),
+        ({"outputs": ["C", "rocker"]}, r"joints \['A', 'B', 'C', 'D'\]"),
+        ({"outputs": ["A", "B", "C", "D", "coupler", "rocker"]}, "out has links"),
         ({"out": "motion"}, "a motion is needed"),
     ],
 )

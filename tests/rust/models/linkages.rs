@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use assur::Description;
+use assur::{ClassIv, Description};
 
 /// Links written as one-letter joints: `("coupler", "BCP")`.
 fn bars(joints: &[(&str, [f64; 2])], links: &[(&str, &str)]) -> Description {
@@ -84,26 +84,18 @@ pub fn jansen() -> Description {
 
 /// Class IV mechanism of P4 with the dimensions of `class_iv_reference.json`.
 pub fn class_iv() -> Description {
-    Description::new()
-        .joint("1", [0.0, 0.0])
-        .joint("2", [0.35, 0.0])
-        .joint("3", [1.24, 0.99])
-        .joint("4", [0.75, 1.91])
-        .joint("5", [3.02, -0.73])
-        .joint("6", [2.45, 1.02])
-        .joint("7", [3.2, 2.24])
-        .joint("8", [1.85, 2.35])
-        .joint("9", [1.62, -1.11])
-        .joint("10", [4.28, 1.52])
-        .link("ground", ["1", "9", "10"])
-        .link("crank", ["1", "2"])
-        .link("l234", ["2", "3", "4"])
-        .link("l365", ["3", "6", "5"])
-        .link("l48", ["4", "8"])
-        .link("l876", ["8", "7", "6"])
-        .link("l95", ["9", "5"])
-        .link("l107", ["10", "7"])
-        .driver("crank")
+    ClassIv::description([
+        [0.0, 0.0],
+        [0.35, 0.0],
+        [1.24, 0.99],
+        [0.75, 1.91],
+        [3.02, -0.73],
+        [2.45, 1.02],
+        [3.2, 2.24],
+        [1.85, 2.35],
+        [1.62, -1.11],
+        [4.28, 1.52],
+    ])
 }
 
 /// A platform on three legs, one of them on a crank: a class III triad.
@@ -159,19 +151,6 @@ pub fn third_bar() -> Description {
         &[("ground", "ADE"), ("crank", "AB"), ("rod", "BCF"), ("second", "DC"), ("third", "EF")],
     )
     .driver("crank")
-}
-
-pub fn slider_crank() -> Description {
-    Description::new()
-        .joint("O", [0.0, 0.0])
-        .joint("A", [0.03, 0.04])
-        .joint("B", [0.2, 0.0])
-        .link("ground", ["O"])
-        .link("crank", ["O", "A"])
-        .link("rod", ["A", "B"])
-        .link("piston", ["B"])
-        .slide("bore", "piston", "ground", 0.0, Some("O"))
-        .driver("crank")
 }
 
 /// Quick return: a block on a swinging arm, then a ram.

@@ -35,7 +35,6 @@ const RPP: (usize, usize, Option<&str>) = (2, 2, Some("RPP"));
 #[test]
 fn four_bars() {
     assert_structure(&l::crank_rocker(), "I(crank) → II(coupler, rocker)", &[RRR]);
-    assert_structure(&l::slider_crank(), "I(crank) → II(rod, piston)", &[RRP]);
     assert_structure(&SliderCrank::description(), "I(crank) → II(rod, piston)", &[RRP]);
     assert_structure(&l::five_bar(&["left", "right"]), "I(left, right) → II(l2, l3)", &[RRR]);
 }

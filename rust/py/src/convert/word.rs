@@ -2,7 +2,7 @@
 
 use assur::Named;
 use assur::dynamics::{EndCondition, Mean};
-use assur::ode::Crossing;
+use assur::ode::{Crossing, Method};
 use pyo3::Borrowed;
 use pyo3::prelude::*;
 
@@ -54,6 +54,12 @@ impl Words for Crossing {
     const WHAT: &'static str = "direction";
     const KNOWN: &'static [(&'static str, Self)] =
         &[("either", Self::Either), ("rising", Self::Rising), ("falling", Self::Falling)];
+}
+
+impl Words for Method {
+    const WHAT: &'static str = "method";
+    const KNOWN: &'static [(&'static str, Self)] =
+        &[("DOP853", Self::DormandPrince853), ("RK45", Self::DormandPrince54)];
 }
 
 /// The parts of a mechanism that outputs name.

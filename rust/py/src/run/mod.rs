@@ -3,7 +3,7 @@
 mod state;
 mod stop_reason;
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use assur::dynamics::{Callbacks, EventRecord, Sample, Samples, StopReason};
 use numpy::PyArray1;
@@ -12,15 +12,12 @@ use pyo3::types::{PyDict, PyFloat, PyTuple, PyType};
 
 use self::state::RunState;
 use self::stop_reason::StopReasonState;
-use crate::detach::{self, catch_panic};
+use crate::detach::{self, SIGNAL_INTERVAL, catch_panic};
 use crate::error;
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 /// Index of the event, time, coordinates, speeds.
 type EventFields = (usize, f64, Vec<f64>, Vec<f64>);
-
-/// Time between two checks for signals.
-const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Python functions of (t, q, speed), and checks for signals.
 pub(crate) struct PythonCallbacks {
