@@ -261,7 +261,7 @@ def pushed(t: float, q: float, speed: float) -> Any:
         (lambda m: Machine(m, {}, [Torque("rocker", np.inf)]), "inf: a finite number is needed"),
         (lambda m: Machine(m, {}, [Gravity(ANY)]), "two finite numbers"),
         (lambda m: Machine(m, {}, [Torque("rocker", Table([0, 1], [1, 2]))]), "not periodic"),
-        (lambda m: Machine(m, {}, [Torque("rocker", Table([1, 0], [1, 1]))]), "does not grow"),
+        (lambda m: Machine(m, {}, [Torque("rocker", Table([1, 0], [1, 1]))]), "is not above"),
         (
             lambda m: Machine(m.with_dimensions({"crank.length": [1.0, 1.1]}), {}).run(1.0),
             r"run is for one design, this is a batch \(2,\)",
@@ -274,7 +274,7 @@ def pushed(t: float, q: float, speed: float) -> Any:
             "rotor_inertia is -2, it must not be negative",
         ),
         (lambda m: Machine(m, {}, (), assur.InductionMotor(1.0, 0.0, 9.0)), "slip is 0"),
-        (lambda m: Machine(m, {}, (), assur.Table([2, 1], [1, 0])), "does not grow"),
+        (lambda m: Machine(m, {}, (), assur.Table([2, 1], [1, 0])), "is not above"),
         (lambda _: Machine(five_bar(), {}, (), assur.ConstantTorque(1.0)), "2 drivers need"),
         (lambda m: Machine(m, {}).reduced_moment([0, 1], [1, 2, 3]), "they do not fit"),
         (lambda m: Machine(m, {}).reduced_moment(0, on_error=ANY), "on_error is 3"),
