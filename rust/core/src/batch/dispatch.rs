@@ -2,40 +2,72 @@
 
 use super::worker::{Job, Worker};
 use crate::math::simd::Simd;
-use crate::state::kernel::baseline::Baseline;
+use crate::state::kernel::Level;
+use crate::state::kernel::portable::Portable;
 
-/// Solves a job at the requested SIMD level, or at the best one the processor has.
-pub(crate) fn run(simd: Simd, worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
+/// Positions solved at once: as many as fit the first-level cache.
+pub(crate) const BLOCK: usize = 32;
+
+/// Work that is compiled for each level.
+pub(crate) trait ForLevel {
+    type Output;
+    /// Does it with blocks of `G` registers, that is of [`BLOCK`] positions.
+    fn run<L: Entry, const G: usize>(self) -> Self::Output;
+}
+
+/// A level with the worker's compiled copy.
+pub(crate) trait Entry: Level {
+    /// See [`Worker::run`].
+    fn run<const G: usize>(worker: &mut Worker<'_, Self::Register, G>, job: &mut Job<'_, '_>);
+}
+
+/// Does the work at the requested SIMD level, or at the best one the processor has.
+pub(crate) fn at_level<W: ForLevel>(simd: Simd, work: W) -> W::Output {
     match simd.min(Simd::best()) {
         #[cfg(target_arch = "x86_64")]
-        Simd::Avx2 => avx2(worker, job),
+        Simd::Baseline => work.run::<crate::state::kernel::baseline::Baseline, { BLOCK / 4 }>(),
         #[cfg(target_arch = "x86_64")]
-        Simd::Avx512 => avx512(worker, job),
-        _ => baseline(worker, job),
+        Simd::Avx2 => work.run::<crate::state::kernel::avx2::Avx2, { BLOCK / 8 }>(),
+        #[cfg(target_arch = "x86_64")]
+        Simd::Avx512 => work.run::<crate::state::kernel::avx512::Avx512, { BLOCK / 8 }>(),
+        _ => work.run::<Portable, { BLOCK / crate::math::lanes::LANES }>(),
     }
 }
 
-#[inline(never)]
-fn baseline(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
-    worker.run::<Baseline>(job);
+impl Entry for Portable {
+    #[inline(never)]
+    fn run<const G: usize>(worker: &mut Worker<'_, Self::Register, G>, job: &mut Job<'_, '_>) {
+        worker.run::<Self>(job);
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
 macro_rules! entry {
-    ($name:ident, $level:ident, $features:literal) => {
-        #[inline(always)]
-        #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
-        fn $name(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
-            #[target_feature(enable = $features)]
-            fn with(worker: &mut Worker<'_>, job: &mut Job<'_, '_>) {
-                worker.run::<crate::state::kernel::$name::$level>(job);
+    ($module:ident, $level:ident, $features:literal) => {
+        impl Entry for crate::state::kernel::$module::$level {
+            #[inline(always)]
+            #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+            fn run<const G: usize>(
+                worker: &mut Worker<'_, Self::Register, G>,
+                job: &mut Job<'_, '_>,
+            ) {
+                use crate::state::kernel::$module::$level;
+                #[target_feature(enable = $features)]
+                fn with<const G: usize>(
+                    worker: &mut Worker<'_, <$level as Level>::Register, G>,
+                    job: &mut Job<'_, '_>,
+                ) {
+                    worker.run::<$level>(job);
+                }
+                // SAFETY: `at_level` chooses this only if `Simd::best` found these instructions.
+                unsafe { with(worker, job) }
             }
-            // SAFETY: `run` calls this only if `Simd::best` found these instructions.
-            unsafe { with(worker, job) }
         }
     };
 }
 
+#[cfg(target_arch = "x86_64")]
+entry!(baseline, Baseline, "sse2");
 #[cfg(target_arch = "x86_64")]
 entry!(avx2, Avx2, "avx2");
 #[cfg(target_arch = "x86_64")]

@@ -33,6 +33,18 @@ impl FailureLog {
         }
     }
 
+    /// Counts a failure of a row if one before it is known; else the caller has to describe it by
+    /// [`record`](Self::record).
+    pub(crate) fn count_later(&self, row: usize) -> bool {
+        let is_later =
+            |first: &Option<(usize, Failure)>| matches!(first, &Some((known, _)) if known < row);
+        let later = self.first.lock().is_ok_and(|first| is_later(&first));
+        if later {
+            self.count.fetch_add(1, Ordering::Relaxed);
+        }
+        later
+    }
+
     /// The first failure, once the batch is solved.
     #[must_use]
     pub fn first(self) -> Option<FirstFailure> {

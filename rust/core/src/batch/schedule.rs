@@ -3,8 +3,8 @@
 use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::panic::resume_unwind;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{LazyLock, Mutex};
 use std::thread;
 
 use super::failure_log::FailureLog;
@@ -21,17 +21,39 @@ const CHUNK_SEVERAL_DRIVERS: usize = 8;
 /// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
 const MAX_DESIGNS: usize = 64;
 
+/// Whether `ASSUR_CARE=always` asks for the careful path everywhere. The variable is read once.
+fn care_is_asked_for() -> bool {
+    static ASKED: LazyLock<bool> =
+        LazyLock::new(|| std::env::var("ASSUR_CARE").is_ok_and(|value| value == "always"));
+    *ASKED
+}
+
 /// How to do the work: threads, vector instructions and cancellation.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub struct Control<'a> {
     /// Number of threads; `None` uses one per core, or a single thread for small work.
     pub threads: Option<NonZeroUsize>,
     /// Highest level of vector instructions to use.
     pub simd: Simd,
+    /// Solves every position by itself and traces every branch knot by knot: the same results,
+    /// slowly, to compare with.
+    pub careful: bool,
     /// Setting it to true stops the work after the blocks in progress.
     pub cancel: Option<&'a AtomicBool>,
     /// Where to record the first position that fails.
     pub failures: Option<&'a FailureLog>,
+}
+
+impl Default for Control<'_> {
+    fn default() -> Self {
+        Self {
+            threads: None,
+            simd: Simd::default(),
+            careful: care_is_asked_for(),
+            cancel: None,
+            failures: None,
+        }
+    }
 }
 
 /// A range of positions of a range of designs.

@@ -2,13 +2,13 @@
 
 use std::mem::MaybeUninit;
 
-use super::dispatch;
-use super::outputs::{Arrays, Quantity};
+use super::dispatch::{self, Entry, ForLevel};
+use super::outputs::{Arrays, Column, Quantity};
 use super::request::{Coordinates, Motion, Request, Series, Shape, check_arrays, product};
-use super::schedule::{Chunks, Control};
+use super::schedule::{Chunk, Chunks, Control};
 use super::streaming_store as stream;
 use super::worker::{Job, Worker};
-use super::writer::Writer;
+use super::writer::{RowSlices, Writer};
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
@@ -114,27 +114,69 @@ pub fn fill(
     };
     writer.streams = numbers >= stream::MIN_NUMBERS;
     let chunks = Chunks::new(arrays, &columns, [shape.designs, shape.positions], shape.drivers);
-    let worker = || Worker::new(mechanism, request, &derivatives, &writer, &columns, control);
-    let per_design = shape.positions * shape.drivers;
-    control.run(chunks, worker, |worker, chunk, mut rows| {
-        for design in chunk.designs.clone() {
-            if control.is_cancelled() {
-                break;
+    let (columns, derivatives, writer) = (&columns[..], &derivatives, &writer);
+    let batch = Batch { mechanism, request, derivatives, writer, columns, shape, control };
+    dispatch::at_level(control.simd, Fill { batch: &batch, chunks })
+}
+
+/// What all chunks of a batch share.
+struct Batch<'b> {
+    mechanism: &'b Mechanism,
+    request: &'b Request<'b>,
+    derivatives: &'b DerivativeTables,
+    writer: &'b Writer<'b>,
+    columns: &'b [Column],
+    shape: Shape,
+    control: &'b Control<'b>,
+}
+
+/// The chunks of a batch, to be filled.
+struct Fill<'b, 'r> {
+    batch: &'b Batch<'b>,
+    chunks: Chunks<'r>,
+}
+
+impl ForLevel for Fill<'_, '_> {
+    type Output = Result<(), SolveError>;
+
+    fn run<L: Entry, const G: usize>(self) -> Self::Output {
+        let &Batch { mechanism, request, derivatives, writer, columns, control, .. } = self.batch;
+        let worker = || {
+            Worker::<L::Register, G>::new(mechanism, request, derivatives, writer, columns, control)
+        };
+        control.run(self.chunks, worker, |worker, chunk, mut rows| {
+            for design in chunk.designs.clone() {
+                if control.is_cancelled() {
+                    break;
+                }
+                let (values, mut job) = self.batch.job(design, chunk, &mut rows);
+                if worker.bind(values, &mut job) {
+                    L::run(worker, &mut job);
+                }
             }
-            let values = &request.dimensions[design * shape.dimensions..][..shape.dimensions];
-            let q = request.coordinates.of(design, per_design);
-            let q = &q[chunk.positions.start * shape.drivers..chunk.positions.end * shape.drivers];
-            let shared = match request.coordinates {
-                Coordinates::Shared(_) => Some(chunk.positions.start),
-                Coordinates::PerDesign(_) => None,
-            };
-            let first = (design - chunk.designs.start) * chunk.positions.len();
-            let index = design * shape.positions + chunk.positions.start;
-            let mut job = Job { q, rows: &mut rows, first, index, shared };
-            if worker.bind(values, &mut job) {
-                dispatch::run(control.simd, worker, &mut job);
-            }
-        }
-        stream::fence();
-    })
+            stream::fence();
+        })
+    }
+}
+
+impl Batch<'_> {
+    /// The dimensions of one design of a chunk, and its positions there.
+    fn job<'j, 'r>(
+        &'j self,
+        design: usize,
+        chunk: &Chunk,
+        rows: &'j mut RowSlices<'r>,
+    ) -> (&'j [f64], Job<'j, 'r>) {
+        let Shape { positions, drivers, dimensions, .. } = self.shape;
+        let q = self.request.coordinates.of(design, positions * drivers);
+        let q = &q[chunk.positions.start * drivers..chunk.positions.end * drivers];
+        let shared = match self.request.coordinates {
+            Coordinates::Shared(_) => Some(chunk.positions.start),
+            Coordinates::PerDesign(_) => None,
+        };
+        let first = (design - chunk.designs.start) * chunk.positions.len();
+        let index = design * positions + chunk.positions.start;
+        let values = &self.request.dimensions[design * dimensions..][..dimensions];
+        (values, Job { q, rows, first, index, shared })
+    }
 }

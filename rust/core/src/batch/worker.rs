@@ -1,5 +1,5 @@
-//! Solves the positions of one design into their rows: eight per vector, and one by one those that
-//! need special care.
+//! Solves the positions of one design into their rows: as many at once as a register holds, and one
+//! by one those that need special care.
 
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,7 +15,7 @@ use crate::branch::design::Design;
 use crate::branch::uniform::UniformTracer;
 use crate::math::angle::unwrap_to;
 use crate::math::derivatives::DerivativeTables;
-use crate::math::lanes::{LANES, Lanes, Mask, Real};
+use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
 use crate::query::failure::Failure;
@@ -24,28 +24,27 @@ use crate::state::sensitivity::Sensitivity;
 use crate::state::state::State;
 use crate::state::status::{Rejection, Status};
 
-/// Vectors of positions solved at once: as many as fit the first-level cache.
-const GROUPS: usize = 4;
-
-/// Workspace of one thread.
-pub(crate) struct Worker<'a> {
+/// Workspace of one thread, with registers of type `R` and blocks of `G` of them.
+pub(crate) struct Worker<'a, R: Real, const G: usize> {
     design: Design<'a>,
     writer: &'a Writer<'a>,
     columns: &'a [Column],
-    quick: UniformTracer,
+    quick: UniformTracer<R, G>,
     one: State,
     /// The dimension to differentiate by, with its workspace.
     by: Option<(usize, Sensitivity)>,
-    many: State<Lanes, GROUPS>,
+    many: State<R, G>,
     /// Angles of the classes.
-    lifted: Vec<[Lanes; GROUPS]>,
+    lifted: Vec<[R; G]>,
     /// Driver lanes of the last job, and the index of its first shared coordinate.
-    turned: Vec<DriverLanes>,
+    turned: Vec<DriverLanes<R>>,
     shared: Option<usize>,
     /// Locations of these lanes on the branch.
-    spots: Vec<BranchLocation<Lanes>>,
+    spots: Vec<BranchLocation<R>>,
     /// Whether that branch was a uniform one.
     spots_even: bool,
+    /// Whether every position is solved by itself.
+    careful: bool,
     /// When true, work stops after the block in progress.
     cancel: Option<&'a AtomicBool>,
     failures: Option<&'a FailureLog>,
@@ -64,14 +63,14 @@ pub(crate) struct Job<'j, 'r> {
     pub shared: Option<usize>,
 }
 
-/// Eight positions of a driven angle: the part that does not depend on the design.
+/// A register of positions of a driven angle: the part that does not depend on the design.
 #[derive(Debug, Clone, Copy)]
-struct DriverLanes {
-    q: Lanes,
-    unit: Vector<Lanes>,
+struct DriverLanes<R> {
+    q: R,
+    unit: Vector<R>,
 }
 
-impl<'a> Worker<'a> {
+impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     pub(crate) fn new(
         mechanism: &'a Mechanism,
         request: &Request<'_>,
@@ -89,7 +88,7 @@ impl<'a> Worker<'a> {
             one: State::new(plan, derivatives),
             by: request.by.map(|index| (index, Sensitivity::new(plan, derivatives))),
             many,
-            lifted: vec![[Lanes::ZERO; GROUPS]; plan.classes],
+            lifted: vec![[R::ZERO; G]; plan.classes],
             turned: Vec::new(),
             shared: None,
             spots: Vec::new(),
@@ -97,6 +96,7 @@ impl<'a> Worker<'a> {
             design,
             writer,
             columns,
+            careful: control.careful,
             cancel: control.cancel,
             failures: control.failures,
         }
@@ -127,8 +127,11 @@ impl<'a> Worker<'a> {
 
     /// Solves the positions of the design; only `dispatch` calls this.
     #[inline(always)]
-    pub(crate) fn run<L: Level>(&mut self, job: &mut Job<'_, '_>) {
-        if !self.design.trace_uniform::<L>(&mut self.quick) {
+    pub(crate) fn run<L: Level<Register = R>>(&mut self, job: &mut Job<'_, '_>) {
+        // The first guess of a group's iteration depends on how its branch was traced.
+        let traced = (!self.careful || self.design.has_groups())
+            && self.design.trace_uniform::<L, G>(&mut self.quick, !self.writer.classes.is_empty());
+        if !traced {
             self.design.trace(job.q);
         }
         let drivers = self.design.mechanism.q0().len();
@@ -138,7 +141,7 @@ impl<'a> Worker<'a> {
             self.by = Some((index, by));
             return;
         }
-        if drivers > 1 {
+        if drivers > 1 || self.careful {
             for row in 0..count {
                 if self.is_cancelled() {
                     return;
@@ -150,15 +153,15 @@ impl<'a> Worker<'a> {
         let (plan, derivatives) = (self.design.mechanism.plan(), self.design.derivatives);
         self.many.prepare(plan, &self.design.constants, derivatives);
         self.load_coordinates(job);
-        for row in (0..count).step_by(GROUPS * LANES) {
+        for row in (0..count).step_by(G * R::LANES) {
             if self.is_cancelled() {
                 return;
             }
-            self.solve_block::<L>(job, row, (count - row).min(GROUPS * LANES));
+            self.solve_block::<L>(job, row, (count - row).min(G * R::LANES));
         }
     }
 
-    /// Loads the coordinates in vectors of eight; sines and cosines of shared ones are kept.
+    /// Loads the coordinates into registers; sines and cosines of shared ones are kept.
     #[inline(always)]
     fn load_coordinates(&mut self, job: &Job<'_, '_>) {
         let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
@@ -168,8 +171,8 @@ impl<'a> Worker<'a> {
             self.turned.clear();
             self.spots.clear();
             let scale = self.design.units.coordinate[0];
-            for eight in job.q.chunks(LANES) {
-                let q = Lanes::from_lanes(|i| eight[i.min(eight.len() - 1)] * scale);
+            for some in job.q.chunks(R::LANES) {
+                let q = R::from_lanes(|i| some[i.min(some.len() - 1)] * scale);
                 let unit = if is_angle { Vector::at_angle(q) } else { Vector::ONE };
                 self.turned.push(DriverLanes { q, unit });
             }
@@ -188,7 +191,7 @@ impl<'a> Worker<'a> {
 
     /// Lanes that must be solved again by themselves, whatever the vector solution gives.
     #[inline(always)]
-    fn lanes_to_redo(&self, q: Lanes, spot: &BranchLocation<Lanes>) -> <Lanes as Real>::Mask {
+    fn lanes_to_redo(&self, q: R, spot: &BranchLocation<R>) -> R::Mask {
         let branch = &self.design.branch;
         let must_redo = |i: usize| {
             let at = q.lane(i);
@@ -196,35 +199,42 @@ impl<'a> Worker<'a> {
                 || branch.in_untraced_island(spot, i)
                 || branch.change_near(at, self.design.change_window.reach).is_some()
         };
-        Lanes::ZERO.lt(Lanes::from_lanes(|i| if must_redo(i) { 1.0 } else { 0.0 }))
+        R::ZERO.lt(R::from_lanes(|i| if must_redo(i) { 1.0 } else { 0.0 }))
     }
 
-    /// Solves up to [`GROUPS`] vectors of positions from `row` on.
+    /// Solves up to `G` registers of positions from `row` on.
     #[inline(always)]
-    fn solve_block<L: Level>(&mut self, job: &mut Job<'_, '_>, row: usize, count: usize) {
-        let (first, groups) = (row / LANES, count.div_ceil(LANES));
-        let mut care = [<Lanes as Real>::Mask::NONE; GROUPS];
+    fn solve_block<L: Level<Register = R>>(
+        &mut self,
+        job: &mut Job<'_, '_>,
+        row: usize,
+        count: usize,
+    ) {
+        let (first, groups) = (row / R::LANES, count.div_ceil(R::LANES));
+        let mut care = [R::Mask::NONE; G];
+        let branch = &self.design.branch;
+        let (even, simple) = (branch.inverse_width.is_some(), branch.has_signs_only());
         for group in 0..groups {
             let DriverLanes { q, unit } = self.turned[first + group];
             let spot = &self.spots[first + group];
-            if self.design.branch.inverse_width.is_none() {
+            if !(even || simple) {
                 care[group] = self.lanes_to_redo(q, spot);
             }
             let branch = &self.design.branch;
             // Lanes to redo are set to NaN: their vector result is not used.
-            self.many.q[0][group] = Lanes::select(care[group], Lanes::splat(f64::NAN), q);
+            self.many.q[0][group] = R::select(care[group], R::splat(f64::NAN), q);
             self.many.unit[0][group] = unit;
             for (sign, groups) in self.many.signs.iter_mut().enumerate() {
                 groups[group] = if branch.has_constant_signs() {
-                    Lanes::splat(branch.signs_at(spot, 0)[sign])
+                    R::splat(branch.signs_at(spot, 0)[sign])
                 } else {
-                    Lanes::from_lanes(|i| branch.signs_at(spot, i)[sign])
+                    R::from_lanes(|i| branch.signs_at(spot, i)[sign])
                 };
             }
         }
         let design = &self.design;
         self.many.groups = groups;
-        for group in 0..groups.min(GROUPS) {
+        for group in 0..groups.min(G) {
             let spot = &self.spots[first + group];
             design.guess(group, &mut self.many, &design.branch, spot);
         }
@@ -232,7 +242,7 @@ impl<'a> Worker<'a> {
         let state = &self.many;
         // A separate loop: independent arctangents overlap.
         for &class in &self.writer.classes {
-            for g in 0..groups.min(GROUPS) {
+            for g in 0..groups.min(G) {
                 self.lifted[class][g] = state.class[class][g].angle();
             }
         }
@@ -246,16 +256,23 @@ impl<'a> Worker<'a> {
         self.writer.write(job.rows, (at, count), with, state, &self.lifted);
         job.rows.status[at..at + count].fill(MaybeUninit::new(Status::Ok as u8));
         let mut again = false;
-        for group in 0..groups.min(GROUPS) {
+        let state = &self.many;
+        // Without groups and redundant links, dyads close or not by the same bits in lanes.
+        let closes_alike = !(self.design.has_groups() || self.design.has_redundant_links());
+        let mut open = [R::Mask::NONE; G];
+        for group in 0..groups.min(G) {
+            if closes_alike {
+                open[group] = state.open[group].and(care[group].not());
+            }
             care[group] = care[group].or(state.needs_scalar[group]);
             care[group] = care[group].or(design.branch.same_det_sign(state, group).not());
             again |= care[group].any();
             let near = state.near_singular(group);
             if near.any() {
-                for lane in 0..LANES.min(count - group * LANES) {
+                for lane in 0..R::LANES.min(count - group * R::LANES) {
                     if near.lane(lane) {
                         let status = Status::NearSingular as u8;
-                        job.rows.status[at + group * LANES + lane] = MaybeUninit::new(status);
+                        job.rows.status[at + group * R::LANES + lane] = MaybeUninit::new(status);
                     }
                 }
             }
@@ -269,7 +286,16 @@ impl<'a> Worker<'a> {
                 if self.is_cancelled() {
                     return;
                 }
-                if care[place / LANES].lane(place % LANES) {
+                let (group, lane) = (place / R::LANES, place % R::LANES);
+                if !care[group].lane(lane) {
+                    continue;
+                }
+                let later =
+                    || self.failures.is_none_or(|log| log.count_later(job.index + row + place));
+                if open[group].lane(lane) && job.q[row + place].is_finite() && later() {
+                    let status = Status::Unreachable as u8;
+                    job.rows.write_failed(self.columns, at + place, 1, status);
+                } else {
                     self.solve_scalar(job, row + place);
                 }
             }

@@ -164,25 +164,21 @@ impl<'a> Writer<'a> {
             let shift = if entry.k == 0 && self.shifted { Some(origin) } else { None };
             let points = &state.points[entry.source];
             let out = rows.of(entry, row, count);
-            let scaled_point = |point: Vector<R>| {
-                let scaled = point.scale(scale);
-                if let Some(shift) = shift { scaled + shift } else { scaled }
-            };
             if entry.width == 2 && count == G * R::LANES {
                 // Scalar positions may be written a second time (without analogues): plain stores.
                 let streams = self.streams && R::LANES > 1;
                 for g in 0..G {
                     let out = &mut out[2 * R::LANES * g..][..2 * R::LANES];
                     if streams {
-                        stream::store_pairs(out, scaled_point(points[g]));
+                        stream::store_pairs(out, scaled(points[g], scale, shift));
                     } else {
-                        store_pairs(out, scaled_point(points[g]));
+                        store_pairs(out, scaled(points[g], scale, shift));
                     }
                 }
                 continue;
             }
             for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
-                let p = scaled_point(points[g]);
+                let p = scaled(points[g], scale, shift);
                 store_lanes(out, entry.width, entry.index, p.x);
                 store_lanes(out, entry.width, entry.index + entry.y, p.y);
             }
@@ -226,28 +222,27 @@ impl<'a> Writer<'a> {
     }
 }
 
+/// A point in metres, shifted if it is no derivative.
+#[inline(always)]
+fn scaled<R: Real>(point: Vector<R>, scale: R, shift: Option<Vector<R>>) -> Vector<R> {
+    let scaled = point.scale(scale);
+    if let Some(shift) = shift { scaled + shift } else { scaled }
+}
+
 impl Entry {
     /// Writes one number for each lane of each group, as far as there are rows.
     #[inline(always)]
     fn store<R: Real>(&self, out: &mut [MaybeUninit<f64>], of: impl Fn(usize) -> R) {
-        if self.width == 1 {
-            let mut groups = out.chunks_exact_mut(R::LANES);
-            let mut g = 0;
-            for group in &mut groups {
-                let x = of(g);
+        // The function is called at one place, so that it is inlined into the code of the level.
+        for (g, group) in out.chunks_mut(self.width * R::LANES).enumerate() {
+            let x = of(g);
+            if self.width == 1 && group.len() == R::LANES {
                 for lane in 0..R::LANES {
                     group[lane] = MaybeUninit::new(x.lane(lane));
                 }
-                g += 1;
+            } else {
+                store_lanes(group, self.width, self.index, x);
             }
-            let rest = groups.into_remainder();
-            if !rest.is_empty() {
-                store_lanes(rest, 1, 0, of(g));
-            }
-            return;
-        }
-        for (g, group) in out.chunks_mut(self.width * R::LANES).enumerate() {
-            store_lanes(group, self.width, self.index, of(g));
         }
     }
 }

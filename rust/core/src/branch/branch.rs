@@ -80,6 +80,29 @@ impl Branch {
         Self { gain: vec![0.0; classes], sign_intervals, covered, ..Self::default() }
     }
 
+    /// Makes this a branch of positions without angles: the same signs everywhere.
+    pub(crate) fn set_constant_signs(&mut self, classes: usize, signs: &[f64]) {
+        self.at.clear();
+        self.reached.clear();
+        self.angles.clear();
+        self.changes.clear();
+        self.cells.clear();
+        self.gain.clear();
+        self.gain.resize(classes, 0.0);
+        self.sign_intervals.resize_with(1, SignInterval::default);
+        self.sign_intervals[0].from = f64::NEG_INFINITY;
+        self.sign_intervals[0].signs.clear();
+        self.sign_intervals[0].signs.extend_from_slice(signs);
+        self.period = None;
+        self.covered = None;
+        self.inverse_width = None;
+    }
+
+    /// Whether the signs are constant and nothing else is known or needed.
+    pub(crate) fn has_signs_only(&self) -> bool {
+        self.at.is_empty() && self.covered.is_none()
+    }
+
     /// Traces one driven angle from `q0` upward. A periodic motion covers all q; if a group folds, it
     /// is traced downward too.
     pub(crate) fn over_turns(

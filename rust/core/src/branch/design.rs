@@ -5,6 +5,7 @@ use std::cell::RefCell;
 
 use super::branch::{Branch, BranchLocation};
 use super::change_interpolant::{ChangeInterpolant, ChangeWindow};
+use super::constant_signs::SignCheck;
 use super::knot::{ChangePoint, InitialGuess, Taylor2};
 use super::uniform::{ReferenceBranch, UniformTracer};
 use super::units::Units;
@@ -52,6 +53,8 @@ pub(crate) struct Design<'a> {
     q0: Vec<f64>,
     /// The branch from the drawing, if one serves all positions.
     pub branch: Branch,
+    /// Work space to show that signs are constant.
+    sign_check: SignCheck,
     /// Range around a change point within which the motion is interpolated.
     pub change_window: ChangeWindow,
     /// Interpolants in use, by their change point.
@@ -78,6 +81,7 @@ impl<'a> Design<'a> {
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
             q0: Vec::new(),
             branch: Branch::default(),
+            sign_check: SignCheck::default(),
             change_window: ChangeWindow::SHORT,
             interpolants: RefCell::default(),
         }
@@ -130,7 +134,7 @@ impl<'a> Design<'a> {
     }
 
     /// Work space for [`Design::trace_uniform`].
-    pub(crate) fn uniform_tracer(&self) -> UniformTracer {
+    pub(crate) fn uniform_tracer<R: Real, const G: usize>(&self) -> UniformTracer<R, G> {
         UniformTracer::new(self.mechanism.plan(), &self.tracing_derivatives)
     }
 
@@ -197,9 +201,14 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Traces the uniform branch; false if the design has none.
+    /// Traces the uniform branch; false if the design has none. Without `angles`, constant signs
+    /// are enough.
     #[inline(always)]
-    pub(crate) fn trace_uniform<L: Level>(&mut self, uniform: &mut UniformTracer) -> bool {
+    pub(crate) fn trace_uniform<L: Level, const G: usize>(
+        &mut self,
+        uniform: &mut UniformTracer<L::Register, G>,
+        angles: bool,
+    ) -> bool {
         if !self.has_one_rotary_driver() {
             return false;
         }
@@ -215,13 +224,23 @@ impl<'a> Design<'a> {
             &mut branch,
         );
         self.branch = branch;
-        done
+        if done || angles || self.has_groups() || self.has_redundant_links() {
+            return done;
+        }
+        let mut check = std::mem::take(&mut self.sign_check);
+        let cx = self.context(&self.tracing_derivatives);
+        let constant = uniform.keeps_signs::<L>(&cx, &mut check);
+        self.sign_check = check;
+        if constant {
+            self.branch.set_constant_signs(start.len(), &self.signs);
+        }
+        constant
     }
 
     /// The branch of the drawing, from which those of other designs start.
     #[cold]
     #[inline(never)]
-    fn reference_branch(&self) -> Option<ReferenceBranch> {
+    fn reference_branch<R: Real, const G: usize>(&self) -> Option<ReferenceBranch<R, G>> {
         let derivatives = DerivativeTables::new(1, 0);
         let mut drawing = Design::new(self.mechanism, &[], &derivatives);
         drawing.signs.clone_from(&self.signs);
@@ -235,7 +254,11 @@ impl<'a> Design<'a> {
         )
     }
 
-    fn has_groups(&self) -> bool {
+    pub(crate) fn has_redundant_links(&self) -> bool {
+        self.mechanism.plan().redundant_links().next().is_some()
+    }
+
+    pub(crate) fn has_groups(&self) -> bool {
         self.mechanism.plan().groups().next().is_some()
     }
 

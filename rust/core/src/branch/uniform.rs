@@ -17,7 +17,7 @@ use super::knot::{
 };
 use crate::math::angle::turns_between;
 use crate::math::derivatives::DerivativeTables;
-use crate::math::lanes::{LANES, Lanes, Mask, Real};
+use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Form, Unknown};
@@ -27,20 +27,18 @@ use crate::state::state::{Context, State};
 
 /// Knots of a turn, including its end.
 pub(crate) const KNOTS: usize = CELLS_PER_TURN as usize + 1;
-/// Vectors of knots.
-pub(crate) const GROUPS: usize = KNOTS / LANES;
 /// Width of a cell.
 pub(crate) const CELL: f64 = TAU / CELLS_PER_TURN as f64;
 
-/// Work space: at every knot what the checks need.
+/// Work space: at every knot what the checks need. `G` registers hold all knots.
 #[derive(Debug)]
-pub(crate) struct UniformTracer {
+pub(crate) struct UniformTracer<R: Real, const G: usize> {
     /// All knots.
-    pub(crate) state: State<Lanes, GROUPS>,
+    pub(crate) state: State<R, G>,
     /// Drawing's angle for which the knots below are set; the same for all designs.
     q0: f64,
-    /// Angles of the driver, eight per group, and their unit vectors.
-    knots: Vec<(Lanes, Vector<Lanes>)>,
+    /// Angles of the driver and their unit vectors.
+    pub(crate) knots: Vec<(R, Vector<R>)>,
     /// Spread and rate of every dyad with a sign at the last knot.
     spread: Vec<(f64, f64)>,
     /// Angle of every class at the last knot, and its whole turns up to there.
@@ -48,12 +46,12 @@ pub(crate) struct UniformTracer {
     /// For every dyad of two guides: on which side of parallel these are at the knots before.
     guide_sides: Vec<bool>,
     /// Unknowns of groups at the knots of the drawing's branch; computed once.
-    pub(crate) reference: OnceCell<Option<ReferenceBranch>>,
+    pub(crate) reference: OnceCell<Option<ReferenceBranch<R, G>>>,
     /// Unknowns of groups at the knots, knot by knot.
     pub(crate) taylor: Vec<Taylor2>,
 }
 
-impl UniformTracer {
+impl<R: Real, const G: usize> UniformTracer<R, G> {
     /// Work space for a plan; `derivatives` are for one driver.
     pub(crate) fn new(plan: &Plan, derivatives: &DerivativeTables) -> Self {
         Self {
@@ -69,13 +67,16 @@ impl UniformTracer {
     }
 
     /// Whether the drawing has a branch from which others can start.
-    pub(crate) fn has_reference(&self, make: impl FnOnce() -> Option<ReferenceBranch>) -> bool {
+    pub(crate) fn has_reference(
+        &self,
+        make: impl FnOnce() -> Option<ReferenceBranch<R, G>>,
+    ) -> bool {
         self.reference.get_or_init(make).is_some()
     }
 
     /// Traces a turn from `q0` into `branch`; false if the tracer is needed.
     #[inline(always)]
-    pub(crate) fn trace<L: Level>(
+    pub(crate) fn trace<L: Level<Register = R>>(
         &mut self,
         cx: &Context<'_>,
         q0: f64,
@@ -94,7 +95,7 @@ impl UniformTracer {
             self.state.unit[0][group] = unit;
         }
         for (lanes, &sign) in self.state.signs.iter_mut().zip(cx.signs) {
-            *lanes = [Lanes::splat(sign); GROUPS];
+            *lanes = [R::splat(sign); G];
         }
         self.guess(cx);
         L::solve(&mut self.state, cx);
@@ -104,11 +105,11 @@ impl UniformTracer {
         for (last, &angle) in self.last_angles.iter_mut().zip(start) {
             *last = (angle, 0.0);
         }
-        for group in 0..GROUPS {
+        for group in 0..G {
             if !(self.check_knots(cx, group) && self.unwrap(group, &mut branch.angles)) {
                 return false;
             }
-            branch.at.extend_from_slice(&self.knots[group].0.0);
+            branch.at.extend((0..R::LANES).map(|lane| self.knots[group].0.lane(lane)));
         }
         if !self.build_cells(cx, branch) {
             return false;
@@ -136,13 +137,13 @@ impl UniformTracer {
     fn set_knots(&mut self, q0: f64) {
         self.q0 = q0;
         self.knots.clear();
-        for first in (0..KNOTS).step_by(Lanes::LANES) {
+        for first in (0..KNOTS).step_by(R::LANES) {
             let at = knots_at(q0, first);
             self.knots.push((at, Vector::at_angle(at)));
         }
     }
 
-    /// Checks eight knots, one after another; false if something may happen between them.
+    /// Checks a register of knots, one after another; false if something may happen between them.
     #[inline(always)]
     fn check_knots(&mut self, cx: &Context<'_>, group: usize) -> bool {
         let state = &self.state;
@@ -154,11 +155,11 @@ impl UniformTracer {
                     let (value, rate) = state.discriminant(group, cx, dyad, 1);
                     let (last, last_rate) = self.spread[sign];
                     let before = (previous(last, value), previous(last_rate, rate));
-                    suspect = suspect.or(may_vanish(before, (value, rate), Lanes::splat(CELL)));
-                    self.spread[sign] = (value.lane(LANES - 1), rate.lane(LANES - 1));
+                    suspect = suspect.or(may_vanish(before, (value, rate), R::splat(CELL)));
+                    self.spread[sign] = (value.lane(R::LANES - 1), rate.lane(R::LANES - 1));
                 }
                 None if dyad.form == Form::TwoLines => {
-                    let positive = Lanes::ZERO.lt(state.determinant(group, cx, dyad));
+                    let positive = R::ZERO.lt(state.determinant(group, cx, dyad));
                     let side = positive.any();
                     if group == 0 {
                         self.guide_sides.push(side);
@@ -174,40 +175,40 @@ impl UniformTracer {
         !suspect.any()
     }
 
-    /// Unwraps the angles of eight knots; false if a link turns fast there.
+    /// Unwraps the angles of a register of knots; false if a link turns fast there.
     #[inline(always)]
     fn unwrap(&mut self, group: usize, angles: &mut [f64]) -> bool {
         let classes = self.last_angles.len();
-        let first = group * LANES * classes;
-        let Some(angles) = angles.get_mut(first..first + LANES * classes) else { return false };
-        let mut max_turn = Lanes::splat(KNOT_MAX_TURN);
+        let first = group * R::LANES * classes;
+        let Some(angles) = angles.get_mut(first..first + R::LANES * classes) else { return false };
+        let mut max_turn = R::splat(KNOT_MAX_TURN);
         if group == 0 {
             // The first knot may be far from the drawing's own angle.
-            max_turn.0[0] = f64::INFINITY;
+            max_turn = R::from_lanes(|i| if i == 0 { f64::INFINITY } else { KNOT_MAX_TURN });
         }
-        let mut fast = <Lanes as Real>::Mask::NONE;
+        let mut fast = R::Mask::NONE;
         for class in 0..classes {
             let angle = self.state.class[class][group].angle();
             let (last, mut whole_turns) = self.last_angles[class];
             let before = previous(last, angle);
             let turns = turns_between(angle, before);
-            let step = (angle + Lanes::splat(TAU) * turns) - before;
-            let rate = self.state.theta[self.state.len * class + 1][group] * Lanes::splat(CELL);
-            fast = fast.or(max_turn.lt(step.abs())).or(Lanes::splat(KNOT_MAX_TURN).lt(rate.abs()));
-            for lane in 0..LANES {
+            let step = (angle + R::splat(TAU) * turns) - before;
+            let rate = self.state.theta[self.state.len * class + 1][group] * R::splat(CELL);
+            fast = fast.or(max_turn.lt(step.abs())).or(R::splat(KNOT_MAX_TURN).lt(rate.abs()));
+            for lane in 0..R::LANES {
                 whole_turns += turns.lane(lane);
                 angles[lane * classes + class] = angle.lane(lane) + TAU * whole_turns;
             }
-            self.last_angles[class] = (angle.lane(LANES - 1), whole_turns);
+            self.last_angles[class] = (angle.lane(R::LANES - 1), whole_turns);
         }
         !fast.any()
     }
 }
 
-/// Eight knots of a turn from `q0`, beginning with knot `first`.
+/// A register of knots of a turn from `q0`, beginning with knot `first`.
 #[inline(always)]
-pub(crate) fn knots_at(q0: f64, first: usize) -> Lanes {
-    Lanes::from_lanes(|lane| {
+pub(crate) fn knots_at<R: Real>(q0: f64, first: usize) -> R {
+    R::from_lanes(|lane| {
         let turns = ((first + lane) as f64) / f64::from(CELLS_PER_TURN);
         q0 + TAU * turns
     })
@@ -215,20 +216,20 @@ pub(crate) fn knots_at(q0: f64, first: usize) -> Lanes {
 
 /// Each lane's predecessor; `last` is that of the first lane.
 #[inline(always)]
-fn previous(last: f64, lanes: Lanes) -> Lanes {
-    Lanes::from_lanes(|i| if i == 0 { last } else { lanes.lane(i - 1) })
+fn previous<R: Real>(last: f64, lanes: R) -> R {
+    R::from_lanes(|i| if i == 0 { last } else { lanes.lane(i - 1) })
 }
 
 /// Unknowns of groups at the knots of the drawing's branch.
 #[derive(Debug)]
-pub(crate) struct ReferenceBranch {
+pub(crate) struct ReferenceBranch<R, const G: usize> {
     /// Rotations; of slides the value (m) as x.
-    unknowns: Vec<[Vector<Lanes>; GROUPS]>,
+    unknowns: Vec<[Vector<R>; G]>,
     /// Whether each group's determinant is positive.
     det_signs: Vec<bool>,
 }
 
-impl ReferenceBranch {
+impl<R: Real, const G: usize> ReferenceBranch<R, G> {
     /// From a branch of a design with this scale; `None` if it does not close after one turn from
     /// `q0`.
     pub(crate) fn new(plan: &Plan, branch: &Branch, q0: f64, scale: f64) -> Option<Self> {
@@ -238,14 +239,17 @@ impl ReferenceBranch {
         let list: Vec<Unknown> = plan.groups().flat_map(|g| g.unknowns.clone()).collect();
         let at_knots = |(index, &unknown): (usize, &Unknown)| {
             std::array::from_fn(|group| {
-                let location = branch.locate(knots_at(q0, group * LANES));
-                match unknown {
-                    Unknown::Class(_) => branch.rotation(&location, index, list.len()),
-                    Unknown::Slide(_) => {
-                        let value = branch.slide(&location, index, list.len());
-                        Vector::new(value * Lanes::splat(scale), Lanes::ZERO)
+                let at_lane = |lane: usize| {
+                    let location = branch.locate(knots_at::<f64>(q0, group * R::LANES + lane));
+                    match unknown {
+                        Unknown::Class(_) => branch.rotation(&location, index, list.len()),
+                        Unknown::Slide(_) => {
+                            Vector::new(branch.slide(&location, index, list.len()) * scale, 0.0)
+                        }
                     }
-                }
+                };
+                let x = R::from_lanes(|lane| at_lane(lane).x);
+                Vector::new(x, R::from_lanes(|lane| at_lane(lane).y))
             })
         };
         let unknowns = list.iter().enumerate().map(at_knots).collect();
@@ -253,18 +257,21 @@ impl ReferenceBranch {
     }
 }
 
-impl UniformTracer {
+impl<R: Real, const G: usize> UniformTracer<R, G> {
     /// Sets the groups' unknowns to those of the drawing, as first guess of the iteration.
     #[inline(always)]
     pub(crate) fn guess(&mut self, cx: &Context<'_>) {
         let Some(Some(reference)) = self.reference.get() else { return };
-        let inverse_scale = Lanes::splat(1.0 / cx.constants.scale);
+        let inverse_scale = R::splat(1.0 / cx.constants.scale);
         let unknowns = cx.plan.groups().flat_map(|group| &group.unknowns);
         for (&unknown, knots) in unknowns.zip(&reference.unknowns) {
             match unknown {
                 Unknown::Class(class) => self.state.class[class] = *knots,
                 Unknown::Slide(slide) => {
-                    self.state.slides[slide * self.state.len] = knots.map(|v| v.x * inverse_scale);
+                    let values = &mut self.state.slides[slide * self.state.len];
+                    for (value, knot) in values.iter_mut().zip(knots) {
+                        *value = knot.x * inverse_scale;
+                    }
                 }
             }
         }
@@ -277,14 +284,17 @@ impl UniformTracer {
         branch.cells.clear();
         let Some(Some(reference)) = self.reference.get() else { return true };
         let state = &self.state;
-        let is_near = |step: Lanes, max: f64| step.0[0] <= max;
+        let is_near = |step: R, max: f64| step.lane(0) <= max;
         if !(is_near(state.first_step[0], MAX_FIRST_STEP)
             && is_near(state.later_steps[0], MAX_LATER_STEPS))
         {
             return false;
         }
         for (groups, &expected) in state.determinants.iter().zip(&reference.det_signs) {
-            if groups.iter().any(|lanes| lanes.0.iter().any(|&d| (d > 0.0) != expected)) {
+            if groups
+                .iter()
+                .any(|lanes| (0..R::LANES).any(|lane| (lanes.lane(lane) > 0.0) != expected))
+            {
                 return false;
             }
         }
@@ -298,13 +308,13 @@ impl UniformTracer {
                 Unknown::Slide(slide) => &state.slides[slide * state.len..],
             };
             for knot in 0..KNOTS {
-                let (group, lane) = (knot / LANES, knot % LANES);
+                let (group, lane) = (knot / R::LANES, knot % R::LANES);
                 let value = match unknown {
                     Unknown::Class(class) => branch.angles[knot * self.last_angles.len() + class],
-                    Unknown::Slide(_) => jet[0][group].0[lane],
+                    Unknown::Slide(_) => jet[0][group].lane(lane),
                 };
                 self.taylor[knot * count + index] =
-                    [value, jet[1][group].0[lane], jet[2][group].0[lane]];
+                    [value, jet[1][group].lane(lane), jet[2][group].lane(lane)];
             }
         }
         branch.cells.reserve(KNOTS * count);
@@ -317,8 +327,9 @@ impl UniformTracer {
                 }
                 let unit = match unknown {
                     Unknown::Class(class) => {
-                        let unit = state.class[class][knot / LANES];
-                        Vector::new(unit.x.0[knot % LANES], unit.y.0[knot % LANES])
+                        let unit = state.class[class][knot / R::LANES];
+                        let lane = knot % R::LANES;
+                        Vector::new(unit.x.lane(lane), unit.y.lane(lane))
                     }
                     Unknown::Slide(_) => Vector::ONE,
                 };

@@ -4,8 +4,12 @@ pub(crate) mod angle;
 pub(crate) mod derivatives;
 pub(crate) mod inverse;
 pub mod lanes;
+#[cfg(target_arch = "x86_64")]
+pub(crate) mod pair;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;
+#[cfg(target_arch = "x86_64")]
+pub(crate) mod registers;
 pub(crate) mod root;
 pub(crate) mod simd;
 pub mod tolerance;

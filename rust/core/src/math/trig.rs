@@ -126,7 +126,8 @@ fn polynomial<R: Real, const N: usize>(z: R, coefficients: [f64; N]) -> R {
 #[inline(always)]
 pub fn sin_cos<R: Real>(x: R) -> (R, R) {
     let rounder = R::splat(ROUNDER);
-    let parts = FRAC_PI_2_PARTS.map(R::splat);
+    let [p, q, s, t] = FRAC_PI_2_PARTS;
+    let parts = [R::splat(p), R::splat(q), R::splat(s), R::splat(t)];
     // The last two bits are the quadrant.
     let mut shifted = x * R::splat(FRAC_2_PI) + rounder;
     let k = shifted - rounder;

@@ -2,7 +2,7 @@
 //! give the same bits, since each operation is rounded separately.
 
 use super::state::{Context, State};
-use crate::math::lanes::Lanes;
+use crate::math::lanes::{Lanes, Real};
 use crate::plan::group::Group;
 
 /// The solver of positions compiled for one level.
@@ -10,24 +10,28 @@ use crate::plan::group::Group;
 /// `solve` and `group` are separate functions: several callers share `solve`, and smaller functions
 /// compile faster.
 pub(crate) trait Level {
+    /// Its register.
+    type Register: Real;
     /// See [`State::solve_all`].
-    fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>);
+    fn solve<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>);
     /// See [`State::solve_group`].
     fn group<const G: usize>(
-        state: &mut State<Lanes, G>,
+        state: &mut State<Self::Register, G>,
         cx: &Context<'_>,
         group: &Group,
         index: usize,
     );
 }
 
-/// The baseline, which every machine has.
-pub(crate) mod baseline {
+/// What every processor has: arrays of numbers, which the compiler puts into registers as well as it
+/// can.
+pub(crate) mod portable {
     use super::{Context, Group, Lanes, Level, State};
 
-    pub(crate) struct Baseline;
+    pub(crate) struct Portable;
 
-    impl Level for Baseline {
+    impl Level for Portable {
+        type Register = Lanes;
         #[inline(never)]
         fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
             state.solve_all(cx, &Self::group);
@@ -44,21 +48,26 @@ pub(crate) mod baseline {
     }
 }
 
-/// A level above the baseline; in its own module, so that the levels compile in parallel.
+/// A level of x86-64; in its own module, so that the levels compile in parallel.
 #[cfg(target_arch = "x86_64")]
 macro_rules! level {
-    ($module:ident, $level:ident, $features:literal) => {
+    ($module:ident, $level:ident, $register:ty, $features:literal) => {
         pub(crate) mod $module {
-            use super::{Context, Group, Lanes, Level, State};
+            use super::{Context, Group, Level, State};
+            #[allow(unused_imports, reason = "not every level has pairs")]
+            use crate::math::pair::Pair;
+            #[allow(unused_imports, reason = "each level has its own")]
+            use crate::math::registers::{F64x2, F64x4, F64x8};
 
             pub(crate) struct $level;
 
             impl Level for $level {
+                type Register = $register;
                 #[inline(always)]
                 #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
-                fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
+                fn solve<const G: usize>(state: &mut State<$register, G>, cx: &Context<'_>) {
                     #[target_feature(enable = $features)]
-                    fn with<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
+                    fn with<const G: usize>(state: &mut State<$register, G>, cx: &Context<'_>) {
                         state.solve_all(cx, &$level::group);
                     }
                     // SAFETY: `solve` is called only if `Simd::best` found these instructions.
@@ -67,7 +76,7 @@ macro_rules! level {
                 #[inline(always)]
                 #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
                 fn group<const G: usize>(
-                    state: &mut State<Lanes, G>,
+                    state: &mut State<$register, G>,
                     cx: &Context<'_>,
                     group: &Group,
                     index: usize,
@@ -75,7 +84,7 @@ macro_rules! level {
                     #[inline(never)]
                     #[target_feature(enable = $features)]
                     fn with<const G: usize>(
-                        state: &mut State<Lanes, G>,
+                        state: &mut State<$register, G>,
                         cx: &Context<'_>,
                         group: &Group,
                         index: usize,
@@ -91,6 +100,8 @@ macro_rules! level {
 }
 
 #[cfg(target_arch = "x86_64")]
-level!(avx2, Avx2, "avx2");
+level!(baseline, Baseline, Pair<F64x2>, "sse2");
 #[cfg(target_arch = "x86_64")]
-level!(avx512, Avx512, "avx512f,avx512vl,avx512dq");
+level!(avx2, Avx2, Pair<F64x4>, "avx2");
+#[cfg(target_arch = "x86_64")]
+level!(avx512, Avx512, F64x8, "avx512f,avx512vl,avx512dq");

@@ -81,17 +81,15 @@ impl<R: Real, const G: usize> State<R, G> {
     ) -> R {
         let len = self.len;
         let o = cx.plan.link_orientation[link];
-        let span = |state: &Self, k: usize| -> Vector<R> {
-            state.points[points[1] * len + k][g] - state.points[points[0] * len + k][g]
-        };
-        let chord = span(self, 0);
+        let chord = self.points[points[1] * len][g] - self.points[points[0] * len][g];
         let (length, distance) = (R::splat(arm.norm()), chord.norm());
         let arm = Vector::splat(arm.conj());
         let inverse = R::ONE / (length * distance);
         self.set_orientation(g, cx, o, (chord * arm).scale(inverse));
         for k in 1..len {
             // chord = U · arm at every order, up to rounding.
-            let unit = (span(self, k) * arm).scale(R::ONE / (length * length));
+            let span = self.points[points[1] * len + k][g] - self.points[points[0] * len + k][g];
+            let unit = (span * arm).scale(R::ONE / (length * length));
             let partial = self.orientation_without_top(g, cx, o, k);
             let rest = (unit - partial) * self.orient[o * len][g].conj();
             self.set_rate(g, cx, o, k, rest.y);

@@ -76,6 +76,10 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) first_step: [R; G],
     /// Greatest sum of the changes in the later steps.
     pub(crate) later_steps: [R; G],
+    /// By how much each dyad closes (relative to the scale), negative where it does not.
+    pub(crate) margin: Vec<[R; G]>,
+    /// Lanes where a dyad does not close.
+    pub(crate) open: [R::Mask; G],
     /// Square of the greatest condition in the position.
     pub condition2: [R; G],
     /// Lanes that failed or are singular; the caller solves each again as a single position.
@@ -134,6 +138,8 @@ impl<R: Real, const G: usize> State<R, G> {
             det_sign: vec![[R::ZERO; G]; plan.groups().count()],
             first_step: [R::ZERO; G],
             later_steps: [R::ZERO; G],
+            margin: vec![[R::ZERO; G]; plan.dyads().count()],
+            open: [R::Mask::NONE; G],
             condition2: [R::ONE; G],
             needs_scalar: [R::Mask::NONE; G],
             status: Status::Ok,
@@ -248,6 +254,7 @@ impl<R: Real, const G: usize> State<R, G> {
         self.status = Status::Ok;
         self.condition2 = [R::ONE; G];
         self.needs_scalar = [R::Mask::NONE; G];
+        self.open = [R::Mask::NONE; G];
         self.first_step = [R::ZERO; G];
         self.later_steps = [R::ZERO; G];
         for (driver, q) in self.q.iter().enumerate() {
@@ -304,6 +311,8 @@ impl<R: Real, const G: usize> State<R, G> {
             self.upstream_condition2[sign][g] = upstream2;
         }
         let solved = self.solve_dyad(g, cx, dyad);
+        self.margin[dyad.index][g] = solved.margin;
+        self.open[g] = self.open[g].or(solved.open);
         self.mark_open(g, solved.open, || Fault::NotClosed {
             step: index,
             gap: solved.gap.lane(0),

@@ -13,6 +13,8 @@ pub(crate) struct DyadSolution<R: Real> {
     pub open: R::Mask,
     /// By how much it does not close, relative to the scale (used with one lane only).
     pub gap: R,
+    /// By how much it closes, relative to the scale; negative where it does not.
+    pub margin: R,
     /// Lanes where it is flat: the two solutions coincide to rounding.
     pub flat: R::Mask,
     /// Square of the sine of the angle between the columns of the closure matrix: between
@@ -86,6 +88,7 @@ pub(crate) fn two_circles<R: Real>(
     let solved = DyadSolution {
         open: outer.open.or(inner.open).or(loose).or(far),
         gap: R::select(far, R::splat(f64::INFINITY), gap),
+        margin: (sum - d).min(d - difference.abs()),
         flat: outer.flat.or(inner.flat),
         // `area` is four times the triangle's: (2 a b sin)² = area².
         sine2: area2 * (R::splat(0.25) * a.inv_norm2 * b.inv_norm2),
@@ -114,6 +117,7 @@ pub(crate) fn circle_and_line<R: Real>(
     let solved = DyadSolution {
         open: inner.open.or(R::ZERO.lt(a.norm2).not()).or(far),
         gap: R::select(far, R::splat(f64::INFINITY), inner.gap(a.norm - across.abs(), R::ZERO)),
+        margin: a.norm - across.abs(),
         flat: inner.flat,
         sine2: chord2 * a.inv_norm2,
         arm2: R::ONE,
@@ -145,6 +149,7 @@ pub(crate) fn turning_guide<R: Real>(
         // The far joint is on the guide's own pivot: every attitude closes.
         open: inner.open.or(R::ZERO.lt(d2).not()).or(far),
         gap: R::select(far, R::splat(f64::INFINITY), inner.gap(d - across.abs(), R::ZERO)),
+        margin: d - across.abs(),
         flat: inner.flat,
         sine2: chord2 * per,
         arm2: R::ONE,
@@ -164,6 +169,7 @@ pub(crate) fn two_lines<R: Real>(
     let solved = DyadSolution {
         open: s.finite().and(t.finite()).not(),
         gap: R::splat(f64::INFINITY),
+        margin: R::ONE,
         flat: R::Mask::NONE,
         sine2: determinant * determinant,
         arm2: R::ONE,

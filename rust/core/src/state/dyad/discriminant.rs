@@ -21,14 +21,17 @@ impl<R: Real, const G: usize> State<R, G> {
         dyad: &Dyad,
         first: usize,
     ) -> (R, R) {
-        let [a, da] = [0, first].map(|k| self.leg_vector(g, cx, dyad, 0, k));
+        let a = self.leg_vector(g, cx, dyad, 0, 0);
+        let da = self.leg_vector(g, cx, dyad, 0, first);
         let (value, rate, size) = match dyad.form {
             Form::TwoCircles => {
-                let [b, db] = [0, first].map(|k| self.leg_vector(g, cx, dyad, 1, k));
+                let b = self.leg_vector(g, cx, dyad, 1, 0);
+                let db = self.leg_vector(g, cx, dyad, 1, first);
                 (b.cross(a), db.cross(a) + b.cross(da), a.norm() * b.norm())
             }
             Form::CircleAndLine | Form::TurningGuide => {
-                let [guide, rate_of] = [0, first].map(|k| self.slide_direction(g, cx, dyad, 1, k));
+                let guide = self.slide_direction(g, cx, dyad, 1, 0);
+                let rate_of = self.slide_direction(g, cx, dyad, 1, first);
                 let (value, rate) = (guide.dot(a), rate_of.dot(a) + guide.dot(da));
                 if dyad.form == Form::TurningGuide {
                     (value, rate, R::ONE)

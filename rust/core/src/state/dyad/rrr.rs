@@ -80,6 +80,7 @@ impl<R: Real, const G: usize> State<R, G> {
         else {
             return;
         };
+        let margin = &mut self.margin[dyad.index];
         let (signs, upstream_sign2) = (&self.signs[sign], &mut self.upstream_condition2[sign]);
         let [a, b] = &cx.constants.legs[dyad.index];
         let (a, b) = (a.on_lanes(), b.on_lanes());
@@ -91,6 +92,8 @@ impl<R: Real, const G: usize> State<R, G> {
             let (first, second, solved) = two_circles(&a, &b, end[0][g] - start[0][g], signs[g]);
             let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));
             self.needs_scalar[g] = self.needs_scalar[g].or(solved.open).or(flat);
+            self.open[g] = self.open[g].or(solved.open);
+            margin[g] = solved.margin;
             if R::LANES == 1 && solved.open.any() {
                 self.fault = Some(Fault::NotClosed { step: index, gap: solved.gap.lane(0) });
                 self.status = Status::Unreachable;

@@ -3,7 +3,7 @@
 use super::closed_form::{DyadSolution, circle_and_line, turning_guide, two_circles, two_lines};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::dyad::{Dyad, Form, Unknown};
+use crate::plan::dyad::{Dyad, Form, LoopTerm, Unknown};
 use crate::plan::leg::Leg;
 use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
@@ -31,30 +31,22 @@ impl<R: Real, const G: usize> State<R, G> {
         let CollectedTerms { first, second, known: k } = self.collect_terms(g, cx, dyad);
         let sign = if let Some(s) = dyad.sign { self.signs[s][g] } else { R::ONE };
         let rounding = self.rounding_arm2(g, dyad);
-        // Weight a rotation by the greatest arm that turns with it.
-        let relative_arm2 = |unknown: Unknown, inv_norm2: R| match unknown {
-            Unknown::Class(c) => R::splat(cx.constants.max_arm2[c]).max(rounding) * inv_norm2,
-            Unknown::Slide(_) => R::ONE,
-        };
         let [u, v] = dyad.unknowns;
-        let leg = |i: usize, vector: Vector<R>| {
-            let constant = &cx.constants.legs[dyad.index][i];
-            if dyad.leg[i] { constant.on_lanes() } else { Leg::of(vector) }
-        };
         match dyad.form {
             Form::TwoCircles => {
-                let (a, b) = (leg(0, first), leg(1, second));
+                let (a, b) = (leg(cx, dyad, 0, first), leg(cx, dyad, 1, second));
                 let (x, y, closed) = two_circles(&a, &b, k, sign);
                 self.set_rotation(g, cx, dyad, 0, a.turn_to(x));
                 self.set_rotation(g, cx, dyad, 1, b.turn_to(y));
-                closed.with_arm2(relative_arm2(u, a.inv_norm2).max(relative_arm2(v, b.inv_norm2)))
+                let arm2 = relative_arm2(cx, u, a.inv_norm2, rounding);
+                closed.with_arm2(arm2.max(relative_arm2(cx, v, b.inv_norm2, rounding)))
             }
             Form::CircleAndLine => {
-                let a = leg(0, first);
+                let a = leg(cx, dyad, 0, first);
                 let (x, s, closed) = circle_and_line(&a, second, k, sign);
                 self.set_rotation(g, cx, dyad, 0, x);
                 self.set_slide(g, v, s);
-                closed.with_arm2(relative_arm2(u, a.inv_norm2))
+                closed.with_arm2(relative_arm2(cx, u, a.inv_norm2, rounding))
             }
             Form::TurningGuide => {
                 let constant = Vector::splat(cx.constants.legs[dyad.index][0].vector);
@@ -62,7 +54,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 let (x, s, inv_distance2, closed) = turning_guide(a, second, k, sign);
                 self.set_rotation(g, cx, dyad, 0, x);
                 self.set_slide(g, v, s);
-                closed.with_arm2(relative_arm2(u, inv_distance2))
+                closed.with_arm2(relative_arm2(cx, u, inv_distance2, rounding))
             }
             Form::TwoLines => {
                 let (s, t, closed) = two_lines(first, second, k);
@@ -91,16 +83,15 @@ impl<R: Real, const G: usize> State<R, G> {
             let e = term.edge;
             let edge = &cx.plan.edges[e];
             let driven = cx.plan.orientations[edge.orientation].driven;
-            let signed = |v: Vector<R>| if term.backward { -v } else { v };
-            // Turns a vector by the known part of its orientation.
-            let turned = |v: Vector<R>| match term.turns {
-                None => self.orient[edge.orientation * len][g] * v,
-                Some(_) if driven => self.phase[edge.orientation][g] * v,
-                Some(_) => v,
+            // The known part of its orientation.
+            let turn = match term.turns {
+                None => Some(self.orient[edge.orientation * len][g]),
+                Some(_) if driven => Some(self.phase[edge.orientation][g]),
+                Some(_) => None,
             };
             let guide = Vector::splat(cx.constants.guide[e]);
             if let Some(i) = term.slides {
-                terms[i] += signed(turned(guide));
+                terms[i] += signed(term, turned(turn, guide));
             }
             if term.in_leg {
                 continue;
@@ -111,7 +102,7 @@ impl<R: Real, const G: usize> State<R, G> {
             {
                 edge_vector += guide.scale(self.slides[slide * len][g]);
             }
-            let v = signed(turned(edge_vector));
+            let v = signed(term, turned(turn, edge_vector));
             match term.turns {
                 Some(i) => terms[i] += v,
                 None => known = known - v,
@@ -148,4 +139,34 @@ impl<R: Real, const G: usize> State<R, G> {
             self.slides[slide * self.len][g] = value;
         }
     }
+}
+
+// Functions, not closures: these are always inlined into the code of a level.
+
+/// A rotation is weighted by the greatest arm² that turns with it.
+#[inline(always)]
+fn relative_arm2<R: Real>(cx: &Context<'_>, unknown: Unknown, inv_norm2: R, rounding: R) -> R {
+    match unknown {
+        Unknown::Class(c) => R::splat(cx.constants.max_arm2[c]).max(rounding) * inv_norm2,
+        Unknown::Slide(_) => R::ONE,
+    }
+}
+
+/// One of a dyad's legs; `vector` if it is not constant.
+#[inline(always)]
+fn leg<R: Real>(cx: &Context<'_>, dyad: &Dyad, i: usize, vector: Vector<R>) -> Leg<R> {
+    let constant = &cx.constants.legs[dyad.index][i];
+    if dyad.leg[i] { constant.on_lanes() } else { Leg::of(vector) }
+}
+
+/// A vector in the direction in which its term is traversed.
+#[inline(always)]
+fn signed<R: Real>(term: &LoopTerm, v: Vector<R>) -> Vector<R> {
+    if term.backward { -v } else { v }
+}
+
+/// A vector turned, unless there is nothing to turn it by.
+#[inline(always)]
+fn turned<R: Real>(turn: Option<Vector<R>>, v: Vector<R>) -> Vector<R> {
+    if let Some(turn) = turn { turn * v } else { v }
 }

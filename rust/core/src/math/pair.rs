@@ -1,0 +1,148 @@
+//! Two registers side by side: their operations are independent, so that one need not wait for the
+//! other.
+
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+use super::lanes::{Mask, Real};
+
+/// Twice the numbers of `R`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Pair<R>(R, R);
+
+/// Twice the lanes of `M`; each half has `N` of them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PairMask<R: Real>(R::Mask, R::Mask);
+
+impl<R: Real> Mask for PairMask<R> {
+    const NONE: Self = Self(R::Mask::NONE, R::Mask::NONE);
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0.or(self.1).any()
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self.0.and(self.1).all()
+    }
+    #[inline(always)]
+    fn lane(self, lane: usize) -> bool {
+        if lane < R::LANES { self.0.lane(lane) } else { self.1.lane(lane - R::LANES) }
+    }
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(self.0.and(other.0), self.1.and(other.1))
+    }
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self(self.0.or(other.0), self.1.or(other.1))
+    }
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(self.0.not(), self.1.not())
+    }
+}
+
+impl<R: Real> Add for Pair<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0, self.1 + other.1)
+    }
+}
+
+impl<R: Real> AddAssign for Pair<R> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<R: Real> Sub for Pair<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0 - other.0, self.1 - other.1)
+    }
+}
+
+impl<R: Real> Mul for Pair<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(self.0 * other.0, self.1 * other.1)
+    }
+}
+
+impl<R: Real> Div for Pair<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Self(self.0 / other.0, self.1 / other.1)
+    }
+}
+
+impl<R: Real> Neg for Pair<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0, -self.1)
+    }
+}
+
+impl<R: Real> Real for Pair<R> {
+    type Mask = PairMask<R>;
+    const LANES: usize = 2 * R::LANES;
+    const ZERO: Self = Self(R::ZERO, R::ZERO);
+    const ONE: Self = Self(R::ONE, R::ONE);
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self(R::splat(value), R::splat(value))
+    }
+    #[inline(always)]
+    fn from_lanes(mut of: impl FnMut(usize) -> f64) -> Self {
+        Self(R::from_lanes(&mut of), R::from_lanes(|lane| of(R::LANES + lane)))
+    }
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f64 {
+        if lane < R::LANES { self.0.lane(lane) } else { self.1.lane(lane - R::LANES) }
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt(), self.1.sqrt())
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs(), self.1.abs())
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0), self.1.max(other.1))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0), self.1.min(other.1))
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Self(self.0.floor(), self.1.floor())
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        Self(self.0.copysign(sign.0), self.1.copysign(sign.1))
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> PairMask<R> {
+        PairMask(self.0.lt(other.0), self.1.lt(other.1))
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> PairMask<R> {
+        PairMask(self.0.le(other.0), self.1.le(other.1))
+    }
+    #[inline(always)]
+    fn bit(self, bit: u32) -> PairMask<R> {
+        PairMask(self.0.bit(bit), self.1.bit(bit))
+    }
+    #[inline(always)]
+    fn select(mask: PairMask<R>, yes: Self, no: Self) -> Self {
+        Self(R::select(mask.0, yes.0, no.0), R::select(mask.1, yes.1, no.1))
+    }
+}

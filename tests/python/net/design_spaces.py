@@ -1,0 +1,71 @@
+"""Wide design spaces, whose designs mostly do not turn fully, and (as a program) digests of them.
+
+``ASSUR_CARE=always python design_spaces.py 100`` solves every position by itself, with every
+branch traced knot by knot.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+from typing import TYPE_CHECKING
+
+import library
+import numpy as np
+
+import assur
+import bits
+import campaign_cases
+from mechanism_data import arguments
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+# Designs of a space, and coordinates of each.
+DESIGNS, POSITIONS = 24, 40
+# Of class II, with one driven angle.
+NAMED = [
+    "crank_rocker", "engine", "whitworth", "shaper", "scotch_yoke",
+    "watt_six_bar", "stephenson_six_bar", "jansen_leg", "klann_leg",
+]  # fmt: skip
+
+
+def space(m: assur.Mechanism, rng: np.random.Generator, designs: int = DESIGNS) -> assur.Mechanism:
+    """A batch with dimensions up to 60 % longer or shorter.
+
+    Of every three designs one changes all of them, one half, and one few (some none), so that
+    some keep the change points of the drawing.
+    """
+    shape = (len(m.dimensions), designs)
+    kept = rng.random(shape) < np.resize([0.0, 0.5, 0.9], designs)
+    wide = np.where(kept, 1.0, rng.uniform(0.4, 1.6, shape))
+    rows = zip(m.dimensions.items(), wide, strict=True)
+    return m.with_dimensions({name: value * factors for (name, value), factors in rows})
+
+
+def digest(m: assur.Mechanism, seed: int) -> str:
+    """Of joints alone (signs are enough), of angles alone, and of everything, to order 2."""
+    rng = np.random.default_rng(seed)
+    q = rng.uniform(-2.0, 8.0, (POSITIONS, *np.shape(m.q0)))
+    batch = space(m, rng)
+    joints = [name for name in m.joints if name not in m.links["ground"]]
+    motions = [batch.solve(q, order=order, on_error="nan") for order in (0, 2)]
+    if joints:
+        motions.append(batch.solve(q, order=2, outputs=joints, on_error="nan"))
+    rows = b"".join(bits.bits(motion).tobytes() for motion in motions)
+    return hashlib.blake2b(rows).hexdigest()
+
+
+def digests(seeds: int) -> Iterator[tuple[str, str]]:
+    for name in NAMED:
+        for seed in range(4):
+            yield f"{name} {seed}", digest(library.LIBRARY[name](), seed)
+    for seed in range(seeds):
+        yield f"seed {seed}", digest(bits.random(seed), seed)
+        changing = arguments(campaign_cases.changing_case(seed).description)
+        yield f"changing {seed}", digest(assur.Mechanism(**changing), seed)
+
+
+if __name__ == "__main__":
+    json.dump(dict(digests(int(sys.argv[1]))), sys.stdout)
