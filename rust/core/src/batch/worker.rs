@@ -253,27 +253,44 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
         let at = job.first + row;
         let with = (&design.constants, &design.units);
-        self.writer.write(job.rows, (at, count), with, state, &self.lifted);
-        job.rows.status[at..at + count].fill(MaybeUninit::new(Status::Ok as u8));
-        let mut again = false;
-        let state = &self.many;
+        let (mut open, mut some_open, mut again) = ([R::Mask::NONE; G], false, false);
         // Without groups and redundant links, dyads close or not by the same bits in lanes.
-        let closes_alike = !(self.design.has_groups() || self.design.has_redundant_links());
-        let mut open = [R::Mask::NONE; G];
+        let closes_alike = !(design.has_groups() || design.has_redundant_links());
         for group in 0..groups.min(G) {
+            care[group] = care[group].or(self.turned[first + group].q.finite().not());
             if closes_alike {
                 open[group] = state.open[group].and(care[group].not());
+                some_open |= open[group].any();
             }
-            care[group] = care[group].or(state.needs_scalar[group]);
+            care[group] = care[group].or(state.needs_scalar[group].and(open[group].not()));
             care[group] = care[group].or(design.branch.same_det_sign(state, group).not());
             again |= care[group].any();
+        }
+        let failed = some_open.then_some(&open);
+        self.writer.write(job.rows, (at, count), with, state, &self.lifted, failed);
+        let status = &mut job.rows.status[at..at + count];
+        status.fill(MaybeUninit::new(Status::Ok as u8));
+        for (group, status) in status.chunks_mut(R::LANES).enumerate() {
             let near = state.near_singular(group);
-            if near.any() {
-                for lane in 0..R::LANES.min(count - group * R::LANES) {
-                    if near.lane(lane) {
-                        let status = Status::NearSingular as u8;
-                        job.rows.status[at + group * R::LANES + lane] = MaybeUninit::new(status);
-                    }
+            if !near.or(open[group]).any() {
+                continue;
+            }
+            for (lane, status) in status.iter_mut().enumerate() {
+                if open[group].lane(lane) {
+                    *status = MaybeUninit::new(Status::Unreachable as u8);
+                } else if near.lane(lane) {
+                    *status = MaybeUninit::new(Status::NearSingular as u8);
+                }
+            }
+        }
+        if some_open && let Some(log) = self.failures {
+            for place in 0..count {
+                let (group, lane) = (place / R::LANES, place % R::LANES);
+                if open[group].lane(lane) && !log.count_later(job.index + row + place) {
+                    // It has to be described.
+                    care[group] = care[group]
+                        .or(R::ZERO.lt(R::from_lanes(|i| if i == lane { 1.0 } else { 0.0 })));
+                    again = true;
                 }
             }
         }
@@ -286,16 +303,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 if self.is_cancelled() {
                     return;
                 }
-                let (group, lane) = (place / R::LANES, place % R::LANES);
-                if !care[group].lane(lane) {
-                    continue;
-                }
-                let later =
-                    || self.failures.is_none_or(|log| log.count_later(job.index + row + place));
-                if open[group].lane(lane) && job.q[row + place].is_finite() && later() {
-                    let status = Status::Unreachable as u8;
-                    job.rows.write_failed(self.columns, at + place, 1, status);
-                } else {
+                if care[place / R::LANES].lane(place % R::LANES) {
                     self.solve_scalar(job, row + place);
                 }
             }
@@ -328,7 +336,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let lift = |class: usize| [unwrap_to(state.class[class][0].angle(), near[class])];
         let lifted: Vec<[f64; 1]> = (0..near.len()).map(lift).collect();
         let with = (&self.design.constants, &self.design.units);
-        self.writer.write(job.rows, (at, 1), with, state, &lifted);
+        self.writer.write(job.rows, (at, 1), with, state, &lifted, None);
         if !analogues {
             job.rows.write_nan(self.columns, 1, at, 1);
         }
@@ -362,7 +370,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                     point[0][0] += rate.origin.scale(1.0 / design.constants.scale);
                 }
                 let with = (&design.constants, &design.units);
-                self.writer.write(job.rows, (at, 1), with, &by.rates, &nothing);
+                self.writer.write(job.rows, (at, 1), with, &by.rates, &nothing, None);
                 job.rows.status[at] = MaybeUninit::new(status as u8);
             }
         }

@@ -148,7 +148,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes `count` positions, lane after lane of a state, into the rows from `row` on.
-    /// `lifted`: angles of the classes.
+    /// `lifted`: angles of the classes; `failed`: lanes to fill with NaN, if there are any.
     #[inline(always)]
     pub(crate) fn write<R: Real, const G: usize>(
         &self,
@@ -157,6 +157,7 @@ impl<'a> Writer<'a> {
         (constants, unit): (&DesignConstants, &Units),
         state: &State<R, G>,
         lifted: &[[R; G]],
+        failed: Option<&[R::Mask; G]>,
     ) {
         let origin = Vector::splat(Vector::new(constants.origin[0], constants.origin[1]));
         for entry in &self.points {
@@ -169,24 +170,26 @@ impl<'a> Writer<'a> {
                 let streams = self.streams && R::LANES > 1;
                 for g in 0..G {
                     let out = &mut out[2 * R::LANES * g..][..2 * R::LANES];
+                    let p = scaled(points[g], scale, shift);
+                    let p = Vector::new(or_nan(failed, g, p.x), or_nan(failed, g, p.y));
                     if streams {
-                        stream::store_pairs(out, scaled(points[g], scale, shift));
+                        stream::store_pairs(out, p);
                     } else {
-                        store_pairs(out, scaled(points[g], scale, shift));
+                        store_pairs(out, p);
                     }
                 }
                 continue;
             }
             for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
                 let p = scaled(points[g], scale, shift);
-                store_lanes(out, entry.width, entry.index, p.x);
-                store_lanes(out, entry.width, entry.index + entry.y, p.y);
+                store_lanes(out, entry.width, entry.index, or_nan(failed, g, p.x));
+                store_lanes(out, entry.width, entry.index + entry.y, or_nan(failed, g, p.y));
             }
         }
         for entry in &self.slides {
             let scale = R::splat(unit.length[entry.k]);
             let slides = &state.slides[entry.source];
-            entry.store(rows.of(entry, row, count), |g| slides[g] * scale);
+            entry.store(rows.of(entry, row, count), |g| or_nan(failed, g, slides[g] * scale));
         }
         for entry in &self.angles {
             let rotation = &self.mechanism.plan().rotation[entry.source];
@@ -201,7 +204,7 @@ impl<'a> Writer<'a> {
                         angle += R::splat(f64::from(turns)) * q[g];
                     }
                 }
-                angle + offset
+                or_nan(failed, g, angle + offset)
             });
         }
         for entry in &self.rates {
@@ -211,14 +214,20 @@ impl<'a> Writer<'a> {
             entry.store(rows.of(entry, row, count), |g| {
                 let rate = rates[g] + driven;
                 let scaled = rate * scale;
-                if overflows {
-                    // The unit overflows; only a link that does not turn keeps a finite derivative.
-                    R::select(rate.abs().le(R::ZERO), rate, scaled)
-                } else {
-                    scaled
-                }
+                let stays = R::splat(if overflows { 0.0 } else { -1.0 });
+                // Where the unit overflows, only a link that does not turn keeps a finite derivative.
+                or_nan(failed, g, R::select(rate.abs().le(stays), rate, scaled))
             });
         }
+    }
+}
+
+/// A number of a group, NaN in the lanes that failed.
+#[inline(always)]
+fn or_nan<R: Real, const G: usize>(failed: Option<&[R::Mask; G]>, g: usize, number: R) -> R {
+    match failed {
+        Some(failed) => R::select(failed[g], R::splat(f64::NAN), number),
+        None => number,
     }
 }
 

@@ -6,6 +6,7 @@ use std::cell::RefCell;
 use super::branch::{Branch, BranchLocation};
 use super::change_interpolant::{ChangeInterpolant, ChangeWindow};
 use super::constant_signs::SignCheck;
+use super::crank_dyad::CrankDyad;
 use super::knot::{ChangePoint, InitialGuess, Taylor2};
 use super::uniform::{ReferenceBranch, UniformTracer};
 use super::units::Units;
@@ -53,6 +54,8 @@ pub(crate) struct Design<'a> {
     q0: Vec<f64>,
     /// The branch from the drawing, if one serves all positions.
     pub branch: Branch,
+    /// The only dyad, if it is on a crank and the ground.
+    crank_dyad: Option<CrankDyad>,
     /// Work space to show that signs are constant.
     sign_check: SignCheck,
     /// Range around a change point within which the motion is interpolated.
@@ -81,6 +84,7 @@ impl<'a> Design<'a> {
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
             q0: Vec::new(),
             branch: Branch::default(),
+            crank_dyad: CrankDyad::of(mechanism.plan()),
             sign_check: SignCheck::default(),
             change_window: ChangeWindow::SHORT,
             interpolants: RefCell::default(),
@@ -215,26 +219,29 @@ impl<'a> Design<'a> {
         if self.has_groups() && !uniform.has_reference(|| self.reference_branch()) {
             return false;
         }
-        let mut branch = std::mem::take(&mut self.branch);
-        let start = &self.mechanism.class_angle;
-        let done = uniform.trace::<L>(
-            &self.context(&self.tracing_derivatives),
-            self.q0[0],
-            start,
-            &mut branch,
-        );
-        self.branch = branch;
-        if done || angles || self.has_groups() || self.has_redundant_links() {
-            return done;
+        let signs_only = !(angles || self.has_groups() || self.has_redundant_links());
+        let classes = self.mechanism.class_angle.len();
+        if signs_only && self.crank_dyad.is_some_and(|dyad| dyad.keeps_sign(&self.constants)) {
+            self.branch.set_constant_signs(classes, &self.signs);
+            return true;
         }
+        let mut branch = std::mem::take(&mut self.branch);
         let mut check = std::mem::take(&mut self.sign_check);
         let cx = self.context(&self.tracing_derivatives);
-        let constant = uniform.keeps_signs::<L>(&cx, &mut check);
-        self.sign_check = check;
+        uniform.solve_knots::<L>(&cx, self.q0[0]);
+        let constant = signs_only && uniform.keeps_signs::<L>(&cx, &mut check);
+        let done = constant || {
+            if signs_only {
+                // The knots are those of the last closer look.
+                uniform.solve_knots::<L>(&cx, self.q0[0]);
+            }
+            uniform.trace(&cx, &self.mechanism.class_angle, &mut branch)
+        };
+        (self.branch, self.sign_check) = (branch, check);
         if constant {
-            self.branch.set_constant_signs(start.len(), &self.signs);
+            self.branch.set_constant_signs(classes, &self.signs);
         }
-        constant
+        done
     }
 
     /// The branch of the drawing, from which those of other designs start.

@@ -5,6 +5,7 @@ pub(crate) mod branch;
 pub(crate) mod change_interpolant;
 pub(crate) mod change_point;
 pub(crate) mod constant_signs;
+pub(crate) mod crank_dyad;
 pub(crate) mod design;
 pub(crate) mod hermite;
 pub(crate) mod homotopy;

@@ -74,18 +74,9 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         self.reference.get_or_init(make).is_some()
     }
 
-    /// Traces a turn from `q0` into `branch`; false if the tracer is needed.
+    /// Solves the knots of a turn from `q0`.
     #[inline(always)]
-    pub(crate) fn trace<L: Level<Register = R>>(
-        &mut self,
-        cx: &Context<'_>,
-        q0: f64,
-        start: &[f64],
-        branch: &mut Branch,
-    ) -> bool {
-        self.guide_sides.clear();
-        branch.at.clear();
-        branch.angles.clear();
+    pub(crate) fn solve_knots<L: Level<Register = R>>(&mut self, cx: &Context<'_>, q0: f64) {
         if self.q0 != q0 {
             self.set_knots(q0);
         }
@@ -99,6 +90,14 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
         self.guess(cx);
         L::solve(&mut self.state, cx);
+    }
+
+    /// Traces the turn whose knots have been solved into `branch`; false if the tracer is needed.
+    #[inline(always)]
+    pub(crate) fn trace(&mut self, cx: &Context<'_>, start: &[f64], branch: &mut Branch) -> bool {
+        self.guide_sides.clear();
+        branch.at.clear();
+        branch.angles.clear();
         branch.angles.resize(KNOTS * start.len(), 0.0);
         // Before the first knot there is only the drawing.
         self.spread.fill((0.0, 0.0));
