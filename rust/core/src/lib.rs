@@ -63,7 +63,7 @@ mod structure;
 pub use batch::failure_log::{FailureLog, FirstFailure};
 pub use batch::outputs::{Arrays, Column, Outputs, Quantity};
 pub use batch::request::{Coordinates, Motion, Request, Series};
-pub use batch::schedule::Control;
+pub use batch::schedule::{Care, Control};
 pub use batch::solve::fill;
 #[cfg(feature = "test-hooks")]
 #[doc(hidden)]

@@ -21,11 +21,31 @@ const CHUNK_SEVERAL_DRIVERS: usize = 8;
 /// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
 const MAX_DESIGNS: usize = 64;
 
-/// Whether `ASSUR_CARE=always` asks for the careful path everywhere. The variable is read once.
-fn care_is_asked_for() -> bool {
-    static ASKED: LazyLock<bool> =
-        LazyLock::new(|| std::env::var("ASSUR_CARE").is_ok_and(|value| value == "always"));
-    *ASKED
+/// Which positions and designs take the careful path. The results are the same, but slow: to
+/// compare with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Care {
+    /// Those that need it.
+    Needed,
+    /// All positions are solved by themselves.
+    Always,
+    /// And all branches are traced knot by knot.
+    KnotByKnot,
+}
+
+impl Care {
+    /// What `ASSUR_CARE` asks for (`always` or `knots`; else what is needed). The variable is read
+    /// once.
+    #[must_use]
+    pub fn asked_for() -> Self {
+        static ASKED: LazyLock<Care> =
+            LazyLock::new(|| match std::env::var("ASSUR_CARE").as_deref() {
+                Ok("always") => Care::Always,
+                Ok("knots") => Care::KnotByKnot,
+                _ => Care::Needed,
+            });
+        *ASKED
+    }
 }
 
 /// How to do the work: threads, vector instructions and cancellation.
@@ -35,9 +55,8 @@ pub struct Control<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Highest level of vector instructions to use.
     pub simd: Simd,
-    /// Solves every position by itself and traces every branch knot by knot: the same results,
-    /// slowly, to compare with.
-    pub careful: bool,
+    /// Which positions take the careful path.
+    pub care: Care,
     /// Setting it to true stops the work after the blocks in progress.
     pub cancel: Option<&'a AtomicBool>,
     /// Where to record the first position that fails.
@@ -49,7 +68,7 @@ impl Default for Control<'_> {
         Self {
             threads: None,
             simd: Simd::default(),
-            careful: care_is_asked_for(),
+            care: Care::asked_for(),
             cancel: None,
             failures: None,
         }

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::failure_log::FailureLog;
 use super::outputs::Column;
 use super::request::Request;
-use super::schedule::Control;
+use super::schedule::{Care, Control};
 use super::streaming_store as stream;
 use super::writer::{RowSlices, Writer};
 use crate::branch::branch::BranchLocation;
@@ -43,8 +43,7 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     spots: Vec<BranchLocation<R>>,
     /// Whether that branch was a uniform one.
     spots_even: bool,
-    /// Whether every position is solved by itself.
-    careful: bool,
+    care: Care,
     /// When true, work stops after the block in progress.
     cancel: Option<&'a AtomicBool>,
     failures: Option<&'a FailureLog>,
@@ -83,6 +82,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let plan = mechanism.plan();
         let mut many = State::new(plan, derivatives);
         many.angle_wanted.clone_from(&writer.asked);
+        many.step_wanted = plan.steps_for(writer.asked_points());
         Self {
             quick: design.uniform_tracer(),
             one: State::new(plan, derivatives),
@@ -96,7 +96,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             design,
             writer,
             columns,
-            careful: control.careful,
+            care: control.care,
             cancel: control.cancel,
             failures: control.failures,
         }
@@ -129,10 +129,14 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     #[inline(always)]
     pub(crate) fn run<L: Level<Register = R>>(&mut self, job: &mut Job<'_, '_>) {
         // The first guess of a group's iteration depends on how its branch was traced.
-        let traced = (!self.careful || self.design.has_groups())
-            && self.design.trace_uniform::<L, G>(&mut self.quick, !self.writer.classes.is_empty());
+        let in_lanes = self.care == Care::Needed || self.design.has_groups();
+        let traced =
+            in_lanes && self.design.trace_in_lanes::<L, G>(&mut self.quick, &self.writer.classes);
         if !traced {
-            self.design.trace(job.q);
+            match self.care {
+                Care::Always => self.design.trace(job.q),
+                _ => self.design.trace_knot_by_knot(job.q),
+            }
         }
         let drivers = self.design.mechanism.q0().len();
         let count = job.q.len() / drivers;
@@ -141,7 +145,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             self.by = Some((index, by));
             return;
         }
-        if drivers > 1 || self.careful {
+        if drivers > 1 || self.care != Care::Needed {
             for row in 0..count {
                 if self.is_cancelled() {
                     return;
@@ -152,6 +156,12 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
         let (plan, derivatives) = (self.design.mechanism.plan(), self.design.derivatives);
         self.many.prepare(plan, &self.design.constants, derivatives);
+        if self.design.branch.has_constant_signs() {
+            let signs = self.design.branch.signs_at(&BranchLocation::<f64>::default(), 0);
+            for (lanes, &sign) in self.many.signs.iter_mut().zip(signs) {
+                *lanes = [R::splat(sign); G];
+            }
+        }
         self.load_coordinates(job);
         for row in (0..count).step_by(G * R::LANES) {
             if self.is_cancelled() {
@@ -182,7 +192,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             self.spots.clear();
         }
         self.spots_even = branch.inverse_width.is_some();
-        if self.spots.is_empty() {
+        if branch.at.is_empty() {
+            // There is nothing to locate.
+            self.spots.resize_with(self.turned.len(), BranchLocation::default);
+        } else if self.spots.is_empty() {
             for turned in &self.turned {
                 self.spots.push(branch.locate(turned.q));
             }
@@ -191,15 +204,15 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
 
     /// Lanes that must be solved again by themselves, whatever the vector solution gives.
     #[inline(always)]
-    fn lanes_to_redo(&self, q: R, spot: &BranchLocation<R>) -> R::Mask {
+    fn lanes_to_redo(&self, q: R, spot: &BranchLocation<R>, with_islands: bool) -> R::Mask {
         let branch = &self.design.branch;
         let must_redo = |i: usize| {
             let at = q.lane(i);
             !branch.covers(at)
-                || branch.in_untraced_island(spot, i)
+                || with_islands && branch.in_untraced_island(spot, i)
                 || branch.change_near(at, self.design.change_window.reach).is_some()
         };
-        R::ZERO.lt(R::from_lanes(|i| if must_redo(i) { 1.0 } else { 0.0 }))
+        mask::<R>(must_redo)
     }
 
     /// Solves up to `G` registers of positions from `row` on.
@@ -213,30 +226,33 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let (first, groups) = (row / R::LANES, count.div_ceil(R::LANES));
         let mut care = [R::Mask::NONE; G];
         let branch = &self.design.branch;
-        let (even, simple) = (branch.inverse_width.is_some(), branch.has_signs_only());
+        // Without groups and redundant links, dyads close or not by the same bits in lanes.
+        let closes_alike = !(self.design.has_groups() || self.design.has_redundant_links());
+        let constant_signs = branch.has_constant_signs();
+        let (even, plain) = (branch.inverse_width.is_some(), branch.is_plain());
         for group in 0..groups {
             let DriverLanes { q, unit } = self.turned[first + group];
             let spot = &self.spots[first + group];
-            if !(even || simple) {
-                care[group] = self.lanes_to_redo(q, spot);
+            if !(even || plain && closes_alike) {
+                care[group] = self.lanes_to_redo(q, spot, !closes_alike);
             }
             let branch = &self.design.branch;
             // Lanes to redo are set to NaN: their vector result is not used.
             self.many.q[0][group] = R::select(care[group], R::splat(f64::NAN), q);
             self.many.unit[0][group] = unit;
-            for (sign, groups) in self.many.signs.iter_mut().enumerate() {
-                groups[group] = if branch.has_constant_signs() {
-                    R::splat(branch.signs_at(spot, 0)[sign])
-                } else {
-                    R::from_lanes(|i| branch.signs_at(spot, i)[sign])
-                };
+            if !constant_signs {
+                for (sign, groups) in self.many.signs.iter_mut().enumerate() {
+                    groups[group] = R::from_lanes(|i| branch.signs_at(spot, i)[sign]);
+                }
             }
         }
         let design = &self.design;
         self.many.groups = groups;
-        for group in 0..groups.min(G) {
-            let spot = &self.spots[first + group];
-            design.guess(group, &mut self.many, &design.branch, spot);
+        if !closes_alike {
+            for group in 0..groups.min(G) {
+                let spot = &self.spots[first + group];
+                design.guess(group, &mut self.many, &design.branch, spot);
+            }
         }
         L::solve(&mut self.many, &design.context(design.derivatives));
         let state = &self.many;
@@ -254,13 +270,19 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let at = job.first + row;
         let with = (&design.constants, &design.units);
         let (mut open, mut some_open, mut again) = ([R::Mask::NONE; G], false, false);
-        // Without groups and redundant links, dyads close or not by the same bits in lanes.
-        let closes_alike = !(design.has_groups() || design.has_redundant_links());
         for group in 0..groups.min(G) {
             care[group] = care[group].or(self.turned[first + group].q.finite().not());
             if closes_alike {
                 open[group] = state.open[group].and(care[group].not());
                 some_open |= open[group].any();
+                if !(even || self.writer.classes.is_empty()) {
+                    // The angle on an island that no knot has seen has to be followed to it.
+                    let spot = &self.spots[first + group];
+                    let unseen = |i: usize| {
+                        !open[group].lane(i) && design.branch.in_untraced_island(spot, i)
+                    };
+                    care[group] = care[group].or(mask::<R>(unseen));
+                }
             }
             care[group] = care[group].or(state.needs_scalar[group].and(open[group].not()));
             care[group] = care[group].or(design.branch.same_det_sign(state, group).not());
@@ -288,8 +310,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 let (group, lane) = (place / R::LANES, place % R::LANES);
                 if open[group].lane(lane) && !log.count_later(job.index + row + place) {
                     // It has to be described.
-                    care[group] = care[group]
-                        .or(R::ZERO.lt(R::from_lanes(|i| if i == lane { 1.0 } else { 0.0 })));
+                    care[group] = care[group].or(mask::<R>(|i| i == lane));
                     again = true;
                 }
             }
@@ -375,4 +396,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
         }
     }
+}
+
+/// The lanes of which something is true.
+#[inline(always)]
+fn mask<R: Real>(of: impl Fn(usize) -> bool) -> R::Mask {
+    R::ZERO.lt(R::from_lanes(|lane| if of(lane) { 1.0 } else { 0.0 }))
 }

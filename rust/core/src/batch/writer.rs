@@ -41,6 +41,8 @@ struct Entry {
 /// Writes positions into their rows.
 pub(crate) struct Writer<'a> {
     mechanism: &'a Mechanism,
+    /// Entries of a jet.
+    jet: usize,
     points: Vec<Entry>,
     slides: Vec<Entry>,
     /// Angles of links.
@@ -112,6 +114,7 @@ impl<'a> Writer<'a> {
         }
         Self {
             mechanism,
+            jet: derivatives.len(),
             points,
             slides,
             angles,
@@ -121,6 +124,11 @@ impl<'a> Writer<'a> {
             shifted: true,
             streams: false,
         }
+    }
+
+    /// The points that are written.
+    pub(crate) fn asked_points(&self) -> impl Iterator<Item = usize> {
+        self.points.iter().map(|entry| entry.source / self.jet)
     }
 
     /// A writer of derivatives by a dimension: it treats angles like their analogues and adds no

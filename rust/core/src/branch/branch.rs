@@ -98,9 +98,9 @@ impl Branch {
         self.inverse_width = None;
     }
 
-    /// Whether the signs are constant and nothing else is known or needed.
-    pub(crate) fn has_signs_only(&self) -> bool {
-        self.at.is_empty() && self.covered.is_none()
+    /// Whether it is known everywhere and has no change points.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.covered.is_none() && self.changes.is_empty()
     }
 
     /// Traces one driven angle from `q0` upward. A periodic motion covers all q; if a group folds, it
@@ -336,6 +336,9 @@ impl Branch {
                 knot[lane] = self.knot_before(reduced.lane(lane)).min(last);
             }
         }
+        if self.cells.is_empty() {
+            return BranchLocation { reduced, periods, knot, ..BranchLocation::default() };
+        }
         let pair = [knot[0], knot[R::LANES - 1]];
         let is_pair = knot[..R::LANES].iter().all(|knot| pair.contains(knot));
         let is_last = R::from_lanes(|lane| if knot[lane] == pair[1] { 1.0 } else { 0.0 });
@@ -390,14 +393,11 @@ impl Branch {
         location: &BranchLocation<R>,
         lane: usize,
     ) -> bool {
-        let around = || self.reached_around(location.reduced.lane(lane));
-        self.inverse_width.is_none() && around().is_some_and(|[a, b]| !a && !b)
-    }
-
-    /// Whether the knots before and after a parameter can be reached.
-    fn reached_around(&self, reduced: f64) -> Option<[bool; 2]> {
-        let after = self.at.partition_point(|&k| k <= reduced);
-        Some([*self.reached.get(after.checked_sub(1)?)?, *self.reached.get(after)?])
+        // The knot is one that can be reached, if there is one before or after the location.
+        let at = location.reduced.lane(lane);
+        let inside = self.at.first().is_some_and(|&first| first <= at)
+            && self.at.last().is_some_and(|&last| at < last);
+        self.inverse_width.is_none() && inside && !self.reached[location.knot[lane]]
     }
 
     /// Traces such an island from its middle to the parameter: at an end of it a joint may be at

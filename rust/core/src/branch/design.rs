@@ -5,13 +5,13 @@ use std::cell::RefCell;
 
 use super::branch::{Branch, BranchLocation};
 use super::change_interpolant::{ChangeInterpolant, ChangeWindow};
-use super::constant_signs::SignCheck;
 use super::crank_dyad::CrankDyad;
 use super::knot::{ChangePoint, InitialGuess, Taylor2};
-use super::uniform::{ReferenceBranch, UniformTracer};
+use super::lane_tracer::LaneTracer;
+use super::uniform::{KNOTS, ReferenceBranch, UniformTracer};
 use super::units::Units;
 use crate::math::derivatives::DerivativeTables;
-use crate::math::lanes::Real;
+use crate::math::lanes::{LANES, Lanes, Real};
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
@@ -20,6 +20,7 @@ use crate::plan::dyad::Unknown;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
 use crate::state::kernel::Level;
+use crate::state::kernel::portable::Portable;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
@@ -56,8 +57,7 @@ pub(crate) struct Design<'a> {
     pub branch: Branch,
     /// The only dyad, if it is on a crank and the ground.
     crank_dyad: Option<CrankDyad>,
-    /// Work space to show that signs are constant.
-    sign_check: SignCheck,
+    lane_tracer: LaneTracer,
     /// Range around a change point within which the motion is interpolated.
     pub change_window: ChangeWindow,
     /// Interpolants in use, by their change point.
@@ -85,7 +85,7 @@ impl<'a> Design<'a> {
             q0: Vec::new(),
             branch: Branch::default(),
             crank_dyad: CrankDyad::of(mechanism.plan()),
-            sign_check: SignCheck::default(),
+            lane_tracer: LaneTracer::default(),
             change_window: ChangeWindow::SHORT,
             interpolants: RefCell::default(),
         }
@@ -137,7 +137,7 @@ impl<'a> Design<'a> {
         state
     }
 
-    /// Work space for [`Design::trace_uniform`].
+    /// Work space for [`Design::trace_in_lanes`].
     pub(crate) fn uniform_tracer<R: Real, const G: usize>(&self) -> UniformTracer<R, G> {
         UniformTracer::new(self.mechanism.plan(), &self.tracing_derivatives)
     }
@@ -205,13 +205,13 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Traces the uniform branch; false if the design has none. Without `angles`, constant signs
-    /// are enough.
+    /// Traces the branch by knots in lanes, with the angles of `classes`; false if the design needs
+    /// the tracer.
     #[inline(always)]
-    pub(crate) fn trace_uniform<L: Level, const G: usize>(
+    pub(crate) fn trace_in_lanes<L: Level, const G: usize>(
         &mut self,
         uniform: &mut UniformTracer<L::Register, G>,
-        angles: bool,
+        classes: &[usize],
     ) -> bool {
         if !self.has_one_rotary_driver() {
             return false;
@@ -219,28 +219,20 @@ impl<'a> Design<'a> {
         if self.has_groups() && !uniform.has_reference(|| self.reference_branch()) {
             return false;
         }
-        let signs_only = !(angles || self.has_groups() || self.has_redundant_links());
-        let classes = self.mechanism.class_angle.len();
+        let start = &self.mechanism.class_angle;
+        let closed_forms = !(self.has_groups() || self.has_redundant_links());
+        let signs_only = closed_forms && classes.is_empty();
         if signs_only && self.crank_dyad.is_some_and(|dyad| dyad.keeps_sign(&self.constants)) {
-            self.branch.set_constant_signs(classes, &self.signs);
+            self.branch.set_constant_signs(start.len(), &self.signs);
             return true;
         }
         let mut branch = std::mem::take(&mut self.branch);
-        let mut check = std::mem::take(&mut self.sign_check);
+        let mut tracer = std::mem::take(&mut self.lane_tracer);
         let cx = self.context(&self.tracing_derivatives);
         uniform.solve_knots::<L>(&cx, self.q0[0]);
-        let constant = signs_only && uniform.keeps_signs::<L>(&cx, &mut check);
-        let done = constant || {
-            if signs_only {
-                // The knots are those of the last closer look.
-                uniform.solve_knots::<L>(&cx, self.q0[0]);
-            }
-            uniform.trace(&cx, &self.mechanism.class_angle, &mut branch)
-        };
-        (self.branch, self.sign_check) = (branch, check);
-        if constant {
-            self.branch.set_constant_signs(classes, &self.signs);
-        }
+        let done = !signs_only && uniform.trace(&cx, start, &mut branch)
+            || closed_forms && tracer.trace::<L, G>(&cx, uniform, classes, start, &mut branch);
+        (self.branch, self.lane_tracer) = (branch, tracer);
         done
     }
 
@@ -269,10 +261,25 @@ impl<'a> Design<'a> {
         self.mechanism.plan().groups().next().is_some()
     }
 
-    /// Traces the branch over the coordinates `q` (all positions, rad or m).
+    /// Traces the branch over the coordinates `q` (all positions, rad or m), as a batch would.
     #[cold]
     #[inline(never)]
     pub(crate) fn trace(&mut self, q: &[f64]) {
+        let closed_forms = !(self.has_groups() || self.has_redundant_links());
+        if closed_forms && self.has_one_rotary_driver() {
+            let classes: Vec<usize> = (1..self.mechanism.class_angle.len()).collect();
+            let mut uniform = self.uniform_tracer::<Lanes, { KNOTS / LANES }>();
+            if self.trace_in_lanes::<Portable, { KNOTS / LANES }>(&mut uniform, &classes) {
+                return;
+            }
+        }
+        self.trace_knot_by_knot(q);
+    }
+
+    /// Traces the branch over the coordinates `q`, one knot after another.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn trace_knot_by_knot(&mut self, q: &[f64]) {
         if self.has_groups() {
             self.initial_unknowns = self.homotopy(&self.values);
         }

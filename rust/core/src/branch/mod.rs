@@ -2,14 +2,15 @@
 //! group.
 
 pub(crate) mod branch;
+pub(crate) mod cell_test;
 pub(crate) mod change_interpolant;
 pub(crate) mod change_point;
-pub(crate) mod constant_signs;
 pub(crate) mod crank_dyad;
 pub(crate) mod design;
 pub(crate) mod hermite;
 pub(crate) mod homotopy;
 pub(crate) mod knot;
+pub(crate) mod lane_tracer;
 pub(crate) mod predictor;
 pub(crate) mod tracer;
 pub(crate) mod uniform;

@@ -38,7 +38,7 @@ pub(crate) struct UniformTracer<R: Real, const G: usize> {
     /// Drawing's angle for which the knots below are set; the same for all designs.
     q0: f64,
     /// Angles of the driver and their unit vectors.
-    pub(crate) knots: Vec<(R, Vector<R>)>,
+    knots: Vec<(R, Vector<R>)>,
     /// Spread and rate of every dyad with a sign at the last knot.
     spread: Vec<(f64, f64)>,
     /// Angle of every class at the last knot, and its whole turns up to there.
@@ -54,8 +54,10 @@ pub(crate) struct UniformTracer<R: Real, const G: usize> {
 impl<R: Real, const G: usize> UniformTracer<R, G> {
     /// Work space for a plan; `derivatives` are for one driver.
     pub(crate) fn new(plan: &Plan, derivatives: &DerivativeTables) -> Self {
+        let mut state = State::new(plan, derivatives);
+        state.step_wanted = plan.steps_for([]);
         Self {
-            state: State::new(plan, derivatives),
+            state,
             q0: f64::NAN,
             knots: Vec::new(),
             spread: vec![(0.0, 0.0); plan.signs()],
@@ -72,6 +74,11 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         make: impl FnOnce() -> Option<ReferenceBranch<R, G>>,
     ) -> bool {
         self.reference.get_or_init(make).is_some()
+    }
+
+    /// The first knot.
+    pub(crate) fn first(&self) -> f64 {
+        self.knots.first().map_or(f64::NAN, |(at, _)| at.lane(0))
     }
 
     /// Solves the knots of a turn from `q0`.

@@ -65,6 +65,8 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) inv_length: Vec<[R; G]>,
     /// Whether the caller wants the rotation of each class; used for bars that no step needs.
     pub(crate) angle_wanted: Vec<bool>,
+    /// Whether each step is computed; all are, unless the caller needs some points only.
+    pub(crate) step_wanted: Vec<bool>,
     /// Work space for groups of binary links.
     pub(crate) loops: GroupWorkspace<R>,
     /// Determinant of every group's matrix at the solution (with analogues only).
@@ -133,6 +135,7 @@ impl<R: Real, const G: usize> State<R, G> {
             chords: vec![[Vector::ZERO; G]; loops * len],
             inv_length: vec![[R::ONE; G]; loops],
             angle_wanted: vec![true; plan.classes],
+            step_wanted: vec![true; plan.steps.len()],
             loops: GroupWorkspace::default(),
             determinants: vec![[R::ZERO; G]; plan.groups().count()],
             det_sign: vec![[R::ZERO; G]; plan.groups().count()],
@@ -159,6 +162,10 @@ impl<R: Real, const G: usize> State<R, G> {
         for (point, (&fixed, jet)) in
             constants.fixed.iter().zip(self.points.chunks_exact_mut(len)).enumerate()
         {
+            if R::LANES > 1 && !plan.fixed[point] {
+                // Every position sets all points that its steps place.
+                continue;
+            }
             let fixed = Vector::splat(fixed);
             jet.fill([Vector::ZERO; G]);
             jet[0] = [fixed; G];
@@ -203,7 +210,11 @@ impl<R: Real, const G: usize> State<R, G> {
                         }
                     }
                 },
-                &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
+                &Step::Place { edge, backward } => {
+                    if self.step_wanted[index] {
+                        self.place_all(cx, edge, backward);
+                    }
+                }
                 Step::Group(higher) => group(self, cx, higher, index),
                 Step::Redundant(redundant) => {
                     for g in 0..self.groups.min(G) {

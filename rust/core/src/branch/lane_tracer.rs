@@ -1,0 +1,301 @@
+//! Traces the branch of a driven angle by knots solved side by side, whether or not the design
+//! turns fully: shows that its signs are constant, and unwraps angles across its gaps.
+//!
+//! The knots of a turn are judged cell by cell. A cell where something may happen is divided by
+//! knots of its own, and these cells again. A design that may have a change point, or angles that
+//! cannot be followed in this way, are left to [`super::tracer`].
+
+use std::f64::consts::TAU;
+
+use super::branch::Branch;
+use super::cell_test::DyadSamples;
+use super::uniform::{CELL, KNOTS, UniformTracer};
+use crate::math::angle::unwrap_to;
+use crate::math::lanes::{Mask, Real};
+use crate::math::tolerance::KNOT_MAX_TURN;
+use crate::math::vector::Vector;
+use crate::state::kernel::Level;
+use crate::state::state::Context;
+
+/// Cells between the knots of one look.
+const CELLS: f64 = (KNOTS - 1) as f64;
+/// Levels of looks, each [`CELLS`] times as close as the one before.
+const LEVELS: usize = 4;
+/// Those at which dead points are looked at: down to the 900th part of a cell. Angles at the knot
+/// beyond, where the dyad is computed flat, are those at the dead point to about as much.
+const DEAD_POINT_LEVELS: usize = 2;
+/// Looks at one design.
+const MAX_LOOKS: usize = 256;
+/// Levels at which islands are searched for: down to the 900th part of a cell.
+const ISLAND_LEVELS: usize = 2;
+
+/// What one look showed.
+#[derive(Debug, Default)]
+struct Look {
+    /// The first knot, and the width of a cell.
+    from: f64,
+    cell: f64,
+    /// The next cell to be judged: that before this knot.
+    next: usize,
+    dyads: Vec<DyadSamples>,
+    /// Cells in which a sign may change …
+    uncertain: [bool; KNOTS],
+    curved: [bool; KNOTS],
+    /// … and that end at a dead point of some dyad that matters.
+    dead_point: [bool; KNOTS],
+    /// … and those that may hide an island.
+    may_hide_island: [bool; KNOTS],
+    reached: [bool; KNOTS],
+    /// Angle and rate of the classes asked for, at every knot.
+    angles: Vec<[f64; KNOTS]>,
+    rates: Vec<[f64; KNOTS]>,
+}
+
+/// Work space, kept from one design to the next.
+#[derive(Debug, Default)]
+pub(crate) struct LaneTracer {
+    looks: [Look; LEVELS],
+    /// Unwrapped angles of the classes asked for at the last knot.
+    last: Vec<f64>,
+    /// The same where the first position can be reached; empty before.
+    first: Vec<f64>,
+}
+
+impl LaneTracer {
+    /// Traces the turn whose knots have been solved into `branch`, with the angles of `classes`;
+    /// false if the design is not one of constant signs and smooth angles. `start`: the drawing's
+    /// angles.
+    #[inline(always)]
+    pub(crate) fn trace<L: Level, const G: usize>(
+        &mut self,
+        cx: &Context<'_>,
+        knots: &mut UniformTracer<L::Register, G>,
+        classes: &[usize],
+        start: &[f64],
+        branch: &mut Branch,
+    ) -> bool {
+        branch.set_constant_signs(start.len(), cx.signs);
+        self.last.clear();
+        self.last.extend(classes.iter().map(|&class| start[class]));
+        self.first.clear();
+        if !self.looks[0].take(cx, knots, classes, (knots.first(), CELL)) {
+            return false;
+        }
+        if !classes.is_empty() {
+            self.push(0, 0, classes, branch);
+        }
+        let (mut level, mut count) = (0, 0);
+        loop {
+            let knot = self.looks[level].next;
+            if knot == KNOTS {
+                if level == 0 {
+                    break;
+                }
+                level -= 1;
+                self.looks[level].next += 1;
+                continue;
+            }
+            let Some(closer) = self.needs_closer_look(level, knot, !classes.is_empty()) else {
+                return false;
+            };
+            if closer && level + 1 < LEVELS {
+                let look = &self.looks[level];
+                let (from, width) = (look.from + look.cell * (knot - 1) as f64, look.cell);
+                knots.solve_between::<L>(cx, from, width);
+                level += 1;
+                count += 1;
+                let taken = self.looks[level].take(cx, knots, classes, (from, width / CELLS));
+                if !taken || count > MAX_LOOKS {
+                    return false;
+                }
+                continue;
+            }
+            if !classes.is_empty() {
+                self.push(level, knot, classes, branch);
+            }
+            self.looks[level].next += 1;
+        }
+        for ((&class, &a), &b) in classes.iter().zip(&self.first).zip(&self.last) {
+            branch.gain[class] = TAU * ((b - a) / TAU).round();
+        }
+        if !classes.is_empty() {
+            branch.period = Some(TAU);
+        }
+        true
+    }
+
+    /// Whether the cell before a knot needs a closer look; `None` if none would be close enough.
+    #[inline(always)]
+    fn needs_closer_look(&self, level: usize, knot: usize, angles: bool) -> Option<bool> {
+        let look = &self.looks[level];
+        let last = level + 1 == LEVELS;
+        if look.uncertain[knot] {
+            return (!last).then_some(true);
+        }
+        if look.curved[knot] && !last {
+            return Some(true);
+        }
+        if look.dead_point[knot] {
+            return Some(if angles {
+                level < DEAD_POINT_LEVELS || !look.is_definite(knot)
+            } else {
+                level == 0 || !look.stays_away(knot)
+            });
+        }
+        if look.may_hide_island[knot] && level < ISLAND_LEVELS {
+            return Some(true);
+        }
+        if !(angles && look.reached[knot] && look.reached[knot - 1]) {
+            return Some(false);
+        }
+        let mut fast = false;
+        for (index, (angles, rates)) in look.angles.iter().zip(&look.rates).enumerate() {
+            let turned = unwrap_to(angles[knot], self.last[index]) - self.last[index];
+            if last && turned.abs() > KNOT_MAX_TURN {
+                return None;
+            }
+            let rate = rates[knot].abs().max(rates[knot - 1].abs());
+            fast |= turned.abs() > KNOT_MAX_TURN || rate * look.cell > KNOT_MAX_TURN;
+        }
+        Some(fast)
+    }
+
+    /// Adds a knot to the branch.
+    #[inline(always)]
+    fn push(&mut self, level: usize, knot: usize, classes: &[usize], branch: &mut Branch) {
+        let look = &self.looks[level];
+        let reached = look.reached[knot];
+        let width = branch.gain.len();
+        branch.at.push(look.from + look.cell * knot as f64);
+        branch.reached.push(reached);
+        branch.angles.resize(branch.at.len() * width, 0.0);
+        let row = (branch.at.len() - 1) * width;
+        let first = reached && self.first.is_empty();
+        let was_reached = knot > 0 && look.reached[knot - 1];
+        for (index, &class) in classes.iter().enumerate() {
+            let angles = &look.angles[index];
+            let last = &mut self.last[index];
+            if knot > 0 && !was_reached && reached {
+                // Through the dead point between both knots.
+                follow(last, angles[knot - 1]);
+            }
+            if first {
+                self.first.push(if knot > 0 { *last } else { unwrap_to(angles[0], *last) });
+            }
+            if reached || was_reached {
+                follow(last, angles[knot]);
+            }
+            branch.angles[row + class] = *last;
+        }
+    }
+}
+
+/// Follows an angle to its next value, if that is definite.
+#[inline(always)]
+fn follow(last: &mut f64, next: f64) {
+    if next.is_finite() {
+        *last = unwrap_to(next, *last);
+    }
+}
+
+impl Look {
+    /// Takes what the knots just solved show; false if one of them is singular.
+    #[inline(always)]
+    fn take<R: Real, const G: usize>(
+        &mut self,
+        cx: &Context<'_>,
+        knots: &UniformTracer<R, G>,
+        classes: &[usize],
+        (from, cell): (f64, f64),
+    ) -> bool {
+        (self.from, self.cell, self.next) = (from, cell, 1);
+        let state = &knots.state;
+        for group in 0..G {
+            if state.needs_scalar[group].and(state.open[group].not()).any() {
+                return false;
+            }
+            for lane in 0..R::LANES {
+                self.reached[group * R::LANES + lane] = !state.open[group].lane(lane);
+            }
+        }
+        let mut last_signed = 0;
+        for (index, dyad) in cx.plan.dyads().enumerate() {
+            if self.dyads.len() == index {
+                self.dyads.push(DyadSamples::NONE);
+            }
+            let (before, own) = self.dyads.split_at_mut(index);
+            for group in 0..G {
+                own[0].take(state, group, cx, dyad, before.last());
+            }
+            if dyad.sign.is_some() {
+                last_signed = index;
+            }
+        }
+        self.uncertain = [false; KNOTS];
+        self.curved = [false; KNOTS];
+        self.dead_point = [false; KNOTS];
+        self.may_hide_island = [false; KNOTS];
+        for (index, dyad) in self.dyads.iter().enumerate() {
+            for group in 0..G {
+                let cells = dyad.judge::<R>(group * R::LANES, cell);
+                if !cells
+                    .uncertain
+                    .or(cells.curved)
+                    .or(cells.dead_point)
+                    .or(cells.may_hide_island)
+                    .any()
+                {
+                    continue;
+                }
+                // Without angles, only later dyads are of interest beside a dead point.
+                let matters = index < last_signed || !classes.is_empty();
+                let islands = !classes.is_empty();
+                for lane in 0..R::LANES {
+                    let knot = group * R::LANES + lane;
+                    self.uncertain[knot] |= cells.uncertain.lane(lane);
+                    self.curved[knot] |= cells.curved.lane(lane);
+                    self.dead_point[knot] |= matters && cells.dead_point.lane(lane);
+                    self.may_hide_island[knot] |= islands && cells.may_hide_island.lane(lane);
+                }
+            }
+        }
+        self.angles.resize(classes.len(), [0.0; KNOTS]);
+        self.rates.resize(classes.len(), [0.0; KNOTS]);
+        for (index, &class) in classes.iter().enumerate() {
+            for group in 0..G {
+                let angle = state.class[class][group].angle();
+                let rate = state.theta[state.len * class + 1][group];
+                for lane in 0..R::LANES {
+                    self.angles[index][group * R::LANES + lane] = angle.lane(lane);
+                    self.rates[index][group * R::LANES + lane] = rate.lane(lane);
+                }
+            }
+        }
+        true
+    }
+
+    /// Whether all angles are known at both ends of the cell before a knot: beyond a dead point a
+    /// dyad behind it may have no definite position.
+    fn is_definite(&self, knot: usize) -> bool {
+        self.angles.iter().all(|angles| angles[knot].is_finite() && angles[knot - 1].is_finite())
+    }
+
+    /// Whether all dyads that close beside the dead point in the cell before a knot stay away from
+    /// flat up to it.
+    fn stays_away(&self, knot: usize) -> bool {
+        self.dyads.iter().all(|dyad| dyad.stays_away(knot))
+    }
+}
+
+impl<R: Real, const G: usize> UniformTracer<R, G> {
+    /// Solves knots between `from` and a cell's width beyond it.
+    #[inline(always)]
+    fn solve_between<L: Level<Register = R>>(&mut self, cx: &Context<'_>, from: f64, width: f64) {
+        for group in 0..G {
+            let at = R::from_lanes(|lane| from + width / CELLS * (group * R::LANES + lane) as f64);
+            self.state.q[0][group] = at;
+            self.state.unit[0][group] = Vector::at_angle(at);
+        }
+        L::solve(&mut self.state, cx);
+    }
+}
