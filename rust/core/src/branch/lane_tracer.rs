@@ -17,16 +17,19 @@ use crate::math::vector::Vector;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
-/// Cells between the knots of one look.
-const CELLS: f64 = (KNOTS - 1) as f64;
-/// Levels of looks, each [`CELLS`] times as close as the one before.
-const LEVELS: usize = 4;
-/// Those at which dead points are looked at: down to the 900th part of a cell. Angles at the knot
+/// Knots of a closer look: half of those of a turn.
+const CLOSER_KNOTS: usize = KNOTS / 2;
+/// Cells between these.
+const CELLS: f64 = (CLOSER_KNOTS - 1) as f64;
+/// Levels of looks, each [`CELLS`] times as close as the one before: down to the 50 000th part of a
+/// cell.
+const LEVELS: usize = 5;
+/// Those at which dead points are looked at: down to the 3 000th part of a cell. Angles at the knot
 /// beyond, where the dyad is computed flat, are those at the dead point to about as much.
-const DEAD_POINT_LEVELS: usize = 2;
+const DEAD_POINT_LEVELS: usize = 3;
 /// Looks at one design.
 const MAX_LOOKS: usize = 256;
-/// Levels at which islands are searched for: down to the 900th part of a cell.
+/// Levels at which islands are searched for: down to the 200th part of a cell.
 const ISLAND_LEVELS: usize = 2;
 
 /// What one look showed.
@@ -35,6 +38,8 @@ struct Look {
     /// The first knot, and the width of a cell.
     from: f64,
     cell: f64,
+    /// Number of knots.
+    count: usize,
     /// The next cell to be judged: that before this knot.
     next: usize,
     dyads: Vec<DyadSamples>,
@@ -87,7 +92,7 @@ impl LaneTracer {
         let (mut level, mut count) = (0, 0);
         loop {
             let knot = self.looks[level].next;
-            if knot == KNOTS {
+            if knot == self.looks[level].count {
                 if level == 0 {
                     break;
                 }
@@ -139,7 +144,7 @@ impl LaneTracer {
             return Some(if angles {
                 level < DEAD_POINT_LEVELS || !look.is_definite(knot)
             } else {
-                level == 0 || !look.stays_away(knot)
+                !look.stays_away(knot)
             });
         }
         if look.may_hide_island[knot] && level < ISLAND_LEVELS {
@@ -210,7 +215,9 @@ impl Look {
     ) -> bool {
         (self.from, self.cell, self.next) = (from, cell, 1);
         let state = &knots.state;
-        for group in 0..G {
+        let groups = state.groups.min(G);
+        self.count = groups * R::LANES;
+        for group in 0..groups {
             if state.needs_scalar[group].and(state.open[group].not()).any() {
                 return false;
             }
@@ -224,7 +231,7 @@ impl Look {
                 self.dyads.push(DyadSamples::NONE);
             }
             let (before, own) = self.dyads.split_at_mut(index);
-            for group in 0..G {
+            for group in 0..groups {
                 own[0].take(state, group, cx, dyad, before.last());
             }
             if dyad.sign.is_some() {
@@ -236,7 +243,7 @@ impl Look {
         self.dead_point = [false; KNOTS];
         self.may_hide_island = [false; KNOTS];
         for (index, dyad) in self.dyads.iter().enumerate() {
-            for group in 0..G {
+            for group in 0..groups {
                 let cells = dyad.judge::<R>(group * R::LANES, cell);
                 if !cells
                     .uncertain
@@ -262,7 +269,7 @@ impl Look {
         self.angles.resize(classes.len(), [0.0; KNOTS]);
         self.rates.resize(classes.len(), [0.0; KNOTS]);
         for (index, &class) in classes.iter().enumerate() {
-            for group in 0..G {
+            for group in 0..groups {
                 let angle = state.class[class][group].angle();
                 let rate = state.theta[state.len * class + 1][group];
                 for lane in 0..R::LANES {
@@ -288,10 +295,11 @@ impl Look {
 }
 
 impl<R: Real, const G: usize> UniformTracer<R, G> {
-    /// Solves knots between `from` and a cell's width beyond it.
+    /// Solves [`CLOSER_KNOTS`] between `from` and a cell's width beyond it.
     #[inline(always)]
     fn solve_between<L: Level<Register = R>>(&mut self, cx: &Context<'_>, from: f64, width: f64) {
-        for group in 0..G {
+        self.state.groups = CLOSER_KNOTS / R::LANES;
+        for group in 0..self.state.groups.min(G) {
             let at = R::from_lanes(|lane| from + width / CELLS * (group * R::LANES + lane) as f64);
             self.state.q[0][group] = at;
             self.state.unit[0][group] = Vector::at_angle(at);

@@ -87,6 +87,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         if self.q0 != q0 {
             self.set_knots(q0);
         }
+        self.state.groups = G;
         self.state.prepare(cx.plan, cx.constants, cx.derivatives);
         for (group, &(at, unit)) in self.knots.iter().enumerate() {
             self.state.q[0][group] = at;
