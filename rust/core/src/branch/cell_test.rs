@@ -22,6 +22,10 @@ const MAX_GAP_RATE: f64 = 8.0;
 /// dyad must be away from zero: it varies as the square root of the distance there.
 const MAX_CHANGES: f64 = 8.0;
 
+/// Margin below which a dyad counts as flat: it grows with the square of the distance from a change
+/// point, so this is 1e-6 rad from one.
+const FLAT_MARGIN: f64 = 1.0e-12;
+
 /// What a dyad shows at the knots. The first entry belongs to the knot before the first, the last
 /// to the one after the last; neither is known.
 #[derive(Debug, Clone)]
@@ -58,7 +62,8 @@ impl DyadSamples {
         speed: [0.0; KNOTS + 2],
     };
 
-    /// Takes what a dyad shows at a register of knots; `before`: the dyad solved before it.
+    /// Takes what a dyad shows at a register of knots; `before`: the dyad solved before it. False if
+    /// it is flat at one of them: whether its sign changes there cannot be seen.
     #[inline(always)]
     pub(crate) fn take<R: Real, const G: usize>(
         &mut self,
@@ -67,7 +72,7 @@ impl DyadSamples {
         cx: &Context<'_>,
         dyad: &Dyad,
         before: Option<&Self>,
-    ) {
+    ) -> bool {
         let (value, rate) = match (dyad.sign, dyad.form) {
             (Some(_), _) => state.discriminant(group, cx, dyad, 1),
             (None, Form::TwoLines) => (state.determinant(group, cx, dyad), R::ZERO),
@@ -79,7 +84,9 @@ impl DyadSamples {
             Some(before) => lanes::<R>(&before.upstream, first).min(lanes(&before.margin, first)),
             None => R::splat(f64::INFINITY),
         };
-        let margin = R::select(R::ZERO.lt(upstream), margin, R::splat(f64::NEG_INFINITY));
+        let known = R::ZERO.lt(upstream);
+        let margin = R::select(known, margin, R::splat(f64::NEG_INFINITY));
+        let definite = R::splat(FLAT_MARGIN).lt(margin.abs());
         let speed = if dyad.rrr_classes.is_some() {
             let [start, end] = [dyad.start * state.len + 1, dyad.end * state.len + 1];
             // Behind no other dyad, both points turn about fixed ones: their speed is constant.
@@ -95,6 +102,7 @@ impl DyadSamples {
             self.upstream[first + lane] = upstream.lane(lane);
             self.margin[first + lane] = margin.lane(lane);
         }
+        !known.and(definite.not()).any()
     }
 
     /// Judges the cells (of width `cell`) before the register of knots that begins with `first`.

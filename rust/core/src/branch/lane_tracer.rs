@@ -232,7 +232,9 @@ impl Look {
             }
             let (before, own) = self.dyads.split_at_mut(index);
             for group in 0..groups {
-                own[0].take(state, group, cx, dyad, before.last());
+                if !own[0].take(state, group, cx, dyad, before.last()) {
+                    return false;
+                }
             }
             if dyad.sign.is_some() {
                 last_signed = index;
