@@ -9,6 +9,8 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import os
+import subprocess
 import sys
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -26,6 +28,13 @@ if TYPE_CHECKING:
 
 Float: TypeAlias = npt.NDArray[np.float64]
 Bits: TypeAlias = npt.NDArray[np.uint8]
+
+
+def elsewhere(program: str, count: int, **variables: str) -> subprocess.Popen[str]:
+    """Start a program in a process of its own, where the core reads these from the environment."""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), **variables}
+    command = [sys.executable, program, str(count)]
+    return subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
 
 
 def named(name: str) -> assur.Mechanism:

@@ -4,26 +4,22 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
-import sys
 
+import bits
 import design_spaces
 
 # Random mechanisms, each with a space of 24 designs at 40 coordinates.
 COUNT = 40
 
 
-def start(care: str) -> subprocess.Popen[str]:
-    """A process of its own, where the care is read from the environment."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "ASSUR_CARE": care}
-    command = [sys.executable, design_spaces.__file__, str(COUNT)]
-    return subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
-
-
 def test_careful_path_gives_the_same_bits() -> None:
     """Angles too; but traced knot by knot, an island may be missed, and whole turns with it."""
     assert "ASSUR_CARE" not in os.environ, "there would be nothing to compare with"
-    with start("always") as always, start("knots") as knots:
+    program = design_spaces.__file__
+    with (
+        bits.elsewhere(program, COUNT, ASSUR_CARE="always") as always,
+        bits.elsewhere(program, COUNT, ASSUR_CARE="knots") as knots,
+    ):
         own = dict(design_spaces.digests(COUNT))
         one_by_one, knot_by_knot = (json.loads(p.communicate()[0]) for p in (always, knots))
     assert own.keys() == one_by_one.keys() == knot_by_knot.keys()

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
-import sys
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -154,19 +152,16 @@ def test_designs_beside_invalid_ones(designs: int) -> None:
         same(solve(batch.design(int(i)), q), rows[i], f"design {i}")
 
 
-def start(instructions: str) -> subprocess.Popen[str]:
-    """A process of its own, where the instructions are read from the environment."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    environment["ASSUR_SIMD"] = instructions
-    command = [sys.executable, bits.__file__, str(COUNT)]
-    return subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
-
-
 def test_vector_instructions() -> None:
     assert "ASSUR_SIMD" not in os.environ, "there would be nothing to compare with"
-    with start("baseline") as baseline, start("avx2") as avx2:
+    program = bits.__file__
+    with (
+        bits.elsewhere(program, COUNT, ASSUR_SIMD="portable") as portable,
+        bits.elsewhere(program, COUNT, ASSUR_SIMD="baseline") as baseline,
+        bits.elsewhere(program, COUNT, ASSUR_SIMD="avx2") as avx2,
+    ):
         own = dict(bits.digests(COUNT))
-        found = [process.communicate()[0] for process in (baseline, avx2)]
+        found = [process.communicate()[0] for process in (portable, baseline, avx2)]
     for other in map(json.loads, found):
         assert other.keys() == own.keys()
         assert [name for name in own if other[name] != own[name]] == []

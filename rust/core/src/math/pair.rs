@@ -3,13 +3,13 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-use super::lanes::{Mask, Real};
+use super::lanes::{LANES, Mask, Real};
 
-/// Twice the numbers of `R`.
+/// Twice the numbers of `R`, [`LANES`] at most.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Pair<R>(R, R);
 
-/// Twice the lanes of `M`; each half has `N` of them.
+/// Lanes of a pair.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PairMask<R: Real>(R::Mask, R::Mask);
 
@@ -99,7 +99,11 @@ impl<R: Real> Real for Pair<R> {
     }
     #[inline(always)]
     fn from_lanes(mut of: impl FnMut(usize) -> f64) -> Self {
-        Self(R::from_lanes(&mut of), R::from_lanes(|lane| of(R::LANES + lane)))
+        let mut numbers = [0.0; LANES];
+        for lane in 0..Self::LANES {
+            numbers[lane] = of(lane);
+        }
+        Self(R::from_lanes(|lane| numbers[lane]), R::from_lanes(|lane| numbers[R::LANES + lane]))
     }
     #[inline(always)]
     fn lane(self, lane: usize) -> f64 {
