@@ -33,7 +33,7 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     return made
 
 
-@numba.njit(fastmath=True, inline="always")  # type: ignore[untyped-decorator]
+@numba.njit(fastmath=True, inline="always")
 def atan2(y: float, x: float) -> float:
     """Arc tangent without branches."""
     ax, ay = abs(x), abs(y)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numba
@@ -142,7 +143,7 @@ def test_sweep(benchmark: BenchmarkFixture, sweep: Sweep, who: str) -> None:
     benchmark.group = f"{sweep.one.structure.formula}, {len(sweep.q)} positions, 2 threads"
     if who == ASSUR:
         motion = None if sweep.fresh else sweep.assur()
-        run: Callable[[], object] = lambda: sweep.assur(motion)  # noqa: E731
+        run: Callable[[], object] = partial(sweep.assur, motion)
     else:
 
         def run() -> object:

@@ -115,7 +115,7 @@ def test_motions_through_near_deltoids_come_to_an_end() -> None:
 
 
 def test_nearly_a_parallelogram_ends_at_its_near_change_point() -> None:
-    """Within 1e-6 rad a change point and a gap cannot be told apart."""
+    """Within 1e-6 rad a change point and a gap cannot be distinguished."""
     nearly = assur.FourBar(1.0 - 3e-14, 3.0, 1.0, 3.0)
     machine = assur.Machine(
         nearly, {"crank": Body(inertia=0.1), "rocker": Body(1.0, 0.2), "coupler": Body(2.0, 0.3)}

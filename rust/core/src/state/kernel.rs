@@ -3,6 +3,10 @@
 
 use super::state::{Context, State};
 use crate::math::lanes::{Lanes, Real};
+#[cfg(target_arch = "x86_64")]
+use crate::math::pair::Pair;
+#[cfg(target_arch = "x86_64")]
+use crate::math::registers::{F64x2, F64x4, F64x8};
 use crate::plan::group::Group;
 
 /// The solver of positions compiled for one level.
@@ -54,10 +58,6 @@ macro_rules! level {
     ($module:ident, $level:ident, $register:ty, $features:literal) => {
         pub(crate) mod $module {
             use super::{Context, Group, Level, State};
-            #[allow(unused_imports, reason = "not every level has pairs")]
-            use crate::math::pair::Pair;
-            #[allow(unused_imports, reason = "each level has its own")]
-            use crate::math::registers::{F64x2, F64x4, F64x8};
 
             pub(crate) struct $level;
 
@@ -100,8 +100,8 @@ macro_rules! level {
 }
 
 #[cfg(target_arch = "x86_64")]
-level!(baseline, Baseline, Pair<F64x2>, "sse2");
+level!(baseline, Baseline, super::Pair<super::F64x2>, "sse2");
 #[cfg(target_arch = "x86_64")]
-level!(avx2, Avx2, Pair<F64x4>, "avx2");
+level!(avx2, Avx2, super::Pair<super::F64x4>, "avx2");
 #[cfg(target_arch = "x86_64")]
-level!(avx512, Avx512, F64x8, "avx512f,avx512vl,avx512dq");
+level!(avx512, Avx512, super::F64x8, "avx512f,avx512vl,avx512dq");
