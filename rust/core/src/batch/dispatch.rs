@@ -1,12 +1,13 @@
 //! Chooses the compiled copy of the worker, by the processor and the caller's limit.
 
 use super::worker::{Job, Worker};
+use crate::branch::uniform::KNOTS;
 use crate::math::simd::Simd;
 use crate::state::kernel::Level;
 use crate::state::kernel::portable::Portable;
 
-/// Positions solved at once: as many as fit the first-level cache.
-pub(crate) const BLOCK: usize = 32;
+/// Positions solved at once: as many as a turn has knots, which fit the first-level cache.
+pub(crate) const BLOCK: usize = KNOTS;
 
 /// Work that is compiled for each level.
 pub(crate) trait ForLevel {

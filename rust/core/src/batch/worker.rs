@@ -226,15 +226,14 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let (first, groups) = (row / R::LANES, count.div_ceil(R::LANES));
         let mut care = [R::Mask::NONE; G];
         let branch = &self.design.branch;
-        // Without groups and redundant links, dyads close or not by the same bits in lanes.
-        let closes_alike = !(self.design.has_groups() || self.design.has_redundant_links());
+        let closed_forms = self.design.closed_forms;
         let constant_signs = branch.has_constant_signs();
         let (even, plain) = (branch.inverse_width.is_some(), branch.is_plain());
         for group in 0..groups {
             let DriverLanes { q, unit } = self.turned[first + group];
             let spot = &self.spots[first + group];
-            if !(even || plain && closes_alike) {
-                care[group] = self.lanes_to_redo(q, spot, !closes_alike);
+            if !(even || plain && closed_forms) {
+                care[group] = self.lanes_to_redo(q, spot, !closed_forms);
             }
             let branch = &self.design.branch;
             // Lanes to redo are set to NaN: their vector result is not used.
@@ -248,7 +247,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
         let design = &self.design;
         self.many.groups = groups;
-        if !closes_alike {
+        if !closed_forms {
             for group in 0..groups.min(G) {
                 let spot = &self.spots[first + group];
                 design.guess(group, &mut self.many, &design.branch, spot);
@@ -272,7 +271,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let (mut open, mut some_open, mut again) = ([R::Mask::NONE; G], false, false);
         for group in 0..groups.min(G) {
             care[group] = care[group].or(self.turned[first + group].q.finite().not());
-            if closes_alike {
+            if closed_forms {
                 open[group] = state.open[group].and(care[group].not());
                 some_open |= open[group].any();
                 if !(even || self.writer.classes.is_empty()) {

@@ -26,7 +26,7 @@ impl CrankDyad {
     pub(crate) fn of(plan: &Plan) -> Option<Self> {
         let mut dyads = plan.dyads();
         let (Some(dyad), None) = (dyads.next(), dyads.next()) else { return None };
-        if plan.groups().next().is_some() || plan.redundant_links().next().is_some() {
+        if !plan.has_closed_forms() {
             return None;
         }
         let guide = match dyad.form {

@@ -55,6 +55,9 @@ pub(crate) struct Design<'a> {
     q0: Vec<f64>,
     /// The branch from the drawing, if one serves all positions.
     pub branch: Branch,
+    /// Whether all steps have closed forms: then lanes close or not by the same bits as single
+    /// positions. Groups iterate, and redundant links close within a tolerance.
+    pub(crate) closed_forms: bool,
     /// The only dyad, if it is on a crank and the ground.
     crank_dyad: Option<CrankDyad>,
     lane_tracer: LaneTracer,
@@ -84,6 +87,7 @@ impl<'a> Design<'a> {
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
             q0: Vec::new(),
             branch: Branch::default(),
+            closed_forms: mechanism.plan().has_closed_forms(),
             crank_dyad: CrankDyad::of(mechanism.plan()),
             lane_tracer: LaneTracer::default(),
             change_window: ChangeWindow::SHORT,
@@ -220,20 +224,21 @@ impl<'a> Design<'a> {
             return false;
         }
         let start = &self.mechanism.class_angle;
-        let closed_forms = !(self.has_groups() || self.has_redundant_links());
-        let signs_only = closed_forms && classes.is_empty();
+        let signs_only = self.closed_forms && classes.is_empty();
         if signs_only && self.crank_dyad.is_some_and(|dyad| dyad.keeps_sign(&self.constants)) {
             self.branch.set_constant_signs(start.len(), &self.signs);
             return true;
         }
-        let mut branch = std::mem::take(&mut self.branch);
-        let mut tracer = std::mem::take(&mut self.lane_tracer);
-        let cx = self.context(&self.tracing_derivatives);
+        let cx = Context {
+            plan: self.mechanism.plan(),
+            constants: &self.constants,
+            derivatives: &self.tracing_derivatives,
+            signs: &self.signs,
+        };
         uniform.solve_knots::<L>(&cx, self.q0[0]);
-        let done = !signs_only && uniform.trace(&cx, start, &mut branch)
-            || closed_forms && tracer.trace::<L, G>(&cx, uniform, classes, start, &mut branch);
-        (self.branch, self.lane_tracer) = (branch, tracer);
-        done
+        let (branch, tracer) = (&mut self.branch, &mut self.lane_tracer);
+        !signs_only && uniform.trace(&cx, start, branch)
+            || self.closed_forms && tracer.trace::<L, G>(&cx, uniform, classes, start, branch)
     }
 
     /// The branch of the drawing, from which those of other designs start.
@@ -253,10 +258,6 @@ impl<'a> Design<'a> {
         )
     }
 
-    pub(crate) fn has_redundant_links(&self) -> bool {
-        self.mechanism.plan().redundant_links().next().is_some()
-    }
-
     pub(crate) fn has_groups(&self) -> bool {
         self.mechanism.plan().groups().next().is_some()
     }
@@ -265,8 +266,7 @@ impl<'a> Design<'a> {
     #[cold]
     #[inline(never)]
     pub(crate) fn trace(&mut self, q: &[f64]) {
-        let closed_forms = !(self.has_groups() || self.has_redundant_links());
-        if closed_forms && self.has_one_rotary_driver() {
+        if self.closed_forms && self.has_one_rotary_driver() {
             let classes: Vec<usize> = (1..self.mechanism.class_angle.len()).collect();
             let mut uniform = self.uniform_tracer::<Lanes, { KNOTS / LANES }>();
             if self.trace_in_lanes::<Portable, { KNOTS / LANES }>(&mut uniform, &classes) {

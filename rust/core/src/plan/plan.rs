@@ -192,6 +192,11 @@ impl Plan {
         })
     }
 
+    /// Whether all steps have closed forms: no groups above class II, no redundant links.
+    pub(crate) fn has_closed_forms(&self) -> bool {
+        self.groups().next().is_none() && self.redundant_links().next().is_none()
+    }
+
     /// For every step, whether it has to be computed if of all points only these are asked for: all
     /// dyads, and the points that they or other points depend on.
     pub(crate) fn steps_for(&self, asked: impl IntoIterator<Item = usize>) -> Vec<bool> {
@@ -199,7 +204,7 @@ impl Plan {
         for point in asked.into_iter().chain(self.dyads().flat_map(|dyad| [dyad.start, dyad.end])) {
             needed[point] = true;
         }
-        let all = self.groups().next().is_some() || self.redundant_links().next().is_some();
+        let all = !self.has_closed_forms();
         let mut steps = vec![true; self.steps.len()];
         for (step, is_needed) in self.steps.iter().zip(&mut steps).rev() {
             if let (&Step::Place { edge, backward }, false) = (step, all) {
