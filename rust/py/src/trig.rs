@@ -47,7 +47,7 @@ pub(crate) fn atan2<'py>(
         let mut angles = Vec::new();
         for (y, x) in y.chunks(LANES).zip(x.chunks(LANES)) {
             if y.len() == LANES {
-                let lanes = |x: &[f64]| Lanes::from_lanes(|i| x[i]);
+                let lanes = |x: &[f64]| Lanes::<LANES>::from_lanes(|i| x[i]);
                 angles.extend(trig::atan2(lanes(y), lanes(x)).0);
             } else {
                 angles.extend(y.iter().zip(x).map(|(&y, &x)| trig::atan2(y, x)));

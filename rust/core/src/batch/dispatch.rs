@@ -6,8 +6,8 @@ use crate::math::simd::Simd;
 use crate::state::kernel::Level;
 use crate::state::kernel::portable::Portable;
 
-/// Positions solved at once: as many as a turn has knots, which fit the first-level cache.
-pub(crate) const BLOCK: usize = KNOTS;
+/// Positions solved at once: their columns fit the first-level cache. At least the knots of a turn.
+pub(crate) const BLOCK: usize = 2 * KNOTS;
 
 /// Work that is compiled for each level.
 pub(crate) trait ForLevel {
@@ -31,7 +31,7 @@ pub(crate) fn at_level<W: ForLevel>(simd: Simd, work: W) -> W::Output {
         Simd::Avx2 => work.run::<crate::state::kernel::avx2::Avx2, { BLOCK / 8 }>(),
         #[cfg(target_arch = "x86_64")]
         Simd::Avx512 => work.run::<crate::state::kernel::avx512::Avx512, { BLOCK / 8 }>(),
-        _ => work.run::<Portable, { BLOCK / crate::math::lanes::LANES }>(),
+        _ => work.run::<Portable, { BLOCK / 2 }>(),
     }
 }
 

@@ -6,10 +6,19 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::query::failure::Failure;
 
 /// The failure with the lowest row (designs, then positions) of a batch, and the number of all.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct FailureLog {
     first: Mutex<Option<(usize, Failure)>>,
+    /// Its row; the greatest number as long as there is none.
+    row: AtomicUsize,
     count: AtomicUsize,
+}
+
+impl Default for FailureLog {
+    fn default() -> Self {
+        let row = AtomicUsize::new(usize::MAX);
+        Self { first: Mutex::default(), row, count: AtomicUsize::default() }
+    }
 }
 
 /// The first failure of a batch.
@@ -30,17 +39,17 @@ impl FailureLog {
         let Ok(mut first) = self.first.lock() else { return };
         if first.as_ref().is_none_or(|&(known, _)| row < known) {
             *first = Some((row, describe()));
+            self.row.store(row, Ordering::Relaxed);
         }
     }
 
-    /// Counts a failure of a row if one before it is known; else the caller has to describe it by
-    /// [`record`](Self::record).
-    pub(crate) fn count_later(&self, row: usize) -> bool {
-        let is_later =
-            |first: &Option<(usize, Failure)>| matches!(first, &Some((known, _)) if known < row);
-        let later = self.first.lock().is_ok_and(|first| is_later(&first));
+    /// Counts failures of rows from `row` on, if one before them is known; else the caller has to
+    /// describe the first by [`record`](Self::record).
+    #[inline(always)]
+    pub(crate) fn count_later(&self, row: usize, count: usize) -> bool {
+        let later = self.row.load(Ordering::Relaxed) < row;
         if later {
-            self.count.fetch_add(1, Ordering::Relaxed);
+            self.count.fetch_add(count, Ordering::Relaxed);
         }
         later
     }

@@ -2,10 +2,10 @@
 pub(crate) mod dispatch;
 pub(crate) mod failure_log;
 pub(crate) mod outputs;
+pub(crate) mod plain;
 pub(crate) mod request;
 pub(crate) mod schedule;
 pub(crate) mod solve;
-pub(crate) mod streaming_store;
 #[cfg(feature = "test-hooks")]
 pub mod test_hooks;
 pub(crate) mod worker;

@@ -19,7 +19,7 @@ const CHUNK: usize = 8192;
 /// The same with several drivers, where each position needs a branch of its own.
 const CHUNK_SEVERAL_DRIVERS: usize = 8;
 /// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
-const MAX_DESIGNS: usize = 64;
+const MAX_DESIGNS: usize = 128;
 
 /// Which positions and designs take the careful path. The results are the same, but slow: to
 /// compare with.

@@ -6,7 +6,6 @@ use super::dispatch::{self, Entry, ForLevel};
 use super::outputs::{Arrays, Column, Quantity};
 use super::request::{Coordinates, Motion, Request, Series, Shape, check_arrays, product};
 use super::schedule::{Chunk, Chunks, Control};
-use super::streaming_store as stream;
 use super::worker::{Job, Worker};
 use super::writer::{RowSlices, Writer};
 use crate::description::error::SolveError;
@@ -107,12 +106,10 @@ pub fn fill(
     let derivatives = DerivativeTables::new(shape.drivers, request.order);
     let columns = request.columns(mechanism);
     check_arrays(&columns, &arrays, product(shape.designs, shape.positions)?)?;
-    let numbers = arrays.columns.iter().map(|column| column.len()).sum::<usize>();
-    let mut writer = match request.by {
+    let writer = match request.by {
         None => Writer::new(mechanism, &derivatives, &columns),
         Some(index) => Writer::for_sensitivity(mechanism, &derivatives, &columns, index),
     };
-    writer.streams = numbers >= stream::MIN_NUMBERS;
     let chunks = Chunks::new(arrays, &columns, [shape.designs, shape.positions], shape.drivers);
     let (columns, derivatives, writer) = (&columns[..], &derivatives, &writer);
     let batch = Batch { mechanism, request, derivatives, writer, columns, shape, control };
@@ -154,7 +151,6 @@ impl ForLevel for Fill<'_, '_> {
                     L::run(worker, &mut job);
                 }
             }
-            stream::fence();
         })
     }
 }

@@ -8,7 +8,6 @@ use super::failure_log::FailureLog;
 use super::outputs::Column;
 use super::request::Request;
 use super::schedule::{Care, Control};
-use super::streaming_store as stream;
 use super::writer::{RowSlices, Writer};
 use crate::branch::branch::BranchLocation;
 use crate::branch::design::Design;
@@ -18,35 +17,43 @@ use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
+use crate::plan::tape::{Needs, Tape};
 use crate::query::failure::Failure;
 use crate::state::kernel::Level;
 use crate::state::sensitivity::Sensitivity;
 use crate::state::state::State;
 use crate::state::status::{Rejection, Status};
 
+/// Blocks of a design with doubtful positions, after which all are computed carefully at once.
+const MAX_DOUBTS: usize = 2;
+
 /// Workspace of one thread, with registers of type `R` and blocks of `G` of them.
 pub(crate) struct Worker<'a, R: Real, const G: usize> {
-    design: Design<'a>,
-    writer: &'a Writer<'a>,
+    pub(super) design: Design<'a>,
+    pub(super) writer: &'a Writer<'a>,
     columns: &'a [Column],
     quick: UniformTracer<R, G>,
     one: State,
     /// The dimension to differentiate by, with its workspace.
     by: Option<(usize, Sensitivity)>,
-    many: State<R, G>,
+    pub(super) many: State<R, G>,
     /// Angles of the classes.
-    lifted: Vec<[R; G]>,
+    pub(super) lifted: Vec<[R; G]>,
     /// Driver lanes of the last job, and the index of its first shared coordinate.
-    turned: Vec<DriverLanes<R>>,
+    pub(super) turned: Vec<DriverLanes<R>>,
     shared: Option<usize>,
     /// Locations of these lanes on the branch.
-    spots: Vec<BranchLocation<R>>,
+    pub(super) spots: Vec<BranchLocation<R>>,
     /// Whether that branch was a uniform one.
     spots_even: bool,
     care: Care,
+    /// What the request needs.
+    pub(super) tape: Tape,
+    /// For each class asked for, an angle near all its angles (see `plain`).
+    pub(super) references: Vec<f64>,
     /// When true, work stops after the block in progress.
     cancel: Option<&'a AtomicBool>,
-    failures: Option<&'a FailureLog>,
+    pub(super) failures: Option<&'a FailureLog>,
 }
 
 /// Some positions of one design, and the rows they go to.
@@ -64,9 +71,9 @@ pub(crate) struct Job<'j, 'r> {
 
 /// A register of positions of a driven angle: the part that does not depend on the design.
 #[derive(Debug, Clone, Copy)]
-struct DriverLanes<R> {
-    q: R,
-    unit: Vector<R>,
+pub(super) struct DriverLanes<R> {
+    pub(super) q: R,
+    pub(super) unit: Vector<R>,
 }
 
 impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
@@ -78,10 +85,19 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         columns: &'a [Column],
         control: &Control<'a>,
     ) -> Self {
-        let design = Design::new(mechanism, request.signs, derivatives);
+        let mut design = Design::new(mechanism, request.signs, derivatives);
+        if control.care == Care::Needed {
+            design.trace_only(&writer.asked);
+        }
         let plan = mechanism.plan();
         let mut many = State::new(plan, derivatives);
         many.angle_wanted.clone_from(&writer.asked);
+        let mut points = vec![false; plan.points];
+        for point in writer.asked_points() {
+            points[point] = true;
+        }
+        let tape =
+            Tape::new(plan, Needs { points: &points, classes: &writer.asked, orientations: false });
         many.step_wanted = plan.steps_for(writer.asked_points());
         Self {
             quick: design.uniform_tracer(),
@@ -97,13 +113,15 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             writer,
             columns,
             care: control.care,
+            tape,
+            references: vec![0.0; plan.classes],
             cancel: control.cancel,
             failures: control.failures,
         }
     }
 
     /// Whether the caller has cancelled the work.
-    fn is_cancelled(&self) -> bool {
+    pub(super) fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
@@ -163,11 +181,25 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
         }
         self.load_coordinates(job);
+        let mut doubts = if Tape::is_used() && self.is_plain() { 0 } else { MAX_DOUBTS };
+        let mut located = doubts == MAX_DOUBTS || self.find_references();
+        if located {
+            self.locate();
+        }
         for row in (0..count).step_by(G * R::LANES) {
             if self.is_cancelled() {
                 return;
             }
-            self.solve_block::<L>(job, row, (count - row).min(G * R::LANES));
+            let block = (count - row).min(G * R::LANES);
+            if doubts < MAX_DOUBTS && self.solve_bare::<L>(job, row, block, located) {
+                continue;
+            }
+            if !located {
+                self.locate();
+                located = true;
+            }
+            doubts = (doubts + 1).min(MAX_DOUBTS);
+            self.solve_block::<L>(job, row, block);
         }
     }
 
@@ -175,7 +207,6 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     #[inline(always)]
     fn load_coordinates(&mut self, job: &Job<'_, '_>) {
         let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
-        let branch = &self.design.branch;
         if !(is_angle && job.shared.is_some() && self.shared == job.shared) {
             self.shared = job.shared;
             self.turned.clear();
@@ -187,6 +218,12 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 self.turned.push(DriverLanes { q, unit });
             }
         }
+    }
+
+    /// Locates the coordinates among the knots of the branch.
+    #[inline(always)]
+    pub(super) fn locate(&mut self) {
+        let branch = &self.design.branch;
         // Uniform branches have the same knots for all designs.
         if branch.inverse_width.is_none() || !self.spots_even {
             self.spots.clear();
@@ -253,12 +290,16 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 design.guess(group, &mut self.many, &design.branch, spot);
             }
         }
-        L::solve(&mut self.many, &design.context(design.derivatives));
+        let mut cx = design.context(design.derivatives);
+        if Tape::is_used() {
+            cx.tape = Some(&self.tape);
+        }
+        L::solve(&mut self.many, &cx);
         let state = &self.many;
         // A separate loop: independent arctangents overlap.
         for &class in &self.writer.classes {
             for g in 0..groups.min(G) {
-                self.lifted[class][g] = state.class[class][g].angle();
+                self.lifted[class][g] = state.class[class][g].unit_angle();
             }
         }
         for &class in &self.writer.classes {
@@ -307,7 +348,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         if some_open && let Some(log) = self.failures {
             for place in 0..count {
                 let (group, lane) = (place / R::LANES, place % R::LANES);
-                if open[group].lane(lane) && !log.count_later(job.index + row + place) {
+                if open[group].lane(lane) && !log.count_later(job.index + row + place, 1) {
                     // It has to be described.
                     care[group] = care[group].or(mask::<R>(|i| i == lane));
                     again = true;
@@ -315,10 +356,6 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
         }
         if again {
-            if self.writer.streams {
-                // The loop below writes these rows again.
-                stream::fence();
-            }
             for place in 0..count {
                 if self.is_cancelled() {
                     return;
@@ -353,7 +390,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             return;
         };
         let near = self.design.reference_angles(place, self.lifted.len());
-        let lift = |class: usize| [unwrap_to(state.class[class][0].angle(), near[class])];
+        let lift = |class: usize| [unwrap_to(state.class[class][0].unit_angle(), near[class])];
         let lifted: Vec<[f64; 1]> = (0..near.len()).map(lift).collect();
         let with = (&self.design.constants, &self.design.units);
         self.writer.write(job.rows, (at, 1), with, state, &lifted, None);
@@ -399,6 +436,6 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
 
 /// The lanes of which something is true.
 #[inline(always)]
-fn mask<R: Real>(of: impl Fn(usize) -> bool) -> R::Mask {
+pub(super) fn mask<R: Real>(of: impl Fn(usize) -> bool) -> R::Mask {
     R::ZERO.lt(R::from_lanes(|lane| if of(lane) { 1.0 } else { 0.0 }))
 }

@@ -3,7 +3,6 @@
 use std::mem::MaybeUninit;
 
 use super::outputs::{Column, Quantity};
-use super::streaming_store as stream;
 use crate::branch::units::Units;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
@@ -55,8 +54,6 @@ pub(crate) struct Writer<'a> {
     pub asked: Vec<bool>,
     /// Whether the frame's origin is added to the points.
     shifted: bool,
-    /// Whether points are stored past the caches.
-    pub streams: bool,
 }
 
 impl<'a> Writer<'a> {
@@ -122,7 +119,6 @@ impl<'a> Writer<'a> {
             classes,
             asked,
             shifted: true,
-            streams: false,
         }
     }
 
@@ -173,38 +169,31 @@ impl<'a> Writer<'a> {
             let shift = if entry.k == 0 && self.shifted { Some(origin) } else { None };
             let points = &state.points[entry.source];
             let out = rows.of(entry, row, count);
-            if entry.width == 2 && count == G * R::LANES {
-                // Scalar positions may be written a second time (without analogues): plain stores.
-                let streams = self.streams && R::LANES > 1;
-                for g in 0..G {
-                    let out = &mut out[2 * R::LANES * g..][..2 * R::LANES];
-                    let p = scaled(points[g], scale, shift);
-                    let p = Vector::new(or_nan(failed, g, p.x), or_nan(failed, g, p.y));
-                    if streams {
-                        stream::store_pairs(out, p);
-                    } else {
-                        store_pairs(out, p);
-                    }
-                }
-                continue;
-            }
             for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
                 let p = scaled(points[g], scale, shift);
-                store_lanes(out, entry.width, entry.index, or_nan(failed, g, p.x));
-                store_lanes(out, entry.width, entry.index + entry.y, or_nan(failed, g, p.y));
+                let p = Vector::new(or_nan(failed, g, p.x), or_nan(failed, g, p.y));
+                if entry.width == 2 && out.len() == 2 * R::LANES {
+                    store_pairs(out, p);
+                    continue;
+                }
+                store_lanes(out, entry.width, entry.index, p.x);
+                store_lanes(out, entry.width, entry.index + entry.y, p.y);
             }
         }
+        // Loops, not closures: these are not always inlined into the code of a level.
         for entry in &self.slides {
             let scale = R::splat(unit.length[entry.k]);
             let slides = &state.slides[entry.source];
-            entry.store(rows.of(entry, row, count), |g| or_nan(failed, g, slides[g] * scale));
+            for (g, out) in entry.groups::<R>(rows.of(entry, row, count)) {
+                entry.store(out, or_nan(failed, g, slides[g] * scale));
+            }
         }
         for entry in &self.angles {
             let rotation = &self.mechanism.plan().rotation[entry.source];
             let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.source];
             let offset = R::splat(constants.offset[entry.source] + whole);
             let lifted = &lifted[rotation.class];
-            entry.store(rows.of(entry, row, count), |g| {
+            for (g, out) in entry.groups::<R>(rows.of(entry, row, count)) {
                 // The class's angle, plus the drivers' turns of the link relative to its class.
                 let mut angle = lifted[g];
                 for (&turns, q) in rotation.turns.iter().zip(&state.q) {
@@ -212,20 +201,20 @@ impl<'a> Writer<'a> {
                         angle += R::splat(f64::from(turns)) * q[g];
                     }
                 }
-                or_nan(failed, g, angle + offset)
-            });
+                entry.store(out, or_nan(failed, g, angle + offset));
+            }
         }
         for entry in &self.rates {
             let (driven, scale) = (R::splat(entry.driven), R::splat(unit.angle[entry.k]));
             let overflows = unit.angle[entry.k].is_infinite();
+            let stays = R::splat(if overflows { 0.0 } else { -1.0 });
             let rates = &state.theta[entry.source];
-            entry.store(rows.of(entry, row, count), |g| {
+            for (g, out) in entry.groups::<R>(rows.of(entry, row, count)) {
                 let rate = rates[g] + driven;
-                let scaled = rate * scale;
-                let stays = R::splat(if overflows { 0.0 } else { -1.0 });
                 // Where the unit overflows, only a link that does not turn keeps a finite derivative.
-                or_nan(failed, g, R::select(rate.abs().le(stays), rate, scaled))
-            });
+                let scaled = R::select(rate.abs().le(stays), rate, rate * scale);
+                entry.store(out, or_nan(failed, g, scaled));
+            }
         }
     }
 }
@@ -247,19 +236,22 @@ fn scaled<R: Real>(point: Vector<R>, scale: R, shift: Option<Vector<R>>) -> Vect
 }
 
 impl Entry {
-    /// Writes one number for each lane of each group, as far as there are rows.
+    /// The rows of each group, with its index.
     #[inline(always)]
-    fn store<R: Real>(&self, out: &mut [MaybeUninit<f64>], of: impl Fn(usize) -> R) {
-        // The function is called at one place, so that it is inlined into the code of the level.
-        for (g, group) in out.chunks_mut(self.width * R::LANES).enumerate() {
-            let x = of(g);
-            if self.width == 1 && group.len() == R::LANES {
-                for lane in 0..R::LANES {
-                    group[lane] = MaybeUninit::new(x.lane(lane));
-                }
-            } else {
-                store_lanes(group, self.width, self.index, x);
-            }
+    fn groups<'r, R: Real>(
+        &self,
+        rows: &'r mut [MaybeUninit<f64>],
+    ) -> impl Iterator<Item = (usize, &'r mut [MaybeUninit<f64>])> {
+        rows.chunks_mut(self.width * R::LANES).enumerate()
+    }
+
+    /// Writes one number for each lane, as far as there are rows.
+    #[inline(always)]
+    fn store<R: Real>(&self, out: &mut [MaybeUninit<f64>], x: R) {
+        if self.width == 1 && out.len() == R::LANES {
+            x.write(out);
+        } else {
+            store_lanes(out, self.width, self.index, x);
         }
     }
 }
@@ -297,11 +289,10 @@ impl RowSlices<'_> {
 /// Stores the lanes of a point, x and y side by side.
 #[inline(always)]
 fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
-    let out = &mut out[..2 * R::LANES];
-    for lane in 0..R::LANES {
-        out[2 * lane] = MaybeUninit::new(p.x.lane(lane));
-        out[2 * lane + 1] = MaybeUninit::new(p.y.lane(lane));
-    }
+    let (first, last) = out.split_at_mut(R::LANES);
+    let [before, after] = p.x.zip(p.y);
+    before.write(first);
+    after.write(last);
 }
 
 /// Stores one entry of each row, from as many lanes as there are rows.

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use super::hermite::HermiteCell;
 use super::knot::{ChangePoint, InitialGuess, Knot, SignInterval};
 use super::tracer::BranchTracer;
-use crate::math::angle::{reduce_turns, whole_part};
+use crate::math::angle::{reduce_turns, whole_part, whole_turns};
 use crate::math::lanes::{LANES, Real};
 use crate::plan::plan::Plan;
 use crate::state::state::{Context, State};
@@ -142,7 +142,7 @@ impl Branch {
         let gain = match (knots.iter().find(|k| k.reached), knots.last()) {
             (Some(first), Some(last)) => {
                 let pairs = first.angles.iter().zip(&last.angles);
-                pairs.map(|(&a, &b)| TAU * ((b - a) / TAU).round()).collect()
+                pairs.map(|(&a, &b)| TAU * whole_turns(b - a)).collect()
             }
             _ => vec![0.0; start.angles.len()],
         };

@@ -7,7 +7,8 @@
 use super::knot::may_vanish;
 use super::uniform::KNOTS;
 use crate::math::lanes::{LANES, Mask, Real};
-use crate::plan::dyad::{Dyad, Form};
+use crate::plan::dyad::Dyad;
+use crate::state::dyad::sample::Sample;
 use crate::state::state::{Context, State};
 
 /// A discriminant that differs from the trapezoidal rule by this part of itself varies too fast to
@@ -26,19 +27,22 @@ const MAX_CHANGES: f64 = 8.0;
 /// point, so this is 1e-6 rad from one.
 const FLAT_MARGIN: f64 = 1.0e-12;
 
+/// Entries for every knot, those beside, and as many more as a register has.
+const SAMPLES: usize = KNOTS + 2 + LANES;
+
 /// What a dyad shows at the knots. The first entry belongs to the knot before the first, the last
 /// to the one after the last; neither is known.
 #[derive(Debug, Clone)]
 pub(crate) struct DyadSamples {
     /// Discriminant and its derivative.
-    value: [f64; KNOTS + 2],
-    rate: [f64; KNOTS + 2],
+    value: [f64; SAMPLES],
+    rate: [f64; SAMPLES],
     /// By how much it closes; −∞ where a dyad before it does not.
-    margin: [f64; KNOTS + 2],
+    margin: [f64; SAMPLES],
     /// The least margin of the dyads before it.
-    upstream: [f64; KNOTS + 2],
+    upstream: [f64; SAMPLES],
     /// How fast the margin may vary, per unit of the path.
-    speed: [f64; KNOTS + 2],
+    speed: [f64; SAMPLES],
 }
 
 /// Cells before a register of knots.
@@ -55,11 +59,11 @@ pub(crate) struct Cells<M> {
 
 impl DyadSamples {
     pub(crate) const NONE: Self = Self {
-        value: [0.0; KNOTS + 2],
-        rate: [0.0; KNOTS + 2],
-        margin: [f64::NEG_INFINITY; KNOTS + 2],
-        upstream: [f64::NEG_INFINITY; KNOTS + 2],
-        speed: [0.0; KNOTS + 2],
+        value: [0.0; SAMPLES],
+        rate: [0.0; SAMPLES],
+        margin: [f64::NEG_INFINITY; SAMPLES],
+        upstream: [f64::NEG_INFINITY; SAMPLES],
+        speed: [0.0; SAMPLES],
     };
 
     /// Takes what a dyad shows at a register of knots; `before`: the dyad solved before it. False if
@@ -73,12 +77,10 @@ impl DyadSamples {
         dyad: &Dyad,
         before: Option<&Self>,
     ) -> bool {
-        let (value, rate) = match (dyad.sign, dyad.form) {
-            (Some(_), _) => state.discriminant(group, cx, dyad, 1),
-            (None, Form::TwoLines) => (state.determinant(group, cx, dyad), R::ZERO),
-            (None, _) => (R::ONE, R::ZERO),
+        let Sample { value, rate, margin } = match cx.tape {
+            Some(tape) => state.sample(group, cx, dyad, &tape.ops[tape.dyads[dyad.index]]),
+            None => state.sample_steps(group, cx, dyad),
         };
-        let margin = state.margin[dyad.index][group];
         let first = 1 + group * R::LANES;
         let upstream = match before {
             Some(before) => lanes::<R>(&before.upstream, first).min(lanes(&before.margin, first)),
@@ -123,10 +125,11 @@ impl DyadSamples {
         let same_side = R::ZERO.lt(n * n0);
         let vanishing = may_vanish((n0, dn0), (n, dn), cell).or(same_side.not());
         // Neither closes: the margin would have to rise from both sides.
-        let before = R::from_lanes(|lane| match (first + lane).checked_sub(1) {
-            Some(knot) => self.margin[knot],
-            None => f64::NEG_INFINITY,
-        });
+        let mut before = [f64::NEG_INFINITY; LANES];
+        for lane in usize::from(first == 0)..R::LANES {
+            before[lane] = self.margin[first + lane - 1];
+        }
+        let before = R::from_lanes(|lane| before[lane]);
         let (rise, fall) = (m0 - before, m - lanes::<R>(&self.margin, first + 2));
         let falls = R::splat(MAX_FALLS);
         let both = R::ZERO.lt(rise).and(R::ZERO.lt(fall));
@@ -159,10 +162,7 @@ impl DyadSamples {
 
 /// As many numbers as a register holds.
 #[inline(always)]
-fn lanes<R: Real>(numbers: &[f64; KNOTS + 2], first: usize) -> R {
-    let mut some = [0.0; LANES];
-    for lane in 0..R::LANES {
-        some[lane] = numbers[(first + lane).min(KNOTS + 1)];
-    }
+fn lanes<R: Real>(numbers: &[f64; SAMPLES], first: usize) -> R {
+    let some = &numbers[first..first + R::LANES];
     R::from_lanes(|lane| some[lane])
 }

@@ -11,7 +11,7 @@ use super::lane_tracer::LaneTracer;
 use super::uniform::{KNOTS, ReferenceBranch, UniformTracer};
 use super::units::Units;
 use crate::math::derivatives::DerivativeTables;
-use crate::math::lanes::{LANES, Lanes, Real};
+use crate::math::lanes::{Lanes, Real};
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
@@ -19,6 +19,7 @@ use crate::plan::constants_rate::ConstantsRate;
 use crate::plan::dyad::Unknown;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
+use crate::plan::tape::Tape;
 use crate::state::kernel::Level;
 use crate::state::kernel::portable::Portable;
 use crate::state::state::{Context, State};
@@ -45,6 +46,8 @@ pub(crate) struct Design<'a> {
     pub derivatives: &'a DerivativeTables,
     /// Tables for tracing: of first order, or second with groups above class II.
     tracing_derivatives: DerivativeTables,
+    /// The tape for tracing, which needs no points but those of dyads.
+    tracing_tape: Tape,
     /// Dimensions of the present design.
     values: Vec<f64>,
     /// Unknowns of the groups at the drawing's coordinate; or the part of the path from the
@@ -82,6 +85,7 @@ impl<'a> Design<'a> {
             units: Units::default(),
             derivatives,
             tracing_derivatives: DerivativeTables::new(mechanism.q0().len(), order),
+            tracing_tape: Tape::for_dyads(mechanism.plan(), &vec![true; mechanism.plan().classes]),
             values: Vec::new(),
             initial_unknowns: Ok(Vec::new()),
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
@@ -92,6 +96,13 @@ impl<'a> Design<'a> {
             lane_tracer: LaneTracer::default(),
             change_window: ChangeWindow::SHORT,
             interpolants: RefCell::default(),
+        }
+    }
+
+    /// Of all angles, only those of these classes will be asked for.
+    pub(crate) fn trace_only(&mut self, classes: &[bool]) {
+        if self.closed_forms {
+            self.tracing_tape = Tape::for_dyads(self.mechanism.plan(), classes);
         }
     }
 
@@ -120,6 +131,7 @@ impl<'a> Design<'a> {
             constants: &self.constants,
             derivatives,
             signs: &self.signs,
+            tape: Tape::is_used().then_some(&self.mechanism.plan().tape),
         }
     }
 
@@ -234,10 +246,11 @@ impl<'a> Design<'a> {
             constants: &self.constants,
             derivatives: &self.tracing_derivatives,
             signs: &self.signs,
+            tape: Tape::is_used().then_some(&self.tracing_tape),
         };
-        uniform.solve_knots::<L>(&cx, self.q0[0]);
+        uniform.solve_knots::<L>(&cx, self.q0[0], !classes.is_empty());
         let (branch, tracer) = (&mut self.branch, &mut self.lane_tracer);
-        !signs_only && uniform.trace(&cx, start, branch)
+        !signs_only && uniform.trace(&cx, classes, start, branch)
             || self.closed_forms && tracer.trace::<L, G>(&cx, uniform, classes, start, branch)
     }
 
@@ -268,8 +281,8 @@ impl<'a> Design<'a> {
     pub(crate) fn trace(&mut self, q: &[f64]) {
         if self.closed_forms && self.has_one_rotary_driver() {
             let classes: Vec<usize> = (1..self.mechanism.class_angle.len()).collect();
-            let mut uniform = self.uniform_tracer::<Lanes, { KNOTS / LANES }>();
-            if self.trace_in_lanes::<Portable, { KNOTS / LANES }>(&mut uniform, &classes) {
+            let mut uniform = self.uniform_tracer::<Lanes<2>, { KNOTS / 2 }>();
+            if self.trace_in_lanes::<Portable, { KNOTS / 2 }>(&mut uniform, &classes) {
                 return;
             }
         }

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use super::branch::Branch;
 use super::cell_test::DyadSamples;
 use super::uniform::{CELL, KNOTS, UniformTracer};
-use crate::math::angle::unwrap_to;
+use crate::math::angle::{unwrap_to, whole_turns};
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
@@ -51,6 +51,8 @@ struct Look {
     /// … and those that may hide an island.
     may_hide_island: [bool; KNOTS],
     reached: [bool; KNOTS],
+    /// Whether no cell is any of these.
+    quiet: bool,
     /// Angle and rate of the classes asked for, at every knot.
     angles: Vec<[f64; KNOTS]>,
     rates: Vec<[f64; KNOTS]>,
@@ -86,6 +88,9 @@ impl LaneTracer {
         if !self.looks[0].take(cx, knots, classes, (knots.first(), CELL)) {
             return false;
         }
+        if classes.is_empty() && self.looks[0].quiet {
+            return true;
+        }
         if !classes.is_empty() {
             self.push(0, 0, classes, branch);
         }
@@ -106,7 +111,7 @@ impl LaneTracer {
             if closer && level + 1 < LEVELS {
                 let look = &self.looks[level];
                 let (from, width) = (look.from + look.cell * (knot - 1) as f64, look.cell);
-                knots.solve_between::<L>(cx, from, width);
+                knots.solve_between::<L>(cx, (from, width), !classes.is_empty());
                 level += 1;
                 count += 1;
                 let taken = self.looks[level].take(cx, knots, classes, (from, width / CELLS));
@@ -121,7 +126,7 @@ impl LaneTracer {
             self.looks[level].next += 1;
         }
         for ((&class, &a), &b) in classes.iter().zip(&self.first).zip(&self.last) {
-            branch.gain[class] = TAU * ((b - a) / TAU).round();
+            branch.gain[class] = TAU * whole_turns(b - a);
         }
         if !classes.is_empty() {
             branch.period = Some(TAU);
@@ -218,7 +223,7 @@ impl Look {
         let groups = state.groups.min(G);
         self.count = groups * R::LANES;
         for group in 0..groups {
-            if state.needs_scalar[group].and(state.open[group].not()).any() {
+            if knots.not_closed(group).and(state.open[group].not()).any() {
                 return false;
             }
             for lane in 0..R::LANES {
@@ -240,6 +245,7 @@ impl Look {
                 last_signed = index;
             }
         }
+        self.quiet = true;
         self.uncertain = [false; KNOTS];
         self.curved = [false; KNOTS];
         self.dead_point = [false; KNOTS];
@@ -256,6 +262,7 @@ impl Look {
                 {
                     continue;
                 }
+                self.quiet = false;
                 // Without angles, only later dyads are of interest beside a dead point.
                 let matters = index < last_signed || !classes.is_empty();
                 let islands = !classes.is_empty();
@@ -272,7 +279,7 @@ impl Look {
         self.rates.resize(classes.len(), [0.0; KNOTS]);
         for (index, &class) in classes.iter().enumerate() {
             for group in 0..groups {
-                let angle = state.class[class][group].angle();
+                let angle = state.class[class][group].unit_angle();
                 let rate = state.theta[state.len * class + 1][group];
                 for lane in 0..R::LANES {
                     self.angles[index][group * R::LANES + lane] = angle.lane(lane);
@@ -299,13 +306,18 @@ impl Look {
 impl<R: Real, const G: usize> UniformTracer<R, G> {
     /// Solves [`CLOSER_KNOTS`] between `from` and a cell's width beyond it.
     #[inline(always)]
-    fn solve_between<L: Level<Register = R>>(&mut self, cx: &Context<'_>, from: f64, width: f64) {
+    fn solve_between<L: Level<Register = R>>(
+        &mut self,
+        cx: &Context<'_>,
+        (from, width): (f64, f64),
+        angles: bool,
+    ) {
         self.state.groups = CLOSER_KNOTS / R::LANES;
         for group in 0..self.state.groups.min(G) {
             let at = R::from_lanes(|lane| from + width / CELLS * (group * R::LANES + lane) as f64);
             self.state.q[0][group] = at;
             self.state.unit[0][group] = Vector::at_angle(at);
         }
-        L::solve(&mut self.state, cx);
+        self.solve::<L>(cx, angles);
     }
 }

@@ -15,13 +15,14 @@ use super::hermite::HermiteCell;
 use super::knot::{
     MAX_FIRST_STEP, MAX_LATER_STEPS, SignInterval, Taylor2, closes, may_vanish, prediction_failed,
 };
-use crate::math::angle::turns_between;
+use crate::math::angle::{turns_between, whole_turns};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Form, Unknown};
 use crate::plan::plan::Plan;
+use crate::state::dyad::sample::Sample;
 use crate::state::kernel::Level;
 use crate::state::state::{Context, State};
 
@@ -30,11 +31,13 @@ pub(crate) const KNOTS: usize = CELLS_PER_TURN as usize + 1;
 /// Width of a cell.
 pub(crate) const CELL: f64 = TAU / CELLS_PER_TURN as f64;
 
-/// Work space: at every knot what the checks need. `G` registers hold all knots.
+/// Work space: at every knot what the checks need. `G` registers hold at least all knots.
 #[derive(Debug)]
 pub(crate) struct UniformTracer<R: Real, const G: usize> {
     /// All knots.
     pub(crate) state: State<R, G>,
+    /// Whether the knots were solved carefully.
+    is_careful: bool,
     /// Drawing's angle for which the knots below are set; the same for all designs.
     q0: f64,
     /// Angles of the driver and their unit vectors.
@@ -58,6 +61,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         state.step_wanted = plan.steps_for([]);
         Self {
             state,
+            is_careful: true,
             q0: f64::NAN,
             knots: Vec::new(),
             spread: vec![(0.0, 0.0); plan.signs()],
@@ -83,13 +87,18 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
 
     /// Solves the knots of a turn from `q0`.
     #[inline(always)]
-    pub(crate) fn solve_knots<L: Level<Register = R>>(&mut self, cx: &Context<'_>, q0: f64) {
+    pub(crate) fn solve_knots<L: Level<Register = R>>(
+        &mut self,
+        cx: &Context<'_>,
+        q0: f64,
+        angles: bool,
+    ) {
         if self.q0 != q0 {
             self.set_knots(q0);
         }
-        self.state.groups = G;
+        self.state.groups = KNOTS / R::LANES;
         self.state.prepare(cx.plan, cx.constants, cx.derivatives);
-        for (group, &(at, unit)) in self.knots.iter().enumerate() {
+        for (group, &(at, unit)) in self.knots.iter().enumerate().take(G) {
             self.state.q[0][group] = at;
             self.state.unit[0][group] = unit;
         }
@@ -97,12 +106,50 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             *lanes = [R::splat(sign); G];
         }
         self.guess(cx);
-        L::solve(&mut self.state, cx);
+        self.solve::<L>(cx, angles);
+    }
+
+    /// Solves the knots that are set: carefully only if some of them may be flat, or are beyond a
+    /// dead point and `angles` are asked for, which there are those of the flat dyad.
+    #[inline(always)]
+    pub(crate) fn solve<L: Level<Register = R>>(&mut self, cx: &Context<'_>, angles: bool) {
+        self.is_careful = true;
+        if let Some(tape) = cx.tape.filter(|tape| tape.is_bounded) {
+            L::bare(&mut self.state, cx, tape);
+            let mut care = R::Mask::NONE;
+            for group in 0..self.state.groups.min(G) {
+                care = care.or(self.state.doubtful(group));
+                if angles {
+                    care = care.or(self.state.open[group]);
+                }
+            }
+            self.is_careful = care.any();
+        }
+        if self.is_careful {
+            L::solve(&mut self.state, cx);
+        }
+    }
+
+    /// Knots that do not close or are flat.
+    #[inline(always)]
+    pub(crate) fn not_closed(&self, group: usize) -> R::Mask {
+        let open = self.state.open[group];
+        if self.is_careful { self.state.needs_scalar[group].or(open) } else { open }
     }
 
     /// Traces the turn whose knots have been solved into `branch`; false if the tracer is needed.
     #[inline(always)]
-    pub(crate) fn trace(&mut self, cx: &Context<'_>, start: &[f64], branch: &mut Branch) -> bool {
+    pub(crate) fn trace(
+        &mut self,
+        cx: &Context<'_>,
+        classes: &[usize],
+        start: &[f64],
+        branch: &mut Branch,
+    ) -> bool {
+        // Groups are predicted with all angles.
+        let all: Vec<usize> =
+            if self.reference.get().is_some() { (0..start.len()).collect() } else { Vec::new() };
+        let classes = if all.is_empty() { classes } else { &all };
         self.guide_sides.clear();
         branch.at.clear();
         branch.angles.clear();
@@ -112,8 +159,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         for (last, &angle) in self.last_angles.iter_mut().zip(start) {
             *last = (angle, 0.0);
         }
-        for group in 0..G {
-            if !(self.check_knots(cx, group) && self.unwrap(group, &mut branch.angles)) {
+        for group in 0..(KNOTS / R::LANES).min(G) {
+            if !(self.check_knots(cx, group) && self.unwrap(group, classes, &mut branch.angles)) {
                 return false;
             }
             branch.at.extend((0..R::LANES).map(|lane| self.knots[group].0.lane(lane)));
@@ -125,7 +172,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         branch.gain.clear();
         for class in 0..classes {
             let (a, b) = (branch.angles[class], branch.angles[(KNOTS - 1) * classes + class]);
-            branch.gain.push(TAU * ((b - a) / TAU).round());
+            branch.gain.push(TAU * whole_turns(b - a));
         }
         branch.reached.clear();
         branch.reached.resize(KNOTS, true);
@@ -155,18 +202,21 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     fn check_knots(&mut self, cx: &Context<'_>, group: usize) -> bool {
         let state = &self.state;
         let mut lines = 0;
-        let mut suspect = state.needs_scalar[group];
-        for dyad in cx.plan.dyads() {
+        let mut suspect = self.not_closed(group);
+        for (index, dyad) in cx.plan.dyads().enumerate() {
+            let Sample { value, rate, .. } = match cx.tape {
+                Some(tape) => state.sample(group, cx, dyad, &tape.ops[tape.dyads[index]]),
+                None => state.sample_steps(group, cx, dyad),
+            };
             match dyad.sign {
                 Some(sign) => {
-                    let (value, rate) = state.discriminant(group, cx, dyad, 1);
                     let (last, last_rate) = self.spread[sign];
                     let before = (previous(last, value), previous(last_rate, rate));
                     suspect = suspect.or(may_vanish(before, (value, rate), R::splat(CELL)));
                     self.spread[sign] = (value.lane(R::LANES - 1), rate.lane(R::LANES - 1));
                 }
                 None if dyad.form == Form::TwoLines => {
-                    let positive = R::ZERO.lt(state.determinant(group, cx, dyad));
+                    let positive = R::ZERO.lt(value);
                     let side = positive.any();
                     if group == 0 {
                         self.guide_sides.push(side);
@@ -184,18 +234,18 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
 
     /// Unwraps the angles of a register of knots; false if a link turns fast there.
     #[inline(always)]
-    fn unwrap(&mut self, group: usize, angles: &mut [f64]) -> bool {
-        let classes = self.last_angles.len();
-        let first = group * R::LANES * classes;
-        let Some(angles) = angles.get_mut(first..first + R::LANES * classes) else { return false };
+    fn unwrap(&mut self, group: usize, classes: &[usize], angles: &mut [f64]) -> bool {
+        let count = self.last_angles.len();
+        let first = group * R::LANES * count;
+        let Some(angles) = angles.get_mut(first..first + R::LANES * count) else { return false };
         let mut max_turn = R::splat(KNOT_MAX_TURN);
         if group == 0 {
             // The first knot may be far from the drawing's own angle.
             max_turn = R::from_lanes(|i| if i == 0 { f64::INFINITY } else { KNOT_MAX_TURN });
         }
         let mut fast = R::Mask::NONE;
-        for class in 0..classes {
-            let angle = self.state.class[class][group].angle();
+        for &class in classes {
+            let angle = self.state.class[class][group].unit_angle();
             let (last, mut whole_turns) = self.last_angles[class];
             let before = previous(last, angle);
             let turns = turns_between(angle, before);
@@ -204,7 +254,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             fast = fast.or(max_turn.lt(step.abs())).or(R::splat(KNOT_MAX_TURN).lt(rate.abs()));
             for lane in 0..R::LANES {
                 whole_turns += turns.lane(lane);
-                angles[lane * classes + class] = angle.lane(lane) + TAU * whole_turns;
+                angles[lane * count + class] = angle.lane(lane) + TAU * whole_turns;
             }
             self.last_angles[class] = (angle.lane(R::LANES - 1), whole_turns);
         }
@@ -298,7 +348,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             return false;
         }
         for (groups, &expected) in state.determinants.iter().zip(&reference.det_signs) {
-            if groups
+            if groups[..KNOTS / R::LANES]
                 .iter()
                 .any(|lanes| (0..R::LANES).any(|lane| (lanes.lane(lane) > 0.0) != expected))
             {

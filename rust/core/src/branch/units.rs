@@ -6,6 +6,8 @@ use crate::plan::mechanism::Mechanism;
 /// Factors between the design's own unit of length and the metre: powers of two.
 #[derive(Debug, Default)]
 pub(crate) struct Units {
+    /// The unit of the design they are for, m.
+    scale: f64,
     /// Factor of every coordinate, into the design's unit.
     pub coordinate: Vec<f64>,
     /// Factor of every jet entry of a length, into metres.
@@ -21,6 +23,10 @@ impl Units {
         scale: f64,
         derivatives: &DerivativeTables,
     ) {
+        if self.scale == scale {
+            return;
+        }
+        self.scale = scale;
         let per = 1.0 / scale;
         let slides = |d: usize| mechanism.plan().driven_slide(d).is_some();
         self.coordinate.clear();

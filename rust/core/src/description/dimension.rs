@@ -43,6 +43,14 @@ impl Dimension {
         !matches!(self, Self::SlideAngle { .. } | Self::SlideLinkAngle { .. })
     }
 
+    /// Least and greatest value that is valid.
+    fn range(self) -> [f64; 2] {
+        match self {
+            Self::Length { .. } => [LEAST_LENGTH, GREATEST_LENGTH],
+            _ => [-GREATEST_LENGTH, GREATEST_LENGTH],
+        }
+    }
+
     /// What is wrong with a value of this dimension; `None` if it is valid.
     #[must_use]
     pub fn fault(self, value: f64) -> Option<&'static str> {
@@ -66,6 +74,8 @@ impl Dimension {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dimensions {
     entries: Vec<(String, Dimension)>,
+    /// Least and greatest value of each.
+    ranges: Vec<[f64; 2]>,
 }
 
 impl Dimensions {
@@ -103,7 +113,8 @@ impl Dimensions {
                 add(&s.name, "origin.y", Dimension::SlideOriginY { slide });
             }
         }
-        Self { entries }
+        let ranges = entries.iter().map(|(_, dimension)| dimension.range()).collect();
+        Self { entries, ranges }
     }
 
     /// Number of dimensions.
@@ -145,6 +156,13 @@ impl Dimensions {
     /// The error of the first invalid value, if any.
     #[must_use]
     pub fn first_fault(&self, values: &[f64]) -> Option<SolveError> {
+        let mut valid = true;
+        for (&[least, most], &value) in self.ranges.iter().zip(values) {
+            valid &= least <= value && value <= most;
+        }
+        if valid {
+            return None;
+        }
         self.entries.iter().zip(values).find_map(|((name, d), &value)| {
             d.fault(value).map(|need| SolveError::BadDimension { name: name.clone(), value, need })
         })

@@ -21,6 +21,13 @@ pub(crate) fn unwrap_to<R: Real>(angle: R, near: R) -> R {
     angle + R::splat(TAU) * turns_between(angle, near)
 }
 
+/// Whole turns in the change of an angle over a period, to the nearest. An angle may change by half
+/// a turn exactly, from one dead point to another: that counts as none, whatever the rounding
+/// errors.
+pub(crate) fn whole_turns(change: f64) -> f64 {
+    (change.abs() * (1.0 / TAU) + ABOUT_HALF).floor().copysign(change)
+}
+
 /// Subtracts whole turns from an angle, accurate to the last bit for fewer than 2^48 turns: 2π is
 /// in parts whose products with the two halves of `turns` are exact (Cody & Waite 1980).
 pub(crate) fn reduce_turns(angle: f64, turns: f64) -> f64 {

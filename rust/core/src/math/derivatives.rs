@@ -23,6 +23,14 @@ pub(crate) const ONE_DRIVER: [&[Term]; 4] = [
     &[Term { factor: 1.0, left: 2, right: 1 }, Term { factor: 2.0, left: 1, right: 2 }],
 ];
 
+/// [`DerivativeTables::mixed`] for one driver to order 3, as a constant.
+pub(crate) const ONE_DRIVER_MIXED: [&[Term]; 4] = [
+    &[],
+    &[],
+    &[Term { factor: 2.0, left: 1, right: 1 }],
+    &[Term { factor: 3.0, left: 2, right: 1 }, Term { factor: 3.0, left: 1, right: 2 }],
+];
+
 /// Index tables for derivatives of a given order in a given number of drivers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DerivativeTables {
@@ -38,6 +46,8 @@ pub(crate) struct DerivativeTables {
     pub lowered: Vec<(usize, usize)>,
     /// Terms of the derivative of a product, for each multi-index.
     pub product: Vec<Vec<Term>>,
+    /// Those of them in which both factors are differentiated.
+    pub mixed: Vec<Vec<Term>>,
     /// Terms of the derivative of a unit vector (times i), except the one in the highest derivative
     /// of its angle: left is U, right is Θ.
     pub rotation: Vec<Vec<Term>>,
@@ -78,7 +88,10 @@ impl DerivativeTables {
                 (driver, find(&lower))
             })
             .collect();
-        let product = powers.iter().map(|alpha| leibniz(alpha, &find)).collect();
+        let product: Vec<Vec<Term>> = powers.iter().map(|alpha| leibniz(alpha, &find)).collect();
+        let is_mixed = |term: &Term| term.left != 0 && term.right != 0;
+        let mixed =
+            product.iter().map(|terms| terms.iter().copied().filter(is_mixed).collect()).collect();
         let rotation = powers
             .iter()
             .enumerate()
@@ -98,7 +111,7 @@ impl DerivativeTables {
                     .collect()
             })
             .collect();
-        Self { drivers, order, powers, driver_of, lowered, product, rotation }
+        Self { drivers, order, powers, driver_of, lowered, product, mixed, rotation }
     }
 
     /// Entries in a jet.
@@ -163,6 +176,12 @@ mod tests {
         let terms: Vec<_> =
             derivatives.rotation[3].iter().map(|t| (t.factor, t.left, t.right)).collect();
         assert_eq!(terms, [(1.0, 2, 1), (2.0, 1, 2)]);
+        assert!(
+            ONE_DRIVER_MIXED
+                .iter()
+                .zip(&derivatives.mixed)
+                .all(|(constant, made)| constant == made)
+        );
         assert!(
             ONE_DRIVER.iter().zip(&derivatives.rotation).all(|(constant, made)| constant == made)
         );

@@ -1,13 +1,14 @@
-//! The number types of the solver: one number, or eight at once.
+//! The number types of the solver: one number, or several at once.
 //!
-//! [`Real`] is a plain `f64` or [`Lanes`], a vector of eight. Each operation is the IEEE 754 one in
+//! [`Real`] is a plain `f64`, or several as [`Lanes`] or in a register. Each operation is the IEEE 754 one in
 //! each lane separately (no fused multiplication, no library function but exact ones). A lane
 //! therefore has the same bits as the scalar, on every machine and whatever the other lanes hold.
 
 use std::fmt::Debug;
+use std::mem::MaybeUninit;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-/// Numbers in a vector.
+/// Numbers in the longest vector.
 pub const LANES: usize = 8;
 
 /// A boolean for each lane.
@@ -89,6 +90,25 @@ pub trait Real:
     fn bit(self, bit: u32) -> Self::Mask;
     /// `yes` where the mask is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// The numbers of both in turn: those of the first lanes, then those of the last.
+    #[inline(always)]
+    #[must_use]
+    fn zip(self, other: Self) -> [Self; 2] {
+        let mut numbers = [0.0; 2 * LANES];
+        for lane in 0..Self::LANES {
+            numbers[2 * lane] = self.lane(lane);
+            numbers[2 * lane + 1] = other.lane(lane);
+        }
+        let half = |first: usize| Self::from_lanes(|lane| numbers[first + lane]);
+        [half(0), half(Self::LANES)]
+    }
+    /// Writes its numbers to the front of a slice that is long enough.
+    #[inline(always)]
+    fn write(self, out: &mut [MaybeUninit<f64>]) {
+        for lane in 0..Self::LANES {
+            out[lane] = MaybeUninit::new(self.lane(lane));
+        }
+    }
 }
 
 impl Mask for bool {
@@ -178,33 +198,37 @@ impl Real for f64 {
     }
 }
 
-/// Eight numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[repr(C, align(64))]
-pub struct Lanes(pub [f64; LANES]);
+/// Some numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lanes<const N: usize = LANES>(pub [f64; N]);
 
-/// Eight booleans: words with all bits set or none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[repr(C, align(64))]
-pub struct LaneMask([u64; LANES]);
+impl<const N: usize> Default for Lanes<N> {
+    fn default() -> Self {
+        Self([0.0; N])
+    }
+}
 
-impl LaneMask {
+/// Some booleans: words with all bits set or none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LaneMask<const N: usize = LANES>([u64; N]);
+
+impl<const N: usize> LaneMask<N> {
     #[inline(always)]
     fn each(of: impl Fn(usize) -> bool) -> Self {
-        let mut out = [0; LANES];
-        for lane in 0..LANES {
+        let mut out = [0; N];
+        for lane in 0..N {
             out[lane] = if of(lane) { u64::MAX } else { 0 };
         }
         Self(out)
     }
 }
 
-impl Mask for LaneMask {
-    const NONE: Self = Self([0; LANES]);
+impl<const N: usize> Mask for LaneMask<N> {
+    const NONE: Self = Self([0; N]);
     #[inline(always)]
     fn any(self) -> bool {
         let mut some = 0;
-        for lane in 0..LANES {
+        for lane in 0..N {
             some |= self.0[lane];
         }
         some != 0
@@ -212,7 +236,7 @@ impl Mask for LaneMask {
     #[inline(always)]
     fn all(self) -> bool {
         let mut every = u64::MAX;
-        for lane in 0..LANES {
+        for lane in 0..N {
             every &= self.0[lane];
         }
         every != 0
@@ -223,39 +247,39 @@ impl Mask for LaneMask {
     }
     #[inline(always)]
     fn and(mut self, other: Self) -> Self {
-        for lane in 0..LANES {
+        for lane in 0..N {
             self.0[lane] &= other.0[lane];
         }
         self
     }
     #[inline(always)]
     fn or(mut self, other: Self) -> Self {
-        for lane in 0..LANES {
+        for lane in 0..N {
             self.0[lane] |= other.0[lane];
         }
         self
     }
     #[inline(always)]
     fn not(mut self) -> Self {
-        for lane in 0..LANES {
+        for lane in 0..N {
             self.0[lane] = !self.0[lane];
         }
         self
     }
 }
 
-impl Lanes {
+impl<const N: usize> Lanes<N> {
     #[inline(always)]
     fn each(of: impl Fn(usize) -> f64) -> Self {
-        let mut out = [0.0; LANES];
-        for lane in 0..LANES {
+        let mut out = [0.0; N];
+        for lane in 0..N {
             out[lane] = of(lane);
         }
         Self(out)
     }
 }
 
-impl Add for Lanes {
+impl<const N: usize> Add for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -263,14 +287,14 @@ impl Add for Lanes {
     }
 }
 
-impl AddAssign for Lanes {
+impl<const N: usize> AddAssign for Lanes<N> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl Sub for Lanes {
+impl<const N: usize> Sub for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -278,7 +302,7 @@ impl Sub for Lanes {
     }
 }
 
-impl Mul for Lanes {
+impl<const N: usize> Mul for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -286,7 +310,7 @@ impl Mul for Lanes {
     }
 }
 
-impl Div for Lanes {
+impl<const N: usize> Div for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -294,7 +318,7 @@ impl Div for Lanes {
     }
 }
 
-impl Neg for Lanes {
+impl<const N: usize> Neg for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -302,19 +326,19 @@ impl Neg for Lanes {
     }
 }
 
-impl Real for Lanes {
-    type Mask = LaneMask;
-    const LANES: usize = LANES;
-    const ZERO: Self = Self([0.0; LANES]);
-    const ONE: Self = Self([1.0; LANES]);
+impl<const N: usize> Real for Lanes<N> {
+    type Mask = LaneMask<N>;
+    const LANES: usize = N;
+    const ZERO: Self = Self([0.0; N]);
+    const ONE: Self = Self([1.0; N]);
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        Self([value; LANES])
+        Self([value; N])
     }
     #[inline(always)]
     fn from_lanes(mut of: impl FnMut(usize) -> f64) -> Self {
-        let mut out = [0.0; LANES];
-        for lane in 0..LANES {
+        let mut out = [0.0; N];
+        for lane in 0..N {
             out[lane] = of(lane);
         }
         Self(out)
@@ -348,19 +372,19 @@ impl Real for Lanes {
         Self::each(|i| self.0[i].copysign(sign.0[i]))
     }
     #[inline(always)]
-    fn lt(self, other: Self) -> LaneMask {
+    fn lt(self, other: Self) -> LaneMask<N> {
         LaneMask::each(|i| self.0[i] < other.0[i])
     }
     #[inline(always)]
-    fn le(self, other: Self) -> LaneMask {
+    fn le(self, other: Self) -> LaneMask<N> {
         LaneMask::each(|i| self.0[i] <= other.0[i])
     }
     #[inline(always)]
-    fn bit(self, bit: u32) -> LaneMask {
+    fn bit(self, bit: u32) -> LaneMask<N> {
         LaneMask::each(|i| self.0[i].to_bits() >> bit & 1 != 0)
     }
     #[inline(always)]
-    fn select(mask: LaneMask, yes: Self, no: Self) -> Self {
+    fn select(mask: LaneMask<N>, yes: Self, no: Self) -> Self {
         Self::each(|i| {
             f64::from_bits(yes.0[i].to_bits() & mask.0[i] | no.0[i].to_bits() & !mask.0[i])
         })

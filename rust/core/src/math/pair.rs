@@ -1,6 +1,7 @@
 //! Two registers side by side: their operations are independent, so that one need not wait for the
 //! other.
 
+use std::mem::MaybeUninit;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use super::lanes::{LANES, Mask, Real};
@@ -108,6 +109,17 @@ impl<R: Real> Real for Pair<R> {
     #[inline(always)]
     fn lane(self, lane: usize) -> f64 {
         if lane < R::LANES { self.0.lane(lane) } else { self.1.lane(lane - R::LANES) }
+    }
+    #[inline(always)]
+    fn zip(self, other: Self) -> [Self; 2] {
+        let ([a, b], [c, d]) = (self.0.zip(other.0), self.1.zip(other.1));
+        [Self(a, b), Self(c, d)]
+    }
+    #[inline(always)]
+    fn write(self, out: &mut [MaybeUninit<f64>]) {
+        let (first, last) = out.split_at_mut(R::LANES);
+        self.0.write(first);
+        self.1.write(last);
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

@@ -8,6 +8,7 @@
 
 #[allow(clippy::wildcard_imports, reason = "seventy names that all begin with _mm")]
 use std::arch::x86_64::*;
+use std::mem::MaybeUninit;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use super::lanes::{Mask, Real};
@@ -106,6 +107,13 @@ macro_rules! common {
             // SAFETY: a register is as many numbers side by side.
             let numbers = unsafe { std::mem::transmute::<$register, [f64; $lanes]>(self.0) };
             numbers[lane]
+        }
+        #[inline(always)]
+        fn write(self, out: &mut [MaybeUninit<f64>]) {
+            // SAFETY: a register is as many numbers side by side.
+            let numbers =
+                unsafe { std::mem::transmute::<$register, [MaybeUninit<f64>; $lanes]>(self.0) };
+            out[..$lanes].copy_from_slice(&numbers);
         }
         #[inline(always)]
         fn sqrt(self) -> Self {
@@ -225,6 +233,11 @@ wide_mask!(M64x2, F64x2, 2, _mm_movemask_pd);
 impl Real for F64x2 {
     type Mask = M64x2;
     common!(2, __m128d, _mm_set1_pd, _mm_sqrt_pd, _mm_max_pd, _mm_min_pd);
+    #[inline(always)]
+    fn zip(self, other: Self) -> [Self; 2] {
+        // SAFETY: the contract of the type.
+        unsafe { [Self(_mm_unpacklo_pd(self.0, other.0)), Self(_mm_unpackhi_pd(self.0, other.0))] }
+    }
     /// SSE2 has no instruction for it: numbers below 2^52 are rounded by adding and subtracting
     /// 2^52, and lowered by 1 where that rounded up.
     #[inline(always)]
@@ -275,6 +288,18 @@ wide_mask!(M64x4, F64x4, 4, _mm256_movemask_pd);
 impl Real for F64x4 {
     type Mask = M64x4;
     common!(4, __m256d, _mm256_set1_pd, _mm256_sqrt_pd, _mm256_max_pd, _mm256_min_pd);
+    #[inline(always)]
+    fn zip(self, other: Self) -> [Self; 2] {
+        // SAFETY: the contract of the type.
+        unsafe {
+            let even = _mm256_unpacklo_pd(self.0, other.0);
+            let odd = _mm256_unpackhi_pd(self.0, other.0);
+            [
+                Self(_mm256_permute2f128_pd::<0x20>(even, odd)),
+                Self(_mm256_permute2f128_pd::<0x31>(even, odd)),
+            ]
+        }
+    }
     #[inline(always)]
     fn floor(self) -> Self {
         // SAFETY: the contract of the type.
@@ -352,6 +377,18 @@ impl Real for F64x8 {
     type Mask = M64x8;
     common!(8, __m512d, _mm512_set1_pd, _mm512_sqrt_pd, _mm512_max_pd, _mm512_min_pd);
     #[inline(always)]
+    fn zip(self, other: Self) -> [Self; 2] {
+        // SAFETY: the contract of the type.
+        unsafe {
+            let first = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11);
+            let last = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
+            [
+                Self(_mm512_permutex2var_pd(self.0, first, other.0)),
+                Self(_mm512_permutex2var_pd(self.0, last, other.0)),
+            ]
+        }
+    }
+    #[inline(always)]
     fn floor(self) -> Self {
         // SAFETY: the contract of the type.
         Self(unsafe {
@@ -417,6 +454,23 @@ mod tests {
                 let number = |at: usize, lane: usize| NUMBERS[(at + lane) % NUMBERS.len()];
                 let (x, y) =
                     (R::from_lanes(|lane| number(i, lane)), R::from_lanes(|lane| number(j, lane)));
+                let mut written = [MaybeUninit::new(0.0); 16];
+                let (first, last) = written.split_at_mut(R::LANES);
+                let [before, after] = x.zip(y);
+                before.write(first);
+                after.write(last);
+                for lane in 0..R::LANES {
+                    let zipped = if lane < R::LANES / 2 { before } else { after };
+                    let at = 2 * lane % R::LANES;
+                    assert_eq!(zipped.lane(at).to_bits(), number(i, lane).to_bits());
+                    assert_eq!(zipped.lane(at + 1).to_bits(), number(j, lane).to_bits());
+                    // SAFETY: all were initialised.
+                    let pair = [0, 1].map(|k| unsafe { written[2 * lane + k].assume_init() });
+                    assert_eq!(
+                        pair.map(f64::to_bits),
+                        [zipped.lane(at), zipped.lane(at + 1)].map(f64::to_bits)
+                    );
+                }
                 for lane in 0..R::LANES {
                     let (a, b) = (number(i, lane), number(j, lane));
                     assert_eq!(R::splat(a).lane(lane).to_bits(), a.to_bits());

@@ -105,6 +105,13 @@ impl<R: Real> Vector<R> {
     pub fn angle(self) -> R {
         trig::atan2(self.y, self.x)
     }
+
+    /// The same for a vector of length 1.
+    #[inline(always)]
+    #[must_use]
+    pub fn unit_angle(self) -> R {
+        trig::unit_angle(self.x, self.y)
+    }
 }
 
 impl Vector {

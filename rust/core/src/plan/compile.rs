@@ -1,10 +1,12 @@
 //! Compiles a linkage and its structure to a plan.
 
 use super::blocks::add_steps;
+use super::dyad::{Form, Unknown};
 use super::group::{BinaryLoops, Group};
 use super::pair_span::PairSpans;
 use super::plan::{EdgeSlide, LegEdge, Orientation, Plan, PlanEdge, Step};
 use super::redundant;
+use super::tape::Tape;
 use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
 use crate::structure::Structure;
@@ -67,6 +69,7 @@ impl Plan {
                     along,
                     paired,
                     leg: None,
+                    on_leg: None,
                 }
             })
             .collect();
@@ -87,6 +90,7 @@ impl Plan {
             dyad_links: Vec::new(),
             higher: None,
             pairs: PairSpans::default(),
+            tape: Tape::default(),
         };
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
         let placed = add_steps(&mut plan, linkage, structure, &kept)?;
@@ -95,6 +99,7 @@ impl Plan {
             plan.pairs = PairSpans::of(linkage, closure);
         }
         plan.mark_legs();
+        plan.tape = Tape::whole(&plan);
         Ok(plan)
     }
 
@@ -112,6 +117,21 @@ impl Plan {
                     found.push((term.edge, LegEdge { index, backward: term.backward }));
                 }
             }
+        }
+        let mut on_leg = vec![None; self.classes];
+        for dyad in self.dyads() {
+            for (i, unknown) in dyad.unknowns.into_iter().enumerate() {
+                let Unknown::Class(class) = unknown else { continue };
+                // Where a guide turns, the place of the other leg has the rotation itself.
+                on_leg[class] = match dyad.form {
+                    Form::TurningGuide => dyad.turning_guide().map(|_| 2 * dyad.index + 1),
+                    _ => dyad.leg[i].then_some(2 * dyad.index + i),
+                };
+            }
+        }
+        for edge in &mut self.edges {
+            let driven = self.orientations[edge.orientation].driven;
+            edge.on_leg = if driven { None } else { on_leg[edge.class] };
         }
         let mut used = vec![false; self.orientations.len()];
         let mut bars = Vec::new();

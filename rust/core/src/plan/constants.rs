@@ -1,6 +1,7 @@
 //! The constant vectors of one design.
 
 use super::binary_links::LoopVectors;
+use super::dyad_constants::DyadConstants;
 use super::leg::Leg;
 use super::plan::Plan;
 use crate::description::Linkage;
@@ -34,6 +35,12 @@ pub(crate) struct DesignConstants {
     pub max_arm2: Vec<f64>,
     /// The two legs of every dyad (default values where an unknown has no leg).
     pub legs: Vec<[Leg; 2]>,
+    /// Other constants of every dyad.
+    pub dyads: Vec<DyadConstants>,
+    /// How far from the origin each point can be, at most; of points along a slide, without it.
+    pub reach: Vec<f64>,
+    /// Of every edge that turns with a leg, but is not one: the edge divided by the leg.
+    pub on_leg: Vec<Vector>,
     /// Spans and bars of the groups of binary links.
     pub spans: LoopVectors,
     /// The misfit of redundant links is relative to this size: 1, or less where a joint far from
@@ -208,31 +215,22 @@ impl DesignConstants {
         constants
     }
 
-    /// Recomputes the constants for the dimensions of another design.
+    /// Recomputes the constants for the dimensions of another design of the same plan.
     pub(crate) fn bind(&mut self, plan: &Plan, slots: &DimensionMap, values: &[f64]) {
+        if self.edge_vector.len() != plan.edges.len() {
+            self.resize(plan, slots);
+        }
         let origin = read_two(values, slots.origin);
         self.origin = [origin.x, origin.y];
         self.scale = slots.lengths.scale(values, self.origin);
-        let inv_scale = 1.0 / self.scale;
-        self.offset.clear();
-        self.turn.clear();
-        for r in &plan.rotation {
-            // Starting the sum at 0.0 keeps 0 exact.
-            let angle = r.slides.iter().fold(0.0, |angle, &(slide, sign)| {
-                let step = slots.slides[slide].step(values);
-                if sign > 0 { angle + step } else { angle - step }
-            });
-            self.offset.push(angle);
-            self.turn.push(unit(angle));
+        let inv_scale = inverse_power(self.scale);
+        let has_slides = !slots.slides.is_empty();
+        if has_slides {
+            self.turn_links(plan, slots, values);
         }
-        self.slide_turn.clear();
-        self.slide_turn.extend(slots.slides.iter().map(|s| unit(s.step(values))));
-        self.edge_vector.clear();
-        self.guide.clear();
-        self.arm2.clear();
-        for (e, source) in plan.edges.iter().zip(&slots.edges) {
-            let (w, d) = match *source {
-                EdgeSource::Joint(slots) => (read_two(values, slots), Vector::ZERO),
+        for ((e, source), i) in plan.edges.iter().zip(&slots.edges).zip(0..) {
+            let mut w = match *source {
+                EdgeSource::Joint(slots) => read_two(values, slots),
                 EdgeSource::Guide(slide) => {
                     let slide = &slots.slides[slide];
                     let direction = unit(slide.angle(values));
@@ -240,34 +238,67 @@ impl DesignConstants {
                     if slide.drawn {
                         start = start - origin;
                     }
-                    let offset = read(values, slide.offset);
-                    (start + direction.left().scale(offset), direction)
+                    self.guide[i] = self.turn[e.edge.link] * direction;
+                    start + direction.left().scale(read(values, slide.offset))
                 }
             };
-            let turn = self.turn[e.edge.link];
-            let edge_vector = (turn * w).scale(inv_scale);
-            self.edge_vector.push(edge_vector);
-            self.arm2.push(edge_vector.norm2());
-            self.guide.push(turn * d);
+            if has_slides {
+                w = self.turn[e.edge.link] * w;
+            }
+            self.edge_vector[i] = w.scale(inv_scale);
+            self.arm2[i] = self.edge_vector[i].norm2();
         }
-        self.fixed.clear();
-        self.fixed.resize(plan.points, Vector::ZERO);
         for &(joint, at) in &slots.ground {
             self.fixed[joint + 1] = (read_two(values, at) - origin).scale(inv_scale);
         }
-        self.max_arm2.clear();
-        self.max_arm2.resize(plan.classes, 0.0);
+        self.max_arm2.fill(0.0);
         for (e, &arm2) in plan.edges.iter().zip(&self.arm2) {
-            let class = plan.orientations[e.orientation].class;
             // The error of a coupler point beyond all pairs is relative to its own distance.
             let arm2 = if e.paired { arm2 } else { arm2.min(1.0) };
-            self.max_arm2[class] = self.max_arm2[class].max(arm2);
+            self.max_arm2[e.class] = self.max_arm2[e.class].max(arm2);
         }
         self.measure_legs(plan);
+        self.measure_dyads(plan, &plan.tape);
+        for (i, e) in plan.edges.iter().enumerate() {
+            if let (Some(leg), None) = (e.on_leg, e.leg) {
+                self.on_leg[i] = self.legs[leg / 2][leg % 2].part(self.edge_vector[i]);
+            }
+        }
         self.spans.measure(plan, &self.edge_vector);
         // Twice, since the scale is more than half of the greatest length.
         let longest = plan.pairs.longest(&self.edge_vector, &self.fixed);
         self.pair_size = if longest > 0.0 { (2.0 * longest).min(1.0) } else { 1.0 };
+    }
+
+    /// Makes room; what stays 0 is never written.
+    fn resize(&mut self, plan: &Plan, slots: &DimensionMap) {
+        let edges = plan.edges.len();
+        for vectors in [&mut self.edge_vector, &mut self.guide, &mut self.on_leg] {
+            vectors.resize(edges, Vector::ZERO);
+        }
+        self.arm2.resize(edges, 0.0);
+        self.fixed.resize(plan.points, Vector::ZERO);
+        self.max_arm2.resize(plan.classes, 0.0);
+        self.offset.resize(plan.rotation.len(), 0.0);
+        self.turn.resize(plan.rotation.len(), Vector::ONE);
+        self.slide_turn.resize(slots.slides.len(), Vector::ONE);
+    }
+
+    /// Sets the constant angles of the links; only slides cause any.
+    fn turn_links(&mut self, plan: &Plan, slots: &DimensionMap, values: &[f64]) {
+        for (r, (offset, turn)) in
+            plan.rotation.iter().zip(self.offset.iter_mut().zip(&mut self.turn))
+        {
+            // Starting the sum at 0.0 keeps 0 exact.
+            *offset = r.slides.iter().fold(0.0, |angle, &(slide, sign)| {
+                let step = slots.slides[slide].step(values);
+                if sign > 0 { angle + step } else { angle - step }
+            });
+            *turn = unit(*offset);
+        }
+        for (turn, slide) in self.slide_turn.iter_mut().zip(&slots.slides) {
+            *turn = unit(slide.step(values));
+        }
     }
 
     fn measure_legs(&mut self, plan: &Plan) {
@@ -304,9 +335,21 @@ fn power_of_two(x: f64) -> f64 {
     f64::from_bits(exponent << 52)
 }
 
+/// 1 divided by such a power of two.
+fn inverse_power(power: f64) -> f64 {
+    f64::from_bits((2046 << 52) - power.to_bits())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::power_of_two;
+    use super::{inverse_power, power_of_two};
+
+    #[test]
+    fn inverses_are_exact() {
+        for x in [1.0, 3.7, 1e-200, 1e200, 0.3] {
+            assert_eq!(inverse_power(power_of_two(x)), 1.0 / power_of_two(x));
+        }
+    }
 
     #[test]
     fn powers_of_two() {

@@ -9,6 +9,16 @@ pub(crate) enum Unknown {
     Slide(usize),
 }
 
+impl Unknown {
+    /// Index of the class; 0, the ground's, for a slide.
+    pub(crate) fn class(self) -> usize {
+        match self {
+            Self::Class(class) => class,
+            Self::Slide(_) => 0,
+        }
+    }
+}
+
 /// Closed form of a dyad.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {

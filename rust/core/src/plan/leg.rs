@@ -38,6 +38,11 @@ impl<R: Real> Leg<R> {
 }
 
 impl Leg {
+    /// A vector that turns with the leg, divided by it; without a leg, the vector itself.
+    pub(crate) fn part(&self, vector: Vector) -> Vector {
+        if self.norm2 == 0.0 { vector } else { self.turn_to(vector) }
+    }
+
     /// The same leg on every lane.
     #[inline(always)]
     pub(crate) fn on_lanes<R: Real>(&self) -> Leg<R> {

@@ -3,6 +3,7 @@
 use super::dyad::Dyad;
 use super::group::Group;
 use super::pair_span::PairSpans;
+use super::tape::Tape;
 use crate::description::Driver;
 use crate::structure::closure::{Edge, Rotation};
 
@@ -32,6 +33,8 @@ pub(crate) struct PlanEdge {
     pub paired: bool,
     /// Set if the edge alone is a leg.
     pub leg: Option<LegEdge>,
+    /// The leg of a dyad that it turns with, if that is not driven.
+    pub on_leg: Option<usize>,
 }
 
 impl PlanEdge {
@@ -150,6 +153,8 @@ pub(crate) struct Plan {
     pub higher: Option<Higher>,
     /// Pairs of every link; empty if no link or slide is redundant.
     pub pairs: PairSpans,
+    /// All steps as they are run.
+    pub tape: Tape,
 }
 
 impl Plan {

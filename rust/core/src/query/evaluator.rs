@@ -260,7 +260,7 @@ impl LastPosition {
         reference_angles: &[f64],
     ) -> Self {
         let angle =
-            |class: usize| unwrap_to(state.class[class][0].angle(), reference_angles[class]);
+            |class: usize| unwrap_to(state.class[class][0].unit_angle(), reference_angles[class]);
         let unknown_value = |&unknown: &Unknown| match unknown {
             Unknown::Class(class) => [angle(class), 0.0, 0.0],
             Unknown::Slide(slide) => [state.slides[slide * state.len][0], 0.0, 0.0],

@@ -8,16 +8,49 @@ use crate::math::pair::Pair;
 #[cfg(target_arch = "x86_64")]
 use crate::math::registers::{F64x2, F64x4, F64x8};
 use crate::plan::group::Group;
+use crate::plan::tape::{DyadOp, PlaceOp, Tape};
 
 /// The solver of positions compiled for one level.
 ///
 /// `solve` and `group` are separate functions: several callers share `solve`, and smaller functions
 /// compile faster.
-pub(crate) trait Level {
+pub(crate) trait Level: Sized {
     /// Its register.
     type Register: Real;
     /// See [`State::solve_all`].
     fn solve<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>);
+    /// See [`State::run_bare`].
+    fn bare<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>, tape: &Tape);
+    /// See [`State::bare_two_legs`].
+    fn two_legs<const LEN: usize, const G: usize>(
+        state: &mut State<Self::Register, G>,
+        cx: &Context<'_>,
+        op: &DyadOp,
+    );
+    /// See [`State::bare_standing_guide`].
+    fn standing_guide<const LEN: usize, const G: usize>(
+        state: &mut State<Self::Register, G>,
+        cx: &Context<'_>,
+        op: &DyadOp,
+    );
+    /// See [`State::bare_turning_guide`].
+    fn turning_guide<const LEN: usize, const G: usize>(
+        state: &mut State<Self::Register, G>,
+        cx: &Context<'_>,
+        op: &DyadOp,
+    );
+    /// See [`State::standing_guides`].
+    fn standing_guides<const G: usize>(
+        state: &mut State<Self::Register, G>,
+        cx: &Context<'_>,
+        op: &DyadOp,
+    );
+    /// See [`State::place_of_length`].
+    fn place<const LEN: usize, const G: usize>(
+        state: &mut State<Self::Register, G>,
+        cx: &Context<'_>,
+        op: &PlaceOp,
+    );
     /// See [`State::solve_group`].
     fn group<const G: usize>(
         state: &mut State<Self::Register, G>,
@@ -27,78 +60,86 @@ pub(crate) trait Level {
     );
 }
 
-/// What every processor has: arrays of numbers, which the compiler puts into registers as well as it
-/// can.
-pub(crate) mod portable {
-    use super::{Context, Group, Lanes, Level, State};
-
-    pub(crate) struct Portable;
-
-    impl Level for Portable {
-        type Register = Lanes;
+/// A function of a level that is compiled by itself. `$features`: what its instructions need.
+macro_rules! compiled {
+    (
+        $register:ty; $name:ident [$($size:ident)?]
+        ($state:ident, $($argument:ident: $type:ty),+) $body:expr
+    ) => {
         #[inline(never)]
-        fn solve<const G: usize>(state: &mut State<Lanes, G>, cx: &Context<'_>) {
-            state.solve_all(cx, &Self::group);
-        }
-        #[inline(never)]
-        fn group<const G: usize>(
-            state: &mut State<Lanes, G>,
-            cx: &Context<'_>,
-            group: &Group,
-            index: usize,
+        fn $name<$(const $size: usize,)? const G: usize>(
+            $state: &mut State<$register, G>,
+            $($argument: $type),+
         ) {
-            state.solve_group(cx, group, index);
+            $body
         }
-    }
+    };
+    (
+        $register:ty, $features:literal; $name:ident [$($size:ident)?]
+        ($state:ident, $($argument:ident: $type:ty),+) $body:expr
+    ) => {
+        #[inline(always)]
+        #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+        fn $name<$(const $size: usize,)? const G: usize>(
+            $state: &mut State<$register, G>,
+            $($argument: $type),+
+        ) {
+            #[inline(never)]
+            #[target_feature(enable = $features)]
+            fn with<$(const $size: usize,)? const G: usize>(
+                $state: &mut State<$register, G>,
+                $($argument: $type),+
+            ) {
+                $body
+            }
+            // SAFETY: a level is used only if `Simd::best` found its instructions.
+            unsafe { with::<$($size,)? G>($state, $($argument),+) }
+        }
+    };
 }
 
-/// A level of x86-64; in its own module, so that the levels compile in parallel.
-#[cfg(target_arch = "x86_64")]
+/// A level; in its own module, so that the levels compile in parallel.
 macro_rules! level {
-    ($module:ident, $level:ident, $register:ty, $features:literal) => {
+    ($module:ident, $level:ident, $register:ty $(, $features:literal)?) => {
         pub(crate) mod $module {
-            use super::{Context, Group, Level, State};
+            use super::{Context, DyadOp, Group, Level, PlaceOp, State, Tape};
 
             pub(crate) struct $level;
 
             impl Level for $level {
                 type Register = $register;
-                #[inline(always)]
-                #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
-                fn solve<const G: usize>(state: &mut State<$register, G>, cx: &Context<'_>) {
-                    #[target_feature(enable = $features)]
-                    fn with<const G: usize>(state: &mut State<$register, G>, cx: &Context<'_>) {
-                        state.solve_all(cx, &$level::group);
-                    }
-                    // SAFETY: `solve` is called only if `Simd::best` found these instructions.
-                    unsafe { with(state, cx) }
-                }
-                #[inline(always)]
-                #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
-                fn group<const G: usize>(
-                    state: &mut State<$register, G>,
-                    cx: &Context<'_>,
-                    group: &Group,
-                    index: usize,
-                ) {
-                    #[inline(never)]
-                    #[target_feature(enable = $features)]
-                    fn with<const G: usize>(
-                        state: &mut State<$register, G>,
-                        cx: &Context<'_>,
-                        group: &Group,
-                        index: usize,
-                    ) {
-                        state.solve_group(cx, group, index);
-                    }
-                    // SAFETY: as above.
-                    unsafe { with(state, cx, group, index) }
-                }
+                compiled!($register $(, $features)?; solve [] (state, cx: &Context<'_>)
+                    state.solve_all::<$level>(cx));
+                compiled!($register $(, $features)?; bare [] (state, cx: &Context<'_>, tape: &Tape)
+                    state.run_bare::<$level>(cx, tape));
+                compiled!($register $(, $features)?;
+                    two_legs [LEN] (state, cx: &Context<'_>, op: &DyadOp)
+                    state.bare_two_legs::<LEN>(cx, op));
+                compiled!($register $(, $features)?;
+                    standing_guide [LEN] (state, cx: &Context<'_>, op: &DyadOp)
+                    state.bare_standing_guide::<LEN>(cx, op));
+                compiled!($register $(, $features)?;
+                    turning_guide [LEN] (state, cx: &Context<'_>, op: &DyadOp)
+                    state.bare_turning_guide::<LEN>(cx, op));
+                compiled!($register $(, $features)?;
+                    standing_guides [] (state, cx: &Context<'_>, op: &DyadOp)
+                    state.standing_guides::<false>(cx, op));
+                compiled!($register $(, $features)?;
+                    place [LEN] (state, cx: &Context<'_>, op: &PlaceOp)
+                    state.place_of_length(cx, op, LEN));
+                compiled!($register $(, $features)?;
+                    group [] (state, cx: &Context<'_>, group: &Group, index: usize)
+                    state.solve_group(cx, group, index));
             }
         }
     };
 }
 
+// One number: for single positions.
+level!(alone, Alone, f64);
+// What every processor has: arrays of numbers, which the compiler puts into registers as well as it
+// can.
+level!(portable, Portable, super::Lanes<2>);
 #[cfg(target_arch = "x86_64")]
 level!(baseline, Baseline, super::Pair<super::F64x2>, "sse2");
 #[cfg(target_arch = "x86_64")]

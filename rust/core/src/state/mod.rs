@@ -9,3 +9,4 @@ pub(crate) mod redundant;
 pub(crate) mod sensitivity;
 pub(crate) mod state;
 pub(crate) mod status;
+pub(crate) mod tape;

@@ -4,6 +4,7 @@ use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::plan::EdgeSlide;
+use crate::plan::tape::{PlaceKind, PlaceOp};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Computes the point at one end of an edge from that at the other end, in all lane groups.
@@ -97,4 +98,124 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         self.point_condition[to][g] = condition;
     }
+
+    /// Computes a point from another, in all lane groups.
+    #[inline(always)]
+    pub(crate) fn place_point(&mut self, cx: &Context<'_>, op: &PlaceOp) {
+        self.place_of_length(cx, op, self.len);
+        self.record_point(cx, op);
+    }
+
+    /// Value and analogues: jets of `len` entries.
+    #[inline(always)]
+    pub(crate) fn place_of_length(&mut self, cx: &Context<'_>, op: &PlaceOp, len: usize) {
+        let jet = |i: usize| i * len..i * len + len;
+        let groups = self.groups.min(G);
+        if op.kind == PlaceKind::Along {
+            for g in 0..groups {
+                for k in 0..len {
+                    let v = self.edge(g, cx, op.edge, k);
+                    let base = self.points[op.from * len + k][g];
+                    self.points[op.to * len + k][g] = if op.backward { base - v } else { base + v };
+                }
+            }
+            return;
+        }
+        let Ok([base, out]) = self.points.get_disjoint_mut([op.from, op.to].map(jet)) else {
+            return;
+        };
+        match op.kind {
+            PlaceKind::Leg { leg, negative: false } => {
+                let leg = &self.legs[jet(leg)];
+                for k in 0..len {
+                    for g in 0..groups {
+                        out[k][g] = base[k][g] + leg[k][g];
+                    }
+                }
+            }
+            PlaceKind::Leg { leg, negative: true } => {
+                let leg = &self.legs[jet(leg)];
+                for k in 0..len {
+                    for g in 0..groups {
+                        out[k][g] = base[k][g] - leg[k][g];
+                    }
+                }
+            }
+            PlaceKind::OnLeg { leg } => {
+                let part = directed(cx.constants.on_leg[op.edge], op.backward);
+                let leg = &self.legs[jet(leg)];
+                for k in 0..len {
+                    for g in 0..groups {
+                        out[k][g] = base[k][g] + leg[k][g] * part;
+                    }
+                }
+            }
+            PlaceKind::Rigid { orientation } => {
+                let edge = directed(cx.constants.edge_vector[op.edge], op.backward);
+                let orientation = &self.orient[jet(orientation)];
+                for k in 0..len {
+                    for g in 0..groups {
+                        out[k][g] = base[k][g] + orientation[k][g] * edge;
+                    }
+                }
+            }
+            PlaceKind::Crank { driver, conj } => {
+                let edge = directed(cx.constants.edge_vector[op.edge], op.backward);
+                let units = &self.unit[driver];
+                for g in 0..groups {
+                    let unit = if conj { units[g].conj() } else { units[g] };
+                    let mut entry = unit * edge;
+                    out[0][g] = base[0][g] + entry;
+                    if cx.derivatives.drivers == 1 {
+                        for k in 1..len {
+                            entry = if conj { -entry.left() } else { entry.left() };
+                            out[k][g] = base[k][g] + entry;
+                        }
+                    } else {
+                        let first = entry;
+                        for k in 1..len {
+                            // Only derivatives by this driver alone are not 0.
+                            let power = &cx.derivatives.powers[k];
+                            let own = power[driver];
+                            let alone = power.iter().sum::<usize>() == own;
+                            let mut entry = if alone { first } else { Vector::ZERO };
+                            for _ in 0..if alone { own } else { 0 } {
+                                entry = if conj { -entry.left() } else { entry.left() };
+                            }
+                            out[k][g] = base[k][g] + entry;
+                        }
+                    }
+                }
+            }
+            PlaceKind::Along => {}
+        }
+    }
+
+    /// Records the size of a point's coordinates, and its condition.
+    #[inline(always)]
+    fn record_point(&mut self, cx: &Context<'_>, op: &PlaceOp) {
+        let along = cx.plan.edges[op.edge].along;
+        for g in 0..self.groups.min(G) {
+            let (start, end) =
+                (self.points[op.from * self.len][g], self.points[op.to * self.len][g]);
+            let arm = match along {
+                EdgeSlide::Nothing => R::splat(cx.constants.arm2[op.edge]),
+                _ => (end - start).norm2(),
+            };
+            self.coordinate_scale2[op.to][g] =
+                self.coordinate_scale2[op.from][g].max(arm).max(end.norm2());
+            let mut condition =
+                self.point_condition[op.from][g].max(self.class_condition[op.class][g]);
+            if let EdgeSlide::Slide(slide) = along {
+                condition = condition.max(self.slide_condition[slide][g]);
+            }
+            self.point_condition[op.to][g] = condition;
+        }
+    }
+}
+
+/// A vector on every lane, reversed if it is traversed backward.
+#[inline(always)]
+fn directed<R: Real>(vector: Vector, backward: bool) -> Vector<R> {
+    Vector::splat(if backward { -vector } else { vector })
 }

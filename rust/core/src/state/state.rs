@@ -2,6 +2,8 @@
 //! their analogues.
 
 use super::group::workspace::GroupWorkspace;
+use super::kernel::Level;
+use super::kernel::alone::Alone;
 use super::status::{FLAT2, Fault, Status};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
@@ -9,8 +11,8 @@ use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Unknown};
-use crate::plan::group::Group;
 use crate::plan::plan::{EdgeSlide, Plan, Step};
+use crate::plan::tape::Tape;
 
 /// Work space for one position, or for `G` lane groups of as many positions as `R` has lanes;
 /// allocated once and reused.
@@ -82,6 +84,11 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) margin: Vec<[R; G]>,
     /// Lanes where a dyad does not close.
     pub(crate) open: [R::Mask; G],
+    /// For each dyad: the inverse of its squared condition is nowhere less (where the tape is not
+    /// run carefully).
+    pub(crate) bounds: Vec<[R; G]>,
+    /// The same for all that the present dyad depends on.
+    pub(crate) bound: [R; G],
     /// Square of the greatest condition in the position.
     pub condition2: [R; G],
     /// Lanes that failed or are singular; the caller solves each again as a single position.
@@ -103,6 +110,8 @@ pub(crate) struct Context<'a> {
     pub derivatives: &'a DerivativeTables,
     /// Assembly signs, +1 or −1, for single positions.
     pub signs: &'a [f64],
+    /// What is to be run; `None` runs the plan's steps.
+    pub tape: Option<&'a Tape>,
 }
 
 impl<R: Real, const G: usize> State<R, G> {
@@ -112,6 +121,12 @@ impl<R: Real, const G: usize> State<R, G> {
         let (len, slides) = (derivatives.len(), plan.slide_links.len());
         let edges = plan.groups().map(|group| group.edges.len()).max().unwrap_or(0);
         let loops = plan.groups().map(|group| group.loops.len()).max().unwrap_or(0);
+        let mut orient = vec![[Vector::ZERO; G]; plan.orientations.len() * len];
+        for (orientation, jet) in plan.orientations.iter().zip(orient.chunks_exact_mut(len)) {
+            if orientation.class == 0 {
+                jet[0] = [Vector::ONE; G];
+            }
+        }
         Self {
             len,
             groups: G,
@@ -119,7 +134,7 @@ impl<R: Real, const G: usize> State<R, G> {
             unit: vec![[Vector::ONE; G]; plan.drivers.len()],
             signs: vec![[R::ONE; G]; plan.signs()],
             points: vec![[Vector::ZERO; G]; plan.points * len],
-            orient: vec![[Vector::ZERO; G]; plan.orientations.len() * len],
+            orient,
             legs: vec![[Vector::ZERO; G]; plan.legs() * len],
             theta: vec![[R::ZERO; G]; plan.classes * len],
             slides: vec![[R::ZERO; G]; slides * len],
@@ -143,6 +158,8 @@ impl<R: Real, const G: usize> State<R, G> {
             later_steps: [R::ZERO; G],
             margin: vec![[R::ZERO; G]; plan.dyads().count()],
             open: [R::Mask::NONE; G],
+            bounds: vec![[R::ONE; G]; plan.dyads().count()],
+            bound: [R::ONE; G],
             condition2: [R::ONE; G],
             needs_scalar: [R::Mask::NONE; G],
             status: Status::Ok,
@@ -159,24 +176,28 @@ impl<R: Real, const G: usize> State<R, G> {
         derivatives: &DerivativeTables,
     ) {
         let len = self.len;
-        for (point, (&fixed, jet)) in
-            constants.fixed.iter().zip(self.points.chunks_exact_mut(len)).enumerate()
-        {
+        for point in 0..plan.points {
             if R::LANES > 1 && !plan.fixed[point] {
                 // Every position sets all points that its steps place.
                 continue;
             }
-            let fixed = Vector::splat(fixed);
-            jet.fill([Vector::ZERO; G]);
-            jet[0] = [fixed; G];
+            let fixed = Vector::splat(constants.fixed[point]);
+            self.points[point * len] = [fixed; G];
             self.coordinate_scale2[point] = [fixed.norm2(); G];
+            if R::LANES == 1 {
+                self.points[point * len + 1..(point + 1) * len].fill([Vector::ZERO; G]);
+            }
         }
-        self.class[0] = [Vector::ONE; G];
-        self.theta[..len].fill([R::ZERO; G]);
-        for (orientation, jet) in plan.orientations.iter().zip(self.orient.chunks_exact_mut(len)) {
-            if orientation.class == 0 {
-                jet.fill([Vector::ZERO; G]);
-                jet[0] = [Vector::ONE; G];
+        if R::LANES == 1 {
+            // An interpolated state has rounding in what stands still.
+            self.class[0] = [Vector::ONE; G];
+            self.theta[..len].fill([R::ZERO; G]);
+            let jets = self.orient.chunks_exact_mut(len);
+            for (orientation, jet) in plan.orientations.iter().zip(jets) {
+                if orientation.class == 0 {
+                    jet.fill([Vector::ZERO; G]);
+                    jet[0] = [Vector::ONE; G];
+                }
             }
         }
         for driver in 0..plan.drivers.len() {
@@ -188,14 +209,13 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Computes positions at their `q`, `unit` and `signs`. `group` is
-    /// [`solve_group`](Self::solve_group), passed in so that it is compiled as a separate function.
+    /// Computes positions at their `q`, `unit` and `signs`.
     #[inline(always)]
-    pub(crate) fn solve_all(
-        &mut self,
-        cx: &Context<'_>,
-        group: &impl Fn(&mut Self, &Context<'_>, &Group, usize),
-    ) {
+    pub(crate) fn solve_all<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
+        if let Some(tape) = cx.tape {
+            self.run::<L>(cx, tape);
+            return;
+        }
         self.start_position(cx);
         for (index, step) in cx.plan.steps.iter().enumerate() {
             if R::LANES == 1 && self.has_failed() {
@@ -215,7 +235,7 @@ impl<R: Real, const G: usize> State<R, G> {
                         self.place_all(cx, edge, backward);
                     }
                 }
-                Step::Group(higher) => group(self, cx, higher, index),
+                Step::Group(higher) => L::group(self, cx, higher, index),
                 Step::Redundant(redundant) => {
                     for g in 0..self.groups.min(G) {
                         self.check_redundant(g, cx, redundant, index);
@@ -285,19 +305,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 continue;
             }
             for g in 0..self.groups.min(G) {
-                let mut phase = Vector::ONE;
-                match orientation.single_driver {
-                    Some((driver, false)) => phase = self.unit[driver][g],
-                    Some((driver, true)) => phase = self.unit[driver][g].conj(),
-                    None => {
-                        for (&turns, unit) in orientation.turns.iter().zip(&self.unit) {
-                            let unit = if turns < 0 { unit[g].conj() } else { unit[g] };
-                            for _ in 0..turns.unsigned_abs() {
-                                phase = phase * unit;
-                            }
-                        }
-                    }
-                }
+                let phase = self.phase_of(g, orientation);
                 self.phase[o][g] = phase;
                 if orientation.class == 0 {
                     self.set_driven_orientation(g, cx, o, phase);
@@ -307,7 +315,7 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     #[inline(always)]
-    fn dyad_step(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, index: usize) {
+    pub(crate) fn dyad_step(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, index: usize) {
         let mut upstream2 =
             self.point_condition[dyad.start][g].max(self.point_condition[dyad.end][g]);
         for term in &dyad.others {
@@ -321,7 +329,8 @@ impl<R: Real, const G: usize> State<R, G> {
         if let Some(sign) = dyad.sign {
             self.upstream_condition2[sign][g] = upstream2;
         }
-        let solved = self.solve_dyad(g, cx, dyad);
+        let rounding = self.rounding_arm2(g, dyad);
+        let solved = self.solve_dyad(g, cx, dyad, rounding);
         self.margin[dyad.index][g] = solved.margin;
         self.open[g] = self.open[g].or(solved.open);
         self.mark_open(g, solved.open, || Fault::NotClosed {
@@ -352,11 +361,6 @@ impl<R: Real, const G: usize> State<R, G> {
 }
 
 impl State {
-    #[inline(never)]
-    fn solve_one_group(&mut self, cx: &Context<'_>, group: &Group, index: usize) {
-        self.solve_group(cx, group, index);
-    }
-
     /// Computes one position at `q` (rad; slide drivers in units of the scale).
     #[inline(never)]
     pub(crate) fn solve(&mut self, cx: &Context<'_>, q: &[f64]) {
@@ -369,7 +373,7 @@ impl State {
                 self.unit[driver][0] = Vector::at_angle(value);
             }
         }
-        self.solve_all(cx, &Self::solve_one_group);
+        self.solve_all::<Alone>(cx);
         if self.status == Status::Ok && self.near_singular(0) {
             self.status = Status::NearSingular;
         }

@@ -2,6 +2,13 @@
 
 pub(crate) mod analogues;
 pub(crate) mod closed_form;
+pub(crate) mod conditions;
 pub(crate) mod discriminant;
+pub(crate) mod intersections;
 pub(crate) mod rrr;
+pub(crate) mod sample;
 pub(crate) mod solve;
+pub(crate) mod standing_guide;
+pub(crate) mod standing_guides;
+pub(crate) mod turning_guide;
+pub(crate) mod two_legs;

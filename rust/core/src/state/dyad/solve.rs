@@ -27,10 +27,10 @@ impl<R: Real, const G: usize> State<R, G> {
         g: usize,
         cx: &Context<'_>,
         dyad: &Dyad,
+        rounding: R,
     ) -> DyadSolution<R> {
         let CollectedTerms { first, second, known: k } = self.collect_terms(g, cx, dyad);
         let sign = if let Some(s) = dyad.sign { self.signs[s][g] } else { R::ONE };
-        let rounding = self.rounding_arm2(g, dyad);
         let [u, v] = dyad.unknowns;
         match dyad.form {
             Form::TwoCircles => {

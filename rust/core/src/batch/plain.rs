@@ -1,0 +1,141 @@
+//! Designs without change points, on tapes with kernels alone: their positions are computed bare,
+//! block by block. A block with a doubtful position is left to the careful path.
+
+use std::mem::MaybeUninit;
+
+use super::worker::{Job, Worker, mask};
+use crate::math::angle::unwrap_to;
+use crate::math::lanes::{Mask, Real};
+use crate::math::tolerance::KNOT_MAX_TURN;
+use crate::state::kernel::Level;
+use crate::state::status::Status;
+
+/// Widest range of an angle at the knots that leaves no doubt about its whole turns: between two
+/// knots it may leave that range by one step.
+const MAX_RANGE: f64 = std::f64::consts::TAU - 4.0 * KNOT_MAX_TURN;
+
+impl<R: Real, const G: usize> Worker<'_, R, G> {
+    /// Whether the design is of that kind.
+    #[inline(always)]
+    pub(super) fn is_plain(&self) -> bool {
+        let branch = &self.design.branch;
+        self.tape.is_bounded && branch.is_plain() && branch.has_constant_signs()
+    }
+
+    /// Finds for every class asked for an angle that tells its whole turns everywhere; true if there
+    /// is none for some class, so that positions must be located among the knots.
+    #[inline(always)]
+    pub(super) fn find_references(&mut self) -> bool {
+        let branch = &self.design.branch;
+        let classes = branch.gain.len();
+        for &class in &self.writer.classes {
+            if branch.inverse_width.is_none() || branch.gain[class] != 0.0 {
+                return true;
+            }
+            let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+            for &angle in branch.angles[class..].iter().step_by(classes) {
+                least = if angle < least { angle } else { least };
+                most = if angle > most { angle } else { most };
+            }
+            if most - least > MAX_RANGE {
+                return true;
+            }
+            self.references[class] = 0.5 * (least + most);
+        }
+        false
+    }
+
+    /// Solves up to `G` registers of positions; false if some position is doubtful, and nothing is
+    /// written.
+    #[inline(always)]
+    pub(super) fn solve_bare<L: Level<Register = R>>(
+        &mut self,
+        job: &mut Job<'_, '_>,
+        row: usize,
+        count: usize,
+        located: bool,
+    ) -> bool {
+        let (first, groups) = (row / R::LANES, count.div_ceil(R::LANES).min(G));
+        for group in 0..groups {
+            let turned = &self.turned[first + group];
+            self.many.q[0][group] = turned.q;
+            self.many.unit[0][group] = turned.unit;
+        }
+        self.many.groups = groups;
+        let design = &self.design;
+        L::bare(&mut self.many, &design.context(design.derivatives), &self.tape);
+        let state = &self.many;
+        let (mut doubtful, mut open) = (R::Mask::NONE, R::Mask::NONE);
+        for group in 0..groups {
+            doubtful = doubtful.or(state.doubtful(group));
+            open = open.or(state.open[group]);
+        }
+        if doubtful.any() {
+            return false;
+        }
+        let some_open = open.any();
+        // A separate loop: independent arctangents overlap.
+        for &class in &self.writer.classes {
+            for group in 0..groups {
+                self.lifted[class][group] = state.class[class][group].unit_angle();
+            }
+        }
+        for &class in &self.writer.classes {
+            let lifted = &mut self.lifted[class];
+            if located {
+                for group in 0..groups {
+                    let spot = &self.spots[first + group];
+                    let reference = design.branch.reference_angle(spot, class);
+                    lifted[group] = unwrap_to(lifted[group], reference);
+                    if design.branch.inverse_width.is_none() {
+                        // The angle on an island that no knot has seen has to be followed to it.
+                        let unseen = |lane: usize| {
+                            !state.open[group].lane(lane)
+                                && design.branch.in_untraced_island(spot, lane)
+                        };
+                        if mask::<R>(unseen).any() {
+                            return false;
+                        }
+                    }
+                }
+            } else {
+                let reference = R::splat(self.references[class]);
+                for group in 0..groups {
+                    lifted[group] = unwrap_to(lifted[group], reference);
+                }
+            }
+        }
+        if some_open && !self.is_counted(job, row, count) {
+            return false;
+        }
+        let (design, state) = (&self.design, &self.many);
+        let at = job.first + row;
+        let with = (&design.constants, &design.units);
+        let failed = some_open.then_some(&state.open);
+        self.writer.write(job.rows, (at, count), with, state, &self.lifted, failed);
+        let status = &mut job.rows.status[at..at + count];
+        status.fill(MaybeUninit::new(Status::Ok as u8));
+        if some_open {
+            for (group, status) in status.chunks_mut(R::LANES).enumerate() {
+                if !state.open[group].any() {
+                    continue;
+                }
+                for (lane, status) in status.iter_mut().enumerate() {
+                    if state.open[group].lane(lane) {
+                        *status = MaybeUninit::new(Status::Unreachable as u8);
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// Counts the positions that are open, if none of them has to be described.
+    #[inline(always)]
+    fn is_counted(&self, job: &Job<'_, '_>, row: usize, count: usize) -> bool {
+        let Some(log) = self.failures else { return true };
+        let open = |place: &usize| self.many.open[place / R::LANES].lane(place % R::LANES);
+        let first = (0..count).find(open).unwrap_or(0);
+        log.count_later(job.index + row + first, (0..count).filter(open).count())
+    }
+}

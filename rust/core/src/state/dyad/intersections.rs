@@ -1,0 +1,218 @@
+//! Closed forms of dyads: one vector equation with two unknowns, with one square root and at most
+//! one division.
+//!
+//! Positions at which a dyad may be flat or open are computed with `CAREFUL`: it adds what is to be
+//! known about them, and the values of a flat dyad. All others have the same bits without it.
+
+use crate::math::lanes::{Mask, Real};
+use crate::math::tolerance::FLAT_CLOSURE;
+use crate::math::vector::Vector;
+use crate::plan::dyad_constants::Sides;
+use crate::plan::leg::Leg;
+use crate::state::status::FLAT2;
+
+/// Whether a dyad closes, and how far it is from flat.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Closing<R: Real> {
+    /// Lanes where it does not close. Without `CAREFUL` some such lanes may be missing; in these
+    /// `sine2` is not positive, or NaN.
+    pub open: R::Mask,
+    /// Lanes where it is flat: the two solutions coincide to rounding.
+    pub flat: R::Mask,
+    /// Square of the sine of the angle between the columns of the closure matrix: between the legs
+    /// of two binary links.
+    pub sine2: R,
+    /// By how much it closes, relative to the scale; negative where it does not (`CAREFUL`).
+    pub margin: R,
+    /// How much is missing where it does not, infinite if that is not a length (`CAREFUL`).
+    pub gap: R,
+    /// For each unknown, what the square of its arm is multiplied with; 0 for a slide.
+    pub per_arm2: [R; 2],
+}
+
+impl<R: Real> Closing<R> {
+    pub(crate) const CLOSED: Self = Self {
+        open: R::Mask::NONE,
+        flat: R::Mask::NONE,
+        sine2: R::ONE,
+        margin: R::ZERO,
+        gap: R::ZERO,
+        per_arm2: [R::ZERO; 2],
+    };
+}
+
+/// `value` where it is positive, else 0; NaN becomes 0.
+#[inline(always)]
+fn positive<R: Real>(value: R) -> R {
+    value.max(R::ZERO)
+}
+
+/// Lanes where both solutions coincide, or would if the dyad closed: its values are those of the
+/// flat dyad.
+#[inline(always)]
+fn degenerate<R: Real>(product: R, sine2: R) -> R::Mask {
+    R::ZERO.lt(product).not().or(sine2.lt(R::splat(FLAT2)))
+}
+
+/// `a u₁ + b u₂ = k` for unit vectors u₁, u₂: the intersection of two circles.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TwoCircles<R: Real> {
+    /// The legs `a u₁` and `b u₂`.
+    pub legs: [Vector<R>; 2],
+    /// 1 / (`a u₁` × `b u₂`)
+    pub inverse_determinant: R,
+    pub closing: Closing<R>,
+}
+
+impl<R: Real> TwoCircles<R> {
+    /// `sign` > 0: `a u₁` points to the left of `k`.
+    #[inline(always)]
+    pub(crate) fn solve<const CAREFUL: bool>(
+        [a, b]: [&Leg<R>; 2],
+        sides: &Sides<R>,
+        k: Vector<R>,
+        sign: R,
+    ) -> Self {
+        let d2 = k.norm2();
+        let (outer, inner) = (sides.sum2 - d2, d2 - sides.difference2);
+        let [most, least] = [-sides.tolerances[0], -sides.tolerances[1]];
+        let mut open = outer.lt(most).or(inner.lt(least));
+        // Heron: (2 d h)² = ((a+b)² − d²)(d² − (a−b)²), h the height on k.
+        let mut area2 = outer * inner;
+        if CAREFUL {
+            // Outer joints coincide, or a leg has no length: any attitude closes.
+            let loose = R::ZERO.lt(d2.min(a.norm2).min(b.norm2)).not();
+            open = most.le(outer).and(least.le(inner)).not().or(loose);
+            area2 = positive(outer) * positive(inner);
+        }
+        let area = area2.sqrt();
+        let sine2 = area2 * sides.per_sine2;
+        let inverse = R::ONE / (d2 * area);
+        // Along and across k, as parts of it.
+        let mut half = R::splat(0.5) * (area * inverse);
+        let mut across = (R::splat(0.5) * sign) * (area2 * inverse);
+        let mut closing = Closing { open, sine2, ..Closing::CLOSED };
+        if CAREFUL {
+            closing.per_arm2 = [a.inv_norm2, b.inv_norm2];
+            let flat = degenerate(area2, sine2);
+            let flat_half = R::splat(0.5) / d2;
+            half = R::select(flat, flat_half, half);
+            across = R::select(flat, (sign * area) * flat_half, across);
+            closing.flat = flat.and(open.not());
+            let (d, sum) = (d2.sqrt(), a.norm + b.norm);
+            let difference = (a.norm - b.norm).abs();
+            closing.margin = (sum - d).min(d - difference);
+            let missing = R::select(
+                outer.lt(most),
+                d - sum,
+                R::select(inner.lt(least), difference - d, R::ZERO),
+            );
+            let far = d.finite().not();
+            closing.gap = R::select(far, R::splat(f64::INFINITY), missing);
+        }
+        let first = k * Vector::new((d2 + sides.split) * half, across);
+        Self {
+            legs: [first, k - first],
+            inverse_determinant: (R::splat(-2.0) * sign) * (d2 * inverse),
+            closing,
+        }
+    }
+}
+
+/// `a u + s b = k` for a unit vector u and a slide s along the unit vector b, or `(a + s b) u = k`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Guided<R: Real> {
+    /// Of a guide with a known direction: the leg `a u`. Of one that turns: u.
+    pub turned: Vector<R>,
+    pub slide: R,
+    /// 1 / determinant of the closure matrix.
+    pub inverse_determinant: R,
+    pub closing: Closing<R>,
+}
+
+impl<R: Real> Guided<R> {
+    /// A circle and a line in direction `b`. `sign` > 0: the slide is ahead of the foot of the
+    /// perpendicular from the circle's centre. `reach`: |k| is nowhere greater.
+    #[inline(always)]
+    pub(crate) fn circle_and_line<const CAREFUL: bool>(
+        a: &Leg<R>,
+        b: Vector<R>,
+        k: Vector<R>,
+        sign: R,
+        reach: R,
+    ) -> Self {
+        let (along, across) = (b.dot(k), b.cross(k));
+        let inner = a.norm - across.abs();
+        let mut open = inner.lt(R::splat(-FLAT_CLOSURE) * (a.norm + reach));
+        let mut chord2 = inner * (a.norm + across.abs());
+        let far = across.finite().not();
+        if CAREFUL {
+            let within = R::splat(-FLAT_CLOSURE) * a.norm.max(k.size());
+            open = within.le(inner).not().or(R::ZERO.lt(a.norm2).not()).or(far);
+            chord2 = positive(inner) * (a.norm + across.abs());
+        }
+        let chord = chord2.sqrt();
+        let signed = sign * chord;
+        let sine2 = chord2 * a.inv_norm2;
+        let mut closing = Closing { open, sine2, ..Closing::CLOSED };
+        if CAREFUL {
+            closing.per_arm2[0] = a.inv_norm2;
+            closing.flat = degenerate(chord2, sine2).and(open.not());
+            closing.margin = inner;
+            closing.gap = R::select(far, R::splat(f64::INFINITY), positive(-inner));
+        }
+        Self {
+            turned: b * Vector::new(-signed, across),
+            slide: along + signed,
+            inverse_determinant: sign / chord,
+            closing,
+        }
+    }
+
+    /// A guide that turns, `a` from its pivot in direction `b`. `sign` > 0: the slide is above the
+    /// value at which it is nearest to the far joint.
+    #[inline(always)]
+    pub(crate) fn turning_guide<const CAREFUL: bool>(
+        a: Vector<R>,
+        b: Vector<R>,
+        k: Vector<R>,
+        sign: R,
+    ) -> Self {
+        let (along, across) = (b.dot(a), b.cross(a));
+        let d2 = k.norm2();
+        let inner = d2 - across * across;
+        // As with two legs, of which the shorter has no length.
+        let within = R::splat(-2.0 * FLAT_CLOSURE) * (a.size().max(across.abs()) * across.abs());
+        let mut open = inner.lt(within);
+        let mut chord2 = inner;
+        if CAREFUL {
+            // The far joint is on the guide's own pivot: every attitude closes.
+            open = within.le(inner).not().or(R::ZERO.lt(d2).not());
+            chord2 = positive(inner);
+        }
+        let chord = chord2.sqrt();
+        let signed = sign * chord;
+        let inverse = R::ONE / (d2 * chord);
+        let mut per = chord * inverse;
+        let mut closing = Closing { open, ..Closing::CLOSED };
+        if CAREFUL {
+            let flat_per = R::ONE / d2;
+            let flat = degenerate(chord2, chord2 * flat_per);
+            per = R::select(flat, flat_per, per);
+            closing.flat = flat.and(open.not());
+            let d = d2.sqrt();
+            closing.margin = d - across.abs();
+            let far = d.finite().not();
+            closing.gap = R::select(far, R::splat(f64::INFINITY), positive(-closing.margin));
+        }
+        closing.sine2 = chord2 * per;
+        closing.per_arm2[0] = per;
+        let arm = b * Vector::new(signed, across);
+        Self {
+            turned: (k * arm.conj()).scale(per),
+            slide: signed - along,
+            inverse_determinant: -(sign * (d2 * inverse)),
+            closing,
+        }
+    }
+}

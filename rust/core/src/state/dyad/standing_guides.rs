@@ -1,0 +1,49 @@
+//! The dyad of two slides along guides that stand still (PRP, RPP).
+
+use super::intersections::Closing;
+use crate::math::lanes::{Mask, Real};
+use crate::math::vector::Vector;
+use crate::plan::tape::DyadOp;
+use crate::state::state::{Context, State};
+
+impl<R: Real, const G: usize> State<R, G> {
+    /// Solves the dyad for its slides and their analogues (Cramer): all are linear in the chord.
+    #[inline(always)]
+    pub(crate) fn standing_guides<const CAREFUL: bool>(&mut self, cx: &Context<'_>, op: &DyadOp) {
+        let len = self.len;
+        let jet = |i: usize| i * len..i * len + len;
+        let (start, end) = (&self.points[jet(op.start)], &self.points[jet(op.end)]);
+        let Ok([s, t]) = self.slides.get_disjoint_mut(op.unknowns.map(jet)) else { return };
+        let own = &cx.constants.dyads[op.dyad];
+        let [a, b] = own.guides;
+        let determinant = a.cross(b);
+        let inverse = R::splat(1.0 / determinant);
+        let [a, b] = [a, b].map(Vector::splat);
+        let offset = Vector::splat(own.offset);
+        let sine2 = R::splat(determinant * determinant);
+        let bounds = &mut self.bounds[op.dyad];
+        let mut closings = [Closing::CLOSED; G];
+        for k in 0..len {
+            for g in 0..self.groups.min(G) {
+                let mut chord = end[k][g] - start[k][g];
+                if k == 0 {
+                    chord = chord - offset;
+                }
+                s[k][g] = chord.cross(b) * inverse;
+                t[k][g] = a.cross(chord) * inverse;
+            }
+        }
+        for g in 0..self.groups.min(G) {
+            if CAREFUL {
+                let open = s[0][g].finite().and(t[0][g].finite()).not();
+                let gap = R::splat(f64::INFINITY);
+                closings[g] = Closing { open, sine2, margin: R::ONE, gap, ..Closing::CLOSED };
+            } else {
+                bounds[g] = self.bound[g] * sine2;
+            }
+        }
+        if CAREFUL {
+            self.record_closings(cx, op, &closings);
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! The dyad with a guide that turns (RPR).
+
+use super::intersections::{Closing, Guided};
+use crate::math::derivatives::{ONE_DRIVER, ONE_DRIVER_MIXED, Term};
+use crate::math::lanes::{Mask, Real};
+use crate::math::vector::Vector;
+use crate::plan::tape::DyadOp;
+use crate::state::state::{Context, State};
+
+impl<R: Real, const G: usize> State<R, G> {
+    /// Solves the dyad for the rotation and value of its slide, and their analogues.
+    #[inline(always)]
+    pub(crate) fn turning_guide(&mut self, cx: &Context<'_>, op: &DyadOp) {
+        if R::LANES > 1 || cx.derivatives.drivers > 1 {
+            // Lanes rarely need care: one copy for all orders is enough.
+            self.turning_of_length::<true>(cx, op, self.len, &|k: usize| {
+                (&cx.derivatives.rotation[k][..], &cx.derivatives.mixed[k][..])
+            });
+            return;
+        }
+        match self.len {
+            1 => self.turning_of_length::<true>(cx, op, 1, &one_driver),
+            2 => self.turning_of_length::<true>(cx, op, 2, &one_driver),
+            3 => self.turning_of_length::<true>(cx, op, 3, &one_driver),
+            _ => self.turning_of_length::<true>(cx, op, 4, &one_driver),
+        }
+    }
+
+    /// The same for one driver and jets of a constant length, without care.
+    #[inline(always)]
+    pub(crate) fn bare_turning_guide<const LEN: usize>(&mut self, cx: &Context<'_>, op: &DyadOp) {
+        self.turning_of_length::<false>(cx, op, LEN, &one_driver);
+    }
+
+    /// The rotation's jet is kept where the second leg of other dyads is.
+    #[inline(always)]
+    fn turning_of_length<'t, const CAREFUL: bool>(
+        &mut self,
+        cx: &Context<'_>,
+        op: &DyadOp,
+        len: usize,
+        terms: &impl Fn(usize) -> (&'t [Term], &'t [Term]),
+    ) {
+        let jet = |i: usize| i * len..i * len + len;
+        let (start, end) = (&self.points[jet(op.start)], &self.points[jet(op.end)]);
+        let [class, slide] = op.unknowns;
+        let Ok([leg, turn]) = self.legs.get_disjoint_mut([2 * op.dyad, 2 * op.dyad + 1].map(jet))
+        else {
+            return;
+        };
+        let (u, s) = (&mut self.theta[jet(class)], &mut self.slides[jet(slide)]);
+        let rotation = &mut self.class[class];
+        let signs = &self.signs[op.sign.unwrap_or(0)];
+        let own = &cx.constants.dyads[op.dyad];
+        let a = Vector::splat(cx.constants.legs[op.dyad][0].vector);
+        let (guide, inverse_arm2) = (Vector::splat(own.guides[1]), R::splat(own.inverse_arm2));
+        let bounds = &mut self.bounds[op.dyad];
+        let mut closings = [Closing::CLOSED; G];
+        for g in 0..self.groups.min(G) {
+            let chord = end[0][g] - start[0][g];
+            let solved = Guided::turning_guide::<CAREFUL>(a, guide, chord, signs[g]);
+            if CAREFUL {
+                closings[g] = solved.closing;
+            } else {
+                self.open[g] = self.open[g].or(solved.closing.open);
+                // The arm is relative to the distance.
+                let distance2 = R::ONE.min(chord.norm2() * inverse_arm2);
+                bounds[g] = self.bound[g] * (solved.closing.sine2 * distance2);
+            }
+            let (unit, inverse) = (solved.turned, solved.inverse_determinant);
+            turn[0][g] = unit;
+            rotation[g] = unit;
+            s[0][g] = solved.slide;
+            let arm = a + guide.scale(solved.slide);
+            let along = guide * unit;
+            if CAREFUL {
+                leg[0][g] = unit * a;
+            }
+            for k in 1..len {
+                let (turning, mixed) = terms(k);
+                let mut rest = end[k][g] - start[k][g];
+                let mut unit_rest = Vector::ZERO;
+                if !turning.is_empty() {
+                    for term in turning {
+                        let factor = R::splat(term.factor);
+                        unit_rest += turn[term.left][g].scale(factor * u[term.right][g]);
+                    }
+                    unit_rest = unit_rest.left();
+                    let mut sliding = Vector::ZERO;
+                    for term in mixed {
+                        let factor = R::splat(term.factor);
+                        sliding += turn[term.left][g].scale(factor * s[term.right][g]);
+                    }
+                    rest = (rest - arm * unit_rest) - guide * sliding;
+                }
+                let rate = -(along.cross(rest) * inverse);
+                u[k][g] = rate;
+                s[k][g] = -(chord.dot(rest) * inverse);
+                turn[k][g] = unit_rest + unit.left().scale(rate);
+                if CAREFUL {
+                    leg[k][g] = turn[k][g] * a;
+                }
+            }
+        }
+        if CAREFUL {
+            self.record_closings(cx, op, &closings);
+        }
+        self.turn_orientations(cx, op);
+    }
+}
+
+/// Terms of rotation, and of a slide along what turns, for one driver.
+fn one_driver(k: usize) -> (&'static [Term], &'static [Term]) {
+    (ONE_DRIVER[k], ONE_DRIVER_MIXED[k])
+}

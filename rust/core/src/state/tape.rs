@@ -1,0 +1,183 @@
+//! Runs the tape: all that a request needs of some positions.
+
+use super::kernel::Level;
+use super::state::{Context, State};
+use super::status::Status;
+use crate::math::lanes::{Mask, Real};
+use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
+use crate::math::vector::Vector;
+use crate::plan::plan::{Orientation, Step};
+use crate::plan::tape::{DyadOp, Op, Tape};
+
+/// Least of [`State::bounds`] at which no dyad is nearly flat, with a margin for its own rounding.
+const LEAST_BOUND: f64 = (1.0 + 1.0e-6) / (NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION);
+
+impl<R: Real, const G: usize> State<R, G> {
+    /// Computes positions at their `q`, `unit` and `signs`, with conditions, margins, and what a
+    /// failed position is.
+    #[inline(always)]
+    pub(crate) fn run<L: Level<Register = R>>(&mut self, cx: &Context<'_>, tape: &Tape) {
+        self.start_careful();
+        self.load_drivers(cx, tape);
+        for op in &tape.ops {
+            if R::LANES == 1 && self.has_failed() {
+                return;
+            }
+            match op {
+                Op::TwoLegs(op) => self.two_legs(cx, op),
+                Op::StandingGuide(op) => self.standing_guide(cx, op),
+                Op::TurningGuide(op) => self.turning_guide(cx, op),
+                Op::StandingGuides(op) => self.standing_guides::<true>(cx, op),
+                Op::Place(op) => self.place_point(cx, op),
+                Op::Dyad { step } => {
+                    if let Step::Dyad(dyad) = &cx.plan.steps[*step] {
+                        for g in 0..self.groups.min(G) {
+                            self.dyad_step(g, cx, dyad, *step);
+                        }
+                    }
+                }
+                Op::Group { step } => {
+                    if let Step::Group(group) = &cx.plan.steps[*step] {
+                        L::group(self, cx, group, *step);
+                    }
+                }
+                Op::Redundant { step } => {
+                    if let Step::Redundant(redundant) = &cx.plan.steps[*step] {
+                        for g in 0..self.groups.min(G) {
+                            self.check_redundant(g, cx, redundant, *step);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Computes positions of a tape that [`is_bounded`](Tape::is_bounded), for one driver; of what
+    /// is beside them only [`State::open`] and [`State::bounds`]. Positions that are
+    /// [`doubtful`](Self::doubtful) must be computed again by [`run`](Self::run); all others have
+    /// the same bits.
+    #[inline(always)]
+    pub(crate) fn run_bare<L: Level<Register = R>>(&mut self, cx: &Context<'_>, tape: &Tape) {
+        self.open = [R::Mask::NONE; G];
+        self.load_drivers(cx, tape);
+        match self.len {
+            1 => self.run_bare_of_length::<L, 1>(cx, tape),
+            2 => self.run_bare_of_length::<L, 2>(cx, tape),
+            3 => self.run_bare_of_length::<L, 3>(cx, tape),
+            _ => self.run_bare_of_length::<L, 4>(cx, tape),
+        }
+    }
+
+    #[inline(always)]
+    fn run_bare_of_length<L: Level<Register = R>, const LEN: usize>(
+        &mut self,
+        cx: &Context<'_>,
+        tape: &Tape,
+    ) {
+        for op in &tape.ops {
+            match op {
+                Op::TwoLegs(op) => {
+                    self.start_bound(op);
+                    L::two_legs::<LEN, G>(self, cx, op);
+                }
+                Op::StandingGuide(op) => {
+                    self.start_bound(op);
+                    L::standing_guide::<LEN, G>(self, cx, op);
+                }
+                Op::TurningGuide(op) => {
+                    self.start_bound(op);
+                    L::turning_guide::<LEN, G>(self, cx, op);
+                }
+                Op::StandingGuides(op) => {
+                    self.start_bound(op);
+                    L::standing_guides::<G>(self, cx, op);
+                }
+                Op::Place(op) => L::place::<LEN, G>(self, cx, op),
+                Op::Dyad { .. } | Op::Group { .. } | Op::Redundant { .. } => {}
+            }
+        }
+    }
+
+    /// Sets the bound of all that a dyad depends on.
+    #[inline(always)]
+    fn start_bound(&mut self, op: &DyadOp) {
+        self.bound = [R::ONE; G];
+        for &dyad in &op.upstream {
+            for g in 0..self.groups.min(G) {
+                self.bound[g] = self.bound[g].min(self.bounds[dyad][g]);
+            }
+        }
+    }
+
+    /// Lanes where some dyad may be nearly flat, or open without being known to be.
+    #[inline(always)]
+    pub(crate) fn doubtful(&self, g: usize) -> R::Mask {
+        let mut doubtful = R::Mask::NONE;
+        for q in &self.q {
+            doubtful = doubtful.or(q[g].finite().not());
+        }
+        for bounds in &self.bounds {
+            // NaN is doubtful.
+            doubtful = doubtful.or(R::splat(LEAST_BOUND).le(bounds[g]).not());
+        }
+        doubtful.and(self.open[g].not())
+    }
+
+    #[inline(always)]
+    fn start_careful(&mut self) {
+        self.fault = None;
+        self.status = Status::Ok;
+        self.condition2 = [R::ONE; G];
+        self.needs_scalar = [R::Mask::NONE; G];
+        self.open = [R::Mask::NONE; G];
+        self.first_step = [R::ZERO; G];
+        self.later_steps = [R::ZERO; G];
+        for q in &self.q {
+            for g in 0..G {
+                self.needs_scalar[g] = self.needs_scalar[g].or(q[g].finite().not());
+            }
+        }
+        if R::LANES == 1 && self.needs_scalar[0].any() {
+            self.status = Status::BadInput;
+        }
+    }
+
+    /// Sets driven slides and orientations.
+    #[inline(always)]
+    fn load_drivers(&mut self, cx: &Context<'_>, tape: &Tape) {
+        for (driver, q) in self.q.iter().enumerate() {
+            if let Some(slide) = cx.plan.driven_slide(driver) {
+                self.slides[slide * self.len] = *q;
+            }
+        }
+        for &o in &tape.driven {
+            let orientation = &cx.plan.orientations[o];
+            for g in 0..self.groups.min(G) {
+                let phase = self.phase_of(g, orientation);
+                self.phase[o][g] = phase;
+                if orientation.class == 0 {
+                    self.set_driven_orientation(g, cx, o, phase);
+                }
+            }
+        }
+    }
+
+    /// The rotation of an orientation by the drivers alone.
+    #[inline(always)]
+    pub(crate) fn phase_of(&self, g: usize, orientation: &Orientation) -> Vector<R> {
+        match orientation.single_driver {
+            Some((driver, false)) => self.unit[driver][g],
+            Some((driver, true)) => self.unit[driver][g].conj(),
+            None => {
+                let mut phase = Vector::ONE;
+                for (&turns, unit) in orientation.turns.iter().zip(&self.unit) {
+                    let unit = if turns < 0 { unit[g].conj() } else { unit[g] };
+                    for _ in 0..turns.unsigned_abs() {
+                        phase = phase * unit;
+                    }
+                }
+                phase
+            }
+        }
+    }
+}
