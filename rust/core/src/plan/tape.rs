@@ -105,10 +105,10 @@ fn stands(plan: &Plan, edge: usize) -> bool {
 }
 
 impl Tape {
-    /// Whether the tape is run, or the plan's steps as before: `ASSUR_EXECUTOR=tape` chooses.
+    /// Whether the tape is run, or the plan's steps as before: `ASSUR_EXECUTOR=steps` chooses those.
     pub(crate) fn is_used() -> bool {
         static USED: LazyLock<bool> =
-            LazyLock::new(|| std::env::var("ASSUR_EXECUTOR").as_deref() == Ok("tape"));
+            LazyLock::new(|| std::env::var("ASSUR_EXECUTOR").as_deref() != Ok("steps"));
         *USED
     }
 
