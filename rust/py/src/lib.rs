@@ -53,7 +53,7 @@ mod _core {
     #[cfg(feature = "test-hooks")]
     use super::test_hooks::panic_in_chunk;
     #[pymodule_export]
-    use super::trig::{asin, atan2, sin_cos};
+    use super::trig::{asin, atan2, sin_cos, unit_angle};
     use super::{Bound, PyModule, PyResult, detach, pyfunction};
 
     #[pymodule_init]

@@ -41,16 +41,35 @@ pub(crate) fn atan2<'py>(
     y: PyReadonlyArray1<'py, f64>,
     x: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Array<'py>> {
+    angles(py, [&y, &x], trig::atan2, trig::atan2)
+}
+
+/// The same of points at a distance of 1.
+#[pyfunction]
+pub(crate) fn unit_angle<'py>(
+    py: Python<'py>,
+    y: PyReadonlyArray1<'py, f64>,
+    x: PyReadonlyArray1<'py, f64>,
+) -> PyResult<Array<'py>> {
+    angles(py, [&y, &x], |y, x| trig::unit_angle(x, y), |y, x| trig::unit_angle(x, y))
+}
+
+fn angles<'py>(
+    py: Python<'py>,
+    [y, x]: [&PyReadonlyArray1<'py, f64>; 2],
+    of_lanes: fn(Lanes, Lanes) -> Lanes,
+    of_one: fn(f64, f64) -> f64,
+) -> PyResult<Array<'py>> {
     let (y, x) = (y.as_slice()?, x.as_slice()?);
     check_same_length(y.len(), x.len())?;
     detach::catch_panic(|| {
         let mut angles = Vec::new();
         for (y, x) in y.chunks(LANES).zip(x.chunks(LANES)) {
             if y.len() == LANES {
-                let lanes = |x: &[f64]| Lanes::<LANES>::from_lanes(|i| x[i]);
-                angles.extend(trig::atan2(lanes(y), lanes(x)).0);
+                let lanes = |x: &[f64]| Lanes::from_lanes(|i| x[i]);
+                angles.extend(of_lanes(lanes(y), lanes(x)).0);
             } else {
-                angles.extend(y.iter().zip(x).map(|(&y, &x)| trig::atan2(y, x)));
+                angles.extend(y.iter().zip(x).map(|(&y, &x)| of_one(y, x)));
             }
         }
         Ok(PyArray1::from_vec(py, angles))

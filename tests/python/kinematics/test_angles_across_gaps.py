@@ -50,3 +50,22 @@ def test_angles_continue_across_gaps(name: str) -> None:
             if np.ptp(own - at) < 1e-9:
                 continue  # it turns with the driver, in a gap too
             np.testing.assert_allclose(own, followed(own), rtol=0, atol=1e-6, err_msg=f"{design}")
+
+
+@pytest.mark.parametrize("name", ["crank_rocker 1", "jansen_leg 2", "seed 96"])
+def test_angles_continue_into_the_next_turn(name: str) -> None:
+    batch = designs(name)
+    q = batch.q0 + np.linspace(-2 * np.pi, 2 * np.pi, 2 * SAMPLES - 1)
+    motion = batch.solve(q, order=0, on_error="nan")
+    reached = motion.status <= assur.Status.NEAR_SINGULAR
+    compared = 0
+    for link in batch.links:
+        angles = motion.link(link).value
+        for design in np.flatnonzero(reached.sum(axis=1) > 1):
+            own, at = angles[design][reached[design]], q[reached[design]]
+            steps = np.abs(np.diff(own)) % (2 * np.pi)
+            if np.ptp(own - at) < 1e-9 or (np.abs(steps - np.pi) < 0.1).any():
+                continue  # half a turn either way is as near
+            np.testing.assert_allclose(own, followed(own), rtol=0, atol=1e-6, err_msg=f"{design}")
+            compared += 1
+    assert compared > len(batch.links)

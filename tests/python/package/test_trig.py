@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 SIN_COS_ULP = 0.9
 ATAN2_ULP = 1.7
 ASIN_ULP = 1.3
+UNIT_ANGLE_ULP = 3.2
+# More, in parts of what the length of the vector is off by.
+UNIT_ANGLE_PER_LENGTH = 0.42
 # Where the reduction of sines and cosines changes: 2^21 π/2, rounded down.
 FEW_TURNS = 3294198.0
 
@@ -171,6 +174,37 @@ def test_atan2(name: str) -> None:
     pairs = zip(y.tolist(), x.tolist(), strict=True)
     exact = [MP.atan2(MP.mpf(b), MP.mpf(a)) for b, a in pairs]
     assert ulps(_core.atan2(y, x), exact).max() < ATAN2_ULP
+
+
+TURNS: dict[str, Callable[[], Float]] = {
+    "turn": lambda: rng("turn").uniform(-np.pi, np.pi, 4 * SIZE),
+    "near sixteenths of turns": lambda: (
+        rng("sixteenths").integers(-8, 9, SIZE) * np.pi / 8 + of_exponents(-50, -3, "beside")
+    ),
+    "small": lambda: of_exponents(-1074, -1, "small"),
+    "about half a turn": lambda: np.pi - of_exponents(-60, -2, "half a turn"),
+}
+
+
+@pytest.mark.parametrize("name", TURNS)
+def test_unit_angle(name: str) -> None:
+    angle = TURNS[name]()
+    y, x = np.sin(angle), np.cos(angle)
+    points = [(MP.mpf(b), MP.mpf(a)) for b, a in zip(y.tolist(), x.tolist(), strict=True)]
+    exact = [MP.atan2(b, a) for b, a in points]
+    unit = np.spacing(np.abs([float(right) for right in exact]))
+    off = np.array([float(abs(MP.hypot(b, a) - 1)) for b, a in points])
+    errors = ulps(_core.unit_angle(y, x), exact)
+    assert (errors < UNIT_ANGLE_ULP + UNIT_ANGLE_PER_LENGTH * off / unit).all()
+
+
+def test_unit_angle_of_axes() -> None:
+    one, zero, nan = 1.0, 0.0, np.nan
+    x = np.array([one, one, -one, -one, zero, zero, nan])
+    y = np.array([zero, -zero, zero, -zero, one, -one, nan])
+    found, half = _core.unit_angle(y, x), np.pi / 2
+    np.testing.assert_array_equal(found, [0.0, 0.0, np.pi, -np.pi, half, -half, nan])
+    np.testing.assert_array_equal(np.signbit(found[:2]), [False, True])
 
 
 SINES: dict[str, Callable[[], Float]] = {

@@ -7,7 +7,7 @@ use crate::state::kernel::Level;
 use crate::state::kernel::portable::Portable;
 
 /// Positions solved at once: their columns fit the first-level cache. At least the knots of a turn.
-pub(crate) const BLOCK: usize = 2 * KNOTS;
+pub(crate) const BLOCK: usize = KNOTS;
 
 /// Work that is compiled for each level.
 pub(crate) trait ForLevel {

@@ -8,6 +8,7 @@ use crate::math::angle::unwrap_to;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::state::kernel::Level;
+use crate::state::state::Context;
 use crate::state::status::Status;
 
 /// Widest range of an angle at the knots that leaves no doubt about its whole turns: between two
@@ -63,7 +64,8 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         }
         self.many.groups = groups;
         let design = &self.design;
-        L::bare(&mut self.many, &design.context(design.derivatives), &self.tape);
+        let cx = Context { tape: &self.tape, ..design.context(design.derivatives) };
+        L::bare(&mut self.many, &cx);
         let state = &self.many;
         let (mut doubtful, mut open) = (R::Mask::NONE, R::Mask::NONE);
         for group in 0..groups {

@@ -16,12 +16,13 @@ use crate::math::angle::unwrap_to;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
+use crate::plan::compile_tape::Needs;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::tape::{Needs, Tape};
+use crate::plan::tape::Tape;
 use crate::query::failure::Failure;
 use crate::state::kernel::Level;
 use crate::state::sensitivity::Sensitivity;
-use crate::state::state::State;
+use crate::state::state::{Context, State};
 use crate::state::status::{Rejection, Status};
 
 /// Blocks of a design with doubtful positions, after which all are computed carefully at once.
@@ -98,7 +99,6 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
         let tape =
             Tape::new(plan, Needs { points: &points, classes: &writer.asked, orientations: false });
-        many.step_wanted = plan.steps_for(writer.asked_points());
         Self {
             quick: design.uniform_tracer(),
             one: State::new(plan, derivatives),
@@ -181,7 +181,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
         }
         self.load_coordinates(job);
-        let mut doubts = if Tape::is_used() && self.is_plain() { 0 } else { MAX_DOUBTS };
+        let mut doubts = if self.is_plain() { 0 } else { MAX_DOUBTS };
         let mut located = doubts == MAX_DOUBTS || self.find_references();
         if located {
             self.locate();
@@ -290,10 +290,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 design.guess(group, &mut self.many, &design.branch, spot);
             }
         }
-        let mut cx = design.context(design.derivatives);
-        if Tape::is_used() {
-            cx.tape = Some(&self.tape);
-        }
+        let cx = Context { tape: &self.tape, ..design.context(design.derivatives) };
         L::solve(&mut self.many, &cx);
         let state = &self.many;
         // A separate loop: independent arctangents overlap.

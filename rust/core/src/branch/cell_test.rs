@@ -77,10 +77,8 @@ impl DyadSamples {
         dyad: &Dyad,
         before: Option<&Self>,
     ) -> bool {
-        let Sample { value, rate, margin } = match cx.tape {
-            Some(tape) => state.sample(group, cx, dyad, &tape.ops[tape.dyads[dyad.index]]),
-            None => state.sample_steps(group, cx, dyad),
-        };
+        let Sample { value, rate, margin } =
+            state.sample(group, cx, dyad, &cx.tape.ops[cx.tape.dyads[dyad.index]]);
         let first = 1 + group * R::LANES;
         let upstream = match before {
             Some(before) => lanes::<R>(&before.upstream, first).min(lanes(&before.margin, first)),

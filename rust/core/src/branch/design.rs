@@ -131,7 +131,7 @@ impl<'a> Design<'a> {
             constants: &self.constants,
             derivatives,
             signs: &self.signs,
-            tape: Tape::is_used().then_some(&self.mechanism.plan().tape),
+            tape: &self.mechanism.plan().tape,
         }
     }
 
@@ -246,7 +246,7 @@ impl<'a> Design<'a> {
             constants: &self.constants,
             derivatives: &self.tracing_derivatives,
             signs: &self.signs,
-            tape: Tape::is_used().then_some(&self.tracing_tape),
+            tape: &self.tracing_tape,
         };
         uniform.solve_knots::<L>(&cx, self.q0[0], !classes.is_empty());
         let (branch, tracer) = (&mut self.branch, &mut self.lane_tracer);

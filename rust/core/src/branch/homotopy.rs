@@ -81,7 +81,7 @@ impl Design<'_> {
                 .zip(&values_here)
                 .map(|(&unknown, &from)| match unknown {
                     Unknown::Class(c) => {
-                        crate::math::angle::unwrap_to(state.class[c][0].unit_angle(), from)
+                        crate::math::angle::unwrap_to(state.class[c][0].angle(), from)
                     }
                     Unknown::Slide(s) => state.slides[s * state.len][0] * constants.scale,
                 })

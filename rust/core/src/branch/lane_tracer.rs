@@ -279,7 +279,8 @@ impl Look {
         self.rates.resize(classes.len(), [0.0; KNOTS]);
         for (index, &class) in classes.iter().enumerate() {
             for group in 0..groups {
-                let angle = state.class[class][group].unit_angle();
+                // Beyond a dead point a rotation's length is not 1.
+                let angle = state.class[class][group].angle();
                 let rate = state.theta[state.len * class + 1][group];
                 for lane in 0..R::LANES {
                     self.angles[index][group * R::LANES + lane] = angle.lane(lane);

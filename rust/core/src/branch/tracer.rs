@@ -190,7 +190,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             .class
             .iter()
             .zip(from)
-            .map(|(u, &near)| unwrap_to(u[0].unit_angle(), near))
+            .map(|(u, &near)| unwrap_to(u[0].angle(), near))
             .collect();
         let len = self.state.len;
         let rates = (0..from.len())
@@ -234,7 +234,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         let expand = |(index, &unknown): (usize, &Unknown)| {
             let (value, jet) = match unknown {
                 Unknown::Class(class) => {
-                    let angle = self.state.class[class][0].unit_angle();
+                    let angle = self.state.class[class][0].angle();
                     (unwrap_to(angle, self.predicted(index, at)), &self.state.theta[class * len..])
                 }
                 Unknown::Slide(slide) => {
@@ -360,7 +360,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             return knot;
         }
         let classes = self.state.class.iter().zip(&from.angles);
-        let edge: Vec<f64> = classes.map(|(u, &near)| unwrap_to(u[0].unit_angle(), near)).collect();
+        let edge: Vec<f64> = classes.map(|(u, &near)| unwrap_to(u[0].angle(), near)).collect();
         if knot.reached {
             let pairs = knot.angles.iter().zip(&edge);
             knot.angles = pairs.map(|(&angle, &near)| unwrap_to(angle, near)).collect();

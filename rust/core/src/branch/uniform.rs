@@ -57,8 +57,7 @@ pub(crate) struct UniformTracer<R: Real, const G: usize> {
 impl<R: Real, const G: usize> UniformTracer<R, G> {
     /// Work space for a plan; `derivatives` are for one driver.
     pub(crate) fn new(plan: &Plan, derivatives: &DerivativeTables) -> Self {
-        let mut state = State::new(plan, derivatives);
-        state.step_wanted = plan.steps_for([]);
+        let state = State::new(plan, derivatives);
         Self {
             state,
             is_careful: true,
@@ -114,8 +113,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     #[inline(always)]
     pub(crate) fn solve<L: Level<Register = R>>(&mut self, cx: &Context<'_>, angles: bool) {
         self.is_careful = true;
-        if let Some(tape) = cx.tape.filter(|tape| tape.is_bounded) {
-            L::bare(&mut self.state, cx, tape);
+        if cx.tape.is_bounded {
+            L::bare(&mut self.state, cx);
             let mut care = R::Mask::NONE;
             for group in 0..self.state.groups.min(G) {
                 care = care.or(self.state.doubtful(group));
@@ -204,10 +203,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         let mut lines = 0;
         let mut suspect = self.not_closed(group);
         for (index, dyad) in cx.plan.dyads().enumerate() {
-            let Sample { value, rate, .. } = match cx.tape {
-                Some(tape) => state.sample(group, cx, dyad, &tape.ops[tape.dyads[index]]),
-                None => state.sample_steps(group, cx, dyad),
-            };
+            let Sample { value, rate, .. } =
+                state.sample(group, cx, dyad, &cx.tape.ops[cx.tape.dyads[index]]);
             match dyad.sign {
                 Some(sign) => {
                     let (last, last_rate) = self.spread[sign];

@@ -47,3 +47,15 @@ pub(crate) fn reduce_turns(angle: f64, turns: f64) -> f64 {
 pub(crate) fn whole_part(cells: f64) -> usize {
     cells as i32 as usize
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_a_turn_counts_as_none() {
+        for (turns, whole) in [(0.5, 0.0), (0.500_001, 0.0), (0.51, 1.0), (1.2, 1.0), (2.0, 2.0)] {
+            assert_eq!([turns * TAU, -turns * TAU].map(whole_turns), [whole, -whole], "{turns}");
+        }
+    }
+}

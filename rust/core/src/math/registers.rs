@@ -110,9 +110,9 @@ macro_rules! common {
         }
         #[inline(always)]
         fn write(self, out: &mut [MaybeUninit<f64>]) {
+            type Numbers = [MaybeUninit<f64>; $lanes];
             // SAFETY: a register is as many numbers side by side.
-            let numbers =
-                unsafe { std::mem::transmute::<$register, [MaybeUninit<f64>; $lanes]>(self.0) };
+            let numbers = unsafe { std::mem::transmute::<$register, Numbers>(self.0) };
             out[..$lanes].copy_from_slice(&numbers);
         }
         #[inline(always)]

@@ -257,7 +257,7 @@ pub fn atan2<R: Real>(y: R, x: R) -> R {
 ///
 /// Error below 3.2 ulp for an exact unit vector; a length of 1 + ε adds at most 0.42 ε. No division:
 /// the angle from the nearest multiple of 45° is an arc sine, and its sine a coordinate, or their
-/// difference over √2. NaN unless both coordinates are numbers.
+/// difference over √2. NaN if both coordinates are.
 #[inline(always)]
 pub fn unit_angle<R: Real>(x: R, y: R) -> R {
     const SIN_22_5: f64 = 0.3826834323650898;

@@ -217,7 +217,7 @@ impl DesignConstants {
 
     /// Recomputes the constants for the dimensions of another design of the same plan.
     pub(crate) fn bind(&mut self, plan: &Plan, slots: &DimensionMap, values: &[f64]) {
-        if self.edge_vector.len() != plan.edges.len() {
+        if self.turn.len() != plan.rotation.len() {
             self.resize(plan, slots);
         }
         let origin = read_two(values, slots.origin);

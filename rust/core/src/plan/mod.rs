@@ -10,6 +10,7 @@
 pub(crate) mod binary_links;
 pub(crate) mod blocks;
 pub(crate) mod compile;
+pub(crate) mod compile_tape;
 pub(crate) mod constants;
 pub(crate) mod constants_rate;
 pub(crate) mod dyad;
@@ -17,6 +18,7 @@ pub(crate) mod dyad_constants;
 pub(crate) mod group;
 pub(crate) mod group_loops;
 pub(crate) mod leg;
+pub(crate) mod measure_dyads;
 pub(crate) mod mechanism;
 pub(crate) mod named;
 pub(crate) mod pair_span;

@@ -202,25 +202,6 @@ impl Plan {
         self.groups().next().is_none() && self.redundant_links().next().is_none()
     }
 
-    /// For every step, whether it has to be computed if of all points only these are asked for: all
-    /// dyads, and the points that they or other points depend on.
-    pub(crate) fn steps_for(&self, asked: impl IntoIterator<Item = usize>) -> Vec<bool> {
-        let mut needed = vec![false; self.points];
-        for point in asked.into_iter().chain(self.dyads().flat_map(|dyad| [dyad.start, dyad.end])) {
-            needed[point] = true;
-        }
-        let all = !self.has_closed_forms();
-        let mut steps = vec![true; self.steps.len()];
-        for (step, is_needed) in self.steps.iter().zip(&mut steps).rev() {
-            if let (&Step::Place { edge, backward }, false) = (step, all) {
-                let [from, to] = self.edges[edge].ends(backward);
-                *is_needed = needed[to];
-                needed[from] |= needed[to];
-            }
-        }
-        steps
-    }
-
     /// Largest size of a group's matrix with its inverse and a right-hand side, in numbers.
     #[must_use]
     pub(crate) fn matrix_size(&self) -> usize {

@@ -8,7 +8,7 @@ use crate::math::pair::Pair;
 #[cfg(target_arch = "x86_64")]
 use crate::math::registers::{F64x2, F64x4, F64x8};
 use crate::plan::group::Group;
-use crate::plan::tape::{DyadOp, PlaceOp, Tape};
+use crate::plan::tape::{DyadOp, PlaceOp};
 
 /// The solver of positions compiled for one level.
 ///
@@ -17,10 +17,10 @@ use crate::plan::tape::{DyadOp, PlaceOp, Tape};
 pub(crate) trait Level: Sized {
     /// Its register.
     type Register: Real;
-    /// See [`State::solve_all`].
+    /// See [`State::run`].
     fn solve<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>);
     /// See [`State::run_bare`].
-    fn bare<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>, tape: &Tape);
+    fn bare<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>);
     /// See [`State::bare_two_legs`].
     fn two_legs<const LEN: usize, const G: usize>(
         state: &mut State<Self::Register, G>,
@@ -102,16 +102,16 @@ macro_rules! compiled {
 macro_rules! level {
     ($module:ident, $level:ident, $register:ty $(, $features:literal)?) => {
         pub(crate) mod $module {
-            use super::{Context, DyadOp, Group, Level, PlaceOp, State, Tape};
+            use super::{Context, DyadOp, Group, Level, PlaceOp, State};
 
             pub(crate) struct $level;
 
             impl Level for $level {
                 type Register = $register;
                 compiled!($register $(, $features)?; solve [] (state, cx: &Context<'_>)
-                    state.solve_all::<$level>(cx));
-                compiled!($register $(, $features)?; bare [] (state, cx: &Context<'_>, tape: &Tape)
-                    state.run_bare::<$level>(cx, tape));
+                    state.run::<$level>(cx, cx.tape));
+                compiled!($register $(, $features)?; bare [] (state, cx: &Context<'_>)
+                    state.run_bare::<$level>(cx, cx.tape));
                 compiled!($register $(, $features)?;
                     two_legs [LEN] (state, cx: &Context<'_>, op: &DyadOp)
                     state.bare_two_legs::<LEN>(cx, op));

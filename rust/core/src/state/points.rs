@@ -7,76 +7,7 @@ use crate::plan::plan::EdgeSlide;
 use crate::plan::tape::{PlaceKind, PlaceOp};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Computes the point at one end of an edge from that at the other end, in all lane groups.
-    #[inline(always)]
-    pub(crate) fn place_all(&mut self, cx: &Context<'_>, e: usize, backward: bool) {
-        // With a constant jet length the compiler unrolls the loops.
-        match (cx.plan.edges[e].along == EdgeSlide::Nothing, self.len) {
-            (true, 1) => self.place_rigid(cx, e, backward, 1),
-            (true, 2) => self.place_rigid(cx, e, backward, 2),
-            (true, 3) => self.place_rigid(cx, e, backward, 3),
-            (true, 4) => self.place_rigid(cx, e, backward, 4),
-            _ => {
-                for g in 0..self.groups.min(G) {
-                    self.place(g, cx, e, backward);
-                }
-            }
-        }
-    }
-
-    /// [`place_all`](Self::place_all) for a rigid edge and jets of `len` entries.
-    #[inline(always)]
-    fn place_rigid(&mut self, cx: &Context<'_>, e: usize, backward: bool, len: usize) {
-        let edge = &cx.plan.edges[e];
-        let [from, to] = edge.ends(backward);
-        let jet = |i: usize| i * len..i * len + len;
-        let Ok([base, out]) = self.points.get_disjoint_mut([from, to].map(jet)) else { return };
-        let groups = self.groups.min(G);
-        match edge.leg {
-            Some(leg) if leg.backward == backward => {
-                let v = &self.legs[jet(leg.index)];
-                for k in 0..len {
-                    for g in 0..groups {
-                        out[k][g] = base[k][g] + v[k][g];
-                    }
-                }
-            }
-            Some(leg) => {
-                let v = &self.legs[jet(leg.index)];
-                for k in 0..len {
-                    for g in 0..groups {
-                        out[k][g] = base[k][g] - v[k][g];
-                    }
-                }
-            }
-            None => {
-                let edge_vector = Vector::splat(cx.constants.edge_vector[e]);
-                let edge_vector = if backward { -edge_vector } else { edge_vector };
-                let orient = &self.orient[jet(edge.orientation)];
-                for k in 0..len {
-                    for g in 0..groups {
-                        out[k][g] = base[k][g] + orient[k][g] * edge_vector;
-                    }
-                }
-            }
-        }
-        let arm = R::splat(cx.constants.arm2[e]);
-        let turned = &self.class_condition[edge.class];
-        let Ok([from_scale2, coordinate_scale2]) =
-            self.coordinate_scale2.get_disjoint_mut([from, to])
-        else {
-            return;
-        };
-        let Ok([upstream2, condition]) = self.point_condition.get_disjoint_mut([from, to]) else {
-            return;
-        };
-        for g in 0..groups {
-            coordinate_scale2[g] = from_scale2[g].max(arm).max(out[0][g].norm2());
-            condition[g] = upstream2[g].max(turned[g]);
-        }
-    }
-
-    /// [`place_all`](Self::place_all) for any edge, in one lane group.
+    /// Computes the point at one end of any edge from that at the other end, in one lane group.
     #[inline(always)]
     pub(crate) fn place(&mut self, g: usize, cx: &Context<'_>, e: usize, backward: bool) {
         let edge = &cx.plan.edges[e];

@@ -191,7 +191,7 @@ impl State {
         for step in &cx.plan.steps {
             match step {
                 // The solver stops at a step that does not close; place the points after it here.
-                &Step::Place { edge, backward } => self.place_all(cx, edge, backward),
+                &Step::Place { edge, backward } => self.place(0, cx, edge, backward),
                 Step::Redundant(redundant) => {
                     let (gap, allowed) = self.place_redundant(0, cx, redundant);
                     if self.is_solved(cx, redundant) {

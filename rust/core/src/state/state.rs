@@ -2,16 +2,13 @@
 //! their analogues.
 
 use super::group::workspace::GroupWorkspace;
-use super::kernel::Level;
-use super::kernel::alone::Alone;
-use super::status::{FLAT2, Fault, Status};
+use super::status::{Fault, Status};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
-use crate::plan::dyad::{Dyad, Unknown};
-use crate::plan::plan::{EdgeSlide, Plan, Step};
+use crate::plan::plan::Plan;
 use crate::plan::tape::Tape;
 
 /// Work space for one position, or for `G` lane groups of as many positions as `R` has lanes;
@@ -67,8 +64,6 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) inv_length: Vec<[R; G]>,
     /// Whether the caller wants the rotation of each class; used for bars that no step needs.
     pub(crate) angle_wanted: Vec<bool>,
-    /// Whether each step is computed; all are, unless the caller needs some points only.
-    pub(crate) step_wanted: Vec<bool>,
     /// Work space for groups of binary links.
     pub(crate) loops: GroupWorkspace<R>,
     /// Determinant of every group's matrix at the solution (with analogues only).
@@ -110,8 +105,8 @@ pub(crate) struct Context<'a> {
     pub derivatives: &'a DerivativeTables,
     /// Assembly signs, +1 or −1, for single positions.
     pub signs: &'a [f64],
-    /// What is to be run; `None` runs the plan's steps.
-    pub tape: Option<&'a Tape>,
+    /// What is to be run.
+    pub tape: &'a Tape,
 }
 
 impl<R: Real, const G: usize> State<R, G> {
@@ -150,7 +145,6 @@ impl<R: Real, const G: usize> State<R, G> {
             chords: vec![[Vector::ZERO; G]; loops * len],
             inv_length: vec![[R::ONE; G]; loops],
             angle_wanted: vec![true; plan.classes],
-            step_wanted: vec![true; plan.steps.len()],
             loops: GroupWorkspace::default(),
             determinants: vec![[R::ZERO; G]; plan.groups().count()],
             det_sign: vec![[R::ZERO; G]; plan.groups().count()],
@@ -209,42 +203,6 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Computes positions at their `q`, `unit` and `signs`.
-    #[inline(always)]
-    pub(crate) fn solve_all<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
-        if let Some(tape) = cx.tape {
-            self.run::<L>(cx, tape);
-            return;
-        }
-        self.start_position(cx);
-        for (index, step) in cx.plan.steps.iter().enumerate() {
-            if R::LANES == 1 && self.has_failed() {
-                return;
-            }
-            match step {
-                Step::Dyad(dyad) => match dyad.rrr_classes {
-                    Some(classes) => self.solve_rrr(cx, dyad, classes, index),
-                    None => {
-                        for g in 0..self.groups.min(G) {
-                            self.dyad_step(g, cx, dyad, index);
-                        }
-                    }
-                },
-                &Step::Place { edge, backward } => {
-                    if self.step_wanted[index] {
-                        self.place_all(cx, edge, backward);
-                    }
-                }
-                Step::Group(higher) => L::group(self, cx, higher, index),
-                Step::Redundant(redundant) => {
-                    for g in 0..self.groups.min(G) {
-                        self.check_redundant(g, cx, redundant, index);
-                    }
-                }
-            }
-        }
-    }
-
     /// Whether the position has failed, so that no further step can be computed.
     #[inline(always)]
     pub(crate) fn has_failed(&self) -> bool {
@@ -276,106 +234,6 @@ impl<R: Real, const G: usize> State<R, G> {
         if R::LANES == 1 && open.any() {
             self.fault = Some(fault());
             self.status = Status::Unreachable;
-        }
-    }
-
-    #[inline(always)]
-    fn start_position(&mut self, cx: &Context<'_>) {
-        self.fault = None;
-        self.status = Status::Ok;
-        self.condition2 = [R::ONE; G];
-        self.needs_scalar = [R::Mask::NONE; G];
-        self.open = [R::Mask::NONE; G];
-        self.first_step = [R::ZERO; G];
-        self.later_steps = [R::ZERO; G];
-        for (driver, q) in self.q.iter().enumerate() {
-            for g in 0..G {
-                self.needs_scalar[g] = self.needs_scalar[g].or(q[g].finite().not());
-            }
-            if let Some(slide) = cx.plan.driven_slide(driver) {
-                self.slides[slide * self.len] = *q;
-            }
-        }
-        if R::LANES == 1 && self.needs_scalar[0].any() {
-            self.status = Status::BadInput;
-            return;
-        }
-        for (o, orientation) in cx.plan.orientations.iter().enumerate() {
-            if !orientation.driven {
-                continue;
-            }
-            for g in 0..self.groups.min(G) {
-                let phase = self.phase_of(g, orientation);
-                self.phase[o][g] = phase;
-                if orientation.class == 0 {
-                    self.set_driven_orientation(g, cx, o, phase);
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
-    pub(crate) fn dyad_step(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, index: usize) {
-        let mut upstream2 =
-            self.point_condition[dyad.start][g].max(self.point_condition[dyad.end][g]);
-        for term in &dyad.others {
-            if term.turns.is_none() {
-                upstream2 = upstream2.max(self.class_condition[cx.plan.class_of(term.edge)][g]);
-            }
-            if let (EdgeSlide::Slide(slide), None) = (cx.plan.edges[term.edge].along, term.slides) {
-                upstream2 = upstream2.max(self.slide_condition[slide][g]);
-            }
-        }
-        if let Some(sign) = dyad.sign {
-            self.upstream_condition2[sign][g] = upstream2;
-        }
-        let rounding = self.rounding_arm2(g, dyad);
-        let solved = self.solve_dyad(g, cx, dyad, rounding);
-        self.margin[dyad.index][g] = solved.margin;
-        self.open[g] = self.open[g].or(solved.open);
-        self.mark_open(g, solved.open, || Fault::NotClosed {
-            step: index,
-            gap: solved.gap.lane(0),
-        });
-        if self.status == Status::Unreachable {
-            return;
-        }
-        let condition = upstream2 * solved.arm2 / solved.sine2;
-        for unknown in dyad.unknowns {
-            match unknown {
-                Unknown::Class(c) => self.class_condition[c][g] = condition,
-                Unknown::Slide(s) => self.slide_condition[s][g] = condition,
-            }
-        }
-        self.condition2[g] = condition.max(self.condition2[g]);
-        let flat = solved.flat.or(solved.sine2.lt(R::splat(FLAT2)));
-        self.needs_scalar[g] = self.needs_scalar[g].or(flat);
-        if R::LANES == 1 && flat.any() {
-            self.fault.get_or_insert(Fault::Singular { step: index });
-            self.status = Status::Singular;
-            self.set_nan_analogues(g, dyad);
-            return;
-        }
-        self.analogues(g, cx, dyad);
-    }
-}
-
-impl State {
-    /// Computes one position at `q` (rad; slide drivers in units of the scale).
-    #[inline(never)]
-    pub(crate) fn solve(&mut self, cx: &Context<'_>, q: &[f64]) {
-        for (own, &sign) in self.signs.iter_mut().zip(cx.signs) {
-            own[0] = sign;
-        }
-        for (driver, &value) in q.iter().enumerate() {
-            self.q[driver][0] = value;
-            if cx.plan.driven_slide(driver).is_none() {
-                self.unit[driver][0] = Vector::at_angle(value);
-            }
-        }
-        self.solve_all::<Alone>(cx);
-        if self.status == Status::Ok && self.near_singular(0) {
-            self.status = Status::NearSingular;
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Runs the tape: all that a request needs of some positions.
 
 use super::kernel::Level;
+use super::kernel::alone::Alone;
 use super::state::{Context, State};
 use super::status::Status;
 use crate::math::lanes::{Mask, Real};
@@ -32,7 +33,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 Op::Dyad { step } => {
                     if let Step::Dyad(dyad) = &cx.plan.steps[*step] {
                         for g in 0..self.groups.min(G) {
-                            self.dyad_step(g, cx, dyad, *step);
+                            self.general_dyad(g, cx, dyad, *step);
                         }
                     }
                 }
@@ -178,6 +179,26 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
                 phase
             }
+        }
+    }
+}
+
+impl State {
+    /// Computes one position at `q` (rad; slide drivers in units of the scale).
+    #[inline(never)]
+    pub(crate) fn solve(&mut self, cx: &Context<'_>, q: &[f64]) {
+        for (own, &sign) in self.signs.iter_mut().zip(cx.signs) {
+            own[0] = sign;
+        }
+        for (driver, &value) in q.iter().enumerate() {
+            self.q[driver][0] = value;
+            if cx.plan.driven_slide(driver).is_none() {
+                self.unit[driver][0] = Vector::at_angle(value);
+            }
+        }
+        self.run::<Alone>(cx, cx.tape);
+        if self.status == Status::Ok && self.near_singular(0) {
+            self.status = Status::NearSingular;
         }
     }
 }

@@ -295,4 +295,24 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         sum
     }
+
+    /// Sets the jet of an orientation from the rotation and analogues of its class.
+    #[inline(always)]
+    pub(crate) fn update_orientation(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        o: usize,
+        class: usize,
+    ) {
+        let len = self.len;
+        let rotation = self.class[class][g];
+        self.orient[o * len][g] =
+            if cx.plan.orientations[o].driven { rotation * self.phase[o][g] } else { rotation };
+        for k in 1..len {
+            let rest = self.orientation_without_top(g, cx, o, k);
+            let top = self.orient[o * len][g].left().scale(self.theta[class * len + k][g]);
+            self.orient[o * len + k][g] = rest + top;
+        }
+    }
 }

@@ -2,8 +2,8 @@
 
 use super::intersections::Closing;
 use crate::math::lanes::{Mask, Real};
-use crate::plan::dyad::Unknown;
-use crate::plan::plan::Step;
+use crate::plan::dyad::{Dyad, Unknown};
+use crate::plan::plan::{EdgeSlide, Step};
 use crate::plan::tape::DyadOp;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
@@ -19,42 +19,89 @@ impl<R: Real, const G: usize> State<R, G> {
     ) {
         let Step::Dyad(dyad) = &cx.plan.steps[op.step] else { return };
         for g in 0..self.groups.min(G) {
-            let closing = &closings[g];
             let upstream2 = self.point_condition[op.start][g].max(self.point_condition[op.end][g]);
-            if let Some(sign) = op.sign {
-                self.upstream_condition2[sign][g] = upstream2;
-            }
-            self.margin[op.dyad][g] = closing.margin;
-            self.open[g] = self.open[g].or(closing.open);
-            self.mark_open(g, closing.open, || Fault::NotClosed {
-                step: op.step,
-                gap: closing.gap.lane(0),
-            });
-            if self.status == Status::Unreachable {
-                return;
-            }
-            let rounding = self.rounding_arm2(g, dyad);
-            let mut arm2 = R::ONE;
-            for (unknown, per) in dyad.unknowns.into_iter().zip(closing.per_arm2) {
-                if let Unknown::Class(class) = unknown {
-                    arm2 = (R::splat(cx.constants.max_arm2[class]).max(rounding) * per).max(arm2);
-                }
-            }
-            let condition = upstream2 * arm2 / closing.sine2;
-            for unknown in dyad.unknowns {
-                match unknown {
-                    Unknown::Class(class) => self.class_condition[class][g] = condition,
-                    Unknown::Slide(slide) => self.slide_condition[slide][g] = condition,
-                }
-            }
-            self.condition2[g] = condition.max(self.condition2[g]);
-            self.needs_scalar[g] = self.needs_scalar[g].or(closing.flat);
-            if R::LANES == 1 && closing.flat.any() {
-                self.fault.get_or_insert(Fault::Singular { step: op.step });
-                self.status = Status::Singular;
+            self.record_closing(g, cx, (dyad, op.step), &closings[g], upstream2);
+            if R::LANES == 1 && self.status == Status::Singular && closings[g].flat.any() {
                 self.set_nan_analogues(g, dyad);
             }
         }
+    }
+
+    /// Records how a dyad (of step `index`) closes; `upstream2`: the squared condition of all that it
+    /// depends on.
+    #[inline(always)]
+    pub(crate) fn record_closing(
+        &mut self,
+        g: usize,
+        cx: &Context<'_>,
+        (dyad, index): (&Dyad, usize),
+        closing: &Closing<R>,
+        upstream2: R,
+    ) {
+        if let Some(sign) = dyad.sign {
+            self.upstream_condition2[sign][g] = upstream2;
+        }
+        self.margin[dyad.index][g] = closing.margin;
+        self.open[g] = self.open[g].or(closing.open);
+        self.mark_open(g, closing.open, || Fault::NotClosed {
+            step: index,
+            gap: closing.gap.lane(0),
+        });
+        if self.status == Status::Unreachable {
+            return;
+        }
+        let rounding = self.rounding_arm2(g, dyad);
+        let mut arm2 = R::ONE;
+        for (unknown, per) in dyad.unknowns.into_iter().zip(closing.per_arm2) {
+            if let Unknown::Class(class) = unknown {
+                arm2 = (R::splat(cx.constants.max_arm2[class]).max(rounding) * per).max(arm2);
+            }
+        }
+        let condition = upstream2 * arm2 / closing.sine2;
+        for unknown in dyad.unknowns {
+            match unknown {
+                Unknown::Class(class) => self.class_condition[class][g] = condition,
+                Unknown::Slide(slide) => self.slide_condition[slide][g] = condition,
+            }
+        }
+        self.condition2[g] = condition.max(self.condition2[g]);
+        self.needs_scalar[g] = self.needs_scalar[g].or(closing.flat);
+        if R::LANES == 1 && closing.flat.any() {
+            self.fault.get_or_insert(Fault::Singular { step: index });
+            self.status = Status::Singular;
+        }
+    }
+
+    /// A dyad without a kernel (step `index`).
+    #[inline(always)]
+    pub(crate) fn general_dyad(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, index: usize) {
+        let mut upstream2 =
+            self.point_condition[dyad.start][g].max(self.point_condition[dyad.end][g]);
+        for term in &dyad.others {
+            if term.turns.is_none() {
+                upstream2 = upstream2.max(self.class_condition[cx.plan.class_of(term.edge)][g]);
+            }
+            if let (EdgeSlide::Slide(slide), None) = (cx.plan.edges[term.edge].along, term.slides) {
+                upstream2 = upstream2.max(self.slide_condition[slide][g]);
+            }
+        }
+        let closing = self.solve_dyad(g, cx, dyad);
+        self.record_closing(g, cx, (dyad, index), &closing, upstream2);
+        match self.status {
+            Status::Unreachable if R::LANES == 1 => {}
+            Status::Singular if R::LANES == 1 && closing.flat.any() => {
+                self.set_nan_analogues(g, dyad);
+            }
+            _ => self.analogues(g, cx, dyad),
+        }
+    }
+
+    /// Square of the arm at which the rounding of the joints that a dyad depends on counts: half of
+    /// their greatest coordinate (the bounds have a margin for the rest).
+    #[inline(always)]
+    fn rounding_arm2(&self, g: usize, dyad: &Dyad) -> R {
+        R::splat(0.25)
+            * self.coordinate_scale2[dyad.start][g].max(self.coordinate_scale2[dyad.end][g])
     }
 
     /// Sets the orientations that turn with a dyad.

@@ -39,6 +39,18 @@ impl<R: Real> Closing<R> {
         gap: R::ZERO,
         per_arm2: [R::ZERO; 2],
     };
+
+    /// Of two slides with these values, along lines with this determinant.
+    #[inline(always)]
+    pub(crate) fn of_lines(s: R, t: R, determinant: R) -> Self {
+        Self {
+            open: s.finite().and(t.finite()).not(),
+            sine2: determinant * determinant,
+            margin: R::ONE,
+            gap: R::splat(f64::INFINITY),
+            ..Self::CLOSED
+        }
+    }
 }
 
 /// `value` where it is positive, else 0; NaN becomes 0.
@@ -213,6 +225,86 @@ impl<R: Real> Guided<R> {
             slide: signed - along,
             inverse_determinant: -(sign * (d2 * inverse)),
             closing,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TOLERANCE: f64 = 1e-15;
+
+    fn leg(x: f64, y: f64) -> Leg {
+        Leg::of(Vector::new(x, y))
+    }
+
+    fn two_circles(a: &Leg, b: &Leg, k: Vector, sign: f64) -> TwoCircles<f64> {
+        let sides = Sides::of(a, b);
+        let careful = TwoCircles::solve::<true>([a, b], &sides, k, sign);
+        let bare = TwoCircles::solve::<false>([a, b], &sides, k, sign);
+        if !(careful.closing.open || careful.closing.flat) {
+            assert_eq!(
+                (bare.legs, bare.inverse_determinant),
+                (careful.legs, careful.inverse_determinant)
+            );
+        }
+        careful
+    }
+
+    #[test]
+    fn right_triangle_three_four_five() {
+        let (a, b) = (leg(3.0, 0.0), leg(4.0, 0.0));
+        let solved = two_circles(&a, &b, Vector::new(5.0, 0.0), 1.0);
+        let [u, v] = [a.turn_to(solved.legs[0]), b.turn_to(solved.legs[1])];
+        let closing = solved.closing;
+        assert!(!closing.flat && !closing.open && (closing.sine2 - 1.0).abs() < TOLERANCE);
+        assert!((u.x - 0.6).abs() < TOLERANCE && (u.y - 0.8).abs() < TOLERANCE);
+        assert!((v.x - 0.8).abs() < TOLERANCE && (v.y + 0.6).abs() < TOLERANCE);
+        assert!((solved.inverse_determinant + 1.0 / 12.0).abs() < TOLERANCE);
+    }
+
+    #[test]
+    fn circles_that_do_not_meet_report_the_gap() {
+        let unit = leg(1.0, 0.0);
+        let closing = two_circles(&unit, &unit, Vector::new(2.5, 0.0), 1.0).closing;
+        assert!(closing.open && (closing.gap - 0.5).abs() < TOLERANCE);
+        assert!((closing.margin + 0.5).abs() < TOLERANCE);
+    }
+
+    #[test]
+    fn circles_that_touch_are_flat() {
+        let (a, b) = (leg(3.0, 0.0), leg(4.0, 0.0));
+        for (distance, first) in [(7.0, 3.0), (1.0, -3.0)] {
+            let solved = two_circles(&a, &b, Vector::new(distance, 0.0), 1.0);
+            assert!(solved.closing.flat && !solved.closing.open);
+            assert!((solved.legs[0] - Vector::new(first, 0.0)).norm() < 4.0 * TOLERANCE);
+        }
+    }
+
+    #[test]
+    fn circle_meets_line_on_the_named_side() {
+        let (a, b) = (leg(5.0, 0.0), Vector::new(1.0, 0.0));
+        let k = Vector::new(10.0, 3.0);
+        for sign in [1.0, -1.0] {
+            let solved = Guided::circle_and_line::<true>(&a, b, k, sign, 20.0);
+            assert!((solved.slide - (10.0 + sign * 4.0)).abs() < TOLERANCE * 10.0);
+            assert!((solved.turned + b.scale(solved.slide) - k).norm() < 1e-14);
+            let bare = Guided::circle_and_line::<false>(&a, b, k, sign, 20.0);
+            assert_eq!((bare.turned, bare.slide), (solved.turned, solved.slide));
+        }
+    }
+
+    #[test]
+    fn turning_guide_closes() {
+        let (a, b) = (Vector::new(0.3, 0.4), Vector::new(0.6, 0.8));
+        let k = Vector::new(-1.0, 2.0);
+        for sign in [1.0, -1.0] {
+            let solved = Guided::turning_guide::<true>(a, b, k, sign);
+            assert!(((a + b.scale(solved.slide)) * solved.turned - k).norm() < 1e-14);
+            assert!((solved.turned.norm() - 1.0).abs() < 1e-14);
+            let bare = Guided::turning_guide::<false>(a, b, k, sign);
+            assert_eq!((bare.turned, bare.slide), (solved.turned, solved.slide));
         }
     }
 }

@@ -1,11 +1,9 @@
 //! Dyads: groups of class II, solved in closed form.
 
 pub(crate) mod analogues;
-pub(crate) mod closed_form;
 pub(crate) mod conditions;
 pub(crate) mod discriminant;
 pub(crate) mod intersections;
-pub(crate) mod rrr;
 pub(crate) mod sample;
 pub(crate) mod solve;
 pub(crate) mod standing_guide;

@@ -1,9 +1,10 @@
 //! Solves a dyad: collects the terms of its loop by unknown, then applies its closed form.
 
-use super::closed_form::{DyadSolution, circle_and_line, turning_guide, two_circles, two_lines};
+use super::intersections::{Closing, Guided, TwoCircles};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Dyad, Form, LoopTerm, Unknown};
+use crate::plan::dyad_constants::Sides;
 use crate::plan::leg::Leg;
 use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
@@ -22,55 +23,43 @@ struct CollectedTerms<R> {
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves a dyad for the values of its unknowns, and sets them.
     #[inline(always)]
-    pub(crate) fn solve_dyad(
-        &mut self,
-        g: usize,
-        cx: &Context<'_>,
-        dyad: &Dyad,
-        rounding: R,
-    ) -> DyadSolution<R> {
+    pub(crate) fn solve_dyad(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> Closing<R> {
         let CollectedTerms { first, second, known: k } = self.collect_terms(g, cx, dyad);
         let sign = if let Some(s) = dyad.sign { self.signs[s][g] } else { R::ONE };
         let [u, v] = dyad.unknowns;
         match dyad.form {
             Form::TwoCircles => {
                 let (a, b) = (leg(cx, dyad, 0, first), leg(cx, dyad, 1, second));
-                let (x, y, closed) = two_circles(&a, &b, k, sign);
+                let solved = TwoCircles::solve::<true>([&a, &b], &Sides::of(&a, &b), k, sign);
+                let [x, y] = solved.legs;
                 self.set_rotation(g, cx, dyad, 0, a.turn_to(x));
                 self.set_rotation(g, cx, dyad, 1, b.turn_to(y));
-                let arm2 = relative_arm2(cx, u, a.inv_norm2, rounding);
-                closed.with_arm2(arm2.max(relative_arm2(cx, v, b.inv_norm2, rounding)))
+                solved.closing
             }
             Form::CircleAndLine => {
                 let a = leg(cx, dyad, 0, first);
-                let (x, s, closed) = circle_and_line(&a, second, k, sign);
-                self.set_rotation(g, cx, dyad, 0, x);
-                self.set_slide(g, v, s);
-                closed.with_arm2(relative_arm2(cx, u, a.inv_norm2, rounding))
+                let solved = Guided::circle_and_line::<true>(&a, second, k, sign, R::ZERO);
+                self.set_rotation(g, cx, dyad, 0, a.turn_to(solved.turned));
+                self.set_slide(g, v, solved.slide);
+                solved.closing
             }
             Form::TurningGuide => {
                 let constant = Vector::splat(cx.constants.legs[dyad.index][0].vector);
                 let a = if dyad.leg[0] { constant } else { first };
-                let (x, s, inv_distance2, closed) = turning_guide(a, second, k, sign);
-                self.set_rotation(g, cx, dyad, 0, x);
-                self.set_slide(g, v, s);
-                closed.with_arm2(relative_arm2(cx, u, inv_distance2, rounding))
+                let solved = Guided::turning_guide::<true>(a, second, k, sign);
+                self.set_rotation(g, cx, dyad, 0, solved.turned);
+                self.set_slide(g, v, solved.slide);
+                solved.closing
             }
             Form::TwoLines => {
-                let (s, t, closed) = two_lines(first, second, k);
+                let determinant = first.cross(second);
+                let inverse = R::ONE / determinant;
+                let (s, t) = (k.cross(second) * inverse, first.cross(k) * inverse);
                 self.set_slide(g, u, s);
                 self.set_slide(g, v, t);
-                closed
+                Closing::of_lines(s, t, determinant)
             }
         }
-    }
-
-    /// Square of the arm at which the rounding of the joints that a dyad depends on counts: half of
-    /// their greatest coordinate (the bounds have a margin for the rest).
-    #[inline(always)]
-    pub(crate) fn rounding_arm2(&self, g: usize, dyad: &Dyad) -> R {
-        R::splat(0.25)
-            * self.coordinate_scale2[dyad.start][g].max(self.coordinate_scale2[dyad.end][g])
     }
 
     /// Sums the terms of the path by unknown, without the legs.
@@ -142,15 +131,6 @@ impl<R: Real, const G: usize> State<R, G> {
 }
 
 // Functions, not closures: these are always inlined into the code of a level.
-
-/// A rotation is weighted by the greatest arm² that turns with it.
-#[inline(always)]
-fn relative_arm2<R: Real>(cx: &Context<'_>, unknown: Unknown, inv_norm2: R, rounding: R) -> R {
-    match unknown {
-        Unknown::Class(c) => R::splat(cx.constants.max_arm2[c]).max(rounding) * inv_norm2,
-        Unknown::Slide(_) => R::ONE,
-    }
-}
 
 /// One of a dyad's legs; `vector` if it is not constant.
 #[inline(always)]

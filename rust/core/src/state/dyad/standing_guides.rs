@@ -1,7 +1,7 @@
 //! The dyad of two slides along guides that stand still (PRP, RPP).
 
 use super::intersections::Closing;
-use crate::math::lanes::{Mask, Real};
+use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::tape::DyadOp;
 use crate::state::state::{Context, State};
@@ -35,9 +35,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         for g in 0..self.groups.min(G) {
             if CAREFUL {
-                let open = s[0][g].finite().and(t[0][g].finite()).not();
-                let gap = R::splat(f64::INFINITY);
-                closings[g] = Closing { open, sine2, margin: R::ONE, gap, ..Closing::CLOSED };
+                closings[g] = Closing::of_lines(s[0][g], t[0][g], R::splat(determinant));
             } else {
                 bounds[g] = self.bound[g] * sine2;
             }

@@ -1,0 +1,297 @@
+//! Compiles the tape of a plan for what a request needs.
+
+use super::dyad::{Dyad, Form, LoopTerm, Unknown};
+use super::plan::{EdgeSlide, Plan, Step};
+use super::tape::{DyadOp, Op, PlaceKind, PlaceOp, Tape};
+
+/// What a request needs.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Needs<'a> {
+    pub points: &'a [bool],
+    /// Rotations.
+    pub classes: &'a [bool],
+    /// Whether all orientations are needed.
+    pub orientations: bool,
+}
+
+impl Tape {
+    /// All of a plan.
+    pub(crate) fn whole(plan: &Plan) -> Self {
+        let (points, classes) = (vec![true; plan.points], vec![true; plan.classes]);
+        Self::new(plan, Needs { points: &points, classes: &classes, orientations: true })
+    }
+
+    /// The dyads and groups alone, with the rotations of these classes.
+    pub(crate) fn for_dyads(plan: &Plan, classes: &[bool]) -> Self {
+        let points = vec![false; plan.points];
+        Self::new(plan, Needs { points: &points, classes, orientations: false })
+    }
+
+    /// What a request needs of a plan. All dyads are needed: whether they close decides the status.
+    pub(crate) fn new(plan: &Plan, needs: Needs<'_>) -> Self {
+        let all = !plan.has_closed_forms() || needs.points.iter().all(|&needed| needed);
+        let mut points = needs.points.to_vec();
+        for dyad in plan.dyads() {
+            points[dyad.start] = true;
+            points[dyad.end] = true;
+        }
+        // Discriminants of dyads without a kernel read orientations.
+        let general = plan.dyads().any(|dyad| !dyad.has_kernel(plan));
+        let mut orientations = vec![all || general || needs.orientations; plan.orientations.len()];
+        let mut ops = Vec::with_capacity(plan.steps.len());
+        let mut dyads = plan.dyads().count();
+        for (step, what) in plan.steps.iter().enumerate().rev() {
+            match what {
+                Step::Dyad(dyad) => {
+                    dyads -= 1;
+                    debug_assert_eq!(dyads, dyad.index);
+                    ops.push(Op::of_dyad(plan, dyad, step, needs.classes, &orientations));
+                    if let Some(Op::Dyad { .. }) = ops.last() {
+                        for o in dyad.orientations.iter().flatten() {
+                            orientations[*o] = true;
+                        }
+                        for term in &dyad.others {
+                            orientations[plan.edges[term.edge].orientation] = true;
+                        }
+                    }
+                }
+                Step::Group(_) => ops.push(Op::Group { step }),
+                Step::Redundant(_) => ops.push(Op::Redundant { step }),
+                &Step::Place { edge, backward } => {
+                    let place = PlaceOp::new(plan, edge, backward);
+                    if all || points[place.to] {
+                        points[place.from] = true;
+                        if let PlaceKind::Rigid { .. } | PlaceKind::Along = place.kind {
+                            orientations[plan.edges[edge].orientation] = true;
+                        }
+                        ops.push(Op::Place(place));
+                    }
+                }
+            }
+        }
+        ops.reverse();
+        add_upstream(plan, &mut ops);
+        let driven = (0..plan.orientations.len())
+            .filter(|&o| plan.orientations[o].driven && orientations[o])
+            .collect();
+        let is_bounded = is_bounded(plan) && !ops.iter().any(|op| matches!(op, Op::Dyad { .. }));
+        let is_dyad =
+            |op: &Op| !matches!(op, Op::Place(_) | Op::Group { .. } | Op::Redundant { .. });
+        let dyads = (0..ops.len()).filter(|&op| is_dyad(&ops[op])).collect();
+        Self { ops, dyads, driven, is_bounded }
+    }
+}
+
+/// Adds to every dyad those before it on which it depends, but for those on which these depend.
+fn add_upstream(plan: &Plan, ops: &mut [Op]) {
+    let mut of_point: Vec<Vec<usize>> = vec![Vec::new(); plan.points];
+    let mut of_class: Vec<Option<usize>> = vec![None; plan.classes];
+    // All dyads before each, itself included.
+    let mut before: Vec<Vec<usize>> = Vec::new();
+    let last = |dyads: &mut Vec<usize>, before: &[Vec<usize>]| {
+        let all = dyads.clone();
+        dyads
+            .retain(|dyad| !all.iter().any(|other| other != dyad && before[*other].contains(dyad)));
+        dyads.sort_unstable();
+        dyads.dedup();
+    };
+    for op in ops {
+        match op {
+            Op::TwoLegs(op)
+            | Op::StandingGuide(op)
+            | Op::TurningGuide(op)
+            | Op::StandingGuides(op) => {
+                op.upstream = [&of_point[op.start][..], &of_point[op.end]].concat();
+                last(&mut op.upstream, &before);
+                let mut all: Vec<usize> =
+                    op.upstream.iter().flat_map(|&dyad| before[dyad].clone()).collect();
+                all.push(op.dyad);
+                before.push(all);
+                if let Step::Dyad(dyad) = &plan.steps[op.step] {
+                    for unknown in dyad.unknowns {
+                        if let Unknown::Class(class) = unknown {
+                            of_class[class] = Some(op.dyad);
+                        }
+                    }
+                }
+            }
+            Op::Place(place) => {
+                let mut dyads = of_point[place.from].clone();
+                dyads.extend(of_class[place.class]);
+                last(&mut dyads, &before);
+                of_point[place.to] = dyads;
+            }
+            // No bound is computed then.
+            Op::Dyad { .. } | Op::Group { .. } | Op::Redundant { .. } => return,
+        }
+    }
+}
+
+/// Whether all steps have closed forms, and no dyad starts or ends at a point that a slide places.
+fn is_bounded(plan: &Plan) -> bool {
+    let mut bounded = plan.fixed.clone();
+    for step in &plan.steps {
+        match step {
+            &Step::Place { edge, backward } => {
+                let [from, to] = plan.edges[edge].ends(backward);
+                bounded[to] = bounded[from] && plan.edges[edge].along == EdgeSlide::Nothing;
+            }
+            Step::Dyad(dyad) => {
+                // A path that is closed starts at the origin.
+                if ![dyad.start, dyad.end].iter().all(|&point| point == 0 || bounded[point]) {
+                    return false;
+                }
+            }
+            Step::Group(_) | Step::Redundant(_) => return false,
+        }
+    }
+    true
+}
+
+/// Whether an edge stands still.
+fn stands(plan: &Plan, edge: usize) -> bool {
+    let edge = &plan.edges[edge];
+    edge.class == 0 && !plan.orientations[edge.orientation].driven
+}
+
+impl Op {
+    pub(super) fn of_dyad(
+        plan: &Plan,
+        dyad: &Dyad,
+        step: usize,
+        classes: &[bool],
+        orientations: &[bool],
+    ) -> Self {
+        let turns = dyad.unknowns.map(|unknown| match unknown {
+            Unknown::Class(class) => classes[class],
+            Unknown::Slide(_) => false,
+        });
+        let mut turned = Vec::new();
+        for (unknown, list) in dyad.unknowns.iter().zip(&dyad.orientations) {
+            if let &Unknown::Class(class) = unknown {
+                turned.extend(list.iter().filter(|&&o| orientations[o]).map(|&o| (o, class)));
+            }
+        }
+        let uses =
+            |i: usize| turned.iter().any(|&(_, class)| dyad.unknowns[i] == Unknown::Class(class));
+        let op = DyadOp {
+            step,
+            dyad: dyad.index,
+            start: dyad.start,
+            end: dyad.end,
+            sign: dyad.sign,
+            unknowns: dyad.unknowns.map(|unknown| match unknown {
+                Unknown::Class(index) | Unknown::Slide(index) => index,
+            }),
+            turns: [turns[0] || uses(0), turns[1] || uses(1)],
+            orientations: turned,
+            upstream: Vec::new(),
+        };
+        match dyad.form {
+            _ if !dyad.has_kernel(plan) => Self::Dyad { step },
+            Form::TwoCircles => Self::TwoLegs(op),
+            Form::CircleAndLine => Self::StandingGuide(op),
+            Form::TwoLines => Self::StandingGuides(op),
+            Form::TurningGuide => Self::TurningGuide(op),
+        }
+    }
+}
+
+impl Dyad {
+    /// Whether a kernel solves it.
+    pub(super) fn has_kernel(&self, plan: &Plan) -> bool {
+        match self.form {
+            Form::TwoCircles => self.rrr_classes.is_some(),
+            Form::CircleAndLine => self.leg[0] && self.has_standing_terms(plan),
+            Form::TwoLines => self.has_standing_terms(plan),
+            Form::TurningGuide => self.turning_guide().is_some(),
+        }
+    }
+
+    /// Whether all its terms but legs stand still, with no slide but its unknowns.
+    pub(crate) fn has_standing_terms(&self, plan: &Plan) -> bool {
+        self.others.iter().all(|term| {
+            stands(plan, term.edge)
+                && (term.slides.is_some() || plan.edges[term.edge].along == EdgeSlide::Nothing)
+        })
+    }
+
+    /// The guide's term, if nothing but a leg and a guide that turns with it is in the loop.
+    pub(crate) fn turning_guide(&self) -> Option<&LoopTerm> {
+        match &self.others[..] {
+            [term] if self.leg[0] && term.slides == Some(1) && term.turns == Some(0) => Some(term),
+            _ => None,
+        }
+    }
+}
+
+impl PlaceOp {
+    pub(super) fn new(plan: &Plan, edge: usize, backward: bool) -> Self {
+        let of = &plan.edges[edge];
+        let [from, to] = of.ends(backward);
+        let orientation = &plan.orientations[of.orientation];
+        let kind = match (of.along, of.leg, of.on_leg) {
+            (EdgeSlide::Nothing, Some(leg), _) => {
+                PlaceKind::Leg { leg: leg.index, negative: leg.backward != backward }
+            }
+            (EdgeSlide::Nothing, None, Some(leg)) => PlaceKind::OnLeg { leg },
+            (EdgeSlide::Nothing, ..) => match orientation.single_driver {
+                Some((driver, conj)) if of.class == 0 => PlaceKind::Crank { driver, conj },
+                _ => PlaceKind::Rigid { orientation: of.orientation },
+            },
+            _ => PlaceKind::Along,
+        };
+        Self { edge, class: of.class, from, to, backward, kind }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::mechanism::Mechanism;
+    use crate::{Description, FourBar, FourBarMode};
+
+    fn tape(mechanism: &Mechanism, points: &[usize], classes: &[usize]) -> Tape {
+        let plan = mechanism.plan();
+        let needed = |count: usize, list: &[usize]| -> Vec<bool> {
+            (0..count).map(|index| list.contains(&index)).collect()
+        };
+        let (points, classes) = (needed(plan.points, points), needed(plan.classes, classes));
+        Tape::new(plan, Needs { points: &points, classes: &classes, orientations: false })
+    }
+
+    #[test]
+    fn an_angle_of_a_four_bar_needs_one_point_and_one_rotation() {
+        let mechanism = Mechanism::new(&FourBar::description(FourBarMode::Open))
+            .unwrap_or_else(|error| panic!("{error}"));
+        let of_rocker = tape(&mechanism, &[], &[2]);
+        let [Op::Place(pin), Op::TwoLegs(dyad)] = &of_rocker.ops[..] else {
+            panic!("{of_rocker:?}")
+        };
+        assert_eq!(pin.kind, PlaceKind::Crank { driver: 0, conj: false });
+        assert_eq!((dyad.turns, dyad.orientations.len()), ([false, true], 0));
+        assert!(of_rocker.driven.is_empty() && of_rocker.is_bounded);
+        // All joints, and no other.
+        assert_eq!(Tape::whole(mechanism.plan()).ops.len(), 3);
+    }
+
+    #[test]
+    fn a_slide_needs_no_point_on_it() {
+        let engine = Description::new()
+            .joint("A", [0.0, 0.0])
+            .joint("B", [0.0, 1.0])
+            .joint("C", [3.0, 0.0])
+            .link("ground", ["A"])
+            .link("crank", ["A", "B"])
+            .link("rod", ["B", "C"])
+            .link("piston", ["C"])
+            .slide("guide", "piston", "ground", 0.0, Some("A"))
+            .driver("crank");
+        let mechanism = Mechanism::new(&engine).unwrap_or_else(|error| panic!("{error}"));
+        let of_slide = tape(&mechanism, &[], &[]);
+        let [Op::Place(_), Op::StandingGuide(dyad)] = &of_slide.ops[..] else {
+            panic!("{of_slide:?}")
+        };
+        assert_eq!(dyad.turns, [false, false]);
+    }
+}
