@@ -58,9 +58,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
     ) -> bool {
         let (first, groups) = (row / R::LANES, count.div_ceil(R::LANES).min(G));
         for group in 0..groups {
-            let turned = &self.turned[first + group];
-            self.many.q[0][group] = turned.q;
-            self.many.unit[0][group] = turned.unit;
+            let coordinate = &self.coordinates[first + group];
+            self.many.q[0][group] = coordinate.q;
+            self.many.unit[0][group] = coordinate.unit;
         }
         self.many.groups = groups;
         let design = &self.design;
@@ -86,14 +86,14 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             let lifted = &mut self.lifted[class];
             if located {
                 for group in 0..groups {
-                    let spot = &self.spots[first + group];
-                    let reference = design.branch.reference_angle(spot, class);
+                    let location = &self.locations[first + group];
+                    let reference = design.branch.reference_angle(location, class);
                     lifted[group] = unwrap_to(lifted[group], reference);
                     if design.branch.inverse_width.is_none() {
                         // The angle on an island that no knot has seen has to be followed to it.
                         let unseen = |lane: usize| {
                             !state.open[group].lane(lane)
-                                && design.branch.in_untraced_island(spot, lane)
+                                && design.branch.in_untraced_island(location, lane)
                         };
                         if mask::<R>(unseen).any() {
                             return false;

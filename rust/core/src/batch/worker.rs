@@ -33,7 +33,7 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     pub(super) design: Design<'a>,
     pub(super) writer: &'a Writer<'a>,
     columns: &'a [Column],
-    quick: UniformTracer<R, G>,
+    uniform: UniformTracer<R, G>,
     one: State,
     /// The dimension to differentiate by, with its workspace.
     by: Option<(usize, Sensitivity)>,
@@ -41,12 +41,12 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     /// Angles of the classes.
     pub(super) lifted: Vec<[R; G]>,
     /// Driver lanes of the last job, and the index of its first shared coordinate.
-    pub(super) turned: Vec<DriverLanes<R>>,
+    pub(super) coordinates: Vec<DriverLanes<R>>,
     shared: Option<usize>,
     /// Locations of these lanes on the branch.
-    pub(super) spots: Vec<BranchLocation<R>>,
+    pub(super) locations: Vec<BranchLocation<R>>,
     /// Whether that branch was a uniform one.
-    spots_even: bool,
+    locations_even: bool,
     care: Care,
     /// What the request needs.
     pub(super) tape: Tape,
@@ -100,15 +100,15 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let tape =
             Tape::new(plan, Needs { points: &points, classes: &writer.asked, orientations: false });
         Self {
-            quick: design.uniform_tracer(),
+            uniform: design.uniform_tracer(),
             one: State::new(plan, derivatives),
             by: request.by.map(|index| (index, Sensitivity::new(plan, derivatives))),
             many,
             lifted: vec![[R::ZERO; G]; plan.classes],
-            turned: Vec::new(),
+            coordinates: Vec::new(),
             shared: None,
-            spots: Vec::new(),
-            spots_even: false,
+            locations: Vec::new(),
+            locations_even: false,
             design,
             writer,
             columns,
@@ -149,7 +149,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         // The first guess of a group's iteration depends on how its branch was traced.
         let in_lanes = self.care == Care::Needed || self.design.has_groups();
         let traced =
-            in_lanes && self.design.trace_in_lanes::<L, G>(&mut self.quick, &self.writer.classes);
+            in_lanes && self.design.trace_in_lanes::<L, G>(&mut self.uniform, &self.writer.classes);
         if !traced {
             match self.care {
                 Care::Always => self.design.trace(job.q),
@@ -209,13 +209,13 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
         if !(is_angle && job.shared.is_some() && self.shared == job.shared) {
             self.shared = job.shared;
-            self.turned.clear();
-            self.spots.clear();
+            self.coordinates.clear();
+            self.locations.clear();
             let scale = self.design.units.coordinate[0];
             for some in job.q.chunks(R::LANES) {
                 let q = R::from_lanes(|i| some[i.min(some.len() - 1)] * scale);
                 let unit = if is_angle { Vector::at_angle(q) } else { Vector::ONE };
-                self.turned.push(DriverLanes { q, unit });
+                self.coordinates.push(DriverLanes { q, unit });
             }
         }
     }
@@ -225,28 +225,28 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     pub(super) fn locate(&mut self) {
         let branch = &self.design.branch;
         // Uniform branches have the same knots for all designs.
-        if branch.inverse_width.is_none() || !self.spots_even {
-            self.spots.clear();
+        if branch.inverse_width.is_none() || !self.locations_even {
+            self.locations.clear();
         }
-        self.spots_even = branch.inverse_width.is_some();
+        self.locations_even = branch.inverse_width.is_some();
         if branch.at.is_empty() {
             // There is nothing to locate.
-            self.spots.resize_with(self.turned.len(), BranchLocation::default);
-        } else if self.spots.is_empty() {
-            for turned in &self.turned {
-                self.spots.push(branch.locate(turned.q));
+            self.locations.resize_with(self.coordinates.len(), BranchLocation::default);
+        } else if self.locations.is_empty() {
+            for coordinate in &self.coordinates {
+                self.locations.push(branch.locate(coordinate.q));
             }
         }
     }
 
     /// Lanes that must be solved again by themselves, whatever the vector solution gives.
     #[inline(always)]
-    fn lanes_to_redo(&self, q: R, spot: &BranchLocation<R>, with_islands: bool) -> R::Mask {
+    fn lanes_to_redo(&self, q: R, location: &BranchLocation<R>, with_islands: bool) -> R::Mask {
         let branch = &self.design.branch;
         let must_redo = |i: usize| {
             let at = q.lane(i);
             !branch.covers(at)
-                || with_islands && branch.in_untraced_island(spot, i)
+                || with_islands && branch.in_untraced_island(location, i)
                 || branch.change_near(at, self.design.change_window.reach).is_some()
         };
         mask::<R>(must_redo)
@@ -267,10 +267,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let constant_signs = branch.has_constant_signs();
         let (even, plain) = (branch.inverse_width.is_some(), branch.is_plain());
         for group in 0..groups {
-            let DriverLanes { q, unit } = self.turned[first + group];
-            let spot = &self.spots[first + group];
+            let DriverLanes { q, unit } = self.coordinates[first + group];
+            let location = &self.locations[first + group];
             if !(even || plain && closed_forms) {
-                care[group] = self.lanes_to_redo(q, spot, !closed_forms);
+                care[group] = self.lanes_to_redo(q, location, !closed_forms);
             }
             let branch = &self.design.branch;
             // Lanes to redo are set to NaN: their vector result is not used.
@@ -278,7 +278,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             self.many.unit[0][group] = unit;
             if !constant_signs {
                 for (sign, groups) in self.many.signs.iter_mut().enumerate() {
-                    groups[group] = R::from_lanes(|i| branch.signs_at(spot, i)[sign]);
+                    groups[group] = R::from_lanes(|i| branch.signs_at(location, i)[sign]);
                 }
             }
         }
@@ -286,8 +286,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         self.many.groups = groups;
         if !closed_forms {
             for group in 0..groups.min(G) {
-                let spot = &self.spots[first + group];
-                design.guess(group, &mut self.many, &design.branch, spot);
+                let location = &self.locations[first + group];
+                design.guess(group, &mut self.many, &design.branch, location);
             }
         }
         let cx = Context { tape: &self.tape, ..design.context(design.derivatives) };
@@ -300,23 +300,23 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
         }
         for &class in &self.writer.classes {
-            for (spot, lifted) in self.spots[first..].iter().zip(&mut self.lifted[class]) {
-                *lifted = unwrap_to(*lifted, design.branch.reference_angle(spot, class));
+            for (location, lifted) in self.locations[first..].iter().zip(&mut self.lifted[class]) {
+                *lifted = unwrap_to(*lifted, design.branch.reference_angle(location, class));
             }
         }
         let at = job.first + row;
         let with = (&design.constants, &design.units);
         let (mut open, mut some_open, mut again) = ([R::Mask::NONE; G], false, false);
         for group in 0..groups.min(G) {
-            care[group] = care[group].or(self.turned[first + group].q.finite().not());
+            care[group] = care[group].or(self.coordinates[first + group].q.finite().not());
             if closed_forms {
                 open[group] = state.open[group].and(care[group].not());
                 some_open |= open[group].any();
                 if !(even || self.writer.classes.is_empty()) {
                     // The angle on an island that no knot has seen has to be followed to it.
-                    let spot = &self.spots[first + group];
+                    let location = &self.locations[first + group];
                     let unseen = |i: usize| {
-                        !open[group].lane(i) && design.branch.in_untraced_island(spot, i)
+                        !open[group].lane(i) && design.branch.in_untraced_island(location, i)
                     };
                     care[group] = care[group].or(mask::<R>(unseen));
                 }

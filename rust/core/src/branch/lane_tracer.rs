@@ -32,6 +32,17 @@ const MAX_LOOKS: usize = 256;
 /// Levels at which islands are searched for: down to the 200th part of a cell.
 const ISLAND_LEVELS: usize = 2;
 
+/// One bit per knot; a cell has that of the knot at its end.
+type Bits = u32;
+
+const _: () = assert!(KNOTS <= Bits::BITS as usize, "a bit for every knot");
+
+/// Whether the bit of a knot is set.
+#[inline(always)]
+fn has(bits: Bits, knot: usize) -> bool {
+    bits >> knot & 1 != 0
+}
+
 /// What one look showed.
 #[derive(Debug, Default)]
 struct Look {
@@ -44,15 +55,13 @@ struct Look {
     next: usize,
     dyads: Vec<DyadSamples>,
     /// Cells in which a sign may change …
-    uncertain: [bool; KNOTS],
-    curved: [bool; KNOTS],
+    uncertain: Bits,
+    curved: Bits,
     /// … and that end at a dead point of some dyad that matters.
-    dead_point: [bool; KNOTS],
+    dead_point: Bits,
     /// … and those that may hide an island.
-    may_hide_island: [bool; KNOTS],
-    reached: [bool; KNOTS],
-    /// Whether no cell is any of these.
-    quiet: bool,
+    may_hide_island: Bits,
+    reached: Bits,
     /// Angle and rate of the classes asked for, at every knot.
     angles: Vec<[f64; KNOTS]>,
     rates: Vec<[f64; KNOTS]>,
@@ -88,14 +97,14 @@ impl LaneTracer {
         if !self.looks[0].take(cx, knots, classes, (knots.first(), CELL)) {
             return false;
         }
-        if classes.is_empty() && self.looks[0].quiet {
-            return true;
-        }
         if !classes.is_empty() {
             self.push(0, 0, classes, branch);
         }
         let (mut level, mut count) = (0, 0);
         loop {
+            if classes.is_empty() {
+                self.looks[level].skip_quiet_cells();
+            }
             let knot = self.looks[level].next;
             if knot == self.looks[level].count {
                 if level == 0 {
@@ -139,23 +148,23 @@ impl LaneTracer {
     fn needs_closer_look(&self, level: usize, knot: usize, angles: bool) -> Option<bool> {
         let look = &self.looks[level];
         let last = level + 1 == LEVELS;
-        if look.uncertain[knot] {
+        if has(look.uncertain, knot) {
             return (!last).then_some(true);
         }
-        if look.curved[knot] && !last {
+        if has(look.curved, knot) && !last {
             return Some(true);
         }
-        if look.dead_point[knot] {
+        if has(look.dead_point, knot) {
             return Some(if angles {
                 level < DEAD_POINT_LEVELS || !look.is_definite(knot)
             } else {
                 !look.stays_away(knot)
             });
         }
-        if look.may_hide_island[knot] && level < ISLAND_LEVELS {
+        if has(look.may_hide_island, knot) && level < ISLAND_LEVELS {
             return Some(true);
         }
-        if !(angles && look.reached[knot] && look.reached[knot - 1]) {
+        if !(angles && has(look.reached, knot) && has(look.reached, knot - 1)) {
             return Some(false);
         }
         let mut fast = false;
@@ -174,14 +183,14 @@ impl LaneTracer {
     #[inline(always)]
     fn push(&mut self, level: usize, knot: usize, classes: &[usize], branch: &mut Branch) {
         let look = &self.looks[level];
-        let reached = look.reached[knot];
+        let reached = has(look.reached, knot);
         let width = branch.gain.len();
         branch.at.push(look.from + look.cell * knot as f64);
         branch.reached.push(reached);
         branch.angles.resize(branch.at.len() * width, 0.0);
         let row = (branch.at.len() - 1) * width;
         let first = reached && self.first.is_empty();
-        let was_reached = knot > 0 && look.reached[knot - 1];
+        let was_reached = knot > 0 && has(look.reached, knot - 1);
         for (index, &class) in classes.iter().enumerate() {
             let angles = &look.angles[index];
             let last = &mut self.last[index];
@@ -222,13 +231,12 @@ impl Look {
         let state = &knots.state;
         let groups = state.groups.min(G);
         self.count = groups * R::LANES;
+        self.reached = 0;
         for group in 0..groups {
             if knots.not_closed(group).and(state.open[group].not()).any() {
                 return false;
             }
-            for lane in 0..R::LANES {
-                self.reached[group * R::LANES + lane] = !state.open[group].lane(lane);
-            }
+            self.reached |= state.open[group].not().bits() << (group * R::LANES);
         }
         let mut last_signed = 0;
         for (index, dyad) in cx.plan.dyads().enumerate() {
@@ -245,33 +253,23 @@ impl Look {
                 last_signed = index;
             }
         }
-        self.quiet = true;
-        self.uncertain = [false; KNOTS];
-        self.curved = [false; KNOTS];
-        self.dead_point = [false; KNOTS];
-        self.may_hide_island = [false; KNOTS];
+        // The cell before the first knot belongs to no look.
+        let own = !1;
+        let islands = !classes.is_empty();
+        [self.uncertain, self.curved, self.dead_point, self.may_hide_island] = [0; 4];
         for (index, dyad) in self.dyads.iter().enumerate() {
+            // Without angles, only later dyads are of interest beside a dead point.
+            let matters = index < last_signed || islands;
             for group in 0..groups {
-                let cells = dyad.judge::<R>(group * R::LANES, cell);
-                if !cells
-                    .uncertain
-                    .or(cells.curved)
-                    .or(cells.dead_point)
-                    .or(cells.may_hide_island)
-                    .any()
-                {
-                    continue;
+                let first = group * R::LANES;
+                let cells = dyad.judge::<R>(first, cell);
+                self.uncertain |= cells.uncertain.bits() << first & own;
+                self.curved |= cells.curved.bits() << first & own;
+                if matters {
+                    self.dead_point |= cells.dead_point.bits() << first & own;
                 }
-                self.quiet = false;
-                // Without angles, only later dyads are of interest beside a dead point.
-                let matters = index < last_signed || !classes.is_empty();
-                let islands = !classes.is_empty();
-                for lane in 0..R::LANES {
-                    let knot = group * R::LANES + lane;
-                    self.uncertain[knot] |= cells.uncertain.lane(lane);
-                    self.curved[knot] |= cells.curved.lane(lane);
-                    self.dead_point[knot] |= matters && cells.dead_point.lane(lane);
-                    self.may_hide_island[knot] |= islands && cells.may_hide_island.lane(lane);
+                if islands {
+                    self.may_hide_island |= cells.may_hide_island.bits() << first & own;
                 }
             }
         }
@@ -289,6 +287,15 @@ impl Look {
             }
         }
         true
+    }
+
+    /// Goes to the next cell in which something may happen to a sign.
+    #[inline(always)]
+    fn skip_quiet_cells(&mut self) {
+        if self.next < self.count {
+            let left = (self.uncertain | self.curved | self.dead_point) >> self.next;
+            self.next = (self.next + left.trailing_zeros() as usize).min(self.count);
+        }
     }
 
     /// Whether all angles are known at both ends of the cell before a knot: beyond a dead point a

@@ -21,6 +21,8 @@ pub trait Mask: Copy + Debug {
     fn all(self) -> bool;
     /// The value of one lane.
     fn lane(self, lane: usize) -> bool;
+    /// One bit per lane, that of the first lane the last.
+    fn bits(self) -> u32;
     /// Lane-wise and.
     #[must_use]
     fn and(self, other: Self) -> Self;
@@ -124,6 +126,10 @@ impl Mask for bool {
     #[inline(always)]
     fn lane(self, _: usize) -> bool {
         self
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.into()
     }
     #[inline(always)]
     fn and(self, other: Self) -> Self {
@@ -244,6 +250,14 @@ impl<const N: usize> Mask for LaneMask<N> {
     #[inline(always)]
     fn lane(self, lane: usize) -> bool {
         self.0[lane] != 0
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        let mut bits = 0;
+        for lane in 0..N {
+            bits |= u32::from(self.0[lane] != 0) << lane;
+        }
+        bits
     }
     #[inline(always)]
     fn and(mut self, other: Self) -> Self {

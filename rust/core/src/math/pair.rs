@@ -29,6 +29,10 @@ impl<R: Real> Mask for PairMask<R> {
         if lane < R::LANES { self.0.lane(lane) } else { self.1.lane(lane - R::LANES) }
     }
     #[inline(always)]
+    fn bits(self) -> u32 {
+        self.0.bits() | self.1.bits() << R::LANES
+    }
+    #[inline(always)]
     fn and(self, other: Self) -> Self {
         Self(self.0.and(other.0), self.1.and(other.1))
     }

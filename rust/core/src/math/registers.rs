@@ -182,14 +182,6 @@ macro_rules! wide_mask {
         #[derive(Debug, Clone, Copy)]
         pub(crate) struct $mask($name);
 
-        impl $mask {
-            #[inline(always)]
-            fn bits(self) -> i32 {
-                // SAFETY: the contract of the type.
-                unsafe { $movemask(self.0.0) }
-            }
-        }
-
         impl Mask for $mask {
             const NONE: Self = Self($name::ZERO);
             #[inline(always)]
@@ -203,6 +195,11 @@ macro_rules! wide_mask {
             #[inline(always)]
             fn lane(self, lane: usize) -> bool {
                 self.bits() >> lane & 1 != 0
+            }
+            #[inline(always)]
+            fn bits(self) -> u32 {
+                // SAFETY: the contract of the type.
+                unsafe { $movemask(self.0.0) }.cast_unsigned()
             }
             #[inline(always)]
             fn and(self, other: Self) -> Self {
@@ -360,6 +357,10 @@ impl Mask for M64x8 {
         self.0 >> lane & 1 != 0
     }
     #[inline(always)]
+    fn bits(self) -> u32 {
+        self.0.into()
+    }
+    #[inline(always)]
     fn and(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }
@@ -495,6 +496,7 @@ mod tests {
                     }
                     let masks = [
                         (x.lt(y), a < b),
+                        (x.lt(y), x.lt(y).bits() >> lane & 1 != 0),
                         (x.le(y), a <= b),
                         (x.finite(), a.is_finite()),
                         (x.bit(0), a.to_bits() & 1 != 0),
