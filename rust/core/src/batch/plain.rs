@@ -23,8 +23,8 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         self.tape.is_bounded && branch.is_plain() && branch.has_constant_signs()
     }
 
-    /// Finds for every class asked for an angle that tells its whole turns everywhere; true if there
-    /// is none for some class, so that positions must be located among the knots.
+    /// Finds for every class asked for an angle from which its whole turns follow everywhere; true
+    /// if some class has none, so that positions must be located among the knots.
     #[inline(always)]
     pub(super) fn find_references(&mut self) -> bool {
         let branch = &self.design.branch;

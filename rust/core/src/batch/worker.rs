@@ -97,8 +97,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         for point in writer.asked_points() {
             points[point] = true;
         }
-        let tape =
-            Tape::new(plan, Needs { points: &points, classes: &writer.asked, orientations: false });
+        let tape = Tape::new(plan, Needs { points: &points, classes: &writer.asked });
         Self {
             uniform: design.uniform_tracer(),
             one: State::new(plan, derivatives),

@@ -10,21 +10,19 @@ pub(crate) struct Needs<'a> {
     pub points: &'a [bool],
     /// Rotations.
     pub classes: &'a [bool],
-    /// Whether all orientations are needed.
-    pub orientations: bool,
 }
 
 impl Tape {
     /// All of a plan.
     pub(crate) fn whole(plan: &Plan) -> Self {
         let (points, classes) = (vec![true; plan.points], vec![true; plan.classes]);
-        Self::new(plan, Needs { points: &points, classes: &classes, orientations: true })
+        Self::new(plan, Needs { points: &points, classes: &classes })
     }
 
     /// The dyads and groups alone, with the rotations of these classes.
     pub(crate) fn for_dyads(plan: &Plan, classes: &[bool]) -> Self {
         let points = vec![false; plan.points];
-        Self::new(plan, Needs { points: &points, classes, orientations: false })
+        Self::new(plan, Needs { points: &points, classes })
     }
 
     /// What a request needs of a plan. All dyads are needed: whether they close decides the status.
@@ -37,7 +35,7 @@ impl Tape {
         }
         // Discriminants of dyads without a kernel read orientations.
         let general = plan.dyads().any(|dyad| !dyad.has_kernel(plan));
-        let mut orientations = vec![all || general || needs.orientations; plan.orientations.len()];
+        let mut orientations = vec![all || general; plan.orientations.len()];
         let mut ops = Vec::with_capacity(plan.steps.len());
         let mut dyads = plan.dyads().count();
         for (step, what) in plan.steps.iter().enumerate().rev() {
@@ -249,7 +247,7 @@ impl PlaceOp {
 mod tests {
     use super::*;
     use crate::plan::mechanism::Mechanism;
-    use crate::{Description, FourBar, FourBarMode};
+    use crate::{FourBar, FourBarMode, SliderCrank};
 
     fn tape(mechanism: &Mechanism, points: &[usize], classes: &[usize]) -> Tape {
         let plan = mechanism.plan();
@@ -257,7 +255,7 @@ mod tests {
             (0..count).map(|index| list.contains(&index)).collect()
         };
         let (points, classes) = (needed(plan.points, points), needed(plan.classes, classes));
-        Tape::new(plan, Needs { points: &points, classes: &classes, orientations: false })
+        Tape::new(plan, Needs { points: &points, classes: &classes })
     }
 
     #[test]
@@ -277,17 +275,8 @@ mod tests {
 
     #[test]
     fn a_slide_needs_no_point_on_it() {
-        let engine = Description::new()
-            .joint("A", [0.0, 0.0])
-            .joint("B", [0.0, 1.0])
-            .joint("C", [3.0, 0.0])
-            .link("ground", ["A"])
-            .link("crank", ["A", "B"])
-            .link("rod", ["B", "C"])
-            .link("piston", ["C"])
-            .slide("guide", "piston", "ground", 0.0, Some("A"))
-            .driver("crank");
-        let mechanism = Mechanism::new(&engine).unwrap_or_else(|error| panic!("{error}"));
+        let mechanism =
+            Mechanism::new(&SliderCrank::description()).unwrap_or_else(|error| panic!("{error}"));
         let of_slide = tape(&mechanism, &[], &[]);
         let [Op::Place(_), Op::StandingGuide(dyad)] = &of_slide.ops[..] else {
             panic!("{of_slide:?}")

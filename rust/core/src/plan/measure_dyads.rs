@@ -6,7 +6,7 @@ use super::plan::{Plan, Step};
 use super::tape::{Op, PlaceKind, Tape};
 
 impl DesignConstants {
-    /// How far the tip of a leg can be, as far as its dyad tells.
+    /// How far from the origin the tip of a leg can be, by the lengths of its dyad.
     fn inner_reach(&self, leg: usize) -> f64 {
         self.dyads.get(leg / 2).map_or(f64::INFINITY, |dyad| dyad.inner_reach)
     }
