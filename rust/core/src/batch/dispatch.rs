@@ -20,6 +20,12 @@ pub(crate) trait ForLevel {
 pub(crate) trait Entry: Level {
     /// See [`Worker::run`].
     fn run<const G: usize>(worker: &mut Worker<'_, Self::Register, G>, job: &mut Job<'_, '_>);
+    /// See [`Worker::trace`].
+    fn trace<const G: usize>(
+        worker: &mut Worker<'_, Self::Register, G>,
+        job: &Job<'_, '_>,
+        plain: bool,
+    ) -> bool;
 }
 
 /// Does the work at the requested SIMD level, or at the best one the processor has.
@@ -39,6 +45,14 @@ impl Entry for Portable {
     #[inline(never)]
     fn run<const G: usize>(worker: &mut Worker<'_, Self::Register, G>, job: &mut Job<'_, '_>) {
         worker.run::<Self>(job);
+    }
+    #[inline(never)]
+    fn trace<const G: usize>(
+        worker: &mut Worker<'_, Self::Register, G>,
+        job: &Job<'_, '_>,
+        plain: bool,
+    ) -> bool {
+        worker.trace::<Self>(job, plain)
     }
 }
 
@@ -62,6 +76,26 @@ macro_rules! entry {
                 }
                 // SAFETY: `at_level` chooses this only if `Simd::best` found these instructions.
                 unsafe { with(worker, job) }
+            }
+            #[inline(always)]
+            #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+            fn trace<const G: usize>(
+                worker: &mut Worker<'_, Self::Register, G>,
+                job: &Job<'_, '_>,
+                plain: bool,
+            ) -> bool {
+                use crate::state::kernel::$module::$level;
+                #[inline(never)]
+                #[target_feature(enable = $features)]
+                fn with<const G: usize>(
+                    worker: &mut Worker<'_, <$level as Level>::Register, G>,
+                    job: &Job<'_, '_>,
+                    plain: bool,
+                ) -> bool {
+                    worker.trace::<$level>(job, plain)
+                }
+                // SAFETY: `at_level` chooses this only if `Simd::best` found these instructions.
+                unsafe { with(worker, job, plain) }
             }
         }
     };

@@ -4,16 +4,13 @@
 use std::mem::MaybeUninit;
 
 use super::worker::{Job, Worker, mask};
+use crate::branch::uniform::reference_of;
 use crate::math::angle::unwrap_to;
 use crate::math::lanes::{Mask, Real};
-use crate::math::tolerance::KNOT_MAX_TURN;
+use crate::math::stride::Stride;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 use crate::state::status::Status;
-
-/// Widest range of an angle at the knots that leaves no doubt about its whole turns: between two
-/// knots it may leave that range by one step.
-const MAX_RANGE: f64 = std::f64::consts::TAU - 4.0 * KNOT_MAX_TURN;
 
 impl<R: Real, const G: usize> Worker<'_, R, G> {
     /// Whether the design is of that kind.
@@ -38,16 +35,14 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
                 least = if angle < least { angle } else { least };
                 most = if angle > most { angle } else { most };
             }
-            if most - least > MAX_RANGE {
-                return true;
-            }
-            self.references[class] = 0.5 * (least + most);
+            let Some(reference) = reference_of([least, most]) else { return true };
+            self.references[class] = reference;
         }
         false
     }
 
-    /// Solves up to `G` registers of positions; false if some position is doubtful, and nothing is
-    /// written.
+    /// Solves up to `G` registers of positions, whose status is `Ok` as yet; false if some position is
+    /// doubtful, and nothing is written.
     #[inline(always)]
     pub(super) fn solve_bare<L: Level<Register = R>>(
         &mut self,
@@ -76,36 +71,20 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             return false;
         }
         let some_open = open.any();
-        // A separate loop: independent arctangents overlap.
+        // A separate loop: independent angles overlap.
         for &class in &self.writer.classes {
-            for group in 0..groups {
-                self.lifted[class][group] = state.class[class][group].unit_angle();
+            let (units, lifted) = (&state.class[class], &mut self.lifted[class]);
+            let reference = self.references[class];
+            for group in (0..groups).step_by(L::Stride::REGISTERS) {
+                let mut angle = L::Stride::load_vectors(units, group).unit_angle();
+                if !located {
+                    angle = reference.lift(angle);
+                }
+                angle.store(lifted, group);
             }
         }
-        for &class in &self.writer.classes {
-            let lifted = &mut self.lifted[class];
-            if located {
-                for group in 0..groups {
-                    let location = &self.locations[first + group];
-                    let reference = design.branch.reference_angle(location, class);
-                    lifted[group] = unwrap_to(lifted[group], reference);
-                    if design.branch.inverse_width.is_none() {
-                        // The angle on an island that no knot has seen has to be followed to it.
-                        let unseen = |lane: usize| {
-                            !state.open[group].lane(lane)
-                                && design.branch.in_untraced_island(location, lane)
-                        };
-                        if mask::<R>(unseen).any() {
-                            return false;
-                        }
-                    }
-                }
-            } else {
-                let reference = R::splat(self.references[class]);
-                for group in 0..groups {
-                    lifted[group] = unwrap_to(lifted[group], reference);
-                }
-            }
+        if located && !self.lift_by_knots(first, groups) {
+            return false;
         }
         if some_open && !self.is_counted(job, row, count) {
             return false;
@@ -115,9 +94,8 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         let with = (&design.constants, &design.units);
         let failed = some_open.then_some(&state.open);
         self.writer.write(job.rows, (at, count), with, state, &self.lifted, failed);
-        let status = &mut job.rows.status[at..at + count];
-        status.fill(MaybeUninit::new(Status::Ok as u8));
         if some_open {
+            let status = &mut job.rows.status[at..at + count];
             for (group, status) in status.chunks_mut(R::LANES).enumerate() {
                 if !state.open[group].any() {
                     continue;
@@ -125,6 +103,30 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
                 for (lane, status) in status.iter_mut().enumerate() {
                     if state.open[group].lane(lane) {
                         *status = MaybeUninit::new(Status::Unreachable as u8);
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// Lifts angles to those of the knots beside them; false if one is on an island that no knot has
+    /// seen, to which it has to be followed.
+    #[inline(always)]
+    fn lift_by_knots(&mut self, first: usize, groups: usize) -> bool {
+        let branch = &self.design.branch;
+        for &class in &self.writer.classes {
+            for group in 0..groups {
+                let location = &self.locations[first + group];
+                let lifted = &mut self.lifted[class][group];
+                *lifted = unwrap_to(*lifted, branch.reference_angle(location, class));
+                if branch.inverse_width.is_none() {
+                    let unseen = |lane: usize| {
+                        !self.many.open[group].lane(lane)
+                            && branch.in_untraced_island(location, lane)
+                    };
+                    if mask::<R>(unseen).any() {
+                        return false;
                     }
                 }
             }

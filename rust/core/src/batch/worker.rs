@@ -4,15 +4,16 @@
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::dispatch::Entry;
 use super::failure_log::FailureLog;
 use super::outputs::Column;
 use super::request::Request;
 use super::schedule::{Care, Control};
 use super::writer::{RowSlices, Writer};
 use crate::branch::branch::BranchLocation;
-use crate::branch::design::Design;
+use crate::branch::design::{Design, Traced};
 use crate::branch::uniform::UniformTracer;
-use crate::math::angle::unwrap_to;
+use crate::math::angle::{Reference, unwrap_to};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
@@ -50,8 +51,8 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     care: Care,
     /// What the request needs.
     pub(super) tape: Tape,
-    /// For each class asked for, an angle near all its angles (see `plain`).
-    pub(super) references: Vec<f64>,
+    /// Of each class asked for, if the design is plain.
+    pub(super) references: Vec<Reference>,
     /// When true, work stops after the block in progress.
     cancel: Option<&'a AtomicBool>,
     pub(super) failures: Option<&'a FailureLog>,
@@ -97,7 +98,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         for point in writer.asked_points() {
             points[point] = true;
         }
-        let tape = Tape::new(plan, Needs { points: &points, classes: &writer.asked });
+        let tape =
+            Tape::new(plan, Needs { points: &points, classes: &writer.asked, samples: false });
         Self {
             uniform: design.uniform_tracer(),
             one: State::new(plan, derivatives),
@@ -113,7 +115,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             columns,
             care: control.care,
             tape,
-            references: vec![0.0; plan.classes],
+            references: vec![Reference::Principal; plan.classes],
             cancel: control.cancel,
             failures: control.failures,
         }
@@ -144,17 +146,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
 
     /// Solves the positions of the design; only `dispatch` calls this.
     #[inline(always)]
-    pub(crate) fn run<L: Level<Register = R>>(&mut self, job: &mut Job<'_, '_>) {
-        // The first guess of a group's iteration depends on how its branch was traced.
-        let in_lanes = self.care == Care::Needed || self.design.has_groups();
-        let traced =
-            in_lanes && self.design.trace_in_lanes::<L, G>(&mut self.uniform, &self.writer.classes);
-        if !traced {
-            match self.care {
-                Care::Always => self.design.trace(job.q),
-                _ => self.design.trace_knot_by_knot(job.q),
-            }
-        }
+    pub(crate) fn run<L: Entry<Register = R>>(&mut self, job: &mut Job<'_, '_>) {
+        let surveyed = L::trace(self, job, self.by.is_none());
         let drivers = self.design.mechanism.q0().len();
         let count = job.q.len() / drivers;
         if let Some((index, mut by)) = self.by.take() {
@@ -180,11 +173,12 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
         }
         self.load_coordinates(job);
-        let mut doubts = if self.is_plain() { 0 } else { MAX_DOUBTS };
-        let mut located = doubts == MAX_DOUBTS || self.find_references();
+        let mut doubts = if surveyed || self.is_plain() { 0 } else { MAX_DOUBTS };
+        let mut located = !surveyed && (doubts == MAX_DOUBTS || self.find_references());
         if located {
             self.locate();
         }
+        job.rows.status[job.first..job.first + count].fill(MaybeUninit::new(Status::Ok as u8));
         for row in (0..count).step_by(G * R::LANES) {
             if self.is_cancelled() {
                 return;
@@ -194,12 +188,35 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 continue;
             }
             if !located {
+                if surveyed {
+                    L::trace(self, job, false);
+                }
                 self.locate();
                 located = true;
             }
             doubts = (doubts + 1).min(MAX_DOUBTS);
             self.solve_block::<L>(job, row, block);
         }
+    }
+
+    /// Traces the branch. True if it is only known to be plain, which `plain` permits.
+    #[inline(always)]
+    pub(super) fn trace<L: Level<Register = R>>(&mut self, job: &Job<'_, '_>, plain: bool) -> bool {
+        let mut traced = Traced::No;
+        // The first guess of a group's iteration depends on how its branch was traced.
+        if self.care == Care::Needed || self.design.has_groups() {
+            let plain = plain && self.care == Care::Needed && self.tape.is_bounded;
+            let references = plain.then_some(&mut self.references[..]);
+            let classes = &self.writer.classes;
+            traced = self.design.trace_in_lanes::<L, G>(&mut self.uniform, classes, references);
+        }
+        if traced == Traced::No {
+            match self.care {
+                Care::Always => self.design.trace(job.q),
+                _ => self.design.trace_knot_by_knot(job.q),
+            }
+        }
+        traced == Traced::Surveyed
     }
 
     /// Loads the coordinates into registers; sines and cosines of shared ones are kept.
@@ -327,7 +344,6 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let failed = some_open.then_some(&open);
         self.writer.write(job.rows, (at, count), with, state, &self.lifted, failed);
         let status = &mut job.rows.status[at..at + count];
-        status.fill(MaybeUninit::new(Status::Ok as u8));
         for (group, status) in status.chunks_mut(R::LANES).enumerate() {
             let near = state.near_singular(group);
             if !near.or(open[group]).any() {

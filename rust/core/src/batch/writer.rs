@@ -207,12 +207,14 @@ impl<'a> Writer<'a> {
         for entry in &self.rates {
             let (driven, scale) = (R::splat(entry.driven), R::splat(unit.angle[entry.k]));
             let overflows = unit.angle[entry.k].is_infinite();
-            let stays = R::splat(if overflows { 0.0 } else { -1.0 });
             let rates = &state.theta[entry.source];
             for (g, out) in entry.groups::<R>(rows.of(entry, row, count)) {
                 let rate = rates[g] + driven;
-                // Where the unit overflows, only a link that does not turn keeps a finite derivative.
-                let scaled = R::select(rate.abs().le(stays), rate, rate * scale);
+                let mut scaled = rate * scale;
+                if overflows {
+                    // Only a link that does not turn keeps a finite derivative.
+                    scaled = R::select(rate.abs().le(R::ZERO), rate, scaled);
+                }
                 entry.store(out, or_nan(failed, g, scaled));
             }
         }

@@ -10,6 +10,7 @@ use super::knot::{ChangePoint, InitialGuess, Taylor2};
 use super::lane_tracer::LaneTracer;
 use super::uniform::{KNOTS, ReferenceBranch, UniformTracer};
 use super::units::Units;
+use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Lanes, Real};
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
@@ -31,6 +32,18 @@ pub(crate) struct BranchPoint<'a> {
     pub branch: Cow<'a, Branch>,
     /// The parameter there.
     pub at: f64,
+}
+
+/// What is known of a branch that was traced by knots in lanes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Traced {
+    /// The design needs the tracer.
+    No,
+    /// It is plain: its signs are the same everywhere, and for each angle asked for there is a
+    /// reference. Angles at knots are not known.
+    Surveyed,
+    /// All that was asked for.
+    Whole,
 }
 
 /// Greatest distance (rad, or units of the scale) from the drawing to which several drivers are
@@ -221,25 +234,26 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Traces the branch by knots in lanes, with the angles of `classes`; false if the design needs
-    /// the tracer.
+    /// Traces the branch by knots in lanes, with the angles of `classes`. With `references`, a plain
+    /// design gets these in place of angles at knots (see [`UniformTracer::survey`]).
     #[inline(always)]
     pub(crate) fn trace_in_lanes<L: Level, const G: usize>(
         &mut self,
         uniform: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
-    ) -> bool {
+        references: Option<&mut [Reference]>,
+    ) -> Traced {
         if !self.has_one_rotary_driver() {
-            return false;
+            return Traced::No;
         }
         if self.has_groups() && !uniform.has_reference(|| self.reference_branch()) {
-            return false;
+            return Traced::No;
         }
         let start = &self.mechanism.class_angle;
         let signs_only = self.closed_forms && classes.is_empty();
         if signs_only && self.crank_dyad.is_some_and(|dyad| dyad.keeps_sign(&self.constants)) {
             self.branch.set_constant_signs(start.len(), &self.signs);
-            return true;
+            return Traced::Whole;
         }
         let cx = Context {
             plan: self.mechanism.plan(),
@@ -250,8 +264,18 @@ impl<'a> Design<'a> {
         };
         uniform.solve_knots::<L>(&cx, self.q0[0], !classes.is_empty());
         let (branch, tracer) = (&mut self.branch, &mut self.lane_tracer);
-        !signs_only && uniform.trace(&cx, classes, start, branch)
-            || self.closed_forms && tracer.trace::<L, G>(&cx, uniform, classes, start, branch)
+        let mut turns_fully = !signs_only;
+        if let (Some(references), true) = (references, self.closed_forms) {
+            let plain = uniform.survey(&cx, classes, start, references);
+            if plain == Some(true) {
+                branch.set_constant_signs(start.len(), cx.signs);
+                return Traced::Surveyed;
+            }
+            turns_fully &= plain.is_some();
+        }
+        let traced = turns_fully && uniform.trace(&cx, classes, start, branch)
+            || self.closed_forms && tracer.trace::<L, G>(&cx, uniform, classes, start, branch);
+        if traced { Traced::Whole } else { Traced::No }
     }
 
     /// The branch of the drawing, from which those of other designs start.
@@ -282,7 +306,9 @@ impl<'a> Design<'a> {
         if self.closed_forms && self.has_one_rotary_driver() {
             let classes: Vec<usize> = (1..self.mechanism.class_angle.len()).collect();
             let mut uniform = self.uniform_tracer::<Lanes<2>, { KNOTS / 2 }>();
-            if self.trace_in_lanes::<Portable, { KNOTS / 2 }>(&mut uniform, &classes) {
+            let traced =
+                self.trace_in_lanes::<Portable, { KNOTS / 2 }>(&mut uniform, &classes, None);
+            if traced == Traced::Whole {
                 return;
             }
         }

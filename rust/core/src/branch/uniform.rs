@@ -8,14 +8,14 @@
 //! near the drawing's.
 
 use std::cell::OnceCell;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::branch::{Branch, CELLS_PER_TURN};
 use super::hermite::HermiteCell;
 use super::knot::{
     MAX_FIRST_STEP, MAX_LATER_STEPS, SignInterval, Taylor2, closes, may_vanish, prediction_failed,
 };
-use crate::math::angle::{turns_between, whole_turns};
+use crate::math::angle::{Reference, turns_between, unwrap_to, whole_turns};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
@@ -229,6 +229,62 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         !suspect.any()
     }
 
+    /// Whether the design is plain, to be seen without following its angles knot by knot: every knot
+    /// can be reached, no sign may change between two, and no angle asked for turns fast or far.
+    /// `None` if it is not; false if only an angle stands against it. Sets the reference of
+    /// each class.
+    #[inline(always)]
+    pub(crate) fn survey(
+        &mut self,
+        cx: &Context<'_>,
+        classes: &[usize],
+        start: &[f64],
+        references: &mut [Reference],
+    ) -> Option<bool> {
+        self.guide_sides.clear();
+        self.spread.fill((0.0, 0.0));
+        for group in 0..(KNOTS / R::LANES).min(G) {
+            if !self.check_knots(cx, group) {
+                return None;
+            }
+        }
+        for &class in classes {
+            let Some(range) = self.range(class, start[class]) else { return Some(false) };
+            let Some(reference) = reference_of(range) else { return Some(false) };
+            references[class] = reference;
+        }
+        Some(true)
+    }
+
+    /// The least and greatest angle of a class at the knots, if its link turns slowly and stays
+    /// within half a turn of the first of them; that is the nearest to `start`.
+    #[inline(always)]
+    fn range(&self, class: usize, start: f64) -> Option<[f64; 2]> {
+        let (units, rates) =
+            (&self.state.class[class], &self.state.theta[self.state.len * class + 1]);
+        let first = unwrap_to(units[0].unit_angle().lane(0), start);
+        let near = R::splat(first);
+        let (mut last, mut least, mut most) = (near, near, near);
+        let mut slow = R::Mask::NONE.not();
+        for group in 0..(KNOTS / R::LANES).min(G) {
+            let angle = unwrap_to(units[group].unit_angle(), near);
+            let step = angle - previous(last.lane(R::LANES - 1), angle);
+            let rate = rates[group] * R::splat(CELL);
+            let limit = R::splat(KNOT_MAX_TURN);
+            slow = slow.and(step.abs().le(limit)).and(rate.abs().le(limit));
+            (least, most) = (least.min(angle), most.max(angle));
+            last = angle;
+        }
+        if !slow.all() {
+            return None;
+        }
+        let mut range = [first; 2];
+        for lane in 0..R::LANES {
+            range = [range[0].min(least.lane(lane)), range[1].max(most.lane(lane))];
+        }
+        Some(range)
+    }
+
     /// Unwraps the angles of a register of knots; false if a link turns fast there.
     #[inline(always)]
     fn unwrap(&mut self, group: usize, classes: &[usize], angles: &mut [f64]) -> bool {
@@ -257,6 +313,16 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
         !fast.any()
     }
+}
+
+/// The reference of all angles of a range at the knots, and between these; `None` if it is too wide.
+pub(crate) fn reference_of([least, most]: [f64; 2]) -> Option<Reference> {
+    // Between two knots an angle may leave the range by one step.
+    let margin = 2.0 * KNOT_MAX_TURN;
+    if -PI < least - margin && most + margin < PI {
+        return Some(Reference::Principal);
+    }
+    (most - least <= TAU - 2.0 * margin).then_some(Reference::Near(0.5 * (least + most)))
 }
 
 /// A register of knots of a turn from `q0`, beginning with knot `first`.

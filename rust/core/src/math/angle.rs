@@ -21,6 +21,27 @@ pub(crate) fn unwrap_to<R: Real>(angle: R, near: R) -> R {
     angle + R::splat(TAU) * turns_between(angle, near)
 }
 
+/// What the whole turns of all angles of a link follow from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Reference {
+    /// All are principal values.
+    Principal,
+    /// All are less than half a turn from this angle.
+    Near(f64),
+}
+
+impl Reference {
+    /// An angle with its whole turns.
+    #[inline(always)]
+    pub(crate) fn lift<R: Real>(self, angle: R) -> R {
+        match self {
+            // As if no turn were added: −0 becomes 0.
+            Self::Principal => angle + R::ZERO,
+            Self::Near(near) => unwrap_to(angle, R::splat(near)),
+        }
+    }
+}
+
 /// Whole turns in the change of an angle over a period, to the nearest. An angle may change by half
 /// a turn exactly, from one dead point to another: that counts as none, whatever the rounding
 /// errors.

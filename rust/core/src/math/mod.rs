@@ -12,6 +12,7 @@ pub(crate) mod quadrature;
 pub(crate) mod registers;
 pub(crate) mod root;
 pub(crate) mod simd;
+pub(crate) mod stride;
 pub mod tolerance;
 pub mod trig;
 mod two_over_pi;

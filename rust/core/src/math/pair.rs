@@ -8,11 +8,11 @@ use super::lanes::{LANES, Mask, Real};
 
 /// Twice the numbers of `R`, [`LANES`] at most.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Pair<R>(R, R);
+pub(crate) struct Pair<R>(pub(super) R, pub(super) R);
 
 /// Lanes of a pair.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PairMask<R: Real>(R::Mask, R::Mask);
+pub(crate) struct PairMask<R: Real>(pub(super) R::Mask, pub(super) R::Mask);
 
 impl<R: Real> Mask for PairMask<R> {
     const NONE: Self = Self(R::Mask::NONE, R::Mask::NONE);

@@ -2,7 +2,7 @@
 
 use super::dyad::{Dyad, Form, LoopTerm, Unknown};
 use super::plan::{EdgeSlide, Plan, Step};
-use super::tape::{DyadOp, Op, PlaceKind, PlaceOp, Tape};
+use super::tape::{CrankPin, DyadOp, Op, PlaceKind, PlaceOp, Tape};
 
 /// What a request needs.
 #[derive(Debug, Clone, Copy)]
@@ -10,67 +10,97 @@ pub(crate) struct Needs<'a> {
     pub points: &'a [bool],
     /// Rotations.
     pub classes: &'a [bool],
+    /// Whether dyads are sampled: their legs and the points that they connect are kept.
+    pub samples: bool,
+}
+
+/// What later operations use.
+struct Uses {
+    /// Where the tape is run carefully, and where it is run bare.
+    points: Vec<bool>,
+    points_bare: Vec<bool>,
+    orientations: Vec<bool>,
+    legs: Vec<bool>,
+    classes: Vec<bool>,
 }
 
 impl Tape {
     /// All of a plan.
     pub(crate) fn whole(plan: &Plan) -> Self {
         let (points, classes) = (vec![true; plan.points], vec![true; plan.classes]);
-        Self::new(plan, Needs { points: &points, classes: &classes })
+        Self::new(plan, Needs { points: &points, classes: &classes, samples: true })
     }
 
     /// The dyads and groups alone, with the rotations of these classes.
     pub(crate) fn for_dyads(plan: &Plan, classes: &[bool]) -> Self {
         let points = vec![false; plan.points];
-        Self::new(plan, Needs { points: &points, classes })
+        Self::new(plan, Needs { points: &points, classes, samples: true })
     }
 
     /// What a request needs of a plan. All dyads are needed: whether they close decides the status.
     pub(crate) fn new(plan: &Plan, needs: Needs<'_>) -> Self {
         let all = !plan.has_closed_forms() || needs.points.iter().all(|&needed| needed);
-        let mut points = needs.points.to_vec();
-        for dyad in plan.dyads() {
-            points[dyad.start] = true;
-            points[dyad.end] = true;
-        }
         // Discriminants of dyads without a kernel read orientations.
         let general = plan.dyads().any(|dyad| !dyad.has_kernel(plan));
-        let mut orientations = vec![all || general; plan.orientations.len()];
+        let mut uses = Uses {
+            points: needs.points.to_vec(),
+            points_bare: needs.points.to_vec(),
+            orientations: vec![all || general; plan.orientations.len()],
+            legs: vec![all || general || needs.samples; plan.legs()],
+            classes: needs.classes.to_vec(),
+        };
         let mut ops = Vec::with_capacity(plan.steps.len());
-        let mut dyads = plan.dyads().count();
+        for dyad in plan.dyads() {
+            uses.points[dyad.start] = true;
+            uses.points[dyad.end] = true;
+        }
         for (step, what) in plan.steps.iter().enumerate().rev() {
             match what {
                 Step::Dyad(dyad) => {
-                    dyads -= 1;
-                    debug_assert_eq!(dyads, dyad.index);
-                    ops.push(Op::of_dyad(plan, dyad, step, needs.classes, &orientations));
-                    if let Some(Op::Dyad { .. }) = ops.last() {
+                    let op = Op::of_dyad(plan, dyad, step, &uses);
+                    let pin = if needs.samples { None } else { op.pin() };
+                    for (point, is_start) in [(dyad.start, true), (dyad.end, false)] {
+                        uses.points_bare[point] |= pin.is_none_or(|pin| pin.is_start != is_start);
+                    }
+                    if let Op::Dyad { .. } = op {
                         for o in dyad.orientations.iter().flatten() {
-                            orientations[*o] = true;
+                            uses.orientations[*o] = true;
                         }
                         for term in &dyad.others {
-                            orientations[plan.edges[term.edge].orientation] = true;
+                            uses.orientations[plan.edges[term.edge].orientation] = true;
                         }
                     }
+                    ops.push(op);
                 }
                 Step::Group(_) => ops.push(Op::Group { step }),
                 Step::Redundant(_) => ops.push(Op::Redundant { step }),
                 &Step::Place { edge, backward } => {
-                    let place = PlaceOp::new(plan, edge, backward);
-                    if all || points[place.to] {
-                        points[place.from] = true;
-                        if let PlaceKind::Rigid { .. } | PlaceKind::Along = place.kind {
-                            orientations[plan.edges[edge].orientation] = true;
-                        }
-                        ops.push(Op::Place(place));
+                    let mut place = PlaceOp::new(plan, edge, backward);
+                    if !(all || uses.points[place.to]) {
+                        continue;
                     }
+                    place.is_used = all || uses.points_bare[place.to];
+                    uses.points[place.from] = true;
+                    uses.points_bare[place.from] |= place.is_used;
+                    match place.kind {
+                        PlaceKind::Rigid { .. } | PlaceKind::Along => {
+                            uses.orientations[plan.edges[edge].orientation] = true;
+                        }
+                        PlaceKind::Leg { leg, .. } | PlaceKind::OnLeg { leg } => {
+                            if let Some(leg) = uses.legs.get_mut(leg) {
+                                *leg |= place.is_used;
+                            }
+                        }
+                        PlaceKind::Crank { .. } => {}
+                    }
+                    ops.push(Op::Place(place));
                 }
             }
         }
         ops.reverse();
         add_upstream(plan, &mut ops);
         let driven = (0..plan.orientations.len())
-            .filter(|&o| plan.orientations[o].driven && orientations[o])
+            .filter(|&o| plan.orientations[o].driven && uses.orientations[o])
             .collect();
         let is_bounded = is_bounded(plan) && !ops.iter().any(|op| matches!(op, Op::Dyad { .. }));
         let is_dyad =
@@ -153,24 +183,18 @@ fn stands(plan: &Plan, edge: usize) -> bool {
 }
 
 impl Op {
-    pub(super) fn of_dyad(
-        plan: &Plan,
-        dyad: &Dyad,
-        step: usize,
-        classes: &[bool],
-        orientations: &[bool],
-    ) -> Self {
+    fn of_dyad(plan: &Plan, dyad: &Dyad, step: usize, uses: &Uses) -> Self {
         let turns = dyad.unknowns.map(|unknown| match unknown {
-            Unknown::Class(class) => classes[class],
+            Unknown::Class(class) => uses.classes[class],
             Unknown::Slide(_) => false,
         });
         let mut turned = Vec::new();
         for (unknown, list) in dyad.unknowns.iter().zip(&dyad.orientations) {
             if let &Unknown::Class(class) = unknown {
-                turned.extend(list.iter().filter(|&&o| orientations[o]).map(|&o| (o, class)));
+                turned.extend(list.iter().filter(|&&o| uses.orientations[o]).map(|&o| (o, class)));
             }
         }
-        let uses =
+        let turns_some =
             |i: usize| turned.iter().any(|&(_, class)| dyad.unknowns[i] == Unknown::Class(class));
         let op = DyadOp {
             step,
@@ -181,9 +205,11 @@ impl Op {
             unknowns: dyad.unknowns.map(|unknown| match unknown {
                 Unknown::Class(index) | Unknown::Slide(index) => index,
             }),
-            turns: [turns[0] || uses(0), turns[1] || uses(1)],
+            turns: [turns[0] || turns_some(0), turns[1] || turns_some(1)],
             orientations: turned,
             upstream: Vec::new(),
+            keeps: [uses.legs[2 * dyad.index], uses.legs[2 * dyad.index + 1]],
+            pin: CrankPin::of(plan, dyad),
         };
         match dyad.form {
             _ if !dyad.has_kernel(plan) => Self::Dyad { step },
@@ -192,6 +218,31 @@ impl Op {
             Form::TwoLines => Self::StandingGuides(op),
             Form::TurningGuide => Self::TurningGuide(op),
         }
+    }
+}
+
+impl Op {
+    /// The pin of a crank that need not be placed for this dyad, where the tape is run bare.
+    fn pin(&self) -> Option<CrankPin> {
+        match self {
+            Self::TwoLegs(op) | Self::StandingGuide(op) => op.pin,
+            _ => None,
+        }
+    }
+}
+
+impl CrankPin {
+    /// The pin, if a dyad connects one with a point of the ground.
+    fn of(plan: &Plan, dyad: &Dyad) -> Option<Self> {
+        let is_start = plan.fixed[dyad.end];
+        let (pin, ground) = if is_start { (dyad.start, dyad.end) } else { (dyad.end, dyad.start) };
+        plan.steps.iter().find_map(|step| {
+            let &Step::Place { edge, backward } = step else { return None };
+            let place = PlaceOp::new(plan, edge, backward);
+            let PlaceKind::Crank { driver, conj } = place.kind else { return None };
+            let connected = place.to == pin && plan.fixed[place.from] && plan.fixed[ground];
+            connected.then_some(Self { is_start, pivot: place.from, edge, backward, driver, conj })
+        })
     }
 }
 
@@ -239,7 +290,7 @@ impl PlaceOp {
             },
             _ => PlaceKind::Along,
         };
-        Self { edge, class: of.class, from, to, backward, kind }
+        Self { edge, class: of.class, from, to, backward, kind, is_used: true }
     }
 }
 
@@ -255,7 +306,7 @@ mod tests {
             (0..count).map(|index| list.contains(&index)).collect()
         };
         let (points, classes) = (needed(plan.points, points), needed(plan.classes, classes));
-        Tape::new(plan, Needs { points: &points, classes: &classes })
+        Tape::new(plan, Needs { points: &points, classes: &classes, samples: false })
     }
 
     #[test]
@@ -267,6 +318,8 @@ mod tests {
             panic!("{of_rocker:?}")
         };
         assert_eq!(pin.kind, PlaceKind::Crank { driver: 0, conj: false });
+        // The dyad finds its chord from the crank itself.
+        assert!(!pin.is_used && dyad.pin.is_some() && dyad.keeps == [false; 2]);
         assert_eq!((dyad.turns, dyad.orientations.len()), ([false, true], 0));
         assert!(of_rocker.driven.is_empty() && of_rocker.is_bounded);
         // All joints, and no other.

@@ -19,6 +19,9 @@ pub(crate) struct Sides<R = f64> {
     pub tolerances: [R; 2],
     /// 1 / (4 a² b²)
     pub per_sine2: R,
+    /// Where the square of the sine of the angle between the legs is less, they do not close within
+    /// these tolerances.
+    pub open_sine2: R,
 }
 
 impl<R: Real> Sides<R> {
@@ -28,13 +31,19 @@ impl<R: Real> Sides<R> {
         // The chord of a flat triangle is as long as the sum, or as the difference: there its
         // square differs by twice itself times the difference in length.
         let within = R::splat(2.0 * FLAT_CLOSURE);
+        let per_sine2 = R::splat(0.25) * (a.inv_norm2 * b.inv_norm2);
+        // Within the tolerances, (sum² − d²)(d² − difference²) is at least minus the greater one
+        // times the other factor, 4 a b at most and as much again; twice that is safe.
+        let most = within * (sum * sum);
+        let least = R::splat(-2.0) * (most * (R::splat(4.0) * (a.norm * b.norm) + most));
         Self {
+            open_sine2: least * per_sine2,
+            per_sine2,
             sum2: sum * sum,
             difference2: difference * difference,
             // Keeps digits when a ≈ b.
             split: difference * sum,
-            tolerances: [within * (sum * sum), within * (a.norm.max(b.norm) * difference.abs())],
-            per_sine2: R::splat(0.25) * (a.inv_norm2 * b.inv_norm2),
+            tolerances: [most, within * (a.norm.max(b.norm) * difference.abs())],
         }
     }
 }
@@ -49,6 +58,7 @@ impl Sides {
             split: R::splat(self.split),
             tolerances: [R::splat(self.tolerances[0]), R::splat(self.tolerances[1])],
             per_sine2: R::splat(self.per_sine2),
+            open_sine2: R::splat(self.open_sine2),
         }
     }
 }

@@ -14,6 +14,8 @@ pub(crate) struct Leg<R = f64> {
     pub norm2: R,
     /// 1/length².
     pub inv_norm2: R,
+    /// 1/vector, as complex numbers.
+    pub inverse: Vector<R>,
 }
 
 impl<R: Real> Leg<R> {
@@ -21,7 +23,9 @@ impl<R: Real> Leg<R> {
     #[inline(always)]
     pub(crate) fn of(vector: Vector<R>) -> Self {
         let norm2 = vector.norm2();
-        Self { vector, norm: norm2.sqrt(), norm2, inv_norm2: R::ONE / norm2 }
+        let inv_norm2 = R::ONE / norm2;
+        let inverse = vector.conj().scale(inv_norm2);
+        Self { vector, norm: norm2.sqrt(), norm2, inv_norm2, inverse }
     }
 
     /// 1/length.
@@ -33,7 +37,7 @@ impl<R: Real> Leg<R> {
     /// The rotation that turns the leg to a vector of the same length.
     #[inline(always)]
     pub(crate) fn turn_to(&self, turned: Vector<R>) -> Vector<R> {
-        (turned * self.vector.conj()).scale(self.inv_norm2)
+        turned * self.inverse
     }
 }
 
@@ -51,6 +55,7 @@ impl Leg {
             norm: R::splat(self.norm),
             norm2: R::splat(self.norm2),
             inv_norm2: R::splat(self.inv_norm2),
+            inverse: Vector::splat(self.inverse),
         }
     }
 }

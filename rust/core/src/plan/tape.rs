@@ -53,6 +53,29 @@ pub(crate) struct DyadOp {
     pub orientations: Vec<(usize, usize)>,
     /// The last dyads on which its points depend.
     pub upstream: Vec<usize>,
+    /// Whether the jet of each leg is used.
+    pub keeps: [bool; 2],
+    /// If one of its points is a crank's pin and the other belongs to the ground: that pin.
+    pub pin: Option<CrankPin>,
+}
+
+/// Indices of the pin of a crank on the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct CrankPin {
+    /// Whether it is the start of the dyad.
+    pub is_start: bool,
+    pub pivot: usize,
+    pub edge: usize,
+    /// Whether the edge is subtracted.
+    pub backward: bool,
+    pub driver: usize,
+    /// Whether the crank turns against the driver.
+    pub conj: bool,
+}
+
+impl CrankPin {
+    pub(crate) const NONE: Self =
+        Self { is_start: false, pivot: 0, edge: 0, backward: false, driver: 0, conj: false };
 }
 
 /// Indices of a point to be placed.
@@ -66,6 +89,8 @@ pub(crate) struct PlaceOp {
     /// Whether the edge is subtracted.
     pub backward: bool,
     pub kind: PlaceKind,
+    /// Whether anything uses the point where the tape is run bare.
+    pub is_used: bool,
 }
 
 /// How the vector of an edge is found.

@@ -7,6 +7,7 @@ use crate::math::lanes::{Lanes, Real};
 use crate::math::pair::Pair;
 #[cfg(target_arch = "x86_64")]
 use crate::math::registers::{F64x2, F64x4, F64x8};
+use crate::math::stride::Stride;
 use crate::plan::group::Group;
 use crate::plan::tape::{DyadOp, PlaceOp};
 
@@ -17,6 +18,8 @@ use crate::plan::tape::{DyadOp, PlaceOp};
 pub(crate) trait Level: Sized {
     /// Its register.
     type Register: Real;
+    /// What the bare dyads with many instructions a position take at once.
+    type Stride: Stride<Self::Register>;
     /// See [`State::run`].
     fn solve<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>);
     /// See [`State::run_bare`].
@@ -100,7 +103,7 @@ macro_rules! compiled {
 
 /// A level; in its own module, so that the levels compile in parallel.
 macro_rules! level {
-    ($module:ident, $level:ident, $register:ty $(, $features:literal)?) => {
+    ($module:ident, $level:ident, $register:ty, $stride:ty $(, $features:literal)?) => {
         pub(crate) mod $module {
             use super::{Context, DyadOp, Group, Level, PlaceOp, State};
 
@@ -108,16 +111,17 @@ macro_rules! level {
 
             impl Level for $level {
                 type Register = $register;
+                type Stride = $stride;
                 compiled!($register $(, $features)?; solve [] (state, cx: &Context<'_>)
                     state.run::<$level>(cx, cx.tape));
                 compiled!($register $(, $features)?; bare [] (state, cx: &Context<'_>)
                     state.run_bare::<$level>(cx, cx.tape));
                 compiled!($register $(, $features)?;
                     two_legs [LEN] (state, cx: &Context<'_>, op: &DyadOp)
-                    state.bare_two_legs::<LEN>(cx, op));
+                    state.bare_two_legs::<$stride, LEN>(cx, op));
                 compiled!($register $(, $features)?;
                     standing_guide [LEN] (state, cx: &Context<'_>, op: &DyadOp)
-                    state.bare_standing_guide::<LEN>(cx, op));
+                    state.bare_standing_guide::<$stride, LEN>(cx, op));
                 compiled!($register $(, $features)?;
                     turning_guide [LEN] (state, cx: &Context<'_>, op: &DyadOp)
                     state.bare_turning_guide::<LEN>(cx, op));
@@ -136,13 +140,13 @@ macro_rules! level {
 }
 
 // One number: for single positions.
-level!(alone, Alone, f64);
+level!(alone, Alone, f64, f64);
 // What every processor has: arrays of numbers, which the compiler puts into registers as well as it
 // can.
-level!(portable, Portable, super::Lanes<2>);
+level!(portable, Portable, super::Lanes<2>, super::Lanes<2>);
 #[cfg(target_arch = "x86_64")]
-level!(baseline, Baseline, super::Pair<super::F64x2>, "sse2");
+level!(baseline, Baseline, super::Pair<super::F64x2>, super::Pair<super::F64x2>, "sse2");
 #[cfg(target_arch = "x86_64")]
-level!(avx2, Avx2, super::Pair<super::F64x4>, "avx2");
+level!(avx2, Avx2, super::Pair<super::F64x4>, super::Pair<super::F64x4>, "avx2");
 #[cfg(target_arch = "x86_64")]
-level!(avx512, Avx512, super::F64x8, "avx512f,avx512vl,avx512dq");
+level!(avx512, Avx512, super::F64x8, super::Pair<super::F64x8>, "avx512f,avx512vl,avx512dq");

@@ -93,8 +93,8 @@ impl<R: Real, const G: usize> State<R, G> {
                     self.start_bound(op);
                     L::standing_guides::<G>(self, cx, op);
                 }
-                Op::Place(op) => L::place::<LEN, G>(self, cx, op),
-                Op::Dyad { .. } | Op::Group { .. } | Op::Redundant { .. } => {}
+                Op::Place(op) if op.is_used => L::place::<LEN, G>(self, cx, op),
+                Op::Place(_) | Op::Dyad { .. } | Op::Group { .. } | Op::Redundant { .. } => {}
             }
         }
     }

@@ -5,6 +5,7 @@
 //! known about them, and the values of a flat dyad. All others have the same bits without it.
 
 use crate::math::lanes::{Mask, Real};
+use crate::math::stride::Stride;
 use crate::math::tolerance::FLAT_CLOSURE;
 use crate::math::vector::Vector;
 use crate::plan::dyad_constants::Sides;
@@ -39,6 +40,22 @@ impl<R: Real> Closing<R> {
         gap: R::ZERO,
         per_arm2: [R::ZERO; 2],
     };
+
+    /// Of the positions in the first register, of several.
+    #[inline(always)]
+    pub(super) fn first<F: Real>(&self) -> Closing<F>
+    where
+        R: Stride<F>,
+    {
+        Closing {
+            open: R::first_mask(self.open),
+            flat: R::first_mask(self.flat),
+            sine2: self.sine2.first(),
+            margin: self.margin.first(),
+            gap: self.gap.first(),
+            per_arm2: [self.per_arm2[0].first(), self.per_arm2[1].first()],
+        }
+    }
 
     /// Of two slides with these values, along lines with this determinant.
     #[inline(always)]
@@ -88,21 +105,21 @@ impl<R: Real> TwoCircles<R> {
         let d2 = k.norm2();
         let (outer, inner) = (sides.sum2 - d2, d2 - sides.difference2);
         let [most, least] = [-sides.tolerances[0], -sides.tolerances[1]];
-        let mut open = outer.lt(most).or(inner.lt(least));
         // Heron: (2 d h)² = ((a+b)² − d²)(d² − (a−b)²), h the height on k.
-        let mut area2 = outer * inner;
+        let area2 = if CAREFUL { positive(outer) * positive(inner) } else { outer * inner };
+        let sine2 = area2 * sides.per_sine2;
+        let mut open = sine2.lt(sides.open_sine2);
         if CAREFUL {
             // Outer joints coincide, or a leg has no length: any attitude closes.
             let loose = R::ZERO.lt(d2.min(a.norm2).min(b.norm2)).not();
             open = most.le(outer).and(least.le(inner)).not().or(loose);
-            area2 = positive(outer) * positive(inner);
         }
         let area = area2.sqrt();
-        let sine2 = area2 * sides.per_sine2;
-        let inverse = R::ONE / (d2 * area);
+        let inverse = R::splat(0.5) / (d2 * area);
+        let signed = sign * inverse;
         // Along and across k, as parts of it.
-        let mut half = R::splat(0.5) * (area * inverse);
-        let mut across = (R::splat(0.5) * sign) * (area2 * inverse);
+        let mut half = area * inverse;
+        let mut across = area2 * signed;
         let mut closing = Closing { open, sine2, ..Closing::CLOSED };
         if CAREFUL {
             closing.per_arm2 = [a.inv_norm2, b.inv_norm2];
@@ -125,7 +142,7 @@ impl<R: Real> TwoCircles<R> {
         let first = k * Vector::new((d2 + sides.split) * half, across);
         Self {
             legs: [first, k - first],
-            inverse_determinant: (R::splat(-2.0) * sign) * (d2 * inverse),
+            inverse_determinant: R::splat(-4.0) * (d2 * signed),
             closing,
         }
     }

@@ -1,43 +1,143 @@
 //! The dyad of two legs (RRR): most dyads are of this kind.
 
+use super::chord::{Chord, Ends, FROM_PIN, POINTS, TO_PIN, ends_of};
 use super::intersections::{Closing, TwoCircles};
-use crate::math::derivatives::{ONE_DRIVER, Term};
-use crate::math::lanes::{Mask, Real};
+use super::turning_leg::{entry, second_rest, third_rest};
+use crate::math::lanes::Real;
+use crate::math::stride::Stride;
 use crate::math::vector::Vector;
 use crate::plan::tape::DyadOp;
 use crate::state::state::{Context, State};
+
+/// What all entries of the jets of both legs have in common.
+#[derive(Clone, Copy)]
+struct Legs<R: Real> {
+    a: Vector<R>,
+    b: Vector<R>,
+    /// 1 / (a × b)
+    inverse: R,
+}
+
+impl<R: Real> Legs<R> {
+    /// An entry of both angles, from that of the chord. `rests`: what the legs have without the
+    /// angles' own entries; none in the first.
+    #[inline(always)]
+    fn rates(&self, chord: Vector<R>, rests: Option<[Vector<R>; 2]>) -> [R; 2] {
+        let rest = if let Some([a, b]) = rests { (chord - a) - b } else { chord };
+        [self.b.dot(rest) * self.inverse, -(self.a.dot(rest) * self.inverse)]
+    }
+}
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves the dyad for its legs, their rotations and analogues.
     #[inline(always)]
     pub(crate) fn two_legs(&mut self, cx: &Context<'_>, op: &DyadOp) {
-        if R::LANES > 1 || cx.derivatives.drivers > 1 {
-            // Lanes rarely need care: one copy for all orders is enough.
-            self.legs_of_length::<true>(cx, op, self.len, &|k| &cx.derivatives.rotation[k][..]);
-            return;
-        }
-        match self.len {
-            1 => self.legs_of_length::<true>(cx, op, 1, &|k| ONE_DRIVER[k]),
-            2 => self.legs_of_length::<true>(cx, op, 2, &|k| ONE_DRIVER[k]),
-            3 => self.legs_of_length::<true>(cx, op, 3, &|k| ONE_DRIVER[k]),
-            _ => self.legs_of_length::<true>(cx, op, 4, &|k| ONE_DRIVER[k]),
+        if R::LANES == 1 && cx.derivatives.drivers > 1 {
+            self.legs_by_drivers(cx, op);
+        } else {
+            self.legs_by_driver::<R, true, POINTS>(cx, op, self.len);
         }
     }
 
-    /// The same for one driver and jets of a constant length, without care.
+    /// The same for one driver and jets of a constant length, without care, and only what is used.
     #[inline(always)]
-    pub(crate) fn bare_two_legs<const LEN: usize>(&mut self, cx: &Context<'_>, op: &DyadOp) {
-        self.legs_of_length::<false>(cx, op, LEN, &|k| ONE_DRIVER[k]);
+    pub(crate) fn bare_two_legs<W: Stride<R>, const LEN: usize>(
+        &mut self,
+        cx: &Context<'_>,
+        op: &DyadOp,
+    ) {
+        match ends_of(op) {
+            FROM_PIN => self.legs_by_driver::<W, false, FROM_PIN>(cx, op, LEN),
+            TO_PIN => self.legs_by_driver::<W, false, TO_PIN>(cx, op, LEN),
+            _ => self.legs_by_driver::<W, false, POINTS>(cx, op, LEN),
+        }
     }
 
     #[inline(always)]
-    fn legs_of_length<'t, const CAREFUL: bool>(
+    fn legs_by_driver<W: Stride<R>, const CAREFUL: bool, const ENDS: Ends>(
         &mut self,
         cx: &Context<'_>,
         op: &DyadOp,
         len: usize,
-        terms: &impl Fn(usize) -> &'t [Term],
     ) {
+        let jet = |i: usize| i * len..i * len + len;
+        let chord = Chord::new(cx, op, &self.points, &self.unit, len);
+        let (Ok([a_jet, b_jet]), Ok([u, v]), Ok([a_turn, b_turn])) = (
+            self.legs.get_disjoint_mut([2 * op.dyad, 2 * op.dyad + 1].map(jet)),
+            self.theta.get_disjoint_mut(op.unknowns.map(jet)),
+            self.class.get_disjoint_mut(op.unknowns),
+        ) else {
+            return;
+        };
+        let turns = [CAREFUL || op.turns[0], CAREFUL || op.turns[1]];
+        let keeps = [CAREFUL || op.keeps[0], CAREFUL || op.keeps[1]];
+        let signs = &self.signs[op.sign.unwrap_or(0)];
+        let (legs, own) = (&cx.constants.legs[op.dyad], &cx.constants.dyads[op.dyad]);
+        let (a, b) = (legs[0].on_lanes::<W>(), legs[1].on_lanes::<W>());
+        let (sides, inverse_arm2) = (own.sides.on_lanes::<W>(), W::splat(own.inverse_arm2));
+        let bounds = &mut self.bounds[op.dyad];
+        let mut closings = [Closing::CLOSED; G];
+        for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
+            let arm = chord.arm::<W, ENDS>(g);
+            let k = chord.at::<W, ENDS>(0, g, arm);
+            let solved = TwoCircles::solve::<CAREFUL>([&a, &b], &sides, k, W::load(signs, g));
+            if CAREFUL {
+                closings[g] = solved.closing.first();
+            } else {
+                W::add_to(solved.closing.open, &mut self.open, g);
+                let sine2 = solved.closing.sine2 * inverse_arm2;
+                (W::load(&self.bound, g) * sine2).store(bounds, g);
+            }
+            let [a0, b0] = solved.legs;
+            if turns[0] {
+                W::store_vectors(a.turn_to(a0), a_turn, g);
+            }
+            if turns[1] {
+                W::store_vectors(b.turn_to(b0), b_turn, g);
+            }
+            if keeps[0] {
+                W::store_vectors(a0, &mut a_jet[0], g);
+            }
+            if keeps[1] {
+                W::store_vectors(b0, &mut b_jet[0], g);
+            }
+            let legs = Legs { a: a0, b: b0, inverse: solved.inverse_determinant };
+            let mut rates = [[W::ZERO; 2]; 2];
+            for k in 1..len {
+                let chord = chord.at::<W, ENDS>(k, g, arm);
+                let [[u1, v1], [u2, v2]] = rates;
+                let rests: Option<[Vector<W>; 2]> = match k {
+                    1 => None,
+                    2 => Some([second_rest(a0, u1), second_rest(b0, v1)]),
+                    _ => Some([third_rest(a0, u1, u2), third_rest(b0, v1, v2)]),
+                };
+                let own = legs.rates(chord, rests);
+                if k < 3 {
+                    rates[k - 1] = own;
+                }
+                if turns[0] {
+                    own[0].store(&mut u[k], g);
+                }
+                if turns[1] {
+                    own[1].store(&mut v[k], g);
+                }
+                if keeps[0] || keeps[1] {
+                    let a_rest = if let Some([a, _]) = rests { Some(a) } else { None };
+                    let a_next = entry(a0, own[0], a_rest);
+                    W::store_vectors(a_next, &mut a_jet[k], g);
+                    W::store_vectors(chord - a_next, &mut b_jet[k], g);
+                }
+            }
+        }
+        if CAREFUL {
+            self.record_closings(cx, op, &closings);
+        }
+        self.turn_orientations(cx, op);
+    }
+
+    /// The same carefully, for any number of drivers.
+    fn legs_by_drivers(&mut self, cx: &Context<'_>, op: &DyadOp) {
+        let len = self.len;
         let jet = |i: usize| i * len..i * len + len;
         let (start, end) = (&self.points[jet(op.start)], &self.points[jet(op.end)]);
         let (Ok([a_jet, b_jet]), Ok([u, v]), Ok([a_turn, b_turn])) = (
@@ -48,55 +148,33 @@ impl<R: Real, const G: usize> State<R, G> {
             return;
         };
         let signs = &self.signs[op.sign.unwrap_or(0)];
-        let (legs, own) = (&cx.constants.legs[op.dyad], &cx.constants.dyads[op.dyad]);
+        let legs = &cx.constants.legs[op.dyad];
         let (a, b) = (legs[0].on_lanes(), legs[1].on_lanes());
-        let (sides, inverse_arm2) = (own.sides.on_lanes(), R::splat(own.inverse_arm2));
-        let bounds = &mut self.bounds[op.dyad];
+        let sides = cx.constants.dyads[op.dyad].sides.on_lanes();
         let mut closings = [Closing::CLOSED; G];
         for g in 0..self.groups.min(G) {
             let k = end[0][g] - start[0][g];
-            let solved = TwoCircles::solve::<CAREFUL>([&a, &b], &sides, k, signs[g]);
-            if CAREFUL {
-                closings[g] = solved.closing;
-            } else {
-                self.open[g] = self.open[g].or(solved.closing.open);
-                bounds[g] = self.bound[g] * (solved.closing.sine2 * inverse_arm2);
-            }
-            let ([a0, b0], inverse) = (solved.legs, solved.inverse_determinant);
-            a_jet[0][g] = a0;
-            b_jet[0][g] = b0;
-            if CAREFUL || op.turns[0] {
-                a_turn[g] = a.turn_to(a0);
-            }
-            if CAREFUL || op.turns[1] {
-                b_turn[g] = b.turn_to(b0);
-            }
+            let solved = TwoCircles::solve::<true>([&a, &b], &sides, k, signs[g]);
+            closings[g] = solved.closing;
+            let [a0, b0] = solved.legs;
+            (a_jet[0][g], b_jet[0][g]) = (a0, b0);
+            (a_turn[g], b_turn[g]) = (a.turn_to(a0), b.turn_to(b0));
+            let legs = Legs { a: a0, b: b0, inverse: solved.inverse_determinant };
             for k in 1..len {
-                let chord = end[k][g] - start[k][g];
-                // Of the legs' own terms, without those in the analogues of this order.
                 let (mut a_rest, mut b_rest) = (Vector::ZERO, Vector::ZERO);
-                let mut rest = chord;
-                if !terms(k).is_empty() {
-                    for term in terms(k) {
-                        let factor = R::splat(term.factor);
-                        a_rest += a_jet[term.left][g].scale(factor * u[term.right][g]);
-                        b_rest += b_jet[term.left][g].scale(factor * v[term.right][g]);
-                    }
-                    (a_rest, b_rest) = (a_rest.left(), b_rest.left());
-                    rest = (chord - a_rest) - b_rest;
+                for term in &cx.derivatives.rotation[k] {
+                    let factor = R::splat(term.factor);
+                    a_rest += a_jet[term.left][g].scale(factor * u[term.right][g]);
+                    b_rest += b_jet[term.left][g].scale(factor * v[term.right][g]);
                 }
-                let rate = b0.dot(rest) * inverse;
-                u[k][g] = rate;
-                v[k][g] = -(a0.dot(rest) * inverse);
-                let a_top = a0.left().scale(rate);
-                let a_next = if terms(k).is_empty() { a_top } else { a_rest + a_top };
-                a_jet[k][g] = a_next;
-                b_jet[k][g] = chord - a_next;
+                let chord = end[k][g] - start[k][g];
+                let rests = [a_rest.left(), b_rest.left()];
+                [u[k][g], v[k][g]] = legs.rates(chord, Some(rests));
+                a_jet[k][g] = entry(a0, u[k][g], Some(rests[0]));
+                b_jet[k][g] = chord - a_jet[k][g];
             }
         }
-        if CAREFUL {
-            self.record_closings(cx, op, &closings);
-        }
+        self.record_closings(cx, op, &closings);
         self.turn_orientations(cx, op);
     }
 }

@@ -1,0 +1,97 @@
+//! The chord of a dyad, from its start to its end, where the tape is run bare: between any two
+//! points, or between the pin of a crank and a point of the ground, whose analogues need no memory.
+
+use crate::math::lanes::Real;
+use crate::math::stride::Stride;
+use crate::math::vector::Vector;
+use crate::plan::tape::{CrankPin, DyadOp};
+use crate::state::state::Context;
+
+/// Which points a chord connects.
+pub(super) type Ends = u8;
+pub(super) const POINTS: Ends = 0;
+pub(super) const FROM_PIN: Ends = 1;
+pub(super) const TO_PIN: Ends = 2;
+
+/// The ends of a dyad's chord.
+pub(super) struct Chord<'a, R: Real, const G: usize> {
+    start: &'a [[Vector<R>; G]],
+    end: &'a [[Vector<R>; G]],
+    units: &'a [Vector<R>],
+    backward: bool,
+    arm: Vector,
+    pivot: Vector,
+    ground: Vector,
+}
+
+/// The vector from a crank's pivot to its pin; not used between points.
+#[derive(Clone, Copy)]
+pub(super) struct Arm<W>(Vector<W>);
+
+/// Which points the chord of a dyad connects.
+#[inline(always)]
+pub(super) fn ends_of(op: &DyadOp) -> Ends {
+    match &op.pin {
+        None => POINTS,
+        Some(pin) if pin.is_start => FROM_PIN,
+        Some(_) => TO_PIN,
+    }
+}
+
+impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
+    /// The chord of `op`, with jets of `len` entries.
+    #[inline(always)]
+    pub(super) fn new(
+        cx: &Context<'_>,
+        op: &DyadOp,
+        points: &'a [[Vector<R>; G]],
+        units: &'a [[Vector<R>; G]],
+        len: usize,
+    ) -> Self {
+        let pin = op.pin.unwrap_or(CrankPin::NONE);
+        let edge = cx.constants.edge_vector.get(pin.edge).copied().unwrap_or(Vector::ZERO);
+        let ground = if pin.is_start { op.end } else { op.start };
+        Self {
+            start: &points[op.start * len..op.start * len + len],
+            end: &points[op.end * len..op.end * len + len],
+            units: units.get(pin.driver).map_or(&[], |units| &units[..]),
+            backward: pin.conj,
+            arm: if pin.backward { -edge } else { edge },
+            pivot: cx.constants.fixed[pin.pivot],
+            ground: cx.constants.fixed[ground],
+        }
+    }
+
+    /// What [`Chord::at`] needs for positions from register `g` on.
+    #[inline(always)]
+    pub(super) fn arm<W: Stride<R>, const ENDS: Ends>(&self, g: usize) -> Arm<W> {
+        if ENDS == POINTS {
+            return Arm(Vector::ZERO);
+        }
+        let unit = W::load_vectors(self.units, g);
+        Arm(if self.backward { unit.conj() } else { unit } * Vector::splat(self.arm))
+    }
+
+    /// Entry `k` of the chord's jet, by one driver: operation by operation as if the pin had been
+    /// placed.
+    #[inline(always)]
+    pub(super) fn at<W: Stride<R>, const ENDS: Ends>(
+        &self,
+        k: usize,
+        g: usize,
+        Arm(mut entry): Arm<W>,
+    ) -> Vector<W> {
+        if ENDS == POINTS {
+            return W::load_vectors(&self.end[k], g) - W::load_vectors(&self.start[k], g);
+        }
+        for _ in 0..k {
+            entry = if self.backward { -entry.left() } else { entry.left() };
+        }
+        let (pin, ground) = if k == 0 {
+            (Vector::splat(self.pivot) + entry, Vector::splat(self.ground))
+        } else {
+            (Vector::ZERO + entry, Vector::ZERO)
+        };
+        if ENDS == FROM_PIN { ground - pin } else { pin - ground }
+    }
+}
