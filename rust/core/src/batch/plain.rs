@@ -7,7 +7,6 @@ use super::worker::{Job, Worker, mask};
 use crate::branch::uniform::reference_of;
 use crate::math::angle::unwrap_to;
 use crate::math::lanes::{Mask, Real};
-use crate::math::stride::Stride;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 use crate::state::status::Status;
@@ -71,18 +70,6 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             return false;
         }
         let some_open = open.any();
-        // A separate loop: independent angles overlap.
-        for &class in &self.writer.classes {
-            let (units, lifted) = (&state.class[class], &mut self.lifted[class]);
-            let reference = self.references[class];
-            for group in (0..groups).step_by(L::Stride::REGISTERS) {
-                let mut angle = L::Stride::load_vectors(units, group).unit_angle();
-                if !located {
-                    angle = reference.lift(angle);
-                }
-                angle.store(lifted, group);
-            }
-        }
         if located && !self.lift_by_knots(first, groups) {
             return false;
         }
@@ -93,7 +80,20 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         let at = job.first + row;
         let with = (&design.constants, &design.units);
         let failed = some_open.then_some(&state.open);
-        self.writer.write(job.rows, (at, count), with, state, &self.lifted, failed);
+        let rows = &mut *job.rows;
+        if located {
+            self.writer.write(rows, (at, count), with, state, &self.lifted, failed);
+        } else {
+            let references = &self.references[..];
+            self.writer.write_plain::<L::Stride, R, G>(
+                rows,
+                (at, count),
+                with,
+                state,
+                references,
+                failed,
+            );
+        }
         if some_open {
             let status = &mut job.rows.status[at..at + count];
             for (group, status) in status.chunks_mut(R::LANES).enumerate() {
@@ -118,8 +118,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         for &class in &self.writer.classes {
             for group in 0..groups {
                 let location = &self.locations[first + group];
-                let lifted = &mut self.lifted[class][group];
-                *lifted = unwrap_to(*lifted, branch.reference_angle(location, class));
+                let angle = self.many.class[class][group].unit_angle();
+                self.lifted[class][group] =
+                    unwrap_to(angle, branch.reference_angle(location, class));
                 if branch.inverse_width.is_none() {
                     let unseen = |lane: usize| {
                         !self.many.open[group].lane(lane)

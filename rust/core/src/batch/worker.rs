@@ -164,16 +164,21 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
             return;
         }
-        let (plan, derivatives) = (self.design.mechanism.plan(), self.design.derivatives);
-        self.many.prepare(plan, &self.design.constants, derivatives);
+        self.many.groups = count.div_ceil(R::LANES).min(G);
         if self.design.branch.has_constant_signs() {
             let signs = self.design.branch.signs_at(&BranchLocation::<f64>::default(), 0);
             for (lanes, &sign) in self.many.signs.iter_mut().zip(signs) {
-                *lanes = [R::splat(sign); G];
+                lanes[..self.many.groups].fill(R::splat(sign));
             }
         }
         self.load_coordinates(job);
         let mut doubts = if surveyed || self.is_plain() { 0 } else { MAX_DOUBTS };
+        if doubts < MAX_DOUBTS {
+            let design = &self.design;
+            let cx = Context { tape: &self.tape, ..design.context(design.derivatives) };
+            self.many.prepare_bare(&cx);
+        }
+        let mut prepared = false;
         let mut located = !surveyed && (doubts == MAX_DOUBTS || self.find_references());
         if located {
             self.locate();
@@ -186,6 +191,11 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             let block = (count - row).min(G * R::LANES);
             if doubts < MAX_DOUBTS && self.solve_bare::<L>(job, row, block, located) {
                 continue;
+            }
+            if !prepared {
+                let plan = self.design.mechanism.plan();
+                self.many.prepare(plan, &self.design.constants, self.design.derivatives);
+                prepared = true;
             }
             if !located {
                 if surveyed {

@@ -4,8 +4,10 @@ use std::mem::MaybeUninit;
 
 use super::outputs::{Column, Quantity};
 use crate::branch::units::Units;
+use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
+use crate::math::stride::Stride;
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
 use crate::plan::constants_rate::offsets;
@@ -163,6 +165,60 @@ impl<'a> Writer<'a> {
         lifted: &[[R; G]],
         failed: Option<&[R::Mask; G]>,
     ) {
+        self.write_jets(rows, (row, count), (constants, unit), state, failed);
+        for entry in &self.angles {
+            let offset = R::splat(self.offset(entry, constants));
+            let rotation = &self.mechanism.plan().rotation[entry.source];
+            let lifted = &lifted[rotation.class];
+            for (g, out) in entry.groups::<R>(rows.of(entry, row, count)) {
+                let angle = of_link::<R, R, G>(lifted[g], &rotation.turns, &state.q, g);
+                entry.store(out, or_nan::<R, R, G>(failed, g, angle + offset));
+            }
+        }
+    }
+
+    /// The same where the whole turns of all angles follow from references.
+    #[inline(always)]
+    pub(crate) fn write_plain<W: Stride<R>, R: Real, const G: usize>(
+        &self,
+        rows: &mut RowSlices<'_>,
+        (row, count): (usize, usize),
+        (constants, unit): (&DesignConstants, &Units),
+        state: &State<R, G>,
+        references: &[Reference],
+        failed: Option<&[R::Mask; G]>,
+    ) {
+        for entry in &self.angles {
+            let offset = W::splat(self.offset(entry, constants));
+            let rotation = &self.mechanism.plan().rotation[entry.source];
+            let (units, reference) = (&state.class[rotation.class], references[rotation.class]);
+            for (stride, out) in entry.groups::<W>(rows.of(entry, row, count)) {
+                let g = stride * W::REGISTERS;
+                let q = W::load(&state.q[0], g);
+                let angle = reference.lift(W::load_vectors(units, g).unit_angle(), q);
+                let angle = of_link::<W, R, G>(angle, &rotation.turns, &state.q, g);
+                entry.store(out, or_nan::<W, R, G>(failed, g, angle + offset));
+            }
+        }
+        self.write_jets(rows, (row, count), (constants, unit), state, failed);
+    }
+
+    /// The constant difference between an angle and that of its class.
+    fn offset(&self, entry: &Entry, constants: &DesignConstants) -> f64 {
+        let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.source];
+        constants.offset[entry.source] + whole
+    }
+
+    /// Writes all but angles.
+    #[inline(always)]
+    fn write_jets<R: Real, const G: usize>(
+        &self,
+        rows: &mut RowSlices<'_>,
+        (row, count): (usize, usize),
+        (constants, unit): (&DesignConstants, &Units),
+        state: &State<R, G>,
+        failed: Option<&[R::Mask; G]>,
+    ) {
         let origin = Vector::splat(Vector::new(constants.origin[0], constants.origin[1]));
         for entry in &self.points {
             let scale = R::splat(unit.length[entry.k]);
@@ -171,7 +227,10 @@ impl<'a> Writer<'a> {
             let out = rows.of(entry, row, count);
             for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
                 let p = scaled(points[g], scale, shift);
-                let p = Vector::new(or_nan(failed, g, p.x), or_nan(failed, g, p.y));
+                let p = Vector::new(
+                    or_nan::<R, R, G>(failed, g, p.x),
+                    or_nan::<R, R, G>(failed, g, p.y),
+                );
                 if entry.width == 2 && out.len() == 2 * R::LANES {
                     store_pairs(out, p);
                     continue;
@@ -185,23 +244,7 @@ impl<'a> Writer<'a> {
             let scale = R::splat(unit.length[entry.k]);
             let slides = &state.slides[entry.source];
             for (g, out) in entry.groups::<R>(rows.of(entry, row, count)) {
-                entry.store(out, or_nan(failed, g, slides[g] * scale));
-            }
-        }
-        for entry in &self.angles {
-            let rotation = &self.mechanism.plan().rotation[entry.source];
-            let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.source];
-            let offset = R::splat(constants.offset[entry.source] + whole);
-            let lifted = &lifted[rotation.class];
-            for (g, out) in entry.groups::<R>(rows.of(entry, row, count)) {
-                // The class's angle, plus the drivers' turns of the link relative to its class.
-                let mut angle = lifted[g];
-                for (&turns, q) in rotation.turns.iter().zip(&state.q) {
-                    if turns != 0 {
-                        angle += R::splat(f64::from(turns)) * q[g];
-                    }
-                }
-                entry.store(out, or_nan(failed, g, angle + offset));
+                entry.store(out, or_nan::<R, R, G>(failed, g, slides[g] * scale));
             }
         }
         for entry in &self.rates {
@@ -215,19 +258,39 @@ impl<'a> Writer<'a> {
                     // Only a link that does not turn keeps a finite derivative.
                     scaled = R::select(rate.abs().le(R::ZERO), rate, scaled);
                 }
-                entry.store(out, or_nan(failed, g, scaled));
+                entry.store(out, or_nan::<R, R, G>(failed, g, scaled));
             }
         }
     }
 }
 
-/// A number of a group, NaN in the lanes that failed.
+/// Some numbers from register `g` on, NaN in the lanes that failed.
 #[inline(always)]
-fn or_nan<R: Real, const G: usize>(failed: Option<&[R::Mask; G]>, g: usize, number: R) -> R {
+fn or_nan<W: Stride<R>, R: Real, const G: usize>(
+    failed: Option<&[R::Mask; G]>,
+    g: usize,
+    numbers: W,
+) -> W {
     match failed {
-        Some(failed) => R::select(failed[g], R::splat(f64::NAN), number),
-        None => number,
+        Some(failed) => W::select(W::load_masks(failed, g), W::splat(f64::NAN), numbers),
+        None => numbers,
     }
+}
+
+/// The angle of a link: that of its class, plus the drivers' turns of the link relative to it.
+#[inline(always)]
+fn of_link<W: Stride<R>, R: Real, const G: usize>(
+    mut angle: W,
+    turns: &[i8],
+    q: &[[R; G]],
+    g: usize,
+) -> W {
+    for (&turns, q) in turns.iter().zip(q) {
+        if turns != 0 {
+            angle += W::splat(f64::from(turns)) * W::load(q, g);
+        }
+    }
+    angle
 }
 
 /// A point in metres, shifted if it is no derivative.

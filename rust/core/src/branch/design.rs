@@ -5,6 +5,7 @@ use std::cell::RefCell;
 
 use super::branch::{Branch, BranchLocation};
 use super::change_interpolant::{ChangeInterpolant, ChangeWindow};
+use super::crank_angles::find_references;
 use super::crank_dyad::CrankDyad;
 use super::knot::{ChangePoint, InitialGuess, Taylor2};
 use super::lane_tracer::LaneTracer;
@@ -251,7 +252,9 @@ impl<'a> Design<'a> {
         }
         let start = &self.mechanism.class_angle;
         let signs_only = self.closed_forms && classes.is_empty();
-        if signs_only && self.crank_dyad.is_some_and(|dyad| dyad.keeps_sign(&self.constants)) {
+        let keeps_sign = (signs_only || references.is_some())
+            && self.crank_dyad.is_some_and(|dyad| dyad.keeps_sign(&self.constants));
+        if signs_only && keeps_sign {
             self.branch.set_constant_signs(start.len(), &self.signs);
             return Traced::Whole;
         }
@@ -262,8 +265,15 @@ impl<'a> Design<'a> {
             signs: &self.signs,
             tape: &self.tracing_tape,
         };
-        uniform.solve_knots::<L>(&cx, self.q0[0], !classes.is_empty());
         let (branch, tracer) = (&mut self.branch, &mut self.lane_tracer);
+        let mut references = references;
+        if let (true, Some(references)) = (keeps_sign, references.as_deref_mut())
+            && find_references(&cx, self.q0[0], start, classes, references)
+        {
+            branch.set_constant_signs(start.len(), cx.signs);
+            return Traced::Surveyed;
+        }
+        uniform.solve_knots::<L>(&cx, self.q0[0], !classes.is_empty());
         let mut turns_fully = !signs_only;
         if let (Some(references), true) = (references, self.closed_forms) {
             let plain = uniform.survey(&cx, classes, start, references);

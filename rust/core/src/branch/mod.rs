@@ -5,6 +5,7 @@ pub(crate) mod branch;
 pub(crate) mod cell_test;
 pub(crate) mod change_interpolant;
 pub(crate) mod change_point;
+mod crank_angles;
 pub(crate) mod crank_dyad;
 pub(crate) mod design;
 pub(crate) mod hermite;

@@ -96,13 +96,12 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             self.set_knots(q0);
         }
         self.state.groups = KNOTS / R::LANES;
-        self.state.prepare(cx.plan, cx.constants, cx.derivatives);
         for (group, &(at, unit)) in self.knots.iter().enumerate().take(G) {
             self.state.q[0][group] = at;
             self.state.unit[0][group] = unit;
         }
         for (lanes, &sign) in self.state.signs.iter_mut().zip(cx.signs) {
-            *lanes = [R::splat(sign); G];
+            lanes[..self.state.groups.min(G)].fill(R::splat(sign));
         }
         self.guess(cx);
         self.solve::<L>(cx, angles);
@@ -114,6 +113,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     pub(crate) fn solve<L: Level<Register = R>>(&mut self, cx: &Context<'_>, angles: bool) {
         self.is_careful = true;
         if cx.tape.is_bounded {
+            self.state.prepare_bare(cx);
             L::bare(&mut self.state, cx);
             let mut care = R::Mask::NONE;
             for group in 0..self.state.groups.min(G) {
@@ -125,6 +125,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             self.is_careful = care.any();
         }
         if self.is_careful {
+            self.state.prepare(cx.plan, cx.constants, cx.derivatives);
             L::solve(&mut self.state, cx);
         }
     }

@@ -1,6 +1,6 @@
 //! Angles and whole turns.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::lanes::Real;
 
@@ -28,16 +28,44 @@ pub(crate) enum Reference {
     Principal,
     /// All are less than half a turn from this angle.
     Near(f64),
+    /// All are less than half a turn from an angle that turns with the driver.
+    Turning(Turning),
+}
+
+/// An angle that turns with the driver, but jumps twice a turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Turning {
+    /// 1, or −1 if it turns against the driver.
+    pub(crate) rate: f64,
+    /// The angle where the driver is at 0, without jumps.
+    pub(crate) at_zero: f64,
+    /// Where a turn of the driver begins.
+    pub(crate) from: f64,
+    /// The jump in the middle of the turn, and that of the whole turn.
+    pub(crate) jumps: [f64; 2],
+}
+
+impl Turning {
+    #[inline(always)]
+    pub(crate) fn at<R: Real>(&self, q: R) -> R {
+        let on = q - R::splat(self.from);
+        let turns = (on * R::splat(1.0 / TAU)).floor();
+        let is_second = R::splat(PI).lt(on - turns * R::splat(TAU));
+        let jump = R::select(is_second, R::splat(self.jumps[0]), R::ZERO);
+        (R::splat(self.rate) * q + R::splat(self.at_zero))
+            + (jump + turns * R::splat(self.jumps[1]))
+    }
 }
 
 impl Reference {
-    /// An angle with its whole turns.
+    /// An angle with its whole turns, where the driver is at `q`.
     #[inline(always)]
-    pub(crate) fn lift<R: Real>(self, angle: R) -> R {
+    pub(crate) fn lift<R: Real>(self, angle: R, q: R) -> R {
         match self {
             // As if no turn were added: −0 becomes 0.
             Self::Principal => angle + R::ZERO,
             Self::Near(near) => unwrap_to(angle, R::splat(near)),
+            Self::Turning(turning) => unwrap_to(angle, turning.at(q)),
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::lanes::{Mask, Real};
 #[cfg(target_arch = "x86_64")]
-use super::pair::Pair;
+use super::pair::{Pair, PairMask};
 use super::vector::Vector;
 
 /// One register `R` of a column, or several.
@@ -14,6 +14,8 @@ pub(crate) trait Stride<R: Real>: Real {
     fn load(column: &[R], first: usize) -> Self;
     /// The same of vectors.
     fn load_vectors(column: &[Vector<R>], first: usize) -> Vector<Self>;
+    /// The same of masks.
+    fn load_masks(masks: &[R::Mask], first: usize) -> Self::Mask;
     /// Stores them from `first` on.
     fn store(self, column: &mut [R], first: usize);
     /// The same for vectors.
@@ -35,6 +37,10 @@ impl<R: Real> Stride<R> for R {
     #[inline(always)]
     fn load_vectors(column: &[Vector<R>], first: usize) -> Vector<Self> {
         column[first]
+    }
+    #[inline(always)]
+    fn load_masks(masks: &[R::Mask], first: usize) -> Self::Mask {
+        masks[first]
     }
     #[inline(always)]
     fn store(self, column: &mut [R], first: usize) {
@@ -69,6 +75,10 @@ impl<R: Real> Stride<R> for Pair<R> {
     fn load_vectors(column: &[Vector<R>], first: usize) -> Vector<Self> {
         let [a, b] = [column[first], column[first + 1]];
         Vector::new(Self(a.x, b.x), Self(a.y, b.y))
+    }
+    #[inline(always)]
+    fn load_masks(masks: &[R::Mask], first: usize) -> Self::Mask {
+        PairMask(masks[first], masks[first + 1])
     }
     #[inline(always)]
     fn store(self, column: &mut [R], first: usize) {

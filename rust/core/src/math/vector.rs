@@ -43,6 +43,13 @@ impl<R: Real> Vector<R> {
         Self { x, y }
     }
 
+    /// A vector turned by this rotation: fewer operations if it is along x, as those of binary links.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn turn(self, vector: Vector) -> Self {
+        if vector.y == 0.0 { self.scale(R::splat(vector.x)) } else { self * Self::splat(vector) }
+    }
+
     /// Complex conjugate: the opposite rotation.
     #[inline(always)]
     #[must_use]

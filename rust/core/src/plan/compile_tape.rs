@@ -102,11 +102,12 @@ impl Tape {
         let driven = (0..plan.orientations.len())
             .filter(|&o| plan.orientations[o].driven && uses.orientations[o])
             .collect();
+        let fixed = (0..plan.points).filter(|&at| plan.fixed[at] && uses.points_bare[at]).collect();
         let is_bounded = is_bounded(plan) && !ops.iter().any(|op| matches!(op, Op::Dyad { .. }));
         let is_dyad =
             |op: &Op| !matches!(op, Op::Place(_) | Op::Group { .. } | Op::Redundant { .. });
         let dyads = (0..ops.len()).filter(|&op| is_dyad(&ops[op])).collect();
-        Self { ops, dyads, driven, is_bounded }
+        Self { ops, dyads, fixed, driven, is_bounded }
     }
 }
 

@@ -313,7 +313,7 @@ impl DesignConstants {
                     let v = self.edge_vector[term.edge];
                     sum += if term.backward { -v } else { v };
                 }
-                Leg::of(sum)
+                Leg::constant(sum)
             }));
         }
     }

@@ -19,9 +19,9 @@ pub(crate) struct Sides<R = f64> {
     pub tolerances: [R; 2],
     /// 1 / (4 a² b²)
     pub per_sine2: R,
-    /// Where the square of the sine of the angle between the legs is less, they do not close within
-    /// these tolerances.
-    pub open_sine2: R,
+    /// Where ((a + b)² − d²)(d² − (a − b)²) is less, legs and chord d do not close within these
+    /// tolerances.
+    pub open_area2: R,
 }
 
 impl<R: Real> Sides<R> {
@@ -37,7 +37,7 @@ impl<R: Real> Sides<R> {
         let most = within * (sum * sum);
         let least = R::splat(-2.0) * (most * (R::splat(4.0) * (a.norm * b.norm) + most));
         Self {
-            open_sine2: least * per_sine2,
+            open_area2: least,
             per_sine2,
             sum2: sum * sum,
             difference2: difference * difference,
@@ -49,6 +49,11 @@ impl<R: Real> Sides<R> {
 }
 
 impl Sides {
+    /// The same with another factor in place of [`Sides::per_sine2`].
+    pub(super) fn with_per_sine2(self, per_sine2: f64) -> Self {
+        Self { per_sine2, ..self }
+    }
+
     /// The same sides on every lane.
     #[inline(always)]
     pub(crate) fn on_lanes<R: Real>(&self) -> Sides<R> {
@@ -58,7 +63,7 @@ impl Sides {
             split: R::splat(self.split),
             tolerances: [R::splat(self.tolerances[0]), R::splat(self.tolerances[1])],
             per_sine2: R::splat(self.per_sine2),
-            open_sine2: R::splat(self.open_sine2),
+            open_area2: R::splat(self.open_area2),
         }
     }
 }
@@ -68,6 +73,8 @@ impl Sides {
 pub(crate) struct DyadConstants {
     /// Of two legs.
     pub sides: Sides,
+    /// The same for bounds: the square of the sine is multiplied with `inverse_arm2`.
+    pub bounding_sides: Sides,
     /// The parts of its loop that stand still.
     pub offset: Vector,
     /// Directions of its guides; of a guide that turns, in the frame of its class.

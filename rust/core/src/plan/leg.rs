@@ -16,6 +16,8 @@ pub(crate) struct Leg<R = f64> {
     pub inv_norm2: R,
     /// 1/vector, as complex numbers.
     pub inverse: Vector<R>,
+    /// Whether it is known to be along x, as that of every binary link.
+    pub along_x: bool,
 }
 
 impl<R: Real> Leg<R> {
@@ -25,7 +27,7 @@ impl<R: Real> Leg<R> {
         let norm2 = vector.norm2();
         let inv_norm2 = R::ONE / norm2;
         let inverse = vector.conj().scale(inv_norm2);
-        Self { vector, norm: norm2.sqrt(), norm2, inv_norm2, inverse }
+        Self { vector, norm: norm2.sqrt(), norm2, inv_norm2, inverse, along_x: false }
     }
 
     /// 1/length.
@@ -37,11 +39,16 @@ impl<R: Real> Leg<R> {
     /// The rotation that turns the leg to a vector of the same length.
     #[inline(always)]
     pub(crate) fn turn_to(&self, turned: Vector<R>) -> Vector<R> {
-        turned * self.inverse
+        if self.along_x { turned.scale(self.inverse.x) } else { turned * self.inverse }
     }
 }
 
 impl Leg {
+    /// The leg of one design.
+    pub(crate) fn constant(vector: Vector) -> Self {
+        Self { along_x: vector.y == 0.0, ..Self::of(vector) }
+    }
+
     /// A vector that turns with the leg, divided by it; without a leg, the vector itself.
     pub(crate) fn part(&self, vector: Vector) -> Vector {
         if self.norm2 == 0.0 { vector } else { self.turn_to(vector) }
@@ -56,6 +63,7 @@ impl Leg {
             norm2: R::splat(self.norm2),
             inv_norm2: R::splat(self.inv_norm2),
             inverse: Vector::splat(self.inverse),
+            along_x: self.along_x,
         }
     }
 }

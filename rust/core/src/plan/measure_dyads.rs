@@ -64,6 +64,7 @@ impl DesignConstants {
                 _ => 1.0,
             };
             own.inverse_arm2 = 1.0 / greatest.max(1.0);
+            own.bounding_sides = own.sides.with_per_sine2(own.sides.per_sine2 * own.inverse_arm2);
             self.dyads.push(own);
         }
     }

@@ -7,6 +7,8 @@ pub(crate) struct Tape {
     pub ops: Vec<Op>,
     /// The operation of every dyad.
     pub dyads: Vec<usize>,
+    /// Points of the ground that the operations use where they are run bare.
+    pub fixed: Vec<usize>,
     /// Orientations with driven parts, whose phases some operation uses.
     pub driven: Vec<usize>,
     /// Whether all dyads have kernels and depend on points of bounded coordinates alone: then a

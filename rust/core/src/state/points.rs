@@ -91,11 +91,12 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
             PlaceKind::Crank { driver, conj } => {
-                let edge = directed(cx.constants.edge_vector[op.edge], op.backward);
+                let edge = cx.constants.edge_vector[op.edge];
+                let edge = if op.backward { -edge } else { edge };
                 let units = &self.unit[driver];
                 for g in 0..groups {
                     let unit = if conj { units[g].conj() } else { units[g] };
-                    let mut entry = unit * edge;
+                    let mut entry = unit.turn(edge);
                     out[0][g] = base[0][g] + entry;
                     if cx.derivatives.drivers == 1 {
                         for k in 1..len {

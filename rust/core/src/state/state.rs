@@ -161,6 +161,30 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
+    /// Sets, in the lane groups in use, what is constant over all positions of a design and used where
+    /// the tape is run bare.
+    #[inline(always)]
+    pub(crate) fn prepare_bare(&mut self, cx: &Context<'_>) {
+        let groups = self.groups.min(G);
+        for &point in &cx.tape.fixed {
+            let fixed = Vector::splat(cx.constants.fixed[point]);
+            self.points[point * self.len][..groups].fill(fixed);
+        }
+        self.prepare_driven_slides(cx.plan, cx.derivatives);
+    }
+
+    /// Sets the analogues of driven slides.
+    #[inline(always)]
+    fn prepare_driven_slides(&mut self, plan: &Plan, derivatives: &DerivativeTables) {
+        for driver in 0..plan.drivers.len() {
+            let Some(slide) = plan.driven_slide(driver) else { continue };
+            for k in 1..self.len {
+                let own = derivatives.driver_of[k] == Some(driver);
+                self.slides[slide * self.len + k] = [if own { R::ONE } else { R::ZERO }; G];
+            }
+        }
+    }
+
     /// Sets what is constant over all positions of a design; call it before the first of them.
     #[inline(always)]
     pub(crate) fn prepare(
@@ -194,13 +218,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
         }
-        for driver in 0..plan.drivers.len() {
-            let Some(slide) = plan.driven_slide(driver) else { continue };
-            for k in 1..len {
-                let own = derivatives.driver_of[k] == Some(driver);
-                self.slides[slide * len + k] = [if own { R::ONE } else { R::ZERO }; G];
-            }
-        }
+        self.prepare_driven_slides(plan, derivatives);
     }
 
     /// Whether the position has failed, so that no further step can be computed.

@@ -102,9 +102,10 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Sets the bound of all that a dyad depends on.
     #[inline(always)]
     fn start_bound(&mut self, op: &DyadOp) {
-        self.bound = [R::ONE; G];
+        let groups = self.groups.min(G);
+        self.bound[..groups].fill(R::ONE);
         for &dyad in &op.upstream {
-            for g in 0..self.groups.min(G) {
+            for g in 0..groups {
                 self.bound[g] = self.bound[g].min(self.bounds[dyad][g]);
             }
         }

@@ -69,7 +69,7 @@ impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
             return Arm(Vector::ZERO);
         }
         let unit = W::load_vectors(self.units, g);
-        Arm(if self.backward { unit.conj() } else { unit } * Vector::splat(self.arm))
+        Arm(if self.backward { unit.conj() } else { unit }.turn(self.arm))
     }
 
     /// Entry `k` of the chord's jet, by one driver: operation by operation as if the pin had been

@@ -108,7 +108,7 @@ impl<R: Real> TwoCircles<R> {
         // Heron: (2 d h)² = ((a+b)² − d²)(d² − (a−b)²), h the height on k.
         let area2 = if CAREFUL { positive(outer) * positive(inner) } else { outer * inner };
         let sine2 = area2 * sides.per_sine2;
-        let mut open = sine2.lt(sides.open_sine2);
+        let mut open = area2.lt(sides.open_area2);
         if CAREFUL {
             // Outer joints coincide, or a leg has no length: any attitude closes.
             let loose = R::ZERO.lt(d2.min(a.norm2).min(b.norm2)).not();

@@ -83,8 +83,11 @@ impl<R: Real, const G: usize> State<R, G> {
                 closings[g] = solved.closing.first();
             } else {
                 W::add_to(solved.closing.open, &mut self.open, g);
-                let sine2 = solved.closing.sine2 * inverse_arm2;
-                (W::load(&self.bound, g) * sine2).store(bounds, g);
+                let mut bound = solved.closing.sine2 * inverse_arm2;
+                if !op.upstream.is_empty() {
+                    bound = W::load(&self.bound, g) * bound;
+                }
+                bound.store(bounds, g);
             }
             let a0 = solved.turned;
             if turns {

@@ -74,7 +74,8 @@ impl<R: Real, const G: usize> State<R, G> {
         let signs = &self.signs[op.sign.unwrap_or(0)];
         let (legs, own) = (&cx.constants.legs[op.dyad], &cx.constants.dyads[op.dyad]);
         let (a, b) = (legs[0].on_lanes::<W>(), legs[1].on_lanes::<W>());
-        let (sides, inverse_arm2) = (own.sides.on_lanes::<W>(), W::splat(own.inverse_arm2));
+        let sides = if CAREFUL { &own.sides } else { &own.bounding_sides };
+        let sides = sides.on_lanes::<W>();
         let bounds = &mut self.bounds[op.dyad];
         let mut closings = [Closing::CLOSED; G];
         for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
@@ -85,8 +86,11 @@ impl<R: Real, const G: usize> State<R, G> {
                 closings[g] = solved.closing.first();
             } else {
                 W::add_to(solved.closing.open, &mut self.open, g);
-                let sine2 = solved.closing.sine2 * inverse_arm2;
-                (W::load(&self.bound, g) * sine2).store(bounds, g);
+                let mut bound = solved.closing.sine2;
+                if !op.upstream.is_empty() {
+                    bound = W::load(&self.bound, g) * bound;
+                }
+                bound.store(bounds, g);
             }
             let [a0, b0] = solved.legs;
             if turns[0] {

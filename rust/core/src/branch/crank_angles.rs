@@ -1,0 +1,200 @@
+//! The angles of a dyad on a crank and the ground: their whole turns follow from the direction of
+//! its chord, without solving a position.
+//!
+//! A leg is always on the same side of the chord, as long as the assembly sign does not change: its
+//! angle is within a quarter turn of the chord's and a quarter turn more. The chord never turns by
+//! more than a quarter from the frame if the crank is shorter than that, or from the crank if it is
+//! longer. A gap ends where the leg is along the chord; across it the angle goes the shorter way.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use crate::math::angle::{Reference, Turning, turns_between, unwrap_to};
+use crate::math::vector::Vector;
+use crate::plan::leg::Leg;
+use crate::plan::tape::{CrankPin, DyadOp, Op};
+use crate::state::state::Context;
+
+/// How nearly equal crank and frame may be.
+const MAX_RATIO: f64 = 0.99;
+/// Least distance (turns) of two angles from half a turn: nearer, the tracer decides.
+const MIN_FROM_HALF: f64 = 0.01;
+
+/// Sets the references of `classes`; false if they have to be found in another way. `start`: the
+/// drawing's angles, at driver coordinate `q0`.
+pub(super) fn find_references(
+    cx: &Context<'_>,
+    q0: f64,
+    start: &[f64],
+    classes: &[usize],
+    references: &mut [Reference],
+) -> bool {
+    let Some(&index) = cx.tape.dyads.first() else { return false };
+    let (Op::TwoLegs(op) | Op::StandingGuide(op)) = &cx.tape.ops[index] else { return false };
+    let Some(pin) = &op.pin else { return false };
+    let chord = Chord::of(cx, op, pin);
+    let sign = op.sign.map_or(1.0, |sign| cx.signs[sign]);
+    let legs = &cx.constants.legs[op.dyad];
+    let own = &cx.constants.dyads[op.dyad];
+    for &class in classes {
+        let leg = usize::from(op.unknowns[0] != class);
+        if op.unknowns[leg] != class {
+            return false;
+        }
+        let found = if let Op::StandingGuide(_) = &cx.tape.ops[index] {
+            guided(chord.at(q0) - own.offset, own.guides[1], &legs[0], (sign, start[class]))
+        } else {
+            let side = if leg == 0 { sign } else { -sign };
+            let [own, other] = if leg == 0 { [0, 1] } else { [1, 0] }.map(|i| &legs[i]);
+            Beside { chord: &chord, own, other, side }.reference(q0, start[class])
+        };
+        let Some(found) = found else { return false };
+        references[class] = found;
+    }
+    true
+}
+
+/// The whole turns that bring an angle next to another; `None` about half a turn away.
+fn turns(angle: f64, near: f64) -> Option<f64> {
+    let turns = (near - angle) * (1.0 / TAU);
+    let is_definite = (turns - turns.floor() - 0.5).abs() >= MIN_FROM_HALF;
+    is_definite.then(|| TAU * turns_between(angle, near))
+}
+
+/// A leg from a guide that stands still, in direction `guide`: on one side of its normal.
+fn guided(k: Vector, guide: Vector, leg: &Leg, (sign, start): (f64, f64)) -> Option<Reference> {
+    let across = guide.cross(k).clamp(-leg.norm, leg.norm);
+    let chord = ((leg.norm - across) * (leg.norm + across)).sqrt();
+    let turn = leg.vector.angle();
+    let middle = guide.angle() + if sign > 0.0 { PI } else { 0.0 } - turn;
+    let first = (guide * Vector::new(-sign * chord, across)).angle() - turn;
+    Some(Reference::Near(middle + turns(unwrap_to(first, middle), start)?))
+}
+
+/// The chord of a design's only dyad.
+struct Chord {
+    /// −1 if it begins at the pin.
+    sign: f64,
+    /// From the crank's pivot to the point on the ground.
+    frame: Vector,
+    /// From the pivot to the pin where the driver is at 0.
+    arm: Vector,
+    /// 1, or −1 if the crank turns against the driver.
+    rate: f64,
+}
+
+impl Chord {
+    fn of(cx: &Context<'_>, op: &DyadOp, pin: &CrankPin) -> Self {
+        let edge = cx.constants.edge_vector[pin.edge];
+        let ground = if pin.is_start { op.end } else { op.start };
+        Self {
+            sign: if pin.is_start { -1.0 } else { 1.0 },
+            frame: cx.constants.fixed[ground] - cx.constants.fixed[pin.pivot],
+            arm: if pin.backward { -edge } else { edge },
+            rate: if pin.conj { -1.0 } else { 1.0 },
+        }
+    }
+
+    fn at(&self, q: f64) -> Vector {
+        let arm = Vector::at_angle(self.rate * q) * self.arm;
+        (arm - self.frame).scale(self.sign)
+    }
+
+    /// Where the crank is along the frame.
+    fn along_frame(&self) -> f64 {
+        self.rate * (self.frame.angle() - self.arm.angle())
+    }
+
+    /// How far from there the crank turns until the chord has length `d`.
+    fn turn_to(&self, d: f64) -> f64 {
+        let [c2, f2] = [self.arm.norm2(), self.frame.norm2()];
+        let cos = (c2 + f2 - d * d) / (2.0 * (c2 * f2).sqrt());
+        let cos = cos.clamp(-1.0, 1.0);
+        Vector::new(cos, (1.0 - cos * cos).sqrt()).angle()
+    }
+}
+
+/// A leg beside the chord, with the other leg.
+struct Beside<'a> {
+    chord: &'a Chord,
+    own: &'a Leg,
+    other: &'a Leg,
+    /// 1 if it is to the left of the chord, −1 if to the right.
+    side: f64,
+}
+
+impl Beside<'_> {
+    /// The angle of the class; of the flat dyad where it does not close.
+    fn angle(&self, q: f64) -> f64 {
+        let (a, b, k) = (self.own.norm, self.other.norm, self.chord.at(q));
+        let d = k.norm();
+        let cos = ((d * d + (a - b) * (a + b)) / (2.0 * d * a)).clamp(-1.0, 1.0);
+        let beside = Vector::new(cos, self.side * (1.0 - cos * cos).sqrt());
+        (k * beside).angle() - self.own.vector.angle()
+    }
+
+    /// Half the width of the gap around the crank's place on the line of the frame where the chord
+    /// is shortest, and of that where it is longest; 0 without a gap.
+    fn gaps(&self) -> [f64; 2] {
+        let (a, b) = (self.own.norm, self.other.norm);
+        let (c, f) = (self.chord.arm.norm(), self.chord.frame.norm());
+        let inner =
+            if (c - f).abs() < (a - b).abs() { self.chord.turn_to((a - b).abs()) } else { 0.0 };
+        let outer = if a + b < c + f { PI - self.chord.turn_to(a + b) } else { 0.0 };
+        [inner, outer]
+    }
+
+    /// The first coordinate from `q0` on that is not within a gap.
+    fn first_reached(&self, q0: f64, [inner, outer]: [f64; 2]) -> f64 {
+        let from_frame = (q0 - self.chord.along_frame()) * (1.0 / TAU);
+        let turned = TAU * (from_frame - from_frame.floor());
+        if turned < inner {
+            q0 + (inner - turned)
+        } else if (turned - PI).abs() < outer {
+            q0 + (PI + outer - turned)
+        } else if TAU - turned < inner {
+            q0 + (TAU - turned + inner)
+        } else {
+            q0
+        }
+    }
+
+    fn reference(&self, q0: f64, start: f64) -> Option<Reference> {
+        let chord = self.chord;
+        let (c, f) = (chord.arm.norm(), chord.frame.norm());
+        let gaps = self.gaps();
+        let first = self.first_reached(q0, gaps);
+        let beside = self.side * FRAC_PI_2 - self.own.vector.angle();
+        let away = if chord.sign < 0.0 { PI } else { 0.0 };
+        if c < MAX_RATIO * f {
+            let middle = chord.frame.angle() + PI - away + beside;
+            let angle = unwrap_to(self.angle(first), middle);
+            return Some(Reference::Near(middle + turns(angle, start)?));
+        }
+        if c * MAX_RATIO < f || !c.is_finite() {
+            return None;
+        }
+        // A turn begins where the chord is longest.
+        let mut turning = Turning {
+            rate: chord.rate,
+            at_zero: chord.arm.angle() + away + beside,
+            from: chord.along_frame() - PI,
+            jumps: [0.0; 2],
+        };
+        // Across a gap the angle goes the shorter way.
+        let jump = |at: f64, half: f64| {
+            if half == 0.0 {
+                return Some(0.0);
+            }
+            let [before, after] =
+                [at - half, at + half].map(|q| unwrap_to(self.angle(q), turning.at(q)));
+            turns(after, before)
+        };
+        // No jumps are set yet.
+        let at = chord.along_frame();
+        let [inner, outer] = [jump(at, gaps[0])?, jump(at + PI, gaps[1])?];
+        turning.jumps = [inner, inner + outer];
+        let angle = unwrap_to(self.angle(first), turning.at(first));
+        turning.at_zero += turns(angle, start)?;
+        Some(Reference::Turning(turning))
+    }
+}
