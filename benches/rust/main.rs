@@ -3,6 +3,8 @@
 //! Medians and ratios are what counts: baseline beside AVX2 and AVX-512, one thread
 //! beside two, every case in the same run.
 
+mod beside_by_hand;
+mod by_hand;
 mod mechanisms;
 
 use std::hint::black_box;
@@ -138,5 +140,5 @@ fn one_design(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, many_designs, one_design);
+criterion_group!(benches, beside_by_hand::beside_by_hand, many_designs, one_design);
 criterion_main!(benches);

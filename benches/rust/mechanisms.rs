@@ -50,7 +50,10 @@ pub fn class_iv() -> Mechanism {
     Mechanism::new(&ClassIv::description(joints)).expect("a mechanism")
 }
 
+pub fn engine() -> Mechanism {
+    Mechanism::new(&SliderCrank::description()).expect("a mechanism")
+}
+
 pub fn all() -> [(&'static str, Mechanism); 3] {
-    let engine = Mechanism::new(&SliderCrank::description()).expect("a mechanism");
-    [("four_bar", four_bar()), ("engine", engine), ("jansen", jansen())]
+    [("four_bar", four_bar()), ("engine", engine()), ("jansen", jansen())]
 }

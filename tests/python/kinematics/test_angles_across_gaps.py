@@ -28,6 +28,8 @@ def followed(angles: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
 
 def designs(name: str) -> assur.Mechanism:
     kind, seed = name.split()
+    if kind == "crank":
+        return design_spaces.crank_space(int(seed))
     m = bits.random(int(seed)) if kind == "seed" else library.LIBRARY[kind]()
     return design_spaces.space(m, np.random.default_rng(int(seed)))
 
@@ -35,7 +37,18 @@ def designs(name: str) -> assur.Mechanism:
 # The random ones have islands of a seventieth of a cell between the tracer's knots.
 @pytest.mark.parametrize(
     "name",
-    ["crank_rocker 0", "watt_six_bar 3", "jansen_leg 4", "klann_leg 2", "seed 28", "seed 29"],
+    [
+        "crank_rocker 0",
+        "watt_six_bar 3",
+        "jansen_leg 4",
+        "klann_leg 2",
+        "seed 28",
+        "seed 29",
+        "crank 0",
+        "crank 1",
+        "crank 2",
+        "crank 3",
+    ],
 )
 def test_angles_continue_across_gaps(name: str) -> None:
     batch = designs(name)
@@ -52,7 +65,9 @@ def test_angles_continue_across_gaps(name: str) -> None:
             np.testing.assert_allclose(own, followed(own), rtol=0, atol=1e-6, err_msg=f"{design}")
 
 
-@pytest.mark.parametrize("name", ["crank_rocker 1", "jansen_leg 2", "seed 96"])
+@pytest.mark.parametrize(
+    "name", ["crank_rocker 1", "jansen_leg 2", "seed 96", "crank 4", "crank 5"]
+)
 def test_angles_continue_into_the_next_turn(name: str) -> None:
     batch = designs(name)
     q = batch.q0 + np.linspace(-2 * np.pi, 2 * np.pi, 2 * SAMPLES - 1)

@@ -44,12 +44,40 @@ def space(m: assur.Mechanism, rng: np.random.Generator, designs: int = DESIGNS) 
     return m.with_dimensions({name: value * factors for (name, value), factors in rows})
 
 
+def crank_space(seed: int, designs: int = DESIGNS) -> assur.Mechanism:
+    """A crank with one dyad, drawn and listed in any order, with lengths of any ratio."""
+    rng = np.random.default_rng(seed)
+    while True:
+        a, b, c, d = rng.uniform(-2.0, 2.0, (4, 2))
+        pairs = {"crank": "AB", "coupler": "BC", "rocker": "CD", "ground": "AD"}
+        links = {name: sorted(pair, reverse=bool(rng.integers(2))) for name, pair in pairs.items()}
+        slides = {}
+        if seed % 3 == 0:
+            links["rocker"] = ["C"]
+            slides["guide"] = assur.Slide("rocker", "ground", rng.uniform(-3.0, 3.0), "D")
+        try:
+            one = assur.Mechanism({"A": a, "B": b, "C": c, "D": d}, links, "crank", slides=slides)
+        except ValueError:
+            continue  # it does not close, or stands at a dead point
+        drawn = {name: np.full(designs, value) for name, value in one.dimensions.items()}
+        for name, values in drawn.items():
+            if name.endswith("length"):
+                drawn[name] = rng.uniform(0.3, 3.0, designs)
+            elif not name.endswith("angle"):
+                drawn[name] = values + rng.uniform(-2.0, 2.0, designs)
+        return one.with_dimensions(drawn)
+
+
 def digest(m: assur.Mechanism, seed: int) -> tuple[str, str]:
-    """Of joints alone (signs are enough) and of everything, to order 2; then without angles."""
+    """The digest of a mechanism's space."""
     rng = np.random.default_rng(seed)
     q = rng.uniform(-2.0, 8.0, (POSITIONS, *np.shape(m.q0)))
-    batch = space(m, rng)
-    joints = [name for name in m.joints if name not in m.links["ground"]]
+    return digest_of(space(m, rng), q)
+
+
+def digest_of(batch: assur.Mechanism, q: bits.Float) -> tuple[str, str]:
+    """Of joints alone (signs are enough) and of everything, to order 2; then without angles."""
+    joints = [name for name in batch.joints if name not in batch.links["ground"]]
     motions = [batch.solve(q, order=order, on_error="nan") for order in (0, 2)]
     if joints:
         motions.append(batch.solve(q, order=2, outputs=joints, on_error="nan"))
@@ -69,6 +97,8 @@ def digests(seeds: int) -> Iterator[tuple[str, tuple[str, str]]]:
             yield f"{name} {seed}", digest(library.LIBRARY[name](), seed)
     for seed in range(seeds):
         yield f"seed {seed}", digest(bits.random(seed), seed)
+        q = np.random.default_rng(seed).uniform(-9.0, 15.0, POSITIONS)
+        yield f"crank {seed}", digest_of(crank_space(seed), q)
         changing = arguments(campaign_cases.changing_case(seed).description)
         yield f"changing {seed}", digest(assur.Mechanism(**changing), seed)
 

@@ -60,12 +60,26 @@ fn turns(angle: f64, near: f64) -> Option<f64> {
     is_definite.then(|| TAU * turns_between(angle, near))
 }
 
+/// The angle next to the drawing's, if all angles within `spread` of it are so too.
+fn next_to(start: f64, angle: f64, spread: f64) -> Option<f64> {
+    let near = unwrap_to(angle, start);
+    ((near - start).abs() + spread < PI - TAU * MIN_FROM_HALF).then_some(near)
+}
+
+/// The angle of a vector, which often is along x.
+fn angle_of(vector: Vector) -> f64 {
+    if vector.y == 0.0 && vector.x > 0.0 { 0.0 } else { vector.angle() }
+}
+
 /// A leg from a guide that stands still, in direction `guide`: on one side of its normal.
 fn guided(k: Vector, guide: Vector, leg: &Leg, (sign, start): (f64, f64)) -> Option<Reference> {
+    let turn = angle_of(leg.vector);
+    let middle = angle_of(guide) + if sign > 0.0 { PI } else { 0.0 } - turn;
+    if let Some(near) = next_to(start, middle, FRAC_PI_2) {
+        return Some(Reference::Near(near));
+    }
     let across = guide.cross(k).clamp(-leg.norm, leg.norm);
     let chord = ((leg.norm - across) * (leg.norm + across)).sqrt();
-    let turn = leg.vector.angle();
-    let middle = guide.angle() + if sign > 0.0 { PI } else { 0.0 } - turn;
     let first = (guide * Vector::new(-sign * chord, across)).angle() - turn;
     Some(Reference::Near(middle + turns(unwrap_to(first, middle), start)?))
 }
@@ -101,7 +115,7 @@ impl Chord {
 
     /// Where the crank is along the frame.
     fn along_frame(&self) -> f64 {
-        self.rate * (self.frame.angle() - self.arm.angle())
+        self.rate * (angle_of(self.frame) - angle_of(self.arm))
     }
 
     /// How far from there the crank turns until the chord has length `d`.
@@ -129,7 +143,7 @@ impl Beside<'_> {
         let d = k.norm();
         let cos = ((d * d + (a - b) * (a + b)) / (2.0 * d * a)).clamp(-1.0, 1.0);
         let beside = Vector::new(cos, self.side * (1.0 - cos * cos).sqrt());
-        (k * beside).angle() - self.own.vector.angle()
+        (k * beside).angle() - angle_of(self.own.vector)
     }
 
     /// Half the width of the gap around the crank's place on the line of the frame where the chord
@@ -161,12 +175,15 @@ impl Beside<'_> {
     fn reference(&self, q0: f64, start: f64) -> Option<Reference> {
         let chord = self.chord;
         let (c, f) = (chord.arm.norm(), chord.frame.norm());
-        let gaps = self.gaps();
-        let first = self.first_reached(q0, gaps);
-        let beside = self.side * FRAC_PI_2 - self.own.vector.angle();
+        let beside = self.side * FRAC_PI_2 - angle_of(self.own.vector);
         let away = if chord.sign < 0.0 { PI } else { 0.0 };
         if c < MAX_RATIO * f {
-            let middle = chord.frame.angle() + PI - away + beside;
+            let middle = angle_of(chord.frame) + PI - away + beside;
+            // A quarter turn, and the arc sine of c/f.
+            if let Some(near) = next_to(start, middle, FRAC_PI_2 * (1.0 + c / f)) {
+                return Some(Reference::Near(near));
+            }
+            let first = self.first_reached(q0, self.gaps());
             let angle = unwrap_to(self.angle(first), middle);
             return Some(Reference::Near(middle + turns(angle, start)?));
         }
@@ -176,10 +193,11 @@ impl Beside<'_> {
         // A turn begins where the chord is longest.
         let mut turning = Turning {
             rate: chord.rate,
-            at_zero: chord.arm.angle() + away + beside,
+            at_zero: angle_of(chord.arm) + away + beside,
             from: chord.along_frame() - PI,
             jumps: [0.0; 2],
         };
+        let gaps = self.gaps();
         // Across a gap the angle goes the shorter way.
         let jump = |at: f64, half: f64| {
             if half == 0.0 {
@@ -193,6 +211,7 @@ impl Beside<'_> {
         let at = chord.along_frame();
         let [inner, outer] = [jump(at, gaps[0])?, jump(at + PI, gaps[1])?];
         turning.jumps = [inner, inner + outer];
+        let first = self.first_reached(q0, gaps);
         let angle = unwrap_to(self.angle(first), turning.at(first));
         turning.at_zero += turns(angle, start)?;
         Some(Reference::Turning(turning))
