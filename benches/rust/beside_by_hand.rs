@@ -139,6 +139,7 @@ pub fn beside_by_hand(c: &mut Criterion) {
             group.bench_function(BenchmarkId::new("by hand", simd.name()), |b| {
                 b.iter(|| run_by_hand(&case, simd, black_box((&cos, &sin)), &mut rows));
             });
+            run_by_hand(&case, simd, (&cos, &sin), &mut rows);
             let motion = mechanism.solve(&request).expect("solved");
             for (place, quantity) in case.quantities.iter().enumerate() {
                 let series = match *quantity {

@@ -7,7 +7,7 @@ use crate::state::kernel::Level;
 use crate::state::kernel::portable::Portable;
 
 /// Positions solved at once: their columns fit the first-level cache. At least the knots of a turn.
-pub(crate) const BLOCK: usize = KNOTS;
+pub(crate) const BLOCK: usize = 2 * KNOTS;
 
 /// Work that is compiled for each level.
 pub(crate) trait ForLevel {
@@ -44,7 +44,7 @@ pub(crate) fn at_level<W: ForLevel>(simd: Simd, work: W) -> W::Output {
 impl Entry for Portable {
     #[inline(never)]
     fn run<const G: usize>(worker: &mut Worker<'_, Self::Register, G>, job: &mut Job<'_, '_>) {
-        worker.run::<Self>(job);
+        worker.run::<Self>(job, Self::trace);
     }
     #[inline(never)]
     fn trace<const G: usize>(
@@ -72,7 +72,7 @@ macro_rules! entry {
                     worker: &mut Worker<'_, <$level as Level>::Register, G>,
                     job: &mut Job<'_, '_>,
                 ) {
-                    worker.run::<$level>(job);
+                    worker.run::<$level>(job, <$level as Entry>::trace);
                 }
                 // SAFETY: `at_level` chooses this only if `Simd::best` found these instructions.
                 unsafe { with(worker, job) }

@@ -4,7 +4,6 @@
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::dispatch::Entry;
 use super::failure_log::FailureLog;
 use super::outputs::Column;
 use super::request::Request;
@@ -144,10 +143,15 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         true
     }
 
-    /// Solves the positions of the design; only `dispatch` calls this.
+    /// Solves the positions of the design; only `dispatch` calls this. `trace`: [`Worker::trace`],
+    /// compiled by itself.
     #[inline(always)]
-    pub(crate) fn run<L: Entry<Register = R>>(&mut self, job: &mut Job<'_, '_>) {
-        let surveyed = L::trace(self, job, self.by.is_none());
+    pub(crate) fn run<L: Level<Register = R>>(
+        &mut self,
+        job: &mut Job<'_, '_>,
+        trace: fn(&mut Self, &Job<'_, '_>, bool) -> bool,
+    ) {
+        let surveyed = trace(self, job, self.by.is_none());
         let drivers = self.design.mechanism.q0().len();
         let count = job.q.len() / drivers;
         if let Some((index, mut by)) = self.by.take() {
@@ -199,7 +203,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
             if !located {
                 if surveyed {
-                    L::trace(self, job, false);
+                    trace(self, job, false);
                 }
                 self.locate();
                 located = true;

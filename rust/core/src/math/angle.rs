@@ -58,13 +58,19 @@ impl Turning {
 }
 
 impl Reference {
-    /// An angle with its whole turns, where the driver is at `q`.
+    /// A principal value with its whole turns, where the driver is at `q`.
     #[inline(always)]
     pub(crate) fn lift<R: Real>(self, angle: R, q: R) -> R {
         match self {
             // As if no turn were added: −0 becomes 0.
             Self::Principal => angle + R::ZERO,
-            Self::Near(near) => unwrap_to(angle, R::splat(near)),
+            Self::Near(near) => {
+                // A principal value gets one of two numbers of turns.
+                let [most, least] = [-PI, PI].map(|angle| turns_between(angle, near));
+                let last = near + TAU * (ABOUT_HALF - most);
+                let is_low = angle.le(R::splat(last));
+                angle + R::select(is_low, R::splat(TAU * most), R::splat(TAU * least))
+            }
             Self::Turning(turning) => unwrap_to(angle, turning.at(q)),
         }
     }
