@@ -208,7 +208,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 self.locate();
                 located = true;
             }
-            doubts = (doubts + 1).min(MAX_DOUBTS);
+            doubts = if self.is_plain() { (doubts + 1).min(MAX_DOUBTS) } else { MAX_DOUBTS };
             self.solve_block::<L>(job, row, block);
         }
     }
