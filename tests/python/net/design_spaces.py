@@ -99,6 +99,8 @@ def digests(seeds: int) -> Iterator[tuple[str, tuple[str, str]]]:
         yield f"seed {seed}", digest(bits.random(seed), seed)
         q = np.random.default_rng(seed).uniform(-9.0, 15.0, POSITIONS)
         yield f"crank {seed}", digest_of(crank_space(seed), q)
+        # Whole turns of such coordinates have to be taken off exactly.
+        yield f"crank {seed}, far", digest_of(crank_space(seed), 3e15 * q)
         changing = arguments(campaign_cases.changing_case(seed).description)
         yield f"changing {seed}", digest(assur.Mechanism(**changing), seed)
 

@@ -10,9 +10,9 @@ use super::request::Request;
 use super::schedule::{Care, Control};
 use super::writer::{RowSlices, Writer};
 use crate::branch::branch::BranchLocation;
-use crate::branch::design::{Design, Traced};
-use crate::branch::uniform::UniformTracer;
-use crate::math::angle::{Reference, unwrap_to};
+use crate::branch::design::Design;
+use crate::branch::uniform::{Traced, UniformTracer};
+use crate::math::angle::{MAX_TURNED, Reference, unwrap_to};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
@@ -43,6 +43,8 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     /// Driver lanes of the last job, and the index of its first shared coordinate.
     pub(super) coordinates: Vec<DriverLanes<R>>,
     shared: Option<usize>,
+    /// Whether one of them is too far for angles that turn with the driver.
+    is_far: bool,
     /// Locations of these lanes on the branch.
     pub(super) locations: Vec<BranchLocation<R>>,
     /// Whether that branch was a uniform one.
@@ -107,6 +109,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             lifted: vec![[R::ZERO; G]; plan.classes],
             coordinates: Vec::new(),
             shared: None,
+            is_far: false,
             locations: Vec::new(),
             locations_even: false,
             design,
@@ -151,7 +154,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         job: &mut Job<'_, '_>,
         trace: fn(&mut Self, &Job<'_, '_>, bool) -> bool,
     ) {
-        let surveyed = trace(self, job, self.by.is_none());
+        let mut surveyed = trace(self, job, self.by.is_none());
         let drivers = self.design.mechanism.q0().len();
         let count = job.q.len() / drivers;
         if let Some((index, mut by)) = self.by.take() {
@@ -176,6 +179,9 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
         }
         self.load_coordinates(job);
+        if surveyed && self.is_far {
+            surveyed = trace(self, job, false);
+        }
         let mut doubts = if surveyed || self.is_plain() { 0 } else { MAX_DOUBTS };
         if doubts < MAX_DOUBTS {
             let design = &self.design;
@@ -241,6 +247,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             self.shared = job.shared;
             self.coordinates.clear();
             self.locations.clear();
+            self.is_far = job.q.iter().any(|q| q.abs() > MAX_TURNED);
             let scale = self.design.units.coordinate[0];
             for some in job.q.chunks(R::LANES) {
                 let q = R::from_lanes(|i| some[i.min(some.len() - 1)] * scale);

@@ -9,7 +9,7 @@ use super::crank_angles::find_references;
 use super::crank_dyad::CrankDyad;
 use super::knot::{ChangePoint, InitialGuess, Taylor2};
 use super::lane_tracer::LaneTracer;
-use super::uniform::{KNOTS, ReferenceBranch, UniformTracer};
+use super::uniform::{KNOTS, ReferenceBranch, Traced, UniformTracer};
 use super::units::Units;
 use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
@@ -33,18 +33,6 @@ pub(crate) struct BranchPoint<'a> {
     pub branch: Cow<'a, Branch>,
     /// The parameter there.
     pub at: f64,
-}
-
-/// What is known of a branch that was traced by knots in lanes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Traced {
-    /// The design needs the tracer.
-    No,
-    /// It is plain: its signs are the same everywhere, and for each angle asked for there is a
-    /// reference. Angles at knots are not known.
-    Surveyed,
-    /// All that was asked for.
-    Whole,
 }
 
 /// Greatest distance (rad, or units of the scale) from the drawing to which several drivers are
@@ -242,7 +230,7 @@ impl<'a> Design<'a> {
         &mut self,
         uniform: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
-        references: Option<&mut [Reference]>,
+        mut references: Option<&mut [Reference]>,
     ) -> Traced {
         if !self.has_one_rotary_driver() {
             return Traced::No;
@@ -266,7 +254,6 @@ impl<'a> Design<'a> {
             tape: &self.tracing_tape,
         };
         let (branch, tracer) = (&mut self.branch, &mut self.lane_tracer);
-        let mut references = references;
         if let (true, Some(references)) = (keeps_sign, references.as_deref_mut())
             && find_references(&cx, self.q0[0], start, classes, references)
         {

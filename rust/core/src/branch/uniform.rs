@@ -31,6 +31,18 @@ pub(crate) const KNOTS: usize = CELLS_PER_TURN as usize + 1;
 /// Width of a cell.
 pub(crate) const CELL: f64 = TAU / CELLS_PER_TURN as f64;
 
+/// What is known of a branch that was traced by knots in lanes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Traced {
+    /// The design needs the tracer.
+    No,
+    /// It is plain: its signs are the same everywhere, and for each angle asked for there is a
+    /// reference. Angles at knots are not known.
+    Surveyed,
+    /// All that was asked for.
+    Whole,
+}
+
 /// Work space: at every knot what the checks need. `G` registers hold at least all knots.
 #[derive(Debug)]
 pub(crate) struct UniformTracer<R: Real, const G: usize> {

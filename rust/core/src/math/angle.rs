@@ -32,6 +32,10 @@ pub(crate) enum Reference {
     Turning(Turning),
 }
 
+/// Greatest driver coordinate (rad) at which [`Turning`] is certain: its rounding is below 1e-3 rad.
+/// Beyond, whole turns must be taken off exactly.
+pub(crate) const MAX_TURNED: f64 = (1_u64 << 40) as f64;
+
 /// An angle that turns with the driver, but jumps twice a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Turning {
