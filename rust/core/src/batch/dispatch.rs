@@ -6,8 +6,11 @@ use crate::math::simd::Simd;
 use crate::state::kernel::Level;
 use crate::state::kernel::portable::Portable;
 
-/// Positions solved at once: their columns fit the first-level cache. At least the knots of a turn.
-pub(crate) const BLOCK: usize = 2 * KNOTS;
+/// Positions solved at once: their columns fit the first-level cache. A turn in steps of 5° is one
+/// block.
+pub(crate) const BLOCK: usize = 80;
+
+const _: () = assert!(KNOTS <= BLOCK, "the knots of a turn are solved at once");
 
 /// Work that is compiled for each level.
 pub(crate) trait ForLevel {

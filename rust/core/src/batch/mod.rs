@@ -1,4 +1,5 @@
 //! Solves many designs at many positions into arrays, in blocks and on all cores.
+mod coordinates;
 pub(crate) mod dispatch;
 pub(crate) mod failure_log;
 pub(crate) mod outputs;

@@ -50,12 +50,22 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         count: usize,
         located: bool,
     ) -> bool {
+        let block = row / (G * R::LANES);
+        self.coordinates.swap(block, &mut self.many);
+        let solved = self.solve_loaded::<L>(job, row, count, located);
+        self.coordinates.swap(block, &mut self.many);
+        solved
+    }
+
+    #[inline(always)]
+    fn solve_loaded<L: Level<Register = R>>(
+        &mut self,
+        job: &mut Job<'_, '_>,
+        row: usize,
+        count: usize,
+        located: bool,
+    ) -> bool {
         let (first, groups) = (row / R::LANES, count.div_ceil(R::LANES).min(G));
-        for group in 0..groups {
-            let coordinate = &self.coordinates[first + group];
-            self.many.q[0][group] = coordinate.q;
-            self.many.unit[0][group] = coordinate.unit;
-        }
         self.many.groups = groups;
         let design = &self.design;
         let cx = Context { tape: &self.tape, ..design.context(design.derivatives) };

@@ -4,6 +4,7 @@
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::coordinates::Coordinates;
 use super::failure_log::FailureLog;
 use super::outputs::Column;
 use super::request::Request;
@@ -12,10 +13,9 @@ use super::writer::{RowSlices, Writer};
 use crate::branch::branch::BranchLocation;
 use crate::branch::design::Design;
 use crate::branch::uniform::{Traced, UniformTracer};
-use crate::math::angle::{MAX_TURNED, Reference, unwrap_to};
+use crate::math::angle::{Reference, unwrap_to};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
-use crate::math::vector::Vector;
 use crate::plan::compile_tape::Needs;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::tape::Tape;
@@ -33,19 +33,17 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     pub(super) design: Design<'a>,
     pub(super) writer: &'a Writer<'a>,
     columns: &'a [Column],
-    uniform: UniformTracer<R, G>,
+    /// Made for the first design that needs it.
+    uniform: Option<Box<UniformTracer<R, G>>>,
     one: State,
     /// The dimension to differentiate by, with its workspace.
     by: Option<(usize, Sensitivity)>,
     pub(super) many: State<R, G>,
     /// Angles of the classes.
     pub(super) lifted: Vec<[R; G]>,
-    /// Driver lanes of the last job, and the index of its first shared coordinate.
-    pub(super) coordinates: Vec<DriverLanes<R>>,
-    shared: Option<usize>,
-    /// Whether one of them is too far for angles that turn with the driver.
-    is_far: bool,
-    /// Locations of these lanes on the branch.
+    /// Of the last job.
+    pub(super) coordinates: Coordinates<R, G>,
+    /// Locations of these registers on the branch.
     pub(super) locations: Vec<BranchLocation<R>>,
     /// Whether that branch was a uniform one.
     locations_even: bool,
@@ -72,13 +70,6 @@ pub(crate) struct Job<'j, 'r> {
     pub shared: Option<usize>,
 }
 
-/// A register of positions of a driven angle: the part that does not depend on the design.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct DriverLanes<R> {
-    pub(super) q: R,
-    pub(super) unit: Vector<R>,
-}
-
 impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     pub(crate) fn new(
         mechanism: &'a Mechanism,
@@ -102,14 +93,12 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let tape =
             Tape::new(plan, Needs { points: &points, classes: &writer.asked, samples: false });
         Self {
-            uniform: design.uniform_tracer(),
+            uniform: None,
             one: State::new(plan, derivatives),
             by: request.by.map(|index| (index, Sensitivity::new(plan, derivatives))),
             many,
             lifted: vec![[R::ZERO; G]; plan.classes],
-            coordinates: Vec::new(),
-            shared: None,
-            is_far: false,
+            coordinates: Coordinates::new(),
             locations: Vec::new(),
             locations_even: false,
             design,
@@ -179,7 +168,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
         }
         self.load_coordinates(job);
-        if surveyed && self.is_far {
+        if surveyed && self.coordinates.is_far {
             surveyed = trace(self, job, false);
         }
         let mut doubts = if surveyed || self.is_plain() { 0 } else { MAX_DOUBTS };
@@ -226,9 +215,13 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         // The first guess of a group's iteration depends on how its branch was traced.
         if self.care == Care::Needed || self.design.has_groups() {
             let plain = plain && self.care == Care::Needed && self.tape.is_bounded;
-            let references = plain.then_some(&mut self.references[..]);
-            let classes = &self.writer.classes;
-            traced = self.design.trace_in_lanes::<L, G>(&mut self.uniform, classes, references);
+            let mut references = plain.then_some(&mut self.references[..]);
+            let (design, classes) = (&mut self.design, &self.writer.classes);
+            traced = design.trace_in_closed_form(classes, references.as_deref_mut());
+            if traced == Traced::No {
+                let uniform = self.uniform.get_or_insert_with(|| Box::new(design.uniform_tracer()));
+                traced = design.trace_in_lanes::<L, G>(uniform, classes, references);
+            }
         }
         if traced == Traced::No {
             match self.care {
@@ -239,21 +232,13 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         traced == Traced::Surveyed
     }
 
-    /// Loads the coordinates into registers; sines and cosines of shared ones are kept.
+    /// Loads the coordinates into registers; those that all designs share are kept.
     #[inline(always)]
     fn load_coordinates(&mut self, job: &Job<'_, '_>) {
         let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
-        if !(is_angle && job.shared.is_some() && self.shared == job.shared) {
-            self.shared = job.shared;
-            self.coordinates.clear();
+        let scale = self.design.units.coordinate[0];
+        if self.coordinates.load(job.q, job.shared, is_angle, scale) {
             self.locations.clear();
-            self.is_far = job.q.iter().any(|q| q.abs() > MAX_TURNED);
-            let scale = self.design.units.coordinate[0];
-            for some in job.q.chunks(R::LANES) {
-                let q = R::from_lanes(|i| some[i.min(some.len() - 1)] * scale);
-                let unit = if is_angle { Vector::at_angle(q) } else { Vector::ONE };
-                self.coordinates.push(DriverLanes { q, unit });
-            }
         }
     }
 
@@ -268,10 +253,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         self.locations_even = branch.inverse_width.is_some();
         if branch.at.is_empty() {
             // There is nothing to locate.
-            self.locations.resize_with(self.coordinates.len(), BranchLocation::default);
+            self.locations.resize_with(self.coordinates.registers, BranchLocation::default);
         } else if self.locations.is_empty() {
-            for coordinate in &self.coordinates {
-                self.locations.push(branch.locate(coordinate.q));
+            for register in 0..self.coordinates.registers {
+                self.locations.push(branch.locate(self.coordinates.q(register)));
             }
         }
     }
@@ -304,7 +289,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let constant_signs = branch.has_constant_signs();
         let (even, plain) = (branch.inverse_width.is_some(), branch.is_plain());
         for group in 0..groups {
-            let DriverLanes { q, unit } = self.coordinates[first + group];
+            let q = self.coordinates.q(first + group);
             let location = &self.locations[first + group];
             if !(even || plain && closed_forms) {
                 care[group] = self.lanes_to_redo(q, location, !closed_forms);
@@ -312,7 +297,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             let branch = &self.design.branch;
             // Lanes to redo are set to NaN: their vector result is not used.
             self.many.q[0][group] = R::select(care[group], R::splat(f64::NAN), q);
-            self.many.unit[0][group] = unit;
+            self.many.unit[0][group] = self.coordinates.unit(first + group);
             if !constant_signs {
                 for (sign, groups) in self.many.signs.iter_mut().enumerate() {
                     groups[group] = R::from_lanes(|i| branch.signs_at(location, i)[sign]);
@@ -345,7 +330,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let with = (&design.constants, &design.units);
         let (mut open, mut some_open, mut again) = ([R::Mask::NONE; G], false, false);
         for group in 0..groups.min(G) {
-            care[group] = care[group].or(self.coordinates[first + group].q.finite().not());
+            care[group] = care[group].or(self.coordinates.q(first + group).finite().not());
             if closed_forms {
                 open[group] = state.open[group].and(care[group].not());
                 some_open |= open[group].any();

@@ -4,163 +4,225 @@
 //! discriminant of every dyad stays away from zero. Where it may not, and where a stretch may begin
 //! or end that can be reached, the cell needs a closer look.
 
-use super::knot::may_vanish;
-use super::uniform::KNOTS;
+use super::uniform::{KNOTS, previous};
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::plan::dyad::Dyad;
-use crate::state::dyad::sample::Sample;
+use crate::state::dyad::sample::{Gap, Sample};
 use crate::state::state::{Context, State};
 
-/// A discriminant that differs from the trapezoidal rule by this part of itself varies too fast to
-/// be judged by its ends.
+/// A square that differs from the trapezoidal rule by this part of itself varies too fast to be
+/// judged by its ends.
 const MAX_CURVATURE: f64 = 0.5;
+/// How many times its fall between two knots the square of a discriminant must be away from zero:
+/// touching zero in between it would be at most half of it.
+const MAX_SQUARE_FALLS: f64 = 2.0;
 /// How many times its fall between two knots a margin must be away from zero.
 const MAX_FALLS: f64 = 4.0;
-/// How fast (of the size, per unit of the path) the margin of a dyad may vary that depends on more
-/// than two points.
+/// How fast (of the size, per unit of the path) the margin of a dyad without a kernel may vary.
 const MAX_GAP_RATE: f64 = 8.0;
-/// How many times its change over the last cell before a dead point the discriminant of a later
-/// dyad must be away from zero: it varies as the square root of the distance there.
-const MAX_CHANGES: f64 = 8.0;
+/// How many times its change over the last cell before a dead point the square of a later dyad must
+/// be away from zero: it varies as the square root of the distance there.
+const MAX_CHANGES: f64 = 6.0;
 
-/// Margin below which a dyad counts as flat: it grows with the square of the distance from a change
+/// Square below which a dyad counts as flat: it grows with the square of the distance from a change
 /// point, so this is 1e-6 rad from one.
-const FLAT_MARGIN: f64 = 1.0e-12;
+const FLAT_SQUARE: f64 = 1.0e-12;
 
 /// Entries for every knot, those beside, and as many more as a register has.
 const SAMPLES: usize = KNOTS + 2 + LANES;
 
-/// What a dyad shows at the knots. The first entry belongs to the knot before the first, the last
-/// to the one after the last; neither is known.
-#[derive(Debug, Clone)]
-pub(crate) struct DyadSamples {
-    /// Discriminant and its derivative.
-    value: [f64; SAMPLES],
-    rate: [f64; SAMPLES],
-    /// By how much it closes; −∞ where a dyad before it does not.
-    margin: [f64; SAMPLES],
-    /// The least margin of the dyads before it.
-    upstream: [f64; SAMPLES],
-    /// How fast the margin may vary, per unit of the path.
-    speed: [f64; SAMPLES],
+/// One bit per knot; a cell has that of the knot at its end.
+pub(super) type Bits = u32;
+
+const _: () = assert!(KNOTS <= Bits::BITS as usize, "a bit for every knot");
+
+/// Whether the bit of a knot is set.
+#[inline(always)]
+pub(super) fn has(bits: Bits, knot: usize) -> bool {
+    bits >> knot & 1 != 0
 }
 
-/// Cells before a register of knots.
-pub(crate) struct Cells<M> {
+/// Cells that end at knots of which this is true at both ends.
+#[inline(always)]
+fn at_both_ends(bits: Bits) -> Bits {
+    bits & bits << 1
+}
+
+/// Whether a square that is positive at two knots may touch zero between them: it falls at one and
+/// rises at the other, both fast enough.
+#[inline(always)]
+pub(super) fn may_touch<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell: R) -> R::Mask {
+    let falls = R::splat(MAX_SQUARE_FALLS) * cell;
+    from.lt(-(falls * fall)).and(to.lt(falls * rise))
+}
+
+/// What a dyad shows at the knots of one look.
+#[derive(Debug, Clone)]
+pub(super) struct DyadSamples {
+    /// See [`Sample::square`]. The first entry belongs to the knot before the first, the last to
+    /// the one after the last; neither is known.
+    square: [f64; SAMPLES],
+    /// Knots at which all dyads before it close …
+    known: Bits,
+    /// … and at which it closes too.
+    pub closes: Bits,
+}
+
+/// Cells of one look.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Cells {
     /// In which the discriminant may vanish, or an interval may hide that can be reached.
-    pub uncertain: M,
-    /// In which it varies too fast to be judged, as it does beside a dead point.
-    pub curved: M,
+    pub uncertain: Bits,
+    /// In which it varies too fast to be judged.
+    pub curved: Bits,
     /// With a dead point.
-    pub dead_point: M,
+    pub dead_point: Bits,
     /// Where neither end can be reached, but some position between them might.
-    pub may_hide_island: M,
+    pub may_hide_island: Bits,
+}
+
+/// The knots of one look, and what is asked of them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Knots {
+    /// Registers of them.
+    pub groups: usize,
+    /// Width of a cell.
+    pub cell: f64,
+    /// Whether islands matter.
+    pub islands: bool,
 }
 
 impl DyadSamples {
-    pub(crate) const NONE: Self = Self {
-        value: [0.0; SAMPLES],
-        rate: [0.0; SAMPLES],
-        margin: [f64::NEG_INFINITY; SAMPLES],
-        upstream: [f64::NEG_INFINITY; SAMPLES],
-        speed: [0.0; SAMPLES],
-    };
+    pub(super) const NONE: Self =
+        Self { square: [f64::NEG_INFINITY; SAMPLES], known: 0, closes: 0 };
 
-    /// Takes what a dyad shows at a register of knots; `before`: the dyad solved before it. False if
-    /// it is flat at one of them: whether its sign changes there cannot be seen.
+    /// Takes what a dyad shows at the knots, and judges the cells. `known`: knots at which all
+    /// dyads before it close; `settled`: its sign is known to be constant. `None` if it is flat at a
+    /// knot: whether its sign changes there cannot be seen.
     #[inline(always)]
-    pub(crate) fn take<R: Real, const G: usize>(
+    pub(super) fn judge<R: Real, const G: usize>(
         &mut self,
         state: &State<R, G>,
-        group: usize,
         cx: &Context<'_>,
         dyad: &Dyad,
-        before: Option<&Self>,
-    ) -> bool {
-        let Sample { value, rate, margin } =
-            state.sample(group, cx, dyad, &cx.tape.ops[cx.tape.dyads[dyad.index]]);
-        let first = 1 + group * R::LANES;
-        let upstream = match before {
-            Some(before) => lanes::<R>(&before.upstream, first).min(lanes(&before.margin, first)),
-            None => R::splat(f64::INFINITY),
-        };
-        let known = R::ZERO.lt(upstream);
-        let margin = R::select(known, margin, R::splat(f64::NEG_INFINITY));
-        let definite = R::splat(FLAT_MARGIN).lt(margin.abs());
-        let speed = if dyad.rrr_classes.is_some() {
-            let [start, end] = [dyad.start * state.len + 1, dyad.end * state.len + 1];
-            // Behind no other dyad, both points turn about fixed ones: their speed is constant.
-            let factor = if before.is_none() { 1.0 } else { MAX_FALLS };
-            R::splat(factor) * (state.points[end][group] - state.points[start][group]).norm()
-        } else {
-            R::splat(MAX_GAP_RATE)
-        };
-        for lane in 0..R::LANES {
-            self.speed[first + lane] = speed.lane(lane);
-            self.value[first + lane] = value.lane(lane);
-            self.rate[first + lane] = rate.lane(lane);
-            self.upstream[first + lane] = upstream.lane(lane);
-            self.margin[first + lane] = margin.lane(lane);
+        knots: Knots,
+        (known, settled): (Bits, bool),
+    ) -> Option<Cells> {
+        let op = &cx.tape.ops[cx.tape.dyads[dyad.index]];
+        let cell = R::splat(knots.cell);
+        let half = R::splat(0.5 * knots.cell);
+        let (mut closes, mut flat, mut vanishing, mut curved) = (0, 0, 0, 0);
+        let nothing = Sample { square: R::ZERO, rate: R::ZERO, side: R::ZERO };
+        let mut last = nothing;
+        for group in 0..knots.groups.min(G) {
+            let first = group * R::LANES;
+            let Sample { square, rate, side } = state.sample(group, cx, dyad, op);
+            for lane in 0..R::LANES {
+                self.square[1 + first + lane] = square.lane(lane);
+            }
+            closes |= R::ZERO.lt(square).bits() << first;
+            flat |= R::splat(FLAT_SQUARE).lt(square.abs()).not().bits() << first;
+            if settled {
+                continue;
+            }
+            let before = previous(last.square.lane(R::LANES - 1), square);
+            let rate_before = previous(last.rate.lane(R::LANES - 1), rate);
+            let side_before = previous(last.side.lane(R::LANES - 1), side);
+            let curvature = (square - before) - half * (rate + rate_before);
+            let least = square.min(before);
+            let straight = curvature.abs().lt(R::splat(MAX_CURVATURE) * least);
+            let touches = may_touch((before, rate_before), (square, rate), cell);
+            let same_side = R::ZERO.lt(side * side_before);
+            vanishing |= touches.or(same_side.not()).bits() << first;
+            curved |= straight.not().bits() << first;
+            last = Sample { square, rate, side };
         }
-        !known.and(definite.not()).any()
+        let count = knots.groups * R::LANES;
+        let own = Bits::MAX >> (Bits::BITS as usize - count);
+        if known & flat & own != 0 {
+            return None;
+        }
+        (self.known, self.closes) = (known, known & closes);
+        // The cell before the first knot belongs to no look.
+        let (cells, closes) = (at_both_ends(known) & own & !1, self.closes);
+        let inside = cells & at_both_ends(closes);
+        let outside = cells & at_both_ends(!closes);
+        let mut judged = Cells { dead_point: cells & !inside & !outside, ..Cells::default() };
+        if !settled {
+            judged.curved = curved & inside;
+            judged.uncertain = vanishing & inside;
+            if outside != 0 {
+                judged.uncertain |= self.may_close::<R>(count) & outside;
+            }
+        }
+        if knots.islands && outside != 0 {
+            judged.may_hide_island = may_hide_island(state, cx, dyad, knots) & outside;
+        }
+        Some(judged)
     }
 
-    /// Judges the cells (of width `cell`) before the register of knots that begins with `first`.
+    /// Cells in which a dyad might close that closes at neither end: the square would have to rise
+    /// from both sides.
     #[inline(always)]
-    pub(crate) fn judge<R: Real>(&self, first: usize, cell: f64) -> Cells<R::Mask> {
-        let cell = R::splat(cell);
-        let (n, dn) = (lanes::<R>(&self.value, first + 1), lanes::<R>(&self.rate, first + 1));
-        let (n0, dn0) = (lanes::<R>(&self.value, first), lanes::<R>(&self.rate, first));
-        let (m, m0) = (lanes::<R>(&self.margin, first + 1), lanes::<R>(&self.margin, first));
-        let upstream = lanes::<R>(&self.upstream, first + 1).min(lanes(&self.upstream, first));
-        let known = R::ZERO.lt(upstream);
-        let speed = lanes::<R>(&self.speed, first + 1).max(lanes(&self.speed, first));
-        let (closes, closed) = (R::ZERO.lt(m), R::ZERO.lt(m0));
-        // Both ends close.
-        let curvature = (n - n0) - R::splat(0.5) * cell * (dn + dn0);
-        let least = n.abs().min(n0.abs());
-        let straight = curvature.abs().lt(R::splat(MAX_CURVATURE) * least);
-        let same_side = R::ZERO.lt(n * n0);
-        let vanishing = may_vanish((n0, dn0), (n, dn), cell).or(same_side.not());
-        // Neither closes: the margin would have to rise from both sides.
-        let mut before = [f64::NEG_INFINITY; LANES];
-        for lane in usize::from(first == 0)..R::LANES {
-            before[lane] = self.margin[first + lane - 1];
-        }
-        let before = R::from_lanes(|lane| before[lane]);
-        let (rise, fall) = (m0 - before, m - lanes::<R>(&self.margin, first + 2));
+    fn may_close<R: Real>(&self, count: usize) -> Bits {
+        let mut cells = 0;
         let falls = R::splat(MAX_FALLS);
-        let both = R::ZERO.lt(rise).and(R::ZERO.lt(fall));
-        let may_close = both.and((-m0).lt(falls * rise)).and((-m).lt(falls * fall));
-        let inside = closes.and(closed).and(vanishing);
-        let outside = closes.or(closed).not().and(may_close);
-        Cells {
-            uncertain: known.and(inside.or(outside)),
-            curved: known.and(closes).and(closed).and(straight.not()),
-            dead_point: known.and(closes.or(closed)).and(closes.and(closed).not()),
-            may_hide_island: known.and(closes.or(closed).not()).and((-m0 - m).lt(speed * cell)),
+        for first in (0..count).step_by(R::LANES) {
+            // The knot before the first is not known.
+            let before = R::from_lanes(|lane| self.square[(first + lane).max(1) - 1]);
+            let from = R::from_lanes(|lane| self.square[first + lane]);
+            let to = R::from_lanes(|lane| self.square[first + lane + 1]);
+            let after = R::from_lanes(|lane| self.square[first + lane + 2]);
+            let (rise, fall) = (from - before, to - after);
+            let both = R::ZERO.lt(rise).and(R::ZERO.lt(fall));
+            let near = (-from).lt(falls * rise).and((-to).lt(falls * fall));
+            cells |= both.and(near).bits() << first;
         }
+        cells
     }
 
     /// Whether the discriminant stays away from zero from the last knot before a dead point of an
     /// earlier dyad (in the cell before `knot`) up to that point.
-    pub(crate) fn stays_away(&self, knot: usize) -> bool {
-        // The knot before and the knot itself, counted from 1 as the samples are.
-        let [near, far] = match [knot, knot + 1].map(|at| self.upstream[at] > 0.0) {
-            [true, false] => [knot, knot - 1],
-            [false, true] => [knot + 1, knot + 2],
+    pub(super) fn stays_away(&self, knot: usize) -> bool {
+        let known = |at: usize| has(self.known, at);
+        // The two knots before the dead point; the farther one may belong to another look.
+        let (near, far) = match (known(knot - 1), known(knot)) {
+            (true, false) => (knot - 1, knot.checked_sub(2)),
+            (false, true) => (knot, Some(knot + 1)),
             _ => return true,
         };
-        let closes = |at: usize| self.upstream[at] > 0.0 && self.margin[at] > 0.0;
-        let change = self.value[near] - self.value[far];
         // If it does not close there, a gap of its own ends before the dead point.
-        !closes(near) || closes(far) && change.abs() * MAX_CHANGES < self.value[near].abs()
+        !has(self.closes, near)
+            || far.is_some_and(|far| {
+                let [near, value] = [near, far].map(|at| self.square[at + 1]);
+                let known = far < Bits::BITS as usize && has(self.closes, far);
+                known && (near - value).abs() * MAX_CHANGES < near
+            })
     }
 }
 
-/// As many numbers as a register holds.
+/// Cells between two knots at which a dyad does not close that are short enough for it to close
+/// between them.
 #[inline(always)]
-fn lanes<R: Real>(numbers: &[f64; SAMPLES], first: usize) -> R {
-    let some = &numbers[first..first + R::LANES];
-    R::from_lanes(|lane| some[lane])
+fn may_hide_island<R: Real, const G: usize>(
+    state: &State<R, G>,
+    cx: &Context<'_>,
+    dyad: &Dyad,
+    knots: Knots,
+) -> Bits {
+    let op = &cx.tape.ops[cx.tape.dyads[dyad.index]];
+    // Behind no other dyad, both points turn about fixed ones: their speed is constant.
+    let factor = R::splat(if dyad.index == 0 { 1.0 } else { MAX_FALLS });
+    let (mut last, mut last_rate) = (R::ZERO, R::ZERO);
+    let mut cells = 0;
+    for group in 0..knots.groups.min(G) {
+        let Gap { margin, speed } = state.gap(group, cx, dyad, op);
+        let rate = if let Some(speed) = speed { factor * speed } else { R::splat(MAX_GAP_RATE) };
+        let before = previous(last.lane(R::LANES - 1), margin);
+        let fastest = rate.max(previous(last_rate.lane(R::LANES - 1), rate));
+        let near = (-before - margin).lt(fastest * R::splat(knots.cell));
+        cells |= near.bits() << (group * R::LANES);
+        (last, last_rate) = (margin, rate);
+    }
+    cells
 }

@@ -1,4 +1,4 @@
-//! A mechanism of a crank and one dyad: its change points follow from the extremes of one distance,
+//! A dyad on a crank and the ground: its change points follow from the extremes of one distance,
 //! without solving a position.
 
 use crate::plan::constants::DesignConstants;
@@ -9,9 +9,11 @@ use crate::plan::plan::{EdgeSlide, Plan, Step};
 /// closely: far above rounding, and far below what a design meets by chance.
 const NEAR: f64 = 1.0e-9;
 
-/// Where the only dyad of a mechanism is attached: to a crank on the ground, and to the ground.
+/// Where such a dyad is attached: to a crank on the ground, and to the ground.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CrankDyad {
+    /// Index of the dyad.
+    dyad: usize,
     /// The crank's edge, and the fixed point about which it turns.
     crank: usize,
     pivot: usize,
@@ -22,13 +24,8 @@ pub(crate) struct CrankDyad {
 }
 
 impl CrankDyad {
-    /// The attachment, if the mechanism is of this kind.
-    pub(crate) fn of(plan: &Plan) -> Option<Self> {
-        let mut dyads = plan.dyads();
-        let (Some(dyad), None) = (dyads.next(), dyads.next()) else { return None };
-        if !plan.has_closed_forms() {
-            return None;
-        }
+    /// The attachment, if the dyad is of this kind.
+    pub(crate) fn of(plan: &Plan, dyad: &Dyad) -> Option<Self> {
         let guide = match dyad.form {
             Form::TwoCircles if dyad.rrr_classes.is_some() => None,
             Form::CircleAndLine if dyad.leg[0] => Some(fixed_guide(plan, dyad)?),
@@ -47,14 +44,20 @@ impl CrankDyad {
             }
             _ => None,
         })?;
-        (plan.edges[crank].class == 0).then_some(Self { crank, pivot, ground, guide })
+        (plan.edges[crank].class == 0).then_some(Self {
+            dyad: dyad.index,
+            crank,
+            pivot,
+            ground,
+            guide,
+        })
     }
 
     /// Whether the dyad is nowhere near flat at the extremes, so that its sign never changes.
     pub(crate) fn keeps_sign(&self, constants: &DesignConstants) -> bool {
         let crank = constants.edge_vector[self.crank].norm();
         let frame = constants.fixed[self.ground] - constants.fixed[self.pivot];
-        let [[a, b]] = constants.legs[..] else { return false };
+        let [a, b] = &constants.legs[self.dyad];
         if let Some(guide) = self.guide {
             // The line of the far joint, and the distance of the crank's pin from it.
             let line = frame + constants.edge_vector[guide];
@@ -109,7 +112,9 @@ mod tests {
     }
 
     fn keeps_sign(mechanism: &Mechanism, dimensions: &[f64]) -> bool {
-        let dyad = CrankDyad::of(mechanism.plan()).expect("a crank and a dyad");
+        let plan = mechanism.plan();
+        let dyad = plan.dyads().find_map(|dyad| CrankDyad::of(plan, dyad));
+        let dyad = dyad.expect("a dyad on a crank");
         dyad.keeps_sign(&DesignConstants::new(mechanism.plan(), &mechanism.slots, dimensions))
     }
 

@@ -20,7 +20,7 @@ use crate::plan::constants::DesignConstants;
 use crate::plan::constants_rate::ConstantsRate;
 use crate::plan::dyad::Unknown;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::plan::Step;
+use crate::plan::plan::{Plan, Step};
 use crate::plan::tape::Tape;
 use crate::state::kernel::Level;
 use crate::state::kernel::portable::Portable;
@@ -63,8 +63,10 @@ pub(crate) struct Design<'a> {
     /// Whether all steps have closed forms: then lanes close or not by the same bits as single
     /// positions. Groups iterate, and redundant links close within a tolerance.
     pub(crate) closed_forms: bool,
-    /// The only dyad, if it is on a crank and the ground.
-    crank_dyad: Option<CrankDyad>,
+    /// For every dyad: where it is attached, if it is on a crank and the ground.
+    crank_dyads: Vec<Option<CrankDyad>>,
+    /// For every dyad of the present design, whether its sign is known to be constant.
+    settled: Vec<bool>,
     lane_tracer: LaneTracer,
     /// Range around a change point within which the motion is interpolated.
     pub change_window: ChangeWindow,
@@ -94,7 +96,8 @@ impl<'a> Design<'a> {
             q0: Vec::new(),
             branch: Branch::default(),
             closed_forms: mechanism.plan().has_closed_forms(),
-            crank_dyad: CrankDyad::of(mechanism.plan()),
+            crank_dyads: crank_dyads(mechanism.plan()),
+            settled: Vec::new(),
             lane_tracer: LaneTracer::default(),
             change_window: ChangeWindow::SHORT,
             interpolants: RefCell::default(),
@@ -223,14 +226,56 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Traces the branch by knots in lanes, with the angles of `classes`. With `references`, a plain
-    /// design gets these in place of angles at knots (see [`UniformTracer::survey`]).
+    /// Traces the branch without solving a position, if all dyads are on cranks and the ground.
+    /// With `references`, the design gets these in place of angles at knots.
+    #[inline(always)]
+    pub(crate) fn trace_in_closed_form(
+        &mut self,
+        classes: &[usize],
+        references: Option<&mut [Reference]>,
+    ) -> Traced {
+        self.settled.clear();
+        if !(self.closed_forms && self.has_one_rotary_driver()) {
+            self.settled.resize(self.crank_dyads.len(), false);
+            return Traced::No;
+        }
+        let keeps_sign = |dyad: &Option<CrankDyad>| {
+            dyad.as_ref().is_some_and(|dyad| dyad.keeps_sign(&self.constants))
+        };
+        self.settled.extend(self.crank_dyads.iter().map(keeps_sign));
+        if !self.settled.iter().all(|&settled| settled) {
+            return Traced::No;
+        }
+        let start = &self.mechanism.class_angle;
+        if classes.is_empty() {
+            self.branch.set_constant_signs(start.len(), &self.signs);
+            return Traced::Whole;
+        }
+        let Some(references) = references else { return Traced::No };
+        let cx = self.tracing_context();
+        if self.crank_dyads.len() > 1
+            || !find_references(&cx, self.q0[0], start, classes, references)
+        {
+            return Traced::No;
+        }
+        self.branch.set_constant_signs(start.len(), &self.signs);
+        Traced::Surveyed
+    }
+
+    /// The context of knots.
+    fn tracing_context(&self) -> Context<'_> {
+        Context { tape: &self.tracing_tape, ..self.context(&self.tracing_derivatives) }
+    }
+
+    /// Traces the branch by knots in lanes, with the angles of `classes`, where
+    /// [`Self::trace_in_closed_form`] does not. With `references`, a plain design gets these in
+    /// place of angles at knots (see [`UniformTracer::survey`]).
     #[inline(always)]
     pub(crate) fn trace_in_lanes<L: Level, const G: usize>(
         &mut self,
         uniform: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
-        mut references: Option<&mut [Reference]>,
+        references: Option<&mut [Reference]>,
     ) -> Traced {
         if !self.has_one_rotary_driver() {
             return Traced::No;
@@ -239,13 +284,6 @@ impl<'a> Design<'a> {
             return Traced::No;
         }
         let start = &self.mechanism.class_angle;
-        let signs_only = self.closed_forms && classes.is_empty();
-        let keeps_sign = (signs_only || references.is_some())
-            && self.crank_dyad.is_some_and(|dyad| dyad.keeps_sign(&self.constants));
-        if signs_only && keeps_sign {
-            self.branch.set_constant_signs(start.len(), &self.signs);
-            return Traced::Whole;
-        }
         let cx = Context {
             plan: self.mechanism.plan(),
             constants: &self.constants,
@@ -254,15 +292,10 @@ impl<'a> Design<'a> {
             tape: &self.tracing_tape,
         };
         let (branch, tracer) = (&mut self.branch, &mut self.lane_tracer);
-        if let (true, Some(references)) = (keeps_sign, references.as_deref_mut())
-            && find_references(&cx, self.q0[0], start, classes, references)
-        {
-            branch.set_constant_signs(start.len(), cx.signs);
-            return Traced::Surveyed;
-        }
         uniform.solve_knots::<L>(&cx, self.q0[0], !classes.is_empty());
-        let mut turns_fully = !signs_only;
-        if let (Some(references), true) = (references, self.closed_forms) {
+        let mut turns_fully = !(self.closed_forms && classes.is_empty());
+        if let (Some(references), true, false) = (references, self.closed_forms, classes.is_empty())
+        {
             let plain = uniform.survey(&cx, classes, start, references);
             if plain == Some(true) {
                 branch.set_constant_signs(start.len(), cx.signs);
@@ -270,8 +303,10 @@ impl<'a> Design<'a> {
             }
             turns_fully &= plain.is_some();
         }
+        let settled = &self.settled;
         let traced = turns_fully && uniform.trace(&cx, classes, start, branch)
-            || self.closed_forms && tracer.trace::<L, G>(&cx, uniform, classes, start, branch);
+            || self.closed_forms
+                && tracer.trace::<L, G>(&cx, uniform, classes, start, settled, branch);
         if traced { Traced::Whole } else { Traced::No }
     }
 
@@ -303,9 +338,10 @@ impl<'a> Design<'a> {
         if self.closed_forms && self.has_one_rotary_driver() {
             let classes: Vec<usize> = (1..self.mechanism.class_angle.len()).collect();
             let mut uniform = self.uniform_tracer::<Lanes<2>, { KNOTS / 2 }>();
-            let traced =
-                self.trace_in_lanes::<Portable, { KNOTS / 2 }>(&mut uniform, &classes, None);
-            if traced == Traced::Whole {
+            let whole = self.trace_in_closed_form(&classes, None) == Traced::Whole
+                || self.trace_in_lanes::<Portable, { KNOTS / 2 }>(&mut uniform, &classes, None)
+                    == Traced::Whole;
+            if whole {
                 return;
             }
         }
@@ -498,4 +534,8 @@ impl<'a> Design<'a> {
         }
         !matches!(state.status, Status::Singular | Status::Unreachable | Status::NotConverged)
     }
+}
+
+fn crank_dyads(plan: &Plan) -> Vec<Option<CrankDyad>> {
+    plan.dyads().map(|dyad| CrankDyad::of(plan, dyad)).collect()
 }

@@ -8,12 +8,13 @@
 use std::f64::consts::TAU;
 
 use super::branch::Branch;
-use super::cell_test::DyadSamples;
+use super::cell_test::{Bits, DyadSamples, Knots, has};
 use super::uniform::{CELL, KNOTS, UniformTracer};
 use crate::math::angle::{unwrap_to, whole_turns};
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
+use crate::plan::dyad::Dyad;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
@@ -31,17 +32,6 @@ const DEAD_POINT_LEVELS: usize = 3;
 const MAX_LOOKS: usize = 256;
 /// Levels at which islands are searched for: down to the 200th part of a cell.
 const ISLAND_LEVELS: usize = 2;
-
-/// One bit per knot; a cell has that of the knot at its end.
-type Bits = u32;
-
-const _: () = assert!(KNOTS <= Bits::BITS as usize, "a bit for every knot");
-
-/// Whether the bit of a knot is set.
-#[inline(always)]
-fn has(bits: Bits, knot: usize) -> bool {
-    bits >> knot & 1 != 0
-}
 
 /// What one look showed.
 #[derive(Debug, Default)]
@@ -80,7 +70,7 @@ pub(crate) struct LaneTracer {
 impl LaneTracer {
     /// Traces the turn whose knots have been solved into `branch`, with the angles of `classes`;
     /// false if the design is not one of constant signs and smooth angles. `start`: the drawing's
-    /// angles.
+    /// angles; `settled`: dyads whose signs are known to be constant.
     #[inline(always)]
     pub(crate) fn trace<L: Level, const G: usize>(
         &mut self,
@@ -88,13 +78,14 @@ impl LaneTracer {
         knots: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
         start: &[f64],
+        settled: &[bool],
         branch: &mut Branch,
     ) -> bool {
         branch.set_constant_signs(start.len(), cx.signs);
         self.last.clear();
         self.last.extend(classes.iter().map(|&class| start[class]));
         self.first.clear();
-        if !self.looks[0].take(cx, knots, classes, (knots.first(), CELL)) {
+        if !self.looks[0].take(cx, knots, classes, settled, (knots.first(), CELL)) {
             return false;
         }
         if !classes.is_empty() {
@@ -123,7 +114,8 @@ impl LaneTracer {
                 knots.solve_between::<L>(cx, (from, width), !classes.is_empty());
                 level += 1;
                 count += 1;
-                let taken = self.looks[level].take(cx, knots, classes, (from, width / CELLS));
+                let within = (from, width / CELLS);
+                let taken = self.looks[level].take(cx, knots, classes, settled, within);
                 if !taken || count > MAX_LOOKS {
                     return false;
                 }
@@ -225,6 +217,7 @@ impl Look {
         cx: &Context<'_>,
         knots: &UniformTracer<R, G>,
         classes: &[usize],
+        settled: &[bool],
         (from, cell): (f64, f64),
     ) -> bool {
         (self.from, self.cell, self.next) = (from, cell, 1);
@@ -238,40 +231,33 @@ impl Look {
             }
             self.reached |= state.open[group].not().bits() << (group * R::LANES);
         }
-        let mut last_signed = 0;
+        let islands = !classes.is_empty();
+        // Without angles, dyads matter for signs that may change, and up to the last of these.
+        let unsettled = |dyad: &Dyad| dyad.sign.is_some() && !settled[dyad.index];
+        let last = cx.plan.dyads().filter(|dyad| unsettled(dyad)).last();
+        let last = last.map_or(0, |dyad| dyad.index);
+        let look = Knots { groups, cell, islands };
+        let mut known = Bits::MAX;
+        [self.uncertain, self.curved, self.dead_point, self.may_hide_island] = [0; 4];
         for (index, dyad) in cx.plan.dyads().enumerate() {
+            if !islands && index > last {
+                break;
+            }
             if self.dyads.len() == index {
                 self.dyads.push(DyadSamples::NONE);
             }
-            let (before, own) = self.dyads.split_at_mut(index);
-            for group in 0..groups {
-                if !own[0].take(state, group, cx, dyad, before.last()) {
-                    return false;
-                }
+            let own = &mut self.dyads[index];
+            let settled = settled[index];
+            let Some(cells) = own.judge(state, cx, dyad, look, (known, settled)) else {
+                return false;
+            };
+            known = own.closes;
+            self.uncertain |= cells.uncertain;
+            self.curved |= cells.curved;
+            if islands || index < last {
+                self.dead_point |= cells.dead_point;
             }
-            if dyad.sign.is_some() {
-                last_signed = index;
-            }
-        }
-        // The cell before the first knot belongs to no look.
-        let own = !1;
-        let islands = !classes.is_empty();
-        [self.uncertain, self.curved, self.dead_point, self.may_hide_island] = [0; 4];
-        for (index, dyad) in self.dyads.iter().enumerate() {
-            // Without angles, only later dyads are of interest beside a dead point.
-            let matters = index < last_signed || islands;
-            for group in 0..groups {
-                let first = group * R::LANES;
-                let cells = dyad.judge::<R>(first, cell);
-                self.uncertain |= cells.uncertain.bits() << first & own;
-                self.curved |= cells.curved.bits() << first & own;
-                if matters {
-                    self.dead_point |= cells.dead_point.bits() << first & own;
-                }
-                if islands {
-                    self.may_hide_island |= cells.may_hide_island.bits() << first & own;
-                }
-            }
+            self.may_hide_island |= cells.may_hide_island;
         }
         self.angles.resize(classes.len(), [0.0; KNOTS]);
         self.rates.resize(classes.len(), [0.0; KNOTS]);

@@ -11,9 +11,10 @@ use std::cell::OnceCell;
 use std::f64::consts::{PI, TAU};
 
 use super::branch::{Branch, CELLS_PER_TURN};
+use super::cell_test::may_touch;
 use super::hermite::HermiteCell;
 use super::knot::{
-    MAX_FIRST_STEP, MAX_LATER_STEPS, SignInterval, Taylor2, closes, may_vanish, prediction_failed,
+    MAX_FIRST_STEP, MAX_LATER_STEPS, SignInterval, Taylor2, closes, prediction_failed,
 };
 use crate::math::angle::{Reference, turns_between, unwrap_to, whole_turns};
 use crate::math::derivatives::DerivativeTables;
@@ -54,8 +55,8 @@ pub(crate) struct UniformTracer<R: Real, const G: usize> {
     q0: f64,
     /// Angles of the driver and their unit vectors.
     knots: Vec<(R, Vector<R>)>,
-    /// Spread and rate of every dyad with a sign at the last knot.
-    spread: Vec<(f64, f64)>,
+    /// Square of the discriminant of every dyad with a sign at the last knot, and its rate.
+    squares: Vec<(f64, f64)>,
     /// Angle of every class at the last knot, and its whole turns up to there.
     pub(crate) last_angles: Vec<(f64, f64)>,
     /// For every dyad of two guides: on which side of parallel these are at the knots before.
@@ -75,7 +76,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             is_careful: true,
             q0: f64::NAN,
             knots: Vec::new(),
-            spread: vec![(0.0, 0.0); plan.signs()],
+            squares: vec![(0.0, 0.0); plan.signs()],
             last_angles: vec![(0.0, 0.0); plan.classes],
             guide_sides: Vec::new(),
             reference: OnceCell::new(),
@@ -167,7 +168,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         branch.angles.clear();
         branch.angles.resize(KNOTS * start.len(), 0.0);
         // Before the first knot there is only the drawing.
-        self.spread.fill((0.0, 0.0));
+        self.squares.fill((0.0, 0.0));
         for (last, &angle) in self.last_angles.iter_mut().zip(start) {
             *last = (angle, 0.0);
         }
@@ -216,17 +217,17 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         let mut lines = 0;
         let mut suspect = self.not_closed(group);
         for (index, dyad) in cx.plan.dyads().enumerate() {
-            let Sample { value, rate, .. } =
+            let Sample { square, rate, side } =
                 state.sample(group, cx, dyad, &cx.tape.ops[cx.tape.dyads[index]]);
             match dyad.sign {
                 Some(sign) => {
-                    let (last, last_rate) = self.spread[sign];
-                    let before = (previous(last, value), previous(last_rate, rate));
-                    suspect = suspect.or(may_vanish(before, (value, rate), R::splat(CELL)));
-                    self.spread[sign] = (value.lane(R::LANES - 1), rate.lane(R::LANES - 1));
+                    let (last, last_rate) = self.squares[sign];
+                    let before = (previous(last, square), previous(last_rate, rate));
+                    suspect = suspect.or(may_touch(before, (square, rate), R::splat(CELL)));
+                    self.squares[sign] = (square.lane(R::LANES - 1), rate.lane(R::LANES - 1));
                 }
                 None if dyad.form == Form::TwoLines => {
-                    let positive = R::ZERO.lt(value);
+                    let positive = R::ZERO.lt(side);
                     let side = positive.any();
                     if group == 0 {
                         self.guide_sides.push(side);
@@ -255,7 +256,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         references: &mut [Reference],
     ) -> Option<bool> {
         self.guide_sides.clear();
-        self.spread.fill((0.0, 0.0));
+        self.squares.fill((0.0, 0.0));
         for group in 0..(KNOTS / R::LANES).min(G) {
             if !self.check_knots(cx, group) {
                 return None;
@@ -349,7 +350,7 @@ pub(crate) fn knots_at<R: Real>(q0: f64, first: usize) -> R {
 
 /// Each lane's predecessor; `last` is that of the first lane.
 #[inline(always)]
-fn previous<R: Real>(last: f64, lanes: R) -> R {
+pub(super) fn previous<R: Real>(last: f64, lanes: R) -> R {
     R::from_lanes(|i| if i == 0 { last } else { lanes.lane(i - 1) })
 }
 

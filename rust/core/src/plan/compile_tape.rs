@@ -10,7 +10,8 @@ pub(crate) struct Needs<'a> {
     pub points: &'a [bool],
     /// Rotations.
     pub classes: &'a [bool],
-    /// Whether dyads are sampled: their legs and the points that they connect are kept.
+    /// Whether dyads are sampled: the points that they connect are kept, and a dyad that nothing
+    /// uses is not solved.
     pub samples: bool,
 }
 
@@ -22,6 +23,7 @@ struct Uses {
     orientations: Vec<bool>,
     legs: Vec<bool>,
     classes: Vec<bool>,
+    slides: Vec<bool>,
 }
 
 impl Tape {
@@ -46,8 +48,9 @@ impl Tape {
             points: needs.points.to_vec(),
             points_bare: needs.points.to_vec(),
             orientations: vec![all || general; plan.orientations.len()],
-            legs: vec![all || general || needs.samples; plan.legs()],
+            legs: vec![all || general; plan.legs()],
             classes: needs.classes.to_vec(),
+            slides: vec![all || general || !needs.samples; plan.slide_links.len()],
         };
         let mut ops = Vec::with_capacity(plan.steps.len());
         for dyad in plan.dyads() {
@@ -57,7 +60,7 @@ impl Tape {
         for (step, what) in plan.steps.iter().enumerate().rev() {
             match what {
                 Step::Dyad(dyad) => {
-                    let op = Op::of_dyad(plan, dyad, step, &uses);
+                    let op = Op::of_dyad(plan, dyad, step, &uses, needs.samples);
                     let pin = if needs.samples { None } else { op.pin() };
                     for (point, is_start) in [(dyad.start, true), (dyad.end, false)] {
                         uses.points_bare[point] |= pin.is_none_or(|pin| pin.is_start != is_start);
@@ -85,6 +88,9 @@ impl Tape {
                     match place.kind {
                         PlaceKind::Rigid { .. } | PlaceKind::Along => {
                             uses.orientations[plan.edges[edge].orientation] = true;
+                            if let EdgeSlide::Slide(slide) = plan.edges[edge].along {
+                                uses.slides[slide] = true;
+                            }
                         }
                         PlaceKind::Leg { leg, .. } | PlaceKind::OnLeg { leg } => {
                             if let Some(leg) = uses.legs.get_mut(leg) {
@@ -184,7 +190,7 @@ fn stands(plan: &Plan, edge: usize) -> bool {
 }
 
 impl Op {
-    fn of_dyad(plan: &Plan, dyad: &Dyad, step: usize, uses: &Uses) -> Self {
+    fn of_dyad(plan: &Plan, dyad: &Dyad, step: usize, uses: &Uses, samples: bool) -> Self {
         let turns = dyad.unknowns.map(|unknown| match unknown {
             Unknown::Class(class) => uses.classes[class],
             Unknown::Slide(_) => false,
@@ -197,6 +203,12 @@ impl Op {
         }
         let turns_some =
             |i: usize| turned.iter().any(|&(_, class)| dyad.unknowns[i] == Unknown::Class(class));
+        let turns = [turns[0] || turns_some(0), turns[1] || turns_some(1)];
+        let keeps = [uses.legs[2 * dyad.index], uses.legs[2 * dyad.index + 1]];
+        let slides = dyad.unknowns.iter().any(|&unknown| match unknown {
+            Unknown::Slide(slide) => uses.slides[slide],
+            Unknown::Class(_) => false,
+        });
         let op = DyadOp {
             step,
             dyad: dyad.index,
@@ -206,10 +218,11 @@ impl Op {
             unknowns: dyad.unknowns.map(|unknown| match unknown {
                 Unknown::Class(index) | Unknown::Slide(index) => index,
             }),
-            turns: [turns[0] || turns_some(0), turns[1] || turns_some(1)],
+            turns,
             orientations: turned,
             upstream: Vec::new(),
-            keeps: [uses.legs[2 * dyad.index], uses.legs[2 * dyad.index + 1]],
+            keeps,
+            is_used: !samples || slides || turns.contains(&true) || keeps.contains(&true),
             pin: CrankPin::of(plan, dyad),
         };
         match dyad.form {

@@ -57,6 +57,8 @@ pub(crate) struct DyadOp {
     pub upstream: Vec<usize>,
     /// Whether the jet of each leg is used.
     pub keeps: [bool; 2],
+    /// Whether anything uses it.
+    pub is_used: bool,
     /// If one of its points is a crank's pin and the other belongs to the ground: that pin.
     pub pin: Option<CrankPin>,
 }

@@ -25,10 +25,10 @@ impl<R: Real, const G: usize> State<R, G> {
                 return;
             }
             match op {
-                Op::TwoLegs(op) => self.two_legs(cx, op),
-                Op::StandingGuide(op) => self.standing_guide(cx, op),
-                Op::TurningGuide(op) => self.turning_guide(cx, op),
-                Op::StandingGuides(op) => self.standing_guides::<true>(cx, op),
+                Op::TwoLegs(op) if op.is_used => self.two_legs(cx, op),
+                Op::StandingGuide(op) if op.is_used => self.standing_guide(cx, op),
+                Op::TurningGuide(op) if op.is_used => self.turning_guide(cx, op),
+                Op::StandingGuides(op) if op.is_used => self.standing_guides::<true>(cx, op),
                 Op::Place(op) => self.place_point(cx, op),
                 Op::Dyad { step } => {
                     if let Step::Dyad(dyad) = &cx.plan.steps[*step] {
@@ -49,6 +49,10 @@ impl<R: Real, const G: usize> State<R, G> {
                         }
                     }
                 }
+                Op::TwoLegs(_)
+                | Op::StandingGuide(_)
+                | Op::TurningGuide(_)
+                | Op::StandingGuides(_) => {}
             }
         }
     }
@@ -77,24 +81,24 @@ impl<R: Real, const G: usize> State<R, G> {
     ) {
         for op in &tape.ops {
             match op {
-                Op::TwoLegs(op) => {
+                Op::TwoLegs(op) if op.is_used => {
                     self.start_bound(op);
                     L::two_legs::<LEN, G>(self, cx, op);
                 }
-                Op::StandingGuide(op) => {
+                Op::StandingGuide(op) if op.is_used => {
                     self.start_bound(op);
                     L::standing_guide::<LEN, G>(self, cx, op);
                 }
-                Op::TurningGuide(op) => {
+                Op::TurningGuide(op) if op.is_used => {
                     self.start_bound(op);
                     L::turning_guide::<LEN, G>(self, cx, op);
                 }
-                Op::StandingGuides(op) => {
+                Op::StandingGuides(op) if op.is_used => {
                     self.start_bound(op);
                     L::standing_guides::<G>(self, cx, op);
                 }
                 Op::Place(op) if op.is_used => L::place::<LEN, G>(self, cx, op),
-                Op::Place(_) | Op::Dyad { .. } | Op::Group { .. } | Op::Redundant { .. } => {}
+                _ => {}
             }
         }
     }

@@ -10,16 +10,27 @@ use crate::state::state::{Context, State};
 /// See [`State::sample`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sample<R> {
-    /// Discriminant, or the determinant of two guides.
-    pub value: R,
-    /// Its derivative by the driver.
+    /// Square of the discriminant; negative where the dyad does not close. It follows from the
+    /// chord alone, and a dead point is a simple root of it.
+    pub square: R,
+    /// Its derivative by the driver; of a dyad without a kernel unknown (NaN) where it does not
+    /// close.
     pub rate: R,
-    /// By how much the dyad closes; negative where it does not.
+    /// Determinant of the directions of two guides; of any other dyad 1.
+    pub side: R,
+}
+
+/// How near an open dyad is to closing.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Gap<R> {
+    /// By how much it closes, relative to the scale; negative where it does not.
     pub margin: R,
+    /// How fast its chord changes; of a dyad without a kernel unknown.
+    pub speed: Option<R>,
 }
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Samples a dyad at a position with first analogues (see [`State::discriminant`]).
+    /// Samples a dyad at a position with first analogues of its points.
     #[inline(always)]
     pub(crate) fn sample(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, op: &Op) -> Sample<R> {
         match op {
@@ -28,22 +39,30 @@ impl<R: Real, const G: usize> State<R, G> {
             Op::TurningGuide(op) => self.sample_turning_guide(g, cx, op),
             Op::StandingGuides(op) => {
                 let [a, b] = cx.constants.dyads[op.dyad].guides;
-                Sample { value: R::splat(a.cross(b)), rate: R::ZERO, margin: R::ONE }
+                Sample { square: R::ONE, rate: R::ZERO, side: R::splat(a.cross(b)) }
             }
-            _ => self.sample_steps(g, cx, dyad),
+            _ => self.sample_solved(g, cx, dyad),
         }
     }
 
-    /// The same for any dyad that was solved carefully.
+    /// The same for a dyad without a kernel, solved carefully.
     #[inline(always)]
-    pub(crate) fn sample_steps(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> Sample<R> {
+    fn sample_solved(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> Sample<R> {
         let margin = self.margin[dyad.index][g];
-        let (value, rate) = match (dyad.sign, dyad.form) {
-            (Some(_), _) => self.discriminant(g, cx, dyad, 1),
-            (None, Form::TwoLines) => (self.determinant(g, cx, dyad), R::ZERO),
-            (None, _) => (R::ONE, R::ZERO),
-        };
-        Sample { value, rate, margin }
+        let closes = R::ZERO.lt(margin);
+        if dyad.sign.is_some() {
+            let (value, rate) = self.discriminant(g, cx, dyad, 1);
+            let square = R::select(closes, value * value, margin);
+            let rate = R::splat(2.0) * (value * rate);
+            return Sample {
+                square,
+                rate: R::select(closes, rate, R::splat(f64::NAN)),
+                side: R::ONE,
+            };
+        }
+        let two_lines = dyad.form == Form::TwoLines;
+        let side = if two_lines { self.determinant(g, cx, dyad) } else { R::ONE };
+        Sample { square: R::select(closes, R::ONE, margin), rate: R::ZERO, side }
     }
 
     /// Value and first analogue of the vector from the start of a dyad to its end.
@@ -56,49 +75,73 @@ impl<R: Real, const G: usize> State<R, G> {
         ]
     }
 
+    /// The sine of the angle between the legs, from its cosine.
     #[inline(always)]
     fn sample_two_legs(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> Sample<R> {
-        let len = self.len;
-        let [a, da] = [0, 1].map(|k| self.legs[2 * op.dyad * len + k][g]);
-        let [b, db] = [0, 1].map(|k| self.legs[(2 * op.dyad + 1) * len + k][g]);
-        let legs = &cx.constants.legs[op.dyad];
-        let inverse = R::splat(legs[0].inv_norm() * legs[1].inv_norm());
-        let (sum, difference) = (legs[0].norm + legs[1].norm, (legs[0].norm - legs[1].norm).abs());
-        let d = self.chord(g, op)[0].norm();
-        Sample {
-            value: b.cross(a) * inverse,
-            rate: (db.cross(a) + b.cross(da)) * inverse,
-            margin: (R::splat(sum) - d).min(d - R::splat(difference)),
-        }
+        let [a, b] = &cx.constants.legs[op.dyad];
+        let per = a.inv_norm() * b.inv_norm();
+        let [k, dk] = self.chord(g, op);
+        let cos = (R::splat(a.norm2 + b.norm2) - k.norm2()) * R::splat(0.5 * per);
+        let rate = (cos * k.dot(dk)) * R::splat(2.0 * per);
+        Sample { square: (R::ONE - cos) * (R::ONE + cos), rate, side: R::ONE }
     }
 
+    /// The cosine of the angle between leg and guide, from its sine.
     #[inline(always)]
     fn sample_standing_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> Sample<R> {
         let own = &cx.constants.dyads[op.dyad];
-        let leg = &cx.constants.legs[op.dyad][0];
-        let inverse = R::splat(-leg.inv_norm());
+        let per = R::splat(cx.constants.legs[op.dyad][0].inv_norm());
         let guide = Vector::splat(own.guides[1]);
-        let [a, da] = [0, 1].map(|k| self.legs[2 * op.dyad * self.len + k][g]);
-        let across = guide.cross(self.chord(g, op)[0] - Vector::splat(own.offset));
+        let [k, dk] = self.chord(g, op);
+        let sin = guide.cross(k - Vector::splat(own.offset)) * per;
+        let rate = R::splat(-2.0) * (sin * (guide.cross(dk) * per));
+        Sample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE }
+    }
+
+    /// The part of the chord along the guide.
+    #[inline(always)]
+    fn sample_turning_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> Sample<R> {
+        let across = across_guide(cx, op);
+        let [k, dk] = self.chord(g, op);
         Sample {
-            value: guide.dot(a) * inverse,
-            rate: guide.dot(da) * inverse,
-            margin: R::splat(leg.norm) - across.abs(),
+            square: k.norm2() - R::splat(across * across),
+            rate: R::splat(2.0) * k.dot(dk),
+            side: R::ONE,
         }
     }
 
+    /// How near a dyad is to closing.
     #[inline(always)]
-    fn sample_turning_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> Sample<R> {
-        let direction = cx.constants.dyads[op.dyad].guides[1];
-        let guide = Vector::splat(direction);
-        let across = direction.cross(cx.constants.legs[op.dyad][0].vector);
-        let turn = (2 * op.dyad + 1) * self.len;
-        let [unit, rate] = [guide * self.legs[turn][g], guide * self.legs[turn + 1][g]];
-        let [chord, change] = self.chord(g, op);
-        Sample {
-            value: unit.dot(chord),
-            rate: rate.dot(chord) + unit.dot(change),
-            margin: chord.norm() - R::splat(across.abs()),
+    pub(crate) fn gap(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, op: &Op) -> Gap<R> {
+        match op {
+            Op::TwoLegs(op) => {
+                let [a, b] = &cx.constants.legs[op.dyad];
+                let [k, dk] = self.chord(g, op);
+                let d = k.norm();
+                let margin =
+                    (R::splat(a.norm + b.norm) - d).min(d - R::splat((a.norm - b.norm).abs()));
+                Gap { margin, speed: Some(dk.norm()) }
+            }
+            Op::StandingGuide(op) => {
+                let own = &cx.constants.dyads[op.dyad];
+                let [k, dk] = self.chord(g, op);
+                let across = Vector::splat(own.guides[1]).cross(k - Vector::splat(own.offset));
+                let leg = R::splat(cx.constants.legs[op.dyad][0].norm);
+                Gap { margin: leg - across.abs(), speed: Some(dk.norm()) }
+            }
+            Op::TurningGuide(op) => {
+                let [k, dk] = self.chord(g, op);
+                let across = R::splat(across_guide(cx, op).abs());
+                Gap { margin: k.norm() - across, speed: Some(dk.norm()) }
+            }
+            Op::StandingGuides(_) => Gap { margin: R::ONE, speed: Some(R::ZERO) },
+            _ => Gap { margin: self.margin[dyad.index][g], speed: None },
         }
     }
+}
+
+/// The distance of a turning guide from its pivot.
+#[inline(always)]
+fn across_guide(cx: &Context<'_>, op: &DyadOp) -> f64 {
+    cx.constants.dyads[op.dyad].guides[1].cross(cx.constants.legs[op.dyad][0].vector)
 }
