@@ -95,6 +95,10 @@ def digests(seeds: int) -> Iterator[tuple[str, tuple[str, str]]]:
     for name in NAMED:
         for seed in range(4):
             yield f"{name} {seed}", digest(library.LIBRARY[name](), seed)
+    for name in bits.NAMES:
+        if np.ndim(bits.named(name).q0):
+            for seed in range(4):
+                yield f"{name} {seed}", digest(bits.named(name), seed)
     for seed in range(seeds):
         yield f"seed {seed}", digest(bits.random(seed), seed)
         q = np.random.default_rng(seed).uniform(-9.0, 15.0, POSITIONS)

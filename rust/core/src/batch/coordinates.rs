@@ -1,17 +1,21 @@
 //! Driver coordinates in registers, block by block: what all designs at the same positions share.
 
+use crate::branch::design::Design;
 use crate::math::angle::MAX_TURNED;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
+use crate::plan::plan::Plan;
 use crate::state::state::State;
 
-/// The coordinates of a job's positions, of one driver.
+/// The coordinates of a job's positions.
 pub(super) struct Coordinates<R, const G: usize> {
     blocks: Vec<Block<R, G>>,
     /// Registers with coordinates.
     pub(super) registers: usize,
     /// Index of the first of them among those that all designs share, if they are shared.
     shared: Option<usize>,
+    /// For every driver, whether its coordinate is an angle.
+    is_angle: Vec<bool>,
     /// Whether one of them is too far for angles that turn with the driver.
     pub(super) is_far: bool,
 }
@@ -20,47 +24,62 @@ pub(super) struct Coordinates<R, const G: usize> {
 struct Block<R, const G: usize> {
     q: Vec<[R; G]>,
     unit: Vec<[Vector<R>; G]>,
+    /// Whether each position has to be solved by itself.
+    by_position: bool,
 }
 
 impl<R: Real, const G: usize> Block<R, G> {
-    fn new() -> Self {
-        Self { q: vec![[R::ZERO; G]], unit: vec![[Vector::ONE; G]] }
+    fn new(drivers: usize) -> Self {
+        let (q, unit) = (vec![[R::ZERO; G]; drivers], vec![[Vector::ONE; G]; drivers]);
+        Self { q, unit, by_position: false }
     }
 }
 
 impl<R: Real, const G: usize> Coordinates<R, G> {
-    pub(super) fn new() -> Self {
-        Self { blocks: Vec::new(), registers: 0, shared: None, is_far: false }
+    pub(super) fn new(plan: &Plan) -> Self {
+        let drivers = 0..plan.drivers.len();
+        let is_angle = drivers.map(|driver| plan.driven_slide(driver).is_none()).collect();
+        Self { blocks: Vec::new(), registers: 0, shared: None, is_angle, is_far: false }
     }
 
-    /// Loads coordinates; true if they are not the shared ones that were loaded last. `scale`: of
-    /// a slide.
+    /// Loads coordinates, drivers fastest, rad or m; true if they are not the shared ones that were
+    /// loaded last.
     #[inline(always)]
-    pub(super) fn load(
-        &mut self,
-        q: &[f64],
-        shared: Option<usize>,
-        is_angle: bool,
-        scale: f64,
-    ) -> bool {
-        if is_angle && shared.is_some() && self.shared == shared {
+    pub(super) fn load(&mut self, q: &[f64], shared: Option<usize>, design: &Design<'_>) -> bool {
+        // Slides are in the design's own unit of length.
+        let same = self.shared.is_some() && self.shared == shared;
+        if same && self.is_angle.iter().all(|&angle| angle) {
             return false;
         }
         self.shared = shared;
         self.is_far = q.iter().any(|q| q.abs() > MAX_TURNED);
-        self.registers = q.len().div_ceil(R::LANES);
-        self.blocks.resize_with(q.len().div_ceil(G * R::LANES), Block::new);
-        for (block, some) in self.blocks.iter_mut().zip(q.chunks(G * R::LANES)) {
-            // Lanes beyond the last position are solved with it.
-            let at = |lane: usize| some[lane.min(some.len() - 1)] * scale;
-            for (g, (q, unit)) in block.q[0].iter_mut().zip(&mut block.unit[0]).enumerate() {
-                *q = R::from_lanes(|lane| at(g * R::LANES + lane));
-                if is_angle && g * R::LANES < some.len() {
-                    *unit = Vector::at_angle(*q);
+        let drivers = self.is_angle.len();
+        let positions = q.len() / drivers;
+        self.registers = positions.div_ceil(R::LANES);
+        self.blocks.resize_with(positions.div_ceil(G * R::LANES), || Block::new(drivers));
+        for (block, some) in self.blocks.iter_mut().zip(q.chunks(G * R::LANES * drivers)) {
+            let positions = some.len() / drivers;
+            for (driver, &is_angle) in self.is_angle.iter().enumerate() {
+                let scale = design.units.coordinate[driver];
+                // Lanes beyond the last position are solved with it.
+                let at = |lane: usize| some[lane.min(positions - 1) * drivers + driver] * scale;
+                let columns = block.q[driver].iter_mut().zip(&mut block.unit[driver]);
+                for (g, (q, unit)) in columns.enumerate() {
+                    *q = R::from_lanes(|lane| at(g * R::LANES + lane));
+                    if is_angle && g * R::LANES < positions {
+                        *unit = Vector::at_angle(*q);
+                    }
                 }
             }
+            let mut each = some.chunks_exact(drivers);
+            block.by_position = drivers > 1 && each.any(|q| design.cannot_follow(q));
         }
         true
+    }
+
+    /// Whether each position of a block has to be solved by itself.
+    pub(super) fn by_position(&self, block: usize) -> bool {
+        self.blocks[block].by_position
     }
 
     /// Exchanges a block with the coordinates of a state.
@@ -71,15 +90,15 @@ impl<R: Real, const G: usize> Coordinates<R, G> {
         std::mem::swap(&mut block.unit, &mut state.unit);
     }
 
-    /// A register of coordinates.
+    /// A register of a driver's coordinates.
     #[inline(always)]
-    pub(super) fn q(&self, register: usize) -> R {
-        self.blocks[register / G].q[0][register % G]
+    pub(super) fn q(&self, driver: usize, register: usize) -> R {
+        self.blocks[register / G].q[driver][register % G]
     }
 
     /// Their unit vectors.
     #[inline(always)]
-    pub(super) fn unit(&self, register: usize) -> Vector<R> {
-        self.blocks[register / G].unit[0][register % G]
+    pub(super) fn unit(&self, driver: usize, register: usize) -> Vector<R> {
+        self.blocks[register / G].unit[driver][register % G]
     }
 }

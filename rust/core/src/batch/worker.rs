@@ -98,7 +98,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             by: request.by.map(|index| (index, Sensitivity::new(plan, derivatives))),
             many,
             lifted: vec![[R::ZERO; G]; plan.classes],
-            coordinates: Coordinates::new(),
+            coordinates: Coordinates::new(plan),
             locations: Vec::new(),
             locations_even: false,
             design,
@@ -151,13 +151,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             self.by = Some((index, by));
             return;
         }
-        if drivers > 1 || self.care != Care::Needed {
-            for row in 0..count {
-                if self.is_cancelled() {
-                    return;
-                }
-                self.solve_scalar(job, row);
-            }
+        if self.care != Care::Needed || drivers > 1 && !self.design.serves_all {
+            self.solve_by_position(job, 0, count);
             return;
         }
         self.many.groups = count.div_ceil(R::LANES).min(G);
@@ -171,7 +166,9 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         if surveyed && self.coordinates.is_far {
             surveyed = trace(self, job, false);
         }
-        let mut doubts = if surveyed || self.is_plain() { 0 } else { MAX_DOUBTS };
+        // Bare analogues are for one driver.
+        let bare = drivers == 1 || self.many.len == 1;
+        let mut doubts = if bare && (surveyed || self.is_plain()) { 0 } else { MAX_DOUBTS };
         if doubts < MAX_DOUBTS {
             let design = &self.design;
             let cx = Context { tape: &self.tape, ..design.context(design.derivatives) };
@@ -188,6 +185,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 return;
             }
             let block = (count - row).min(G * R::LANES);
+            if self.coordinates.by_position(row / (G * R::LANES)) {
+                self.solve_by_position(job, row, block);
+                continue;
+            }
             if doubts < MAX_DOUBTS && self.solve_bare::<L>(job, row, block, located) {
                 continue;
             }
@@ -203,7 +204,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 self.locate();
                 located = true;
             }
-            doubts = if self.is_plain() { (doubts + 1).min(MAX_DOUBTS) } else { MAX_DOUBTS };
+            doubts =
+                if bare && self.is_plain() { (doubts + 1).min(MAX_DOUBTS) } else { MAX_DOUBTS };
             self.solve_block::<L>(job, row, block);
         }
     }
@@ -235,9 +237,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     /// Loads the coordinates into registers; those that all designs share are kept.
     #[inline(always)]
     fn load_coordinates(&mut self, job: &Job<'_, '_>) {
-        let is_angle = self.design.mechanism.plan().driven_slide(0).is_none();
-        let scale = self.design.units.coordinate[0];
-        if self.coordinates.load(job.q, job.shared, is_angle, scale) {
+        if self.coordinates.load(job.q, job.shared, &self.design) {
             self.locations.clear();
         }
     }
@@ -256,7 +256,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             self.locations.resize_with(self.coordinates.registers, BranchLocation::default);
         } else if self.locations.is_empty() {
             for register in 0..self.coordinates.registers {
-                self.locations.push(branch.locate(self.coordinates.q(register)));
+                self.locations.push(branch.locate(self.coordinates.q(0, register)));
             }
         }
     }
@@ -289,15 +289,18 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let constant_signs = branch.has_constant_signs();
         let (even, plain) = (branch.inverse_width.is_some(), branch.is_plain());
         for group in 0..groups {
-            let q = self.coordinates.q(first + group);
+            let q = self.coordinates.q(0, first + group);
             let location = &self.locations[first + group];
             if !(even || plain && closed_forms) {
                 care[group] = self.lanes_to_redo(q, location, !closed_forms);
             }
             let branch = &self.design.branch;
             // Lanes to redo are set to NaN: their vector result is not used.
-            self.many.q[0][group] = R::select(care[group], R::splat(f64::NAN), q);
-            self.many.unit[0][group] = self.coordinates.unit(first + group);
+            for driver in 0..self.many.q.len() {
+                let q = self.coordinates.q(driver, first + group);
+                self.many.q[driver][group] = R::select(care[group], R::splat(f64::NAN), q);
+                self.many.unit[driver][group] = self.coordinates.unit(driver, first + group);
+            }
             if !constant_signs {
                 for (sign, groups) in self.many.signs.iter_mut().enumerate() {
                     groups[group] = R::from_lanes(|i| branch.signs_at(location, i)[sign]);
@@ -330,7 +333,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let with = (&design.constants, &design.units);
         let (mut open, mut some_open, mut again) = ([R::Mask::NONE; G], false, false);
         for group in 0..groups.min(G) {
-            care[group] = care[group].or(self.coordinates.q(first + group).finite().not());
+            care[group] = care[group].or(self.coordinates.q(0, first + group).finite().not());
             if closed_forms {
                 open[group] = state.open[group].and(care[group].not());
                 some_open |= open[group].any();
@@ -382,6 +385,16 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                     self.solve_scalar(job, row + place);
                 }
             }
+        }
+    }
+
+    /// Solves positions one by one.
+    fn solve_by_position(&mut self, job: &mut Job<'_, '_>, first: usize, count: usize) {
+        for row in first..first + count {
+            if self.is_cancelled() {
+                return;
+            }
+            self.solve_scalar(job, row);
         }
     }
 

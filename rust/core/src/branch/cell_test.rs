@@ -4,6 +4,7 @@
 //! discriminant of every dyad stays away from zero. Where it may not, and where a stretch may begin
 //! or end that can be reached, the cell needs a closer look.
 
+use super::knot::may_touch;
 use super::uniform::{KNOTS, previous};
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::plan::dyad::Dyad;
@@ -13,9 +14,6 @@ use crate::state::state::{Context, State};
 /// A square that differs from the trapezoidal rule by this part of itself varies too fast to be
 /// judged by its ends.
 const MAX_CURVATURE: f64 = 0.5;
-/// How many times its fall between two knots the square of a discriminant must be away from zero:
-/// touching zero in between it would be at most half of it.
-const MAX_SQUARE_FALLS: f64 = 2.0;
 /// How many times its fall between two knots a margin must be away from zero.
 const MAX_FALLS: f64 = 4.0;
 /// How fast (of the size, per unit of the path) the margin of a dyad without a kernel may vary.
@@ -46,14 +44,6 @@ pub(super) fn has(bits: Bits, knot: usize) -> bool {
 #[inline(always)]
 fn at_both_ends(bits: Bits) -> Bits {
     bits & bits << 1
-}
-
-/// Whether a square that is positive at two knots may touch zero between them: it falls at one and
-/// rises at the other, both fast enough.
-#[inline(always)]
-pub(super) fn may_touch<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell: R) -> R::Mask {
-    let falls = R::splat(MAX_SQUARE_FALLS) * cell;
-    from.lt(-(falls * fall)).and(to.lt(falls * rise))
 }
 
 /// What a dyad shows at the knots of one look.

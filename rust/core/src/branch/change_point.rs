@@ -21,6 +21,9 @@ impl BranchTracer<'_, '_> {
         let tracer = self;
         for (index, (step, dyad)) in tracer.dyads().enumerate() {
             let Some(sign) = dyad.sign else { continue };
+            if !tracer.cx.plan.may_change[sign] {
+                continue;
+            }
             // A later dyad may close only with the sign that is yet to be found.
             if step >= a.solved.min(b.solved) {
                 continue;

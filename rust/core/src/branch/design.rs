@@ -60,6 +60,8 @@ pub(crate) struct Design<'a> {
     q0: Vec<f64>,
     /// The branch from the drawing, if one serves all positions.
     pub branch: Branch,
+    /// Whether it does so with several drivers.
+    pub(crate) serves_all: bool,
     /// Whether all steps have closed forms: then lanes close or not by the same bits as single
     /// positions. Groups iterate, and redundant links close within a tolerance.
     pub(crate) closed_forms: bool,
@@ -95,6 +97,7 @@ impl<'a> Design<'a> {
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
             q0: Vec::new(),
             branch: Branch::default(),
+            serves_all: false,
             closed_forms: mechanism.plan().has_closed_forms(),
             crank_dyads: crank_dyads(mechanism.plan()),
             settled: Vec::new(),
@@ -115,6 +118,7 @@ impl<'a> Design<'a> {
     pub(crate) fn bind(&mut self, values: &[f64]) {
         let mechanism = self.mechanism;
         self.interpolants.get_mut().clear();
+        self.serves_all = false;
         self.constants.bind(mechanism.plan(), &mechanism.slots, values);
         self.units.set(mechanism, self.constants.scale, self.derivatives);
         self.q0.clear();
@@ -235,20 +239,24 @@ impl<'a> Design<'a> {
         references: Option<&mut [Reference]>,
     ) -> Traced {
         self.settled.clear();
-        if !(self.closed_forms && self.has_one_rotary_driver()) {
+        let plan = self.mechanism.plan();
+        let several = self.q0.len() > 1;
+        if !(self.closed_forms && (several || self.has_one_rotary_driver())) {
             self.settled.resize(self.crank_dyads.len(), false);
             return Traced::No;
         }
-        let keeps_sign = |dyad: &Option<CrankDyad>| {
-            dyad.as_ref().is_some_and(|dyad| dyad.keeps_sign(&self.constants))
-        };
-        self.settled.extend(self.crank_dyads.iter().map(keeps_sign));
-        if !self.settled.iter().all(|&settled| settled) {
+        for (dyad, on_crank) in plan.dyads().zip(&self.crank_dyads) {
+            let fixed = several && dyad.sign.is_none_or(|sign| !plan.may_change[sign]);
+            let keeps_sign = || on_crank.is_some_and(|dyad| dyad.keeps_sign(&self.constants));
+            self.settled.push(fixed || keeps_sign());
+        }
+        if !self.settled.iter().all(|&settled| settled) || several && !classes.is_empty() {
             return Traced::No;
         }
         let start = &self.mechanism.class_angle;
         if classes.is_empty() {
             self.branch.set_constant_signs(start.len(), &self.signs);
+            self.serves_all = several;
             return Traced::Whole;
         }
         let Some(references) = references else { return Traced::No };
@@ -395,6 +403,13 @@ impl<'a> Design<'a> {
         q.iter().zip(&self.q0).any(|(a, b)| (a - b).abs() > MAX_DISTANCE)
     }
 
+    /// Whether one of several drivers is too far from the drawing to be followed, or not finite;
+    /// `q`: one position, rad or m.
+    pub(crate) fn cannot_follow(&self, q: &[f64]) -> bool {
+        let scaled = q.iter().zip(&self.units.coordinate).map(|(q, unit)| q * unit);
+        !scaled.zip(&self.q0).all(|(a, b)| (a - b).abs() <= MAX_DISTANCE)
+    }
+
     /// The branch to one position (scaled coordinates); `None` if a coordinate is not finite or too
     /// far.
     pub(crate) fn branch_to(&self, q: &[f64]) -> Option<BranchPoint<'_>> {
@@ -404,18 +419,22 @@ impl<'a> Design<'a> {
         if let [at] = *q {
             return Some(BranchPoint { branch: Cow::Borrowed(&self.branch), at });
         }
-        (!self.is_too_far(q)).then(|| {
+        if self.is_too_far(q) {
+            return None;
+        }
+        if self.serves_all {
+            return Some(BranchPoint { branch: Cow::Borrowed(&self.branch), at: 0.0 });
+        }
+        let angles = &self.mechanism.class_angle;
+        let (branch, at) = if let Ok(taylor) = &self.initial_unknowns {
             let cx = self.context(&self.tracing_derivatives);
-            let angles = &self.mechanism.class_angle;
             let mut state = self.state(&self.tracing_derivatives);
-            let (branch, at) = if let Ok(taylor) = &self.initial_unknowns {
-                let start = &InitialGuess { angles, taylor };
-                Branch::along_segment(&cx, &mut state, &self.q0, q, start)
-            } else {
-                (Branch::empty(angles.len(), &self.signs), 0.0)
-            };
-            BranchPoint { branch: Cow::Owned(branch), at }
-        })
+            let start = &InitialGuess { angles, taylor };
+            Branch::along_segment(&cx, &mut state, &self.q0, q, start)
+        } else {
+            (Branch::empty(angles.len(), &self.signs), 0.0)
+        };
+        Some(BranchPoint { branch: Cow::Owned(branch), at })
     }
 
     /// Distance (in sizes) of the farthest joint at a parameter of the branch; 0 if it cannot be

@@ -97,6 +97,18 @@ pub(crate) fn may_vanish<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell
     R::ZERO.lt(fall).and(R::ZERO.lt(rise)).and(same_side).and(fast(from, fall)).and(fast(to, rise))
 }
 
+/// How many times its fall between two knots the square of a discriminant must be away from zero:
+/// touching zero in between it would be at most half of it.
+const MAX_SQUARE_FALLS: f64 = 2.0;
+
+/// Whether a square that is positive at two knots may touch zero between them: it falls at one and
+/// rises at the other, both fast enough.
+#[inline(always)]
+pub(crate) fn may_touch<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell: R) -> R::Mask {
+    let falls = R::splat(MAX_SQUARE_FALLS) * cell;
+    from.lt(-(falls * fall)).and(to.lt(falls * rise))
+}
+
 /// Taylor polynomial of second degree.
 pub(crate) fn predict([value, rate, second]: &Taylor2, step: f64) -> f64 {
     value + step * (rate + 0.5 * step * second)

@@ -13,6 +13,7 @@ pub(crate) mod homotopy;
 pub(crate) mod knot;
 pub(crate) mod lane_tracer;
 pub(crate) mod predictor;
+pub(crate) mod scalar_chord;
 pub(crate) mod tracer;
 pub(crate) mod uniform;
 pub(crate) mod units;

@@ -11,10 +11,9 @@ use std::cell::OnceCell;
 use std::f64::consts::{PI, TAU};
 
 use super::branch::{Branch, CELLS_PER_TURN};
-use super::cell_test::may_touch;
 use super::hermite::HermiteCell;
 use super::knot::{
-    MAX_FIRST_STEP, MAX_LATER_STEPS, SignInterval, Taylor2, closes, prediction_failed,
+    MAX_FIRST_STEP, MAX_LATER_STEPS, SignInterval, Taylor2, closes, may_touch, prediction_failed,
 };
 use crate::math::angle::{Reference, turns_between, unwrap_to, whole_turns};
 use crate::math::derivatives::DerivativeTables;

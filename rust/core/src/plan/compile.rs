@@ -90,6 +90,7 @@ impl Plan {
             dyad_links: Vec::new(),
             higher: None,
             pairs: PairSpans::default(),
+            may_change: Vec::new(),
             tape: Tape::default(),
         };
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
@@ -99,6 +100,7 @@ impl Plan {
             plan.pairs = PairSpans::of(linkage, closure);
         }
         plan.mark_legs();
+        plan.may_change = vec![true; plan.signs()];
         plan.tape = Tape::whole(&plan);
         Ok(plan)
     }

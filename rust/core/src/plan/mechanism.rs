@@ -109,6 +109,11 @@ impl Mechanism {
         &self.plan
     }
 
+    /// Sets, for every sign, whether its dyad can pass change points.
+    pub(crate) fn set_may_change(&mut self, may_change: Vec<bool>) {
+        self.plan.may_change = may_change;
+    }
+
     /// Names and kinds of the dimensions.
     #[must_use]
     pub fn dimensions(&self) -> &Dimensions {

@@ -153,6 +153,8 @@ pub(crate) struct Plan {
     pub higher: Option<Higher>,
     /// Pairs of every link; empty if no link or slide is redundant.
     pub pairs: PairSpans,
+    /// For every sign, whether its dyad can pass change points.
+    pub may_change: Vec<bool>,
     /// All steps as they are run.
     pub tape: Tape,
 }

@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
+use crate::branch::scalar_chord::may_change;
 use crate::description::Description;
 use crate::description::error::StructureError;
 use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
@@ -36,7 +37,8 @@ impl Mechanism {
         description: &Description,
         cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
-        let mechanism = Self::compile(description, cancel)?;
+        let mut mechanism = Self::compile(description, cancel)?;
+        mechanism.set_may_change(may_change(&mechanism));
         let constants =
             DesignConstants::new(mechanism.plan(), &mechanism.slots, mechanism.drawing());
         mechanism.check_redundancy_along_motion(constants.scale)?;

@@ -32,7 +32,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Solves the dyad for its leg and slide, and their analogues.
     #[inline(always)]
     pub(crate) fn standing_guide(&mut self, cx: &Context<'_>, op: &DyadOp) {
-        if R::LANES == 1 && cx.derivatives.drivers > 1 {
+        if cx.derivatives.drivers > 1 {
             self.guide_by_drivers(cx, op);
         } else {
             self.guide_by_driver::<R, true, POINTS>(cx, op, self.len);
@@ -126,6 +126,7 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     /// The same carefully, for any number of drivers.
+    #[inline(always)]
     fn guide_by_drivers(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let len = self.len;
         let jet = |i: usize| i * len..i * len + len;

@@ -32,7 +32,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Solves the dyad for its legs, their rotations and analogues.
     #[inline(always)]
     pub(crate) fn two_legs(&mut self, cx: &Context<'_>, op: &DyadOp) {
-        if R::LANES == 1 && cx.derivatives.drivers > 1 {
+        if cx.derivatives.drivers > 1 {
             self.legs_by_drivers(cx, op);
         } else {
             self.legs_by_driver::<R, true, POINTS>(cx, op, self.len);
@@ -140,6 +140,7 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     /// The same carefully, for any number of drivers.
+    #[inline(always)]
     fn legs_by_drivers(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let len = self.len;
         let jet = |i: usize| i * len..i * len + len;
