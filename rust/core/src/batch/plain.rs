@@ -106,14 +106,12 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         }
         if some_open {
             let status = &mut job.rows.status[at..at + count];
+            let state = &self.many;
             for (group, status) in status.chunks_mut(R::LANES).enumerate() {
-                if !state.open[group].any() {
-                    continue;
-                }
+                let open = state.open[group].bits();
                 for (lane, status) in status.iter_mut().enumerate() {
-                    if state.open[group].lane(lane) {
-                        *status = MaybeUninit::new(Status::Unreachable as u8);
-                    }
+                    let own = [Status::Ok, Status::Unreachable][(open >> lane & 1) as usize];
+                    *status = MaybeUninit::new(own as u8);
                 }
             }
         }
@@ -149,8 +147,16 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
     #[inline(always)]
     fn is_counted(&self, job: &Job<'_, '_>, row: usize, count: usize) -> bool {
         let Some(log) = self.failures else { return true };
-        let open = |place: &usize| self.many.open[place / R::LANES].lane(place % R::LANES);
-        let first = (0..count).find(open).unwrap_or(0);
-        log.count_later(job.index + row + first, (0..count).filter(open).count())
+        let (mut first, mut number) = (None, 0);
+        for group in 0..count.div_ceil(R::LANES).min(G) {
+            let before = group * R::LANES;
+            let own = u32::MAX >> (u32::BITS as usize - R::LANES.min(count - before));
+            let open = self.many.open[group].bits() & own;
+            if open != 0 {
+                first.get_or_insert(before + open.trailing_zeros() as usize);
+                number += open.count_ones() as usize;
+            }
+        }
+        first.is_none_or(|first| log.count_later(job.index + row + first, number))
     }
 }

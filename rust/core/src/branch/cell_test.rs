@@ -18,9 +18,8 @@ const MAX_CURVATURE: f64 = 0.5;
 const MAX_FALLS: f64 = 4.0;
 /// How fast (of the size, per unit of the path) the margin of a dyad without a kernel may vary.
 const MAX_GAP_RATE: f64 = 8.0;
-/// How many times its change over the last cell before a dead point the square of a later dyad must
-/// be away from zero: it varies as the square root of the distance there.
-const MAX_CHANGES: f64 = 6.0;
+/// How many times as much as expected the square of a later dyad may change before a dead point.
+const CHANGE_MARGIN: f64 = 2.5;
 
 /// Square below which a dyad counts as flat: it grows with the square of the distance from a change
 /// point, so this is 1e-6 rad from one.
@@ -171,9 +170,26 @@ impl DyadSamples {
         cells
     }
 
+    /// How much the square of a later dyad is expected to change from the last knot before the dead
+    /// point in the cell before `knot` up to that point, as a part of its change over the last cell:
+    /// it varies as the square root of the distance from there. `None` if this dyad has no dead
+    /// point in the cell.
+    pub(super) fn change_to_dead_point(&self, knot: usize) -> Option<f64> {
+        let [before, after] = [knot - 1, knot].map(|at| has(self.closes, at));
+        if !(has(self.known, knot - 1) && has(self.known, knot)) || before == after {
+            return None;
+        }
+        let [from, to] = [self.square[knot], self.square[knot + 1]];
+        let near = if before { from } else { to };
+        // The part of the cell up to the root of a straight line, or farther.
+        let part = (1.5 * near / (from - to).abs() + 0.05).min(1.0);
+        Some(part.sqrt() / ((part + 1.0).sqrt() - part.sqrt()))
+    }
+
     /// Whether the discriminant stays away from zero from the last knot before a dead point of an
-    /// earlier dyad (in the cell before `knot`) up to that point.
-    pub(super) fn stays_away(&self, knot: usize) -> bool {
+    /// earlier dyad (in the cell before `knot`) up to that point; `change`: see
+    /// [`Self::change_to_dead_point`].
+    pub(super) fn stays_away(&self, knot: usize, change: f64) -> bool {
         let known = |at: usize| has(self.known, at);
         // The two knots before the dead point; the farther one may belong to another look.
         let (near, far) = match (known(knot - 1), known(knot)) {
@@ -184,9 +200,9 @@ impl DyadSamples {
         // If it does not close there, a gap of its own ends before the dead point.
         !has(self.closes, near)
             || far.is_some_and(|far| {
-                let [near, value] = [near, far].map(|at| self.square[at + 1]);
                 let known = far < Bits::BITS as usize && has(self.closes, far);
-                known && (near - value).abs() * MAX_CHANGES < near
+                let [near, far] = [near, far].map(|at| self.square[at + 1]);
+                known && (near - far).abs() * (CHANGE_MARGIN * change) < near
             })
     }
 }

@@ -293,7 +293,8 @@ impl Look {
     /// Whether all dyads that close beside the dead point in the cell before a knot stay away from
     /// flat up to it.
     fn stays_away(&self, knot: usize) -> bool {
-        self.dyads.iter().all(|dyad| dyad.stays_away(knot))
+        let change = self.dyads.iter().find_map(|dyad| dyad.change_to_dead_point(knot));
+        change.is_none_or(|change| self.dyads.iter().all(|dyad| dyad.stays_away(knot, change)))
     }
 }
 

@@ -3,6 +3,7 @@
 use super::blocks::add_steps;
 use super::dyad::{Form, Unknown};
 use super::group::{BinaryLoops, Group};
+use super::leg::LegEdges;
 use super::pair_span::PairSpans;
 use super::plan::{EdgeSlide, LegEdge, Orientation, Plan, PlanEdge, Step};
 use super::redundant;
@@ -91,6 +92,7 @@ impl Plan {
             higher: None,
             pairs: PairSpans::default(),
             may_change: Vec::new(),
+            leg_edges: LegEdges::default(),
             tape: Tape::default(),
         };
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
@@ -100,6 +102,7 @@ impl Plan {
             plan.pairs = PairSpans::of(linkage, closure);
         }
         plan.mark_legs();
+        plan.leg_edges = LegEdges::of(plan.dyads());
         plan.may_change = vec![true; plan.signs()];
         plan.tape = Tape::whole(&plan);
         Ok(plan)

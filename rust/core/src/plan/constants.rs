@@ -189,7 +189,9 @@ impl Lengths {
         let greatest = |lengths: &[(usize, Option<usize>)]| {
             let taken_off = |from: Option<usize>| from.map_or(0.0, |axis| origin[axis]);
             let lengths = lengths.iter().map(|&(index, from)| values[index] - taken_off(from));
-            lengths.fold(0.0_f64, |greatest, length| greatest.max(length.abs()))
+            // One instruction, unlike `max`, which treats NaN on both sides.
+            let greater = |a: f64, b: f64| if b > a { b } else { a };
+            lengths.fold(0.0, |greatest, length| greater(greatest, length.abs()))
         };
         let paired = greatest(&self.paired);
         power_of_two(if paired > 0.0 { paired } else { greatest(&self.loose) })
@@ -257,7 +259,7 @@ impl DesignConstants {
             let arm2 = if e.paired { arm2 } else { arm2.min(1.0) };
             self.max_arm2[e.class] = self.max_arm2[e.class].max(arm2);
         }
-        self.measure_legs(plan);
+        plan.leg_edges.measure(&self.edge_vector, &mut self.legs);
         self.measure_dyads(plan, &plan.tape);
         for (i, e) in plan.edges.iter().enumerate() {
             if let (Some(leg), None) = (e.on_leg, e.leg) {
@@ -298,23 +300,6 @@ impl DesignConstants {
         }
         for (turn, slide) in self.slide_turn.iter_mut().zip(&slots.slides) {
             *turn = unit(slide.step(values));
-        }
-    }
-
-    fn measure_legs(&mut self, plan: &Plan) {
-        self.legs.clear();
-        for dyad in plan.dyads() {
-            self.legs.push([0, 1].map(|unknown| {
-                if !dyad.leg[unknown] {
-                    return Leg::default();
-                }
-                let mut sum = Vector::ZERO;
-                for term in dyad.path.iter().filter(|term| term.turns == Some(unknown)) {
-                    let v = self.edge_vector[term.edge];
-                    sum += if term.backward { -v } else { v };
-                }
-                Leg::constant(sum)
-            }));
         }
     }
 }

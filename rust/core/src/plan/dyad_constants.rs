@@ -49,11 +49,6 @@ impl<R: Real> Sides<R> {
 }
 
 impl Sides {
-    /// The same with another factor in place of [`Sides::per_sine2`].
-    pub(super) fn with_per_sine2(self, per_sine2: f64) -> Self {
-        Self { per_sine2, ..self }
-    }
-
     /// The same sides on every lane.
     #[inline(always)]
     pub(crate) fn on_lanes<R: Real>(&self) -> Sides<R> {
@@ -73,8 +68,6 @@ impl Sides {
 pub(crate) struct DyadConstants {
     /// Of two legs.
     pub sides: Sides,
-    /// The same for bounds: the square of the sine is multiplied with `inverse_arm2`.
-    pub bounding_sides: Sides,
     /// The parts of its loop that stand still.
     pub offset: Vector,
     /// Directions of its guides; of a guide that turns, in the frame of its class.
@@ -85,4 +78,6 @@ pub(crate) struct DyadConstants {
     pub inner_reach: f64,
     /// Its arm² (see `DyadSolution::arm2`) is nowhere greater than the inverse of this.
     pub inverse_arm2: f64,
+    /// [`Sides::per_sine2`] times that.
+    pub bounding_per_sine2: f64,
 }

@@ -1,7 +1,50 @@
 //! The leg of a dyad: the side that turns with one of its unknowns.
 
+use super::dyad::Dyad;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
+
+/// The edges whose sum each leg is, two legs per dyad.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct LegEdges {
+    /// For every leg its part of `edges`; `None` if the unknown turns no leg.
+    parts: Vec<Option<[usize; 2]>>,
+    /// Edges; true for one that is traversed backward.
+    edges: Vec<(usize, bool)>,
+}
+
+impl LegEdges {
+    pub(crate) fn of<'d>(dyads: impl Iterator<Item = &'d Dyad>) -> Self {
+        let mut legs = Self::default();
+        for dyad in dyads {
+            for unknown in 0..2 {
+                let first = legs.edges.len();
+                let turned = dyad.path.iter().filter(|term| term.turns == Some(unknown));
+                legs.edges.extend(turned.map(|term| (term.edge, term.backward)));
+                legs.parts.push(dyad.leg[unknown].then_some([first, legs.edges.len()]));
+            }
+        }
+        legs
+    }
+
+    /// The legs of one design, of every dyad.
+    pub(crate) fn measure(&self, edge_vector: &[Vector], legs: &mut Vec<[Leg; 2]>) {
+        legs.resize(self.parts.len() / 2, [Leg::default(); 2]);
+        let legs = legs.iter_mut().flatten();
+        for (leg, part) in legs.zip(&self.parts) {
+            let &Some([first, end]) = part else { continue };
+            let mut sum = Vector::ZERO;
+            for &(edge, backward) in &self.edges[first..end] {
+                let vector = edge_vector[edge];
+                sum += if backward { -vector } else { vector };
+            }
+            *leg = Leg::constant(sum);
+        }
+    }
+}
+
+/// The square of a number keeps all its digits above this.
+const LEAST_SQUARE: f64 = 1.0e-290;
 
 /// The sum of the constant vectors that turn with one unknown rotation, and its length.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -45,8 +88,14 @@ impl<R: Real> Leg<R> {
 
 impl Leg {
     /// The leg of one design.
+    #[inline(always)]
     pub(crate) fn constant(vector: Vector) -> Self {
-        Self { along_x: vector.y == 0.0, ..Self::of(vector) }
+        let along_x = vector.y == 0.0;
+        let norm2 = vector.norm2();
+        let inv_norm2 = 1.0 / norm2;
+        // The root of a rounded square is exact, unless the square loses digits.
+        let norm = if along_x && norm2 > LEAST_SQUARE { vector.x.abs() } else { norm2.sqrt() };
+        Self { vector, norm, norm2, inv_norm2, inverse: vector.conj().scale(inv_norm2), along_x }
     }
 
     /// A vector that turns with the leg, divided by it; without a leg, the vector itself.

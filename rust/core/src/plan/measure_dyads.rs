@@ -4,6 +4,7 @@ use super::constants::DesignConstants;
 use super::dyad_constants::{DyadConstants, Sides};
 use super::plan::{Plan, Step};
 use super::tape::{Op, PlaceKind, Tape};
+use crate::math::vector::Vector;
 
 impl DesignConstants {
     /// How far from the origin the tip of a leg can be, by the lengths of its dyad.
@@ -13,7 +14,7 @@ impl DesignConstants {
 
     /// Computes the constants of the dyads on the tape.
     pub(crate) fn measure_dyads(&mut self, plan: &Plan, tape: &Tape) {
-        self.dyads.clear();
+        self.dyads.resize(self.legs.len(), DyadConstants::default());
         self.reach.clear();
         self.reach.extend(self.fixed.iter().map(|at| at.x.abs() + at.y.abs()));
         for op in &tape.ops {
@@ -36,7 +37,8 @@ impl DesignConstants {
             };
             let Step::Dyad(dyad) = &plan.steps[step] else { continue };
             let legs = &self.legs[dyad.index];
-            let mut own = DyadConstants { inner_reach: f64::INFINITY, ..DyadConstants::default() };
+            let own = &mut self.dyads[dyad.index];
+            (own.inner_reach, own.offset) = (f64::INFINITY, Vector::ZERO);
             let [start, end] = [self.reach[dyad.start], self.reach[dyad.end]];
             let rounding = 0.5 * start.max(end);
             let arm2 = |class: usize| self.max_arm2[class].max(rounding * rounding);
@@ -64,8 +66,7 @@ impl DesignConstants {
                 _ => 1.0,
             };
             own.inverse_arm2 = 1.0 / greatest.max(1.0);
-            own.bounding_sides = own.sides.with_per_sine2(own.sides.per_sine2 * own.inverse_arm2);
-            self.dyads.push(own);
+            own.bounding_per_sine2 = own.sides.per_sine2 * own.inverse_arm2;
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::dyad::Dyad;
 use super::group::Group;
+use super::leg::LegEdges;
 use super::pair_span::PairSpans;
 use super::tape::Tape;
 use crate::description::Driver;
@@ -155,6 +156,8 @@ pub(crate) struct Plan {
     pub pairs: PairSpans,
     /// For every sign, whether its dyad can pass change points.
     pub may_change: Vec<bool>,
+    /// The edges whose sums the legs are.
+    pub leg_edges: LegEdges,
     /// All steps as they are run.
     pub tape: Tape,
 }

@@ -74,8 +74,10 @@ impl<R: Real, const G: usize> State<R, G> {
         let signs = &self.signs[op.sign.unwrap_or(0)];
         let (legs, own) = (&cx.constants.legs[op.dyad], &cx.constants.dyads[op.dyad]);
         let (a, b) = (legs[0].on_lanes::<W>(), legs[1].on_lanes::<W>());
-        let sides = if CAREFUL { &own.sides } else { &own.bounding_sides };
-        let sides = sides.on_lanes::<W>();
+        let mut sides = own.sides.on_lanes::<W>();
+        if !CAREFUL {
+            sides.per_sine2 = W::splat(own.bounding_per_sine2);
+        }
         let bounds = &mut self.bounds[op.dyad];
         let mut closings = [Closing::CLOSED; G];
         for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
