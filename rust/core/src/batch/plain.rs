@@ -69,6 +69,11 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         self.many.groups = groups;
         let design = &self.design;
         let cx = Context { tape: &self.tape, ..design.context(design.derivatives) };
+        // Stores to memory would wait for it; meanwhile the positions are computed.
+        for (column, of) in job.rows.columns.iter().zip(self.columns) {
+            let first = job.first + row;
+            R::prefetch(&column[first * of.width..(first + count) * of.width]);
+        }
         L::bare(&mut self.many, &cx);
         let state = &self.many;
         let (mut doubtful, mut open) = (R::Mask::NONE, R::Mask::NONE);

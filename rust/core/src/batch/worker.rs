@@ -32,7 +32,7 @@ const MAX_DOUBTS: usize = 2;
 pub(crate) struct Worker<'a, R: Real, const G: usize> {
     pub(super) design: Design<'a>,
     pub(super) writer: &'a Writer<'a>,
-    columns: &'a [Column],
+    pub(super) columns: &'a [Column],
     /// Made for the first design that needs it.
     uniform: Option<Box<UniformTracer<R, G>>>,
     one: State,

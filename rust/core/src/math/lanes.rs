@@ -111,6 +111,9 @@ pub trait Real:
             out[lane] = MaybeUninit::new(self.lane(lane));
         }
     }
+    /// Asks for memory that will soon be written.
+    #[inline(always)]
+    fn prefetch(_numbers: &[MaybeUninit<f64>]) {}
 }
 
 impl Mask for bool {

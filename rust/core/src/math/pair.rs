@@ -120,6 +120,10 @@ impl<R: Real> Real for Pair<R> {
         [Self(a, b), Self(c, d)]
     }
     #[inline(always)]
+    fn prefetch(numbers: &[MaybeUninit<f64>]) {
+        R::prefetch(numbers);
+    }
+    #[inline(always)]
     fn write(self, out: &mut [MaybeUninit<f64>]) {
         let (first, last) = out.split_at_mut(R::LANES);
         self.0.write(first);

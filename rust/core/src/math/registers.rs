@@ -13,6 +13,9 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use super::lanes::{Mask, Real};
 
+/// Numbers in a line of the cache.
+const LINE: usize = 8;
+
 /// The operators of a register type.
 macro_rules! operators {
     ($name:ident: $add:ident, $sub:ident, $mul:ident, $div:ident) => {
@@ -114,6 +117,13 @@ macro_rules! common {
             // SAFETY: a register is as many numbers side by side.
             let numbers = unsafe { std::mem::transmute::<$register, Numbers>(self.0) };
             out[..$lanes].copy_from_slice(&numbers);
+        }
+        #[inline(always)]
+        fn prefetch(numbers: &[MaybeUninit<f64>]) {
+            for line in numbers.chunks(LINE) {
+                // SAFETY: a prefetch touches no memory that the program sees.
+                unsafe { _mm_prefetch::<_MM_HINT_ET0>(line.as_ptr().cast()) };
+            }
         }
         #[inline(always)]
         fn sqrt(self) -> Self {
