@@ -64,6 +64,10 @@ _Drawing: TypeAlias = tuple[
 ]
 
 @final
+class KnownSigns:
+    def __new__(cls, designs: int) -> KnownSigns: ...
+
+@final
 class Mechanism:
     def __new__(
         cls,
@@ -110,6 +114,7 @@ class Mechanism:
         buffers: Buffers | None,
         dimension: int | None,
         report: list[int] | None,
+        known_signs: KnownSigns | None = None,
     ) -> tuple[dict[tuple[str, int, int], _Float], npt.NDArray[np.uint8], Any]: ...
     def diagnostics(
         self,

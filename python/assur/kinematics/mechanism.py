@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
@@ -10,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import short
+from assur._core import KnownSigns
 from assur._validate import checked_index, checked_name, checked_signs, real_array
 from assur.description import encode
 from assur.description.structure import Group, Structure
@@ -71,8 +73,18 @@ class Mechanism:
     array([4.368934, 3.247181])
     """
 
-    __slots__ = ("__weakref__", "_core", "_description", "_joints", "_structure", "_values")
+    __slots__ = (
+        "__weakref__",
+        "_core",
+        "_description",
+        "_joints",
+        "_known_signs",
+        "_structure",
+        "_values",
+    )
     _core: Core
+    # What solving has found out about the designs.
+    _known_signs: KnownSigns
     _description: Description
     _values: Float
     _structure: Structure | None
@@ -108,6 +120,7 @@ class Mechanism:
             ("_core", core),
             ("_description", description),
             ("_values", array),
+            ("_known_signs", KnownSigns(math.prod(array.shape[:-1]))),
             ("_structure", None),
             ("_joints", None),
         ):

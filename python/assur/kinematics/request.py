@@ -60,6 +60,8 @@ class SolveRequest:
     per_design: bool
     order: int
     signs: list[int]
+    # Whether these are the mechanism's own.
+    own_signs: bool
     threads: int | None
 
     @property
@@ -127,6 +129,7 @@ class SolveRequest:
             buffers,
             dimension,
             shape,
+            self.mechanism._known_signs if self.own_signs else None,
         )
 
     def _named(

@@ -45,6 +45,7 @@ def solve(
         per_design=per_design,
         order=order,
         signs=_signs(mechanism, assembly),
+        own_signs=assembly is None,
         threads=checked_threads(threads),
     )
     wanted = _outputs(mechanism, outputs)

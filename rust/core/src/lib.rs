@@ -61,6 +61,7 @@ mod state;
 mod structure;
 
 pub use batch::failure_log::{FailureLog, FirstFailure};
+pub use batch::known_signs::KnownSigns;
 pub use batch::outputs::{Arrays, Column, Outputs, Quantity};
 pub use batch::request::{Coordinates, Motion, Request, Series};
 pub use batch::schedule::{Care, Control};

@@ -7,6 +7,7 @@ mod detach;
 mod error;
 mod error_map;
 mod flywheel;
+mod known_signs;
 mod machine;
 mod mechanism;
 mod metrics;
@@ -33,6 +34,8 @@ mod _core {
     use super::error_map::error_kinds;
     #[pymodule_export]
     use super::flywheel::Flywheels;
+    #[pymodule_export]
+    use super::known_signs::KnownSigns;
     #[pymodule_export]
     use super::machine::Machine;
     #[pymodule_export]

@@ -17,6 +17,7 @@ use pyo3::types::{PyDict, PySlice};
 use crate::convert::description::{Driver, Slide};
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
+use crate::known_signs::KnownSigns;
 use crate::{error, error_map};
 
 /// Positions below which a call with one driver takes only milliseconds and need not check for
@@ -172,8 +173,13 @@ impl Mechanism {
     /// links (angles), links (points) and slides. `buffers`: the arrays of an
     /// earlier result (`columns`, `status`) to overwrite; its `complete` is false meanwhile.
     /// `dimension`: that by which the results are differentiated. `report`: the shape of
-    /// the designs, for the exception of the first position that failed.
+    /// the designs, for the exception of the first position that failed. `known_signs`: of these
+    /// dimensions and signs.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
+    #[pyo3(signature = (
+        dimensions, q, per_design, signs, order, outputs, threads, buffers, dimension, report,
+        known_signs = None
+    ))]
     fn solve<'py>(
         &self,
         py: Python<'py>,
@@ -187,14 +193,16 @@ impl Mechanism {
         buffers: Option<Bound<'py, PyAny>>,
         dimension: Option<usize>,
         report: Option<Vec<usize>>,
+        known_signs: Option<Bound<'py, KnownSigns>>,
     ) -> PyResult<Solution<'py>> {
-        let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
+        // Both are the package's own arrays, which never change.
+        let (dimensions, q) = (dimensions.as_slice()?, q.as_slice()?);
         let [joints, links, places, slides] = outputs;
         let outputs = Outputs { joints, links, places, slides };
         let coordinates =
-            if per_design { Coordinates::PerDesign(&q) } else { Coordinates::Shared(&q) };
+            if per_design { Coordinates::PerDesign(q) } else { Coordinates::Shared(q) };
         let request = Request {
-            dimensions: &dimensions,
+            dimensions,
             coordinates,
             signs: &signs,
             order,
@@ -233,8 +241,10 @@ impl Mechanism {
         }
         let log = FailureLog::default();
         let failures = report.is_some().then_some(&log);
+        let known_signs = known_signs.as_ref().map(|known| &known.get().0);
         let solved = detach::run(py, small, |cancel| {
-            let control = Control { threads, cancel: Some(cancel), failures, ..Control::default() };
+            let cancel = Some(cancel);
+            let control = Control { threads, cancel, failures, known_signs, ..Control::default() };
             let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
             arrays.map_or(Err(SolveError::Interrupted), |arrays| {
                 fill(&self.inner, &request, arrays, &control)

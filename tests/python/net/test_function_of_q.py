@@ -137,6 +137,9 @@ def test_pin_in_two_guides_beside_where_they_are_parallel(near: float) -> None:
     same(solve(m, q), np.concatenate([solve(m, one) for one in q]), "in one")
     condition = m.solve(q, on_error="nan").condition
     assert len(np.unique(condition)) == 2
+    # Beside where rounding cannot tell them from parallel guides there are no analogues.
+    status = m.solve(q, on_error="nan").status
+    assert ((status == assur.Status.SINGULAR) == (np.abs(np.sin(q - 1.0)) < 2.0**-24)).all()
 
 
 @pytest.mark.parametrize("designs", [7, 8, 9, 100])

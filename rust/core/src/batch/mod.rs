@@ -2,6 +2,7 @@
 mod coordinates;
 pub(crate) mod dispatch;
 pub(crate) mod failure_log;
+pub(crate) mod known_signs;
 pub(crate) mod outputs;
 pub(crate) mod plain;
 pub(crate) mod request;

@@ -8,6 +8,7 @@ use std::sync::{LazyLock, Mutex};
 use std::thread;
 
 use super::failure_log::FailureLog;
+use super::known_signs::KnownSigns;
 use super::outputs::{Arrays, Column};
 use super::writer::RowSlices;
 use crate::description::error::SolveError;
@@ -61,6 +62,8 @@ pub struct Control<'a> {
     pub cancel: Option<&'a AtomicBool>,
     /// Where to record the first position that fails.
     pub failures: Option<&'a FailureLog>,
+    /// What earlier calls have found out about the same designs in the same assembly.
+    pub known_signs: Option<&'a KnownSigns>,
 }
 
 impl Default for Control<'_> {
@@ -71,6 +74,7 @@ impl Default for Control<'_> {
             care: Care::asked_for(),
             cancel: None,
             failures: None,
+            known_signs: None,
         }
     }
 }

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::coordinates::Coordinates;
 use super::failure_log::FailureLog;
+use super::known_signs::KnownSigns;
 use super::outputs::Column;
 use super::request::Request;
 use super::schedule::{Care, Control};
@@ -55,6 +56,7 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     /// When true, work stops after the block in progress.
     cancel: Option<&'a AtomicBool>,
     pub(super) failures: Option<&'a FailureLog>,
+    known_signs: Option<&'a KnownSigns>,
 }
 
 /// Some positions of one design, and the rows they go to.
@@ -66,6 +68,8 @@ pub(crate) struct Job<'j, 'r> {
     pub first: usize,
     /// The same in the whole batch.
     pub index: usize,
+    /// Index of the design.
+    pub design: usize,
     /// Index of the first of these among the coordinates shared by all designs, if they are shared.
     pub shared: Option<usize>,
 }
@@ -109,6 +113,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             references: vec![Reference::Principal; plan.classes],
             cancel: control.cancel,
             failures: control.failures,
+            known_signs: control.known_signs,
         }
     }
 
@@ -213,6 +218,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     /// Traces the branch. True if it is only known to be plain, which `plain` permits.
     #[inline(always)]
     pub(super) fn trace<L: Level<Register = R>>(&mut self, job: &Job<'_, '_>, plain: bool) -> bool {
+        if self.has_known_signs(job.design) {
+            self.design.set_constant_signs();
+            return false;
+        }
         let mut traced = Traced::No;
         // The first guess of a group's iteration depends on how its branch was traced.
         if self.care == Care::Needed || self.design.has_groups() {
@@ -231,7 +240,19 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 _ => self.design.trace_knot_by_knot(job.q),
             }
         }
+        if let Some(known) = self.known_signs
+            && self.design.has_constant_signs()
+        {
+            known.set_constant(job.design);
+        }
         traced == Traced::Surveyed
+    }
+
+    /// Whether nothing but the signs is wanted of the branch, and they are known to be constant.
+    #[inline(always)]
+    fn has_known_signs(&self, design: usize) -> bool {
+        let wanted = self.care == Care::Needed && self.writer.classes.is_empty();
+        wanted && self.known_signs.is_some_and(|known| known.are_constant(design))
     }
 
     /// Loads the coordinates into registers; those that all designs share are kept.

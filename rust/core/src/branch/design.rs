@@ -255,8 +255,7 @@ impl<'a> Design<'a> {
         }
         let start = &self.mechanism.class_angle;
         if classes.is_empty() {
-            self.branch.set_constant_signs(start.len(), &self.signs);
-            self.serves_all = several;
+            self.set_constant_signs();
             return Traced::Whole;
         }
         let Some(references) = references else { return Traced::No };
@@ -268,6 +267,19 @@ impl<'a> Design<'a> {
         }
         self.branch.set_constant_signs(start.len(), &self.signs);
         Traced::Surveyed
+    }
+
+    /// Whether the branch just traced serves all coordinates with the drawing's signs.
+    pub(crate) fn has_constant_signs(&self) -> bool {
+        let serves_all = self.serves_all || self.has_one_rotary_driver();
+        let branch = &self.branch;
+        self.closed_forms && serves_all && branch.is_plain() && branch.has_constant_signs()
+    }
+
+    /// Makes the branch one of positions without angles, with the drawing's signs everywhere.
+    pub(crate) fn set_constant_signs(&mut self) {
+        self.branch.set_constant_signs(self.mechanism.class_angle.len(), &self.signs);
+        self.serves_all = self.q0.len() > 1;
     }
 
     /// The context of knots.

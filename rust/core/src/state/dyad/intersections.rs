@@ -60,9 +60,12 @@ impl<R: Real> Closing<R> {
     /// Of two slides with these values, along lines with this determinant.
     #[inline(always)]
     pub(crate) fn of_lines(s: R, t: R, determinant: R) -> Self {
+        let open = s.finite().and(t.finite()).not();
+        let sine2 = determinant * determinant;
         Self {
-            open: s.finite().and(t.finite()).not(),
-            sine2: determinant * determinant,
+            open,
+            flat: sine2.lt(R::splat(FLAT2)).and(open.not()),
+            sine2,
             margin: R::ONE,
             gap: R::splat(f64::INFINITY),
             ..Self::CLOSED
@@ -297,6 +300,17 @@ mod tests {
             assert!(solved.closing.flat && !solved.closing.open);
             assert!((solved.legs[0] - Vector::new(first, 0.0)).norm() < 4.0 * TOLERANCE);
         }
+    }
+
+    #[test]
+    fn lines_are_flat_where_rounding_cannot_tell_them_from_parallel_ones() {
+        let limit = FLAT2.sqrt();
+        for (sine, flat) in [(0.9 * limit, true), (-0.9 * limit, true), (1.1 * limit, false)] {
+            let closing = Closing::of_lines(1.0, 2.0, sine);
+            assert!(closing.flat == flat && !closing.open);
+        }
+        let closing = Closing::of_lines(f64::INFINITY, 2.0, 0.0);
+        assert!(closing.open && !closing.flat);
     }
 
     #[test]

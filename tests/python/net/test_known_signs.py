@@ -1,0 +1,54 @@
+"""What a batch remembers of its designs changes no bit of any later motion."""
+
+from __future__ import annotations
+
+import pickle
+from concurrent.futures import ThreadPoolExecutor
+
+import library
+import numpy as np
+import pytest
+
+import assur
+import bits
+import design_spaces
+
+NAMES = ("crank_rocker", "watt_six_bar", "stephenson_six_bar", "jansen_leg")
+ORDER = 1
+
+
+def answers(batch: assur.Mechanism, q: bits.Float) -> list[bits.Bits]:
+    """Bits of joints alone, then of everything, joints again, and of the mirrored assembly."""
+    joints = [name for name in batch.joints if name not in batch.links["ground"]]
+    mirrored = {name: -sign for name, sign in batch.assembly.items()}
+    motions = [
+        batch.solve(q, ORDER, joints, on_error="nan"),
+        batch.solve(q, ORDER, on_error="nan"),
+        batch.solve(q, ORDER, joints, on_error="nan"),
+        batch.solve(q, ORDER, joints, assembly=mirrored, on_error="nan"),
+    ]
+    return [bits.bits(motion) for motion in motions]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_first_second_and_concurrent_calls_give_the_same_bits(name: str) -> None:
+    rng = np.random.default_rng(5)
+    batch = design_spaces.space(library.LIBRARY[name](), rng, 300)
+    q = rng.uniform(-7.0, 9.0, 23)
+    first = answers(batch, q)
+    fresh = pickle.loads(pickle.dumps(batch))
+    with ThreadPoolExecutor(4) as threads:
+        shared = list(threads.map(lambda _: answers(fresh, q), range(4)))
+    for again in [answers(batch, q), *shared]:
+        for one, other in zip(first, again, strict=True):
+            assert np.array_equal(one, other)
+    assert np.array_equal(first[0], first[2])
+
+
+def test_a_design_with_a_change_point_is_traced_every_time() -> None:
+    """A parallelogram goes on as one through its change points, alone and in a batch."""
+    batch = assur.FourBar(1.0, 3.0, 1.0, [3.0, 3.2])
+    q = np.linspace(0.1, 12.0, 50)
+    motions = [batch.solve(q, 0, ["C"], on_error="nan").joint("C").value for _ in range(3)]
+    for motion in motions:
+        assert np.allclose(motion[0], np.stack([3.0 + np.cos(q), np.sin(q)], -1), atol=1e-9)
