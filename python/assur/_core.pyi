@@ -17,6 +17,7 @@ from assur.kinematics.request import Buffers
 
 __all__ = [
     "Flywheels",
+    "KnownSigns",
     "Machine",
     "Mechanism",
     "Run",

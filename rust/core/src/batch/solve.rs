@@ -173,6 +173,6 @@ impl Batch<'_> {
         let first = (design - chunk.designs.start) * chunk.positions.len();
         let index = design * positions + chunk.positions.start;
         let values = &self.request.dimensions[design * dimensions..][..dimensions];
-        (values, Job { q, rows, first, index, shared, design })
+        (values, Job { q, rows, first, index, design, shared })
     }
 }
