@@ -1,4 +1,4 @@
-"""Sweeps beside numba by a specialist and beside memory, two threads each, arrays reused or new."""
+"""Sweeps beside numba by a specialist and beside memory, two threads each, arrays reused."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ RANDOM = np.random.default_rng(3)
 
 @dataclass(frozen=True)
 class Sweep:
-    """A batch (made anew in every round if `fresh`), its request, and the specialist's kernel."""
+    """A batch (made anew in every round), its request, and the specialist's kernel."""
 
     one: assur.Mechanism
     dimensions: dict[str, Float]
@@ -38,7 +38,6 @@ class Sweep:
     order: int
     kernel: Callable[[Sequence[Float]], None]
     arrays: tuple[Float, ...]
-    fresh: bool
 
     def assur(self, out: assur.Motion | None = None) -> assur.Motion:
         batch = self.one.with_dimensions(self.dimensions)
@@ -84,7 +83,7 @@ def space(six_bar: bool) -> Sweep:
     if not six_bar:
         one = assur.Mechanism(joints, {n: list(of) for n, of in links.items()}, "crank")
         columns = dict(zip(names, values, strict=True))
-        return Sweep(one, columns, FEW, ("P",), 0, four_bars, arrays, fresh=True)
+        return Sweep(one, columns, FEW, ("P",), 0, four_bars, arrays)
     joints |= {"E": (6.0, 0.5), "S": (4.0, 3.5), "T": (3.0, 4.5)}
     links |= {"ground": "ADE", "fifth": "PST", "sixth": "ES"}
     second = RANDOM.uniform([[2.0], [2.0], [3.0], [-1.0]], [[5.0], [5.0], [7.0], [2.0]], (4, SPACE))
@@ -97,7 +96,7 @@ def space(six_bar: bool) -> Sweep:
 
     one = assur.Mechanism(joints, {n: list(of) for n, of in links.items()}, "crank")
     columns = dict(zip(names, values, strict=True))
-    return Sweep(one, columns, FEW, ("T",), 0, six_bars, arrays, fresh=True)
+    return Sweep(one, columns, FEW, ("T",), 0, six_bars, arrays)
 
 
 def near(engine: bool) -> Sweep:
@@ -119,12 +118,12 @@ def near(engine: bool) -> Sweep:
         kernel(lengths, cos, sin, tuple(out[:3]), tuple(out[3:]))
 
     columns = dict(zip(names, lengths, strict=True))
-    return Sweep(one, columns, MANY, outputs, 2, compute, arrays, fresh=False)
+    return Sweep(one, columns, MANY, outputs, 2, compute, arrays)
 
 
 SWEEPS = {
-    f"{SPACE} random four-bars x 72, traced point, new arrays": lambda: space(False),
-    f"{SPACE} random six-bars x 72, traced point, new arrays": lambda: space(True),
+    f"{SPACE} random four-bars x 72, traced point": lambda: space(False),
+    f"{SPACE} random six-bars x 72, traced point": lambda: space(True),
     f"{NEAR} slider-cranks x 360, 2 outputs to order 2": lambda: near(True),
     f"{NEAR} four-bars x 360, 2 outputs to order 2": lambda: near(False),
 }
@@ -142,16 +141,9 @@ def sweep(request: pytest.FixtureRequest) -> Sweep:
 def test_sweep(benchmark: BenchmarkFixture, sweep: Sweep, who: str) -> None:
     benchmark.group = f"{sweep.one.structure.formula}, {len(sweep.q)} positions, 2 threads"
     if who == ASSUR:
-        motion = None if sweep.fresh else sweep.assur()
-        run: Callable[[], object] = partial(sweep.assur, motion)
+        run: Callable[[], object] = partial(sweep.assur, sweep.assur())
+    elif who == "specialist":
+        run = partial(sweep.kernel, sweep.arrays)
     else:
-
-        def run() -> object:
-            arrays = sweep.arrays
-            if sweep.fresh:
-                arrays = tuple(np.empty_like(array) for array in arrays)
-            if who == "specialist":
-                return sweep.kernel(arrays)
-            return specialist.fill(tuple(a.reshape(len(a), -1) for a in arrays), 1.5)
-
+        run = partial(specialist.fill, tuple(a.reshape(len(a), -1) for a in sweep.arrays), 1.5)
     benchmark.pedantic(run, rounds=9, warmup_rounds=2)

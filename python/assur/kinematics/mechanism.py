@@ -114,7 +114,9 @@ class Mechanism:
         self, description: Description, values: Float | None, core: Core | None = None
     ) -> None:
         core = core or encode.core_of(description)
-        array = np.array(core.drawing if values is None else values, dtype=np.float64, order="C")
+        # Callers give up their arrays: a batch may be large.
+        given = core.drawing if values is None else values
+        array = np.asarray(given, dtype=np.float64, order="C")
         array.flags.writeable = False
         for name, value in (
             ("_core", core),
