@@ -12,6 +12,7 @@ import pytest
 import assur
 import bits
 import design_spaces
+from assur import _core
 
 NAMES = ("crank_rocker", "watt_six_bar", "stephenson_six_bar", "jansen_leg")
 ORDER = 1
@@ -52,3 +53,8 @@ def test_a_design_with_a_change_point_is_traced_every_time() -> None:
     motions = [batch.solve(q, 0, ["C"], on_error="nan").joint("C").value for _ in range(3)]
     for motion in motions:
         assert np.allclose(motion[0], np.stack([3.0 + np.cos(q), np.sin(q)], -1), atol=1e-9)
+
+
+def test_too_many_designs_to_remember_are_refused() -> None:
+    with pytest.raises(MemoryError, match=str(10**18)):
+        _core.KnownSigns(10**18)

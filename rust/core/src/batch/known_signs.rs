@@ -1,5 +1,6 @@
 //! What solving a batch has found out about its designs, for later calls.
 
+use std::collections::TryReserveError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// For every design of a batch, whether its signs are known to be the same everywhere: joints and
@@ -12,15 +13,15 @@ pub struct KnownSigns(Vec<AtomicBool>);
 
 impl KnownSigns {
     /// Nothing is known yet.
-    #[must_use]
-    pub fn new(designs: usize) -> Self {
-        Self((0..designs).map(|_| AtomicBool::new(false)).collect())
-    }
-
-    /// Number of designs.
-    #[must_use]
-    pub fn designs(&self) -> usize {
-        self.0.len()
+    ///
+    /// # Errors
+    ///
+    /// [`TryReserveError`] if there is no memory for one byte a design.
+    pub fn new(designs: usize) -> Result<Self, TryReserveError> {
+        let mut known = Vec::new();
+        known.try_reserve_exact(designs)?;
+        known.resize_with(designs, AtomicBool::default);
+        Ok(Self(known))
     }
 
     pub(super) fn are_constant(&self, design: usize) -> bool {

@@ -1,10 +1,10 @@
-//! With several drivers: which dyads can pass change points on a way through the coordinates.
+//! With several drivers: which dyads can pass change points on a path through the coordinates.
 //!
 //! A dyad has a change point where the length of its chord has an extreme at which it is flat. If
 //! one end of the chord moves over an area as seen from every body that is known before the dyad,
-//! extremes are single points of the coordinates, which no way meets but by chance; beside them
+//! extremes are single points of the coordinates, which no path meets but by chance; beside them
 //! nothing changes. If it moves along a curve, as a joint of the next body does, the length depends
-//! on one scalar, and whole ways lead through its extremes.
+//! on one scalar, and paths in every direction lead through its extremes.
 
 use crate::branch::design::Design;
 use crate::math::derivatives::DerivativeTables;
