@@ -80,6 +80,7 @@ pub use description::slider_crank::SliderCrank;
 pub use description::{
     Description, Driver, DriverDescription, Joint, Link, Linkage, Slide, SlideDescription,
 };
+pub use math::pair::Lanes;
 pub use math::simd::Simd;
 pub use math::vector::Vector;
 pub use math::{lanes, tolerance, trig};

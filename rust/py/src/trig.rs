@@ -1,7 +1,7 @@
 //! The core's trigonometry on flat arrays: whole groups of lanes, then the rest one by one.
 
-use assur::lanes::{LANES, Lanes, Real};
-use assur::trig;
+use assur::lanes::{LANES, Real};
+use assur::{Lanes, trig};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -20,10 +20,10 @@ pub(crate) fn sin_cos<'py>(
     detach::catch_panic(|| {
         let (mut sines, mut cosines) = (Vec::new(), Vec::new());
         let (groups, rest) = x.as_chunks::<LANES>();
-        for &group in groups {
-            let (s, c) = trig::sin_cos(Lanes(group));
-            sines.extend(s.0);
-            cosines.extend(c.0);
+        for group in groups {
+            let (s, c) = trig::sin_cos(in_lanes(group));
+            sines.extend(numbers(s));
+            cosines.extend(numbers(c));
         }
         for &one in rest {
             let (s, c) = trig::sin_cos(one);
@@ -66,8 +66,7 @@ fn angles<'py>(
         let mut angles = Vec::new();
         for (y, x) in y.chunks(LANES).zip(x.chunks(LANES)) {
             if y.len() == LANES {
-                let lanes = |x: &[f64]| Lanes::from_lanes(|i| x[i]);
-                angles.extend(of_lanes(lanes(y), lanes(x)).0);
+                angles.extend(numbers(of_lanes(in_lanes(y), in_lanes(x))));
             } else {
                 angles.extend(y.iter().zip(x).map(|(&y, &x)| of_one(y, x)));
             }
@@ -81,8 +80,19 @@ fn angles<'py>(
 pub(crate) fn asin<'py>(py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Array<'py>> {
     let (groups, rest) = x.as_slice()?.as_chunks::<LANES>();
     detach::catch_panic(|| {
-        let mut angles: Vec<f64> = groups.iter().flat_map(|&g| trig::asin(Lanes(g)).0).collect();
+        let mut angles = Vec::new();
+        for group in groups {
+            angles.extend(numbers(trig::asin(in_lanes(group))));
+        }
         angles.extend(rest.iter().map(|&one| trig::asin(one)));
         Ok(PyArray1::from_vec(py, angles))
     })
+}
+
+fn in_lanes(group: &[f64]) -> Lanes {
+    Lanes::from_lanes(|lane| group[lane])
+}
+
+fn numbers(lanes: Lanes) -> impl Iterator<Item = f64> {
+    (0..LANES).map(move |lane| lanes.lane(lane))
 }

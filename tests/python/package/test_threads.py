@@ -37,10 +37,11 @@ def test_threads_accepted(threads: int) -> None:
     assert (solve(m, q, threads=threads) == solve(m, q)).all()
 
 
+@pytest.mark.parametrize("positions", [360, 361])
 @pytest.mark.parametrize("threads", [1, 2])
-def test_results_beyond_the_caches_have_the_same_bits(threads: int) -> None:
-    """From 32 MiB on they are stored past the caches, in rows that do not fill whole lanes."""
-    q = np.linspace(0.0, 6.0, 361)
+def test_results_beyond_the_caches_have_the_same_bits(threads: int, positions: int) -> None:
+    """From 32 MiB on whole lines are stored past the caches; rows of 361 begin within lines."""
+    q = np.linspace(0.0, 6.0, positions)
     lengths = np.linspace(2.9, 3.1, 1200)
     many = assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"coupler.length": lengths})
     motion = many.solve(q, threads=threads)

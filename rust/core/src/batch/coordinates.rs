@@ -42,6 +42,11 @@ impl<R: Real, const G: usize> Coordinates<R, G> {
         Self { blocks: Vec::new(), registers: 0, shared: None, is_angle, is_far: false }
     }
 
+    /// Forgets which coordinates were loaded.
+    pub(super) fn forget(&mut self) {
+        self.shared = None;
+    }
+
     /// Loads coordinates, drivers fastest, rad or m; true if they are not the shared ones that were
     /// loaded last.
     #[inline(always)]
@@ -86,8 +91,8 @@ impl<R: Real, const G: usize> Coordinates<R, G> {
     #[inline(always)]
     pub(super) fn swap(&mut self, block: usize, state: &mut State<R, G>) {
         let block = &mut self.blocks[block];
-        std::mem::swap(&mut block.q, &mut state.q);
-        std::mem::swap(&mut block.unit, &mut state.unit);
+        std::mem::swap(&mut block.q, &mut state.pose.q);
+        std::mem::swap(&mut block.unit, &mut state.pose.unit);
     }
 
     /// A register of a driver's coordinates.

@@ -1,16 +1,9 @@
 //! Chooses the compiled copy of the worker, by the processor and the caller's limit.
 
 use super::worker::{Job, Worker};
-use crate::branch::uniform::KNOTS;
 use crate::math::simd::Simd;
-use crate::state::kernel::Level;
 use crate::state::kernel::portable::Portable;
-
-/// Positions solved at once: their columns fit the first-level cache. A turn in steps of 5° is one
-/// block.
-pub(crate) const BLOCK: usize = 80;
-
-const _: () = assert!(KNOTS <= BLOCK, "the knots of a turn are solved at once");
+use crate::state::kernel::{BLOCK, Level};
 
 /// Work that is compiled for each level.
 pub(crate) trait ForLevel {

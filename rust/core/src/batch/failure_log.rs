@@ -34,7 +34,7 @@ pub struct FirstFailure {
 
 impl FailureLog {
     /// Counts failures of rows from `row` on; describes the first if none before it is known.
-    pub(crate) fn record(&self, row: usize, count: usize, describe: impl FnOnce() -> Failure) {
+    fn record(&self, row: usize, count: usize, describe: impl FnOnce() -> Failure) {
         self.count.fetch_add(count, Ordering::Relaxed);
         let Ok(mut first) = self.first.lock() else { return };
         if first.as_ref().is_none_or(|&(known, _)| row < known) {
@@ -43,22 +43,47 @@ impl FailureLog {
         }
     }
 
-    /// Counts failures of rows from `row` on, if one before them is known; else the caller has to
-    /// describe the first by [`record`](Self::record).
-    #[inline(always)]
-    pub(crate) fn count_later(&self, row: usize, count: usize) -> bool {
-        let later = self.row.load(Ordering::Relaxed) < row;
-        if later {
-            self.count.fetch_add(count, Ordering::Relaxed);
-        }
-        later
-    }
-
     /// The first failure, once the batch is solved.
     #[must_use]
     pub fn first(self) -> Option<FirstFailure> {
         let count = self.count.into_inner();
         let (row, failure) = self.first.into_inner().ok().flatten()?;
         Some(FirstFailure { row, failure, count })
+    }
+}
+
+/// One thread's access to the log. It counts by itself until it is dropped: threads that shared a
+/// counter would wait for each other at every design.
+#[derive(Debug)]
+pub(super) struct FailureCounter<'a> {
+    log: &'a FailureLog,
+    later: usize,
+}
+
+impl<'a> FailureCounter<'a> {
+    pub(super) fn new(log: &'a FailureLog) -> Self {
+        Self { log, later: 0 }
+    }
+
+    /// Counts failures of rows from `row` on; describes the first if none before it is known.
+    pub(super) fn record(&self, row: usize, count: usize, describe: impl FnOnce() -> Failure) {
+        self.log.record(row, count, describe);
+    }
+
+    /// Counts failures of rows from `row` on, if one before them is known; else the caller has to
+    /// describe the first by [`record`](Self::record).
+    #[inline(always)]
+    pub(super) fn count_later(&mut self, row: usize, count: usize) -> bool {
+        let later = self.log.row.load(Ordering::Relaxed) < row;
+        if later {
+            self.later += count;
+        }
+        later
+    }
+}
+
+impl Drop for FailureCounter<'_> {
+    fn drop(&mut self) {
+        self.log.count.fetch_add(self.later, Ordering::Relaxed);
     }
 }

@@ -16,7 +16,7 @@ impl KnownSigns {
     ///
     /// # Errors
     ///
-    /// [`TryReserveError`] if there is no memory for one byte a design.
+    /// [`TryReserveError`] if one byte a design does not fit in memory.
     pub fn new(designs: usize) -> Result<Self, TryReserveError> {
         let mut known = Vec::new();
         known.try_reserve_exact(designs)?;

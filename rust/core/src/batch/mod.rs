@@ -10,5 +10,6 @@ pub(crate) mod schedule;
 pub(crate) mod solve;
 #[cfg(feature = "test-hooks")]
 pub mod test_hooks;
+mod work_space;
 pub(crate) mod worker;
 pub(crate) mod writer;

@@ -4,9 +4,10 @@
 use std::mem::MaybeUninit;
 
 use super::worker::{Job, Worker, mask};
+use super::writer::RowRange;
 use crate::branch::uniform::reference_of;
 use crate::math::angle::unwrap_to;
-use crate::math::lanes::{Mask, Real};
+use crate::math::lanes::{LANES, Mask, Real};
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 use crate::state::status::Status;
@@ -16,7 +17,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
     #[inline(always)]
     pub(super) fn is_plain(&self) -> bool {
         let branch = &self.design.branch;
-        self.tape.is_bounded && branch.is_plain() && branch.has_constant_signs()
+        self.space.tape.is_bounded && self.is_smooth && branch.has_constant_signs()
     }
 
     /// Finds for every class asked for an angle from which its whole turns follow everywhere; true
@@ -35,7 +36,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
                 most = if angle > most { angle } else { most };
             }
             let Some(reference) = reference_of([least, most]) else { return true };
-            self.references[class] = reference;
+            self.space.references[class] = reference;
         }
         false
     }
@@ -51,9 +52,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         located: bool,
     ) -> bool {
         let block = row / (G * R::LANES);
-        self.coordinates.swap(block, &mut self.many);
+        self.space.coordinates.swap(block, &mut self.space.many);
         let solved = self.solve_loaded::<L>(job, row, count, located);
-        self.coordinates.swap(block, &mut self.many);
+        self.space.coordinates.swap(block, &mut self.space.many);
         solved
     }
 
@@ -66,57 +67,43 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         located: bool,
     ) -> bool {
         let (first, groups) = (row / R::LANES, count.div_ceil(R::LANES).min(G));
-        self.many.groups = groups;
+        self.space.many.groups = groups;
         let design = &self.design;
-        let cx = Context { tape: &self.tape, ..design.context(design.derivatives) };
+        let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
+        let range = RowRange { first: job.first + row, count, once: true };
         // Stores to memory would wait for it; meanwhile the positions are computed.
-        for (column, of) in job.rows.columns.iter().zip(self.columns) {
-            let first = job.first + row;
-            R::prefetch(&column[first * of.width..(first + count) * of.width]);
-        }
-        L::bare(&mut self.many, &cx);
-        let state = &self.many;
-        let (mut doubtful, mut open) = (R::Mask::NONE, R::Mask::NONE);
-        for group in 0..groups {
-            doubtful = doubtful.or(state.doubtful(group));
-            open = open.or(state.open[group]);
-        }
-        if doubtful.any() {
+        job.rows.prefetch::<R>(self.columns, range);
+        L::bare(&mut self.space.many, &cx);
+        if self.space.many.is_doubtful() {
             return false;
         }
-        let some_open = open.any();
+        let some_open = self.space.many.has_open();
         if located && !self.lift_by_knots(first, groups) {
             return false;
         }
         if some_open && !self.is_counted(job, row, count) {
             return false;
         }
-        let (design, state) = (&self.design, &self.many);
-        let at = job.first + row;
+        let (design, state) = (&self.design, &self.space.many);
         let with = (&design.constants, &design.units);
-        let failed = some_open.then_some(&state.open);
+        let failed = some_open.then_some(&state.conditions.open);
         let rows = &mut *job.rows;
         if located {
-            self.writer.write(rows, (at, count), with, state, &self.lifted, failed);
+            self.writer.write(rows, range, with, state, &self.space.lifted, failed);
         } else {
-            let references = &self.references[..];
-            self.writer.write_plain::<L::Stride, R, G>(
-                rows,
-                (at, count),
-                with,
-                state,
-                references,
-                failed,
-            );
+            let references = &self.space.references[..];
+            self.writer
+                .write_plain::<L::Stride, R, G>(rows, range, with, state, references, failed);
         }
         if some_open {
-            let status = &mut job.rows.status[at..at + count];
-            let state = &self.many;
+            let status = &mut job.rows.status[range.first..range.first + count];
+            let state = &self.space.many;
             for (group, status) in status.chunks_mut(R::LANES).enumerate() {
-                let open = state.open[group].bits();
-                for (lane, status) in status.iter_mut().enumerate() {
-                    let own = [Status::Ok, Status::Unreachable][(open >> lane & 1) as usize];
-                    *status = MaybeUninit::new(own as u8);
+                let codes = open_codes(state.conditions.open[group].bits()).map(MaybeUninit::new);
+                if status.len() == R::LANES {
+                    status.copy_from_slice(&codes[..R::LANES]);
+                } else {
+                    status.copy_from_slice(&codes[..status.len()]);
                 }
             }
         }
@@ -130,13 +117,13 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         let branch = &self.design.branch;
         for &class in &self.writer.classes {
             for group in 0..groups {
-                let location = &self.locations[first + group];
-                let angle = self.many.class[class][group].unit_angle();
-                self.lifted[class][group] =
+                let location = &self.space.locations[first + group];
+                let angle = self.space.many.pose.class[class][group].unit_angle();
+                self.space.lifted[class][group] =
                     unwrap_to(angle, branch.reference_angle(location, class));
                 if branch.inverse_width.is_none() {
                     let unseen = |lane: usize| {
-                        !self.many.open[group].lane(lane)
+                        !self.space.many.conditions.open[group].lane(lane)
                             && branch.in_untraced_island(location, lane)
                     };
                     if mask::<R>(unseen).any() {
@@ -150,18 +137,44 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
 
     /// Counts the positions that are open, if none of them has to be described.
     #[inline(always)]
-    fn is_counted(&self, job: &Job<'_, '_>, row: usize, count: usize) -> bool {
-        let Some(log) = self.failures else { return true };
+    fn is_counted(&mut self, job: &Job<'_, '_>, row: usize, count: usize) -> bool {
+        let Some(log) = &mut self.failures else { return true };
         let (mut first, mut number) = (None, 0);
         for group in 0..count.div_ceil(R::LANES).min(G) {
             let before = group * R::LANES;
             let own = u32::MAX >> (u32::BITS as usize - R::LANES.min(count - before));
-            let open = self.many.open[group].bits() & own;
+            let open = self.space.many.conditions.open[group].bits() & own;
             if open != 0 {
                 first.get_or_insert(before + open.trailing_zeros() as usize);
                 number += open.count_ones() as usize;
             }
         }
         first.is_none_or(|first| log.count_later(job.index + row + first, number))
+    }
+}
+
+/// The status of eight positions; the open ones have their bit set, the first the last bit.
+#[inline(always)]
+fn open_codes(open: u32) -> [u8; LANES] {
+    const ONES: u64 = 0x0101_0101_0101_0101;
+    // Each byte keeps its own bit; adding 127 carries any bit to the top of its byte.
+    let own = (u64::from(open) * ONES) & 0x8040_2010_0804_0201;
+    let set = ((own + 0x7f * ONES) >> 7) & ONES;
+    (set * Status::Unreachable as u64).to_le_bytes()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_of_open_positions() {
+        for open in 0..256 {
+            let expected = [0, 1, 2, 3, 4, 5, 6, 7].map(|lane| match open >> lane & 1 {
+                0 => Status::Ok as u8,
+                _ => Status::Unreachable as u8,
+            });
+            assert_eq!(open_codes(open), expected, "{open:b}");
+        }
     }
 }

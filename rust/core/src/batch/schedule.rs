@@ -21,6 +21,8 @@ const CHUNK: usize = 8192;
 const CHUNK_SEVERAL_DRIVERS: usize = 8;
 /// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
 const MAX_DESIGNS: usize = 128;
+/// Numbers of a result that is greater than the caches: 32 MiB.
+const BEYOND_CACHES: usize = 4 << 20;
 
 /// Which positions and designs take the careful path. The results are the same, but slow: to
 /// compare with.
@@ -96,6 +98,7 @@ pub(crate) struct Chunks<'a> {
     positions: usize,
     next: (usize, usize),
     size: usize,
+    past_caches: bool,
 }
 
 impl<'a> Chunks<'a> {
@@ -106,7 +109,9 @@ impl<'a> Chunks<'a> {
         drivers: usize,
     ) -> Self {
         let size = if drivers == 1 { CHUNK } else { CHUNK_SEVERAL_DRIVERS };
-        Self { rest: arrays, columns, designs, positions, next: (0, 0), size }
+        let numbers: usize = arrays.columns.iter().map(|column| column.len()).sum();
+        let past_caches = numbers >= BEYOND_CACHES;
+        Self { rest: arrays, columns, designs, positions, next: (0, 0), size, past_caches }
     }
 
     /// Number of chunks.
@@ -148,6 +153,7 @@ impl<'a> Chunks<'a> {
         RowSlices {
             columns: columns.map(|(all, column)| split_front(all, rows * column.width)).collect(),
             status: split_front(&mut self.rest.status, rows),
+            past_caches: self.past_caches,
         }
     }
 }
@@ -177,7 +183,7 @@ impl Control<'_> {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
-    /// Does all chunks; each thread makes its own worker.
+    /// Does all chunks; each thread makes its own worker, and finishes it after the last chunk.
     ///
     /// The threads live only during the call: starting them costs some ten microseconds, and no
     /// idle thread is left that a fork of the process could break.
@@ -186,6 +192,7 @@ impl Control<'_> {
         chunks: Chunks<'_>,
         worker: impl Fn() -> W + Sync,
         work: impl Fn(&mut W, &Chunk, RowSlices<'_>) + Sync,
+        finish: impl Fn(W) + Sync,
     ) -> Result<(), SolveError> {
         let count = chunks.count();
         let threads = match self.threads {
@@ -208,6 +215,7 @@ impl Control<'_> {
                 work(&mut worker, &chunk, rows);
             }
             drop(panic_flag);
+            finish(worker);
         };
         thread::scope(|scope| {
             // If the system refuses a thread, the others do its share.

@@ -10,6 +10,7 @@ use super::worker::{Job, Worker};
 use super::writer::{RowSlices, Writer};
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
+use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
 
 impl Mechanism {
@@ -141,17 +142,20 @@ impl ForLevel for Fill<'_, '_> {
         let worker = || {
             Worker::<L::Register, G>::new(mechanism, request, derivatives, writer, columns, control)
         };
-        control.run(self.chunks, worker, |worker, chunk, mut rows| {
-            for design in chunk.designs.clone() {
-                if control.is_cancelled() {
-                    break;
+        let work =
+            |worker: &mut Worker<'_, L::Register, G>, chunk: &Chunk, mut rows: RowSlices<'_>| {
+                for design in chunk.designs.clone() {
+                    if control.is_cancelled() {
+                        break;
+                    }
+                    let (values, mut job) = self.batch.job(design, chunk, &mut rows);
+                    if worker.bind(values, &mut job) {
+                        L::run(worker, &mut job);
+                    }
                 }
-                let (values, mut job) = self.batch.job(design, chunk, &mut rows);
-                if worker.bind(values, &mut job) {
-                    L::run(worker, &mut job);
-                }
-            }
-        })
+                L::Register::fence();
+            };
+        control.run(self.chunks, worker, work, Worker::finish)
     }
 }
 

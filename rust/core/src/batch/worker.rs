@@ -4,26 +4,24 @@
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::coordinates::Coordinates;
-use super::failure_log::FailureLog;
+use super::failure_log::FailureCounter;
 use super::known_signs::KnownSigns;
 use super::outputs::Column;
 use super::request::Request;
 use super::schedule::{Care, Control};
-use super::writer::{RowSlices, Writer};
+use super::work_space::WorkSpace;
+use super::writer::{RowRange, RowSlices, Writer};
 use crate::branch::branch::BranchLocation;
 use crate::branch::design::Design;
-use crate::branch::uniform::{Traced, UniformTracer};
-use crate::math::angle::{Reference, unwrap_to};
+use crate::branch::uniform::Traced;
+use crate::math::angle::unwrap_to;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
-use crate::plan::compile_tape::Needs;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::tape::Tape;
 use crate::query::failure::Failure;
 use crate::state::kernel::Level;
 use crate::state::sensitivity::Sensitivity;
-use crate::state::state::{Context, State};
+use crate::state::state::Context;
 use crate::state::status::{Rejection, Status};
 
 /// Blocks of a design with doubtful positions, after which all are computed carefully at once.
@@ -34,28 +32,17 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     pub(super) design: Design<'a>,
     pub(super) writer: &'a Writer<'a>,
     pub(super) columns: &'a [Column],
-    /// Made for the first design that needs it.
-    uniform: Option<Box<UniformTracer<R, G>>>,
-    one: State,
+    pub(super) space: Box<WorkSpace<R, G>>,
     /// The dimension to differentiate by, with its workspace.
     by: Option<(usize, Sensitivity)>,
-    pub(super) many: State<R, G>,
-    /// Angles of the classes.
-    pub(super) lifted: Vec<[R; G]>,
-    /// Of the last job.
-    pub(super) coordinates: Coordinates<R, G>,
-    /// Locations of these registers on the branch.
-    pub(super) locations: Vec<BranchLocation<R>>,
-    /// Whether that branch was a uniform one.
-    locations_even: bool,
     care: Care,
-    /// What the request needs.
-    pub(super) tape: Tape,
-    /// Of each class asked for, if the design is plain.
-    pub(super) references: Vec<Reference>,
+    /// Whether the branch serves all positions of the job, without change points.
+    pub(super) is_smooth: bool,
+    /// Of the last job: its shared coordinates, and how far its driven slides reach.
+    driven_reach: (Option<usize>, f64),
     /// When true, work stops after the block in progress.
     cancel: Option<&'a AtomicBool>,
-    pub(super) failures: Option<&'a FailureLog>,
+    pub(super) failures: Option<FailureCounter<'a>>,
     known_signs: Option<&'a KnownSigns>,
 }
 
@@ -88,33 +75,24 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             design.trace_only(&writer.asked);
         }
         let plan = mechanism.plan();
-        let mut many = State::new(plan, derivatives);
-        many.angle_wanted.clone_from(&writer.asked);
-        let mut points = vec![false; plan.points];
-        for point in writer.asked_points() {
-            points[point] = true;
-        }
-        let tape =
-            Tape::new(plan, Needs { points: &points, classes: &writer.asked, samples: false });
         Self {
-            uniform: None,
-            one: State::new(plan, derivatives),
+            space: WorkSpace::take(mechanism, derivatives, writer, columns),
             by: request.by.map(|index| (index, Sensitivity::new(plan, derivatives))),
-            many,
-            lifted: vec![[R::ZERO; G]; plan.classes],
-            coordinates: Coordinates::new(plan),
-            locations: Vec::new(),
-            locations_even: false,
             design,
             writer,
             columns,
             care: control.care,
-            tape,
-            references: vec![Reference::Principal; plan.classes],
+            is_smooth: false,
+            driven_reach: (None, 0.0),
             cancel: control.cancel,
-            failures: control.failures,
+            failures: control.failures.map(FailureCounter::new),
             known_signs: control.known_signs,
         }
+    }
+
+    /// Leaves the work space to later calls.
+    pub(crate) fn finish(self) {
+        self.space.keep(self.design.mechanism);
     }
 
     /// Whether the caller has cancelled the work.
@@ -130,14 +108,30 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             let count = job.q.len() / mechanism.q0().len();
             let status = Status::BadDimension as u8;
             job.rows.write_failed(self.columns, job.first, count, status);
-            if let (Some(log), true) = (self.failures, count > 0) {
+            if let (Some(log), true) = (&self.failures, count > 0) {
                 let q = &job.q[..mechanism.q0().len()];
                 log.record(job.index, count, || Failure::of_dimension(fault, q));
             }
             return false;
         }
-        self.design.bind(values);
+        let reach = self.driven_reach(job);
+        self.design.bind_within(values, reach);
         true
+    }
+
+    /// The greatest value of a driven slide at any position of a job, m.
+    fn driven_reach(&mut self, job: &Job<'_, '_>) -> f64 {
+        let (shared, reach) = self.driven_reach;
+        if shared.is_some() && shared == job.shared {
+            return reach;
+        }
+        let mechanism = self.design.mechanism;
+        let drivers = mechanism.q0().len();
+        let slides = (0..drivers).filter(|&d| mechanism.plan().driven_slide(d).is_some());
+        let values = slides.flat_map(|driver| job.q.iter().skip(driver).step_by(drivers));
+        let reach = values.fold(0.0, |reach: f64, q| reach.max(q.abs()));
+        self.driven_reach = (job.shared, reach);
+        reach
     }
 
     /// Solves the positions of the design; only `dispatch` calls this. `trace`: [`Worker::trace`],
@@ -160,24 +154,24 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             self.solve_by_position(job, 0, count);
             return;
         }
-        self.many.groups = count.div_ceil(R::LANES).min(G);
+        self.space.many.groups = count.div_ceil(R::LANES).min(G);
         if self.design.branch.has_constant_signs() {
             let signs = self.design.branch.signs_at(&BranchLocation::<f64>::default(), 0);
-            for (lanes, &sign) in self.many.signs.iter_mut().zip(signs) {
-                lanes[..self.many.groups].fill(R::splat(sign));
+            for (lanes, &sign) in self.space.many.pose.signs.iter_mut().zip(signs) {
+                lanes[..self.space.many.groups].fill(R::splat(sign));
             }
         }
         self.load_coordinates(job);
-        if surveyed && self.coordinates.is_far {
+        if surveyed && self.space.coordinates.is_far {
             surveyed = trace(self, job, false);
         }
         // Bare analogues are for one driver.
-        let bare = drivers == 1 || self.many.len == 1;
+        let bare = drivers == 1 || self.space.many.len == 1;
         let mut doubts = if bare && (surveyed || self.is_plain()) { 0 } else { MAX_DOUBTS };
         if doubts < MAX_DOUBTS {
             let design = &self.design;
-            let cx = Context { tape: &self.tape, ..design.context(design.derivatives) };
-            self.many.prepare_bare(&cx);
+            let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
+            self.space.many.prepare_bare(&cx);
         }
         let mut prepared = false;
         let mut located = !surveyed && (doubts == MAX_DOUBTS || self.find_references());
@@ -190,7 +184,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 return;
             }
             let block = (count - row).min(G * R::LANES);
-            if self.coordinates.by_position(row / (G * R::LANES)) {
+            if self.space.coordinates.by_position(row / (G * R::LANES)) {
                 self.solve_by_position(job, row, block);
                 continue;
             }
@@ -199,7 +193,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
             if !prepared {
                 let plan = self.design.mechanism.plan();
-                self.many.prepare(plan, &self.design.constants, self.design.derivatives);
+                self.space.many.prepare(plan, &self.design.constants, self.design.derivatives);
                 prepared = true;
             }
             if !located {
@@ -220,17 +214,19 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     pub(super) fn trace<L: Level<Register = R>>(&mut self, job: &Job<'_, '_>, plain: bool) -> bool {
         if self.has_known_signs(job.design) {
             self.design.set_constant_signs();
+            self.is_smooth = true;
             return false;
         }
         let mut traced = Traced::No;
         // The first guess of a group's iteration depends on how its branch was traced.
         if self.care == Care::Needed || self.design.has_groups() {
-            let plain = plain && self.care == Care::Needed && self.tape.is_bounded;
-            let mut references = plain.then_some(&mut self.references[..]);
+            let plain = plain && self.care == Care::Needed && self.space.tape.is_bounded;
+            let mut references = plain.then_some(&mut self.space.references[..]);
             let (design, classes) = (&mut self.design, &self.writer.classes);
             traced = design.trace_in_closed_form(classes, references.as_deref_mut());
             if traced == Traced::No {
-                let uniform = self.uniform.get_or_insert_with(|| Box::new(design.uniform_tracer()));
+                let uniform =
+                    self.space.uniform.get_or_insert_with(|| Box::new(design.uniform_tracer()));
                 traced = design.trace_in_lanes::<L, G>(uniform, classes, references);
             }
         }
@@ -245,6 +241,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         {
             known.set_constant(job.design);
         }
+        self.is_smooth = self.design.is_smooth(job.q);
         traced == Traced::Surveyed
     }
 
@@ -258,8 +255,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     /// Loads the coordinates into registers; those that all designs share are kept.
     #[inline(always)]
     fn load_coordinates(&mut self, job: &Job<'_, '_>) {
-        if self.coordinates.load(job.q, job.shared, &self.design) {
-            self.locations.clear();
+        if self.space.coordinates.load(job.q, job.shared, &self.design) {
+            self.space.locations.clear();
         }
     }
 
@@ -268,16 +265,18 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     pub(super) fn locate(&mut self) {
         let branch = &self.design.branch;
         // Uniform branches have the same knots for all designs.
-        if branch.inverse_width.is_none() || !self.locations_even {
-            self.locations.clear();
+        if branch.inverse_width.is_none() || !self.space.locations_even {
+            self.space.locations.clear();
         }
-        self.locations_even = branch.inverse_width.is_some();
+        self.space.locations_even = branch.inverse_width.is_some();
         if branch.at.is_empty() {
             // There is nothing to locate.
-            self.locations.resize_with(self.coordinates.registers, BranchLocation::default);
-        } else if self.locations.is_empty() {
-            for register in 0..self.coordinates.registers {
-                self.locations.push(branch.locate(self.coordinates.q(0, register)));
+            self.space
+                .locations
+                .resize_with(self.space.coordinates.registers, BranchLocation::default);
+        } else if self.space.locations.is_empty() {
+            for register in 0..self.space.coordinates.registers {
+                self.space.locations.push(branch.locate(self.space.coordinates.q(0, register)));
             }
         }
     }
@@ -308,45 +307,49 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let branch = &self.design.branch;
         let closed_forms = self.design.closed_forms;
         let constant_signs = branch.has_constant_signs();
-        let (even, plain) = (branch.inverse_width.is_some(), branch.is_plain());
+        let (even, smooth) = (branch.inverse_width.is_some(), self.is_smooth);
         for group in 0..groups {
-            let q = self.coordinates.q(0, first + group);
-            let location = &self.locations[first + group];
-            if !(even || plain && closed_forms) {
+            let q = self.space.coordinates.q(0, first + group);
+            let location = &self.space.locations[first + group];
+            if !(even || smooth && closed_forms) {
                 care[group] = self.lanes_to_redo(q, location, !closed_forms);
             }
             let branch = &self.design.branch;
             // Lanes to redo are set to NaN: their vector result is not used.
-            for driver in 0..self.many.q.len() {
-                let q = self.coordinates.q(driver, first + group);
-                self.many.q[driver][group] = R::select(care[group], R::splat(f64::NAN), q);
-                self.many.unit[driver][group] = self.coordinates.unit(driver, first + group);
+            for driver in 0..self.space.many.pose.q.len() {
+                let q = self.space.coordinates.q(driver, first + group);
+                self.space.many.pose.q[driver][group] =
+                    R::select(care[group], R::splat(f64::NAN), q);
+                self.space.many.pose.unit[driver][group] =
+                    self.space.coordinates.unit(driver, first + group);
             }
             if !constant_signs {
-                for (sign, groups) in self.many.signs.iter_mut().enumerate() {
+                for (sign, groups) in self.space.many.pose.signs.iter_mut().enumerate() {
                     groups[group] = R::from_lanes(|i| branch.signs_at(location, i)[sign]);
                 }
             }
         }
         let design = &self.design;
-        self.many.groups = groups;
+        self.space.many.groups = groups;
         if !closed_forms {
             for group in 0..groups.min(G) {
-                let location = &self.locations[first + group];
-                design.guess(group, &mut self.many, &design.branch, location);
+                let location = &self.space.locations[first + group];
+                design.guess(group, &mut self.space.many, &design.branch, location);
             }
         }
-        let cx = Context { tape: &self.tape, ..design.context(design.derivatives) };
-        L::solve(&mut self.many, &cx);
-        let state = &self.many;
+        let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
+        L::solve(&mut self.space.many, &cx);
+        let state = &self.space.many;
         // A separate loop: independent arctangents overlap.
         for &class in &self.writer.classes {
             for g in 0..groups.min(G) {
-                self.lifted[class][g] = state.class[class][g].unit_angle();
+                self.space.lifted[class][g] = state.pose.class[class][g].unit_angle();
             }
         }
         for &class in &self.writer.classes {
-            for (location, lifted) in self.locations[first..].iter().zip(&mut self.lifted[class]) {
+            for (location, lifted) in
+                self.space.locations[first..].iter().zip(&mut self.space.lifted[class])
+            {
                 *lifted = unwrap_to(*lifted, design.branch.reference_angle(location, class));
             }
         }
@@ -354,25 +357,27 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let with = (&design.constants, &design.units);
         let (mut open, mut some_open, mut again) = ([R::Mask::NONE; G], false, false);
         for group in 0..groups.min(G) {
-            care[group] = care[group].or(self.coordinates.q(0, first + group).finite().not());
+            care[group] = care[group].or(self.space.coordinates.q(0, first + group).finite().not());
             if closed_forms {
-                open[group] = state.open[group].and(care[group].not());
+                open[group] = state.conditions.open[group].and(care[group].not());
                 some_open |= open[group].any();
                 if !(even || self.writer.classes.is_empty()) {
                     // The angle on an island that no knot has seen has to be followed to it.
-                    let location = &self.locations[first + group];
+                    let location = &self.space.locations[first + group];
                     let unseen = |i: usize| {
                         !open[group].lane(i) && design.branch.in_untraced_island(location, i)
                     };
                     care[group] = care[group].or(mask::<R>(unseen));
                 }
             }
-            care[group] = care[group].or(state.needs_scalar[group].and(open[group].not()));
+            care[group] =
+                care[group].or(state.conditions.needs_scalar[group].and(open[group].not()));
             care[group] = care[group].or(design.branch.same_det_sign(state, group).not());
             again |= care[group].any();
         }
         let failed = some_open.then_some(&open);
-        self.writer.write(job.rows, (at, count), with, state, &self.lifted, failed);
+        let range = RowRange { first: at, count, once: false };
+        self.writer.write(job.rows, range, with, state, &self.space.lifted, failed);
         let status = &mut job.rows.status[at..at + count];
         for (group, status) in status.chunks_mut(R::LANES).enumerate() {
             let near = state.near_singular(group);
@@ -387,7 +392,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 }
             }
         }
-        if some_open && let Some(log) = self.failures {
+        if some_open && let Some(log) = &mut self.failures {
             for place in 0..count {
                 let (group, lane) = (place / R::LANES, place % R::LANES);
                 if open[group].lane(lane) && !log.count_later(job.index + row + place, 1) {
@@ -398,13 +403,25 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
         }
         if again {
-            for place in 0..count {
-                if self.is_cancelled() {
-                    return;
-                }
-                if care[place / R::LANES].lane(place % R::LANES) {
-                    self.solve_scalar(job, row + place);
-                }
+            self.solve_lanes(job, row, count, &care);
+        }
+    }
+
+    /// Solves some lanes of a block one by one.
+    #[inline(always)]
+    fn solve_lanes(
+        &mut self,
+        job: &mut Job<'_, '_>,
+        row: usize,
+        count: usize,
+        lanes: &[R::Mask; G],
+    ) {
+        for place in 0..count {
+            if self.is_cancelled() {
+                return;
+            }
+            if lanes[place / R::LANES].lane(place % R::LANES) {
+                self.solve_scalar(job, row + place);
             }
         }
     }
@@ -426,12 +443,12 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let drivers = self.design.mechanism.q0().len();
         let q = self.design.scaled(&job.q[row * drivers..][..drivers]);
         let place = self.design.branch_to(&q);
-        let state = &mut self.one;
+        let state = &mut self.space.one;
         let analogues = self.design.solve(state, &q, place.as_ref());
         let at = job.first + row;
         let solved = matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular);
         let no_analogues = !analogues && self.columns.iter().any(|column| column.order > 0);
-        if let (Some(log), true) = (self.failures, !solved || no_analogues) {
+        if let (Some(log), true) = (&self.failures, !solved || no_analogues) {
             let (status, fault) = (state.status, state.fault);
             let q = &job.q[row * drivers..][..drivers];
             let describe = || Failure::of(&self.design, Rejection::Failed { status, fault }, q);
@@ -441,11 +458,11 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             job.rows.write_failed(self.columns, at, 1, state.status as u8);
             return;
         };
-        let near = self.design.reference_angles(place, self.lifted.len());
-        let lift = |class: usize| [unwrap_to(state.class[class][0].unit_angle(), near[class])];
+        let near = self.design.reference_angles(place, self.space.lifted.len());
+        let lift = |class: usize| [unwrap_to(state.pose.class[class][0].unit_angle(), near[class])];
         let lifted: Vec<[f64; 1]> = (0..near.len()).map(lift).collect();
         let with = (&self.design.constants, &self.design.units);
-        self.writer.write(job.rows, (at, 1), with, state, &lifted, None);
+        self.writer.write(job.rows, RowRange::single(at), with, state, &lifted, None);
         if !analogues {
             job.rows.write_nan(self.columns, 1, at, 1);
         }
@@ -460,14 +477,14 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let drivers = design.mechanism.q0().len();
         let cx = design.context(design.derivatives);
         let rate = design.rate(index);
-        let nothing = vec![[0.0]; self.lifted.len()];
+        let nothing = vec![[0.0]; self.space.lifted.len()];
         for (row, q) in job.q.chunks_exact(drivers).enumerate() {
             if self.is_cancelled() {
                 return;
             }
             let q = design.scaled(q);
             let place = design.branch_to(&q);
-            let state = &mut self.one;
+            let state = &mut self.space.one;
             design.solve(state, &q, place.as_ref());
             let at = job.first + row;
             let status = state.status;
@@ -475,11 +492,11 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             let solved = matches!(status, Status::Ok | Status::NearSingular);
             if solved && by.solve(state, &cx, &rate) {
                 // A dimension that moves the frame's origin moves all points with it.
-                for point in by.rates.points.chunks_exact_mut(design.derivatives.len()) {
+                for point in by.rates.pose.points.chunks_exact_mut(design.derivatives.len()) {
                     point[0][0] += rate.origin.scale(1.0 / design.constants.scale);
                 }
                 let with = (&design.constants, &design.units);
-                self.writer.write(job.rows, (at, 1), with, &by.rates, &nothing, None);
+                self.writer.write(job.rows, RowRange::single(at), with, &by.rates, &nothing, None);
                 job.rows.status[at] = MaybeUninit::new(status as u8);
             }
         }

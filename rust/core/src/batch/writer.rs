@@ -15,11 +15,32 @@ use crate::plan::mechanism::Mechanism;
 use crate::state::state::State;
 use crate::structure::closure::point_of_joint;
 
+/// Bytes of a cache line.
+const LINE: usize = 64;
+
 /// The rows of some positions in every array, not yet written.
 #[derive(Debug)]
 pub(crate) struct RowSlices<'a> {
     pub columns: Vec<&'a mut [MaybeUninit<f64>]>,
     pub status: &'a mut [MaybeUninit<u8>],
+    /// Whether they are part of a result that no cache holds.
+    pub past_caches: bool,
+}
+
+/// Rows to write.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RowRange {
+    pub first: usize,
+    pub count: usize,
+    /// Whether nobody reads them, or writes them again, before the chunk is done.
+    pub once: bool,
+}
+
+impl RowRange {
+    /// One row.
+    pub(crate) fn single(first: usize) -> Self {
+        Self { first, count: 1, once: false }
+    }
 }
 
 /// Target and source of one number (or point) of a row.
@@ -159,20 +180,21 @@ impl<'a> Writer<'a> {
     pub(crate) fn write<R: Real, const G: usize>(
         &self,
         rows: &mut RowSlices<'_>,
-        (row, count): (usize, usize),
+        range: RowRange,
         (constants, unit): (&DesignConstants, &Units),
         state: &State<R, G>,
         lifted: &[[R; G]],
         failed: Option<&[R::Mask; G]>,
     ) {
-        self.write_jets(rows, (row, count), (constants, unit), state, failed);
+        self.write_jets(rows, range, (constants, unit), state, failed);
         for entry in &self.angles {
             let offset = R::splat(self.offset(entry, constants));
             let rotation = &self.mechanism.plan().rotation[entry.source];
             let lifted = &lifted[rotation.class];
-            for (g, out) in entry.groups::<R>(rows.of(entry, row, count)) {
-                let angle = of_link::<R, R, G>(lifted[g], &rotation.turns, &state.q, g);
-                entry.store(out, or_nan::<R, R, G>(failed, g, angle + offset));
+            let past = rows.past_caches(entry, range);
+            for (g, out) in entry.groups::<R>(rows.of(entry, range)) {
+                let angle = of_link::<R, R, G>(lifted[g], &rotation.turns, &state.pose.q, g);
+                entry.store(out, past, or_nan::<R, R, G>(failed, g, angle + offset));
             }
         }
     }
@@ -182,7 +204,7 @@ impl<'a> Writer<'a> {
     pub(crate) fn write_plain<W: Stride<R>, R: Real, const G: usize>(
         &self,
         rows: &mut RowSlices<'_>,
-        (row, count): (usize, usize),
+        range: RowRange,
         (constants, unit): (&DesignConstants, &Units),
         state: &State<R, G>,
         references: &[Reference],
@@ -191,16 +213,18 @@ impl<'a> Writer<'a> {
         for entry in &self.angles {
             let offset = W::splat(self.offset(entry, constants));
             let rotation = &self.mechanism.plan().rotation[entry.source];
-            let (units, reference) = (&state.class[rotation.class], references[rotation.class]);
-            for (stride, out) in entry.groups::<W>(rows.of(entry, row, count)) {
+            let (units, reference) =
+                (&state.pose.class[rotation.class], references[rotation.class]);
+            let past = rows.past_caches(entry, range);
+            for (stride, out) in entry.groups::<W>(rows.of(entry, range)) {
                 let g = stride * W::REGISTERS;
-                let q = W::load(&state.q[0], g);
+                let q = W::load(&state.pose.q[0], g);
                 let angle = reference.lift(W::load_vectors(units, g).unit_angle(), q);
-                let angle = of_link::<W, R, G>(angle, &rotation.turns, &state.q, g);
-                entry.store(out, or_nan::<W, R, G>(failed, g, angle + offset));
+                let angle = of_link::<W, R, G>(angle, &rotation.turns, &state.pose.q, g);
+                entry.store(out, past, or_nan::<W, R, G>(failed, g, angle + offset));
             }
         }
-        self.write_jets(rows, (row, count), (constants, unit), state, failed);
+        self.write_jets(rows, range, (constants, unit), state, failed);
     }
 
     /// The constant difference between an angle and that of its class.
@@ -214,7 +238,7 @@ impl<'a> Writer<'a> {
     fn write_jets<R: Real, const G: usize>(
         &self,
         rows: &mut RowSlices<'_>,
-        (row, count): (usize, usize),
+        range: RowRange,
         (constants, unit): (&DesignConstants, &Units),
         state: &State<R, G>,
         failed: Option<&[R::Mask; G]>,
@@ -223,8 +247,9 @@ impl<'a> Writer<'a> {
         for entry in &self.points {
             let scale = R::splat(unit.length[entry.k]);
             let shift = if entry.k == 0 && self.shifted { Some(origin) } else { None };
-            let points = &state.points[entry.source];
-            let out = rows.of(entry, row, count);
+            let points = &state.pose.points[entry.source];
+            let past = rows.past_caches(entry, range);
+            let out = rows.of(entry, range);
             for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
                 let p = scaled(points[g], scale, shift);
                 let p = Vector::new(
@@ -232,7 +257,7 @@ impl<'a> Writer<'a> {
                     or_nan::<R, R, G>(failed, g, p.y),
                 );
                 if entry.width == 2 && out.len() == 2 * R::LANES {
-                    store_pairs(out, p);
+                    store_pairs(out, past, p);
                     continue;
                 }
                 store_lanes(out, entry.width, entry.index, p.x);
@@ -242,23 +267,25 @@ impl<'a> Writer<'a> {
         // Loops, not closures: these are not always inlined into the code of a level.
         for entry in &self.slides {
             let scale = R::splat(unit.length[entry.k]);
-            let slides = &state.slides[entry.source];
-            for (g, out) in entry.groups::<R>(rows.of(entry, row, count)) {
-                entry.store(out, or_nan::<R, R, G>(failed, g, slides[g] * scale));
+            let slides = &state.pose.slides[entry.source];
+            let past = rows.past_caches(entry, range);
+            for (g, out) in entry.groups::<R>(rows.of(entry, range)) {
+                entry.store(out, past, or_nan::<R, R, G>(failed, g, slides[g] * scale));
             }
         }
         for entry in &self.rates {
             let (driven, scale) = (R::splat(entry.driven), R::splat(unit.angle[entry.k]));
             let overflows = unit.angle[entry.k].is_infinite();
-            let rates = &state.theta[entry.source];
-            for (g, out) in entry.groups::<R>(rows.of(entry, row, count)) {
+            let rates = &state.pose.theta[entry.source];
+            let past = rows.past_caches(entry, range);
+            for (g, out) in entry.groups::<R>(rows.of(entry, range)) {
                 let rate = rates[g] + driven;
                 let mut scaled = rate * scale;
                 if overflows {
                     // Only a link that does not turn keeps a finite derivative.
                     scaled = R::select(rate.abs().le(R::ZERO), rate, scaled);
                 }
-                entry.store(out, or_nan::<R, R, G>(failed, g, scaled));
+                entry.store(out, past, or_nan::<R, R, G>(failed, g, scaled));
             }
         }
     }
@@ -312,9 +339,9 @@ impl Entry {
 
     /// Writes one number for each lane, as far as there are rows.
     #[inline(always)]
-    fn store<R: Real>(&self, out: &mut [MaybeUninit<f64>], x: R) {
+    fn store<R: Real>(&self, out: &mut [MaybeUninit<f64>], past: bool, x: R) {
         if self.width == 1 && out.len() == R::LANES {
-            x.write(out);
+            write(out, past, x);
         } else {
             store_lanes(out, self.width, self.index, x);
         }
@@ -324,8 +351,31 @@ impl Entry {
 impl RowSlices<'_> {
     /// The rows of an entry's column.
     #[inline(always)]
-    fn of(&mut self, entry: &Entry, row: usize, count: usize) -> &mut [MaybeUninit<f64>] {
-        &mut self.columns[entry.column][row * entry.width..(row + count) * entry.width]
+    fn of(&mut self, entry: &Entry, range: RowRange) -> &mut [MaybeUninit<f64>] {
+        let rows = range.first * entry.width..(range.first + range.count) * entry.width;
+        &mut self.columns[entry.column][rows]
+    }
+
+    /// Whether to write them past the caches: a line that is not read first takes half the time. Whole
+    /// lines only, since parts of them would take longer.
+    #[inline(always)]
+    fn past_caches(&self, entry: &Entry, range: RowRange) -> bool {
+        let first = &self.columns[entry.column][range.first * entry.width];
+        self.past_caches && range.once && std::ptr::from_ref(first).addr().is_multiple_of(LINE)
+    }
+
+    /// Asks for the memory of rows that will not be written past the caches.
+    #[inline(always)]
+    pub(crate) fn prefetch<R: Real>(&self, columns: &[Column], range: RowRange) {
+        if !self.past_caches {
+            return;
+        }
+        for (column, of) in self.columns.iter().zip(columns) {
+            let rows = &column[range.first * of.width..(range.first + range.count) * of.width];
+            if !rows.as_ptr().addr().is_multiple_of(LINE) {
+                R::prefetch(rows);
+            }
+        }
     }
 
     /// Writes NaN and a status into `count` rows from `row` on.
@@ -353,11 +403,17 @@ impl RowSlices<'_> {
 
 /// Stores the lanes of a point, x and y side by side.
 #[inline(always)]
-fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], p: Vector<R>) {
+fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], past: bool, p: Vector<R>) {
     let (first, last) = out.split_at_mut(R::LANES);
     let [before, after] = p.x.zip(p.y);
-    before.write(first);
-    after.write(last);
+    write(first, past, before);
+    write(last, past, after);
+}
+
+/// Writes a whole register, past the caches if that is wanted.
+#[inline(always)]
+fn write<R: Real>(out: &mut [MaybeUninit<f64>], past: bool, x: R) {
+    if past { x.stream(out) } else { x.write(out) }
 }
 
 /// Stores one entry of each row, from as many lanes as there are rows.

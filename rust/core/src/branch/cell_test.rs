@@ -8,7 +8,7 @@ use super::knot::may_touch;
 use super::uniform::{KNOTS, previous};
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::plan::dyad::Dyad;
-use crate::state::dyad::sample::{Gap, Sample};
+use crate::state::dyad::sample::Sample;
 use crate::state::state::{Context, State};
 
 /// A square that differs from the trapezoidal rule by this part of itself varies too fast to be
@@ -16,8 +16,6 @@ use crate::state::state::{Context, State};
 const MAX_CURVATURE: f64 = 0.5;
 /// How many times its fall between two knots a margin must be away from zero.
 const MAX_FALLS: f64 = 4.0;
-/// How fast (of the size, per unit of the path) the margin of a dyad without a kernel may vary.
-const MAX_GAP_RATE: f64 = 8.0;
 /// How many times as much as expected the square of a later dyad may change before a dead point.
 const CHANGE_MARGIN: f64 = 2.5;
 
@@ -140,12 +138,13 @@ impl DyadSamples {
         if !settled {
             judged.curved = curved & inside;
             judged.uncertain = vanishing & inside;
-            if outside != 0 {
-                judged.uncertain |= self.may_close::<R>(count) & outside;
-            }
         }
-        if knots.islands && outside != 0 {
-            judged.may_hide_island = may_hide_island(state, cx, dyad, knots) & outside;
+        if outside != 0 && (knots.islands || !settled) {
+            let may_close = self.may_close::<R>(count) & outside;
+            if !settled {
+                judged.uncertain |= may_close;
+            }
+            judged.may_hide_island = may_close;
         }
         Some(judged)
     }
@@ -205,30 +204,4 @@ impl DyadSamples {
                 known && (near - far).abs() * (CHANGE_MARGIN * change) < near
             })
     }
-}
-
-/// Cells between two knots at which a dyad does not close that are short enough for it to close
-/// between them.
-#[inline(always)]
-fn may_hide_island<R: Real, const G: usize>(
-    state: &State<R, G>,
-    cx: &Context<'_>,
-    dyad: &Dyad,
-    knots: Knots,
-) -> Bits {
-    let op = &cx.tape.ops[cx.tape.dyads[dyad.index]];
-    // Behind no other dyad, both points turn about fixed ones: their speed is constant.
-    let factor = R::splat(if dyad.index == 0 { 1.0 } else { MAX_FALLS });
-    let (mut last, mut last_rate) = (R::ZERO, R::ZERO);
-    let mut cells = 0;
-    for group in 0..knots.groups.min(G) {
-        let Gap { margin, speed } = state.gap(group, cx, dyad, op);
-        let rate = if let Some(speed) = speed { factor * speed } else { R::splat(MAX_GAP_RATE) };
-        let before = previous(last.lane(R::LANES - 1), margin);
-        let fastest = rate.max(previous(last_rate.lane(R::LANES - 1), rate));
-        let near = (-before - margin).lt(fastest * R::splat(knots.cell));
-        cells |= near.bits() << (group * R::LANES);
-        (last, last_rate) = (margin, rate);
-    }
-    cells
 }

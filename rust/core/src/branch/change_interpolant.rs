@@ -100,7 +100,8 @@ impl ChangeInterpolant {
             })
             .collect();
         let states = nodes.iter().map(|(at, _)| solve(*at)).collect::<Option<Vec<_>>>()?;
-        let condition2 = states.iter().map(|state| state.condition2[0]).fold(0.0, f64::max);
+        let condition2 =
+            states.iter().map(|state| state.conditions.greatest[0]).fold(0.0, f64::max);
         let condition2 = window.uses_node_condition.then_some(condition2);
         Some(Self { reach, nodes, states, condition2 })
     }
@@ -137,7 +138,7 @@ impl ChangeInterpolant {
         let weights: Vec<f64> = raw.iter().map(|w| w / total).collect();
         state.interpolate(&self.states, &weights);
         if let Some(known) = self.condition2 {
-            state.condition2[0] = known;
+            state.conditions.greatest[0] = known;
         }
         state
     }

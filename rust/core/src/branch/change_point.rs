@@ -175,7 +175,7 @@ impl LocalFit {
                 square[index] += 0.5 * value * value;
                 let state = &*tracer.state;
                 upstream_condition =
-                    upstream_condition.max(state.upstream_condition2[sign][0].sqrt());
+                    upstream_condition.max(state.conditions.upstream[sign][0].sqrt());
                 length_ratio = length_ratio.max(state.length_ratio(&tracer.cx, dyad));
             }
         }

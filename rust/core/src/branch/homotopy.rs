@@ -63,8 +63,10 @@ impl Design<'_> {
             state.prepare(plan, &constants, cx.derivatives);
             for (&unknown, &value) in unknowns.iter().zip(&values_here) {
                 match unknown {
-                    Unknown::Class(c) => state.class[c][0] = Vector::at_angle(value),
-                    Unknown::Slide(s) => state.slides[s * state.len][0] = value / constants.scale,
+                    Unknown::Class(c) => state.pose.class[c][0] = Vector::at_angle(value),
+                    Unknown::Slide(s) => {
+                        state.pose.slides[s * state.len][0] = value / constants.scale;
+                    }
                 }
             }
             state.solve(&cx, &q);
@@ -81,14 +83,14 @@ impl Design<'_> {
                 .zip(&values_here)
                 .map(|(&unknown, &from)| match unknown {
                     Unknown::Class(c) => {
-                        crate::math::angle::unwrap_to(state.class[c][0].angle(), from)
+                        crate::math::angle::unwrap_to(state.pose.class[c][0].angle(), from)
                     }
-                    Unknown::Slide(s) => state.slides[s * state.len][0] * constants.scale,
+                    Unknown::Slide(s) => state.pose.slides[s * state.len][0] * constants.scale,
                 })
                 .collect();
-            let close =
-                state.first_step[0] <= MAX_FIRST_STEP && state.later_steps[0] <= MAX_LATER_STEPS;
-            let now: Vec<bool> = state.determinants.iter().map(|d| d[0] > 0.0).collect();
+            let close = state.work.first_step[0] <= MAX_FIRST_STEP
+                && state.work.later_steps[0] <= MAX_LATER_STEPS;
+            let now: Vec<bool> = state.work.determinants.iter().map(|d| d[0] > 0.0).collect();
             if solved && close && det_signs.as_ref().is_none_or(|det_signs| *det_signs == now) {
                 // The first step solves the drawing itself, which gives the signs.
                 (done, part) = if det_signs.is_some() { (next, 2.0 * part) } else { (0.0, 1.0) };

@@ -111,7 +111,13 @@ impl LaneTracer {
             if closer && level + 1 < LEVELS {
                 let look = &self.looks[level];
                 let (from, width) = (look.from + look.cell * (knot - 1) as f64, look.cell);
-                knots.solve_between::<L>(cx, (from, width), !classes.is_empty());
+                knots.set_between((from, width));
+                if !classes.is_empty() && has(look.dead_point, knot) {
+                    // Some of these knots are beyond it.
+                    knots.solve_carefully::<L>(cx);
+                } else {
+                    knots.solve::<L>(cx, !classes.is_empty());
+                }
                 level += 1;
                 count += 1;
                 let within = (from, width / CELLS);
@@ -226,10 +232,10 @@ impl Look {
         self.count = groups * R::LANES;
         self.reached = 0;
         for group in 0..groups {
-            if knots.not_closed(group).and(state.open[group].not()).any() {
+            if knots.not_closed(group).and(state.conditions.open[group].not()).any() {
                 return false;
             }
-            self.reached |= state.open[group].not().bits() << (group * R::LANES);
+            self.reached |= state.conditions.open[group].not().bits() << (group * R::LANES);
         }
         let islands = !classes.is_empty();
         // Without angles, dyads matter for signs that may change, and up to the last of these.
@@ -264,8 +270,8 @@ impl Look {
         for (index, &class) in classes.iter().enumerate() {
             for group in 0..groups {
                 // Beyond a dead point a rotation's length is not 1.
-                let angle = state.class[class][group].angle();
-                let rate = state.theta[state.len * class + 1][group];
+                let angle = state.pose.class[class][group].angle();
+                let rate = state.pose.theta[state.len * class + 1][group];
                 for lane in 0..R::LANES {
                     self.angles[index][group * R::LANES + lane] = angle.lane(lane);
                     self.rates[index][group * R::LANES + lane] = rate.lane(lane);
@@ -299,20 +305,14 @@ impl Look {
 }
 
 impl<R: Real, const G: usize> UniformTracer<R, G> {
-    /// Solves [`CLOSER_KNOTS`] between `from` and a cell's width beyond it.
+    /// Sets [`CLOSER_KNOTS`] between `from` and a cell's width beyond it.
     #[inline(always)]
-    fn solve_between<L: Level<Register = R>>(
-        &mut self,
-        cx: &Context<'_>,
-        (from, width): (f64, f64),
-        angles: bool,
-    ) {
+    fn set_between(&mut self, (from, width): (f64, f64)) {
         self.state.groups = CLOSER_KNOTS / R::LANES;
         for group in 0..self.state.groups.min(G) {
             let at = R::from_lanes(|lane| from + width / CELLS * (group * R::LANES + lane) as f64);
-            self.state.q[0][group] = at;
-            self.state.unit[0][group] = Vector::at_angle(at);
+            self.state.pose.q[0][group] = at;
+            self.state.pose.unit[0][group] = Vector::at_angle(at);
         }
-        self.solve::<L>(cx, angles);
     }
 }

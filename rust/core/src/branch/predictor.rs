@@ -17,7 +17,7 @@ impl Branch {
         g: usize,
     ) -> R::Mask {
         let mut other = R::Mask::NONE;
-        for (groups, &expected) in state.det_sign.iter().zip(&self.det_signs) {
+        for (groups, &expected) in state.work.det_sign.iter().zip(&self.det_signs) {
             let positive = R::ZERO.lt(groups[g]);
             other = other.or(if expected { positive.not() } else { positive });
         }

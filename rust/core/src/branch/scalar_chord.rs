@@ -74,10 +74,11 @@ pub(crate) fn may_change(mechanism: &Mechanism) -> Vec<bool> {
 fn greatest_area(state: &State, plan: &Plan, dyad: &Dyad, link: usize, drivers: usize) -> f64 {
     let len = state.len;
     let rotation = &plan.rotation[link];
-    let chord =
-        |k: usize| state.points[dyad.end * len + k][0] - state.points[dyad.start * len + k][0];
+    let chord = |k: usize| {
+        state.pose.points[dyad.end * len + k][0] - state.pose.points[dyad.start * len + k][0]
+    };
     let motion = |driver: usize| {
-        let rate = state.theta[rotation.class * len + 1 + driver][0];
+        let rate = state.pose.theta[rotation.class * len + 1 + driver][0];
         let turn = rate + f64::from(rotation.turns[driver]);
         chord(1 + driver) - chord(0).left().scale(turn)
     };

@@ -135,8 +135,8 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         for (index, &unknown) in self.unknowns.iter().enumerate() {
             let value = self.predicted(index, at);
             match unknown {
-                Unknown::Class(class) => self.state.class[class][0] = Vector::at_angle(value),
-                Unknown::Slide(slide) => self.state.slides[slide * self.state.len][0] = value,
+                Unknown::Class(class) => self.state.pose.class[class][0] = Vector::at_angle(value),
+                Unknown::Slide(slide) => self.state.pose.slides[slide * self.state.len][0] = value,
             }
         }
         self.state.solve(&Context { signs: &signs, ..self.cx }, &self.q);
@@ -187,6 +187,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         }
         let angles = self
             .state
+            .pose
             .class
             .iter()
             .zip(from)
@@ -194,7 +195,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             .collect();
         let len = self.state.len;
         let rates = (0..from.len())
-            .map(|c| self.rate_along(|d| self.state.theta[c * len + 1 + d][0]).abs())
+            .map(|c| self.rate_along(|d| self.state.pose.theta[c * len + 1 + d][0]).abs())
             .collect();
         let lines = self.cx.plan.dyads().filter(|dyad| dyad.form == Form::TwoLines);
         let guide_sides =
@@ -234,11 +235,14 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         let expand = |(index, &unknown): (usize, &Unknown)| {
             let (value, jet) = match unknown {
                 Unknown::Class(class) => {
-                    let angle = self.state.class[class][0].angle();
-                    (unwrap_to(angle, self.predicted(index, at)), &self.state.theta[class * len..])
+                    let angle = self.state.pose.class[class][0].angle();
+                    (
+                        unwrap_to(angle, self.predicted(index, at)),
+                        &self.state.pose.theta[class * len..],
+                    )
                 }
                 Unknown::Slide(slide) => {
-                    let jet = &self.state.slides[slide * len..];
+                    let jet = &self.state.pose.slides[slide * len..];
                     (jet[0][0], jet)
                 }
             };
@@ -250,7 +254,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             [value, self.rate_along(|driver| jet[1 + driver][0]), pairs.sum()]
         };
         let taylor = self.unknowns.iter().enumerate().map(expand).collect();
-        (taylor, self.state.determinants.iter().map(|d| d[0] > 0.0).collect())
+        (taylor, self.state.work.determinants.iter().map(|d| d[0] > 0.0).collect())
     }
 
     /// Whether the groups at the second knot may have left the branch of the first.
@@ -359,7 +363,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         if !self.visit(edge) {
             return knot;
         }
-        let classes = self.state.class.iter().zip(&from.angles);
+        let classes = self.state.pose.class.iter().zip(&from.angles);
         let edge: Vec<f64> = classes.map(|(u, &near)| unwrap_to(u[0].angle(), near)).collect();
         if knot.reached {
             let pairs = knot.angles.iter().zip(&edge);
@@ -384,8 +388,8 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             probes.map(|reach| change + reach).any(|at| {
                 let len = self.state.len;
                 self.visit(at)
-                    && (0..self.state.class.len()).any(|c| {
-                        let rate = self.rate_along(|d| self.state.theta[c * len + 1 + d][0]);
+                    && (0..self.state.pose.class.len()).any(|c| {
+                        let rate = self.rate_along(|d| self.state.pose.theta[c * len + 1 + d][0]);
                         (rate * (end - from)).abs() > KNOT_MAX_TURN
                     })
             })

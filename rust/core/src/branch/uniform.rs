@@ -23,11 +23,12 @@ use crate::math::vector::Vector;
 use crate::plan::dyad::{Form, Unknown};
 use crate::plan::plan::Plan;
 use crate::state::dyad::sample::Sample;
-use crate::state::kernel::Level;
+use crate::state::kernel::{BLOCK, Level};
 use crate::state::state::{Context, State};
 
 /// Knots of a turn, including its end.
 pub(crate) const KNOTS: usize = CELLS_PER_TURN as usize + 1;
+const _: () = assert!(KNOTS <= BLOCK, "the knots of a turn are solved at once");
 /// Width of a cell.
 pub(crate) const CELL: f64 = TAU / CELLS_PER_TURN as f64;
 
@@ -109,44 +110,45 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
         self.state.groups = KNOTS / R::LANES;
         for (group, &(at, unit)) in self.knots.iter().enumerate().take(G) {
-            self.state.q[0][group] = at;
-            self.state.unit[0][group] = unit;
+            self.state.pose.q[0][group] = at;
+            self.state.pose.unit[0][group] = unit;
         }
-        for (lanes, &sign) in self.state.signs.iter_mut().zip(cx.signs) {
+        for (lanes, &sign) in self.state.pose.signs.iter_mut().zip(cx.signs) {
             lanes[..self.state.groups.min(G)].fill(R::splat(sign));
         }
         self.guess(cx);
         self.solve::<L>(cx, angles);
     }
 
-    /// Solves the knots that are set: carefully only if some of them may be flat, or are beyond a
-    /// dead point and `angles` are asked for, which there are those of the flat dyad.
+    /// Solves the knots that are set. Where `angles` are asked for, they are solved carefully if some
+    /// of them may be flat or are beyond a dead point: angles there are those of the flat dyad. What
+    /// dyads show of their signs follows from their chords, whether or not they close.
     #[inline(always)]
     pub(crate) fn solve<L: Level<Register = R>>(&mut self, cx: &Context<'_>, angles: bool) {
-        self.is_careful = true;
-        if cx.tape.is_bounded {
+        self.is_careful = !cx.tape.is_bounded;
+        if !self.is_careful {
             self.state.prepare_bare(cx);
             L::bare(&mut self.state, cx);
-            let mut care = R::Mask::NONE;
-            for group in 0..self.state.groups.min(G) {
-                care = care.or(self.state.doubtful(group));
-                if angles {
-                    care = care.or(self.state.open[group]);
-                }
-            }
-            self.is_careful = care.any();
+            self.is_careful = angles && (self.state.is_doubtful() || self.state.has_open());
         }
         if self.is_careful {
-            self.state.prepare(cx.plan, cx.constants, cx.derivatives);
-            L::solve(&mut self.state, cx);
+            self.solve_carefully::<L>(cx);
         }
+    }
+
+    /// Solves the knots that are set, carefully.
+    #[inline(always)]
+    pub(crate) fn solve_carefully<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
+        self.is_careful = true;
+        self.state.prepare(cx.plan, cx.constants, cx.derivatives);
+        L::solve(&mut self.state, cx);
     }
 
     /// Knots that do not close or are flat.
     #[inline(always)]
     pub(crate) fn not_closed(&self, group: usize) -> R::Mask {
-        let open = self.state.open[group];
-        if self.is_careful { self.state.needs_scalar[group].or(open) } else { open }
+        let open = self.state.conditions.open[group];
+        if self.is_careful { self.state.conditions.needs_scalar[group].or(open) } else { open }
     }
 
     /// Traces the turn whose knots have been solved into `branch`; false if the tracer is needed.
@@ -274,7 +276,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     #[inline(always)]
     fn range(&self, class: usize, start: f64) -> Option<[f64; 2]> {
         let (units, rates) =
-            (&self.state.class[class], &self.state.theta[self.state.len * class + 1]);
+            (&self.state.pose.class[class], &self.state.pose.theta[self.state.len * class + 1]);
         let first = unwrap_to(units[0].unit_angle().lane(0), start);
         let near = R::splat(first);
         let (mut last, mut least, mut most) = (near, near, near);
@@ -311,12 +313,12 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
         let mut fast = R::Mask::NONE;
         for &class in classes {
-            let angle = self.state.class[class][group].unit_angle();
+            let angle = self.state.pose.class[class][group].unit_angle();
             let (last, mut whole_turns) = self.last_angles[class];
             let before = previous(last, angle);
             let turns = turns_between(angle, before);
             let step = (angle + R::splat(TAU) * turns) - before;
-            let rate = self.state.theta[self.state.len * class + 1][group] * R::splat(CELL);
+            let rate = self.state.pose.theta[self.state.len * class + 1][group] * R::splat(CELL);
             fast = fast.or(max_turn.lt(step.abs())).or(R::splat(KNOT_MAX_TURN).lt(rate.abs()));
             for lane in 0..R::LANES {
                 whole_turns += turns.lane(lane);
@@ -399,9 +401,9 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         let unknowns = cx.plan.groups().flat_map(|group| &group.unknowns);
         for (&unknown, knots) in unknowns.zip(&reference.unknowns) {
             match unknown {
-                Unknown::Class(class) => self.state.class[class] = *knots,
+                Unknown::Class(class) => self.state.pose.class[class] = *knots,
                 Unknown::Slide(slide) => {
-                    let values = &mut self.state.slides[slide * self.state.len];
+                    let values = &mut self.state.pose.slides[slide * self.state.len];
                     for (value, knot) in values.iter_mut().zip(knots) {
                         *value = knot.x * inverse_scale;
                     }
@@ -418,12 +420,12 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         let Some(Some(reference)) = self.reference.get() else { return true };
         let state = &self.state;
         let is_near = |step: R, max: f64| step.lane(0) <= max;
-        if !(is_near(state.first_step[0], MAX_FIRST_STEP)
-            && is_near(state.later_steps[0], MAX_LATER_STEPS))
+        if !(is_near(state.work.first_step[0], MAX_FIRST_STEP)
+            && is_near(state.work.later_steps[0], MAX_LATER_STEPS))
         {
             return false;
         }
-        for (groups, &expected) in state.determinants.iter().zip(&reference.det_signs) {
+        for (groups, &expected) in state.work.determinants.iter().zip(&reference.det_signs) {
             if groups[..KNOTS / R::LANES]
                 .iter()
                 .any(|lanes| (0..R::LANES).any(|lane| (lanes.lane(lane) > 0.0) != expected))
@@ -437,8 +439,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         self.taylor.resize(KNOTS * count, [0.0; 3]);
         for (index, &unknown) in unknowns().enumerate() {
             let jet = match unknown {
-                Unknown::Class(class) => &state.theta[class * state.len..],
-                Unknown::Slide(slide) => &state.slides[slide * state.len..],
+                Unknown::Class(class) => &state.pose.theta[class * state.len..],
+                Unknown::Slide(slide) => &state.pose.slides[slide * state.len..],
             };
             for knot in 0..KNOTS {
                 let (group, lane) = (knot / R::LANES, knot % R::LANES);
@@ -460,7 +462,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                 }
                 let unit = match unknown {
                     Unknown::Class(class) => {
-                        let unit = state.class[class][knot / R::LANES];
+                        let unit = state.pose.class[class][knot / R::LANES];
                         let lane = knot % R::LANES;
                         Vector::new(unit.x.lane(lane), unit.y.lane(lane))
                     }

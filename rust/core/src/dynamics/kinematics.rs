@@ -51,7 +51,8 @@ impl<'p> Pose<'p> {
     pub(crate) fn point(&self, point: Point, k: usize) -> Vector {
         let Position { state, plan, constants, units, .. } = &self.position;
         let position = |point: usize| {
-            let scaled = state.points[point * self.derivatives.len() + k][0].scale(units.length[k]);
+            let scaled =
+                state.pose.points[point * self.derivatives.len() + k][0].scale(units.length[k]);
             let origin = Vector::new(constants.origin[0], constants.origin[1]);
             if k == 0 { scaled + origin } else { scaled }
         };
@@ -76,8 +77,8 @@ impl<'p> Pose<'p> {
         let Position { state, plan, constants, .. } = &self.position;
         let o = plan.link_orientation[link];
         let orientation = &plan.orientations[o];
-        let phase = if orientation.driven { state.phase[o][0] } else { Vector::ONE };
-        let unit = state.class[orientation.class][0] * phase * constants.turn[link];
+        let phase = if orientation.driven { state.pose.phase[o][0] } else { Vector::ONE };
+        let unit = state.pose.class[orientation.class][0] * phase * constants.turn[link];
         if k == 0 {
             return unit;
         }
@@ -96,7 +97,7 @@ impl<'p> Pose<'p> {
         let Position { state, plan, units, .. } = &self.position;
         let rotation = &plan.rotation[link];
         let turns = self.derivatives.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
-        let class_angle = state.theta[rotation.class * self.derivatives.len() + k][0];
+        let class_angle = state.pose.theta[rotation.class * self.derivatives.len() + k][0];
         (class_angle + f64::from(turns)) * units.angle[k]
     }
 

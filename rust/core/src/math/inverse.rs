@@ -102,7 +102,8 @@ fn by_pivots<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -> [R; G]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::lanes::{LANES, Lanes};
+    use crate::math::lanes::LANES;
+    use crate::math::pair::Lanes;
     use nalgebra::DMatrix;
 
     /// A pseudorandom matrix, the same for the same seed.

@@ -1,7 +1,7 @@
 //! The number types of the solver: one number, or several at once.
 //!
-//! [`Real`] is a plain `f64`, or several as [`Lanes`] or in a register. Each operation is the IEEE 754 one in
-//! each lane separately (no fused multiplication, no library function but exact ones). A lane
+//! [`Real`] is a plain `f64`, two side by side, or several in a register. Each operation is the IEEE
+//! 754 one in each lane separately (no fused multiplication, no library function but exact ones). A lane
 //! therefore has the same bits as the scalar, on every machine and whatever the other lanes hold.
 
 use std::fmt::Debug;
@@ -12,7 +12,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 pub const LANES: usize = 8;
 
 /// A boolean for each lane.
-pub trait Mask: Copy + Debug {
+pub trait Mask: Copy + Debug + Send + 'static {
     /// False in every lane.
     const NONE: Self;
     /// Whether some lane is true.
@@ -38,6 +38,8 @@ pub trait Mask: Copy + Debug {
 pub trait Real:
     Copy
     + Debug
+    + Send
+    + 'static
     + Default
     + PartialEq
     + Add<Output = Self>
@@ -111,6 +113,15 @@ pub trait Real:
             out[lane] = MaybeUninit::new(self.lane(lane));
         }
     }
+    /// The same past the caches, if the slice starts where whole lines of them can be written. Nobody
+    /// may read the numbers, or write there again, before [`fence`](Self::fence).
+    #[inline(always)]
+    fn stream(self, out: &mut [MaybeUninit<f64>]) {
+        self.write(out);
+    }
+    /// Ends the writing past the caches.
+    #[inline(always)]
+    fn fence() {}
     /// Asks for memory that will soon be written.
     #[inline(always)]
     fn prefetch(_numbers: &[MaybeUninit<f64>]) {}
@@ -204,206 +215,5 @@ impl Real for f64 {
     #[inline(always)]
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
-    }
-}
-
-/// Some numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lanes<const N: usize = LANES>(pub [f64; N]);
-
-impl<const N: usize> Default for Lanes<N> {
-    fn default() -> Self {
-        Self([0.0; N])
-    }
-}
-
-/// Some booleans: words with all bits set or none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct LaneMask<const N: usize = LANES>([u64; N]);
-
-impl<const N: usize> LaneMask<N> {
-    #[inline(always)]
-    fn each(of: impl Fn(usize) -> bool) -> Self {
-        let mut out = [0; N];
-        for lane in 0..N {
-            out[lane] = if of(lane) { u64::MAX } else { 0 };
-        }
-        Self(out)
-    }
-}
-
-impl<const N: usize> Mask for LaneMask<N> {
-    const NONE: Self = Self([0; N]);
-    #[inline(always)]
-    fn any(self) -> bool {
-        let mut some = 0;
-        for lane in 0..N {
-            some |= self.0[lane];
-        }
-        some != 0
-    }
-    #[inline(always)]
-    fn all(self) -> bool {
-        let mut every = u64::MAX;
-        for lane in 0..N {
-            every &= self.0[lane];
-        }
-        every != 0
-    }
-    #[inline(always)]
-    fn lane(self, lane: usize) -> bool {
-        self.0[lane] != 0
-    }
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        let mut bits = 0;
-        for lane in 0..N {
-            bits |= u32::from(self.0[lane] != 0) << lane;
-        }
-        bits
-    }
-    #[inline(always)]
-    fn and(mut self, other: Self) -> Self {
-        for lane in 0..N {
-            self.0[lane] &= other.0[lane];
-        }
-        self
-    }
-    #[inline(always)]
-    fn or(mut self, other: Self) -> Self {
-        for lane in 0..N {
-            self.0[lane] |= other.0[lane];
-        }
-        self
-    }
-    #[inline(always)]
-    fn not(mut self) -> Self {
-        for lane in 0..N {
-            self.0[lane] = !self.0[lane];
-        }
-        self
-    }
-}
-
-impl<const N: usize> Lanes<N> {
-    #[inline(always)]
-    fn each(of: impl Fn(usize) -> f64) -> Self {
-        let mut out = [0.0; N];
-        for lane in 0..N {
-            out[lane] = of(lane);
-        }
-        Self(out)
-    }
-}
-
-impl<const N: usize> Add for Lanes<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self::each(|i| self.0[i] + other.0[i])
-    }
-}
-
-impl<const N: usize> AddAssign for Lanes<N> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl<const N: usize> Sub for Lanes<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self::each(|i| self.0[i] - other.0[i])
-    }
-}
-
-impl<const N: usize> Mul for Lanes<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self::each(|i| self.0[i] * other.0[i])
-    }
-}
-
-impl<const N: usize> Div for Lanes<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Self::each(|i| self.0[i] / other.0[i])
-    }
-}
-
-impl<const N: usize> Neg for Lanes<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self::each(|i| -self.0[i])
-    }
-}
-
-impl<const N: usize> Real for Lanes<N> {
-    type Mask = LaneMask<N>;
-    const LANES: usize = N;
-    const ZERO: Self = Self([0.0; N]);
-    const ONE: Self = Self([1.0; N]);
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self([value; N])
-    }
-    #[inline(always)]
-    fn from_lanes(mut of: impl FnMut(usize) -> f64) -> Self {
-        let mut out = [0.0; N];
-        for lane in 0..N {
-            out[lane] = of(lane);
-        }
-        Self(out)
-    }
-    #[inline(always)]
-    fn lane(self, lane: usize) -> f64 {
-        self.0[lane]
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self::each(|i| self.0[i].sqrt())
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self::each(|i| self.0[i].abs())
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self::each(|i| if self.0[i] > other.0[i] { self.0[i] } else { other.0[i] })
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self::each(|i| if self.0[i] < other.0[i] { self.0[i] } else { other.0[i] })
-    }
-    #[inline(always)]
-    fn floor(self) -> Self {
-        Self::each(|i| self.0[i].floor())
-    }
-    #[inline(always)]
-    fn copysign(self, sign: Self) -> Self {
-        Self::each(|i| self.0[i].copysign(sign.0[i]))
-    }
-    #[inline(always)]
-    fn lt(self, other: Self) -> LaneMask<N> {
-        LaneMask::each(|i| self.0[i] < other.0[i])
-    }
-    #[inline(always)]
-    fn le(self, other: Self) -> LaneMask<N> {
-        LaneMask::each(|i| self.0[i] <= other.0[i])
-    }
-    #[inline(always)]
-    fn bit(self, bit: u32) -> LaneMask<N> {
-        LaneMask::each(|i| self.0[i].to_bits() >> bit & 1 != 0)
-    }
-    #[inline(always)]
-    fn select(mask: LaneMask<N>, yes: Self, no: Self) -> Self {
-        Self::each(|i| {
-            f64::from_bits(yes.0[i].to_bits() & mask.0[i] | no.0[i].to_bits() & !mask.0[i])
-        })
     }
 }

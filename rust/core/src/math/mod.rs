@@ -4,7 +4,6 @@ pub(crate) mod angle;
 pub(crate) mod derivatives;
 pub(crate) mod inverse;
 pub mod lanes;
-#[cfg(target_arch = "x86_64")]
 pub(crate) mod pair;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;

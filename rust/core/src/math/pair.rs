@@ -8,11 +8,14 @@ use super::lanes::{LANES, Mask, Real};
 
 /// Twice the numbers of `R`, [`LANES`] at most.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Pair<R>(pub(super) R, pub(super) R);
+pub struct Pair<R>(pub(super) R, pub(super) R);
+
+/// [`LANES`] numbers, for any processor.
+pub type Lanes = Pair<Pair<Pair<f64>>>;
 
 /// Lanes of a pair.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PairMask<R: Real>(pub(super) R::Mask, pub(super) R::Mask);
+pub struct PairMask<R: Real>(pub(super) R::Mask, pub(super) R::Mask);
 
 impl<R: Real> Mask for PairMask<R> {
     const NONE: Self = Self(R::Mask::NONE, R::Mask::NONE);
@@ -128,6 +131,16 @@ impl<R: Real> Real for Pair<R> {
         let (first, last) = out.split_at_mut(R::LANES);
         self.0.write(first);
         self.1.write(last);
+    }
+    #[inline(always)]
+    fn stream(self, out: &mut [MaybeUninit<f64>]) {
+        let (first, last) = out.split_at_mut(R::LANES);
+        self.0.stream(first);
+        self.1.stream(last);
+    }
+    #[inline(always)]
+    fn fence() {
+        R::fence();
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

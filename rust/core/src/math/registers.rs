@@ -1,7 +1,7 @@
 //! The vector registers of x86-64 as [`Real`]: two, four or eight numbers.
 //!
 //! Every operation is one or a few instructions, without a branch and without memory, so that code
-//! generic over [`Real`] stays in registers. The portable [`super::lanes::Lanes`] gives the same
+//! generic over [`Real`] stays in registers. The portable [`super::pair::Pair`] gives the same
 //! bits.
 
 #![allow(unsafe_code, reason = "instructions beyond the baseline; see the contract of each type")]
@@ -87,7 +87,10 @@ macro_rules! operators {
 
 /// The operations of [`Real`] that all register types have in one form.
 macro_rules! common {
-    ($lanes:literal, $register:ty, $splat:ident, $sqrt:ident, $max:ident, $min:ident) => {
+    (
+        $lanes:literal, $register:ty,
+        $splat:ident, $sqrt:ident, $max:ident, $min:ident, $stream:ident
+    ) => {
         const LANES: usize = $lanes;
         const ZERO: Self = Self::constant(0.0);
         const ONE: Self = Self::constant(1.0);
@@ -117,6 +120,22 @@ macro_rules! common {
             // SAFETY: a register is as many numbers side by side.
             let numbers = unsafe { std::mem::transmute::<$register, Numbers>(self.0) };
             out[..$lanes].copy_from_slice(&numbers);
+        }
+        #[inline(always)]
+        fn stream(self, out: &mut [MaybeUninit<f64>]) {
+            let out = &mut out[..$lanes];
+            if out.as_ptr().addr().is_multiple_of(std::mem::align_of::<$register>()) {
+                // SAFETY: the slice is as long as the register and as aligned. Who streams calls
+                // `fence` before anyone reads or writes the numbers again.
+                unsafe { $stream(out.as_mut_ptr().cast(), self.0) };
+            } else {
+                self.write(out);
+            }
+        }
+        #[inline(always)]
+        fn fence() {
+            // SAFETY: a fence touches no memory.
+            unsafe { _mm_sfence() };
         }
         #[inline(always)]
         fn prefetch(numbers: &[MaybeUninit<f64>]) {
@@ -239,7 +258,7 @@ wide_mask!(M64x2, F64x2, 2, _mm_movemask_pd);
 
 impl Real for F64x2 {
     type Mask = M64x2;
-    common!(2, __m128d, _mm_set1_pd, _mm_sqrt_pd, _mm_max_pd, _mm_min_pd);
+    common!(2, __m128d, _mm_set1_pd, _mm_sqrt_pd, _mm_max_pd, _mm_min_pd, _mm_stream_pd);
     #[inline(always)]
     fn zip(self, other: Self) -> [Self; 2] {
         // SAFETY: the contract of the type.
@@ -294,7 +313,15 @@ wide_mask!(M64x4, F64x4, 4, _mm256_movemask_pd);
 
 impl Real for F64x4 {
     type Mask = M64x4;
-    common!(4, __m256d, _mm256_set1_pd, _mm256_sqrt_pd, _mm256_max_pd, _mm256_min_pd);
+    common!(
+        4,
+        __m256d,
+        _mm256_set1_pd,
+        _mm256_sqrt_pd,
+        _mm256_max_pd,
+        _mm256_min_pd,
+        _mm256_stream_pd
+    );
     #[inline(always)]
     fn zip(self, other: Self) -> [Self; 2] {
         // SAFETY: the contract of the type.
@@ -386,7 +413,15 @@ impl Mask for M64x8 {
 
 impl Real for F64x8 {
     type Mask = M64x8;
-    common!(8, __m512d, _mm512_set1_pd, _mm512_sqrt_pd, _mm512_max_pd, _mm512_min_pd);
+    common!(
+        8,
+        __m512d,
+        _mm512_set1_pd,
+        _mm512_sqrt_pd,
+        _mm512_max_pd,
+        _mm512_min_pd,
+        _mm512_stream_pd
+    );
     #[inline(always)]
     fn zip(self, other: Self) -> [Self; 2] {
         // SAFETY: the contract of the type.

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 /// A vector instruction set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Simd {
-    /// Arrays of numbers, on any processor.
+    /// Two numbers at once, on any processor.
     Portable,
     /// What every machine of the target architecture has.
     Baseline,

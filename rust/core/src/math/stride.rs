@@ -2,7 +2,6 @@
 //! operations need not wait for each other.
 
 use super::lanes::{Mask, Real};
-#[cfg(target_arch = "x86_64")]
 use super::pair::{Pair, PairMask};
 use super::vector::Vector;
 
@@ -64,7 +63,6 @@ impl<R: Real> Stride<R> for R {
     }
 }
 
-#[cfg(target_arch = "x86_64")]
 impl<R: Real> Stride<R> for Pair<R> {
     const REGISTERS: usize = 2;
     #[inline(always)]

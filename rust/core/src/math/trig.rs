@@ -313,7 +313,7 @@ fn add<R: Real>(high: R, low: R, t: R, correction: R) -> R {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::lanes::Lanes;
+    use crate::math::pair::Lanes;
     use std::f64::consts::FRAC_PI_4;
 
     const TINY: f64 = 5e-324;

@@ -61,9 +61,12 @@ impl Tape {
             match what {
                 Step::Dyad(dyad) => {
                     let op = Op::of_dyad(plan, dyad, step, &uses, needs.samples);
-                    let pin = if needs.samples { None } else { op.pin() };
-                    for (point, is_start) in [(dyad.start, true), (dyad.end, false)] {
-                        uses.points_bare[point] |= pin.is_none_or(|pin| pin.is_start != is_start);
+                    // Samples read both columns.
+                    let [start, end] = if needs.samples { [true; 2] } else { op.columns() };
+                    uses.points_bare[dyad.start] |= start;
+                    uses.points_bare[dyad.end] |= end;
+                    if let Op::MovingGuide(DyadOp { carrier: Some(carrier), .. }) = op {
+                        uses.orientations[carrier] = true;
                     }
                     if let Op::Dyad { .. } = op {
                         for o in dyad.orientations.iter().flatten() {
@@ -84,7 +87,8 @@ impl Tape {
                     }
                     place.is_used = all || uses.points_bare[place.to];
                     uses.points[place.from] = true;
-                    uses.points_bare[place.from] |= place.is_used;
+                    let from_column = !place.from_ground || place.kind == PlaceKind::Along;
+                    uses.points_bare[place.from] |= place.is_used && from_column;
                     match place.kind {
                         PlaceKind::Rigid { .. } | PlaceKind::Along => {
                             uses.orientations[plan.edges[edge].orientation] = true;
@@ -134,9 +138,12 @@ fn add_upstream(plan: &Plan, ops: &mut [Op]) {
         match op {
             Op::TwoLegs(op)
             | Op::StandingGuide(op)
+            | Op::MovingGuide(op)
             | Op::TurningGuide(op)
             | Op::StandingGuides(op) => {
                 op.upstream = [&of_point[op.start][..], &of_point[op.end]].concat();
+                let carrier = op.carrier.and_then(|o| of_class[plan.orientations[o].class]);
+                op.upstream.extend(carrier);
                 last(&mut op.upstream, &before);
                 let mut all: Vec<usize> =
                     op.upstream.iter().flat_map(|&dyad| before[dyad].clone()).collect();
@@ -162,14 +169,16 @@ fn add_upstream(plan: &Plan, ops: &mut [Op]) {
     }
 }
 
-/// Whether all steps have closed forms, and no dyad starts or ends at a point that a slide places.
+/// Whether all steps have closed forms, and no dyad starts or ends at a point that a slide places
+/// whose value a dyad finds.
 fn is_bounded(plan: &Plan) -> bool {
     let mut bounded = plan.fixed.clone();
     for step in &plan.steps {
         match step {
             &Step::Place { edge, backward } => {
                 let [from, to] = plan.edges[edge].ends(backward);
-                bounded[to] = bounded[from] && plan.edges[edge].along == EdgeSlide::Nothing;
+                let along = plan.edges[edge].along;
+                bounded[to] = bounded[from] && !matches!(along, EdgeSlide::Slide(_));
             }
             Step::Dyad(dyad) => {
                 // A path that is closed starts at the origin.
@@ -224,10 +233,13 @@ impl Op {
             keeps,
             is_used: !samples || slides || turns.contains(&true) || keeps.contains(&true),
             pin: CrankPin::of(plan, dyad),
+            on_ground: [dyad.start, dyad.end].map(|point| plan.fixed[point]),
+            carrier: dyad.moving_guide(plan).map(|term| plan.edges[term.edge].orientation),
         };
         match dyad.form {
             _ if !dyad.has_kernel(plan) => Self::Dyad { step },
             Form::TwoCircles => Self::TwoLegs(op),
+            Form::CircleAndLine if dyad.moving_guide(plan).is_some() => Self::MovingGuide(op),
             Form::CircleAndLine => Self::StandingGuide(op),
             Form::TwoLines => Self::StandingGuides(op),
             Form::TurningGuide => Self::TurningGuide(op),
@@ -236,11 +248,17 @@ impl Op {
 }
 
 impl Op {
-    /// The pin of a crank that need not be placed for this dyad, where the tape is run bare.
-    fn pin(&self) -> Option<CrankPin> {
+    /// Whether the columns of a dyad's start and end are read where the tape is run bare: not those
+    /// of a crank's pin, or of the ground.
+    fn columns(&self) -> [bool; 2] {
         match self {
-            Self::TwoLegs(op) | Self::StandingGuide(op) => op.pin,
-            _ => None,
+            Self::TwoLegs(op) | Self::StandingGuide(op) => match (op.pin, op.on_ground) {
+                (Some(_), _) => [false; 2],
+                (None, [_, true]) => [true, false],
+                (None, [true, false]) => [false, true],
+                (None, [false, false]) => [true; 2],
+            },
+            _ => [true; 2],
         }
     }
 }
@@ -265,7 +283,9 @@ impl Dyad {
     pub(super) fn has_kernel(&self, plan: &Plan) -> bool {
         match self.form {
             Form::TwoCircles => self.rrr_classes.is_some(),
-            Form::CircleAndLine => self.leg[0] && self.has_standing_terms(plan),
+            Form::CircleAndLine => {
+                self.leg[0] && self.has_standing_terms(plan) || self.moving_guide(plan).is_some()
+            }
             Form::TwoLines => self.has_standing_terms(plan),
             Form::TurningGuide => self.turning_guide().is_some(),
         }
@@ -277,6 +297,17 @@ impl Dyad {
             stands(plan, term.edge)
                 && (term.slides.is_some() || plan.edges[term.edge].along == EdgeSlide::Nothing)
         })
+    }
+
+    /// The guide's term, if nothing but a leg and a guide on a known link that moves is in the loop.
+    pub(crate) fn moving_guide(&self, plan: &Plan) -> Option<&LoopTerm> {
+        match &self.others[..] {
+            [term] if self.form == Form::CircleAndLine => {
+                let known = term.turns.is_none() && term.slides == Some(1) && !term.in_leg;
+                (self.leg[0] && known && !stands(plan, term.edge)).then_some(term)
+            }
+            _ => None,
+        }
     }
 
     /// The guide's term, if nothing but a leg and a guide that turns with it is in the loop.
@@ -304,7 +335,8 @@ impl PlaceOp {
             },
             _ => PlaceKind::Along,
         };
-        Self { edge, class: of.class, from, to, backward, kind, is_used: true }
+        let from_ground = plan.fixed[from];
+        Self { edge, class: of.class, from, to, backward, kind, from_ground, is_used: true }
     }
 }
 

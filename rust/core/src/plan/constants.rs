@@ -213,12 +213,19 @@ impl DesignConstants {
     #[must_use]
     pub(crate) fn new(plan: &Plan, slots: &DimensionMap, values: &[f64]) -> Self {
         let mut constants = Self::default();
-        constants.bind(plan, slots, values);
+        constants.bind(plan, slots, values, f64::INFINITY);
         constants
     }
 
     /// Recomputes the constants for the dimensions of another design of the same plan.
-    pub(crate) fn bind(&mut self, plan: &Plan, slots: &DimensionMap, values: &[f64]) {
+    /// `driven_reach`: the greatest value of a driven slide, m.
+    pub(crate) fn bind(
+        &mut self,
+        plan: &Plan,
+        slots: &DimensionMap,
+        values: &[f64],
+        driven_reach: f64,
+    ) {
         if self.turn.len() != plan.rotation.len() {
             self.resize(plan, slots);
         }
@@ -260,7 +267,7 @@ impl DesignConstants {
             self.max_arm2[e.class] = self.max_arm2[e.class].max(arm2);
         }
         plan.leg_edges.measure(&self.edge_vector, &mut self.legs);
-        self.measure_dyads(plan, &plan.tape);
+        self.measure_dyads(plan, &plan.tape, driven_reach * inv_scale);
         for (i, e) in plan.edges.iter().enumerate() {
             if let (Some(leg), None) = (e.on_leg, e.leg) {
                 self.on_leg[i] = self.legs[leg / 2][leg % 2].part(self.edge_vector[i]);

@@ -12,8 +12,9 @@ impl DesignConstants {
         self.dyads.get(leg / 2).map_or(f64::INFINITY, |dyad| dyad.inner_reach)
     }
 
-    /// Computes the constants of the dyads on the tape.
-    pub(crate) fn measure_dyads(&mut self, plan: &Plan, tape: &Tape) {
+    /// Computes the constants of the dyads on the tape. `driven_reach`: the greatest value of a
+    /// driven slide.
+    pub(crate) fn measure_dyads(&mut self, plan: &Plan, tape: &Tape, driven_reach: f64) {
         self.dyads.resize(self.legs.len(), DyadConstants::default());
         self.reach.clear();
         self.reach.extend(self.fixed.iter().map(|at| at.x.abs() + at.y.abs()));
@@ -24,12 +25,14 @@ impl DesignConstants {
                     let reach = self.reach[place.from] + arm.x.abs() + arm.y.abs();
                     self.reach[place.to] = match place.kind {
                         PlaceKind::Leg { leg, .. } => reach.min(self.inner_reach(leg)),
+                        PlaceKind::Along => reach + driven_reach,
                         _ => reach,
                     };
                     continue;
                 }
                 Op::TwoLegs(dyad)
                 | Op::StandingGuide(dyad)
+                | Op::MovingGuide(dyad)
                 | Op::TurningGuide(dyad)
                 | Op::StandingGuides(dyad) => dyad.step,
                 Op::Dyad { step } => *step,
@@ -61,7 +64,7 @@ impl DesignConstants {
                     own.inner_reach = (start + legs[0].norm).min(end + legs[1].norm);
                     (arm2(u.class()) * legs[0].inv_norm2).max(arm2(v.class()) * legs[1].inv_norm2)
                 }
-                Op::StandingGuide(_) => arm2(u.class()) * legs[0].inv_norm2,
+                Op::StandingGuide(_) | Op::MovingGuide(_) => arm2(u.class()) * legs[0].inv_norm2,
                 Op::TurningGuide(_) => arm2(u.class()),
                 _ => 1.0,
             };

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 use super::constants::{DesignConstants, DimensionMap};
 use super::dyad::{Dyad, Form};
 use super::plan::Plan;
+use super::work_spaces::PlanNumber;
 use crate::description::dimension::Dimensions;
 use crate::description::error::{Named, SolveError, StructureError};
 use crate::description::names::{mistaken_kind, suggest};
@@ -33,6 +34,7 @@ pub struct Mechanism {
     pub(crate) class_angle: Vec<f64>,
     /// Whole turns between each link's angle in the drawing and that of its class plus offsets.
     pub(crate) whole_turns: Vec<f64>,
+    pub(crate) number: PlanNumber,
 }
 
 impl Mechanism {
@@ -88,6 +90,7 @@ impl Mechanism {
             slots,
             class_angle,
             whole_turns,
+            number: PlanNumber::next(),
         })
     }
 

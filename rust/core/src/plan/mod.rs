@@ -25,3 +25,4 @@ pub(crate) mod pair_span;
 pub(crate) mod plan;
 pub(crate) mod redundant;
 pub(crate) mod tape;
+pub(crate) mod work_spaces;

@@ -1,6 +1,8 @@
 //! The tape: the plan's steps as the solver runs them, with indices in place of lists, and without
 //! the steps that a request does not need.
 
+use crate::math::lanes::Real;
+
 /// What is run at every position, in order.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Tape {
@@ -23,6 +25,8 @@ pub(crate) enum Op {
     TwoLegs(DyadOp),
     /// A dyad of a leg and a slide along a guide that stands still (RRP).
     StandingGuide(DyadOp),
+    /// A dyad of a leg and a slide along a guide on a known link that moves (RRP).
+    MovingGuide(DyadOp),
     /// A dyad with a guide that turns (RPR).
     TurningGuide(DyadOp),
     /// A dyad of two slides along guides that stand still (PRP, RPP).
@@ -61,6 +65,18 @@ pub(crate) struct DyadOp {
     pub is_used: bool,
     /// If one of its points is a crank's pin and the other belongs to the ground: that pin.
     pub pin: Option<CrankPin>,
+    /// Whether start and end belong to the ground.
+    pub on_ground: [bool; 2],
+    /// The orientation of its guide, if that is on a known link that moves.
+    pub carrier: Option<usize>,
+}
+
+impl DyadOp {
+    /// The bound of the dyad's condition: its own, with that of all it depends on.
+    #[inline(always)]
+    pub(crate) fn bound_with<R: Real>(&self, upstream: R, own: R) -> R {
+        if self.upstream.is_empty() { own } else { upstream * own }
+    }
 }
 
 /// Indices of the pin of a crank on the ground.
@@ -93,6 +109,8 @@ pub(crate) struct PlaceOp {
     /// Whether the edge is subtracted.
     pub backward: bool,
     pub kind: PlaceKind,
+    /// Whether it is placed from a point of the ground, whose jet is constant.
+    pub from_ground: bool,
     /// Whether anything uses the point where the tape is run bare.
     pub is_used: bool,
 }

@@ -134,7 +134,7 @@ fn examine(
         _ => None,
     };
     let (residual, condition) = if solved {
-        (state.residual(&design.context(derivatives)), state.condition2[0].sqrt())
+        (state.residual(&design.context(derivatives)), state.conditions.greatest[0].sqrt())
     } else {
         (f64::NAN, f64::NAN)
     };

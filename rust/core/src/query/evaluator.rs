@@ -4,8 +4,9 @@ use std::borrow::Cow;
 
 use crate::branch::branch::Branch;
 use crate::branch::change_interpolant::ChangeWindow;
-use crate::branch::design::{BranchPoint, Design};
+use crate::branch::design::Design;
 use crate::branch::knot::{InitialGuess, Taylor2};
+use crate::branch::position::BranchPoint;
 use crate::branch::units::Units;
 use crate::math::angle::unwrap_to;
 use crate::math::derivatives::DerivativeTables;
@@ -140,7 +141,7 @@ impl<'m> Evaluator<'m> {
 
     /// Condition of the last position: the product along its worst chain.
     pub(crate) fn total_condition(&self) -> f64 {
-        self.state.condition2[0].sqrt()
+        self.state.conditions.greatest[0].sqrt()
     }
 
     /// The greatest condition of a single dyad or group at the last position, and its step of the
@@ -222,7 +223,8 @@ impl<'m> Evaluator<'m> {
             return Err(Rejection::Failed { status, fault });
         };
         if self.needs_angles {
-            self.reference_angles = self.design.reference_angles(&point, self.state.class.len());
+            self.reference_angles =
+                self.design.reference_angles(&point, self.state.pose.class.len());
         }
         if self.continues_from_last {
             let last = LastPosition::new(
@@ -259,17 +261,18 @@ impl LastPosition {
         q: &[f64],
         reference_angles: &[f64],
     ) -> Self {
-        let angle =
-            |class: usize| unwrap_to(state.class[class][0].unit_angle(), reference_angles[class]);
+        let angle = |class: usize| {
+            unwrap_to(state.pose.class[class][0].unit_angle(), reference_angles[class])
+        };
         let unknown_value = |&unknown: &Unknown| match unknown {
             Unknown::Class(class) => [angle(class), 0.0, 0.0],
-            Unknown::Slide(slide) => [state.slides[slide * state.len][0], 0.0, 0.0],
+            Unknown::Slide(slide) => [state.pose.slides[slide * state.len][0], 0.0, 0.0],
         };
         let groups = design.mechanism.plan().groups();
         Self {
             q: q.to_vec(),
             signs: point.branch.signs(point.at).to_vec(),
-            angles: (0..state.class.len()).map(angle).collect(),
+            angles: (0..state.pose.class.len()).map(angle).collect(),
             taylor: groups.flat_map(|group| &group.unknowns).map(unknown_value).collect(),
         }
     }
@@ -289,7 +292,7 @@ impl Position<'_> {
     /// Angle of a link, rad, continuous along the branch.
     pub(crate) fn angle(&self, link: usize) -> f64 {
         let rotation = &self.plan.rotation[link];
-        let class = self.state.class[rotation.class][0].angle();
+        let class = self.state.pose.class[rotation.class][0].angle();
         let reference_angles = self.reference_angles.get(rotation.class).copied().unwrap_or(class);
         let mut angle = unwrap_to(class, reference_angles);
         for (&turns, q) in rotation.turns.iter().zip(self.q) {

@@ -2,14 +2,17 @@
 //! give the same bits, since each operation is rounded separately.
 
 use super::state::{Context, State};
-use crate::math::lanes::{Lanes, Real};
-#[cfg(target_arch = "x86_64")]
+use crate::math::lanes::Real;
 use crate::math::pair::Pair;
 #[cfg(target_arch = "x86_64")]
 use crate::math::registers::{F64x2, F64x4, F64x8};
 use crate::math::stride::Stride;
 use crate::plan::group::Group;
 use crate::plan::tape::{DyadOp, PlaceOp};
+
+/// Positions solved at once: their columns fit the first-level cache. A turn in steps of 5° is one
+/// block.
+pub(crate) const BLOCK: usize = 80;
 
 /// The solver of positions compiled for one level.
 ///
@@ -32,6 +35,12 @@ pub(crate) trait Level: Sized {
     );
     /// See [`State::bare_standing_guide`].
     fn standing_guide<const LEN: usize, const G: usize>(
+        state: &mut State<Self::Register, G>,
+        cx: &Context<'_>,
+        op: &DyadOp,
+    );
+    /// See [`State::bare_moving_guide`].
+    fn moving_guide<const LEN: usize, const G: usize>(
         state: &mut State<Self::Register, G>,
         cx: &Context<'_>,
         op: &DyadOp,
@@ -123,6 +132,9 @@ macro_rules! level {
                     standing_guide [LEN] (state, cx: &Context<'_>, op: &DyadOp)
                     state.bare_standing_guide::<$stride, LEN>(cx, op));
                 compiled!($register $(, $features)?;
+                    moving_guide [LEN] (state, cx: &Context<'_>, op: &DyadOp)
+                    state.bare_moving_guide::<LEN>(cx, op));
+                compiled!($register $(, $features)?;
                     turning_guide [LEN] (state, cx: &Context<'_>, op: &DyadOp)
                     state.bare_turning_guide::<LEN>(cx, op));
                 compiled!($register $(, $features)?;
@@ -141,9 +153,8 @@ macro_rules! level {
 
 // One number: for single positions.
 level!(alone, Alone, f64, f64);
-// What every processor has: arrays of numbers, which the compiler puts into registers as well as it
-// can.
-level!(portable, Portable, super::Lanes<2>, super::Lanes<2>);
+// What every processor has: two numbers, which the compiler puts into one register if it can.
+level!(portable, Portable, super::Pair<f64>, super::Pair<f64>);
 #[cfg(target_arch = "x86_64")]
 level!(baseline, Baseline, super::Pair<super::F64x2>, super::Pair<super::F64x2>, "sse2");
 #[cfg(target_arch = "x86_64")]

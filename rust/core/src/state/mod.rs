@@ -1,12 +1,15 @@
 //! One position at q: the poses of all links, their analogues, condition and status.
 
+mod conditions;
 pub(crate) mod dyad;
 pub(crate) mod group;
 pub(crate) mod kernel;
 pub(crate) mod own_condition;
 pub(crate) mod points;
+mod pose;
 pub(crate) mod redundant;
 pub(crate) mod sensitivity;
 pub(crate) mod state;
 pub(crate) mod status;
 pub(crate) mod tape;
+mod workspace;

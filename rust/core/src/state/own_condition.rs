@@ -31,19 +31,20 @@ impl State {
 
     fn condition2_of(&self, unknown: Unknown) -> f64 {
         match unknown {
-            Unknown::Class(class) => self.class_condition[class][0],
-            Unknown::Slide(slide) => self.slide_condition[slide][0],
+            Unknown::Class(class) => self.conditions.of_class[class][0],
+            Unknown::Slide(slide) => self.conditions.of_slide[slide][0],
         }
     }
 
     /// Square of the condition of all that a dyad depends on.
     fn upstream_of_dyad(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
-        let ends = [dyad.start, dyad.end].map(|point| self.point_condition[point][0]);
+        let ends = [dyad.start, dyad.end].map(|point| self.conditions.of_point[point][0]);
         let others = dyad.others.iter().map(|term| {
             let class = cx.plan.class_of(term.edge);
-            let turned = if term.turns.is_none() { self.class_condition[class][0] } else { 1.0 };
+            let turned =
+                if term.turns.is_none() { self.conditions.of_class[class][0] } else { 1.0 };
             match (cx.plan.edges[term.edge].along, term.slides) {
-                (EdgeSlide::Slide(slide), None) => turned.max(self.slide_condition[slide][0]),
+                (EdgeSlide::Slide(slide), None) => turned.max(self.conditions.of_slide[slide][0]),
                 _ => turned,
             }
         });
@@ -54,11 +55,11 @@ impl State {
     fn upstream_of_group(&self, cx: &Context<'_>, group: &Group) -> f64 {
         let found: Vec<Unknown> = group.all_unknowns().collect();
         let ends = group.loops.iter().flat_map(|l| [l.start, l.end]);
-        let points = ends.map(|point| self.point_condition[point][0]);
+        let points = ends.map(|point| self.conditions.of_point[point][0]);
         let classes = group.edges.iter().map(|edge| cx.plan.class_of(edge.edge));
         let carried = classes
             .filter(|&class| !found.contains(&Unknown::Class(class)))
-            .map(|class| self.class_condition[class][0]);
+            .map(|class| self.conditions.of_class[class][0]);
         points.chain(carried).fold(1.0, f64::max)
     }
 

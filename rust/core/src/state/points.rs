@@ -14,20 +14,23 @@ impl<R: Real, const G: usize> State<R, G> {
         let [from, to] = edge.ends(backward);
         for k in 0..self.len {
             let v = self.edge(g, cx, e, k);
-            let base = self.points[from * self.len + k][g];
-            self.points[to * self.len + k][g] = if backward { base - v } else { base + v };
+            let base = self.pose.points[from * self.len + k][g];
+            self.pose.points[to * self.len + k][g] = if backward { base - v } else { base + v };
         }
-        let (start, end) = (self.points[from * self.len][g], self.points[to * self.len][g]);
+        let (start, end) =
+            (self.pose.points[from * self.len][g], self.pose.points[to * self.len][g]);
         let arm = match edge.along {
             EdgeSlide::Nothing => R::splat(cx.constants.arm2[e]),
             _ => (end - start).norm2(),
         };
-        self.coordinate_scale2[to][g] = self.coordinate_scale2[from][g].max(arm).max(end.norm2());
-        let mut condition = self.point_condition[from][g].max(self.class_condition[edge.class][g]);
+        self.conditions.coordinate_scale2[to][g] =
+            self.conditions.coordinate_scale2[from][g].max(arm).max(end.norm2());
+        let mut condition =
+            self.conditions.of_point[from][g].max(self.conditions.of_class[edge.class][g]);
         if let EdgeSlide::Slide(slide) = edge.along {
-            condition = condition.max(self.slide_condition[slide][g]);
+            condition = condition.max(self.conditions.of_slide[slide][g]);
         }
-        self.point_condition[to][g] = condition;
+        self.conditions.of_point[to][g] = condition;
     }
 
     /// Computes a point from another, in all lane groups.
@@ -46,62 +49,65 @@ impl<R: Real, const G: usize> State<R, G> {
             for g in 0..groups {
                 for k in 0..len {
                     let v = self.edge(g, cx, op.edge, k);
-                    let base = self.points[op.from * len + k][g];
-                    self.points[op.to * len + k][g] = if op.backward { base - v } else { base + v };
+                    let base = self.pose.points[op.from * len + k][g];
+                    self.pose.points[op.to * len + k][g] =
+                        if op.backward { base - v } else { base + v };
                 }
             }
             return;
         }
-        let Ok([base, out]) = self.points.get_disjoint_mut([op.from, op.to].map(jet)) else {
+        let Ok([base, out]) = self.pose.points.get_disjoint_mut([op.from, op.to].map(jet)) else {
             return;
         };
+        let ground = op.from_ground.then(|| Vector::splat(cx.constants.fixed[op.from]));
+        let base = Base { column: base, ground };
         match op.kind {
             PlaceKind::Leg { leg, negative: false } => {
-                let leg = &self.legs[jet(leg)];
+                let leg = &self.pose.legs[jet(leg)];
                 for k in 0..len {
                     for g in 0..groups {
-                        out[k][g] = base[k][g] + leg[k][g];
+                        out[k][g] = base.entry(k, g) + leg[k][g];
                     }
                 }
             }
             PlaceKind::Leg { leg, negative: true } => {
-                let leg = &self.legs[jet(leg)];
+                let leg = &self.pose.legs[jet(leg)];
                 for k in 0..len {
                     for g in 0..groups {
-                        out[k][g] = base[k][g] - leg[k][g];
+                        out[k][g] = base.entry(k, g) - leg[k][g];
                     }
                 }
             }
             PlaceKind::OnLeg { leg } => {
                 let part = directed(cx.constants.on_leg[op.edge], op.backward);
-                let leg = &self.legs[jet(leg)];
+                let leg = &self.pose.legs[jet(leg)];
                 for k in 0..len {
                     for g in 0..groups {
-                        out[k][g] = base[k][g] + leg[k][g] * part;
+                        out[k][g] = base.entry(k, g) + leg[k][g] * part;
                     }
                 }
             }
             PlaceKind::Rigid { orientation } => {
                 let edge = directed(cx.constants.edge_vector[op.edge], op.backward);
-                let orientation = &self.orient[jet(orientation)];
+                let orientation = &self.pose.orient[jet(orientation)];
                 for k in 0..len {
                     for g in 0..groups {
-                        out[k][g] = base[k][g] + orientation[k][g] * edge;
+                        out[k][g] = base.entry(k, g) + orientation[k][g] * edge;
                     }
                 }
             }
             PlaceKind::Crank { driver, conj } => {
                 let edge = cx.constants.edge_vector[op.edge];
                 let edge = if op.backward { -edge } else { edge };
-                let units = &self.unit[driver];
+                let units = &self.pose.unit[driver];
                 for g in 0..groups {
                     let unit = if conj { units[g].conj() } else { units[g] };
                     let mut entry = unit.turn(edge);
-                    out[0][g] = base[0][g] + entry;
+                    out[0][g] = base.entry(0, g) + entry;
                     if cx.derivatives.drivers == 1 {
                         for k in 1..len {
                             entry = if conj { -entry.left() } else { entry.left() };
-                            out[k][g] = base[k][g] + entry;
+                            out[k][g] = base.entry(k, g) + entry;
                         }
                     } else {
                         let first = entry;
@@ -114,7 +120,7 @@ impl<R: Real, const G: usize> State<R, G> {
                             for _ in 0..if alone { own } else { 0 } {
                                 entry = if conj { -entry.left() } else { entry.left() };
                             }
-                            out[k][g] = base[k][g] + entry;
+                            out[k][g] = base.entry(k, g) + entry;
                         }
                     }
                 }
@@ -129,19 +135,39 @@ impl<R: Real, const G: usize> State<R, G> {
         let along = cx.plan.edges[op.edge].along;
         for g in 0..self.groups.min(G) {
             let (start, end) =
-                (self.points[op.from * self.len][g], self.points[op.to * self.len][g]);
+                (self.pose.points[op.from * self.len][g], self.pose.points[op.to * self.len][g]);
             let arm = match along {
                 EdgeSlide::Nothing => R::splat(cx.constants.arm2[op.edge]),
                 _ => (end - start).norm2(),
             };
-            self.coordinate_scale2[op.to][g] =
-                self.coordinate_scale2[op.from][g].max(arm).max(end.norm2());
+            self.conditions.coordinate_scale2[op.to][g] =
+                self.conditions.coordinate_scale2[op.from][g].max(arm).max(end.norm2());
             let mut condition =
-                self.point_condition[op.from][g].max(self.class_condition[op.class][g]);
+                self.conditions.of_point[op.from][g].max(self.conditions.of_class[op.class][g]);
             if let EdgeSlide::Slide(slide) = along {
-                condition = condition.max(self.slide_condition[slide][g]);
+                condition = condition.max(self.conditions.of_slide[slide][g]);
             }
-            self.point_condition[op.to][g] = condition;
+            self.conditions.of_point[op.to][g] = condition;
+        }
+    }
+}
+
+/// The point from which another is placed.
+#[derive(Clone, Copy)]
+struct Base<'a, R, const G: usize> {
+    column: &'a [[Vector<R>; G]],
+    /// Of the ground: it needs no column.
+    ground: Option<Vector<R>>,
+}
+
+impl<R: Real, const G: usize> Base<'_, R, G> {
+    /// An entry of its jet.
+    #[inline(always)]
+    fn entry(&self, k: usize, g: usize) -> Vector<R> {
+        match self.ground {
+            Some(at) if k == 0 => at,
+            Some(_) => Vector::ZERO,
+            None => self.column[k][g],
         }
     }
 }

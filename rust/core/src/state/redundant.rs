@@ -43,7 +43,7 @@ impl<R: Real, const G: usize> State<R, G> {
                     *points,
                 );
                 for &point in points {
-                    condition2 = self.point_condition[point][g].max(condition2);
+                    condition2 = self.conditions.of_point[point][g].max(condition2);
                 }
             }
             Some(AngleFrom::Slide { link, slide }) => self.turn_by_slide(g, cx, *link, *slide),
@@ -60,7 +60,8 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         for &e in &redundant.touched {
             let edge = &cx.plan.edges[e].edge;
-            let ends = self.point_condition[edge.from][g].max(self.point_condition[edge.to][g]);
+            let ends =
+                self.conditions.of_point[edge.from][g].max(self.conditions.of_point[edge.to][g]);
             condition2 = ends.max(condition2);
         }
         let allowed = (R::splat(CLOSURE_PER_CONDITION) * condition2.sqrt())
@@ -81,21 +82,23 @@ impl<R: Real, const G: usize> State<R, G> {
     ) -> R {
         let len = self.len;
         let o = cx.plan.link_orientation[link];
-        let chord = self.points[points[1] * len][g] - self.points[points[0] * len][g];
+        let chord = self.pose.points[points[1] * len][g] - self.pose.points[points[0] * len][g];
         let (length, distance) = (R::splat(arm.norm()), chord.norm());
         let arm = Vector::splat(arm.conj());
         let inverse = R::ONE / (length * distance);
         self.set_orientation(g, cx, o, (chord * arm).scale(inverse));
         for k in 1..len {
             // chord = U · arm at every order, up to rounding.
-            let span = self.points[points[1] * len + k][g] - self.points[points[0] * len + k][g];
+            let span =
+                self.pose.points[points[1] * len + k][g] - self.pose.points[points[0] * len + k][g];
             let unit = (span * arm).scale(R::ONE / (length * length));
             let partial = self.orientation_without_top(g, cx, o, k);
-            let rest = (unit - partial) * self.orient[o * len][g].conj();
+            let rest = (unit - partial) * self.pose.orient[o * len][g].conj();
             self.set_rate(g, cx, o, k, rest.y);
         }
-        let condition = self.point_condition[points[0]][g].max(self.point_condition[points[1]][g]);
-        self.class_condition[cx.plan.orientations[o].class][g] = condition;
+        let condition =
+            self.conditions.of_point[points[0]][g].max(self.conditions.of_point[points[1]][g]);
+        self.conditions.of_class[cx.plan.orientations[o].class][g] = condition;
         (distance - length).abs()
     }
 
@@ -106,30 +109,30 @@ impl<R: Real, const G: usize> State<R, G> {
         let o = cx.plan.link_orientation[link];
         let (other, constant) = cx.constants.across_slide(cx.plan, link, slide);
         let from = cx.plan.link_orientation[other];
-        let value = self.orient[from * len][g] * Vector::splat(constant);
+        let value = self.pose.orient[from * len][g] * Vector::splat(constant);
         self.set_orientation(g, cx, o, value);
         for k in 1..len {
             let rate = self.angle_analogue(g, cx, from, k);
             self.set_rate(g, cx, o, k, rate);
         }
-        self.class_condition[cx.plan.orientations[o].class][g] =
-            self.class_condition[cx.plan.orientations[from].class][g];
+        self.conditions.of_class[cx.plan.orientations[o].class][g] =
+            self.conditions.of_class[cx.plan.orientations[from].class][g];
     }
 
     #[inline(always)]
     fn set_orientation(&mut self, g: usize, cx: &Context<'_>, o: usize, value: Vector<R>) {
         let class = cx.plan.orientations[o].class;
-        self.class[class][g] = value * self.phase[o][g].conj();
-        self.orient[o * self.len][g] = value;
+        self.pose.class[class][g] = value * self.pose.phase[o][g].conj();
+        self.pose.orient[o * self.len][g] = value;
     }
 
     #[inline(always)]
     fn set_rate(&mut self, g: usize, cx: &Context<'_>, o: usize, k: usize, rate: R) {
         let class = cx.plan.orientations[o].class;
-        self.theta[class * self.len + k][g] = rate;
+        self.pose.theta[class * self.len + k][g] = rate;
         let partial = self.orientation_without_top(g, cx, o, k);
-        self.orient[o * self.len + k][g] =
-            partial + self.orient[o * self.len][g].left().scale(rate);
+        self.pose.orient[o * self.len + k][g] =
+            partial + self.pose.orient[o * self.len][g].left().scale(rate);
     }
 
     /// Distance by which an edge misses its end; sets the slide along it to its best value.
@@ -143,17 +146,19 @@ impl<R: Real, const G: usize> State<R, G> {
                 // Jet of the edge in the frame of the guide's link: conj(U) · ΔP, by Leibniz.
                 let mut local = Vector::ZERO;
                 for t in &cx.derivatives.product[k] {
-                    let span = self.points[to + t.right][g] - self.points[from + t.right][g];
-                    let v = span * self.orient[o + t.left][g].conj();
+                    let span =
+                        self.pose.points[to + t.right][g] - self.pose.points[from + t.right][g];
+                    let v = span * self.pose.orient[o + t.left][g].conj();
                     local += v.scale(R::splat(t.factor));
                 }
                 if k == 0 {
                     local = local - Vector::splat(cx.constants.edge_vector[e]);
                 }
-                self.slides[slide * len + k][g] = local.dot(Vector::splat(cx.constants.guide[e]));
+                self.pose.slides[slide * len + k][g] =
+                    local.dot(Vector::splat(cx.constants.guide[e]));
             }
         }
-        (self.points[to][g] - self.points[from][g] - self.edge(g, cx, e, 0)).norm()
+        (self.pose.points[to][g] - self.pose.points[from][g] - self.edge(g, cx, e, 0)).norm()
     }
 
     /// Misfit of the angle between the two links of a slide, as the distance of unit vectors (2 for
@@ -161,9 +166,9 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     fn angle_misfit(&self, g: usize, cx: &Context<'_>, slide: usize, on: usize) -> R {
         let (link, constant) = cx.constants.across_slide(cx.plan, on, slide);
-        let turned =
-            self.orient[cx.plan.link_orientation[link] * self.len][g] * Vector::splat(constant);
-        let actual = self.orient[cx.plan.link_orientation[on] * self.len][g];
+        let turned = self.pose.orient[cx.plan.link_orientation[link] * self.len][g]
+            * Vector::splat(constant);
+        let actual = self.pose.orient[cx.plan.link_orientation[on] * self.len][g];
         (turned - actual).norm()
     }
 }
@@ -173,12 +178,12 @@ impl State {
     /// NaN.
     pub(crate) fn fill_nan(&mut self, cx: &Context<'_>) {
         let known = |point: usize| cx.plan.fixed[point];
-        for (i, point) in self.points.iter_mut().enumerate() {
+        for (i, point) in self.pose.points.iter_mut().enumerate() {
             if !known(i / self.len) {
                 *point = [Vector::splat(Vector::new(f64::NAN, f64::NAN))];
             }
         }
-        for (i, orient) in self.orient.iter_mut().enumerate() {
+        for (i, orient) in self.pose.orient.iter_mut().enumerate() {
             if cx.plan.orientations[i / self.len].class != 0 {
                 *orient = [Vector::splat(Vector::new(f64::NAN, f64::NAN))];
             }
@@ -207,11 +212,12 @@ impl State {
     /// Whether all points and orientations that must fit are finite.
     fn is_solved(&self, cx: &Context<'_>, redundant: &RedundantLink) -> bool {
         let is_finite = |vector: &[Vector; 1]| vector[0].norm2().is_finite();
-        let at = |point: usize| is_finite(&self.points[point * self.len]);
+        let at = |point: usize| is_finite(&self.pose.points[point * self.len]);
         let mut edges = redundant.touched.iter().map(|&e| &cx.plan.edges[e].edge);
         let mut links =
             redundant.parallel.iter().flat_map(|&(slide, _)| cx.plan.slide_links[slide]);
         edges.all(|edge| at(edge.from) && at(edge.to))
-            && links.all(|link| is_finite(&self.orient[cx.plan.link_orientation[link] * self.len]))
+            && links
+                .all(|link| is_finite(&self.pose.orient[cx.plan.link_orientation[link] * self.len]))
     }
 }

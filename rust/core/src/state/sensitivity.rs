@@ -83,11 +83,11 @@ impl Sensitivity {
         let len = state.len;
         self.orientation_jets(state, cx);
         for (i, &fixed) in by.fixed.iter().enumerate() {
-            self.rates.points[i * len..][..len].fill([Vector::ZERO]);
-            self.rates.points[i * len] = [fixed];
+            self.rates.pose.points[i * len..][..len].fill([Vector::ZERO]);
+            self.rates.pose.points[i * len] = [fixed];
         }
-        self.rates.theta.fill([0.0]);
-        self.rates.slides.fill([0.0]);
+        self.rates.pose.theta.fill([0.0]);
+        self.rates.pose.slides.fill([0.0]);
         let inputs = Inputs { state, cx, by, len };
         for (index, step) in cx.plan.steps.iter().enumerate() {
             match step {
@@ -95,8 +95,8 @@ impl Sensitivity {
                     let [from, to] = cx.plan.edges[edge].ends(backward);
                     for k in 0..len {
                         let v = self.edge(&inputs, edge, k).scale(signed(backward));
-                        let start = self.rates.points[from * len + k][0];
-                        self.rates.points[to * len + k][0] = start + v;
+                        let start = self.rates.pose.points[from * len + k][0];
+                        self.rates.pose.points[to * len + k][0] = start + v;
                     }
                 }
                 Step::Redundant(_) => return false,
@@ -117,8 +117,8 @@ impl Sensitivity {
     fn orientation_jets(&mut self, state: &State, cx: &Context<'_>) {
         let len = state.len;
         for (o, orientation) in cx.plan.orientations.iter().enumerate() {
-            let class = state.class[orientation.class][0];
-            let phase = if orientation.driven { state.phase[o][0] } else { Vector::ONE };
+            let class = state.pose.class[orientation.class][0];
+            let phase = if orientation.driven { state.pose.phase[o][0] } else { Vector::ONE };
             self.units[o * len] = class * phase;
             for k in 1..len {
                 let mut sum = self.units[o * len].scale(state.angle_analogue(0, cx, o, k));
@@ -136,7 +136,7 @@ impl Sensitivity {
         let class = inputs.cx.plan.orientations[o].class;
         let mut sum = Vector::ZERO;
         for term in &inputs.cx.derivatives.product[k] {
-            let rate = term.factor * self.rates.theta[class * inputs.len + term.right][0];
+            let rate = term.factor * self.rates.pose.theta[class * inputs.len + term.right][0];
             sum += self.units[o * inputs.len + term.left].scale(rate);
         }
         sum.left()
@@ -151,8 +151,8 @@ impl Sensitivity {
         if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
             for term in &inputs.cx.derivatives.product[k] {
                 let unit = self.units[o * len + term.left];
-                let value = inputs.state.slides[slide * len + term.right][0];
-                let rate = self.rates.slides[slide * len + term.right][0];
+                let value = inputs.state.pose.slides[slide * len + term.right][0];
+                let rate = self.rates.pose.slides[slide * len + term.right][0];
                 let turned = self.unit_rate(inputs, o, term.left) * constants.guide[e];
                 let guide_rate = unit * inputs.by.guide[e];
                 let along = unit * constants.guide[e];
@@ -169,7 +169,7 @@ impl Sensitivity {
         for k in 0..len {
             let mut rhs = DVector::zeros(n);
             for (i, path) in closures.paths.iter().enumerate() {
-                let point = |p: usize| self.rates.points[p * len + k][0];
+                let point = |p: usize| self.rates.pose.points[p * len + k][0];
                 let mut sum = point(path.plus) - point(path.minus);
                 for &(e, sign) in &path.edges {
                     sum += self.edge(inputs, e, k).scale(sign);
@@ -180,8 +180,8 @@ impl Sensitivity {
             let Some(values) = lu.solve(&rhs) else { return false };
             for (&unknown, &value) in closures.unknowns.iter().zip(values.iter()) {
                 match unknown {
-                    Unknown::Class(class) => self.rates.theta[class * len + k][0] = value,
-                    Unknown::Slide(slide) => self.rates.slides[slide * len + k][0] = value,
+                    Unknown::Class(class) => self.rates.pose.theta[class * len + k][0] = value,
+                    Unknown::Slide(slide) => self.rates.pose.slides[slide * len + k][0] = value,
                 }
             }
         }
@@ -199,7 +199,7 @@ impl Sensitivity {
                 let guide = unit * inputs.cx.constants.guide[e];
                 let mut vector = unit * inputs.cx.constants.edge_vector[e];
                 if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = edge.along {
-                    vector += guide.scale(inputs.state.slides[slide * inputs.len][0]);
+                    vector += guide.scale(inputs.state.pose.slides[slide * inputs.len][0]);
                 }
                 for (column, &unknown) in closures.unknowns.iter().enumerate() {
                     let v = match (unknown, edge.along) {

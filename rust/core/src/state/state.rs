@@ -1,8 +1,10 @@
 //! State of one position of a design, or of several at once: points, orientations and slides with
 //! their analogues.
 
-use super::group::workspace::GroupWorkspace;
+use super::conditions::Conditions;
+use super::pose::Pose;
 use super::status::{Fault, Status};
+use super::workspace::Workspace;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
@@ -22,72 +24,11 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) len: usize,
     /// Number of lane groups in use.
     pub(crate) groups: usize,
-    /// Coordinates (rad; slide drivers in units of the scale).
-    pub(crate) q: Vec<[R; G]>,
-    /// Unit vectors at the driven angles.
-    pub(crate) unit: Vec<[Vector<R>; G]>,
-    /// Assembly signs, +1 or −1.
-    pub(crate) signs: Vec<[R; G]>,
-    /// Jets of points, one after another.
-    pub points: Vec<[Vector<R>; G]>,
-    /// Jets of orientations.
-    pub orient: Vec<[Vector<R>; G]>,
-    /// Jets of the legs of dyads (two per dyad), then of the edges of groups.
-    pub(crate) legs: Vec<[Vector<R>; G]>,
-    /// Jets of the angles of classes; entry 0, the value, is not used.
-    pub theta: Vec<[R; G]>,
-    /// Jets of slides.
-    pub slides: Vec<[R; G]>,
-    /// Rotations of classes.
-    pub class: Vec<[Vector<R>; G]>,
-    /// Rotation of every orientation by the drivers alone.
-    pub(crate) phase: Vec<[Vector<R>; G]>,
-    /// Square of the greatest coordinate or arm in the chain to each point, to which its rounding
-    /// error is relative.
-    pub(crate) coordinate_scale2: Vec<[R; G]>,
-    /// Square of the product of the conditions of the dyads and groups that each point depends on
-    /// (squares need no roots).
-    pub(crate) point_condition: Vec<[R; G]>,
-    /// The same for each class.
-    pub(crate) class_condition: Vec<[R; G]>,
-    /// The same for each slide.
-    pub(crate) slide_condition: Vec<[R; G]>,
-    /// Square of the condition of all that each dyad with a sign depends on.
-    pub(crate) upstream_condition2: Vec<[R; G]>,
-    /// Matrix, inverse and right-hand side of a group above class II.
-    pub(crate) matrix: Vec<[R; G]>,
-    /// Jets of the guides along the edges of a group.
-    pub(crate) guides: Vec<[Vector<R>; G]>,
-    /// Jets of the chords of a group's loops.
-    pub(crate) chords: Vec<[Vector<R>; G]>,
-    /// 1/length of every chord of known length.
-    pub(crate) inv_length: Vec<[R; G]>,
-    /// Whether the caller wants the rotation of each class; used for bars that no step needs.
-    pub(crate) angle_wanted: Vec<bool>,
-    /// Work space for groups of binary links.
-    pub(crate) loops: GroupWorkspace<R>,
-    /// Determinant of every group's matrix at the solution (with analogues only).
-    pub(crate) determinants: Vec<[R; G]>,
-    /// Determinant of that matrix in the last Newton round; its sign distinguishes branches.
-    pub(crate) det_sign: Vec<[R; G]>,
-    /// Greatest change of an unknown (rad, or relative to the scale) in the first Newton step of
-    /// any group.
-    pub(crate) first_step: [R; G],
-    /// Greatest sum of the changes in the later steps.
-    pub(crate) later_steps: [R; G],
-    /// By how much each dyad closes (relative to the scale), negative where it does not.
-    pub(crate) margin: Vec<[R; G]>,
-    /// Lanes where a dyad does not close.
-    pub(crate) open: [R::Mask; G],
-    /// For each dyad: the inverse of its squared condition is nowhere less (where the tape is not
-    /// run carefully).
-    pub(crate) bounds: Vec<[R; G]>,
-    /// The same for all that the present dyad depends on.
-    pub(crate) bound: [R; G],
-    /// Square of the greatest condition in the position.
-    pub condition2: [R; G],
-    /// Lanes that failed or are singular; the caller solves each again as a single position.
-    pub needs_scalar: [R::Mask; G],
+    /// Where everything is.
+    pub(crate) pose: Pose<R, G>,
+    /// How far that can be trusted.
+    pub(crate) conditions: Conditions<R, G>,
+    pub(crate) work: Workspace<R, G>,
     /// Status of a single position (with several lanes see `needs_scalar`).
     pub status: Status,
     /// The first failure of a single position.
@@ -113,49 +54,12 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Work space for a plan.
     #[must_use]
     pub(crate) fn new(plan: &Plan, derivatives: &DerivativeTables) -> Self {
-        let (len, slides) = (derivatives.len(), plan.slide_links.len());
-        let edges = plan.groups().map(|group| group.edges.len()).max().unwrap_or(0);
-        let loops = plan.groups().map(|group| group.loops.len()).max().unwrap_or(0);
-        let mut orient = vec![[Vector::ZERO; G]; plan.orientations.len() * len];
-        for (orientation, jet) in plan.orientations.iter().zip(orient.chunks_exact_mut(len)) {
-            if orientation.class == 0 {
-                jet[0] = [Vector::ONE; G];
-            }
-        }
         Self {
-            len,
+            len: derivatives.len(),
             groups: G,
-            q: vec![[R::ZERO; G]; plan.drivers.len()],
-            unit: vec![[Vector::ONE; G]; plan.drivers.len()],
-            signs: vec![[R::ONE; G]; plan.signs()],
-            points: vec![[Vector::ZERO; G]; plan.points * len],
-            orient,
-            legs: vec![[Vector::ZERO; G]; plan.legs() * len],
-            theta: vec![[R::ZERO; G]; plan.classes * len],
-            slides: vec![[R::ZERO; G]; slides * len],
-            class: vec![[Vector::ONE; G]; plan.classes],
-            phase: vec![[Vector::ONE; G]; plan.orientations.len()],
-            coordinate_scale2: vec![[R::ZERO; G]; plan.points],
-            point_condition: vec![[R::ONE; G]; plan.points],
-            class_condition: vec![[R::ONE; G]; plan.classes],
-            slide_condition: vec![[R::ONE; G]; slides],
-            upstream_condition2: vec![[R::ONE; G]; plan.signs()],
-            matrix: vec![[R::ZERO; G]; plan.matrix_size()],
-            guides: vec![[Vector::ZERO; G]; edges * len],
-            chords: vec![[Vector::ZERO; G]; loops * len],
-            inv_length: vec![[R::ONE; G]; loops],
-            angle_wanted: vec![true; plan.classes],
-            loops: GroupWorkspace::default(),
-            determinants: vec![[R::ZERO; G]; plan.groups().count()],
-            det_sign: vec![[R::ZERO; G]; plan.groups().count()],
-            first_step: [R::ZERO; G],
-            later_steps: [R::ZERO; G],
-            margin: vec![[R::ZERO; G]; plan.dyads().count()],
-            open: [R::Mask::NONE; G],
-            bounds: vec![[R::ONE; G]; plan.dyads().count()],
-            bound: [R::ONE; G],
-            condition2: [R::ONE; G],
-            needs_scalar: [R::Mask::NONE; G],
+            pose: Pose::new(plan, derivatives),
+            conditions: Conditions::new(plan),
+            work: Workspace::new(plan, derivatives),
             status: Status::Ok,
             fault: None,
         }
@@ -168,7 +72,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let groups = self.groups.min(G);
         for &point in &cx.tape.fixed {
             let fixed = Vector::splat(cx.constants.fixed[point]);
-            self.points[point * self.len][..groups].fill(fixed);
+            self.pose.points[point * self.len][..groups].fill(fixed);
         }
         self.prepare_driven_slides(cx.plan, cx.derivatives);
     }
@@ -180,7 +84,7 @@ impl<R: Real, const G: usize> State<R, G> {
             let Some(slide) = plan.driven_slide(driver) else { continue };
             for k in 1..self.len {
                 let own = derivatives.driver_of[k] == Some(driver);
-                self.slides[slide * self.len + k] = [if own { R::ONE } else { R::ZERO }; G];
+                self.pose.slides[slide * self.len + k] = [if own { R::ONE } else { R::ZERO }; G];
             }
         }
     }
@@ -200,17 +104,17 @@ impl<R: Real, const G: usize> State<R, G> {
                 continue;
             }
             let fixed = Vector::splat(constants.fixed[point]);
-            self.points[point * len] = [fixed; G];
-            self.coordinate_scale2[point] = [fixed.norm2(); G];
+            self.pose.points[point * len] = [fixed; G];
+            self.conditions.coordinate_scale2[point] = [fixed.norm2(); G];
             if R::LANES == 1 {
-                self.points[point * len + 1..(point + 1) * len].fill([Vector::ZERO; G]);
+                self.pose.points[point * len + 1..(point + 1) * len].fill([Vector::ZERO; G]);
             }
         }
         if R::LANES == 1 {
             // An interpolated state has rounding in what stands still.
-            self.class[0] = [Vector::ONE; G];
-            self.theta[..len].fill([R::ZERO; G]);
-            let jets = self.orient.chunks_exact_mut(len);
+            self.pose.class[0] = [Vector::ONE; G];
+            self.pose.theta[..len].fill([R::ZERO; G]);
+            let jets = self.pose.orient.chunks_exact_mut(len);
             for (orientation, jet) in plan.orientations.iter().zip(jets) {
                 if orientation.class == 0 {
                     jet.fill([Vector::ZERO; G]);
@@ -230,7 +134,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Lanes whose analogues keep fewer than six digits.
     #[inline(always)]
     pub(crate) fn near_singular(&self, g: usize) -> R::Mask {
-        R::splat(NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION).lt(self.condition2[g])
+        R::splat(NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION).lt(self.conditions.greatest[g])
     }
 
     /// Marks the position as [`Status::BadInput`].
@@ -248,7 +152,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Marks the lanes where a step does not close; a single position then becomes unreachable.
     #[inline(always)]
     pub(crate) fn mark_open(&mut self, g: usize, open: R::Mask, fault: impl Fn() -> Fault) {
-        self.needs_scalar[g] = self.needs_scalar[g].or(open);
+        self.conditions.needs_scalar[g] = self.conditions.needs_scalar[g].or(open);
         if R::LANES == 1 && open.any() {
             self.fault = Some(fault());
             self.status = Status::Unreachable;

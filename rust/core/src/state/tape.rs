@@ -1,5 +1,6 @@
 //! Runs the tape: all that a request needs of some positions.
 
+use super::conditions::Conditions;
 use super::kernel::Level;
 use super::kernel::alone::Alone;
 use super::state::{Context, State};
@@ -27,6 +28,7 @@ impl<R: Real, const G: usize> State<R, G> {
             match op {
                 Op::TwoLegs(op) if op.is_used => self.two_legs(cx, op),
                 Op::StandingGuide(op) if op.is_used => self.standing_guide(cx, op),
+                Op::MovingGuide(op) if op.is_used => self.moving_guide(cx, op),
                 Op::TurningGuide(op) if op.is_used => self.turning_guide(cx, op),
                 Op::StandingGuides(op) if op.is_used => self.standing_guides::<true>(cx, op),
                 Op::Place(op) => self.place_point(cx, op),
@@ -51,6 +53,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
                 Op::TwoLegs(_)
                 | Op::StandingGuide(_)
+                | Op::MovingGuide(_)
                 | Op::TurningGuide(_)
                 | Op::StandingGuides(_) => {}
             }
@@ -63,7 +66,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// the same bits.
     #[inline(always)]
     pub(crate) fn run_bare<L: Level<Register = R>>(&mut self, cx: &Context<'_>, tape: &Tape) {
-        self.open = [R::Mask::NONE; G];
+        self.conditions.open = [R::Mask::NONE; G];
         self.load_drivers(cx, tape);
         match self.len {
             1 => self.run_bare_of_length::<L, 1>(cx, tape),
@@ -89,6 +92,10 @@ impl<R: Real, const G: usize> State<R, G> {
                     self.start_bound(op);
                     L::standing_guide::<LEN, G>(self, cx, op);
                 }
+                Op::MovingGuide(op) if op.is_used => {
+                    self.start_bound(op);
+                    L::moving_guide::<LEN, G>(self, cx, op);
+                }
                 Op::TurningGuide(op) if op.is_used => {
                     self.start_bound(op);
                     L::turning_guide::<LEN, G>(self, cx, op);
@@ -103,47 +110,69 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Sets the bound of all that a dyad depends on.
+    /// Sets the bound of all that a dyad depends on, if there is anything.
     #[inline(always)]
     fn start_bound(&mut self, op: &DyadOp) {
+        if op.upstream.is_empty() {
+            return;
+        }
         let groups = self.groups.min(G);
-        self.bound[..groups].fill(R::ONE);
+        let Conditions { bound, bounds, .. } = &mut self.conditions;
+        bound[..groups].fill(R::ONE);
         for &dyad in &op.upstream {
             for g in 0..groups {
-                self.bound[g] = self.bound[g].min(self.bounds[dyad][g]);
+                bound[g] = bound[g].min(bounds[dyad][g]);
             }
         }
     }
 
-    /// Lanes where some dyad may be nearly flat, or open without being known to be.
+    /// Whether in some lane some dyad may be nearly flat, or open without being known to be.
     #[inline(always)]
-    pub(crate) fn doubtful(&self, g: usize) -> R::Mask {
+    pub(crate) fn is_doubtful(&self) -> bool {
+        let groups = self.groups.min(G);
+        let Conditions { bounds, open, .. } = &self.conditions;
         let mut doubtful = R::Mask::NONE;
-        for q in &self.q {
-            doubtful = doubtful.or(q[g].finite().not());
+        for q in &self.pose.q {
+            for g in 0..groups {
+                doubtful = doubtful.or(q[g].finite().or(open[g]).not());
+            }
         }
-        for bounds in &self.bounds {
-            // NaN is doubtful.
-            doubtful = doubtful.or(R::splat(LEAST_BOUND).le(bounds[g]).not());
+        for bounds in bounds {
+            for g in 0..groups {
+                // NaN is doubtful.
+                let far = R::splat(LEAST_BOUND).le(bounds[g]);
+                doubtful = doubtful.or(far.or(open[g]).not());
+            }
         }
-        doubtful.and(self.open[g].not())
+        doubtful.any()
+    }
+
+    /// Whether in some lane some dyad does not close.
+    #[inline(always)]
+    pub(crate) fn has_open(&self) -> bool {
+        let mut some = R::Mask::NONE;
+        for &open in &self.conditions.open[..self.groups.min(G)] {
+            some = some.or(open);
+        }
+        some.any()
     }
 
     #[inline(always)]
     fn start_careful(&mut self) {
         self.fault = None;
         self.status = Status::Ok;
-        self.condition2 = [R::ONE; G];
-        self.needs_scalar = [R::Mask::NONE; G];
-        self.open = [R::Mask::NONE; G];
-        self.first_step = [R::ZERO; G];
-        self.later_steps = [R::ZERO; G];
-        for q in &self.q {
+        self.conditions.greatest = [R::ONE; G];
+        self.conditions.needs_scalar = [R::Mask::NONE; G];
+        self.conditions.open = [R::Mask::NONE; G];
+        self.work.first_step = [R::ZERO; G];
+        self.work.later_steps = [R::ZERO; G];
+        for q in &self.pose.q {
             for g in 0..G {
-                self.needs_scalar[g] = self.needs_scalar[g].or(q[g].finite().not());
+                self.conditions.needs_scalar[g] =
+                    self.conditions.needs_scalar[g].or(q[g].finite().not());
             }
         }
-        if R::LANES == 1 && self.needs_scalar[0].any() {
+        if R::LANES == 1 && self.conditions.needs_scalar[0].any() {
             self.status = Status::BadInput;
         }
     }
@@ -151,16 +180,16 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Sets driven slides and orientations.
     #[inline(always)]
     fn load_drivers(&mut self, cx: &Context<'_>, tape: &Tape) {
-        for (driver, q) in self.q.iter().enumerate() {
+        for (driver, q) in self.pose.q.iter().enumerate() {
             if let Some(slide) = cx.plan.driven_slide(driver) {
-                self.slides[slide * self.len] = *q;
+                self.pose.slides[slide * self.len] = *q;
             }
         }
         for &o in &tape.driven {
             let orientation = &cx.plan.orientations[o];
             for g in 0..self.groups.min(G) {
                 let phase = self.phase_of(g, orientation);
-                self.phase[o][g] = phase;
+                self.pose.phase[o][g] = phase;
                 if orientation.class == 0 {
                     self.set_driven_orientation(g, cx, o, phase);
                 }
@@ -172,11 +201,11 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn phase_of(&self, g: usize, orientation: &Orientation) -> Vector<R> {
         match orientation.single_driver {
-            Some((driver, false)) => self.unit[driver][g],
-            Some((driver, true)) => self.unit[driver][g].conj(),
+            Some((driver, false)) => self.pose.unit[driver][g],
+            Some((driver, true)) => self.pose.unit[driver][g].conj(),
             None => {
                 let mut phase = Vector::ONE;
-                for (&turns, unit) in orientation.turns.iter().zip(&self.unit) {
+                for (&turns, unit) in orientation.turns.iter().zip(&self.pose.unit) {
                     let unit = if turns < 0 { unit[g].conj() } else { unit[g] };
                     for _ in 0..turns.unsigned_abs() {
                         phase = phase * unit;
@@ -192,13 +221,13 @@ impl State {
     /// Computes one position at `q` (rad; slide drivers in units of the scale).
     #[inline(never)]
     pub(crate) fn solve(&mut self, cx: &Context<'_>, q: &[f64]) {
-        for (own, &sign) in self.signs.iter_mut().zip(cx.signs) {
+        for (own, &sign) in self.pose.signs.iter_mut().zip(cx.signs) {
             own[0] = sign;
         }
         for (driver, &value) in q.iter().enumerate() {
-            self.q[driver][0] = value;
+            self.pose.q[driver][0] = value;
             if cx.plan.driven_slide(driver).is_none() {
-                self.unit[driver][0] = Vector::at_angle(value);
+                self.pose.unit[driver][0] = Vector::at_angle(value);
             }
         }
         self.run::<Alone>(cx, cx.tape);

@@ -23,7 +23,7 @@ impl<R: Real, const G: usize> State<R, G> {
         phase: Vector<R>,
     ) {
         let orientation = &cx.plan.orientations[o];
-        let jet = &mut self.orient[o * self.len..][..self.len];
+        let jet = &mut self.pose.orient[o * self.len..][..self.len];
         jet[0][g] = phase;
         if let (1, Some((_, backward))) = (cx.derivatives.drivers, orientation.single_driver) {
             let mut last = phase;
@@ -55,7 +55,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn angle_analogue(&self, g: usize, cx: &Context<'_>, o: usize, k: usize) -> R {
         let orientation = &cx.plan.orientations[o];
-        let own = self.theta[orientation.class * self.len + k][g];
+        let own = self.pose.theta[orientation.class * self.len + k][g];
         if orientation.driven { own + Self::driver_analogue(cx, o, k) } else { own }
     }
 
@@ -71,10 +71,10 @@ impl<R: Real, const G: usize> State<R, G> {
         let mut sum = Vector::ZERO;
         for term in &cx.derivatives.rotation[k] {
             let rate = R::splat(term.factor) * self.angle_analogue(g, cx, o, term.right);
-            sum += self.orient[o * self.len + term.left][g].scale(rate);
+            sum += self.pose.orient[o * self.len + term.left][g].scale(rate);
         }
         if cx.plan.orientations[o].driven {
-            sum += self.orient[o * self.len][g].scale(Self::driver_analogue(cx, o, k));
+            sum += self.pose.orient[o * self.len][g].scale(Self::driver_analogue(cx, o, k));
         }
         sum.left()
     }
@@ -84,10 +84,10 @@ impl<R: Real, const G: usize> State<R, G> {
     pub(crate) fn edge(&self, g: usize, cx: &Context<'_>, e: usize, k: usize) -> Vector<R> {
         let edge = &cx.plan.edges[e];
         if let Some(leg) = edge.leg {
-            let v = self.legs[leg.index * self.len + k][g];
+            let v = self.pose.legs[leg.index * self.len + k][g];
             return if leg.backward { -v } else { v };
         }
-        let edge_vector = self.orient[edge.orientation * self.len + k][g]
+        let edge_vector = self.pose.orient[edge.orientation * self.len + k][g]
             * Vector::splat(cx.constants.edge_vector[e]);
         match edge.along {
             EdgeSlide::Nothing => edge_vector,
@@ -103,8 +103,8 @@ impl<R: Real, const G: usize> State<R, G> {
         let unit = cx.plan.edges[e].orientation * self.len;
         let mut along = Vector::ZERO;
         for term in &cx.derivatives.product[k] {
-            let s = R::splat(term.factor) * self.slides[slide * self.len + term.right][g];
-            along += self.orient[unit + term.left][g].scale(s);
+            let s = R::splat(term.factor) * self.pose.slides[slide * self.len + term.right][g];
+            along += self.pose.orient[unit + term.left][g].scale(s);
         }
         along * Vector::splat(cx.constants.guide[e])
     }
@@ -137,8 +137,8 @@ impl<R: Real, const G: usize> State<R, G> {
     ) -> Vector<R> {
         let mut sum = Vector::ZERO;
         for term in &cx.derivatives.rotation[k] {
-            let rate = R::splat(term.factor) * self.theta[class * self.len + term.right][g];
-            sum += self.legs[leg * self.len + term.left][g].scale(rate);
+            let rate = R::splat(term.factor) * self.pose.theta[class * self.len + term.right][g];
+            sum += self.pose.legs[leg * self.len + term.left][g].scale(rate);
         }
         sum.left()
     }
@@ -149,8 +149,8 @@ impl<R: Real, const G: usize> State<R, G> {
         let len = self.len;
         for unknown in dyad.unknowns {
             let jet = match unknown {
-                Unknown::Class(c) => &mut self.theta[c * len..(c + 1) * len],
-                Unknown::Slide(s) => &mut self.slides[s * len..(s + 1) * len],
+                Unknown::Class(c) => &mut self.pose.theta[c * len..(c + 1) * len],
+                Unknown::Slide(s) => &mut self.pose.slides[s * len..(s + 1) * len],
             };
             for entry in &mut jet[1..] {
                 entry[g] = R::splat(f64::NAN);
@@ -158,12 +158,12 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         let nan = Vector::splat(Vector::NAN);
         for &o in dyad.orientations.iter().flatten() {
-            for entry in &mut self.orient[o * len + 1..(o + 1) * len] {
+            for entry in &mut self.pose.orient[o * len + 1..(o + 1) * len] {
                 entry[g] = nan;
             }
         }
         for leg in [2 * dyad.index, 2 * dyad.index + 1] {
-            for entry in &mut self.legs[leg * len + 1..(leg + 1) * len] {
+            for entry in &mut self.pose.legs[leg * len + 1..(leg + 1) * len] {
                 entry[g] = nan;
             }
         }
@@ -183,17 +183,17 @@ impl<R: Real, const G: usize> State<R, G> {
             // The unknown entry counts as 0 in the right-hand side.
             for i in 0..2 {
                 match dyad.unknowns[i] {
-                    Unknown::Slide(s) => self.slides[s * len + k][g] = R::ZERO,
+                    Unknown::Slide(s) => self.pose.slides[s * len + k][g] = R::ZERO,
                     Unknown::Class(class) => {
                         let leg = 2 * dyad.index + i;
                         if dyad.leg[i] {
-                            self.legs[leg * len + k][g] =
+                            self.pose.legs[leg * len + k][g] =
                                 self.leg_without_top(g, cx, leg, class, k);
                         }
                     }
                 }
                 for &o in &dyad.orientations[i] {
-                    self.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k);
+                    self.pose.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k);
                 }
             }
             let known = self.closure(g, cx, dyad, k);
@@ -204,19 +204,19 @@ impl<R: Real, const G: usize> State<R, G> {
             for i in 0..2 {
                 let value = values[i];
                 match dyad.unknowns[i] {
-                    Unknown::Slide(s) => self.slides[s * len + k][g] = value,
+                    Unknown::Slide(s) => self.pose.slides[s * len + k][g] = value,
                     Unknown::Class(class) => {
-                        self.theta[class * len + k][g] = value;
+                        self.pose.theta[class * len + k][g] = value;
                         if dyad.leg[i] {
                             let leg = (2 * dyad.index + i) * len;
-                            let top = self.legs[leg][g].left().scale(value);
-                            self.legs[leg + k][g] += top;
+                            let top = self.pose.legs[leg][g].left().scale(value);
+                            self.pose.legs[leg + k][g] += top;
                         }
                     }
                 }
                 for &o in &dyad.orientations[i] {
-                    let top = self.orient[o * len][g].left().scale(value);
-                    self.orient[o * len + k][g] += top;
+                    let top = self.pose.orient[o * len][g].left().scale(value);
+                    self.pose.orient[o * len + k][g] += top;
                 }
             }
         }
@@ -225,11 +225,11 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Entry `k` of `P_start + Σ ±edges − P_end`.
     #[inline(always)]
     pub(crate) fn closure(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, k: usize) -> Vector<R> {
-        let mut sum =
-            self.points[dyad.start * self.len + k][g] - self.points[dyad.end * self.len + k][g];
+        let mut sum = self.pose.points[dyad.start * self.len + k][g]
+            - self.pose.points[dyad.end * self.len + k][g];
         for i in 0..2 {
             if dyad.leg[i] {
-                sum += self.legs[(2 * dyad.index + i) * self.len + k][g];
+                sum += self.pose.legs[(2 * dyad.index + i) * self.len + k][g];
             }
         }
         for term in &dyad.others {
@@ -265,7 +265,7 @@ impl<R: Real, const G: usize> State<R, G> {
     ) -> Vector<R> {
         let mut sum = Vector::ZERO;
         if dyad.leg[i] {
-            sum = self.legs[(2 * dyad.index + i) * self.len + k][g];
+            sum = self.pose.legs[(2 * dyad.index + i) * self.len + k][g];
         }
         for term in &dyad.others {
             if term.turns == Some(i) {
@@ -288,7 +288,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let mut sum = Vector::ZERO;
         for term in &dyad.others {
             if term.slides == Some(i) {
-                let unit = self.orient[cx.plan.edges[term.edge].orientation * self.len + k][g];
+                let unit = self.pose.orient[cx.plan.edges[term.edge].orientation * self.len + k][g];
                 let v = unit * Vector::splat(cx.constants.guide[term.edge]);
                 sum = if term.backward { -v } else { v };
             }
@@ -306,13 +306,17 @@ impl<R: Real, const G: usize> State<R, G> {
         class: usize,
     ) {
         let len = self.len;
-        let rotation = self.class[class][g];
-        self.orient[o * len][g] =
-            if cx.plan.orientations[o].driven { rotation * self.phase[o][g] } else { rotation };
+        let rotation = self.pose.class[class][g];
+        self.pose.orient[o * len][g] = if cx.plan.orientations[o].driven {
+            rotation * self.pose.phase[o][g]
+        } else {
+            rotation
+        };
         for k in 1..len {
             let rest = self.orientation_without_top(g, cx, o, k);
-            let top = self.orient[o * len][g].left().scale(self.theta[class * len + k][g]);
-            self.orient[o * len + k][g] = rest + top;
+            let top =
+                self.pose.orient[o * len][g].left().scale(self.pose.theta[class * len + k][g]);
+            self.pose.orient[o * len + k][g] = rest + top;
         }
     }
 }

@@ -1,5 +1,5 @@
 //! The chord of a dyad, from its start to its end, where the tape is run bare: between any two
-//! points, or between the pin of a crank and a point of the ground, whose analogues need no memory.
+//! points, or from or to the pin of a crank or a point of the ground, whose jets need no memory.
 
 use crate::math::lanes::Real;
 use crate::math::stride::Stride;
@@ -12,6 +12,8 @@ pub(super) type Ends = u8;
 pub(super) const POINTS: Ends = 0;
 pub(super) const FROM_PIN: Ends = 1;
 pub(super) const TO_PIN: Ends = 2;
+pub(super) const FROM_GROUND: Ends = 3;
+pub(super) const TO_GROUND: Ends = 4;
 
 /// The ends of a dyad's chord.
 pub(super) struct Chord<'a, R: Real, const G: usize> {
@@ -31,10 +33,12 @@ pub(super) struct Arm<W>(Vector<W>);
 /// Which points the chord of a dyad connects.
 #[inline(always)]
 pub(super) fn ends_of(op: &DyadOp) -> Ends {
-    match &op.pin {
-        None => POINTS,
-        Some(pin) if pin.is_start => FROM_PIN,
-        Some(_) => TO_PIN,
+    match (&op.pin, op.on_ground) {
+        (Some(pin), _) if pin.is_start => FROM_PIN,
+        (Some(_), _) => TO_PIN,
+        (None, [_, true]) => TO_GROUND,
+        (None, [true, false]) => FROM_GROUND,
+        (None, [false, false]) => POINTS,
     }
 }
 
@@ -50,7 +54,10 @@ impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
     ) -> Self {
         let pin = op.pin.unwrap_or(CrankPin::NONE);
         let edge = cx.constants.edge_vector.get(pin.edge).copied().unwrap_or(Vector::ZERO);
-        let ground = if pin.is_start { op.end } else { op.start };
+        let ground = match ends_of(op) {
+            FROM_PIN | TO_GROUND => op.end,
+            _ => op.start,
+        };
         Self {
             start: &points[op.start * len..op.start * len + len],
             end: &points[op.end * len..op.end * len + len],
@@ -65,7 +72,7 @@ impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
     /// What [`Chord::at`] needs for positions from register `g` on.
     #[inline(always)]
     pub(super) fn arm<W: Stride<R>, const ENDS: Ends>(&self, g: usize) -> Arm<W> {
-        if ENDS == POINTS {
+        if ENDS != FROM_PIN && ENDS != TO_PIN {
             return Arm(Vector::ZERO);
         }
         let unit = W::load_vectors(self.units, g);
@@ -81,17 +88,20 @@ impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
         g: usize,
         Arm(mut entry): Arm<W>,
     ) -> Vector<W> {
-        if ENDS == POINTS {
-            return W::load_vectors(&self.end[k], g) - W::load_vectors(&self.start[k], g);
+        let ground = if k == 0 { Vector::splat(self.ground) } else { Vector::ZERO };
+        match ENDS {
+            POINTS => {
+                return W::load_vectors(&self.end[k], g) - W::load_vectors(&self.start[k], g);
+            }
+            FROM_GROUND => return W::load_vectors(&self.end[k], g) - ground,
+            TO_GROUND => return ground - W::load_vectors(&self.start[k], g),
+            _ => {}
         }
         for _ in 0..k {
             entry = if self.backward { -entry.left() } else { entry.left() };
         }
-        let (pin, ground) = if k == 0 {
-            (Vector::splat(self.pivot) + entry, Vector::splat(self.ground))
-        } else {
-            (Vector::ZERO + entry, Vector::ZERO)
-        };
+        let pivot = if k == 0 { Vector::splat(self.pivot) } else { Vector::ZERO };
+        let pin = pivot + entry;
         if ENDS == FROM_PIN { ground - pin } else { pin - ground }
     }
 }

@@ -19,7 +19,12 @@ impl<R: Real, const G: usize> State<R, G> {
     ) {
         let Step::Dyad(dyad) = &cx.plan.steps[op.step] else { return };
         for g in 0..self.groups.min(G) {
-            let upstream2 = self.point_condition[op.start][g].max(self.point_condition[op.end][g]);
+            let mut upstream2 =
+                self.conditions.of_point[op.start][g].max(self.conditions.of_point[op.end][g]);
+            if let Some(carrier) = op.carrier {
+                let class = cx.plan.orientations[carrier].class;
+                upstream2 = upstream2.max(self.conditions.of_class[class][g]);
+            }
             self.record_closing(g, cx, (dyad, op.step), &closings[g], upstream2);
             if R::LANES == 1 && self.status == Status::Singular && closings[g].flat.any() {
                 self.set_nan_analogues(g, dyad);
@@ -39,10 +44,10 @@ impl<R: Real, const G: usize> State<R, G> {
         upstream2: R,
     ) {
         if let Some(sign) = dyad.sign {
-            self.upstream_condition2[sign][g] = upstream2;
+            self.conditions.upstream[sign][g] = upstream2;
         }
-        self.margin[dyad.index][g] = closing.margin;
-        self.open[g] = self.open[g].or(closing.open);
+        self.conditions.margin[dyad.index][g] = closing.margin;
+        self.conditions.open[g] = self.conditions.open[g].or(closing.open);
         self.mark_open(g, closing.open, || Fault::NotClosed {
             step: index,
             gap: closing.gap.lane(0),
@@ -60,12 +65,12 @@ impl<R: Real, const G: usize> State<R, G> {
         let condition = upstream2 * arm2 / closing.sine2;
         for unknown in dyad.unknowns {
             match unknown {
-                Unknown::Class(class) => self.class_condition[class][g] = condition,
-                Unknown::Slide(slide) => self.slide_condition[slide][g] = condition,
+                Unknown::Class(class) => self.conditions.of_class[class][g] = condition,
+                Unknown::Slide(slide) => self.conditions.of_slide[slide][g] = condition,
             }
         }
-        self.condition2[g] = condition.max(self.condition2[g]);
-        self.needs_scalar[g] = self.needs_scalar[g].or(closing.flat);
+        self.conditions.greatest[g] = condition.max(self.conditions.greatest[g]);
+        self.conditions.needs_scalar[g] = self.conditions.needs_scalar[g].or(closing.flat);
         if R::LANES == 1 && closing.flat.any() {
             self.fault.get_or_insert(Fault::Singular { step: index });
             self.status = Status::Singular;
@@ -76,13 +81,13 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn general_dyad(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, index: usize) {
         let mut upstream2 =
-            self.point_condition[dyad.start][g].max(self.point_condition[dyad.end][g]);
+            self.conditions.of_point[dyad.start][g].max(self.conditions.of_point[dyad.end][g]);
         for term in &dyad.others {
             if term.turns.is_none() {
-                upstream2 = upstream2.max(self.class_condition[cx.plan.class_of(term.edge)][g]);
+                upstream2 = upstream2.max(self.conditions.of_class[cx.plan.class_of(term.edge)][g]);
             }
             if let (EdgeSlide::Slide(slide), None) = (cx.plan.edges[term.edge].along, term.slides) {
-                upstream2 = upstream2.max(self.slide_condition[slide][g]);
+                upstream2 = upstream2.max(self.conditions.of_slide[slide][g]);
             }
         }
         let closing = self.solve_dyad(g, cx, dyad);
@@ -101,7 +106,8 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     fn rounding_arm2(&self, g: usize, dyad: &Dyad) -> R {
         R::splat(0.25)
-            * self.coordinate_scale2[dyad.start][g].max(self.coordinate_scale2[dyad.end][g])
+            * self.conditions.coordinate_scale2[dyad.start][g]
+                .max(self.conditions.coordinate_scale2[dyad.end][g])
     }
 
     /// Sets the orientations that turn with a dyad.

@@ -55,8 +55,8 @@ impl State {
             Form::TwoCircles => self.leg_vector(0, cx, dyad, 1, 0).norm2(),
             _ => a,
         };
-        let coordinate_scale2 =
-            self.coordinate_scale2[dyad.start][0].max(self.coordinate_scale2[dyad.end][0]);
+        let coordinate_scale2 = self.conditions.coordinate_scale2[dyad.start][0]
+            .max(self.conditions.coordinate_scale2[dyad.end][0]);
         (coordinate_scale2.max(a).max(b) / a.min(b)).sqrt()
     }
 
@@ -67,15 +67,17 @@ impl State {
             .map(|((e, &edge_vector), &guide)| {
                 let mut span = edge_vector;
                 if let EdgeSlide::Slide(s) | EdgeSlide::Driver { slide: s } = e.along {
-                    span += guide.scale(self.slides[s * len][0]);
+                    span += guide.scale(self.pose.slides[s * len][0]);
                 }
                 let orientation = &cx.plan.orientations[e.orientation];
-                let rotation = self.class[orientation.class][0];
+                let rotation = self.pose.class[orientation.class][0];
                 let driven = orientation.driven;
                 let turned =
-                    if driven { rotation * self.phase[e.orientation][0] } else { rotation } * span;
-                let misfit =
-                    self.points[e.edge.to * len][0] - self.points[e.edge.from * len][0] - turned;
+                    if driven { rotation * self.pose.phase[e.orientation][0] } else { rotation }
+                        * span;
+                let misfit = self.pose.points[e.edge.to * len][0]
+                    - self.pose.points[e.edge.from * len][0]
+                    - turned;
                 let norm = misfit.norm();
                 // The square may overflow where the components do not.
                 if norm == f64::INFINITY { misfit.x.abs().max(misfit.y.abs()) } else { norm }
@@ -86,8 +88,9 @@ impl State {
 
     /// Whether the points agree with those of another state, within its accuracy.
     pub(crate) fn is_near(&self, other: &Self) -> bool {
-        let allowed = CHANGE_MISFIT * other.condition2[0].sqrt();
-        let values = |state: &Self| state.points.iter().step_by(state.len).map(|p| p[0]).collect();
+        let allowed = CHANGE_MISFIT * other.conditions.greatest[0].sqrt();
+        let values =
+            |state: &Self| state.pose.points.iter().step_by(state.len).map(|p| p[0]).collect();
         let (a, b): (Vec<Vector>, Vec<Vector>) = (values(self), values(other));
         a.iter().zip(&b).all(|(&a, &b)| (a - b).norm() <= allowed)
     }
@@ -98,7 +101,7 @@ impl State {
         let relative = |(one, other): (&[Vector; 1], &[Vector; 1])| {
             (one[0] - other[0]).norm() / (1.0 + other[0].norm())
         };
-        let pairs = self.points.iter().zip(&other.points).skip(order).step_by(self.len);
+        let pairs = self.pose.points.iter().zip(&other.pose.points).skip(order).step_by(self.len);
         let pairs = pairs.take(if order < self.len { usize::MAX } else { 0 });
         // Unlike `max`, this takes a NaN; only a later finite value replaces it.
         pairs.map(relative).fold(0.0, |most, misfit| if misfit <= most { most } else { misfit })
@@ -130,11 +133,11 @@ impl State {
                 }
             }
         }
-        sums(&mut self.points, states, weights, |s| &s.points);
-        sums(&mut self.orient, states, weights, |s| &s.orient);
-        sums(&mut self.phase, states, weights, |s| &s.phase);
-        sums(&mut self.class, states, weights, |s| &s.class);
-        sum(&mut self.theta, states, weights, |s| &s.theta);
-        sum(&mut self.slides, states, weights, |s| &s.slides);
+        sums(&mut self.pose.points, states, weights, |s| &s.pose.points);
+        sums(&mut self.pose.orient, states, weights, |s| &s.pose.orient);
+        sums(&mut self.pose.phase, states, weights, |s| &s.pose.phase);
+        sums(&mut self.pose.class, states, weights, |s| &s.pose.class);
+        sum(&mut self.pose.theta, states, weights, |s| &s.pose.theta);
+        sum(&mut self.pose.slides, states, weights, |s| &s.pose.slides);
     }
 }

@@ -5,6 +5,7 @@ mod chord;
 pub(crate) mod conditions;
 pub(crate) mod discriminant;
 pub(crate) mod intersections;
+mod moving_guide;
 pub(crate) mod sample;
 pub(crate) mod solve;
 pub(crate) mod standing_guide;

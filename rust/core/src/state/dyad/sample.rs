@@ -1,5 +1,4 @@
-//! What a dyad shows at a knot of a branch: how far it is from flat, how fast that changes, and by
-//! how much it closes.
+//! What a dyad shows at a knot of a branch: how far it is from flat, and how fast that changes.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -20,15 +19,6 @@ pub(crate) struct Sample<R> {
     pub side: R,
 }
 
-/// How near an open dyad is to closing.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Gap<R> {
-    /// By how much it closes, relative to the scale; negative where it does not.
-    pub margin: R,
-    /// How fast its chord changes; of a dyad without a kernel unknown.
-    pub speed: Option<R>,
-}
-
 impl<R: Real, const G: usize> State<R, G> {
     /// Samples a dyad at a position with first analogues of its points.
     #[inline(always)]
@@ -36,6 +26,7 @@ impl<R: Real, const G: usize> State<R, G> {
         match op {
             Op::TwoLegs(op) => self.sample_two_legs(g, cx, op),
             Op::StandingGuide(op) => self.sample_standing_guide(g, cx, op),
+            Op::MovingGuide(op) => self.sample_moving_guide(g, cx, op),
             Op::TurningGuide(op) => self.sample_turning_guide(g, cx, op),
             Op::StandingGuides(op) => {
                 let [a, b] = cx.constants.dyads[op.dyad].guides;
@@ -48,7 +39,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// The same for a dyad without a kernel, solved carefully.
     #[inline(always)]
     fn sample_solved(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> Sample<R> {
-        let margin = self.margin[dyad.index][g];
+        let margin = self.conditions.margin[dyad.index][g];
         let closes = R::ZERO.lt(margin);
         if dyad.sign.is_some() {
             let (value, rate) = self.discriminant(g, cx, dyad, 1);
@@ -70,8 +61,8 @@ impl<R: Real, const G: usize> State<R, G> {
     fn chord(&self, g: usize, op: &DyadOp) -> [Vector<R>; 2] {
         let [start, end] = [op.start * self.len, op.end * self.len];
         [
-            self.points[end][g] - self.points[start][g],
-            self.points[end + 1][g] - self.points[start + 1][g],
+            self.pose.points[end][g] - self.pose.points[start][g],
+            self.pose.points[end + 1][g] - self.pose.points[start + 1][g],
         ]
     }
 
@@ -98,6 +89,27 @@ impl<R: Real, const G: usize> State<R, G> {
         Sample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE }
     }
 
+    /// Value and first analogue of the guide's direction, and of the chord to where it starts.
+    #[inline(always)]
+    fn moving_guide_chord(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> [[Vector<R>; 2]; 2] {
+        let own = &cx.constants.dyads[op.dyad];
+        let (along, offset) = (Vector::splat(own.guides[1]), Vector::splat(own.offset));
+        let carrier = op.carrier.unwrap_or(0) * self.len;
+        let turned = [self.pose.orient[carrier][g], self.pose.orient[carrier + 1][g]];
+        let [k, dk] = self.chord(g, op);
+        [[turned[0] * along, k - turned[0] * offset], [turned[1] * along, dk - turned[1] * offset]]
+    }
+
+    /// As with a guide that stands still.
+    #[inline(always)]
+    fn sample_moving_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> Sample<R> {
+        let per = R::splat(cx.constants.legs[op.dyad][0].inv_norm());
+        let [[guide, k], [turning, dk]] = self.moving_guide_chord(g, cx, op);
+        let sin = guide.cross(k) * per;
+        let rate = R::splat(-2.0) * (sin * ((turning.cross(k) + guide.cross(dk)) * per));
+        Sample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE }
+    }
+
     /// The part of the chord along the guide.
     #[inline(always)]
     fn sample_turning_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> Sample<R> {
@@ -107,35 +119,6 @@ impl<R: Real, const G: usize> State<R, G> {
             square: k.norm2() - R::splat(across * across),
             rate: R::splat(2.0) * k.dot(dk),
             side: R::ONE,
-        }
-    }
-
-    /// How near a dyad is to closing.
-    #[inline(always)]
-    pub(crate) fn gap(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, op: &Op) -> Gap<R> {
-        match op {
-            Op::TwoLegs(op) => {
-                let [a, b] = &cx.constants.legs[op.dyad];
-                let [k, dk] = self.chord(g, op);
-                let d = k.norm();
-                let margin =
-                    (R::splat(a.norm + b.norm) - d).min(d - R::splat((a.norm - b.norm).abs()));
-                Gap { margin, speed: Some(dk.norm()) }
-            }
-            Op::StandingGuide(op) => {
-                let own = &cx.constants.dyads[op.dyad];
-                let [k, dk] = self.chord(g, op);
-                let across = Vector::splat(own.guides[1]).cross(k - Vector::splat(own.offset));
-                let leg = R::splat(cx.constants.legs[op.dyad][0].norm);
-                Gap { margin: leg - across.abs(), speed: Some(dk.norm()) }
-            }
-            Op::TurningGuide(op) => {
-                let [k, dk] = self.chord(g, op);
-                let across = R::splat(across_guide(cx, op).abs());
-                Gap { margin: k.norm() - across, speed: Some(dk.norm()) }
-            }
-            Op::StandingGuides(_) => Gap { margin: R::ONE, speed: Some(R::ZERO) },
-            _ => Gap { margin: self.margin[dyad.index][g], speed: None },
         }
     }
 }

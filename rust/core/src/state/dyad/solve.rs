@@ -25,7 +25,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn solve_dyad(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> Closing<R> {
         let CollectedTerms { first, second, known: k } = self.collect_terms(g, cx, dyad);
-        let sign = if let Some(s) = dyad.sign { self.signs[s][g] } else { R::ONE };
+        let sign = if let Some(s) = dyad.sign { self.pose.signs[s][g] } else { R::ONE };
         let [u, v] = dyad.unknowns;
         match dyad.form {
             Form::TwoCircles => {
@@ -67,15 +67,15 @@ impl<R: Real, const G: usize> State<R, G> {
     fn collect_terms(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> CollectedTerms<R> {
         let len = self.len;
         let mut terms = [Vector::ZERO; 2];
-        let mut known = self.points[dyad.end * len][g] - self.points[dyad.start * len][g];
+        let mut known = self.pose.points[dyad.end * len][g] - self.pose.points[dyad.start * len][g];
         for term in &dyad.others {
             let e = term.edge;
             let edge = &cx.plan.edges[e];
             let driven = cx.plan.orientations[edge.orientation].driven;
             // The known part of its orientation.
             let turn = match term.turns {
-                None => Some(self.orient[edge.orientation * len][g]),
-                Some(_) if driven => Some(self.phase[edge.orientation][g]),
+                None => Some(self.pose.orient[edge.orientation * len][g]),
+                Some(_) if driven => Some(self.pose.phase[edge.orientation][g]),
                 Some(_) => None,
             };
             let guide = Vector::splat(cx.constants.guide[e]);
@@ -89,7 +89,7 @@ impl<R: Real, const G: usize> State<R, G> {
             if let (EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide }, None) =
                 (edge.along, term.slides)
             {
-                edge_vector += guide.scale(self.slides[slide * len][g]);
+                edge_vector += guide.scale(self.pose.slides[slide * len][g]);
             }
             let v = signed(term, turned(turn, edge_vector));
             match term.turns {
@@ -110,22 +110,22 @@ impl<R: Real, const G: usize> State<R, G> {
         rotation: Vector<R>,
     ) {
         let Unknown::Class(class) = dyad.unknowns[i] else { return };
-        self.class[class][g] = rotation;
+        self.pose.class[class][g] = rotation;
         if dyad.leg[i] {
             let vector = cx.constants.legs[dyad.index][i].vector;
-            self.legs[(2 * dyad.index + i) * self.len][g] = rotation * Vector::splat(vector);
+            self.pose.legs[(2 * dyad.index + i) * self.len][g] = rotation * Vector::splat(vector);
         }
         for &o in &dyad.orientations[i] {
             let driven = cx.plan.orientations[o].driven;
-            self.orient[o * self.len][g] =
-                if driven { rotation * self.phase[o][g] } else { rotation };
+            self.pose.orient[o * self.len][g] =
+                if driven { rotation * self.pose.phase[o][g] } else { rotation };
         }
     }
 
     #[inline(always)]
     fn set_slide(&mut self, g: usize, unknown: Unknown, value: R) {
         if let Unknown::Slide(slide) = unknown {
-            self.slides[slide * self.len][g] = value;
+            self.pose.slides[slide * self.len][g] = value;
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The dyad of a leg and a slide along a guide that stands still (RRP).
 
-use super::chord::{Chord, Ends, FROM_PIN, POINTS, TO_PIN, ends_of};
+use super::chord::{Chord, Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
 use super::intersections::{Closing, Guided};
 use super::turning_leg::{entry, second_rest, third_rest};
 use crate::math::lanes::Real;
@@ -49,6 +49,8 @@ impl<R: Real, const G: usize> State<R, G> {
         match ends_of(op) {
             FROM_PIN => self.guide_by_driver::<W, false, FROM_PIN>(cx, op, LEN),
             TO_PIN => self.guide_by_driver::<W, false, TO_PIN>(cx, op, LEN),
+            FROM_GROUND => self.guide_by_driver::<W, false, FROM_GROUND>(cx, op, LEN),
+            TO_GROUND => self.guide_by_driver::<W, false, TO_GROUND>(cx, op, LEN),
             _ => self.guide_by_driver::<W, false, POINTS>(cx, op, LEN),
         }
     }
@@ -61,18 +63,18 @@ impl<R: Real, const G: usize> State<R, G> {
         len: usize,
     ) {
         let jet = |i: usize| i * len..i * len + len;
-        let chord = Chord::new(cx, op, &self.points, &self.unit, len);
+        let chord = Chord::new(cx, op, &self.pose.points, &self.pose.unit, len);
         let [class, slide] = op.unknowns;
-        let leg = &mut self.legs[jet(2 * op.dyad)];
-        let (u, s) = (&mut self.theta[jet(class)], &mut self.slides[jet(slide)]);
-        let turn = &mut self.class[class];
+        let leg = &mut self.pose.legs[jet(2 * op.dyad)];
+        let (u, s) = (&mut self.pose.theta[jet(class)], &mut self.pose.slides[jet(slide)]);
+        let turn = &mut self.pose.class[class];
         let (turns, keeps) = (CAREFUL || op.turns[0], CAREFUL || op.keeps[0]);
-        let signs = &self.signs[op.sign.unwrap_or(0)];
+        let signs = &self.pose.signs[op.sign.unwrap_or(0)];
         let own = &cx.constants.dyads[op.dyad];
         let a = cx.constants.legs[op.dyad][0].on_lanes::<W>();
         let (guide, offset) = (Vector::splat(own.guides[1]), Vector::splat(own.offset));
         let (reach, inverse_arm2) = (W::splat(own.reach), W::splat(own.inverse_arm2));
-        let bounds = &mut self.bounds[op.dyad];
+        let bounds = &mut self.conditions.bounds[op.dyad];
         let mut closings = [Closing::CLOSED; G];
         for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
             let arm = chord.arm::<W, ENDS>(g);
@@ -82,12 +84,9 @@ impl<R: Real, const G: usize> State<R, G> {
             if CAREFUL {
                 closings[g] = solved.closing.first();
             } else {
-                W::add_to(solved.closing.open, &mut self.open, g);
-                let mut bound = solved.closing.sine2 * inverse_arm2;
-                if !op.upstream.is_empty() {
-                    bound = W::load(&self.bound, g) * bound;
-                }
-                bound.store(bounds, g);
+                W::add_to(solved.closing.open, &mut self.conditions.open, g);
+                let upstream = W::load(&self.conditions.bound, g);
+                op.bound_with(upstream, solved.closing.sine2 * inverse_arm2).store(bounds, g);
             }
             let a0 = solved.turned;
             if turns {
@@ -130,12 +129,12 @@ impl<R: Real, const G: usize> State<R, G> {
     fn guide_by_drivers(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let len = self.len;
         let jet = |i: usize| i * len..i * len + len;
-        let (start, end) = (&self.points[jet(op.start)], &self.points[jet(op.end)]);
+        let (start, end) = (&self.pose.points[jet(op.start)], &self.pose.points[jet(op.end)]);
         let [class, slide] = op.unknowns;
-        let leg = &mut self.legs[jet(2 * op.dyad)];
-        let (u, s) = (&mut self.theta[jet(class)], &mut self.slides[jet(slide)]);
-        let turn = &mut self.class[class];
-        let signs = &self.signs[op.sign.unwrap_or(0)];
+        let leg = &mut self.pose.legs[jet(2 * op.dyad)];
+        let (u, s) = (&mut self.pose.theta[jet(class)], &mut self.pose.slides[jet(slide)]);
+        let turn = &mut self.pose.class[class];
+        let signs = &self.pose.signs[op.sign.unwrap_or(0)];
         let own = &cx.constants.dyads[op.dyad];
         let a = cx.constants.legs[op.dyad][0].on_lanes();
         let (guide, offset) = (Vector::splat(own.guides[1]), Vector::splat(own.offset));

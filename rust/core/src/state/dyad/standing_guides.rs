@@ -12,8 +12,8 @@ impl<R: Real, const G: usize> State<R, G> {
     pub(crate) fn standing_guides<const CAREFUL: bool>(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let len = self.len;
         let jet = |i: usize| i * len..i * len + len;
-        let (start, end) = (&self.points[jet(op.start)], &self.points[jet(op.end)]);
-        let Ok([s, t]) = self.slides.get_disjoint_mut(op.unknowns.map(jet)) else { return };
+        let (start, end) = (&self.pose.points[jet(op.start)], &self.pose.points[jet(op.end)]);
+        let Ok([s, t]) = self.pose.slides.get_disjoint_mut(op.unknowns.map(jet)) else { return };
         let own = &cx.constants.dyads[op.dyad];
         let [a, b] = own.guides;
         let determinant = a.cross(b);
@@ -21,7 +21,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let [a, b] = [a, b].map(Vector::splat);
         let offset = Vector::splat(own.offset);
         let sine2 = R::splat(determinant * determinant);
-        let bounds = &mut self.bounds[op.dyad];
+        let bounds = &mut self.conditions.bounds[op.dyad];
         let mut closings = [Closing::CLOSED; G];
         for k in 0..len {
             for g in 0..self.groups.min(G) {
@@ -37,7 +37,7 @@ impl<R: Real, const G: usize> State<R, G> {
             if CAREFUL {
                 closings[g] = Closing::of_lines(s[0][g], t[0][g], R::splat(determinant));
             } else {
-                bounds[g] = self.bound[g] * sine2;
+                bounds[g] = op.bound_with(self.conditions.bound[g], sine2);
             }
         }
         if CAREFUL {

@@ -42,19 +42,20 @@ impl<R: Real, const G: usize> State<R, G> {
         terms: &impl Fn(usize) -> (&'t [Term], &'t [Term]),
     ) {
         let jet = |i: usize| i * len..i * len + len;
-        let (start, end) = (&self.points[jet(op.start)], &self.points[jet(op.end)]);
+        let (start, end) = (&self.pose.points[jet(op.start)], &self.pose.points[jet(op.end)]);
         let [class, slide] = op.unknowns;
-        let Ok([leg, turn]) = self.legs.get_disjoint_mut([2 * op.dyad, 2 * op.dyad + 1].map(jet))
+        let Ok([leg, turn]) =
+            self.pose.legs.get_disjoint_mut([2 * op.dyad, 2 * op.dyad + 1].map(jet))
         else {
             return;
         };
-        let (u, s) = (&mut self.theta[jet(class)], &mut self.slides[jet(slide)]);
-        let rotation = &mut self.class[class];
-        let signs = &self.signs[op.sign.unwrap_or(0)];
+        let (u, s) = (&mut self.pose.theta[jet(class)], &mut self.pose.slides[jet(slide)]);
+        let rotation = &mut self.pose.class[class];
+        let signs = &self.pose.signs[op.sign.unwrap_or(0)];
         let own = &cx.constants.dyads[op.dyad];
         let a = Vector::splat(cx.constants.legs[op.dyad][0].vector);
         let (guide, inverse_arm2) = (Vector::splat(own.guides[1]), R::splat(own.inverse_arm2));
-        let bounds = &mut self.bounds[op.dyad];
+        let bounds = &mut self.conditions.bounds[op.dyad];
         let mut closings = [Closing::CLOSED; G];
         for g in 0..self.groups.min(G) {
             let chord = end[0][g] - start[0][g];
@@ -62,10 +63,11 @@ impl<R: Real, const G: usize> State<R, G> {
             if CAREFUL {
                 closings[g] = solved.closing;
             } else {
-                self.open[g] = self.open[g].or(solved.closing.open);
+                self.conditions.open[g] = self.conditions.open[g].or(solved.closing.open);
                 // The arm is relative to the distance.
                 let distance2 = R::ONE.min(chord.norm2() * inverse_arm2);
-                bounds[g] = self.bound[g] * (solved.closing.sine2 * distance2);
+                let own = solved.closing.sine2 * distance2;
+                bounds[g] = op.bound_with(self.conditions.bound[g], own);
             }
             let (unit, inverse) = (solved.turned, solved.inverse_determinant);
             turn[0][g] = unit;

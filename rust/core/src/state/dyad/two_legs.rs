@@ -1,6 +1,6 @@
 //! The dyad of two legs (RRR): most dyads are of this kind.
 
-use super::chord::{Chord, Ends, FROM_PIN, POINTS, TO_PIN, ends_of};
+use super::chord::{Chord, Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
 use super::intersections::{Closing, TwoCircles};
 use super::turning_leg::{entry, second_rest, third_rest};
 use crate::math::lanes::Real;
@@ -49,6 +49,8 @@ impl<R: Real, const G: usize> State<R, G> {
         match ends_of(op) {
             FROM_PIN => self.legs_by_driver::<W, false, FROM_PIN>(cx, op, LEN),
             TO_PIN => self.legs_by_driver::<W, false, TO_PIN>(cx, op, LEN),
+            FROM_GROUND => self.legs_by_driver::<W, false, FROM_GROUND>(cx, op, LEN),
+            TO_GROUND => self.legs_by_driver::<W, false, TO_GROUND>(cx, op, LEN),
             _ => self.legs_by_driver::<W, false, POINTS>(cx, op, LEN),
         }
     }
@@ -61,24 +63,24 @@ impl<R: Real, const G: usize> State<R, G> {
         len: usize,
     ) {
         let jet = |i: usize| i * len..i * len + len;
-        let chord = Chord::new(cx, op, &self.points, &self.unit, len);
+        let chord = Chord::new(cx, op, &self.pose.points, &self.pose.unit, len);
         let (Ok([a_jet, b_jet]), Ok([u, v]), Ok([a_turn, b_turn])) = (
-            self.legs.get_disjoint_mut([2 * op.dyad, 2 * op.dyad + 1].map(jet)),
-            self.theta.get_disjoint_mut(op.unknowns.map(jet)),
-            self.class.get_disjoint_mut(op.unknowns),
+            self.pose.legs.get_disjoint_mut([2 * op.dyad, 2 * op.dyad + 1].map(jet)),
+            self.pose.theta.get_disjoint_mut(op.unknowns.map(jet)),
+            self.pose.class.get_disjoint_mut(op.unknowns),
         ) else {
             return;
         };
         let turns = [CAREFUL || op.turns[0], CAREFUL || op.turns[1]];
         let keeps = [CAREFUL || op.keeps[0], CAREFUL || op.keeps[1]];
-        let signs = &self.signs[op.sign.unwrap_or(0)];
+        let signs = &self.pose.signs[op.sign.unwrap_or(0)];
         let (legs, own) = (&cx.constants.legs[op.dyad], &cx.constants.dyads[op.dyad]);
         let (a, b) = (legs[0].on_lanes::<W>(), legs[1].on_lanes::<W>());
         let mut sides = own.sides.on_lanes::<W>();
         if !CAREFUL {
             sides.per_sine2 = W::splat(own.bounding_per_sine2);
         }
-        let bounds = &mut self.bounds[op.dyad];
+        let bounds = &mut self.conditions.bounds[op.dyad];
         let mut closings = [Closing::CLOSED; G];
         for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
             let arm = chord.arm::<W, ENDS>(g);
@@ -87,12 +89,9 @@ impl<R: Real, const G: usize> State<R, G> {
             if CAREFUL {
                 closings[g] = solved.closing.first();
             } else {
-                W::add_to(solved.closing.open, &mut self.open, g);
-                let mut bound = solved.closing.sine2;
-                if !op.upstream.is_empty() {
-                    bound = W::load(&self.bound, g) * bound;
-                }
-                bound.store(bounds, g);
+                W::add_to(solved.closing.open, &mut self.conditions.open, g);
+                let upstream = W::load(&self.conditions.bound, g);
+                op.bound_with(upstream, solved.closing.sine2).store(bounds, g);
             }
             let [a0, b0] = solved.legs;
             if turns[0] {
@@ -146,15 +145,15 @@ impl<R: Real, const G: usize> State<R, G> {
     fn legs_by_drivers(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let len = self.len;
         let jet = |i: usize| i * len..i * len + len;
-        let (start, end) = (&self.points[jet(op.start)], &self.points[jet(op.end)]);
+        let (start, end) = (&self.pose.points[jet(op.start)], &self.pose.points[jet(op.end)]);
         let (Ok([a_jet, b_jet]), Ok([u, v]), Ok([a_turn, b_turn])) = (
-            self.legs.get_disjoint_mut([2 * op.dyad, 2 * op.dyad + 1].map(jet)),
-            self.theta.get_disjoint_mut(op.unknowns.map(jet)),
-            self.class.get_disjoint_mut(op.unknowns),
+            self.pose.legs.get_disjoint_mut([2 * op.dyad, 2 * op.dyad + 1].map(jet)),
+            self.pose.theta.get_disjoint_mut(op.unknowns.map(jet)),
+            self.pose.class.get_disjoint_mut(op.unknowns),
         ) else {
             return;
         };
-        let signs = &self.signs[op.sign.unwrap_or(0)];
+        let signs = &self.pose.signs[op.sign.unwrap_or(0)];
         let legs = &cx.constants.legs[op.dyad];
         let (a, b) = (legs[0].on_lanes(), legs[1].on_lanes());
         let sides = cx.constants.dyads[op.dyad].sides.on_lanes();

@@ -22,11 +22,12 @@ impl<R: Real, const G: usize> State<R, G> {
             // The unknown entry counts as 0 in the right-hand side.
             for (i, &unknown) in group.unknowns.iter().enumerate() {
                 if let Unknown::Slide(slide) = unknown {
-                    self.slides[slide * len + k] = [R::ZERO; G];
+                    self.pose.slides[slide * len + k] = [R::ZERO; G];
                 }
                 for &o in &group.orientations[i] {
                     for g in 0..G {
-                        self.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k);
+                        self.pose.orient[o * len + k][g] =
+                            self.orientation_without_top(g, cx, o, k);
                     }
                 }
             }
@@ -42,13 +43,13 @@ impl<R: Real, const G: usize> State<R, G> {
                     }
                 }
                 match unknown {
-                    Unknown::Slide(slide) => self.slides[slide * len + k] = value,
-                    Unknown::Class(class) => self.theta[class * len + k] = value,
+                    Unknown::Slide(slide) => self.pose.slides[slide * len + k] = value,
+                    Unknown::Class(class) => self.pose.theta[class * len + k] = value,
                 }
                 for &o in &group.orientations[i] {
                     for g in 0..G {
-                        let top = self.orient[o * len][g].left().scale(value[g]);
-                        self.orient[o * len + k][g] += top;
+                        let top = self.pose.orient[o * len][g].left().scale(value[g]);
+                        self.pose.orient[o * len + k][g] += top;
                     }
                 }
             }
@@ -66,24 +67,24 @@ impl<R: Real, const G: usize> State<R, G> {
             if let Some(unknown) = edge.turns
                 && let Unknown::Class(class) = group.unknowns[unknown]
             {
-                let value = &self.theta[class * len + k];
+                let value = &self.pose.theta[class * len + k];
                 let guided = cx.plan.edges[edge.edge].along != EdgeSlide::Nothing;
                 for g in 0..G {
-                    let top = self.legs[leg][g].left();
-                    self.legs[leg + k][g] += top.scale(value[g]);
+                    let top = self.pose.legs[leg][g].left();
+                    self.pose.legs[leg + k][g] += top.scale(value[g]);
                     if guided {
-                        let guide = self.guides[at][g].left();
-                        self.guides[at + k][g] += guide.scale(value[g]);
+                        let guide = self.work.guides[at][g].left();
+                        self.work.guides[at + k][g] += guide.scale(value[g]);
                     }
                 }
             }
             if let Some(unknown) = edge.slides
                 && let Unknown::Slide(slide) = group.unknowns[unknown]
             {
-                let value = &self.slides[slide * len + k];
+                let value = &self.pose.slides[slide * len + k];
                 for g in 0..G {
-                    let guide = self.guides[at][g];
-                    self.legs[leg + k][g] += guide.scale(value[g]);
+                    let guide = self.work.guides[at][g];
+                    self.pose.legs[leg + k][g] += guide.scale(value[g]);
                 }
             }
         }
@@ -124,14 +125,14 @@ impl<R: Real, const G: usize> State<R, G> {
         let e = group.edges[l.edge].edge;
         let mut sum = R::ZERO;
         for term in &cx.derivatives.product[k] {
-            let guide = self.guides[l.edge * len + term.left][g];
-            let chord = self.chords[i * len + term.right][g];
+            let guide = self.work.guides[l.edge * len + term.left][g];
+            let chord = self.work.chords[i * len + term.right][g];
             sum += R::splat(term.factor) * guide.dot(chord);
         }
         if k == 0 {
             sum = sum - R::splat(cx.constants.guide[e].dot(cx.constants.edge_vector[e]));
         }
-        self.slides[slide * len + k][g] = sum;
+        self.pose.slides[slide * len + k][g] = sum;
     }
 
     /// Rotation U of a chord, from chord = U · local at every order.
@@ -148,48 +149,48 @@ impl<R: Real, const G: usize> State<R, G> {
         let len = self.len;
         let e = group.edges[l.edge].edge;
         let own = cx.plan.edges[e].orientation;
-        let inv_length = self.inv_length[i][g];
+        let inv_length = self.work.inv_length[i][g];
         let inv_length2 = inv_length * inv_length;
         if k == 0 {
             let local = self.local(g, cx, e, 0);
-            let unit = (self.chords[i * len][g] * local.conj()).scale(inv_length2);
+            let unit = (self.work.chords[i * len][g] * local.conj()).scale(inv_length2);
             let driven = cx.plan.orientations[own].driven;
-            let rotation = if driven { unit * self.phase[own][g].conj() } else { unit };
-            self.class[class][g] = rotation;
+            let rotation = if driven { unit * self.pose.phase[own][g].conj() } else { unit };
+            self.pose.class[class][g] = rotation;
             for &o in &l.orientations {
                 let driven = cx.plan.orientations[o].driven;
-                self.orient[o * len][g] =
-                    if driven { rotation * self.phase[o][g] } else { rotation };
+                self.pose.orient[o * len][g] =
+                    if driven { rotation * self.pose.phase[o][g] } else { rotation };
             }
             return;
         }
         let rate = if let EdgeSlide::Driver { .. } = cx.plan.edges[e].along {
             // Solve Leibniz's sum for the top entry of U.
-            let mut rest = self.chords[i * len + k][g];
+            let mut rest = self.work.chords[i * len + k][g];
             for term in cx.derivatives.product[k].iter().filter(|term| term.left != k) {
                 let known =
-                    self.orient[own * len + term.left][g] * self.local(g, cx, e, term.right);
+                    self.pose.orient[own * len + term.left][g] * self.local(g, cx, e, term.right);
                 rest = rest - known.scale(R::splat(term.factor));
             }
             let unit = (rest * self.local(g, cx, e, 0).conj()).scale(inv_length2);
             let partial = self.orientation_without_top(g, cx, own, k);
-            ((unit - partial) * self.orient[own * len][g].conj()).y
+            ((unit - partial) * self.pose.orient[own * len][g].conj()).y
         } else {
             // The chord is rigid: its jet follows from its lower entries.
             let mut partial = Vector::ZERO;
             for term in &cx.derivatives.rotation[k] {
                 let rate = R::splat(term.factor) * self.angle_analogue(g, cx, own, term.right);
-                partial += self.chords[i * len + term.left][g].scale(rate);
+                partial += self.work.chords[i * len + term.left][g].scale(rate);
             }
-            let top = self.chords[i * len + k][g] - partial.left();
-            let rate = self.chords[i * len][g].cross(top) * inv_length2;
+            let top = self.work.chords[i * len + k][g] - partial.left();
+            let rate = self.work.chords[i * len][g].cross(top) * inv_length2;
             let driven = cx.plan.orientations[own].driven;
             if driven { rate - Self::driver_analogue(cx, own, k) } else { rate }
         };
-        self.theta[class * len + k][g] = rate;
+        self.pose.theta[class * len + k][g] = rate;
         for &o in &l.orientations {
-            let top = self.orient[o * len][g].left().scale(rate);
-            self.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k) + top;
+            let top = self.pose.orient[o * len][g].left().scale(rate);
+            self.pose.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k) + top;
         }
     }
 }

@@ -34,21 +34,22 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         let mut wanted = [false; MAX_UNKNOWNS];
         for ((wanted, &class), l) in wanted.iter_mut().zip(&binary.bar_classes).zip(&group.loops) {
-            *wanted = self.angle_wanted[class] || !l.orientations.is_empty();
+            *wanted = self.work.angle_wanted[class] || !l.orientations.is_empty();
         }
         for g in 0..self.groups.min(G) {
-            let loops = &mut self.loops;
+            let loops = &mut self.work.loops;
             for (known, l) in loops.known.iter_mut().zip(&group.loops) {
-                let (start, end) = (&self.points[l.start * len..], &self.points[l.end * len..]);
+                let (start, end) =
+                    (&self.pose.points[l.start * len..], &self.pose.points[l.end * len..]);
                 for (known, (start, end)) in known[..len].iter_mut().zip(start.iter().zip(end)) {
                     *known = end[g] - start[g];
                 }
             }
             for (unit, &class) in loops.units.iter_mut().zip(&binary.classes) {
-                *unit = self.class[class][g];
+                *unit = self.pose.class[class][g];
             }
-            let mut work = NewtonState::<R, 1>::new([self.needs_scalar[g]]);
-            let mut last_determinant = self.det_sign[group.index][g];
+            let mut work = NewtonState::<R, 1>::new([self.conditions.needs_scalar[g]]);
+            let mut last_determinant = self.work.det_sign[group.index][g];
             loops.turn_spans(&links);
             for round in 0..NEWTON_MAX_ROUNDS {
                 if work.done[0].all() {
@@ -68,29 +69,29 @@ impl<R: Real, const G: usize> State<R, G> {
                 work.record_steps([first], [second], &skip, round == 0);
             }
             if len > 1 {
-                self.determinants[group.index][g] = loops.invert(&links);
+                self.work.determinants[group.index][g] = loops.invert(&links);
                 loops.find_analogues(&links, len, wanted);
             }
             for (i, &class) in binary.classes.iter().enumerate().take(MAX_UNKNOWNS) {
-                self.class[class][g] = loops.units[i];
+                self.pose.class[class][g] = loops.units[i];
                 for k in 1..len {
-                    self.theta[class * len + k][g] = loops.rates[i][k];
+                    self.pose.theta[class * len + k][g] = loops.rates[i][k];
                 }
             }
             for (i, &class) in binary.bar_classes.iter().enumerate().take(MAX_UNKNOWNS) {
                 if !wanted[i] {
                     continue;
                 }
-                self.class[class][g] = links.bars[i].on_lanes().turn_to(loops.chords[i][0]);
+                self.pose.class[class][g] = links.bars[i].on_lanes().turn_to(loops.chords[i][0]);
                 for k in 1..len {
-                    self.theta[class * len + k][g] = loops.bar_rates[i][k];
+                    self.pose.theta[class * len + k][g] = loops.bar_rates[i][k];
                 }
             }
             for arm in &binary.arms {
                 let unknown = arm.unknown.min(MAX_UNKNOWNS - 1);
                 let rates = &loops.rates[unknown];
                 let v = loops.units[unknown] * Vector::splat(cx.constants.edge_vector[arm.edge]);
-                let jet = &mut self.legs[arm.leg * len..][..len];
+                let jet = &mut self.pose.legs[arm.leg * len..][..len];
                 jet[0][g] = v;
                 for k in 1..len {
                     let mut sum = v.scale(rates[k]);
@@ -100,10 +101,11 @@ impl<R: Real, const G: usize> State<R, G> {
                     jet[k][g] = sum.left();
                 }
             }
-            self.det_sign[group.index][g] = last_determinant;
-            self.needs_scalar[g] = self.needs_scalar[g].or(work.done[0].not());
-            self.first_step[g] = self.first_step[g].max(work.first_step[0]);
-            self.later_steps[g] = self.later_steps[g].max(work.later_steps[0]);
+            self.work.det_sign[group.index][g] = last_determinant;
+            self.conditions.needs_scalar[g] =
+                self.conditions.needs_scalar[g].or(work.done[0].not());
+            self.work.first_step[g] = self.work.first_step[g].max(work.first_step[0]);
+            self.work.later_steps[g] = self.work.later_steps[g].max(work.later_steps[0]);
             if R::LANES == 1 && !work.done[0].all() {
                 self.fault = Some(Fault::NotConverged { step: index });
                 self.status = Status::NotConverged;

@@ -26,25 +26,25 @@ impl<R: Real, const G: usize> State<R, G> {
             }
             let e = edge.edge;
             let along = cx.plan.edges[e].along;
-            let unit = &self.orient[cx.plan.edges[e].orientation * len + k];
+            let unit = &self.pose.orient[cx.plan.edges[e].orientation * len + k];
             let edge_vector = Vector::splat(cx.constants.edge_vector[e]);
             for g in 0..G {
-                self.legs[leg + k][g] = unit[g] * edge_vector;
+                self.pose.legs[leg + k][g] = unit[g] * edge_vector;
             }
             if along == EdgeSlide::Nothing {
                 continue;
             }
             let guide = Vector::splat(cx.constants.guide[e]);
             for g in 0..G {
-                self.guides[i * len + k][g] = unit[g] * guide;
+                self.work.guides[i * len + k][g] = unit[g] * guide;
             }
             if let EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } = along {
                 for term in &cx.derivatives.product[k] {
                     let factor = R::splat(term.factor);
                     for g in 0..G {
-                        let s = factor * self.slides[slide * len + term.right][g];
-                        let v = self.guides[i * len + term.left][g].scale(s);
-                        self.legs[leg + k][g] += v;
+                        let s = factor * self.pose.slides[slide * len + term.right][g];
+                        let v = self.work.guides[i * len + term.left][g].scale(s);
+                        self.pose.legs[leg + k][g] += v;
                     }
                 }
             }
@@ -60,9 +60,9 @@ impl<R: Real, const G: usize> State<R, G> {
         if k == 0 {
             let edge_vector = Vector::splat(cx.constants.edge_vector[e]);
             for g in 0..G {
-                let rotation = self.class[class][g];
-                let unit = if driven { rotation * self.phase[o][g] } else { rotation };
-                self.legs[leg][g] = unit * edge_vector;
+                let rotation = self.pose.class[class][g];
+                let unit = if driven { rotation * self.pose.phase[o][g] } else { rotation };
+                self.pose.legs[leg][g] = unit * edge_vector;
             }
             return;
         }
@@ -71,14 +71,14 @@ impl<R: Real, const G: usize> State<R, G> {
             let factor = R::splat(term.factor);
             for g in 0..G {
                 let rate = factor * self.angle_analogue(g, cx, o, term.right);
-                sum[g] += self.legs[leg + term.left][g].scale(rate);
+                sum[g] += self.pose.legs[leg + term.left][g].scale(rate);
             }
         }
         for g in 0..G {
             if driven {
-                sum[g] += self.legs[leg][g].scale(Self::driver_analogue(cx, o, k));
+                sum[g] += self.pose.legs[leg][g].scale(Self::driver_analogue(cx, o, k));
             }
-            self.legs[leg + k][g] = sum[g].left();
+            self.pose.legs[leg + k][g] = sum[g].left();
         }
     }
 
@@ -87,13 +87,14 @@ impl<R: Real, const G: usize> State<R, G> {
     pub(crate) fn close_loops(&mut self, group: &Group, k: usize) {
         let len = self.len;
         for (i, l) in group.loops.iter().enumerate() {
-            let (start, end) = (&self.points[l.start * len + k], &self.points[l.end * len + k]);
+            let (start, end) =
+                (&self.pose.points[l.start * len + k], &self.pose.points[l.end * len + k]);
             let mut sum = [Vector::ZERO; G];
             for g in 0..G {
                 sum[g] = end[g] - start[g];
             }
             for path_edge in &l.path {
-                let span = &self.legs[(group.first_leg + path_edge.edge) * len + k];
+                let span = &self.pose.legs[(group.first_leg + path_edge.edge) * len + k];
                 if path_edge.backward {
                     for g in 0..G {
                         sum[g] = sum[g] - span[g];
@@ -104,7 +105,7 @@ impl<R: Real, const G: usize> State<R, G> {
                     }
                 }
             }
-            self.chords[i * len + k] = sum;
+            self.work.chords[i * len + k] = sum;
         }
     }
 
@@ -116,7 +117,7 @@ impl<R: Real, const G: usize> State<R, G> {
             local = Vector::splat(cx.constants.edge_vector[e]);
         }
         if let EdgeSlide::Driver { slide } = cx.plan.edges[e].along {
-            let value = self.slides[slide * self.len + k][g];
+            let value = self.pose.slides[slide * self.len + k][g];
             local += Vector::splat(cx.constants.guide[e]).scale(value);
         }
         local
@@ -139,8 +140,8 @@ impl<R: Real, const G: usize> State<R, G> {
             match l.chord {
                 Chord::Whole => {
                     let (chord, span) = (
-                        &self.chords[i * len + k],
-                        &self.legs[(group.first_leg + l.edge) * len + k],
+                        &self.work.chords[i * len + k],
+                        &self.pose.legs[(group.first_leg + l.edge) * len + k],
                     );
                     for g in 0..G {
                         let v = chord[g] - span[g];
@@ -151,7 +152,8 @@ impl<R: Real, const G: usize> State<R, G> {
                 Chord::Length { .. } => {
                     for term in &cx.derivatives.product[k] {
                         let factor = R::splat(term.factor);
-                        let [a, b] = [term.left, term.right].map(|k| &self.chords[i * len + k]);
+                        let [a, b] =
+                            [term.left, term.right].map(|k| &self.work.chords[i * len + k]);
                         for g in 0..G {
                             let c = self.local(g, cx, e, term.left);
                             let d = self.local(g, cx, e, term.right);
@@ -159,14 +161,14 @@ impl<R: Real, const G: usize> State<R, G> {
                         }
                     }
                     for g in 0..G {
-                        sum[g] = sum[g] * (R::splat(0.5) * self.inv_length[i][g]);
+                        sum[g] = sum[g] * (R::splat(0.5) * self.work.inv_length[i][g]);
                     }
                 }
                 Chord::Guide { .. } => {
                     for term in &cx.derivatives.product[k] {
                         let factor = R::splat(term.factor);
-                        let guide = &self.guides[l.edge * len + term.left];
-                        let chord = &self.chords[i * len + term.right];
+                        let guide = &self.work.guides[l.edge * len + term.left];
+                        let chord = &self.work.chords[i * len + term.right];
                         for g in 0..G {
                             sum[g] += factor * guide[g].cross(chord[g]);
                         }
@@ -192,15 +194,15 @@ impl<R: Real, const G: usize> State<R, G> {
         self.group_residual(cx, group, 0, &mut matrix[2 * n * n..]);
         let mut row = 0;
         for (i, l) in group.loops.iter().enumerate() {
-            let chord = &self.chords[i * len];
+            let chord = &self.work.chords[i * len];
             // A change v of the chord changes the equation by v · across: along the chord for a
             // length, across the guide for a guide.
             let mut across = [Vector::ONE; G];
             for g in 0..G {
                 match l.chord {
                     Chord::Whole => {}
-                    Chord::Length { .. } => across[g] = chord[g].scale(self.inv_length[i][g]),
-                    Chord::Guide { .. } => across[g] = self.guides[l.edge * len][g].left(),
+                    Chord::Length { .. } => across[g] = chord[g].scale(self.work.inv_length[i][g]),
+                    Chord::Guide { .. } => across[g] = self.work.guides[l.edge * len][g].left(),
                 }
             }
             for (unknown, column) in l.columns.iter().enumerate() {
@@ -208,8 +210,8 @@ impl<R: Real, const G: usize> State<R, G> {
                 for term in column {
                     let v = match term.edge {
                         None => chord,
-                        Some(edge) if term.turns => &self.legs[(group.first_leg + edge) * len],
-                        Some(edge) => &self.guides[edge * len],
+                        Some(edge) if term.turns => &self.pose.legs[(group.first_leg + edge) * len],
+                        Some(edge) => &self.work.guides[edge * len],
                     };
                     for g in 0..G {
                         let v = if term.turns { v[g].left() } else { v[g] };
@@ -244,9 +246,9 @@ impl<R: Real, const G: usize> State<R, G> {
         for &o in orientations {
             let driven = cx.plan.orientations[o].driven;
             for g in 0..G {
-                let rotation = self.class[class][g];
-                self.orient[o * len][g] =
-                    if driven { rotation * self.phase[o][g] } else { rotation };
+                let rotation = self.pose.class[class][g];
+                self.pose.orient[o * len][g] =
+                    if driven { rotation * self.pose.phase[o][g] } else { rotation };
             }
         }
     }

@@ -28,8 +28,8 @@ impl<R: Real, const G: usize> State<R, G> {
             self.solve_binary_loops(cx, group, binary, index);
             return;
         }
-        let mut matrix = std::mem::take(&mut self.matrix);
-        let mut work = NewtonState::<R, G>::new(self.needs_scalar);
+        let mut matrix = std::mem::take(&mut self.work.matrix);
+        let mut work = NewtonState::<R, G>::new(self.conditions.needs_scalar);
         for unused in work.done.iter_mut().skip(self.groups) {
             *unused = R::Mask::NONE.not();
         }
@@ -43,7 +43,7 @@ impl<R: Real, const G: usize> State<R, G> {
             self.jacobian(cx, group, &mut matrix);
             let determinants = invert(&mut matrix, group.rows);
             for g in 0..G {
-                let last = &mut self.det_sign[group.index][g];
+                let last = &mut self.work.det_sign[group.index][g];
                 *last = R::select(work.done[g], *last, determinants[g]);
             }
             work.update_inverse_size(cx, group, &matrix);
@@ -59,9 +59,10 @@ impl<R: Real, const G: usize> State<R, G> {
             work.record_steps(first_size, second_size, &skip, round == 0);
         }
         for g in 0..G {
-            self.needs_scalar[g] = self.needs_scalar[g].or(work.done[g].not());
-            self.first_step[g] = self.first_step[g].max(work.first_step[g]);
-            self.later_steps[g] = self.later_steps[g].max(work.later_steps[g]);
+            self.conditions.needs_scalar[g] =
+                self.conditions.needs_scalar[g].or(work.done[g].not());
+            self.work.first_step[g] = self.work.first_step[g].max(work.first_step[g]);
+            self.work.later_steps[g] = self.work.later_steps[g].max(work.later_steps[g]);
         }
         if R::LANES == 1 && !work.done.iter().all(|done| done.all()) {
             self.fault = Some(Fault::NotConverged { step: index });
@@ -73,11 +74,11 @@ impl<R: Real, const G: usize> State<R, G> {
             self.back_substitute(cx, group, 0);
             if self.len > 1 && !skipped.iter().all(|done| done.all()) {
                 self.jacobian(cx, group, &mut matrix);
-                self.determinants[group.index] = invert(&mut matrix, group.rows);
+                self.work.determinants[group.index] = invert(&mut matrix, group.rows);
                 self.group_analogues(cx, group, &mut matrix);
             }
         }
-        self.matrix = matrix;
+        self.work.matrix = matrix;
     }
 
     /// Sets what is constant during the iteration.
@@ -90,10 +91,10 @@ impl<R: Real, const G: usize> State<R, G> {
             let e = group.edges[l.edge].edge;
             if let EdgeSlide::Driver { .. } = cx.plan.edges[e].along {
                 for g in 0..G {
-                    self.inv_length[i][g] = R::ONE / self.local(g, cx, e, 0).norm();
+                    self.work.inv_length[i][g] = R::ONE / self.local(g, cx, e, 0).norm();
                 }
             } else {
-                self.inv_length[i] = [R::splat(1.0 / cx.constants.edge_vector[e].norm()); G];
+                self.work.inv_length[i] = [R::splat(1.0 / cx.constants.edge_vector[e].norm()); G];
             }
         }
     }
@@ -130,13 +131,14 @@ impl<R: Real, const G: usize> State<R, G> {
                 let step = R::select(done[g], R::ZERO, step.max(-longest).min(longest));
                 match unknown {
                     Unknown::Class(class) => {
-                        let old = self.class[class][g];
+                        let old = self.pose.class[class][g];
                         let new = turned(old, step);
                         let x = R::select(done[g], old.x, new.x);
-                        self.class[class][g] = Vector::new(x, R::select(done[g], old.y, new.y));
+                        self.pose.class[class][g] =
+                            Vector::new(x, R::select(done[g], old.y, new.y));
                     }
                     Unknown::Slide(slide) => {
-                        let value = &mut self.slides[slide * len][g];
+                        let value = &mut self.pose.slides[slide * len][g];
                         *value += step;
                     }
                 }
@@ -159,7 +161,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let mut upstream2 = R::ONE;
         for l in &group.loops {
             for point in [l.start, l.end] {
-                upstream2 = upstream2.max(self.point_condition[point][g]);
+                upstream2 = upstream2.max(self.conditions.of_point[point][g]);
             }
         }
         if group.binary_loops.is_none() {
@@ -167,16 +169,16 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         let condition = upstream2 * inverse_size2.max(R::ONE);
         // NaN must count as large, so that it is not taken for well-conditioned.
-        let is_less = condition.le(self.condition2[g]);
-        self.condition2[g] = R::select(is_less, self.condition2[g], condition);
+        let is_less = condition.le(self.conditions.greatest[g]);
+        self.conditions.greatest[g] = R::select(is_less, self.conditions.greatest[g], condition);
         for unknown in group.all_unknowns() {
             match unknown {
-                Unknown::Class(class) => self.class_condition[class][g] = condition,
-                Unknown::Slide(slide) => self.slide_condition[slide][g] = condition,
+                Unknown::Class(class) => self.conditions.of_class[class][g] = condition,
+                Unknown::Slide(slide) => self.conditions.of_slide[slide][g] = condition,
             }
         }
         let flat = (condition * R::splat(FLAT2)).le(upstream2).not();
-        self.needs_scalar[g] = self.needs_scalar[g].or(flat);
+        self.conditions.needs_scalar[g] = self.conditions.needs_scalar[g].or(flat);
         if R::LANES == 1 && flat.any() {
             self.fault.get_or_insert(Fault::Singular { step: index });
             self.status = Status::Singular;
@@ -191,7 +193,7 @@ impl<R: Real, const G: usize> State<R, G> {
             let class = cx.plan.class_of(edge.edge);
             let is_chord_of = |l: &Loop| l.chord == Chord::Length { class };
             if !group.loops.iter().any(is_chord_of) {
-                upstream2 = upstream2.max(self.class_condition[class][g]);
+                upstream2 = upstream2.max(self.conditions.of_class[class][g]);
             }
         }
         upstream2

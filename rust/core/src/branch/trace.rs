@@ -1,0 +1,202 @@
+//! Traces the branch of a design: in closed form, by knots in lanes, or knot by knot.
+
+use super::branch::Branch;
+use super::crank_angles::find_references;
+use super::design::Design;
+use super::knot::InitialGuess;
+use super::uniform::{ReferenceBranch, Traced, UniformTracer};
+use crate::math::angle::Reference;
+use crate::math::derivatives::DerivativeTables;
+use crate::math::lanes::Real;
+use crate::math::pair::Pair;
+use crate::state::kernel::portable::Portable;
+use crate::state::kernel::{BLOCK, Level};
+use crate::state::state::Context;
+
+impl Design<'_> {
+    /// Traces the branch without solving a position, if all dyads are on cranks and the ground.
+    /// With `references`, the design gets these in place of angles at knots.
+    #[inline(always)]
+    pub(crate) fn trace_in_closed_form(
+        &mut self,
+        classes: &[usize],
+        references: Option<&mut [Reference]>,
+    ) -> Traced {
+        self.settled.clear();
+        let plan = self.mechanism.plan();
+        let several = self.q0.len() > 1;
+        if !(self.closed_forms && (several || self.has_one_rotary_driver())) {
+            self.settled.resize(self.crank_dyads.len(), false);
+            return Traced::No;
+        }
+        for (dyad, on_crank) in plan.dyads().zip(&self.crank_dyads) {
+            let fixed = several && dyad.sign.is_none_or(|sign| !plan.may_change[sign]);
+            let keeps_sign = || on_crank.is_some_and(|dyad| dyad.keeps_sign(&self.constants));
+            self.settled.push(fixed || keeps_sign());
+        }
+        if !self.settled.iter().all(|&settled| settled) || several && !classes.is_empty() {
+            return Traced::No;
+        }
+        let start = &self.mechanism.class_angle;
+        if classes.is_empty() {
+            self.set_constant_signs();
+            return Traced::Whole;
+        }
+        let Some(references) = references else { return Traced::No };
+        let cx = self.tracing_context();
+        if self.crank_dyads.len() > 1
+            || !find_references(&cx, self.q0[0], start, classes, references)
+        {
+            return Traced::No;
+        }
+        self.branch.set_constant_signs(start.len(), &self.signs);
+        Traced::Surveyed
+    }
+
+    /// Whether the branch just traced serves these coordinates, of one driver or all, without change
+    /// points.
+    pub(crate) fn is_smooth(&self, q: &[f64]) -> bool {
+        let branch = &self.branch;
+        branch.is_plain()
+            || branch.changes.is_empty()
+                && self.q0.len() == 1
+                && q.iter().all(|q| branch.covers(q * self.units.coordinate[0]))
+    }
+
+    /// Whether the branch just traced serves all coordinates with the drawing's signs.
+    pub(crate) fn has_constant_signs(&self) -> bool {
+        let serves_all = self.serves_all || self.has_one_rotary_driver();
+        let branch = &self.branch;
+        self.closed_forms && serves_all && branch.is_plain() && branch.has_constant_signs()
+    }
+
+    /// Makes the branch one of positions without angles, with the drawing's signs everywhere.
+    pub(crate) fn set_constant_signs(&mut self) {
+        self.branch.set_constant_signs(self.mechanism.class_angle.len(), &self.signs);
+        self.serves_all = self.q0.len() > 1;
+    }
+
+    /// The context of knots.
+    fn tracing_context(&self) -> Context<'_> {
+        Context { tape: &self.tracing_tape, ..self.context(&self.tracing_derivatives) }
+    }
+
+    /// Traces the branch by knots in lanes, with the angles of `classes`, where
+    /// [`Self::trace_in_closed_form`] does not. With `references`, a plain design gets these in
+    /// place of angles at knots (see [`UniformTracer::survey`]).
+    #[inline(always)]
+    pub(crate) fn trace_in_lanes<L: Level, const G: usize>(
+        &mut self,
+        uniform: &mut UniformTracer<L::Register, G>,
+        classes: &[usize],
+        references: Option<&mut [Reference]>,
+    ) -> Traced {
+        if !self.has_one_rotary_driver() {
+            return Traced::No;
+        }
+        if self.has_groups() && !uniform.has_reference(|| self.reference_branch()) {
+            return Traced::No;
+        }
+        let start = &self.mechanism.class_angle;
+        let cx = Context {
+            plan: self.mechanism.plan(),
+            constants: &self.constants,
+            derivatives: &self.tracing_derivatives,
+            signs: &self.signs,
+            tape: &self.tracing_tape,
+        };
+        let (branch, tracer) = (&mut self.branch, &mut self.lane_tracer);
+        uniform.solve_knots::<L>(&cx, self.q0[0], !classes.is_empty());
+        let mut turns_fully = !(self.closed_forms && classes.is_empty());
+        if let (Some(references), true, false) = (references, self.closed_forms, classes.is_empty())
+        {
+            let plain = uniform.survey(&cx, classes, start, references);
+            if plain == Some(true) {
+                branch.set_constant_signs(start.len(), cx.signs);
+                return Traced::Surveyed;
+            }
+            turns_fully &= plain.is_some();
+        }
+        let settled = &self.settled;
+        let traced = turns_fully && uniform.trace(&cx, classes, start, branch)
+            || self.closed_forms
+                && tracer.trace::<L, G>(&cx, uniform, classes, start, settled, branch);
+        if traced { Traced::Whole } else { Traced::No }
+    }
+
+    /// The branch of the drawing, from which those of other designs start.
+    #[cold]
+    #[inline(never)]
+    fn reference_branch<R: Real, const G: usize>(&self) -> Option<ReferenceBranch<R, G>> {
+        let derivatives = DerivativeTables::new(1, 0);
+        let mut drawing = Design::new(self.mechanism, &[], &derivatives);
+        drawing.signs.clone_from(&self.signs);
+        drawing.bind(self.mechanism.drawing());
+        drawing.trace(&[]);
+        ReferenceBranch::new(
+            self.mechanism.plan(),
+            &drawing.branch,
+            drawing.q0[0],
+            drawing.constants.scale,
+        )
+    }
+
+    /// Traces the branch over the coordinates `q` (all positions, rad or m), as a batch would.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn trace(&mut self, q: &[f64]) {
+        if self.closed_forms && self.has_one_rotary_driver() {
+            let classes: Vec<usize> = (1..self.mechanism.class_angle.len()).collect();
+            let mut uniform = self.uniform_tracer::<Pair<f64>, { BLOCK / 2 }>();
+            let whole = self.trace_in_closed_form(&classes, None) == Traced::Whole
+                || self.trace_in_lanes::<Portable, { BLOCK / 2 }>(&mut uniform, &classes, None)
+                    == Traced::Whole;
+            if whole {
+                return;
+            }
+        }
+        self.trace_knot_by_knot(q);
+    }
+
+    /// Traces the branch over the coordinates `q`, one knot after another.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn trace_knot_by_knot(&mut self, q: &[f64]) {
+        if self.has_groups() {
+            self.initial_unknowns = self.homotopy(&self.values);
+        }
+        let [start] = self.q0[..] else { return };
+        let mut state = self.state(&self.tracing_derivatives);
+        let cx = self.context(&self.tracing_derivatives);
+        let angles = &self.mechanism.class_angle;
+        let Ok(taylor) = &self.initial_unknowns else {
+            self.branch = Branch::empty(angles.len(), &self.signs);
+            return;
+        };
+        let from = &InitialGuess { angles, taylor };
+        self.branch = if self.has_one_rotary_driver() {
+            Branch::over_turns(&cx, &mut state, start, from)
+        } else {
+            let scaled =
+                || q.iter().map(|q| q * self.units.coordinate[0]).filter(|q| q.is_finite());
+            let range = [scaled().fold(start, f64::min), scaled().fold(start, f64::max)];
+            // No slide goes farther than the sum of all lengths.
+            let paired =
+                cx.plan.edges.iter().zip(&cx.constants.edge_vector).filter(|(e, _)| e.paired);
+            let lengths = paired.map(|(_, w)| w).chain(&cx.constants.fixed).map(|w| w.norm());
+            let reach = 2.0 * lengths.sum::<f64>() + 1.0;
+            Branch::over_range(&cx, &mut state, start, range, reach, from)
+        };
+    }
+
+    /// The signs at the drawing that lead straight to the signs given at `q` (scaled); traced
+    /// backward.
+    pub(crate) fn signs_at_drawing(&self, signs: &[f64], q: &[f64]) -> Vec<i8> {
+        let cx = Context { signs, ..self.context(&self.tracing_derivatives) };
+        let angles = &self.mechanism.class_angle;
+        let mut state = self.state(&self.tracing_derivatives);
+        let start = &InitialGuess { angles, taylor: &[] };
+        let (branch, at) = Branch::along_segment(&cx, &mut state, q, &self.q0, start);
+        branch.signs(at).iter().map(|&s| if s > 0.0 { 1 } else { -1 }).collect()
+    }
+}
