@@ -87,7 +87,7 @@ def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
 
 def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[int, ...], bool]:
     """Return coordinates, the shape of positions, and whether each design has its own."""
-    array = np.array(real_array(q, "q"), order="C")
+    array = real_array(q, "q")
     drivers = mechanism._driver_count
     shape = array.shape
     if drivers > 1:

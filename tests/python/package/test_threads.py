@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 STRANGE = [0.3, math.nan, math.inf, -math.inf, 1e15, -1e15, 1e300, -1e300, 1.7e308, 5e-324, -0.0]
 MANY = 30_000  # rows: more than one thread takes at a time
 Call = tuple[assur.Mechanism, Float]
+Work = tuple[assur.Mechanism, Float, list[str]]
 
 
 @pytest.mark.parametrize("threads", [0, -1, True, 1.5, "2", 10**6, 2**70, math.nan, [2], b"2"])
@@ -111,17 +112,18 @@ def test_no_coordinates(shape: tuple[int, ...], threads: int) -> None:
 # -- Ctrl-C ---------------------------------------------------------------------------------------
 
 
-def many_positions(rng: np.random.Generator, size: int) -> Call:
+def many_positions(rng: np.random.Generator, size: int) -> Work:
     m = bits.named("library excavator")
-    return m, coordinates(m, rng, size, "library excavator")
+    return m, coordinates(m, rng, size, "library excavator"), []
 
 
-def many_designs(rng: np.random.Generator, size: int) -> Call:
-    return designs(bits.named("library peaucellier"), rng, size), np.array([0.3])
+def many_designs(rng: np.random.Generator, size: int) -> Work:
+    return designs(bits.named("library peaucellier"), rng, size), np.array([0.3]), []
 
 
-def many_turns(rng: np.random.Generator, size: int) -> Call:
-    return bits.named("model five_bar"), rng.uniform(-314.0, 314.0, (size, 2))
+def many_turns(rng: np.random.Generator, size: int) -> Work:
+    """The angle of a coupler: only an angle that is asked for takes the way from the drawing."""
+    return bits.named("model five_bar"), rng.uniform(-314.0, 314.0, (size, 2)), ["l3"]
 
 
 LONG = (many_positions, many_designs, many_turns)
@@ -129,12 +131,12 @@ LONG = (many_positions, many_designs, many_turns)
 
 @pytest.mark.parametrize("threads", [1, None])
 @pytest.mark.parametrize("make", LONG)
-def test_interrupt(make: Callable[[np.random.Generator, int], Call], threads: int | None) -> None:
+def test_interrupt(make: Callable[[np.random.Generator, int], Work], threads: int | None) -> None:
     """Heard long before the work is done, whatever it is; the next call is as ever."""
 
     def work(size: int) -> Callable[[], object]:
-        m, q = make(np.random.default_rng(6), size)
-        return lambda: m.solve(q, order=0, outputs=[], on_error="nan", threads=threads)
+        m, q, outputs = make(np.random.default_rng(6), size)
+        return lambda: m.solve(q, order=0, outputs=outputs, on_error="nan", threads=threads)
 
     assert is_heard(work, 8)
     four, few = assur.FourBar(1.0, 3.0, 2.5, 3.0), np.linspace(-9.0, 9.0, MANY)
