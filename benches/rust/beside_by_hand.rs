@@ -66,6 +66,12 @@ fn engine_by_hand(simd: Simd, design: u32, turn: Turn<'_>, rows: &mut Rows<'_>) 
     }
 }
 
+/// The first dimension of every design, then the second.
+fn by_dimension(design: impl Fn(u32) -> Vec<f64>) -> Vec<f64> {
+    let designs: Vec<Vec<f64>> = (0..DESIGNS).map(design).collect();
+    (0..designs[0].len()).flat_map(|i| designs.iter().map(move |one| one[i])).collect()
+}
+
 fn cases() -> [Case; 2] {
     let (open, piston) = (mechanisms::four_bar(), mechanisms::engine());
     let link = |mechanism: &Mechanism, name: &str| mechanism.link(name).expect("a link");
@@ -74,7 +80,7 @@ fn cases() -> [Case; 2] {
     [
         Case {
             name: "four_bar",
-            dimensions: (0..DESIGNS).flat_map(|d| four_bar(d).dimensions(&open)).collect(),
+            dimensions: by_dimension(|d| four_bar(d).dimensions(&open)),
             mechanism: open,
             quantities: [Quantity::Angle(links[0]), Quantity::Angle(links[1])],
             outputs: Outputs { links, ..Outputs::default() },
@@ -82,7 +88,7 @@ fn cases() -> [Case; 2] {
         },
         Case {
             name: "engine",
-            dimensions: (0..DESIGNS).flat_map(|d| engine(d).dimensions(&piston)).collect(),
+            dimensions: by_dimension(|d| engine(d).dimensions(&piston)),
             mechanism: piston,
             quantities: [Quantity::Slide(bore), Quantity::Angle(rod)],
             outputs: Outputs { slides: vec![bore], links: vec![rod], ..Outputs::default() },

@@ -49,10 +49,8 @@ fn designs(mechanism: &Mechanism, count: u32) -> Vec<f64> {
         let step = (design * 7 + u32::try_from(place).unwrap_or(0) * 3) % 101;
         1.0 + 2e-4 * f64::from(step)
     };
-    let one = mechanism.drawing();
-    (0..count)
-        .flat_map(|design| one.iter().enumerate().map(move |(i, x)| x * stretch(design, i)))
-        .collect()
+    let one = mechanism.drawing().iter().enumerate();
+    one.flat_map(|(i, x)| (0..count).map(move |design| x * stretch(design, i))).collect()
 }
 
 fn batch(c: &mut Criterion, designs_of_each: u32) {

@@ -31,8 +31,8 @@ NOT_NUMBERS = (
 )
 
 
-def real_array(value: Any, what: str) -> Float:
-    """Copy to an array of float64 in C order.
+def real_array(value: Any, what: str, copy: bool = True) -> Float:
+    """Copy to an array of float64 in C order; without `copy` only what is none.
 
     Raises InputError for masked entries, text, times, records and complex numbers.
     """
@@ -49,7 +49,7 @@ def real_array(value: Any, what: str) -> Float:
         array = np.asarray(bytes(value) if isinstance(value, bytearray) else value)
         kind = array.dtype.kind
         if kind in "biuf" or (kind == "O" and _holds_numbers(array)):
-            return array.astype(np.float64, order="C")
+            return array.astype(np.float64, order="C", copy=copy)
     except (TypeError, ValueError, OverflowError) as error:
         message = f"{what} is {short(value)}: a number or an array of numbers is needed"
         raise InputError(message) from error

@@ -49,9 +49,8 @@ def reduce(
         functions = machine._core.load_functions
         given = function_values(functions, flat.reshape(-1, n), speeds.reshape(-1, n))
     values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
-    dimensions = np.ascontiguousarray(values).ravel()
     *arrays, status, failure = machine._core.reduce(
-        dimensions, flat, speeds, given, None, list(designs)
+        values.reshape(-1), flat, speeds, given, None, list(designs)
     )
     if on_error == "raise":
         if failure is not None:

@@ -86,6 +86,7 @@ class Mechanism:
     # What solving has found out about the designs.
     _known_signs: KnownSigns
     _description: Description
+    # Dimensions, shape (number of dimensions, *S): those of one name lie together.
     _values: Float
     _structure: Structure | None
     _joints: MappingProxyType[str, Any] | None
@@ -122,7 +123,7 @@ class Mechanism:
             ("_core", core),
             ("_description", description),
             ("_values", array),
-            ("_known_signs", KnownSigns(math.prod(array.shape[:-1]))),
+            ("_known_signs", KnownSigns(math.prod(array.shape[1:]))),
             ("_structure", None),
             ("_joints", None),
         ):
@@ -168,7 +169,7 @@ class Mechanism:
     @property
     def shape(self) -> tuple[int, ...]:
         """Design shape S: ``()`` for one mechanism."""
-        return self._values.shape[:-1]
+        return self._values.shape[1:]
 
     @property
     def joints(self) -> Mapping[str, Any]:
@@ -262,10 +263,8 @@ class Mechanism:
         >>> dict(assur.SliderCrank(1.0, 3.0).dimensions)["rod.length"]
         3.0
         """
-        values = np.moveaxis(self._values, -1, 0)
         names = self._core.dimension_names
-        if not self.shape:
-            return MappingProxyType(dict(zip(names, values.tolist(), strict=True)))
+        values = self._values if self.shape else self._values.tolist()
         return MappingProxyType(dict(zip(names, values, strict=True)))
 
     # -- other mechanisms ---------------------------------------------------
@@ -309,17 +308,18 @@ class Mechanism:
             message = f"dimensions is {short(given)}: a mapping of names to values is needed"
             raise InputError(message)
         wanted = {**{checked_name(name, "dimensions"): v for name, v in given.items()}, **by_name}
-        columns = [self._core.dimension(name) for name in wanted]
-        new = [real_array(value, f"dimension {name!r}") for name, value in wanted.items()]
+        indices = [self._core.dimension(name) for name in wanted]
+        new = [real_array(v, f"dimension {name!r}", copy=False) for name, v in wanted.items()]
         try:
             shape = np.broadcast_shapes(self.shape, *(array.shape for array in new))
         except ValueError as error:
             shapes = ", ".join(f"{n!r} {a.shape}" for n, a in zip(wanted, new, strict=True))
             message = f"dimensions do not broadcast: {shapes}, designs {self.shape}"
             raise InputError(message) from error
-        values = np.array(np.broadcast_to(self._values, (*shape, self._values.shape[-1])))
-        for column, array in zip(columns, new, strict=True):
-            values[..., column] = array
+        replaced = dict(zip(indices, new, strict=True))
+        values = np.empty((len(self._values), *shape))
+        for index, old in enumerate(self._values):
+            values[index] = replaced.get(index, old)
         if not shape:
             self._core.check_dimensions(values.tolist())
         return self._make(self._description, values, self._core)
@@ -354,7 +354,7 @@ class Mechanism:
     def design(self, index: int | tuple[int, ...]) -> Mechanism:
         """Return one design of a batch as a single mechanism."""
         entry = checked_index(index, self.shape, "design")
-        values = np.array(self._values[entry])
+        values = np.array(np.moveaxis(self._values, 0, -1)[entry])
         self._core.check_dimensions(values.tolist())
         return self._make(self._description, values, self._core)
 

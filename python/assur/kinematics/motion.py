@@ -292,7 +292,7 @@ class Motion:
         """
         entry = checked_index(index, self.shape, "index")
         q = self.coordinate(entry)
-        values = self.mechanism._values[entry[: len(self.mechanism.shape)]]
+        values = np.moveaxis(self.mechanism._values, 0, -1)[entry[: len(self.mechanism.shape)]]
         one = [q] if isinstance(q, float) else list(q)
         return self.mechanism._core.explain(values.tolist(), one, self._request.signs)
 

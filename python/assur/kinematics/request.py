@@ -105,7 +105,7 @@ class SolveRequest:
 
     def flat(self) -> tuple[Float, Float, bool]:
         """Return flat dimensions and coordinates, and whether each design has its own."""
-        values = np.ascontiguousarray(self.mechanism._values).reshape(-1)
+        values = self.mechanism._values.reshape(-1)
         if self.per_design and 0 in self.mechanism.shape:
             # With no designs the number of coordinates per design is undefined.
             drivers = self.mechanism._driver_count

@@ -129,7 +129,8 @@ impl Machine {
     }
 
     /// Reduces the inertia and loads of designs to the drivers, each at the same number of
-    /// positions. `function_values`: of the loads' Python functions at every position; `report`:
+    /// positions. `dimensions`: the first of every design, then the second; the others design by
+    /// design. `function_values`: of the loads' Python functions at every position; `report`:
     /// the shape of the designs, for the exception of the first that failed.
     #[allow(clippy::too_many_arguments, reason = "flat arrays")]
     fn reduce<'py>(
@@ -170,9 +171,10 @@ impl Machine {
         };
         let all = detach::run(py, q.len() <= FEW_POSITIONS, |cancel| {
             let one = |design: usize| {
-                let [dimensions, q, speed, given] =
-                    [&dimensions, &q, &speed, &given].map(|all| part_of(all, design));
-                machine.reduce(mechanism, &dimensions, &q, &speed, &given, cancel)
+                let [q, speed, given] = [&q, &speed, &given].map(|all| part_of(all, design));
+                let values: Vec<f64> =
+                    (0..size).map(|index| dimensions[index * designs + design]).collect();
+                machine.reduce(mechanism, &values, &q, &speed, &given, cancel)
             };
             parallel_map(designs, 1, threads, cancel, &one)
         })?;

@@ -300,13 +300,14 @@ impl Mechanism {
         let diagnostics = detach::run(py, small, |cancel| {
             let (mut residual, mut condition) = (Vec::new(), Vec::new());
             for design in 0..designs {
-                let values = &dimensions[design * size..][..size];
+                let values: Vec<f64> =
+                    (0..size).map(|index| dimensions[index * designs + design]).collect();
                 let first = if per_design { design * positions * drivers } else { 0 };
                 for coordinates in q[first..][..positions * drivers].chunks(chunk) {
                     if cancel.load(Ordering::Relaxed) {
                         return Ok((residual, condition));
                     }
-                    for d in self.inner.diagnose(values, coordinates, &signs)? {
+                    for d in self.inner.diagnose(&values, coordinates, &signs)? {
                         residual.push(d.residual);
                         condition.push(d.condition);
                     }

@@ -56,16 +56,17 @@ impl Question {
         })
     }
 
-    /// The drawing's dimensions, changed from design to design.
+    /// The drawing's dimensions, changed from design to design: each of all designs.
     pub fn dimensions(&self, mechanism: &Mechanism) -> Vec<f64> {
         let drawing = mechanism.drawing();
-        let mut all = drawing.repeat(self.designs);
+        let mut all: Vec<f64> =
+            drawing.iter().flat_map(|&value| std::iter::repeat_n(value, self.designs)).collect();
         if all.is_empty() {
             return all;
         }
         for (at, (index, how, by)) in self.changes.into_iter().enumerate() {
             let design = at % self.designs;
-            let value = &mut all[design * drawing.len()..][usize::from(index) % drawing.len()];
+            let value = &mut all[usize::from(index) % drawing.len() * self.designs + design];
             *value = changed(*value, how, by);
         }
         all

@@ -52,7 +52,7 @@ struct Case<'a> {
 
 /// One position: its design's dimensions, its coordinates, its row in the batch.
 struct Position<'a> {
-    dimensions: &'a [f64],
+    dimensions: Vec<f64>,
     q: &'a [f64],
     row: usize,
 }
@@ -116,12 +116,18 @@ impl Case<'_> {
 
     fn positions<'a>(&'a self, motion: &Motion) -> impl Iterator<Item = Position<'a>> {
         let (count, drivers) = (motion.positions, self.mechanism.q0().len());
-        let dimensions = self.mechanism.drawing().len();
+        let designs = motion.designs;
         let per_design = self.question.per_design;
         (0..motion.designs * count).map(move |row| {
             let at = if per_design { row } else { row % count };
             Position {
-                dimensions: &self.dimensions[row / count * dimensions..][..dimensions],
+                dimensions: self
+                    .dimensions
+                    .iter()
+                    .skip(row / count)
+                    .step_by(designs)
+                    .copied()
+                    .collect(),
                 q: &self.coordinates[at * drivers..][..drivers],
                 row,
             }
@@ -132,7 +138,7 @@ impl Case<'_> {
     fn check_values(&self, motion: &Motion, position: &Position<'_>) {
         let status = motion.status[position.row];
         assert!(status <= LAST, "status {status}");
-        let is_bad = self.mechanism.dimensions().first_fault(position.dimensions).is_some();
+        let is_bad = self.mechanism.dimensions().first_fault(&position.dimensions).is_some();
         assert_eq!(status == Status::BadDimension as u8, is_bad, "{:?}", position.dimensions);
         if !is_bad && position.q.iter().any(|q| !q.is_finite()) {
             assert_eq!(status, Status::BadInput as u8, "at q = {:?}", position.q);
@@ -168,7 +174,7 @@ impl Case<'_> {
 
     fn check_alone(&self, motion: &Motion, position: &Position<'_>) {
         let alone = self.mechanism.solve(&Request {
-            dimensions: position.dimensions,
+            dimensions: &position.dimensions,
             coordinates: Coordinates::Shared(position.q),
             ..self.request()
         });
@@ -188,13 +194,13 @@ impl Case<'_> {
         }
         let row = usize::from(self.question.alone[0]) % motion.status.len();
         let Some(position) = self.positions(motion).nth(row) else { return };
-        let found = self.mechanism.assemblies(position.dimensions, position.q);
+        let found = self.mechanism.assemblies(&position.dimensions, position.q);
         let found = match found {
             Ok(found) => found,
             Err(error) => return check_sentence(&error.to_string()),
         };
         for (place, signs) in found.iter().enumerate() {
-            let diagnosis = self.mechanism.diagnose(position.dimensions, position.q, signs);
+            let diagnosis = self.mechanism.diagnose(&position.dimensions, position.q, signs);
             let diagnosis = &diagnosis.expect("an assembly of this mechanism")[0];
             let status = diagnosis.status as u8;
             assert!(status <= LAST_WITH_POSITION, "{signs:?}: {diagnosis}");
@@ -226,7 +232,7 @@ impl Case<'_> {
         let positions: Vec<Position<'_>> = self.positions(motion).collect();
         for design in positions.chunks(motion.positions) {
             let q: Vec<f64> = design.iter().flat_map(|position| position.q).copied().collect();
-            let found = self.mechanism.diagnose(design[0].dimensions, &q, &self.signs);
+            let found = self.mechanism.diagnose(&design[0].dimensions, &q, &self.signs);
             let found = found.expect("positions of this mechanism");
             for (position, diagnosis) in design.iter().zip(&found) {
                 self.check_position(&whole, position, diagnosis);
@@ -249,7 +255,7 @@ impl Case<'_> {
         let law = redundant.max(CLOSURE_PER_CONDITION * condition);
         let row = Row {
             mechanism: self.mechanism,
-            dimensions: position.dimensions,
+            dimensions: &position.dimensions,
             motion: whole,
             index: position.row,
         };

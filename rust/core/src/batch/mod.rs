@@ -1,5 +1,6 @@
 //! Solves many designs at many positions into arrays, in blocks and on all cores.
 mod coordinates;
+mod designs;
 pub(crate) mod dispatch;
 pub(crate) mod failure_log;
 pub(crate) mod known_signs;

@@ -28,7 +28,7 @@ impl<'a> Coordinates<'a> {
 /// A batch to solve: designs × positions.
 #[derive(Debug, Clone)]
 pub struct Request<'a> {
-    /// Dimensions, one design after another.
+    /// Dimensions: the first of every design, then the second of every design, and so on.
     pub dimensions: &'a [f64],
     /// Coordinates, rad or m.
     pub coordinates: Coordinates<'a>,
@@ -126,7 +126,6 @@ pub(crate) struct Shape {
     pub designs: usize,
     pub positions: usize,
     pub drivers: usize,
-    pub dimensions: usize,
 }
 
 impl Shape {
@@ -179,6 +178,6 @@ impl Shape {
                 "{count} coordinates do not divide into positions of {drivers} drivers"
             ));
         }
-        Ok(Self { designs, positions: count / per_position, drivers, dimensions })
+        Ok(Self { designs, positions: count / per_position, drivers })
     }
 }

@@ -2,6 +2,7 @@
 
 use std::mem::MaybeUninit;
 
+use super::designs::Designs;
 use super::dispatch::{self, Entry, ForLevel};
 use super::outputs::{Arrays, Column, Quantity};
 use super::request::{Coordinates, Motion, Request, Series, Shape, check_arrays, product};
@@ -138,36 +139,40 @@ impl ForLevel for Fill<'_, '_> {
     type Output = Result<(), SolveError>;
 
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
-        let &Batch { mechanism, request, derivatives, writer, columns, control, .. } = self.batch;
-        let worker = || {
-            Worker::<L::Register, G>::new(mechanism, request, derivatives, writer, columns, control)
+        type Own<'a, R, const G: usize> = (Worker<'a, R, G>, Designs);
+        let Batch { mechanism, request, derivatives, writer, columns, shape, control } = self.batch;
+        let worker = || -> Own<'_, L::Register, G> {
+            let one = Worker::new(mechanism, request, derivatives, writer, columns, control);
+            (one, Designs::default())
         };
-        let work =
-            |worker: &mut Worker<'_, L::Register, G>, chunk: &Chunk, mut rows: RowSlices<'_>| {
-                for design in chunk.designs.clone() {
-                    if control.is_cancelled() {
-                        break;
-                    }
-                    let (values, mut job) = self.batch.job(design, chunk, &mut rows);
-                    if worker.bind(values, &mut job) {
-                        L::run(worker, &mut job);
-                    }
+        let work = |(worker, designs): &mut Own<'_, L::Register, G>,
+                    chunk: &Chunk,
+                    mut rows: RowSlices<'_>| {
+            designs.read(mechanism, request.dimensions, shape.designs, chunk.designs.clone());
+            for (place, design) in chunk.designs.clone().enumerate() {
+                if control.is_cancelled() {
+                    break;
                 }
-                L::Register::fence();
-            };
-        control.run(self.chunks, worker, work, Worker::finish)
+                let mut job = self.batch.job(design, chunk, &mut rows);
+                if worker.bind(designs.row(place), &mut job) {
+                    L::run(worker, &mut job);
+                }
+            }
+            L::Register::fence();
+        };
+        control.run(self.chunks, worker, work, |(worker, _)| worker.finish())
     }
 }
 
 impl Batch<'_> {
-    /// The dimensions of one design of a chunk, and its positions there.
+    /// The positions of one design of a chunk.
     fn job<'j, 'r>(
         &'j self,
         design: usize,
         chunk: &Chunk,
         rows: &'j mut RowSlices<'r>,
-    ) -> (&'j [f64], Job<'j, 'r>) {
-        let Shape { positions, drivers, dimensions, .. } = self.shape;
+    ) -> Job<'j, 'r> {
+        let Shape { positions, drivers, .. } = self.shape;
         let q = self.request.coordinates.of(design, positions * drivers);
         let q = &q[chunk.positions.start * drivers..chunk.positions.end * drivers];
         let shared = match self.request.coordinates {
@@ -176,7 +181,6 @@ impl Batch<'_> {
         };
         let first = (design - chunk.designs.start) * chunk.positions.len();
         let index = design * positions + chunk.positions.start;
-        let values = &self.request.dimensions[design * dimensions..][..dimensions];
-        (values, Job { q, rows, first, index, design, shared })
+        Job { q, rows, first, index, design, shared }
     }
 }

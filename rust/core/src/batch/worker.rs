@@ -4,6 +4,7 @@
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::designs::DesignRow;
 use super::failure_log::FailureCounter;
 use super::known_signs::KnownSigns;
 use super::outputs::Column;
@@ -102,9 +103,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
 
     /// Loads a design. Returns false if its dimensions are invalid: the job is then done, with its
     /// rows set to NaN and the status `BadDimension`.
-    pub(crate) fn bind(&mut self, values: &[f64], job: &mut Job<'_, '_>) -> bool {
+    pub(crate) fn bind(&mut self, design: DesignRow<'_>, job: &mut Job<'_, '_>) -> bool {
         let mechanism = self.design.mechanism;
-        if let Some(fault) = mechanism.dimensions().first_fault(values) {
+        let fault = || mechanism.dimensions().first_fault(design.dimensions);
+        if let Some(fault) = (!design.is_valid).then(fault).flatten() {
             let count = job.q.len() / mechanism.q0().len();
             let status = Status::BadDimension as u8;
             job.rows.write_failed(self.columns, job.first, count, status);
@@ -115,7 +117,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             return false;
         }
         let reach = self.driven_reach(job);
-        self.design.bind_within(values, reach);
+        self.design.bind_within(design.dimensions, design.scale, reach);
         true
     }
 

@@ -23,8 +23,10 @@ const CHANGE_MARGIN: f64 = 2.5;
 /// point, so this is 1e-6 rad from one.
 const FLAT_SQUARE: f64 = 1.0e-12;
 
+/// Entries before that of the first knot.
+const BEFORE: usize = 2;
 /// Entries for every knot, those beside, and as many more as a register has.
-const SAMPLES: usize = KNOTS + 2 + LANES;
+const SAMPLES: usize = BEFORE + KNOTS + 1 + LANES;
 
 /// One bit per knot; a cell has that of the knot at its end.
 pub(super) type Bits = u32;
@@ -46,8 +48,8 @@ fn at_both_ends(bits: Bits) -> Bits {
 /// What a dyad shows at the knots of one look.
 #[derive(Debug, Clone)]
 pub(super) struct DyadSamples {
-    /// See [`Sample::square`]. The first entry belongs to the knot before the first, the last to
-    /// the one after the last; neither is known.
+    /// See [`Sample::square`]. The first [`BEFORE`] entries belong to knots before the first, those
+    /// after the last to knots behind it; none of these is known.
     square: [f64; SAMPLES],
     /// Knots at which all dyads before it close …
     known: Bits,
@@ -104,8 +106,9 @@ impl DyadSamples {
         for group in 0..knots.groups.min(G) {
             let first = group * R::LANES;
             let Sample { square, rate, side } = state.sample(group, cx, dyad, op);
-            for lane in 0..R::LANES {
-                self.square[1 + first + lane] = square.lane(lane);
+            let stored = &mut self.square[BEFORE + first..][..R::LANES];
+            for (lane, stored) in stored.iter_mut().enumerate() {
+                *stored = square.lane(lane);
             }
             closes |= R::ZERO.lt(square).bits() << first;
             flat |= R::splat(FLAT_SQUARE).lt(square.abs()).not().bits() << first;
@@ -149,6 +152,13 @@ impl DyadSamples {
         Some(judged)
     }
 
+    /// As many squares as a register holds, from an entry on.
+    #[inline(always)]
+    fn squares<R: Real>(&self, from: usize) -> R {
+        let squares = &self.square[from..][..R::LANES];
+        R::from_lanes(|lane| squares[lane])
+    }
+
     /// Cells in which a dyad might close that closes at neither end: the square would have to rise
     /// from both sides.
     #[inline(always)]
@@ -156,11 +166,8 @@ impl DyadSamples {
         let mut cells = 0;
         let falls = R::splat(MAX_FALLS);
         for first in (0..count).step_by(R::LANES) {
-            // The knot before the first is not known.
-            let before = R::from_lanes(|lane| self.square[(first + lane).max(1) - 1]);
-            let from = R::from_lanes(|lane| self.square[first + lane]);
-            let to = R::from_lanes(|lane| self.square[first + lane + 1]);
-            let after = R::from_lanes(|lane| self.square[first + lane + 2]);
+            let (before, from) = (self.squares::<R>(first), self.squares::<R>(first + 1));
+            let (to, after) = (self.squares::<R>(first + 2), self.squares::<R>(first + 3));
             let (rise, fall) = (from - before, to - after);
             let both = R::ZERO.lt(rise).and(R::ZERO.lt(fall));
             let near = (-from).lt(falls * rise).and((-to).lt(falls * fall));
@@ -178,7 +185,7 @@ impl DyadSamples {
         if !(has(self.known, knot - 1) && has(self.known, knot)) || before == after {
             return None;
         }
-        let [from, to] = [self.square[knot], self.square[knot + 1]];
+        let [from, to] = [knot - 1, knot].map(|at| self.square[BEFORE + at]);
         let near = if before { from } else { to };
         // The part of the cell up to the root of a straight line, or farther.
         let part = (1.5 * near / (from - to).abs() + 0.05).min(1.0);
@@ -200,7 +207,7 @@ impl DyadSamples {
         !has(self.closes, near)
             || far.is_some_and(|far| {
                 let known = far < Bits::BITS as usize && has(self.closes, far);
-                let [near, far] = [near, far].map(|at| self.square[at + 1]);
+                let [near, far] = [near, far].map(|at| self.square[BEFORE + at]);
                 known && (near - far).abs() * (CHANGE_MARGIN * change) < near
             })
     }

@@ -95,15 +95,15 @@ impl<'a> Design<'a> {
 
     /// Sets the dimensions; the branch is yet to be traced.
     pub(crate) fn bind(&mut self, values: &[f64]) {
-        self.bind_within(values, f64::INFINITY);
+        self.bind_within(values, self.mechanism.slots.scale(values), f64::INFINITY);
     }
 
-    /// The same for driven slides that are nowhere longer than `driven_reach`, m.
-    pub(crate) fn bind_within(&mut self, values: &[f64], driven_reach: f64) {
+    /// The same, given the scale, for driven slides that are nowhere longer than `driven_reach`, m.
+    pub(crate) fn bind_within(&mut self, values: &[f64], scale: f64, driven_reach: f64) {
         let mechanism = self.mechanism;
         self.interpolants.get_mut().clear();
         self.serves_all = false;
-        self.constants.bind(mechanism.plan(), &mechanism.slots, values, driven_reach);
+        self.constants.bind(mechanism.plan(), &mechanism.slots, values, scale, driven_reach);
         self.units.set(mechanism, self.constants.scale, self.derivatives);
         self.q0.clear();
         self.q0.extend(mechanism.q0().iter().zip(&self.units.coordinate).map(|(q, unit)| q * unit));

@@ -310,7 +310,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     fn set_between(&mut self, (from, width): (f64, f64)) {
         self.state.groups = CLOSER_KNOTS / R::LANES;
         for group in 0..self.state.groups.min(G) {
-            let at = R::from_lanes(|lane| from + width / CELLS * (group * R::LANES + lane) as f64);
+            let place = R::from_lanes(|lane| (group * R::LANES + lane) as f64);
+            let at = R::splat(from) + R::splat(width / CELLS) * place;
             self.state.pose.q[0][group] = at;
             self.state.pose.unit[0][group] = Vector::at_angle(at);
         }

@@ -129,6 +129,11 @@ impl Dimensions {
         self.entries.is_empty()
     }
 
+    /// The range of each, from least to greatest.
+    pub(crate) fn ranges(&self) -> &[[f64; 2]] {
+        &self.ranges
+    }
+
     /// Names and kinds in order.
     pub fn iter(&self) -> impl Iterator<Item = (&str, Dimension)> {
         self.entries.iter().map(|(name, kind)| (name.as_str(), *kind))

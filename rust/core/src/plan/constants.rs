@@ -3,6 +3,7 @@
 use super::binary_links::LoopVectors;
 use super::dyad_constants::DyadConstants;
 use super::leg::Leg;
+use super::lengths::{Lengths, inverse_power, power_of_two};
 use super::plan::Plan;
 use crate::description::Linkage;
 use crate::description::dimension::{Dimension, Dimensions};
@@ -58,7 +59,7 @@ pub(crate) struct DimensionMap {
     /// Coordinates of the origin.
     pub(crate) origin: [Slot; 2],
     /// Lengths that set the scale.
-    lengths: Lengths,
+    pub(crate) lengths: Lengths,
 }
 
 /// Index of a value; `None` if the linkage has no such dimension, whose value is then 0.
@@ -150,51 +151,25 @@ impl DimensionMap {
         let lengths = Lengths::of(linkage, closure, dimensions);
         Self { edges, slides, ground, origin, lengths }
     }
-}
 
-/// The dimensions that set the size of a design, each with the axis of the origin to subtract.
-#[derive(Debug, Clone, PartialEq, Default)]
-struct Lengths {
-    /// Dimensions of points at pairs.
-    paired: Vec<(usize, Option<usize>)>,
-    /// Dimensions of other points: they set the size only if all others are 0.
-    loose: Vec<(usize, Option<usize>)>,
-}
-
-impl Lengths {
-    fn of(linkage: &Linkage, closure: &Closure, dimensions: &Dimensions) -> Self {
-        let at_pair = |joint: usize| closure.is_pair(linkage, joint);
-        let ground = |slide: usize| linkage.slides[slide].on == linkage.ground;
-        let mut lengths = Self::default();
-        for (index, (_, dimension)) in dimensions.iter().enumerate() {
-            let (paired, axis) = match dimension {
-                Dimension::GroundX { joint } => (at_pair(joint), Some(0)),
-                Dimension::GroundY { joint } => (at_pair(joint), Some(1)),
-                Dimension::SlideOriginX { slide } if ground(slide) => (true, Some(0)),
-                Dimension::SlideOriginY { slide } if ground(slide) => (true, Some(1)),
-                Dimension::JointX { joint, .. } | Dimension::JointY { joint, .. } => {
-                    (at_pair(joint), None)
-                }
-                Dimension::Length { link } => (at_pair(linkage.links[link].joints[1]), None),
-                other if other.is_length() => (true, None),
-                _ => continue,
-            };
-            if paired { &mut lengths.paired } else { &mut lengths.loose }.push((index, axis));
-        }
-        lengths
+    /// The scale of a design.
+    pub(crate) fn scale(&self, values: &[f64]) -> f64 {
+        let origin = read_two(values, self.origin);
+        self.lengths.scale(values, [origin.x, origin.y])
     }
 
-    /// Power of two at or below the greatest length.
-    fn scale(&self, values: &[f64], origin: [f64; 2]) -> f64 {
-        let greatest = |lengths: &[(usize, Option<usize>)]| {
-            let taken_off = |from: Option<usize>| from.map_or(0.0, |axis| origin[axis]);
-            let lengths = lengths.iter().map(|&(index, from)| values[index] - taken_off(from));
-            // One instruction, unlike `max`, which treats NaN on both sides.
-            let greater = |a: f64, b: f64| if b > a { b } else { a };
-            lengths.fold(0.0, |greatest, length| greater(greatest, length.abs()))
-        };
-        let paired = greatest(&self.paired);
-        power_of_two(if paired > 0.0 { paired } else { greatest(&self.loose) })
+    /// The scales of designs whose dimensions are in columns: `column(i)` holds the dimension `i`
+    /// of all of them, `values(k)` all dimensions of design `k`.
+    pub(crate) fn scales<'a>(
+        &self,
+        column: impl Fn(usize) -> &'a [f64],
+        values: impl Fn(usize) -> &'a [f64],
+        scales: &mut [f64],
+    ) {
+        self.lengths.greatest(column, self.origin, scales);
+        for (design, scale) in scales.iter_mut().enumerate() {
+            *scale = if *scale > 0.0 { power_of_two(*scale) } else { self.scale(values(design)) };
+        }
     }
 }
 
@@ -213,17 +188,20 @@ impl DesignConstants {
     #[must_use]
     pub(crate) fn new(plan: &Plan, slots: &DimensionMap, values: &[f64]) -> Self {
         let mut constants = Self::default();
-        constants.bind(plan, slots, values, f64::INFINITY);
+        let scale = slots.scale(values);
+        constants.bind(plan, slots, values, scale, f64::INFINITY);
         constants
     }
 
-    /// Recomputes the constants for the dimensions of another design of the same plan.
+    /// Recomputes the constants for the dimensions of another design of the same plan, and its
+    /// scale.
     /// `driven_reach`: the greatest value of a driven slide, m.
     pub(crate) fn bind(
         &mut self,
         plan: &Plan,
         slots: &DimensionMap,
         values: &[f64],
+        scale: f64,
         driven_reach: f64,
     ) {
         if self.turn.len() != plan.rotation.len() {
@@ -231,7 +209,7 @@ impl DesignConstants {
         }
         let origin = read_two(values, slots.origin);
         self.origin = [origin.x, origin.y];
-        self.scale = slots.lengths.scale(values, self.origin);
+        self.scale = scale;
         let inv_scale = inverse_power(self.scale);
         let has_slides = !slots.slides.is_empty();
         if has_slides {
@@ -314,43 +292,4 @@ impl DesignConstants {
 /// Unit vector at an angle, exact at 0.
 pub(crate) fn unit(angle: f64) -> Vector {
     if angle == 0.0 { Vector::ONE } else { Vector::at_angle(angle) }
-}
-
-/// The power of two at or below a positive number; 1 for 0, NaN, infinity and negative numbers.
-/// Kept within 2^-508 to 2^508, about the range of lengths, so that third analogues by a slide can
-/// be divided by its square.
-fn power_of_two(x: f64) -> f64 {
-    if !(x.is_finite() && x > 0.0) {
-        return 1.0;
-    }
-    let exponent = (x.to_bits() >> 52).clamp(515, 1531);
-    f64::from_bits(exponent << 52)
-}
-
-/// 1 divided by such a power of two.
-fn inverse_power(power: f64) -> f64 {
-    f64::from_bits((2046 << 52) - power.to_bits())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{inverse_power, power_of_two};
-
-    #[test]
-    fn inverses_are_exact() {
-        for x in [1.0, 3.7, 1e-200, 1e200, 0.3] {
-            assert_eq!(inverse_power(power_of_two(x)), 1.0 / power_of_two(x));
-        }
-    }
-
-    #[test]
-    fn powers_of_two() {
-        for (x, p) in
-            [(1.0, 1.0), (1.99, 1.0), (0.3, 0.25), (4.8, 4.0), (0.0, 1.0), (f64::NAN, 1.0)]
-        {
-            assert!(power_of_two(x) == p, "{x}");
-        }
-        assert!(power_of_two(1e-150) <= 1e-150 && power_of_two(1e150) <= 1e150);
-        assert!(power_of_two(f64::MIN_POSITIVE) > 0.0);
-    }
 }

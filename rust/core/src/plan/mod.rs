@@ -18,6 +18,7 @@ pub(crate) mod dyad_constants;
 pub(crate) mod group;
 pub(crate) mod group_loops;
 pub(crate) mod leg;
+pub(crate) mod lengths;
 pub(crate) mod measure_dyads;
 pub(crate) mod mechanism;
 pub(crate) mod named;
