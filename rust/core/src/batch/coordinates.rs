@@ -61,7 +61,10 @@ impl<R: Real, const G: usize> Coordinates<R, G> {
         let drivers = self.is_angle.len();
         let positions = q.len() / drivers;
         self.registers = positions.div_ceil(R::LANES);
-        self.blocks.resize_with(positions.div_ceil(G * R::LANES), || Block::new(drivers));
+        let needed = positions.div_ceil(G * R::LANES);
+        if self.blocks.len() < needed {
+            self.blocks.resize_with(needed, || Block::new(drivers));
+        }
         for (block, some) in self.blocks.iter_mut().zip(q.chunks(G * R::LANES * drivers)) {
             let positions = some.len() / drivers;
             for (driver, &is_angle) in self.is_angle.iter().enumerate() {
@@ -70,7 +73,13 @@ impl<R: Real, const G: usize> Coordinates<R, G> {
                 let at = |lane: usize| some[lane.min(positions - 1) * drivers + driver] * scale;
                 let columns = block.q[driver].iter_mut().zip(&mut block.unit[driver]);
                 for (g, (q, unit)) in columns.enumerate() {
-                    *q = R::from_lanes(|lane| at(g * R::LANES + lane));
+                    let first = g * R::LANES;
+                    *q = if drivers == 1 && first + R::LANES <= positions {
+                        let some = &some[first..][..R::LANES];
+                        R::from_lanes(|lane| some[lane]) * R::splat(scale)
+                    } else {
+                        R::from_lanes(|lane| at(first + lane))
+                    };
                     if is_angle && g * R::LANES < positions {
                         *unit = Vector::at_angle(*q);
                     }

@@ -17,6 +17,11 @@ use crate::math::simd::Simd;
 /// Positions per chunk: some hundred microseconds of work, so that tracing the branch and taking
 /// the chunk from the queue cost little.
 const CHUNK: usize = 8192;
+/// The same of each of [`MANY_DESIGNS`]: the shared coordinates and their unit vectors are loaded
+/// once for all of them, if they fit in a cache.
+const CHUNK_OF_MANY_DESIGNS: usize = 65_536;
+/// Designs of which each may be a chunk, so that all threads have work.
+const MANY_DESIGNS: usize = 64;
 /// The same with several drivers, where each position needs a branch of its own.
 const CHUNK_SEVERAL_DRIVERS: usize = 8;
 /// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
@@ -108,7 +113,11 @@ impl<'a> Chunks<'a> {
         [designs, positions]: [usize; 2],
         drivers: usize,
     ) -> Self {
-        let size = if drivers == 1 { CHUNK } else { CHUNK_SEVERAL_DRIVERS };
+        let size = match drivers {
+            1 if designs >= MANY_DESIGNS => positions.clamp(CHUNK, CHUNK_OF_MANY_DESIGNS),
+            1 => CHUNK,
+            _ => CHUNK_SEVERAL_DRIVERS,
+        };
         let numbers: usize = arrays.columns.iter().map(|column| column.len()).sum();
         let past_caches = numbers >= BEYOND_CACHES;
         Self { rest: arrays, columns, designs, positions, next: (0, 0), size, past_caches }
