@@ -1,4 +1,6 @@
 //! Solves many designs at many positions into arrays, in blocks and on all cores.
+mod by_position;
+mod careful;
 mod coordinates;
 mod designs;
 pub(crate) mod dispatch;

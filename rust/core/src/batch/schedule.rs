@@ -226,18 +226,26 @@ impl Control<'_> {
             drop(panic_flag);
             finish(worker);
         };
-        thread::scope(|scope| {
-            // If the system refuses a thread, the others do its share.
-            let others: Vec<_> = (1..threads)
-                .filter_map(|_| thread::Builder::new().spawn_scoped(scope, work_until_done).ok())
-                .collect();
+        if threads == 1 {
             work_until_done();
-            for other in others {
-                if let Err(panic) = other.join() {
-                    resume_unwind(panic);
+        } else {
+            thread::scope(|scope| {
+                // The calling thread only waits: a thread that is started by one that works on may
+                // be kept waiting behind it for a millisecond, though another core is idle.
+                let others: Vec<_> = (0..threads)
+                    .map_while(|_| thread::Builder::new().spawn_scoped(scope, work_until_done).ok())
+                    .collect();
+                // If the system refuses a thread, the others do its share.
+                if others.len() < threads {
+                    work_until_done();
                 }
-            }
-        });
+                for other in others {
+                    if let Err(panic) = other.join() {
+                        resume_unwind(panic);
+                    }
+                }
+            });
+        }
         if self.is_cancelled() { Err(SolveError::Interrupted) } else { Ok(()) }
     }
 }

@@ -37,7 +37,7 @@ impl<R: Real, const G: usize> State<R, G> {
         self.prepare_group(cx, group);
         self.update_loops(cx, group);
         for round in 0..NEWTON_MAX_ROUNDS {
-            if work.done.iter().all(|done| done.all()) {
+            if all(&work.done) {
                 break;
             }
             self.jacobian(cx, group, &mut matrix);
@@ -51,7 +51,7 @@ impl<R: Real, const G: usize> State<R, G> {
             let skip = work.skip_second_step(first_size);
             self.update_loops(cx, group);
             let mut second_size = [R::ZERO; G];
-            if !skip.iter().all(|skip| skip.all()) {
+            if !all(&skip) {
                 self.group_residual(cx, group, 0, &mut matrix[2 * group.rows * group.rows..]);
                 second_size = self.step(group, &matrix, &skip);
                 self.update_loops(cx, group);
@@ -64,7 +64,7 @@ impl<R: Real, const G: usize> State<R, G> {
             self.work.first_step[g] = self.work.first_step[g].max(work.first_step[g]);
             self.work.later_steps[g] = self.work.later_steps[g].max(work.later_steps[g]);
         }
-        if R::LANES == 1 && !work.done.iter().all(|done| done.all()) {
+        if R::LANES == 1 && !all(&work.done) {
             self.fault = Some(Fault::NotConverged { step: index });
             self.status = Status::NotConverged;
         } else {
@@ -72,7 +72,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 self.update_condition(g, cx, group, index, work.inverse_size2[g]);
             }
             self.back_substitute(cx, group, 0);
-            if self.len > 1 && !skipped.iter().all(|done| done.all()) {
+            if self.len > 1 && !all(&skipped) {
                 self.jacobian(cx, group, &mut matrix);
                 self.work.determinants[group.index] = invert(&mut matrix, group.rows);
                 self.group_analogues(cx, group, &mut matrix);
@@ -308,4 +308,14 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
             self.done[g] = done.or(settled).or(is_short);
         }
     }
+}
+
+/// Whether all lanes of all registers are true; a closure over them would not be inlined.
+#[inline(always)]
+fn all<M: Mask>(masks: &[M]) -> bool {
+    let mut all = true;
+    for mask in masks {
+        all &= mask.all();
+    }
+    all
 }

@@ -1,0 +1,94 @@
+//! Positions solved one by one: those that need it, and sensitivities.
+
+use std::mem::MaybeUninit;
+
+use super::worker::{Job, Worker};
+use super::writer::RowRange;
+use crate::math::angle::unwrap_to;
+use crate::math::lanes::Real;
+use crate::query::failure::Failure;
+use crate::state::sensitivity::Sensitivity;
+use crate::state::status::{Rejection, Status};
+
+impl<R: Real, const G: usize> Worker<'_, R, G> {
+    /// Solves positions one by one.
+    pub(super) fn solve_by_position(&mut self, job: &mut Job<'_, '_>, first: usize, count: usize) {
+        for row in first..first + count {
+            if self.is_cancelled() {
+                return;
+            }
+            self.solve_scalar(job, row);
+        }
+    }
+
+    /// Solves one position by itself.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn solve_scalar(&mut self, job: &mut Job<'_, '_>, row: usize) {
+        let drivers = self.design.mechanism.q0().len();
+        let q = self.design.scaled(&job.q[row * drivers..][..drivers]);
+        let place = self.design.branch_to(&q);
+        let state = &mut self.space.one;
+        let analogues = self.design.solve(state, &q, place.as_ref());
+        let at = job.first + row;
+        let solved = matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular);
+        let no_analogues = !analogues && self.columns.iter().any(|column| column.order > 0);
+        if let (Some(log), true) = (&self.failures, !solved || no_analogues) {
+            let (status, fault) = (state.status, state.fault);
+            let q = &job.q[row * drivers..][..drivers];
+            let describe = || Failure::of(&self.design, Rejection::Failed { status, fault }, q);
+            log.record(job.index + row, 1, describe);
+        }
+        let (true, Some(place)) = (solved, &place) else {
+            job.rows.write_failed(self.columns, at, 1, state.status as u8);
+            return;
+        };
+        let near = self.design.reference_angles(place, self.space.lifted.len());
+        let lift = |class: usize| [unwrap_to(state.pose.class[class][0].unit_angle(), near[class])];
+        let lifted: Vec<[f64; 1]> = (0..near.len()).map(lift).collect();
+        let with = (&self.design.constants, &self.design.units);
+        self.writer.write(job.rows, RowRange::single(at), with, state, &lifted, None);
+        if !analogues {
+            job.rows.write_nan(self.columns, 1, at, 1);
+        }
+        job.rows.status[at] = MaybeUninit::new(state.status as u8);
+    }
+
+    /// Differentiates by a dimension, one position after another.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn sensitivities(
+        &mut self,
+        job: &mut Job<'_, '_>,
+        index: usize,
+        by: &mut Sensitivity,
+    ) {
+        let design = &self.design;
+        let drivers = design.mechanism.q0().len();
+        let cx = design.context(design.derivatives);
+        let rate = design.rate(index);
+        let nothing = vec![[0.0]; self.space.lifted.len()];
+        for (row, q) in job.q.chunks_exact(drivers).enumerate() {
+            if self.is_cancelled() {
+                return;
+            }
+            let q = design.scaled(q);
+            let place = design.branch_to(&q);
+            let state = &mut self.space.one;
+            design.solve(state, &q, place.as_ref());
+            let at = job.first + row;
+            let status = state.status;
+            job.rows.write_failed(self.columns, at, 1, status as u8);
+            let solved = matches!(status, Status::Ok | Status::NearSingular);
+            if solved && by.solve(state, &cx, &rate) {
+                // A dimension that moves the frame's origin moves all points with it.
+                for point in by.rates.pose.points.chunks_exact_mut(design.derivatives.len()) {
+                    point[0][0] += rate.origin.scale(1.0 / design.constants.scale);
+                }
+                let with = (&design.constants, &design.units);
+                self.writer.write(job.rows, RowRange::single(at), with, &by.rates, &nothing, None);
+                job.rows.status[at] = MaybeUninit::new(status as u8);
+            }
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Blocks of positions with the condition of each, and what needs still more care one by one.
+
+use std::mem::MaybeUninit;
+
+use super::worker::{Job, Worker, mask};
+use super::writer::RowRange;
+use crate::branch::branch::BranchLocation;
+use crate::math::angle::unwrap_to;
+use crate::math::lanes::{Mask, Real};
+use crate::state::kernel::Level;
+use crate::state::state::Context;
+use crate::state::status::Status;
+
+impl<R: Real, const G: usize> Worker<'_, R, G> {
+    /// Locates the coordinates among the knots of the branch.
+    #[inline(always)]
+    pub(super) fn locate(&mut self) {
+        let branch = &self.design.branch;
+        // Uniform branches have the same knots for all designs.
+        if branch.inverse_width.is_none() || !self.space.locations_even {
+            self.space.locations.clear();
+        }
+        self.space.locations_even = branch.inverse_width.is_some();
+        if branch.at.is_empty() {
+            // There is nothing to locate.
+            self.space
+                .locations
+                .resize_with(self.space.coordinates.registers, BranchLocation::default);
+        } else if self.space.locations.is_empty() {
+            for register in 0..self.space.coordinates.registers {
+                self.space.locations.push(branch.locate(self.space.coordinates.q(0, register)));
+            }
+        }
+    }
+
+    /// Lanes that must be solved again by themselves, whatever the vector solution gives.
+    #[inline(always)]
+    fn lanes_to_redo(&self, q: R, location: &BranchLocation<R>, with_islands: bool) -> R::Mask {
+        let branch = &self.design.branch;
+        let must_redo = |i: usize| {
+            let at = q.lane(i);
+            !branch.covers(at)
+                || with_islands && branch.in_untraced_island(location, i)
+                || branch.change_near(at, self.design.change_window.reach).is_some()
+        };
+        mask::<R>(must_redo)
+    }
+
+    /// Solves up to `G` registers of positions from `row` on.
+    #[inline(always)]
+    pub(super) fn solve_block<L: Level<Register = R>>(
+        &mut self,
+        job: &mut Job<'_, '_>,
+        row: usize,
+        count: usize,
+    ) {
+        let (first, groups) = (row / R::LANES, count.div_ceil(R::LANES));
+        let mut care = [R::Mask::NONE; G];
+        let branch = &self.design.branch;
+        let closed_forms = self.design.closed_forms;
+        let constant_signs = branch.has_constant_signs();
+        let (even, smooth) = (branch.inverse_width.is_some(), self.is_smooth);
+        for group in 0..groups {
+            let q = self.space.coordinates.q(0, first + group);
+            let location = &self.space.locations[first + group];
+            if !(even || smooth && closed_forms) {
+                care[group] = self.lanes_to_redo(q, location, !closed_forms);
+            }
+            let branch = &self.design.branch;
+            // Lanes to redo are set to NaN: their vector result is not used.
+            for driver in 0..self.space.many.pose.q.len() {
+                let q = self.space.coordinates.q(driver, first + group);
+                self.space.many.pose.q[driver][group] =
+                    R::select(care[group], R::splat(f64::NAN), q);
+                self.space.many.pose.unit[driver][group] =
+                    self.space.coordinates.unit(driver, first + group);
+            }
+            if !constant_signs {
+                for (sign, groups) in self.space.many.pose.signs.iter_mut().enumerate() {
+                    groups[group] = R::from_lanes(|i| branch.signs_at(location, i)[sign]);
+                }
+            }
+        }
+        let design = &self.design;
+        self.space.many.groups = groups;
+        if !closed_forms {
+            for group in 0..groups.min(G) {
+                let location = &self.space.locations[first + group];
+                design.guess(group, &mut self.space.many, &design.branch, location);
+            }
+        }
+        let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
+        L::solve(&mut self.space.many, &cx);
+        let state = &self.space.many;
+        // A separate loop: independent arctangents overlap.
+        for &class in &self.writer.classes {
+            for g in 0..groups.min(G) {
+                self.space.lifted[class][g] = state.pose.class[class][g].unit_angle();
+            }
+        }
+        for &class in &self.writer.classes {
+            for (location, lifted) in
+                self.space.locations[first..].iter().zip(&mut self.space.lifted[class])
+            {
+                *lifted = unwrap_to(*lifted, design.branch.reference_angle(location, class));
+            }
+        }
+        let at = job.first + row;
+        let with = (&design.constants, &design.units);
+        let (mut open, mut some_open, mut again) = ([R::Mask::NONE; G], false, false);
+        for group in 0..groups.min(G) {
+            care[group] = care[group].or(self.space.coordinates.q(0, first + group).finite().not());
+            if closed_forms {
+                open[group] = state.conditions.open[group].and(care[group].not());
+                some_open |= open[group].any();
+                if !(even || self.writer.classes.is_empty()) {
+                    // The angle on an island that no knot has seen has to be followed to it.
+                    let location = &self.space.locations[first + group];
+                    let unseen = |i: usize| {
+                        !open[group].lane(i) && design.branch.in_untraced_island(location, i)
+                    };
+                    care[group] = care[group].or(mask::<R>(unseen));
+                }
+            }
+            care[group] =
+                care[group].or(state.conditions.needs_scalar[group].and(open[group].not()));
+            care[group] = care[group].or(design.branch.same_det_sign(state, group).not());
+            again |= care[group].any();
+        }
+        let failed = some_open.then_some(&open);
+        let range = RowRange { first: at, count, once: false };
+        self.writer.write(job.rows, range, with, state, &self.space.lifted, failed);
+        let status = &mut job.rows.status[at..at + count];
+        for (group, status) in status.chunks_mut(R::LANES).enumerate() {
+            let near = state.near_singular(group);
+            if !near.or(open[group]).any() {
+                continue;
+            }
+            for (lane, status) in status.iter_mut().enumerate() {
+                if open[group].lane(lane) {
+                    *status = MaybeUninit::new(Status::Unreachable as u8);
+                } else if near.lane(lane) {
+                    *status = MaybeUninit::new(Status::NearSingular as u8);
+                }
+            }
+        }
+        if some_open && let Some(log) = &mut self.failures {
+            for place in 0..count {
+                let (group, lane) = (place / R::LANES, place % R::LANES);
+                if open[group].lane(lane) && !log.count_later(job.index + row + place, 1) {
+                    // It has to be described.
+                    care[group] = care[group].or(mask::<R>(|i| i == lane));
+                    again = true;
+                }
+            }
+        }
+        if again {
+            self.solve_lanes(job, row, count, &care);
+        }
+    }
+
+    /// Solves some lanes of a block one by one.
+    #[inline(always)]
+    fn solve_lanes(
+        &mut self,
+        job: &mut Job<'_, '_>,
+        row: usize,
+        count: usize,
+        lanes: &[R::Mask; G],
+    ) {
+        for place in 0..count {
+            if self.is_cancelled() {
+                return;
+            }
+            if lanes[place / R::LANES].lane(place % R::LANES) {
+                self.solve_scalar(job, row + place);
+            }
+        }
+    }
+}
