@@ -3,7 +3,7 @@
 use super::binary_links::LoopVectors;
 use super::dyad_constants::DyadConstants;
 use super::leg::Leg;
-use super::lengths::{Lengths, inverse_power, power_of_two};
+use super::lengths::{Lengths, Slot, inverse_power, power_of_two};
 use super::plan::Plan;
 use crate::description::Linkage;
 use crate::description::dimension::{Dimension, Dimensions};
@@ -61,9 +61,6 @@ pub(crate) struct DimensionMap {
     /// Lengths that set the scale.
     pub(crate) lengths: Lengths,
 }
-
-/// Index of a value; `None` if the linkage has no such dimension, whose value is then 0.
-pub(crate) type Slot = Option<usize>;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum EdgeSource {

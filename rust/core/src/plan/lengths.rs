@@ -1,9 +1,11 @@
 //! The lengths that set the scale of a design.
 
-use super::constants::Slot;
 use crate::description::Linkage;
 use crate::description::dimension::{Dimension, Dimensions};
 use crate::structure::closure::Closure;
+
+/// Index of a value; `None` if the linkage has no such dimension, whose value is then 0.
+pub(crate) type Slot = Option<usize>;
 
 /// The dimensions that set the size of a design, each with the axis of the origin to subtract.
 #[derive(Debug, Clone, PartialEq, Default)]
