@@ -55,6 +55,22 @@ def test_results_beyond_the_caches_have_the_same_bits(threads: int, positions: i
             assert np.array_equal(whole[::100], some), (name, order)
 
 
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("positions", [8_201, 65_541])
+def test_many_designs_at_many_positions_have_the_same_bits(positions: int, threads: int) -> None:
+    """From 64 designs on all positions of one belong together, up to 65 536."""
+    q = np.linspace(-9.0, 9.0, positions)
+    four = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+    many = four.with_dimensions({"coupler.length": np.linspace(2.4, 3.1, 64)})
+    motion = many.solve(q, 1, ["rocker"], on_error="nan", threads=threads)
+    for i in (0, 40, 63):
+        alone = many.design(i).solve(q, 1, ["rocker"], on_error="nan")
+        assert np.array_equal(motion.status[i], alone.status)
+        for order in ("value", "d1"):
+            whole, one = (getattr(m.link("rocker"), order) for m in (motion, alone))
+            assert np.array_equal(whole[i], one, equal_nan=True), order
+
+
 # -- coordinates and dimensions -------------------------------------------------------------------
 
 
