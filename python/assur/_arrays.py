@@ -32,7 +32,7 @@ NOT_NUMBERS = (
 
 
 def real_array(value: Any, what: str, copy: bool = True) -> Float:
-    """Copy to an array of float64 in C order; without `copy` only what is none.
+    """Copy to an array of float64 in C order; with `copy=False` an array that is one is returned.
 
     Raises InputError for masked entries, text, times, records and complex numbers.
     """

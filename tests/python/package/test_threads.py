@@ -138,7 +138,7 @@ def many_designs(rng: np.random.Generator, size: int) -> Work:
 
 
 def many_turns(rng: np.random.Generator, size: int) -> Work:
-    """The angle of a coupler: only an angle that is asked for takes the way from the drawing."""
+    """The angle of a coupler: only an angle that is asked for is followed from the drawing."""
     return bits.named("model five_bar"), rng.uniform(-314.0, 314.0, (size, 2)), ["l3"]
 
 

@@ -31,6 +31,11 @@ pub(crate) const ONE_DRIVER_MIXED: [&[Term]; 4] = [
     &[Term { factor: 3.0, left: 2, right: 1 }, Term { factor: 3.0, left: 1, right: 2 }],
 ];
 
+/// Terms of rotation, and of a slide along what turns, for one driver.
+pub(crate) fn one_driver(k: usize) -> (&'static [Term], &'static [Term]) {
+    (ONE_DRIVER[k], ONE_DRIVER_MIXED[k])
+}
+
 /// Index tables for derivatives of a given order in a given number of drivers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DerivativeTables {

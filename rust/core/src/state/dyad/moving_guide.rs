@@ -2,7 +2,7 @@
 
 use super::intersections::{Closing, Guided};
 use super::turning_leg::entry;
-use crate::math::derivatives::{ONE_DRIVER, ONE_DRIVER_MIXED, Term};
+use crate::math::derivatives::{Term, one_driver};
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 use crate::plan::tape::DyadOp;
@@ -96,9 +96,4 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         self.turn_orientations(cx, op);
     }
-}
-
-/// Terms of rotation, and of a slide along what turns, for one driver.
-fn one_driver(k: usize) -> (&'static [Term], &'static [Term]) {
-    (ONE_DRIVER[k], ONE_DRIVER_MIXED[k])
 }
