@@ -269,7 +269,10 @@ impl<'a> Writer<'a> {
             let scale = R::splat(unit.length[entry.k]);
             let slides = &state.pose.slides[entry.source];
             let past = rows.past_caches(entry, range);
-            for (g, out) in entry.groups::<R>(rows.of(entry, range)) {
+            let out = rows.of(entry, range);
+            let is_simple = entry.width == 1 && failed.is_none();
+            let whole = if is_simple { write_scaled(out, past, slides, None, scale) } else { 0 };
+            for (g, out) in entry.groups::<R>(out).skip(whole) {
                 entry.store(out, past, or_nan::<R, R, G>(failed, g, slides[g] * scale));
             }
         }
@@ -278,7 +281,11 @@ impl<'a> Writer<'a> {
             let overflows = unit.angle[entry.k].is_infinite();
             let rates = &state.pose.theta[entry.source];
             let past = rows.past_caches(entry, range);
-            for (g, out) in entry.groups::<R>(rows.of(entry, range)) {
+            let out = rows.of(entry, range);
+            let is_simple = entry.width == 1 && failed.is_none() && !overflows;
+            let term = Some(driven);
+            let whole = if is_simple { write_scaled(out, past, rates, term, scale) } else { 0 };
+            for (g, out) in entry.groups::<R>(out).skip(whole) {
                 let rate = rates[g] + driven;
                 let mut scaled = rate * scale;
                 if overflows {
@@ -414,6 +421,22 @@ fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], past: bool, p: Vector<R>) 
 #[inline(always)]
 fn write<R: Real>(out: &mut [MaybeUninit<f64>], past: bool, x: R) {
     if past { x.stream(out) } else { x.write(out) }
+}
+
+/// Writes whole registers of numbers to a column, each with a term and a factor. Returns how many.
+#[inline(always)]
+fn write_scaled<R: Real>(
+    out: &mut [MaybeUninit<f64>],
+    past: bool,
+    numbers: &[R],
+    term: Option<R>,
+    factor: R,
+) -> usize {
+    for (&number, out) in numbers.iter().zip(out.chunks_exact_mut(R::LANES)) {
+        let number = if let Some(term) = term { number + term } else { number };
+        write(out, past, number * factor);
+    }
+    out.len() / R::LANES
 }
 
 /// Stores one entry of each row, from as many lanes as there are rows.

@@ -21,14 +21,18 @@ pub(super) struct Chord<'a, R: Real, const G: usize> {
     end: &'a [[Vector<R>; G]],
     units: &'a [Vector<R>],
     backward: bool,
-    arm: Vector,
-    pivot: Vector,
-    ground: Vector,
+    pub arm: Vector,
+    pub pivot: Vector,
+    pub ground: Vector,
 }
 
 /// The vector from a crank's pivot to its pin; not used between points.
 #[derive(Clone, Copy)]
 pub(super) struct Arm<W>(Vector<W>);
+
+impl<W: Real> Arm<W> {
+    pub(super) const NONE: Self = Self(Vector::ZERO);
+}
 
 /// Which points the chord of a dyad connects.
 #[inline(always)]
@@ -73,10 +77,25 @@ impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
     #[inline(always)]
     pub(super) fn arm<W: Stride<R>, const ENDS: Ends>(&self, g: usize) -> Arm<W> {
         if ENDS != FROM_PIN && ENDS != TO_PIN {
-            return Arm(Vector::ZERO);
+            return Arm::NONE;
         }
+        Arm(self.unit(g).turn(self.arm))
+    }
+
+    /// The rotation of the crank.
+    #[inline(always)]
+    pub(super) fn unit<W: Stride<R>>(&self, g: usize) -> Vector<W> {
         let unit = W::load_vectors(self.units, g);
-        Arm(if self.backward { unit.conj() } else { unit }.turn(self.arm))
+        if self.backward { unit.conj() } else { unit }
+    }
+
+    /// Entry `k` of the jet of a vector that turns with the crank.
+    #[inline(always)]
+    pub(super) fn derivative<W: Real>(&self, k: usize, mut vector: Vector<W>) -> Vector<W> {
+        for _ in 0..k {
+            vector = if self.backward { -vector.left() } else { vector.left() };
+        }
+        vector
     }
 
     /// Entry `k` of the chord's jet, by one driver: operation by operation as if the pin had been
@@ -86,7 +105,7 @@ impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
         &self,
         k: usize,
         g: usize,
-        Arm(mut entry): Arm<W>,
+        Arm(entry): Arm<W>,
     ) -> Vector<W> {
         let ground = if k == 0 { Vector::splat(self.ground) } else { Vector::ZERO };
         match ENDS {
@@ -97,9 +116,7 @@ impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
             TO_GROUND => return ground - W::load_vectors(&self.start[k], g),
             _ => {}
         }
-        for _ in 0..k {
-            entry = if self.backward { -entry.left() } else { entry.left() };
-        }
+        let entry = self.derivative(k, entry);
         let pivot = if k == 0 { Vector::splat(self.pivot) } else { Vector::ZERO };
         let pin = pivot + entry;
         if ENDS == FROM_PIN { ground - pin } else { pin - ground }

@@ -151,6 +151,53 @@ impl<R: Real> TwoCircles<R> {
     }
 }
 
+/// `a u + s = k` for a unit vector u and a slide s, in the frame of the guide: the intersection of a
+/// circle and a line along x.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CircleAndLine<R: Real> {
+    /// The leg `a u`.
+    pub leg: Vector<R>,
+    pub slide: R,
+    /// 1 / x of the leg: minus 1 / determinant of the closure matrix.
+    pub inverse: R,
+    pub closing: Closing<R>,
+}
+
+impl<R: Real> CircleAndLine<R> {
+    /// `sign` > 0: the slide is ahead of the foot of the perpendicular from the circle's centre.
+    /// `reach`: |k| is nowhere greater.
+    #[inline(always)]
+    pub(crate) fn solve<const CAREFUL: bool>(a: &Leg<R>, k: Vector<R>, sign: R, reach: R) -> Self {
+        let across = k.y;
+        let inner = a.norm - across.abs();
+        let mut open = inner.lt(R::splat(-FLAT_CLOSURE) * (a.norm + reach));
+        let mut chord2 = inner * (a.norm + across.abs());
+        let far = across.finite().not();
+        if CAREFUL {
+            let within = R::splat(-FLAT_CLOSURE) * a.norm.max(k.size());
+            open = within.le(inner).not().or(R::ZERO.lt(a.norm2).not()).or(far);
+            chord2 = positive(inner) * (a.norm + across.abs());
+        }
+        let chord = chord2.sqrt();
+        let sine2 = chord2 * a.inv_norm2;
+        let mut closing = Closing { open, sine2, ..Closing::CLOSED };
+        if CAREFUL {
+            closing.per_arm2[0] = a.inv_norm2;
+            closing.flat = degenerate(chord2, sine2).and(open.not());
+            closing.margin = inner;
+            closing.gap = R::select(far, R::splat(f64::INFINITY), positive(-inner));
+        }
+        let opposite = -sign;
+        let along = opposite * chord;
+        Self {
+            leg: Vector::new(along, across),
+            slide: k.x - along,
+            inverse: opposite / chord,
+            closing,
+        }
+    }
+}
+
 /// `a u + s b = k` for a unit vector u and a slide s along the unit vector b, or `(a + s b) u = k`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Guided<R: Real> {
@@ -163,8 +210,7 @@ pub(crate) struct Guided<R: Real> {
 }
 
 impl<R: Real> Guided<R> {
-    /// A circle and a line in direction `b`. `sign` > 0: the slide is ahead of the foot of the
-    /// perpendicular from the circle's centre. `reach`: |k| is nowhere greater.
+    /// A circle and a line in direction `b`; see [`CircleAndLine::solve`].
     #[inline(always)]
     pub(crate) fn circle_and_line<const CAREFUL: bool>(
         a: &Leg<R>,
@@ -173,32 +219,10 @@ impl<R: Real> Guided<R> {
         sign: R,
         reach: R,
     ) -> Self {
-        let (along, across) = (b.dot(k), b.cross(k));
-        let inner = a.norm - across.abs();
-        let mut open = inner.lt(R::splat(-FLAT_CLOSURE) * (a.norm + reach));
-        let mut chord2 = inner * (a.norm + across.abs());
-        let far = across.finite().not();
-        if CAREFUL {
-            let within = R::splat(-FLAT_CLOSURE) * a.norm.max(k.size());
-            open = within.le(inner).not().or(R::ZERO.lt(a.norm2).not()).or(far);
-            chord2 = positive(inner) * (a.norm + across.abs());
-        }
-        let chord = chord2.sqrt();
-        let signed = sign * chord;
-        let sine2 = chord2 * a.inv_norm2;
-        let mut closing = Closing { open, sine2, ..Closing::CLOSED };
-        if CAREFUL {
-            closing.per_arm2[0] = a.inv_norm2;
-            closing.flat = degenerate(chord2, sine2).and(open.not());
-            closing.margin = inner;
-            closing.gap = R::select(far, R::splat(f64::INFINITY), positive(-inner));
-        }
-        Self {
-            turned: b * Vector::new(-signed, across),
-            slide: along + signed,
-            inverse_determinant: sign / chord,
-            closing,
-        }
+        let k = Vector::new(b.dot(k), b.cross(k));
+        let CircleAndLine { leg, slide, inverse, closing } =
+            CircleAndLine::solve::<CAREFUL>(a, k, sign, reach);
+        Self { turned: b * leg, slide, inverse_determinant: -inverse, closing }
     }
 
     /// A guide that turns, `a` from its pivot in direction `b`. `sign` > 0: the slide is above the

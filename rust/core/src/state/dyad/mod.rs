@@ -4,6 +4,7 @@ pub(crate) mod analogues;
 mod chord;
 pub(crate) mod conditions;
 pub(crate) mod discriminant;
+mod guide_chord;
 pub(crate) mod intersections;
 mod moving_guide;
 pub(crate) mod sample;

@@ -1,7 +1,8 @@
 //! The dyad of a leg and a slide along a guide that stands still (RRP).
 
-use super::chord::{Chord, Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
-use super::intersections::{Closing, Guided};
+use super::chord::{Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
+use super::guide_chord::GuideChord;
+use super::intersections::{CircleAndLine, Closing};
 use super::turning_leg::{entry, second_rest, third_rest};
 use crate::math::lanes::Real;
 use crate::math::stride::Stride;
@@ -9,22 +10,23 @@ use crate::math::vector::Vector;
 use crate::plan::tape::DyadOp;
 use crate::state::state::{Context, State};
 
-/// What all entries of the jets of leg and slide have in common.
+/// What all entries of the jets of leg and slide have in common, in the frame of the guide: x along
+/// it, y across it.
 #[derive(Clone, Copy)]
 struct LegOnGuide<R: Real> {
     leg: Vector<R>,
-    guide: Vector<R>,
-    /// 1 / determinant of the closure matrix
+    /// 1 / x of the leg
     inverse: R,
 }
 
 impl<R: Real> LegOnGuide<R> {
-    /// An entry of the angle and of the slide, from that of the chord. `rest`: what the leg has
-    /// without the angle's own entry; none in the first.
+    /// An entry of the angle and of the slide, from that of the chord: what is across the guide is
+    /// the leg's alone. `rest`: what the leg has without the angle's own entry; none in the first.
     #[inline(always)]
     fn rates(&self, chord: Vector<R>, rest: Option<Vector<R>>) -> [R; 2] {
         let rest = if let Some(leg) = rest { chord - leg } else { chord };
-        [-(self.guide.cross(rest) * self.inverse), -(self.leg.dot(rest) * self.inverse)]
+        let u = rest.y * self.inverse;
+        [u, rest.x + u * self.leg.y]
     }
 }
 
@@ -34,6 +36,8 @@ impl<R: Real, const G: usize> State<R, G> {
     pub(crate) fn standing_guide(&mut self, cx: &Context<'_>, op: &DyadOp) {
         if cx.derivatives.drivers > 1 {
             self.guide_by_drivers(cx, op);
+        } else if op.pin.is_some() {
+            self.guide_by_driver::<R, true, TO_PIN>(cx, op, self.len);
         } else {
             self.guide_by_driver::<R, true, POINTS>(cx, op, self.len);
         }
@@ -47,8 +51,7 @@ impl<R: Real, const G: usize> State<R, G> {
         op: &DyadOp,
     ) {
         match ends_of(op) {
-            FROM_PIN => self.guide_by_driver::<W, false, FROM_PIN>(cx, op, LEN),
-            TO_PIN => self.guide_by_driver::<W, false, TO_PIN>(cx, op, LEN),
+            FROM_PIN | TO_PIN => self.guide_by_driver::<W, false, TO_PIN>(cx, op, LEN),
             FROM_GROUND => self.guide_by_driver::<W, false, FROM_GROUND>(cx, op, LEN),
             TO_GROUND => self.guide_by_driver::<W, false, TO_GROUND>(cx, op, LEN),
             _ => self.guide_by_driver::<W, false, POINTS>(cx, op, LEN),
@@ -63,7 +66,7 @@ impl<R: Real, const G: usize> State<R, G> {
         len: usize,
     ) {
         let jet = |i: usize| i * len..i * len + len;
-        let chord = Chord::new(cx, op, &self.pose.points, &self.pose.unit, len);
+        let chord = GuideChord::new(cx, op, &self.pose.points, &self.pose.unit, len);
         let [class, slide] = op.unknowns;
         let leg = &mut self.pose.legs[jet(2 * op.dyad)];
         let (u, s) = (&mut self.pose.theta[jet(class)], &mut self.pose.slides[jet(slide)]);
@@ -71,16 +74,18 @@ impl<R: Real, const G: usize> State<R, G> {
         let (turns, keeps) = (CAREFUL || op.turns[0], CAREFUL || op.keeps[0]);
         let signs = &self.pose.signs[op.sign.unwrap_or(0)];
         let own = &cx.constants.dyads[op.dyad];
-        let a = cx.constants.legs[op.dyad][0].on_lanes::<W>();
-        let (guide, offset) = (Vector::splat(own.guides[1]), Vector::splat(own.offset));
+        let a = &cx.constants.legs[op.dyad][0];
+        let guide = own.guides[1];
+        let to_turn = guide * a.inverse;
+        let a = a.on_lanes::<W>();
         let (reach, inverse_arm2) = (W::splat(own.reach), W::splat(own.inverse_arm2));
         let bounds = &mut self.conditions.bounds[op.dyad];
         let mut closings = [Closing::CLOSED; G];
         for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
-            let arm = chord.arm::<W, ENDS>(g);
-            let k = chord.at::<W, ENDS>(0, g, arm) - offset;
+            let turning = chord.turning::<W, ENDS>(g);
+            let k = chord.at::<W, ENDS>(0, g, turning);
             let sign = W::load(signs, g);
-            let solved = Guided::circle_and_line::<CAREFUL>(&a, guide, k, sign, reach);
+            let solved = CircleAndLine::solve::<CAREFUL>(&a, k, sign, reach);
             if CAREFUL {
                 closings[g] = solved.closing.first();
             } else {
@@ -88,24 +93,23 @@ impl<R: Real, const G: usize> State<R, G> {
                 let upstream = W::load(&self.conditions.bound, g);
                 op.bound_with(upstream, solved.closing.sine2 * inverse_arm2).store(bounds, g);
             }
-            let a0 = solved.turned;
             if turns {
-                W::store_vectors(a.turn_to(a0), turn, g);
+                W::store_vectors(solved.leg.turn(to_turn), turn, g);
             }
             if keeps {
-                W::store_vectors(a0, &mut leg[0], g);
+                W::store_vectors(solved.leg.turn(guide), &mut leg[0], g);
             }
             solved.slide.store(&mut s[0], g);
-            let on_guide = LegOnGuide { leg: a0, guide, inverse: solved.inverse_determinant };
+            let on_guide = LegOnGuide { leg: solved.leg, inverse: solved.inverse };
             let mut rates = [W::ZERO; 2];
             for k in 1..len {
                 let [u1, u2] = rates;
                 let rest: Option<Vector<W>> = match k {
                     1 => None,
-                    2 => Some(second_rest(a0, u1)),
-                    _ => Some(third_rest(a0, u1, u2)),
+                    2 => Some(second_rest(solved.leg, u1)),
+                    _ => Some(third_rest(solved.leg, u1, u2)),
                 };
-                let own = on_guide.rates(chord.at::<W, ENDS>(k, g, arm), rest);
+                let own = on_guide.rates(chord.at::<W, ENDS>(k, g, turning), rest);
                 if k < 3 {
                     rates[k - 1] = own[0];
                 }
@@ -114,7 +118,8 @@ impl<R: Real, const G: usize> State<R, G> {
                     own[0].store(&mut u[k], g);
                 }
                 if keeps {
-                    W::store_vectors(entry(a0, own[0], rest), &mut leg[k], g);
+                    let next = entry(solved.leg, own[0], rest);
+                    W::store_vectors(next.turn(guide), &mut leg[k], g);
                 }
             }
         }
@@ -136,26 +141,29 @@ impl<R: Real, const G: usize> State<R, G> {
         let turn = &mut self.pose.class[class];
         let signs = &self.pose.signs[op.sign.unwrap_or(0)];
         let own = &cx.constants.dyads[op.dyad];
-        let a = cx.constants.legs[op.dyad][0].on_lanes();
-        let (guide, offset) = (Vector::splat(own.guides[1]), Vector::splat(own.offset));
-        let reach = R::splat(own.reach);
+        let a = &cx.constants.legs[op.dyad][0];
+        let guide = own.guides[1];
+        let (into, to_turn) = (guide.conj(), guide * a.inverse);
+        let a = a.on_lanes();
+        let (offset, reach) = (Vector::splat(own.offset), R::splat(own.reach));
         let mut closings = [Closing::CLOSED; G];
         for g in 0..self.groups.min(G) {
-            let k = (end[0][g] - start[0][g]) - offset;
-            let solved = Guided::circle_and_line::<true>(&a, guide, k, signs[g], reach);
+            let k = ((end[0][g] - start[0][g]) - offset).turn(into);
+            let solved = CircleAndLine::solve::<true>(&a, k, signs[g], reach);
             closings[g] = solved.closing;
-            let a0 = solved.turned;
-            (leg[0][g], s[0][g], turn[g]) = (a0, solved.slide, a.turn_to(a0));
-            let on_guide = LegOnGuide { leg: a0, guide, inverse: solved.inverse_determinant };
+            (leg[0][g], s[0][g]) = (solved.leg.turn(guide), solved.slide);
+            turn[g] = solved.leg.turn(to_turn);
+            let on_guide = LegOnGuide { leg: solved.leg, inverse: solved.inverse };
             for k in 1..len {
                 let mut sum = Vector::ZERO;
                 for term in &cx.derivatives.rotation[k] {
                     let factor = R::splat(term.factor);
                     sum += leg[term.left][g].scale(factor * u[term.right][g]);
                 }
-                let rest = Some(sum.left());
-                [u[k][g], s[k][g]] = on_guide.rates(end[k][g] - start[k][g], rest);
-                leg[k][g] = entry(a0, u[k][g], rest);
+                let chord = (end[k][g] - start[k][g]).turn(into);
+                let rest = sum.left().turn(into);
+                [u[k][g], s[k][g]] = on_guide.rates(chord, Some(rest));
+                leg[k][g] = entry(solved.leg, u[k][g], Some(rest)).turn(guide);
             }
         }
         self.record_closings(cx, op, &closings);
