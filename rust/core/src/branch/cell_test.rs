@@ -16,6 +16,8 @@ use crate::state::state::{Context, State};
 const MAX_CURVATURE: f64 = 0.5;
 /// How many times its fall between two knots a margin must be away from zero.
 const MAX_FALLS: f64 = 4.0;
+/// How many times as far as the tangents at both ends meet above these a peak must be below zero.
+const MAX_PEAKS: f64 = 3.0;
 /// How many times as much as expected the square of a later dyad may change before a dead point.
 const CHANGE_MARGIN: f64 = 2.5;
 
@@ -39,6 +41,13 @@ pub(super) fn has(bits: Bits, knot: usize) -> bool {
     bits >> knot & 1 != 0
 }
 
+/// As many entries as a register holds.
+#[inline(always)]
+fn entries<R: Real>(all: &[f64; SAMPLES], from: usize) -> R {
+    let entries = &all[from..][..R::LANES];
+    R::from_lanes(|lane| entries[lane])
+}
+
 /// Cells that end at knots of which this is true at both ends.
 #[inline(always)]
 fn at_both_ends(bits: Bits) -> Bits {
@@ -51,6 +60,8 @@ pub(super) struct DyadSamples {
     /// See [`Sample::square`]. The first [`BEFORE`] entries belong to knots before the first, those
     /// after the last to knots behind it; none of these is known.
     square: [f64; SAMPLES],
+    /// See [`Sample::rate`].
+    rate: [f64; SAMPLES],
     /// Knots at which all dyads before it close …
     known: Bits,
     /// … and at which it closes too.
@@ -83,7 +94,7 @@ pub(super) struct Knots {
 
 impl DyadSamples {
     pub(super) const NONE: Self =
-        Self { square: [f64::NEG_INFINITY; SAMPLES], known: 0, closes: 0 };
+        Self { square: [f64::NEG_INFINITY; SAMPLES], rate: [0.0; SAMPLES], known: 0, closes: 0 };
 
     /// Takes what a dyad shows at the knots, and judges the cells. `known`: knots at which all
     /// dyads before it close; `settled`: its sign is known to be constant. `None` if it is flat at a
@@ -106,9 +117,10 @@ impl DyadSamples {
         for group in 0..knots.groups.min(G) {
             let first = group * R::LANES;
             let Sample { square, rate, side } = state.sample(group, cx, dyad, op);
-            let stored = &mut self.square[BEFORE + first..][..R::LANES];
-            for (lane, stored) in stored.iter_mut().enumerate() {
-                *stored = square.lane(lane);
+            for (all, own) in [(&mut self.square, square), (&mut self.rate, rate)] {
+                for (lane, stored) in all[BEFORE + first..][..R::LANES].iter_mut().enumerate() {
+                    *stored = own.lane(lane);
+                }
             }
             closes |= R::ZERO.lt(square).bits() << first;
             flat |= R::splat(FLAT_SQUARE).lt(square.abs()).not().bits() << first;
@@ -143,7 +155,7 @@ impl DyadSamples {
             judged.uncertain = vanishing & inside;
         }
         if outside != 0 && (knots.islands || !settled) {
-            let may_close = self.may_close::<R>(count) & outside;
+            let may_close = self.may_close::<R>(count, knots.cell) & outside;
             if !settled {
                 judged.uncertain |= may_close;
             }
@@ -152,28 +164,43 @@ impl DyadSamples {
         Some(judged)
     }
 
-    /// As many squares as a register holds, from an entry on.
-    #[inline(always)]
-    fn squares<R: Real>(&self, from: usize) -> R {
-        let squares = &self.square[from..][..R::LANES];
-        R::from_lanes(|lane| squares[lane])
-    }
-
     /// Cells in which a dyad might close that closes at neither end: the square would have to rise
-    /// from both sides.
+    /// from both sides, and the tangents at both ends to meet near zero.
     #[inline(always)]
-    fn may_close<R: Real>(&self, count: usize) -> Bits {
+    fn may_close<R: Real>(&self, count: usize, cell: f64) -> Bits {
         let mut cells = 0;
-        let falls = R::splat(MAX_FALLS);
+        let (falls, cell) = (R::splat(MAX_FALLS), R::splat(cell));
         for first in (0..count).step_by(R::LANES) {
-            let (before, from) = (self.squares::<R>(first), self.squares::<R>(first + 1));
-            let (to, after) = (self.squares::<R>(first + 2), self.squares::<R>(first + 3));
-            let (rise, fall) = (from - before, to - after);
+            let square = |from: usize| entries::<R>(&self.square, first + from);
+            let (before, from, to, after) = (square(0), square(1), square(2), square(3));
+            let start = entries::<R>(&self.rate, first + 1) * cell;
+            let end = entries::<R>(&self.rate, first + 2) * cell;
+            // Beside a knot that is not known, its own rate says as much.
+            let rise = R::select(before.finite().or(start.finite().not()), from - before, start);
+            let fall = R::select(after.finite().or(end.finite().not()), to - after, -end);
             let both = R::ZERO.lt(rise).and(R::ZERO.lt(fall));
             let near = (-from).lt(falls * rise).and((-to).lt(falls * fall));
-            cells |= both.and(near).bits() << first;
+            let at = (to - from - end) / (start - end);
+            let peak = from + start * at;
+            let is_peak = R::ZERO.lt(start).and(end.lt(R::ZERO));
+            let between = R::ZERO.le(at).and(at.le(R::ONE));
+            let top = from.max(to);
+            let below = (peak + R::splat(MAX_PEAKS) * (peak - top)).lt(R::ZERO);
+            let stays_open = is_peak.and(between).and(below);
+            cells |= both.and(near).and(stays_open.not()).bits() << first;
         }
         cells
+    }
+
+    /// Whether it has a dead point in the cell before a knot.
+    pub(super) fn has_dead_point(&self, knot: usize) -> bool {
+        let [before, after] = [knot - 1, knot].map(|at| has(self.closes, at));
+        has(self.known, knot - 1) && has(self.known, knot) && before != after
+    }
+
+    /// Its square at a knot, and the rate of that.
+    pub(super) fn at(&self, knot: usize) -> [f64; 2] {
+        [self.square[BEFORE + knot], self.rate[BEFORE + knot]]
     }
 
     /// How much the square of a later dyad is expected to change from the last knot before the dead
@@ -181,10 +208,10 @@ impl DyadSamples {
     /// it varies as the square root of the distance from there. `None` if this dyad has no dead
     /// point in the cell.
     pub(super) fn change_to_dead_point(&self, knot: usize) -> Option<f64> {
-        let [before, after] = [knot - 1, knot].map(|at| has(self.closes, at));
-        if !(has(self.known, knot - 1) && has(self.known, knot)) || before == after {
+        if !self.has_dead_point(knot) {
             return None;
         }
+        let before = has(self.closes, knot - 1);
         let [from, to] = [knot - 1, knot].map(|at| self.square[BEFORE + at]);
         let near = if before { from } else { to };
         // The part of the cell up to the root of a straight line, or farther.

@@ -9,8 +9,9 @@ use std::f64::consts::TAU;
 
 use super::branch::Branch;
 use super::cell_test::{Bits, DyadSamples, Knots, has};
-use super::uniform::{CELL, KNOTS, UniformTracer};
-use crate::math::angle::{unwrap_to, whole_turns};
+use super::gap_ends::{GapEnds, MAX_STEP, Shown};
+use super::uniform::{CELL, KNOTS, UniformTracer, reference_of};
+use crate::math::angle::{Reference, unwrap_to, whole_turns};
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
@@ -65,6 +66,13 @@ pub(crate) struct LaneTracer {
     last: Vec<f64>,
     /// The same where the first position can be reached; empty before.
     first: Vec<f64>,
+    /// Angles at the last knot, not unwrapped, and at the next.
+    principal: Vec<f64>,
+    next: Vec<f64>,
+    was_reached: bool,
+    ends: GapEnds,
+    /// Whether an angle steps by about half a turn across a gap with one of these.
+    is_ambiguous: bool,
 }
 
 impl LaneTracer {
@@ -81,13 +89,69 @@ impl LaneTracer {
         settled: &[bool],
         branch: &mut Branch,
     ) -> bool {
+        if !self.looks[0].take(cx, knots, classes, settled, (knots.first(), CELL)) {
+            return false;
+        }
+        self.ends.clear();
+        if !classes.is_empty() {
+            self.ends.find::<L, G>(cx, knots, classes, &self.looks[0].shown(settled));
+        }
+        let traced = self.follow_knots::<L, G>(cx, knots, classes, start, settled, branch);
+        if !self.is_ambiguous {
+            return traced;
+        }
+        self.ends.clear();
+        self.looks[0].next = 1;
+        self.follow_knots::<L, G>(cx, knots, classes, start, settled, branch)
+    }
+
+    /// Whether a design with gaps is plain, to be seen without following its angles knot by knot: no
+    /// sign may change between two of the knots that have been solved, all gaps end where they should,
+    /// and no angle asked for turns fast or far. Sets the reference of each class.
+    #[inline(always)]
+    pub(crate) fn survey<L: Level, const G: usize>(
+        &mut self,
+        cx: &Context<'_>,
+        knots: &mut UniformTracer<L::Register, G>,
+        (classes, start): (&[usize], &[f64]),
+        settled: &[bool],
+        references: &mut [Reference],
+    ) -> bool {
+        if !self.looks[0].take(cx, knots, classes, settled, (knots.first(), CELL)) {
+            return false;
+        }
+        let look = &self.looks[0];
+        if look.uncertain | look.curved | look.may_hide_island != 0 {
+            return false;
+        }
+        self.ends.find::<L, G>(cx, knots, classes, &look.shown(settled));
+        if self.ends.cells() != look.dead_point {
+            return false;
+        }
+        for (index, &class) in classes.iter().enumerate() {
+            let range = self.ends.range(&look.shown(settled), index, start[class]);
+            let Some(reference) = range.and_then(reference_of) else { return false };
+            references[class] = reference;
+        }
+        true
+    }
+
+    /// Traces the turn by the knots of the first look, and closer ones.
+    #[inline(always)]
+    fn follow_knots<L: Level, const G: usize>(
+        &mut self,
+        cx: &Context<'_>,
+        knots: &mut UniformTracer<L::Register, G>,
+        classes: &[usize],
+        start: &[f64],
+        settled: &[bool],
+        branch: &mut Branch,
+    ) -> bool {
         branch.set_constant_signs(start.len(), cx.signs);
         self.last.clear();
         self.last.extend(classes.iter().map(|&class| start[class]));
         self.first.clear();
-        if !self.looks[0].take(cx, knots, classes, settled, (knots.first(), CELL)) {
-            return false;
-        }
+        self.is_ambiguous = false;
         if !classes.is_empty() {
             self.push(0, 0, classes, branch);
         }
@@ -105,7 +169,22 @@ impl LaneTracer {
                 self.looks[level].next += 1;
                 continue;
             }
-            let Some(closer) = self.needs_closer_look(level, knot, !classes.is_empty()) else {
+            let within = (self.looks[level].from, self.looks[level].cell);
+            let is_found = level == 0 && self.ends.has(knot);
+            if let (true, Some(beside)) = (is_found, self.ends.beside(within, knot)) {
+                for beside in beside {
+                    self.next.clear();
+                    let angles = (0..classes.len()).map(|class| self.ends.angle(class, &beside));
+                    self.next.extend(angles);
+                    self.push_next((beside.at, beside.reached), classes, branch);
+                }
+            }
+            let looked = if is_found {
+                Some(false)
+            } else {
+                self.needs_closer_look(level, knot, !classes.is_empty())
+            };
+            let Some(closer) = looked else {
                 return false;
             };
             if closer && level + 1 < LEVELS {
@@ -134,6 +213,8 @@ impl LaneTracer {
         }
         for ((&class, &a), &b) in classes.iter().zip(&self.first).zip(&self.last) {
             branch.gain[class] = TAU * whole_turns(b - a);
+            let step = (b - a) - branch.gain[class];
+            self.is_ambiguous |= !self.ends.is_empty() && step.abs() > MAX_STEP;
         }
         if !classes.is_empty() {
             branch.period = Some(TAU);
@@ -177,33 +258,46 @@ impl LaneTracer {
         Some(fast)
     }
 
-    /// Adds a knot to the branch.
+    /// Adds a knot of a look to the branch.
     #[inline(always)]
     fn push(&mut self, level: usize, knot: usize, classes: &[usize], branch: &mut Branch) {
         let look = &self.looks[level];
-        let reached = has(look.reached, knot);
+        self.next.clear();
+        self.next.extend(look.angles.iter().map(|angles| angles[knot]));
+        let at = look.from + look.cell * knot as f64;
+        self.push_next((at, has(look.reached, knot)), classes, branch);
+    }
+
+    /// Adds a knot with the next angles to the branch.
+    #[inline(always)]
+    fn push_next(&mut self, (at, reached): (f64, bool), classes: &[usize], branch: &mut Branch) {
         let width = branch.gain.len();
-        branch.at.push(look.from + look.cell * knot as f64);
+        let row = branch.angles.len();
+        let is_first = branch.at.is_empty();
+        branch.at.push(at);
         branch.reached.push(reached);
-        branch.angles.resize(branch.at.len() * width, 0.0);
-        let row = (branch.at.len() - 1) * width;
-        let first = reached && self.first.is_empty();
-        let was_reached = knot > 0 && has(look.reached, knot - 1);
+        branch.angles.resize(row + width, 0.0);
+        let has_first = !self.first.is_empty();
+        let was_reached = self.was_reached && !is_first;
         for (index, &class) in classes.iter().enumerate() {
-            let angles = &look.angles[index];
+            let next = self.next[index];
             let last = &mut self.last[index];
-            if knot > 0 && !was_reached && reached {
+            if !is_first && !was_reached && reached {
                 // Through the dead point between both knots.
-                follow(last, angles[knot - 1]);
+                let before = *last;
+                follow(last, self.principal[index]);
+                self.is_ambiguous |= !self.ends.is_empty() && (*last - before).abs() > MAX_STEP;
             }
-            if first {
-                self.first.push(if knot > 0 { *last } else { unwrap_to(angles[0], *last) });
+            if reached && !has_first {
+                self.first.push(if is_first { unwrap_to(next, *last) } else { *last });
             }
             if reached || was_reached {
-                follow(last, angles[knot]);
+                follow(last, next);
             }
             branch.angles[row + class] = *last;
         }
+        self.was_reached = reached;
+        std::mem::swap(&mut self.principal, &mut self.next);
     }
 }
 
@@ -279,6 +373,22 @@ impl Look {
             }
         }
         true
+    }
+
+    /// What its knots show of the ends of gaps.
+    fn shown<'l>(&'l self, settled: &'l [bool]) -> Shown<'l> {
+        let against = self.uncertain | self.curved | self.may_hide_island;
+        Shown {
+            from: self.from,
+            cell: self.cell,
+            count: self.count,
+            cells: self.dead_point & !against & !1,
+            reached: self.reached,
+            dyads: &self.dyads,
+            settled,
+            angles: &self.angles,
+            rates: &self.rates,
+        }
     }
 
     /// Goes to the next cell in which something may happen to a sign.

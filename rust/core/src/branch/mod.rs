@@ -8,6 +8,7 @@ pub(crate) mod change_point;
 mod crank_angles;
 pub(crate) mod crank_dyad;
 pub(crate) mod design;
+pub(crate) mod gap_ends;
 pub(crate) mod hermite;
 pub(crate) mod homotopy;
 pub(crate) mod knot;

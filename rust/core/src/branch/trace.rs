@@ -105,19 +105,28 @@ impl Design<'_> {
             signs: &self.signs,
             tape: &self.tracing_tape,
         };
-        let (branch, tracer) = (&mut self.branch, &mut self.lane_tracer);
-        uniform.solve_knots::<L>(&cx, self.q0[0], !classes.is_empty());
+        let (branch, tracer, settled) = (&mut self.branch, &mut self.lane_tracer, &self.settled);
+        let references = references.filter(|_| self.closed_forms && !classes.is_empty());
+        uniform.solve_knots::<L>(&cx, self.q0[0], !classes.is_empty() && references.is_none());
         let mut turns_fully = !(self.closed_forms && classes.is_empty());
-        if let (Some(references), true, false) = (references, self.closed_forms, classes.is_empty())
-        {
-            let plain = uniform.survey(&cx, classes, start, references);
+        if let Some(references) = references {
+            uniform.take_care_of_doubts::<L>(&cx);
+            let mut plain = uniform.survey(&cx, classes, start, references);
+            if plain.is_none() && uniform.state.has_open() {
+                let found =
+                    tracer.survey::<L, G>(&cx, uniform, (classes, start), settled, references);
+                if found {
+                    plain = Some(true);
+                } else {
+                    uniform.solve_knots::<L>(&cx, self.q0[0], true);
+                }
+            }
             if plain == Some(true) {
                 branch.set_constant_signs(start.len(), cx.signs);
                 return Traced::Surveyed;
             }
             turns_fully &= plain.is_some();
         }
-        let settled = &self.settled;
         let traced = turns_fully && uniform.trace(&cx, classes, start, branch)
             || self.closed_forms
                 && tracer.trace::<L, G>(&cx, uniform, classes, start, settled, branch);

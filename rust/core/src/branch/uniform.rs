@@ -17,7 +17,7 @@ use super::knot::{
 };
 use crate::math::angle::{Reference, turns_between, unwrap_to, whole_turns};
 use crate::math::derivatives::DerivativeTables;
-use crate::math::lanes::{Mask, Real};
+use crate::math::lanes::{LANES, Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Form, Unknown};
@@ -133,6 +133,25 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
         if self.is_careful {
             self.solve_carefully::<L>(cx);
+        }
+    }
+
+    /// Solves the knots again, carefully, if some of them may be flat.
+    #[inline(always)]
+    pub(crate) fn take_care_of_doubts<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
+        if !self.is_careful && self.state.is_doubtful() {
+            self.solve_carefully::<L>(cx);
+        }
+    }
+
+    /// Sets positions in place of the knots.
+    #[inline(always)]
+    pub(super) fn set_at(&mut self, at: &[f64; LANES]) {
+        self.state.groups = LANES / R::LANES;
+        for group in 0..self.state.groups.min(G) {
+            let at = R::from_lanes(|lane| at[group * R::LANES + lane]);
+            self.state.pose.q[0][group] = at;
+            self.state.pose.unit[0][group] = Vector::at_angle(at);
         }
     }
 
