@@ -417,3 +417,26 @@ fn stays_away([at_knot, slope]: [f64; 2], [y, at_y]: [f64; 2]) -> bool {
     // NaN stays nowhere.
     squares.iter().all(|square| square.is_finite()) && least > MARGIN * (most - least)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is known of a parabola in y.
+    fn known([end, slope, curvature]: [f64; 3], y: f64) -> bool {
+        let at = |y: f64| end + y * (slope + y * curvature);
+        stays_away([at(1.0), slope + 2.0 * curvature], [y, at(y)])
+    }
+
+    #[test]
+    fn squares_keep_their_sign_up_to_the_end() {
+        for y in [0.03, 0.1, 0.25] {
+            assert!(known([1.0, 0.5, 0.2], y) && known([-1.0, -0.5, 0.2], y));
+            // A root between, two roots between, and one just beyond the end.
+            assert!(!known([-0.5, 1.0, 0.0], y));
+            assert!(!known([1.0, -4.2, 4.0], y));
+            assert!(!known([0.01, 1.0, 0.0], y));
+        }
+        assert!(!stays_away([1.0, f64::NAN], [0.1, 1.0]));
+    }
+}
