@@ -155,7 +155,7 @@ impl DyadSamples {
             judged.uncertain = vanishing & inside;
         }
         if outside != 0 && (knots.islands || !settled) {
-            let may_close = self.may_close::<R>(count, knots.cell) & outside;
+            let may_close = self.may_close::<R>(count, knots.cell, settled) & outside;
             if !settled {
                 judged.uncertain |= may_close;
             }
@@ -165,9 +165,11 @@ impl DyadSamples {
     }
 
     /// Cells in which a dyad might close that closes at neither end: the square would have to rise
-    /// from both sides, and the tangents at both ends to meet near zero.
+    /// from both sides. Of a dyad on a crank (`settled`) the square varies slowly: the tangents at both
+    /// ends would have to meet near zero, too. Any other may have a narrow peak beside a dead point of
+    /// a dyad before it.
     #[inline(always)]
-    fn may_close<R: Real>(&self, count: usize, cell: f64) -> Bits {
+    fn may_close<R: Real>(&self, count: usize, cell: f64, settled: bool) -> Bits {
         let mut cells = 0;
         let (falls, cell) = (R::splat(MAX_FALLS), R::splat(cell));
         for first in (0..count).step_by(R::LANES) {
@@ -175,19 +177,24 @@ impl DyadSamples {
             let (before, from, to, after) = (square(0), square(1), square(2), square(3));
             let start = entries::<R>(&self.rate, first + 1) * cell;
             let end = entries::<R>(&self.rate, first + 2) * cell;
-            // Beside a knot that is not known, its own rate says as much.
-            let rise = R::select(before.finite().or(start.finite().not()), from - before, start);
-            let fall = R::select(after.finite().or(end.finite().not()), to - after, -end);
+            let (mut rise, mut fall) = (from - before, to - after);
+            if settled {
+                // Beside a knot that is not known, its own rate says as much.
+                rise = R::select(before.finite().or(start.finite().not()), rise, start);
+                fall = R::select(after.finite().or(end.finite().not()), fall, -end);
+            }
             let both = R::ZERO.lt(rise).and(R::ZERO.lt(fall));
-            let near = (-from).lt(falls * rise).and((-to).lt(falls * fall));
+            let mut may_close = both.and((-from).lt(falls * rise)).and((-to).lt(falls * fall));
             let at = (to - from - end) / (start - end);
             let peak = from + start * at;
             let is_peak = R::ZERO.lt(start).and(end.lt(R::ZERO));
             let between = R::ZERO.le(at).and(at.le(R::ONE));
             let top = from.max(to);
             let below = (peak + R::splat(MAX_PEAKS) * (peak - top)).lt(R::ZERO);
-            let stays_open = is_peak.and(between).and(below);
-            cells |= both.and(near).and(stays_open.not()).bits() << first;
+            if settled {
+                may_close = may_close.and(is_peak.and(between).and(below).not());
+            }
+            cells |= may_close.bits() << first;
         }
         cells
     }

@@ -22,8 +22,9 @@ const STRETCH: f64 = 1.0 / 256.0;
 /// How far (rad) an angle may step across a gap whose ends are not looked at closely: not nearly half
 /// a turn.
 pub(super) const MAX_STEP: f64 = PI - 0.5;
-/// How often roots are predicted.
-const MAX_TRIES: usize = 3;
+/// By which part of itself the slope at an end may differ from that of the polynomial between two
+/// knots: farther, it does not show all that happens between these.
+const MAX_APART: f64 = 0.25;
 /// By which part of its change the square of a later dyad must stay away from zero.
 const MARGIN: f64 = 0.25;
 /// Steps of Newton's method on the polynomial between two knots.
@@ -38,10 +39,9 @@ struct End {
     dyad: usize,
     /// Whether the dyad closes before it, not after it.
     is_start: bool,
-    /// Whether all other dyads close on that side.
-    reached: bool,
-    /// Where it is, as a part of the cell.
+    /// Where it is, as a part of the cell, and the derivative of the square by that part.
     root: f64,
+    slope: f64,
     is_confirmed: bool,
 }
 
@@ -69,20 +69,9 @@ pub(super) struct Shown<'l> {
     /// Knots that can be reached.
     pub reached: Bits,
     pub dyads: &'l [DyadSamples],
-    /// Dyads whose signs are known to be constant.
-    pub settled: &'l [bool],
     /// Angles and rates of the classes asked for.
     pub angles: &'l [[f64; KNOTS]],
     pub rates: &'l [[f64; KNOTS]],
-}
-
-/// What the positions beside a predicted end show.
-enum Verdict {
-    Confirmed,
-    /// The end is elsewhere.
-    Moved(f64),
-    /// It needs a closer look.
-    Unclear,
 }
 
 /// A position beside an end.
@@ -109,18 +98,10 @@ impl GapEnds {
         self.ends.iter().position(|end| end.is_confirmed && end.knot == knot)
     }
 
-    /// Whether the end in the cell before a knot was found.
-    pub(super) fn has(&self, knot: usize) -> bool {
-        self.index(knot).is_some()
-    }
-
-    /// The positions beside it, if positions can be reached up to there.
+    /// The positions beside the end in the cell before a knot, if it was found.
     pub(super) fn beside(&self, shown: (f64, f64), knot: usize) -> Option<[Beside; 2]> {
         let index = self.index(knot)?;
         let end = &self.ends[index];
-        if !end.reached {
-            return None;
-        }
         let [before, after] = end.beside(shown);
         Some([
             Beside { at: before, reached: end.is_start, lane: 2 * index },
@@ -149,24 +130,12 @@ impl GapEnds {
             left &= left - 1;
             self.ends.extend(End::predict(shown, knot));
         }
-        for _ in 0..MAX_TRIES {
-            if self.ends.is_empty() {
-                return;
-            }
-            self.solve::<L, G>(cx, knots, shown);
-            let mut has_moved = false;
-            for (index, end) in self.ends.iter_mut().enumerate() {
-                match end.judge(&self.squares, self.open, shown, 2 * index) {
-                    Verdict::Confirmed => end.is_confirmed = true,
-                    Verdict::Moved(root) => {
-                        (end.root, end.is_confirmed, has_moved) = (root, false, true);
-                    }
-                    Verdict::Unclear => end.is_confirmed = false,
-                }
-            }
-            if !has_moved {
-                break;
-            }
+        if self.ends.is_empty() {
+            return;
+        }
+        self.solve::<L, G>(cx, knots, shown);
+        for (index, end) in self.ends.iter_mut().enumerate() {
+            end.is_confirmed = end.is_as_predicted(&self.squares, self.open, shown, 2 * index);
         }
         self.angles.resize(classes.len(), [0.0; LANES]);
         for (angles, &class) in self.angles.iter_mut().zip(classes) {
@@ -178,8 +147,7 @@ impl GapEnds {
             }
         }
         for index in 0..self.ends.len() {
-            let end = &self.ends[index];
-            self.ends[index].is_confirmed &= !end.reached || self.turns_little(shown, index);
+            self.ends[index].is_confirmed &= self.turns_little(shown, index);
         }
     }
 
@@ -194,7 +162,6 @@ impl GapEnds {
     /// nearest to `start`.
     pub(super) fn range(&self, shown: &Shown<'_>, class: usize, start: f64) -> Option<[f64; 2]> {
         let (angles, rates) = (&shown.angles[class], &shown.rates[class]);
-        let ends = self.ends.iter().filter(|end| end.reached);
         // Angles where the mechanism no longer closes, in order; the first gap may begin before the
         // first knot.
         let begins_open = !has(shown.reached, 0);
@@ -202,7 +169,7 @@ impl GapEnds {
         let mut near = if begins_open { None } else { Some(unwrap_to(angles[0], start)) };
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         let mut first_outside = None;
-        for end in ends {
+        for end in &self.ends {
             let index = self.index(end.knot)?;
             let lanes = end.lanes(2 * index).map(|lane| self.angles[class][lane]);
             let near = *near.get_or_insert_with(|| unwrap_to(lanes[1], start));
@@ -289,18 +256,17 @@ impl End {
     fn predict(shown: &Shown<'_>, knot: usize) -> Option<Self> {
         let dyad = shown.dyads.iter().position(|dyad| dyad.has_dead_point(knot))?;
         let is_start = has(shown.dyads[dyad].closes, knot - 1);
-        let reached = has(shown.reached, if is_start { knot - 1 } else { knot });
         let [[from, fall], [to, rise]] = [knot - 1, knot].map(|at| shown.dyads[dyad].at(at));
         let [fall, rise] = [fall * shown.cell, rise * shown.cell];
         // Hermite's polynomial: from + t (fall + t (b + t c)).
         let c = fall + rise - 2.0 * (to - from);
         let b = (to - from) - fall - c;
+        let slope = |root: f64| fall + root * (2.0 * b + root * (3.0 * c));
         let mut root = from / (from - to);
         for _ in 0..STEPS {
-            let value = from + root * (fall + root * (b + root * c));
-            root -= value / (fall + root * (2.0 * b + root * (3.0 * c)));
+            root -= (from + root * (fall + root * (b + root * c))) / slope(root);
         }
-        let end = Self { knot, dyad, is_start, reached, root, is_confirmed: false };
+        let end = Self { knot, dyad, is_start, root, slope: slope(root), is_confirmed: false };
         (0.0 < root && root < 1.0).then_some(end)
     }
 
@@ -354,56 +320,42 @@ impl End {
             && (beyond - to_end).abs() <= 0.5 * KNOT_MAX_TURN
     }
 
-    /// Judges it by the positions beside it, the first of them at a lane.
-    fn judge(
+    /// Whether the positions beside it, the first of them at a lane, show it where it was predicted, and
+    /// that no later dyad opens before it.
+    fn is_as_predicted(
         &self,
         squares: &[[[f64; LANES]; 2]],
         open: u32,
         shown: &Shown<'_>,
         first: usize,
-    ) -> Verdict {
+    ) -> bool {
         let [inside, outside] = self.lanes(first);
-        let [at_inside, at_outside] = self.lanes(0).map(|place| self.parts()[place]);
         let known = self.known();
         for (index, [squares, rates]) in squares.iter().enumerate().skip(self.dyad) {
             let [square, rate] = [squares[inside], rates[inside]];
             if index == self.dyad {
-                let [beyond, rate_beyond] = [squares[outside], rates[outside]];
-                if square > 0.0 && beyond < 0.0 {
-                    continue;
+                let apart = (rate * shown.cell - self.slope).abs();
+                let is_there = square > 0.0 && squares[outside] < 0.0;
+                if !(is_there && apart <= MAX_APART * self.slope.abs()) {
+                    return false;
                 }
-                let root = if square > 0.0 {
-                    at_outside - beyond / (rate_beyond * shown.cell)
-                } else {
-                    at_inside - square / (rate * shown.cell)
-                };
-                let is_within = 0.0 < root && root < 1.0;
-                return if is_within { Verdict::Moved(root) } else { Verdict::Unclear };
-            }
-            let own = &shown.dyads[index];
-            let closes = has(own.closes, known);
-            if closes && (!self.reached || shown.settled[index] && square > 0.0) {
                 continue;
             }
-            let [before, rate] = own.at(known);
-            let slope = self.per_part(shown, rate);
-            if !stays_away([before, slope], [self.part_of_root(), square]) {
-                return Verdict::Unclear;
-            }
-            if !closes {
-                // Nor do positions up to the end.
-                return Verdict::Confirmed;
+            let [at_knot, rate_at_knot] = shown.dyads[index].at(known);
+            let y = self.part_of_root();
+            let slopes = [rate_at_knot, y * rate].map(|rate| self.per_part(shown, rate));
+            if !stays_away([at_knot, slopes[0]], y, [square, slopes[1]]) {
+                return false;
             }
         }
-        let closes = open >> inside & 1 == 0;
-        if closes { Verdict::Confirmed } else { Verdict::Unclear }
+        open >> inside & 1 == 0
     }
 }
 
 /// Whether the square of a later dyad keeps its sign between a knot and the end: it varies as the
-/// root y of the distance from there, which is 1 at the knot. Given the square at the knot with its
-/// derivative by y, and the square at another `y`.
-fn stays_away([at_knot, slope]: [f64; 2], [y, at_y]: [f64; 2]) -> bool {
+/// root y of the distance from there, which is 1 at the knot. Given the square with its derivative by
+/// y at the knot and at another `y`.
+fn stays_away([at_knot, slope]: [f64; 2], y: f64, [at_y, slope_at_y]: [f64; 2]) -> bool {
     let back = y - 1.0;
     let curvature = (at_y - at_knot - slope * back) / (back * back);
     let at_end = at_knot - slope + curvature;
@@ -414,8 +366,10 @@ fn stays_away([at_knot, slope]: [f64; 2], [y, at_y]: [f64; 2]) -> bool {
     let sign = at_knot.signum();
     let least = squares.iter().fold(f64::INFINITY, |least, s| least.min(sign * s));
     let most = squares.iter().fold(0.0, |most: f64, s| most.max(sign * s));
+    // The polynomial of third degree with both derivatives leaves the parabola by 4/27 of this.
+    let apart = (slope_at_y - (slope + 2.0 * curvature * back)).abs();
     // NaN stays nowhere.
-    squares.iter().all(|square| square.is_finite()) && least > MARGIN * (most - least)
+    squares.iter().all(|square| square.is_finite()) && least > MARGIN * (most - least) + apart
 }
 
 #[cfg(test)]
@@ -424,8 +378,8 @@ mod tests {
 
     /// What is known of a parabola in y.
     fn known([end, slope, curvature]: [f64; 3], y: f64) -> bool {
-        let at = |y: f64| end + y * (slope + y * curvature);
-        stays_away([at(1.0), slope + 2.0 * curvature], [y, at(y)])
+        let at = |y: f64| [end + y * (slope + y * curvature), slope + 2.0 * y * curvature];
+        stays_away(at(1.0), y, at(y))
     }
 
     #[test]
@@ -437,6 +391,8 @@ mod tests {
             assert!(!known([1.0, -4.2, 4.0], y));
             assert!(!known([0.01, 1.0, 0.0], y));
         }
-        assert!(!stays_away([1.0, f64::NAN], [0.1, 1.0]));
+        // A peak between that a parabola does not show.
+        assert!(!stays_away([-1.0, 0.0], 0.1, [-1.0, 9.0]));
+        assert!(!stays_away([1.0, f64::NAN], 0.1, [1.0, 0.0]));
     }
 }

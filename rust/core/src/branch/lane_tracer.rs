@@ -94,7 +94,7 @@ impl LaneTracer {
         }
         self.ends.clear();
         if !classes.is_empty() {
-            self.ends.find::<L, G>(cx, knots, classes, &self.looks[0].shown(settled));
+            self.ends.find::<L, G>(cx, knots, classes, &self.looks[0].shown());
         }
         let traced = self.follow_knots::<L, G>(cx, knots, classes, start, settled, branch);
         if !self.is_ambiguous {
@@ -124,12 +124,12 @@ impl LaneTracer {
         if look.uncertain | look.curved | look.may_hide_island != 0 {
             return false;
         }
-        self.ends.find::<L, G>(cx, knots, classes, &look.shown(settled));
+        self.ends.find::<L, G>(cx, knots, classes, &look.shown());
         if self.ends.cells() != look.dead_point {
             return false;
         }
         for (index, &class) in classes.iter().enumerate() {
-            let range = self.ends.range(&look.shown(settled), index, start[class]);
+            let range = self.ends.range(&look.shown(), index, start[class]);
             let Some(reference) = range.and_then(reference_of) else { return false };
             references[class] = reference;
         }
@@ -170,8 +170,8 @@ impl LaneTracer {
                 continue;
             }
             let within = (self.looks[level].from, self.looks[level].cell);
-            let is_found = level == 0 && self.ends.has(knot);
-            if let (true, Some(beside)) = (is_found, self.ends.beside(within, knot)) {
+            let ends = if level == 0 { self.ends.beside(within, knot) } else { None };
+            if let Some(beside) = ends {
                 for beside in beside {
                     self.next.clear();
                     let angles = (0..classes.len()).map(|class| self.ends.angle(class, &beside));
@@ -179,7 +179,7 @@ impl LaneTracer {
                     self.push_next((beside.at, beside.reached), classes, branch);
                 }
             }
-            let looked = if is_found {
+            let looked = if ends.is_some() {
                 Some(false)
             } else {
                 self.needs_closer_look(level, knot, !classes.is_empty())
@@ -376,16 +376,17 @@ impl Look {
     }
 
     /// What its knots show of the ends of gaps.
-    fn shown<'l>(&'l self, settled: &'l [bool]) -> Shown<'l> {
+    fn shown(&self) -> Shown<'_> {
         let against = self.uncertain | self.curved | self.may_hide_island;
+        // Where another dyad is open on both sides, it may close between them.
+        let at_one_end = self.reached ^ (self.reached << 1);
         Shown {
             from: self.from,
             cell: self.cell,
             count: self.count,
-            cells: self.dead_point & !against & !1,
+            cells: self.dead_point & !against & at_one_end & !1,
             reached: self.reached,
             dyads: &self.dyads,
-            settled,
             angles: &self.angles,
             rates: &self.rates,
         }
