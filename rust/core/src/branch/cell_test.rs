@@ -173,8 +173,10 @@ impl DyadSamples {
         let mut cells = 0;
         let (falls, cell) = (R::splat(MAX_FALLS), R::splat(cell));
         for first in (0..count).step_by(R::LANES) {
-            let square = |from: usize| entries::<R>(&self.square, first + from);
-            let (before, from, to, after) = (square(0), square(1), square(2), square(3));
+            let before = entries::<R>(&self.square, first);
+            let from = entries::<R>(&self.square, first + 1);
+            let to = entries::<R>(&self.square, first + 2);
+            let after = entries::<R>(&self.square, first + 3);
             let start = entries::<R>(&self.rate, first + 1) * cell;
             let end = entries::<R>(&self.rate, first + 2) * cell;
             let (mut rise, mut fall) = (from - before, to - after);

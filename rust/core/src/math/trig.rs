@@ -113,18 +113,24 @@ const FRAC_PI_2_BITS: u128 = 0xc90fdaa22168c235;
 fn polynomial<R: Real, const N: usize>(z: R, coefficients: [f64; N]) -> R {
     let z2 = z * z;
     let z4 = z2 * z2;
-    let pair = |i: usize| R::splat(coefficients[i]) + R::splat(coefficients[i + 1]) * z;
     let mut i = N - 2;
-    let mut sum = pair(i);
+    let mut sum = pair(&coefficients, i, z);
     if N.is_multiple_of(4) {
         i -= 2;
-        sum = pair(i) + sum * z2;
+        sum = pair(&coefficients, i, z) + sum * z2;
     }
     while i > 0 {
         i -= 4;
-        sum = (pair(i) + pair(i + 2) * z2) + sum * z4;
+        sum = (pair(&coefficients, i, z) + pair(&coefficients, i + 2, z) * z2) + sum * z4;
     }
     sum
+}
+
+/// A coefficient, and the next one times z. A function: closures are not always inlined into the
+/// code of a level.
+#[inline(always)]
+fn pair<R: Real>(coefficients: &[f64], i: usize, z: R) -> R {
+    R::splat(coefficients[i]) + R::splat(coefficients[i + 1]) * z
 }
 
 /// Sine and cosine of an angle in radians, any double; NaN for infinities and NaN.
