@@ -84,3 +84,30 @@ def test_angles_continue_into_the_next_turn(name: str) -> None:
             np.testing.assert_allclose(own, followed(own), rtol=0, atol=1e-6, err_msg=f"{design}")
             compared += 1
     assert compared > len(batch.links)
+
+
+def test_angles_of_driven_slides_continue_from_the_drawing() -> None:
+    """Down and up, beyond gaps too: a cylinder passes length 0, a rod reaches the other side."""
+    behind_gaps = 0
+    for seed in range(40):
+        batch = design_spaces.slide_space(seed)
+        assert isinstance(batch.q0, float)
+        for end in (-3.0, 3.0):
+            q = batch.q0 + np.linspace(0.0, end, SAMPLES)
+            motion = batch.solve(q, order=0, on_error="nan")
+            reached = motion.status <= assur.Status.NEAR_SINGULAR
+            few = batch.solve(q[::-400], order=0, on_error="nan")
+            for link in batch.links:
+                angles = motion.link(link).value
+                assert np.array_equal(few.link(link).value, angles[:, ::-400], equal_nan=True)
+                for design in np.flatnonzero(reached.sum(axis=1) > 1):
+                    at = np.flatnonzero(reached[design])
+                    own = angles[design][at]
+                    steps = np.abs(np.diff(own))
+                    if (np.abs(steps - np.pi) < 0.1).any():
+                        continue  # a cylinder points the other way: either half turn will do
+                    behind_gaps += bool((np.diff(at) > 1).any())
+                    np.testing.assert_allclose(
+                        own, followed(own), rtol=0, atol=1e-6, err_msg=f"{seed} {link} {design}"
+                    )
+    assert behind_gaps > 50

@@ -68,6 +68,31 @@ def crank_space(seed: int, designs: int = DESIGNS) -> assur.Mechanism:
         return one.with_dimensions(drawn)
 
 
+def slide_space(seed: int, designs: int = DESIGNS) -> assur.Mechanism:
+    """A slide that drives a boom, by a rod or as a cylinder; often with a dyad behind it."""
+    rng = np.random.default_rng(seed)
+    a, b, c, p, e, f = rng.uniform(-1.5, 1.5, (6, 2))
+    joints = {"A": a, "B": b, "C": c}
+    if seed % 2:
+        links = {"ground": ["A", "B"], "boom": ["A", "C", "P"], "barrel": ["B"], "rod": ["C"]}
+        angle = float(np.arctan2(*(c - b)[::-1]))
+        slides = {"drive": assur.Slide("rod", "barrel", angle, "B")}
+        joints["P"] = p
+    else:
+        links = {"ground": ["A"], "boom": ["A", "B"], "rod": ["B", "C"], "piston": ["C"]}
+        slides = {"drive": assur.Slide("piston", "ground", rng.uniform(-3.0, 3.0), "A")}
+    if seed % 5 < 2:
+        links["ground"].append("F")
+        links |= {"arm": ["P" if seed % 2 else "B", "E"], "tip": ["E", "F"]}
+        joints |= {"E": e, "F": f}
+    elif seed % 5 == 2:
+        links |= {"arm": ["P" if seed % 2 else "B", "E"], "block": ["E"]}
+        slides["guide"] = assur.Slide("block", "ground", rng.uniform(-3.0, 3.0), "A")
+        joints["E"] = e
+    one = assur.Mechanism({n: tuple(at) for n, at in joints.items()}, links, "drive", slides=slides)
+    return space(one, rng, designs)
+
+
 def digest(m: assur.Mechanism, seed: int) -> tuple[str, str]:
     """The digest of a mechanism's space."""
     rng = np.random.default_rng(seed)
@@ -105,6 +130,9 @@ def digests(seeds: int) -> Iterator[tuple[str, tuple[str, str]]]:
         yield f"crank {seed}", digest_of(crank_space(seed), q)
         # Whole turns of such coordinates have to be taken off exactly.
         yield f"crank {seed}, far", digest_of(crank_space(seed), 3e15 * q)
+        slides = slide_space(seed)
+        reach = np.random.default_rng(seed).choice([0.1, 0.5, 2.0, 4.0])
+        yield f"slide {seed}", digest_of(slides, slides.q0 + reach * (q - 3.0) / 12.0)
         changing = arguments(campaign_cases.changing_case(seed).description)
         yield f"changing {seed}", digest(assur.Mechanism(**changing), seed)
 

@@ -27,6 +27,9 @@ use crate::state::status::Status;
 /// Blocks of a design with doubtful positions, after which all are computed carefully at once.
 const MAX_DOUBTS: usize = 2;
 
+/// The range of no values.
+const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
 /// Workspace of one thread, with registers of type `R` and blocks of `G` of them.
 pub(crate) struct Worker<'a, R: Real, const G: usize> {
     pub(super) design: Design<'a>,
@@ -38,8 +41,8 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     care: Care,
     /// Whether the branch serves all positions of the job, without change points.
     pub(super) is_smooth: bool,
-    /// Of the last job: its shared coordinates, and how far its driven slides reach.
-    driven_reach: (Option<usize>, f64),
+    /// Of the last job: its shared coordinates, and the range of its driven slides' values, m.
+    driven_range: (Option<usize>, [f64; 2]),
     /// When true, work stops after the block in progress.
     cancel: Option<&'a AtomicBool>,
     pub(super) failures: Option<FailureCounter<'a>>,
@@ -83,7 +86,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             columns,
             care: control.care,
             is_smooth: false,
-            driven_reach: (None, 0.0),
+            driven_range: (None, NOWHERE),
             cancel: control.cancel,
             failures: control.failures.map(FailureCounter::new),
             known_signs: control.known_signs,
@@ -115,24 +118,25 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
             return false;
         }
-        let reach = self.driven_reach(job);
+        let [low, high] = self.driven_range(job);
+        let reach = 0.0_f64.max(-low).max(high);
         self.design.bind_within(design.dimensions, design.scale, reach);
         true
     }
 
-    /// The greatest value of a driven slide at any position of a job, m.
-    fn driven_reach(&mut self, job: &Job<'_, '_>) -> f64 {
-        let (shared, reach) = self.driven_reach;
+    /// The least and the greatest value of a driven slide at any position of a job, m.
+    fn driven_range(&mut self, job: &Job<'_, '_>) -> [f64; 2] {
+        let (shared, range) = self.driven_range;
         if shared.is_some() && shared == job.shared {
-            return reach;
+            return range;
         }
         let mechanism = self.design.mechanism;
         let drivers = mechanism.q0().len();
         let slides = (0..drivers).filter(|&d| mechanism.plan().driven_slide(d).is_some());
         let values = slides.flat_map(|driver| job.q.iter().skip(driver).step_by(drivers));
-        let reach = values.fold(0.0, |reach: f64, q| reach.max(q.abs()));
-        self.driven_reach = (job.shared, reach);
-        reach
+        let range = values.fold(NOWHERE, |[low, high], &q| [low.min(q), high.max(q)]);
+        self.driven_range = (job.shared, range);
+        range
     }
 
     /// Solves the positions of the design; only `dispatch` calls this. `trace`: [`Worker::trace`],
@@ -228,7 +232,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             if traced == Traced::No {
                 let uniform =
                     self.space.uniform.get_or_insert_with(|| Box::new(design.uniform_tracer()));
-                traced = design.trace_in_lanes::<L, G>(uniform, classes, references);
+                let range = self.driven_range.1;
+                traced = design.trace_in_lanes::<L, G>(uniform, classes, references, range);
             }
         }
         if traced == Traced::No {

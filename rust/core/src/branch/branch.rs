@@ -20,7 +20,7 @@ use crate::state::state::{Context, State};
 /// cells keeps knots off the point half a turn from the drawing.
 pub(crate) const CELLS_PER_TURN: u32 = 31;
 /// Cells per unit (of the scale, or rad) along a driven slide or a segment.
-const CELLS_PER_UNIT: f64 = 16.0;
+pub(super) const CELLS_PER_UNIT: f64 = 16.0;
 /// Steps per cell with which the length of an island between two knots is measured.
 const ISLAND_STEPS: f64 = 1024.0;
 /// Cells of a segment, at most; callers keep their coordinates within that.
@@ -96,6 +96,32 @@ impl Branch {
         self.period = None;
         self.covered = None;
         self.inverse_width = None;
+    }
+
+    /// Adds the knots of a branch that leads down from where this one begins.
+    pub(super) fn extend_down(&mut self, below: Self) {
+        let Self { mut at, mut reached, mut angles, .. } = below;
+        if at.is_empty() {
+            return;
+        }
+        let shared = usize::from(!self.at.is_empty());
+        at.reverse();
+        reached.reverse();
+        at.truncate(at.len() - shared);
+        reached.truncate(reached.len() - shared);
+        let classes = self.gain.len();
+        angles.reverse();
+        angles.chunks_exact_mut(classes).for_each(<[f64]>::reverse);
+        angles.truncate(at.len() * classes);
+        at.append(&mut self.at);
+        reached.append(&mut self.reached);
+        angles.append(&mut self.angles);
+        (self.at, self.reached, self.angles) = (at, reached, angles);
+    }
+
+    /// Whether its first knot can be reached, and none behind one that cannot.
+    pub(super) fn ends_once(&self) -> bool {
+        self.at.is_empty() || self.reached[0] && self.reached.is_sorted_by(|a, b| a >= b)
     }
 
     /// Whether it is known everywhere and has no change points.

@@ -4,8 +4,9 @@
 //! discriminant of every dyad stays away from zero. Where it may not, and where a stretch may begin
 //! or end that can be reached, the cell needs a closer look.
 
+use super::grid::KNOTS;
 use super::knot::may_touch;
-use super::uniform::{KNOTS, previous};
+use super::uniform::previous;
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::plan::dyad::Dyad;
 use crate::state::dyad::sample::Sample;

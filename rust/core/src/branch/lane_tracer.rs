@@ -1,21 +1,23 @@
-//! Traces the branch of a driven angle by knots solved side by side, whether or not the design
-//! turns fully: shows that its signs are constant, and unwraps angles across its gaps.
+//! Traces the branch of a driven angle, or of a driven slide, by knots solved side by side, whether or
+//! not the design reaches them all: shows that its signs are constant, and unwraps angles across its
+//! gaps.
 //!
-//! The knots of a turn are judged cell by cell. A cell where something may happen is divided by
+//! The knots of a turn or of a stretch are judged cell by cell. A cell where something may happen is divided by
 //! knots of its own, and these cells again. A design that may have a change point, or angles that
 //! cannot be followed in this way, are left to [`super::tracer`].
 
 use std::f64::consts::TAU;
 
 use super::branch::Branch;
-use super::cell_test::{Bits, DyadSamples, Knots, has};
-use super::gap_ends::{GapEnds, MAX_STEP, Shown};
-use super::uniform::{CELL, KNOTS, UniformTracer, reference_of};
-use crate::math::angle::{Reference, unwrap_to, whole_turns};
-use crate::math::lanes::{Mask, Real};
+use super::cell_test::has;
+use super::gap_end::Shown;
+use super::gap_ends::{GapEnds, MAX_STEP};
+use super::grid::KNOTS;
+use super::look::Look;
+use super::uniform::UniformTracer;
+use crate::math::angle::{unwrap_to, whole_turns};
+use crate::math::lanes::Real;
 use crate::math::tolerance::KNOT_MAX_TURN;
-use crate::math::vector::Vector;
-use crate::plan::dyad::Dyad;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
@@ -34,30 +36,6 @@ const MAX_LOOKS: usize = 256;
 /// Levels at which islands are searched for: down to the 200th part of a cell.
 const ISLAND_LEVELS: usize = 2;
 
-/// What one look showed.
-#[derive(Debug, Default)]
-struct Look {
-    /// The first knot, and the width of a cell.
-    from: f64,
-    cell: f64,
-    /// Number of knots.
-    count: usize,
-    /// The next cell to be judged: that before this knot.
-    next: usize,
-    dyads: Vec<DyadSamples>,
-    /// Cells in which a sign may change …
-    uncertain: Bits,
-    curved: Bits,
-    /// … and that end at a dead point of some dyad that matters.
-    dead_point: Bits,
-    /// … and those that may hide an island.
-    may_hide_island: Bits,
-    reached: Bits,
-    /// Angle and rate of the classes asked for, at every knot.
-    angles: Vec<[f64; KNOTS]>,
-    rates: Vec<[f64; KNOTS]>,
-}
-
 /// Work space, kept from one design to the next.
 #[derive(Debug, Default)]
 pub(crate) struct LaneTracer {
@@ -70,13 +48,13 @@ pub(crate) struct LaneTracer {
     principal: Vec<f64>,
     next: Vec<f64>,
     was_reached: bool,
-    ends: GapEnds,
+    pub(super) ends: GapEnds,
     /// Whether an angle steps by about half a turn across a gap with one of these.
     is_ambiguous: bool,
 }
 
 impl LaneTracer {
-    /// Traces the turn whose knots have been solved into `branch`, with the angles of `classes`;
+    /// Traces the turn, or the stretch, whose knots have been solved into `branch`, with the angles of `classes`;
     /// false if the design is not one of constant signs and smooth angles. `start`: the drawing's
     /// angles; `settled`: dyads whose signs are known to be constant.
     #[inline(always)]
@@ -89,51 +67,61 @@ impl LaneTracer {
         settled: &[bool],
         branch: &mut Branch,
     ) -> bool {
-        if !self.looks[0].take(cx, knots, classes, settled, (knots.first(), CELL)) {
+        if !self.take_turn(cx, knots, classes, settled) {
             return false;
         }
         self.ends.clear();
         if !classes.is_empty() {
-            self.ends.find::<L, G>(cx, knots, classes, &self.looks[0].shown());
+            self.find_ends::<L, G>(cx, knots, classes);
         }
-        let traced = self.follow_knots::<L, G>(cx, knots, classes, start, settled, branch);
-        if !self.is_ambiguous {
-            return traced;
+        loop {
+            let traced = self.follow_knots::<L, G>(cx, knots, classes, start, settled, branch);
+            if !self.is_ambiguous {
+                return traced;
+            }
+            self.ends.clear();
+            self.looks[0].next = 1;
         }
-        self.ends.clear();
-        self.looks[0].next = 1;
-        self.follow_knots::<L, G>(cx, knots, classes, start, settled, branch)
     }
 
-    /// Whether a design with gaps is plain, to be seen without following its angles knot by knot: no
-    /// sign may change between two of the knots that have been solved, all gaps end where they should,
-    /// and no angle asked for turns fast or far. Sets the reference of each class.
+    /// Takes what the knots of the turn show; false if one of them is singular.
     #[inline(always)]
-    pub(crate) fn survey<L: Level, const G: usize>(
+    pub(super) fn take_turn<R: Real, const G: usize>(
+        &mut self,
+        cx: &Context<'_>,
+        knots: &UniformTracer<R, G>,
+        classes: &[usize],
+        settled: &[bool],
+    ) -> bool {
+        let grid = knots.grid();
+        self.looks[0].take(cx, knots, classes, settled, (grid.from, grid.cell))
+    }
+
+    /// Finds the ends of its gaps.
+    #[inline(always)]
+    pub(super) fn find_ends<L: Level, const G: usize>(
         &mut self,
         cx: &Context<'_>,
         knots: &mut UniformTracer<L::Register, G>,
-        (classes, start): (&[usize], &[f64]),
-        settled: &[bool],
-        references: &mut [Reference],
-    ) -> bool {
-        if !self.looks[0].take(cx, knots, classes, settled, (knots.first(), CELL)) {
-            return false;
-        }
+        classes: &[usize],
+    ) {
+        self.ends.find::<L, G>(cx, knots, classes, &self.looks[0].shown());
+    }
+
+    /// What the knots of the turn show of the ends of gaps.
+    pub(super) fn turn(&self) -> Shown<'_> {
+        self.looks[0].shown()
+    }
+
+    /// Whether a sign may change between two knots of the turn.
+    pub(super) fn has_uncertain_cells(&self) -> bool {
         let look = &self.looks[0];
-        if look.uncertain | look.curved | look.may_hide_island != 0 {
-            return false;
-        }
-        self.ends.find::<L, G>(cx, knots, classes, &look.shown());
-        if self.ends.cells() != look.dead_point {
-            return false;
-        }
-        for (index, &class) in classes.iter().enumerate() {
-            let range = self.ends.range(&look.shown(), index, start[class]);
-            let Some(reference) = range.and_then(reference_of) else { return false };
-            references[class] = reference;
-        }
-        true
+        look.uncertain | look.curved | look.may_hide_island != 0
+    }
+
+    /// Whether every end of a gap has been found.
+    pub(super) fn has_found_all_ends(&self) -> bool {
+        self.ends.cells() == self.looks[0].dead_point
     }
 
     /// Traces the turn by the knots of the first look, and closer ones.
@@ -211,6 +199,9 @@ impl LaneTracer {
             }
             self.looks[level].next += 1;
         }
+        if !knots.grid().is_turn {
+            return true;
+        }
         for ((&class, &a), &b) in classes.iter().zip(&self.first).zip(&self.last) {
             branch.gain[class] = TAU * whole_turns(b - a);
             let step = (b - a) - branch.gain[class];
@@ -253,7 +244,7 @@ impl LaneTracer {
                 return None;
             }
             let rate = rates[knot].abs().max(rates[knot - 1].abs());
-            fast |= turned.abs() > KNOT_MAX_TURN || rate * look.cell > KNOT_MAX_TURN;
+            fast |= turned.abs() > KNOT_MAX_TURN || rate * look.cell.abs() > KNOT_MAX_TURN;
         }
         Some(fast)
     }
@@ -309,122 +300,13 @@ fn follow(last: &mut f64, next: f64) {
     }
 }
 
-impl Look {
-    /// Takes what the knots just solved show; false if one of them is singular.
-    #[inline(always)]
-    fn take<R: Real, const G: usize>(
-        &mut self,
-        cx: &Context<'_>,
-        knots: &UniformTracer<R, G>,
-        classes: &[usize],
-        settled: &[bool],
-        (from, cell): (f64, f64),
-    ) -> bool {
-        (self.from, self.cell, self.next) = (from, cell, 1);
-        let state = &knots.state;
-        let groups = state.groups.min(G);
-        self.count = groups * R::LANES;
-        self.reached = 0;
-        for group in 0..groups {
-            if knots.not_closed(group).and(state.conditions.open[group].not()).any() {
-                return false;
-            }
-            self.reached |= state.conditions.open[group].not().bits() << (group * R::LANES);
-        }
-        let islands = !classes.is_empty();
-        // Without angles, dyads matter for signs that may change, and up to the last of these.
-        let unsettled = |dyad: &Dyad| dyad.sign.is_some() && !settled[dyad.index];
-        let last = cx.plan.dyads().filter(|dyad| unsettled(dyad)).last();
-        let last = last.map_or(0, |dyad| dyad.index);
-        let look = Knots { groups, cell, islands };
-        let mut known = Bits::MAX;
-        [self.uncertain, self.curved, self.dead_point, self.may_hide_island] = [0; 4];
-        for (index, dyad) in cx.plan.dyads().enumerate() {
-            if !islands && index > last {
-                break;
-            }
-            if self.dyads.len() == index {
-                self.dyads.push(DyadSamples::NONE);
-            }
-            let own = &mut self.dyads[index];
-            let settled = settled[index];
-            let Some(cells) = own.judge(state, cx, dyad, look, (known, settled)) else {
-                return false;
-            };
-            known = own.closes;
-            self.uncertain |= cells.uncertain;
-            self.curved |= cells.curved;
-            if islands || index < last {
-                self.dead_point |= cells.dead_point;
-            }
-            self.may_hide_island |= cells.may_hide_island;
-        }
-        self.angles.resize(classes.len(), [0.0; KNOTS]);
-        self.rates.resize(classes.len(), [0.0; KNOTS]);
-        for (index, &class) in classes.iter().enumerate() {
-            for group in 0..groups {
-                // Beyond a dead point a rotation's length is not 1.
-                let angle = state.pose.class[class][group].angle();
-                let rate = state.pose.theta[state.len * class + 1][group];
-                for lane in 0..R::LANES {
-                    self.angles[index][group * R::LANES + lane] = angle.lane(lane);
-                    self.rates[index][group * R::LANES + lane] = rate.lane(lane);
-                }
-            }
-        }
-        true
-    }
-
-    /// What its knots show of the ends of gaps.
-    fn shown(&self) -> Shown<'_> {
-        let against = self.uncertain | self.curved | self.may_hide_island;
-        // Where another dyad is open on both sides, it may close between them.
-        let at_one_end = self.reached ^ (self.reached << 1);
-        Shown {
-            from: self.from,
-            cell: self.cell,
-            count: self.count,
-            cells: self.dead_point & !against & at_one_end & !1,
-            reached: self.reached,
-            dyads: &self.dyads,
-            angles: &self.angles,
-            rates: &self.rates,
-        }
-    }
-
-    /// Goes to the next cell in which something may happen to a sign.
-    #[inline(always)]
-    fn skip_quiet_cells(&mut self) {
-        if self.next < self.count {
-            let left = (self.uncertain | self.curved | self.dead_point) >> self.next;
-            self.next = (self.next + left.trailing_zeros() as usize).min(self.count);
-        }
-    }
-
-    /// Whether all angles are known at both ends of the cell before a knot: beyond a dead point a
-    /// dyad behind it may have no definite position.
-    fn is_definite(&self, knot: usize) -> bool {
-        self.angles.iter().all(|angles| angles[knot].is_finite() && angles[knot - 1].is_finite())
-    }
-
-    /// Whether all dyads that close beside the dead point in the cell before a knot stay away from
-    /// flat up to it.
-    fn stays_away(&self, knot: usize) -> bool {
-        let change = self.dyads.iter().find_map(|dyad| dyad.change_to_dead_point(knot));
-        change.is_none_or(|change| self.dyads.iter().all(|dyad| dyad.stays_away(knot, change)))
-    }
-}
-
 impl<R: Real, const G: usize> UniformTracer<R, G> {
     /// Sets [`CLOSER_KNOTS`] between `from` and a cell's width beyond it.
     #[inline(always)]
     fn set_between(&mut self, (from, width): (f64, f64)) {
         self.state.groups = CLOSER_KNOTS / R::LANES;
         for group in 0..self.state.groups.min(G) {
-            let place = R::from_lanes(|lane| (group * R::LANES + lane) as f64);
-            let at = R::splat(from) + R::splat(width / CELLS) * place;
-            self.state.pose.q[0][group] = at;
-            self.state.pose.unit[0][group] = Vector::at_angle(at);
+            self.set_group(group, |lane| from + (width / CELLS) * lane as f64);
         }
     }
 }

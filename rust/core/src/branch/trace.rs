@@ -3,6 +3,7 @@
 use super::branch::Branch;
 use super::crank_angles::find_references;
 use super::design::Design;
+use super::grid::Grid;
 use super::knot::InitialGuess;
 use super::uniform::{ReferenceBranch, Traced, UniformTracer};
 use crate::math::angle::Reference;
@@ -83,17 +84,17 @@ impl Design<'_> {
 
     /// Traces the branch by knots in lanes, with the angles of `classes`, where
     /// [`Self::trace_in_closed_form`] does not. With `references`, a plain design gets these in
-    /// place of angles at knots (see [`UniformTracer::survey`]).
+    /// place of angles at knots (see [`UniformTracer::survey`]). `range`: of a driven slide's values
+    /// (m), over which it is traced.
     #[inline(always)]
     pub(crate) fn trace_in_lanes<L: Level, const G: usize>(
         &mut self,
         uniform: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
         references: Option<&mut [Reference]>,
+        range: [f64; 2],
     ) -> Traced {
-        if !self.has_one_rotary_driver() {
-            return Traced::No;
-        }
+        let Some(grid) = self.grid(range) else { return Traced::No };
         if self.has_groups() && !uniform.has_reference(|| self.reference_branch()) {
             return Traced::No;
         }
@@ -106,19 +107,19 @@ impl Design<'_> {
             tape: &self.tracing_tape,
         };
         let (branch, tracer, settled) = (&mut self.branch, &mut self.lane_tracer, &self.settled);
-        let references = references.filter(|_| self.closed_forms && !classes.is_empty());
-        uniform.solve_knots::<L>(&cx, self.q0[0], !classes.is_empty() && references.is_none());
-        let mut turns_fully = !(self.closed_forms && classes.is_empty());
+        let with_angles = !classes.is_empty();
+        let references = references.filter(|_| self.closed_forms && with_angles);
+        let mut is_solved = false;
+        let mut turns_fully = grid.is_turn && (with_angles || !self.closed_forms);
         if let Some(references) = references {
+            uniform.solve_knots::<L>(&cx, grid, false);
             uniform.take_care_of_doubts::<L>(&cx);
             let mut plain = uniform.survey(&cx, classes, start, references);
-            if plain.is_none() && uniform.state.has_open() {
-                let found =
-                    tracer.survey::<L, G>(&cx, uniform, (classes, start), settled, references);
-                if found {
+            is_solved = true;
+            if plain.is_none() && grid.is_turn && uniform.state.has_open() {
+                is_solved = false;
+                if tracer.survey::<L, G>(&cx, uniform, (classes, start), settled, references) {
                     plain = Some(true);
-                } else {
-                    uniform.solve_knots::<L>(&cx, self.q0[0], true);
                 }
             }
             if plain == Some(true) {
@@ -127,10 +128,51 @@ impl Design<'_> {
             }
             turns_fully &= plain.is_some();
         }
-        let traced = turns_fully && uniform.trace(&cx, classes, start, branch)
-            || self.closed_forms
-                && tracer.trace::<L, G>(&cx, uniform, classes, start, settled, branch);
-        if traced { Traced::Whole } else { Traced::No }
+        let follows_slide = with_angles && !grid.is_turn;
+        let up_and_down = if follows_slide { self.rays(range) } else { Some([grid, Grid::NONE]) };
+        let Some(up_and_down) = up_and_down else { return Traced::No };
+        let mut below = Branch::default();
+        let (branch, tracer, settled) = (&mut self.branch, &mut self.lane_tracer, &self.settled);
+        branch.set_constant_signs(start.len(), cx.signs);
+        for (path, branch) in up_and_down.into_iter().zip([&mut *branch, &mut below]) {
+            if path.count == 0 {
+                continue;
+            }
+            if !is_solved || path != grid {
+                uniform.solve_knots::<L>(&cx, path, with_angles);
+            }
+            let traced = turns_fully && uniform.trace(&cx, classes, start, branch)
+                || self.closed_forms
+                    && tracer.trace::<L, G>(&cx, uniform, classes, start, settled, branch);
+            // What is behind a gap depends on the islands that knots show on the way: with a slide that
+            // is left to the tracer, whose knots do not depend on the positions asked for.
+            if !traced || follows_slide && !branch.ends_once() {
+                return Traced::No;
+            }
+        }
+        branch.extend_down(below);
+        Traced::Whole
+    }
+
+    /// Where its knots are set side by side; `range`: of a driven slide's values, m.
+    fn grid(&self, range: [f64; 2]) -> Option<Grid> {
+        match self.q0[..] {
+            [q0] if self.has_one_rotary_driver() => Some(Grid::turn(q0)),
+            [q0] if self.closed_forms => Grid::stretch(q0, self.with_drawing(range)),
+            _ => None,
+        }
+    }
+
+    /// The knots along a driven slide from the drawing's value, up and down.
+    fn rays(&self, range: [f64; 2]) -> Option<[Grid; 2]> {
+        let [low, high] = self.with_drawing(range);
+        Some([Grid::ray(self.q0[0], high)?, Grid::ray(self.q0[0], low)?])
+    }
+
+    /// A range of a driven slide's values (m), widened to that of the drawing, scaled.
+    fn with_drawing(&self, range: [f64; 2]) -> [f64; 2] {
+        let [low, high] = range.map(|q| q * self.units.coordinate[0]);
+        [low.min(self.q0[0]), high.max(self.q0[0])]
     }
 
     /// The branch of the drawing, from which those of other designs start.
@@ -157,9 +199,12 @@ impl Design<'_> {
         if self.closed_forms && self.has_one_rotary_driver() {
             let classes: Vec<usize> = (1..self.mechanism.class_angle.len()).collect();
             let mut uniform = self.uniform_tracer::<Pair<f64>, { BLOCK / 2 }>();
+            let mut in_lanes = |design: &mut Self| {
+                let range = [f64::NAN; 2];
+                design.trace_in_lanes::<Portable, _>(&mut uniform, &classes, None, range)
+            };
             let whole = self.trace_in_closed_form(&classes, None) == Traced::Whole
-                || self.trace_in_lanes::<Portable, { BLOCK / 2 }>(&mut uniform, &classes, None)
-                    == Traced::Whole;
+                || in_lanes(self) == Traced::Whole;
             if whole {
                 return;
             }

@@ -11,6 +11,7 @@ use std::cell::OnceCell;
 use std::f64::consts::{PI, TAU};
 
 use super::branch::{Branch, CELLS_PER_TURN};
+use super::grid::{CELL, Grid, KNOTS};
 use super::hermite::HermiteCell;
 use super::knot::{
     MAX_FIRST_STEP, MAX_LATER_STEPS, SignInterval, Taylor2, closes, may_touch, prediction_failed,
@@ -23,14 +24,8 @@ use crate::math::vector::Vector;
 use crate::plan::dyad::{Form, Unknown};
 use crate::plan::plan::Plan;
 use crate::state::dyad::sample::Sample;
-use crate::state::kernel::{BLOCK, Level};
+use crate::state::kernel::Level;
 use crate::state::state::{Context, State};
-
-/// Knots of a turn, including its end.
-pub(crate) const KNOTS: usize = CELLS_PER_TURN as usize + 1;
-const _: () = assert!(KNOTS <= BLOCK, "the knots of a turn are solved at once");
-/// Width of a cell.
-pub(crate) const CELL: f64 = TAU / CELLS_PER_TURN as f64;
 
 /// What is known of a branch that was traced by knots in lanes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +46,11 @@ pub(crate) struct UniformTracer<R: Real, const G: usize> {
     pub(crate) state: State<R, G>,
     /// Whether the knots were solved carefully.
     is_careful: bool,
-    /// Drawing's angle for which the knots below are set; the same for all designs.
+    /// Whether the driver is an angle.
+    is_angle: bool,
+    /// The knots that were solved last.
+    grid: Grid,
+    /// Drawing's angle for which the knots of a turn below are set; the same for all designs.
     q0: f64,
     /// Angles of the driver and their unit vectors.
     knots: Vec<(R, Vector<R>)>,
@@ -74,6 +73,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         Self {
             state,
             is_careful: true,
+            is_angle: plan.driven_slide(0).is_none(),
+            grid: Grid::turn(f64::NAN),
             q0: f64::NAN,
             knots: Vec::new(),
             squares: vec![(0.0, 0.0); plan.signs()],
@@ -92,26 +93,33 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         self.reference.get_or_init(make).is_some()
     }
 
-    /// The first knot.
-    pub(crate) fn first(&self) -> f64 {
-        self.knots.first().map_or(f64::NAN, |(at, _)| at.lane(0))
+    /// The knots that were solved last.
+    pub(super) fn grid(&self) -> Grid {
+        self.grid
     }
 
-    /// Solves the knots of a turn from `q0`.
+    /// Solves all knots of a grid.
     #[inline(always)]
-    pub(crate) fn solve_knots<L: Level<Register = R>>(
+    pub(super) fn solve_knots<L: Level<Register = R>>(
         &mut self,
         cx: &Context<'_>,
-        q0: f64,
+        grid: Grid,
         angles: bool,
     ) {
-        if self.q0 != q0 {
-            self.set_knots(q0);
-        }
-        self.state.groups = KNOTS / R::LANES;
-        for (group, &(at, unit)) in self.knots.iter().enumerate().take(G) {
-            self.state.pose.q[0][group] = at;
-            self.state.pose.unit[0][group] = unit;
+        self.grid = grid;
+        self.state.groups = grid.count / R::LANES;
+        if grid.is_turn {
+            if self.q0 != grid.from {
+                self.set_knots(grid.from);
+            }
+            for (group, &(at, unit)) in self.knots.iter().enumerate().take(G) {
+                self.state.pose.q[0][group] = at;
+                self.state.pose.unit[0][group] = unit;
+            }
+        } else {
+            for group in 0..self.state.groups.min(G) {
+                self.set_group(group, |lane| grid.at(lane));
+            }
         }
         for (lanes, &sign) in self.state.pose.signs.iter_mut().zip(cx.signs) {
             lanes[..self.state.groups.min(G)].fill(R::splat(sign));
@@ -149,8 +157,16 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     pub(super) fn set_at(&mut self, at: &[f64; LANES]) {
         self.state.groups = LANES / R::LANES;
         for group in 0..self.state.groups.min(G) {
-            let at = R::from_lanes(|lane| at[group * R::LANES + lane]);
-            self.state.pose.q[0][group] = at;
+            self.set_group(group, |lane| at[lane]);
+        }
+    }
+
+    /// Sets a register of positions, given the coordinate at each.
+    #[inline(always)]
+    pub(super) fn set_group(&mut self, group: usize, at: impl Fn(usize) -> f64) {
+        let at = R::from_lanes(|lane| at(group * R::LANES + lane));
+        self.state.pose.q[0][group] = at;
+        if self.is_angle {
             self.state.pose.unit[0][group] = Vector::at_angle(at);
         }
     }
@@ -243,7 +259,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                 Some(sign) => {
                     let (last, last_rate) = self.squares[sign];
                     let before = (previous(last, square), previous(last_rate, rate));
-                    suspect = suspect.or(may_touch(before, (square, rate), R::splat(CELL)));
+                    suspect =
+                        suspect.or(may_touch(before, (square, rate), R::splat(self.grid.cell)));
                     self.squares[sign] = (square.lane(R::LANES - 1), rate.lane(R::LANES - 1));
                 }
                 None if dyad.form == Form::TwoLines => {
@@ -291,19 +308,22 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     }
 
     /// The least and greatest angle of a class at the knots, if its link turns slowly and stays
-    /// within half a turn of the first of them; that is the nearest to `start`.
+    /// within half a turn of where it is at the drawing's coordinate; that is the nearest to `start`.
     #[inline(always)]
     fn range(&self, class: usize, start: f64) -> Option<[f64; 2]> {
         let (units, rates) =
             (&self.state.pose.class[class], &self.state.pose.theta[self.state.len * class + 1]);
-        let first = unwrap_to(units[0].unit_angle().lane(0), start);
-        let near = R::splat(first);
-        let (mut last, mut least, mut most) = (near, near, near);
+        let at = self.grid.home;
+        let home = unwrap_to(units[at / R::LANES].unit_angle().lane(at % R::LANES), start);
+        let near = R::splat(home);
+        let (mut least, mut most) = (near, near);
+        let mut last = unwrap_to(units[0].unit_angle(), near);
+        last = R::splat(last.lane(0));
         let mut slow = R::Mask::NONE.not();
         for group in 0..(KNOTS / R::LANES).min(G) {
             let angle = unwrap_to(units[group].unit_angle(), near);
             let step = angle - previous(last.lane(R::LANES - 1), angle);
-            let rate = rates[group] * R::splat(CELL);
+            let rate = rates[group] * R::splat(self.grid.cell);
             let limit = R::splat(KNOT_MAX_TURN);
             slow = slow.and(step.abs().le(limit)).and(rate.abs().le(limit));
             (least, most) = (least.min(angle), most.max(angle));
@@ -312,7 +332,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         if !slow.all() {
             return None;
         }
-        let mut range = [first; 2];
+        let mut range = [home; 2];
         for lane in 0..R::LANES {
             range = [range[0].min(least.lane(lane)), range[1].max(most.lane(lane))];
         }
