@@ -38,7 +38,7 @@ from assur.mechanisms.class_iv import ClassIV
 from assur.mechanisms.named import FourBar, SliderCrank
 
 if TYPE_CHECKING:
-    from assur import events, flywheel
+    from assur import events, flywheel, metric
     from assur.dynamics.loads import (
         Body,
         Damper,
@@ -55,6 +55,9 @@ if TYPE_CHECKING:
     from assur.dynamics.run import Run
     from assur.dynamics.steady import SteadyState
     from assur.papers import crank_rocker, slider_crank
+    from assur.sweeps.grid import Grid
+    from assur.sweeps.measures import Measures
+    from assur.sweeps.sweep import sweep
 
 __all__ = [
     "Analogues",
@@ -70,11 +73,13 @@ __all__ = [
     "Force",
     "FourBar",
     "Gravity",
+    "Grid",
     "Group",
     "InductionMotor",
     "InputError",
     "LinearMotor",
     "Machine",
+    "Measures",
     "Mechanism",
     "Motion",
     "MotionError",
@@ -96,14 +101,16 @@ __all__ = [
     "crank_rocker",
     "events",
     "flywheel",
+    "metric",
     "slider_crank",
+    "sweep",
 ]
 
 __version__ = version()
 
 # Imported when first asked for: more than half of what `import assur` would take (PEP 562).
 _LATER = {
-    "assur": ("events", "flywheel"),
+    "assur": ("events", "flywheel", "metric"),
     "assur.dynamics.loads": (
         "Body",
         "Damper",
@@ -120,6 +127,9 @@ _LATER = {
     "assur.dynamics.run": ("Run",),
     "assur.dynamics.steady": ("SteadyState",),
     "assur.papers": ("crank_rocker", "slider_crank"),
+    "assur.sweeps.grid": ("Grid",),
+    "assur.sweeps.measures": ("Measures",),
+    "assur.sweeps.sweep": ("sweep",),
 }
 _HOME = {name: home for home, names in _LATER.items() for name in names}
 

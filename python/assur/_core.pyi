@@ -117,6 +117,15 @@ class Mechanism:
         report: list[int] | None,
         known_signs: KnownSigns | None = None,
     ) -> tuple[dict[tuple[str, int, int], _Float], npt.NDArray[np.uint8], Any]: ...
+    def measure(
+        self,
+        dimensions: _Float,
+        q: _Float,
+        signs: list[int],
+        metrics: list[tuple[Any, ...]],
+        conditions: list[tuple[int, str, float]],
+        threads: int | None,
+    ) -> tuple[list[_Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_]]: ...
     def diagnostics(
         self,
         dimensions: _Float,

@@ -34,6 +34,8 @@ class Motion:
         Coordinates of the driver, rad or m.
     order : int
         Highest order of the analogues.
+    kept : numpy.ndarray or None
+        Of a sweep with ``on_error="drop"``: indices of its designs among all.
     """
 
     def __init__(
@@ -53,6 +55,7 @@ class Motion:
         self._drivers = request.mechanism._driver_count
         self._reference_points: dict[str, tuple[Float, ...]] = {}
         self._diagnostics: tuple[Float, Float] | None = None
+        self.kept: npt.NDArray[np.intp] | None = None
 
     @property
     def _results(self) -> Results:

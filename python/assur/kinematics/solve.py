@@ -44,7 +44,7 @@ def solve(
         positions=positions,
         per_design=per_design,
         order=order,
-        signs=_signs(mechanism, assembly),
+        signs=checked_assembly(mechanism, assembly),
         own_signs=assembly is None,
         threads=checked_threads(threads),
     )
@@ -105,7 +105,8 @@ def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[i
     raise InputError(message)
 
 
-def _signs(mechanism: Mechanism, assembly: Mapping[str, int] | None) -> list[int]:
+def checked_assembly(mechanism: Mechanism, assembly: Mapping[str, int] | None) -> list[int]:
+    """Return the signs of all dyads, of the drawing where the assembly says nothing."""
     signs = dict(mechanism._core.assembly)
     for name, sign in checked_signs(assembly):
         if name not in signs:

@@ -28,10 +28,11 @@ class JointLine(NamedTuple):
 
 
 class LinkLine(NamedTuple):
-    """A line fixed to a link, at this angle in its frame, rad (an array for a batch)."""
+    """The guide of a slide, at this angle in its link's frame, rad (an array for a batch)."""
 
     link: str
     angle: Any
+    slide: str
 
 
 Line: TypeAlias = JointLine | LinkLine
@@ -73,7 +74,8 @@ def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bo
 
 
 def _guide(mechanism: Mechanism, slide: str) -> LinkLine:
-    return LinkLine(mechanism.slides[slide].on, mechanism.dimensions.get(f"{slide}.angle", 0.0))
+    angle = mechanism.dimensions.get(f"{slide}.angle", 0.0)
+    return LinkLine(mechanism.slides[slide].on, angle, slide)
 
 
 def _acute(motion: Motion, a: Float, b: Float) -> Float:

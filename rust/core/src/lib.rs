@@ -47,7 +47,7 @@
 )]
 
 // The layers, from the bottom up: math, ode, description, structure, plan, state, branch, query,
-// batch, dynamics, papers. Each imports only from those below it (`tools/check_order`).
+// batch, sweep, dynamics, papers. Each imports only from those below it (`tools/check_order`).
 mod batch;
 mod branch;
 mod description;
@@ -59,6 +59,7 @@ mod plan;
 mod query;
 mod state;
 mod structure;
+pub mod sweep;
 
 pub use batch::failure_log::{FailureLog, FirstFailure};
 pub use batch::known_signs::KnownSigns;

@@ -10,11 +10,13 @@ mod flywheel;
 mod known_signs;
 mod machine;
 mod mechanism;
+mod memory;
 mod metrics;
 mod named;
 mod parallel_map;
 mod run;
 mod slider_crank;
+mod sweep;
 #[cfg(feature = "test-hooks")]
 mod test_hooks;
 mod trig;

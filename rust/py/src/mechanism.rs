@@ -10,14 +10,17 @@ use assur::{
     SolveError, Status, fill,
 };
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyBaseException, PyMemoryError};
+use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PySlice};
+use pyo3::types::PyDict;
 
 use crate::convert::description::{Driver, Slide};
+use crate::convert::metric::MetricSpec;
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
 use crate::known_signs::KnownSigns;
+use crate::memory::Memory;
+use crate::sweep::{self, Found};
 use crate::{error, error_map};
 
 /// Positions below which a call with one driver takes only milliseconds and need not check for
@@ -217,9 +220,9 @@ impl Mechanism {
             if let Some(buffers) = &buffers {
                 (buffers.getattr("columns")?.extract()?, buffers.getattr("status")?.extract()?)
             } else {
-                let status = uninitialized::<u8>(py, count, 1)?;
-                let new =
-                    columns.iter().map(|column| uninitialized::<f64>(py, count, column.width));
+                let mut memory = Memory::for_a_call();
+                let status = memory.array::<u8>(py, count, 1)?;
+                let new = columns.iter().map(|column| memory.array::<f64>(py, count, column.width));
                 (new.collect::<PyResult<_>>()?, status)
             };
         // Two calls cannot write the same arrays at once.
@@ -279,6 +282,21 @@ impl Mechanism {
             .zip(log.first())
             .map(|(shape, first)| error_map::first_failure(&first, &shape, count).into_value(py));
         Ok((dict, status, failure))
+    }
+
+    /// Metrics of designs; see `assur.sweep`. `conditions`: metric, relation and limit.
+    #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
+    fn measure<'py>(
+        &self,
+        py: Python<'py>,
+        dimensions: PyReadonlyArray1<'py, f64>,
+        q: PyReadonlyArray1<'py, f64>,
+        signs: Vec<i8>,
+        metrics: Vec<MetricSpec>,
+        conditions: Vec<(usize, String, f64)>,
+        threads: Option<NonZeroUsize>,
+    ) -> PyResult<Found<'py>> {
+        sweep::measure(py, &self.inner, (dimensions, q), &signs, &metrics, conditions, threads)
     }
 
     /// Residual and condition of every position.
@@ -360,29 +378,6 @@ pub(crate) const STATUSES: [(&str, Status); 8] = [
     ("BAD_DIMENSION", Status::BadDimension),
     ("BAD_INPUT", Status::BadInput),
 ];
-
-/// An uninitialized NumPy array; `MemoryError` if it does not fit in memory.
-fn uninitialized<T: numpy::Element>(
-    py: Python<'_>,
-    rows: usize,
-    width: usize,
-) -> PyResult<Bound<'_, PyArray1<T>>> {
-    let len = rows.checked_mul(width).and_then(|len| len.checked_add(CACHE_LINE)).ok_or_else(|| {
-        PyMemoryError::new_err(
-            "the result has more numbers than can be counted: ask for fewer designs or positions",
-        )
-    })?;
-    let array = py.import("numpy")?.call_method1("empty", (len, T::get_dtype(py)))?;
-    let array: Bound<'_, PyArray1<T>> = array.cast_into()?;
-    // Rows of eight numbers are written faster if they start at a cache line.
-    let first = array.data().align_offset(CACHE_LINE).min(CACHE_LINE);
-    let aligned =
-        PySlice::new(py, first.cast_signed(), (first + len - CACHE_LINE).cast_signed(), 1);
-    Ok(array.get_item(aligned)?.cast_into()?)
-}
-
-/// Bytes of a cache line. As a number of extra entries it is more than enough to align an array.
-const CACHE_LINE: usize = 64;
 
 fn in_use(error: numpy::BorrowError) -> PyErr {
     error::input(&format!("out: its arrays are in use ({error}): another call writes them"), None)

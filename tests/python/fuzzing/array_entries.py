@@ -27,6 +27,7 @@ MOMENT = np.array([0.0, 40.0, 20.0, -30.0, 10.0, -50.0, 0.0])
 INERTIA = np.array([2.0, 3.0, 4.0, 2.0, 3.0, 4.0, 2.0])
 FOUR_BAR = assur.FourBar(1.0, 3.0, 2.5, 3.0)
 MOTION = FOUR_BAR.solve([0.5, 1.0, 1.5], order=3)
+SWING = {"swing": assur.metric.span("rocker")}
 FIVE_BAR = assur.Mechanism(
     joints={"A": (0, 0), "B": (0.3, 1), "C": (1.4, 2), "D": (2.5, 0.9), "E": (2, 0)},
     links={"ground": "AE", "left": "AB", "l2": "BC", "l3": "CD", "right": "ED"},
@@ -106,6 +107,20 @@ ENTRIES: dict[str, Entry] = {
     "Mechanism.with_dimensions.dimensions": Entry(with_lengths, numbers(3.0)),
     "Mechanism.with_dimensions.by_name": Entry(
         lambda x: FOUR_BAR.with_dimensions(**{"coupler.length": x}).dimensions, numbers(3.0)
+    ),
+    "Grid.__init__.dimensions": Entry(
+        lambda x: FOUR_BAR.with_dimensions(assur.Grid({"coupler.length": x})).dimensions,
+        numbers(3.0),
+    ),
+    "Grid.__init__.by_name": Entry(
+        lambda x: dict(assur.Grid(**{"coupler.length": x})), numbers(3.0)
+    ),
+    "assur.sweep.dimensions": Entry(
+        lambda x: dict(assur.sweep(FOUR_BAR, {"coupler.length": x}, PHI, metrics=SWING)),
+        numbers(3.0),
+    ),
+    "assur.sweep.q": Entry(
+        lambda q: dict(assur.sweep(FOUR_BAR, {}, q, metrics=SWING)), numbers(0.5)
     ),
     "Mechanism.assemblies.q": Entry(FOUR_BAR.assemblies, numbers(1.0)),
     **each_of("FourBar.__init__", assur.FourBar, crank=1.0, coupler=3.0, rocker=2.0, ground=3.0),

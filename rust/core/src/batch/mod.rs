@@ -2,7 +2,7 @@
 mod by_position;
 mod careful;
 mod coordinates;
-mod designs;
+pub(crate) mod designs;
 pub(crate) mod dispatch;
 pub(crate) mod failure_log;
 pub(crate) mod known_signs;

@@ -87,7 +87,7 @@ pub(crate) fn solve(
 ///
 /// The caller must not store uninitialised values in the slice.
 #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
-unsafe fn as_unwritten<T: Copy>(values: &mut [T]) -> &mut [MaybeUninit<T>] {
+pub(crate) unsafe fn as_unwritten<T: Copy>(values: &mut [T]) -> &mut [MaybeUninit<T>] {
     // SAFETY: the layout is the same, and the caller stores only initialised values.
     unsafe { &mut *(std::ptr::from_mut(values) as *mut [MaybeUninit<T>]) }
 }

@@ -93,6 +93,11 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
     }
 
+    /// Exchanges work spaces with a worker of the same request: each keeps the coordinates of its jobs.
+    pub(crate) fn swap_space(&mut self, other: &mut Self) {
+        std::mem::swap(&mut self.space, &mut other.space);
+    }
+
     /// Leaves the work space to later calls.
     pub(crate) fn finish(self) {
         self.space.keep(self.design.mechanism);

@@ -5,6 +5,7 @@ pub(crate) mod body;
 pub(crate) mod description;
 pub(crate) mod event;
 pub(crate) mod load;
+pub(crate) mod metric;
 pub(crate) mod motor;
 pub(crate) mod point;
 pub(crate) mod value;

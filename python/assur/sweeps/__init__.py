@@ -1,0 +1,1 @@
+"""Sweeps over many designs: motions, or metrics of them."""

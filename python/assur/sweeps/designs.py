@@ -1,0 +1,75 @@
+"""The designs of a sweep, block by block."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur._arrays import short
+from assur._validate import checked_name, real_array
+from assur.errors import InputError
+from assur.kinematics.mechanism import Mechanism
+
+Float: TypeAlias = npt.NDArray[np.float64]
+
+
+class Designs:
+    """Designs of a mechanism with dimensions that broadcast, none of which is copied as a whole."""
+
+    def __init__(self, mechanism: Any, dimensions: Any) -> None:
+        if not isinstance(mechanism, Mechanism):
+            message = f"mechanism is {short(mechanism)}: an assur.Mechanism is needed"
+            raise InputError(message)
+        if not isinstance(dimensions, Mapping):
+            message = f"dimensions is {short(dimensions)}: a mapping of names to values is needed"
+            raise InputError(message)
+        self.mechanism = mechanism
+        names = [checked_name(name, "dimensions") for name in dimensions]
+        indices = [mechanism._core.dimension(name) for name in names]
+        new = [real_array(dimensions[n], f"dimension {n!r}", copy=False) for n in names]
+        own = mechanism.shape
+        try:
+            self.shape = np.broadcast_shapes(own, *(array.shape for array in new))
+        except ValueError as error:
+            shapes = ", ".join(f"{n!r} {a.shape}" for n, a in zip(names, new, strict=True))
+            message = f"dimensions do not broadcast: {shapes}, designs {own}"
+            raise InputError(message) from error
+        columns: list[Float] = list(mechanism._values)
+        for index, array in zip(indices, new, strict=True):
+            columns[index] = array
+        # One number, or one of each design.
+        self._columns = [np.broadcast_to(c, self.shape) if np.ndim(c) else c for c in columns]
+        self.count = int(np.prod(self.shape, dtype=np.int64))
+
+    def some(self, which: slice | npt.NDArray[np.intp], memory: Float | None = None) -> Mechanism:
+        """Return a batch of some of them, by their indices in C order.
+
+        A block that the next one may overwrite needs no new `memory`.
+        """
+        places: Any = which
+        count = len(range(*which.indices(self.count))) if isinstance(which, slice) else len(which)
+        if len(self.shape) > 1:
+            indices = np.arange(*which.indices(self.count)) if isinstance(which, slice) else which
+            places = np.unravel_index(indices, self.shape)
+        size = len(self._columns)
+        if memory is None:
+            memory = np.empty(size * count)
+        values = memory[: size * count].reshape(size, count)
+        for row, column in zip(values, self._columns, strict=True):
+            row[:] = column[places] if np.ndim(column) else column
+        return self.mechanism._make(self.mechanism._description, values, self.mechanism._core)
+
+    @property
+    def size(self) -> int:
+        """Number of dimensions."""
+        return len(self._columns)
+
+    def all(self) -> Mechanism:
+        """Return all of them."""
+        values = np.empty((len(self._columns), *self.shape))
+        for row, column in zip(values, self._columns, strict=True):
+            row[...] = column
+        return self.mechanism._make(self.mechanism._description, values, self.mechanism._core)

@@ -1,0 +1,50 @@
+//! One coordinate of a motion: of a joint, a link or a slide, or a derivative of it.
+
+use super::metric::{Need, Positions};
+use crate::batch::outputs::Quantity;
+
+/// A coordinate, or a derivative of it by the driver's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Coordinate {
+    /// Where it is read.
+    pub need: Need,
+    /// Of a joint, 0 for x and 1 for y.
+    pub component: usize,
+}
+
+impl Coordinate {
+    /// A joint's x or y, m.
+    #[must_use]
+    pub fn joint(index: usize, component: usize) -> Self {
+        Self { need: Need { quantity: Quantity::Joint(index), order: 0 }, component }
+    }
+
+    /// A link's angle, rad.
+    #[must_use]
+    pub fn link(index: usize) -> Self {
+        Self { need: Need { quantity: Quantity::Angle(index), order: 0 }, component: 0 }
+    }
+
+    /// A slide's value, m.
+    #[must_use]
+    pub fn slide(index: usize) -> Self {
+        Self { need: Need { quantity: Quantity::Slide(index), order: 0 }, component: 0 }
+    }
+
+    /// Its derivative of an order by the driver's coordinate.
+    #[must_use]
+    pub fn derivative(self, order: usize) -> Self {
+        Self { need: Need { order, ..self.need }, ..self }
+    }
+
+    /// Its numbers, if it is the only need.
+    pub(super) fn values<'a>(&self, positions: &Positions<'a>) -> impl Iterator<Item = f64> + 'a {
+        let stride = match self.need.quantity {
+            Quantity::Joint(_) | Quantity::Place(_) => 2,
+            Quantity::Slide(_) | Quantity::Angle(_) => 1,
+        };
+        let first = self.component.min(stride - 1);
+        let all = positions.values.first().copied().unwrap_or(&[]);
+        all.iter().skip(first).step_by(stride).copied()
+    }
+}

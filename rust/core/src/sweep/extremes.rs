@@ -1,0 +1,91 @@
+//! How far a coordinate goes: its extremes, where they are, and what is between them.
+
+use super::coordinate::Coordinate;
+use super::metric::{Growth, Metric, Need, Positions};
+
+/// The greatest value less the least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Span(pub Coordinate);
+
+impl Metric for Span {
+    fn needs(&self) -> Vec<Need> {
+        vec![self.0.need]
+    }
+
+    fn of(&self, positions: &Positions<'_>) -> f64 {
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for value in self.0.values(positions) {
+            range = [range[0].min(value), range[1].max(value)];
+        }
+        // Of no position it is not a number.
+        if range[0] <= range[1] { range[1] - range[0] } else { f64::NAN }
+    }
+
+    fn growth(&self) -> Growth {
+        Growth::Rises
+    }
+}
+
+/// Which extreme.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extreme {
+    /// The least value of a coordinate.
+    Least(Coordinate),
+    /// Its greatest value.
+    Greatest(Coordinate),
+}
+
+impl Extreme {
+    fn coordinate(&self) -> &Coordinate {
+        match self {
+            Self::Least(coordinate) | Self::Greatest(coordinate) => coordinate,
+        }
+    }
+
+    /// The extreme, and the first position that has it.
+    fn find(&self, positions: &Positions<'_>) -> Option<(usize, f64)> {
+        let mut found: Option<(usize, f64)> = None;
+        for (index, value) in self.coordinate().values(positions).enumerate() {
+            let exceeds = |most: f64| match self {
+                Self::Least(_) => value < most,
+                Self::Greatest(_) => value > most,
+            };
+            if found.is_none_or(|(_, most)| exceeds(most)) {
+                found = Some((index, value));
+            }
+        }
+        found
+    }
+}
+
+impl Metric for Extreme {
+    fn needs(&self) -> Vec<Need> {
+        vec![self.coordinate().need]
+    }
+
+    fn of(&self, positions: &Positions<'_>) -> f64 {
+        self.find(positions).map_or(f64::NAN, |(_, value)| value)
+    }
+
+    fn growth(&self) -> Growth {
+        match self {
+            Self::Least(_) => Growth::Falls,
+            Self::Greatest(_) => Growth::Rises,
+        }
+    }
+}
+
+/// The driver's coordinate where an extreme is; of several equal ones the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PlaceOf(pub Extreme);
+
+impl Metric for PlaceOf {
+    fn needs(&self) -> Vec<Need> {
+        self.0.needs()
+    }
+
+    fn of(&self, positions: &Positions<'_>) -> f64 {
+        let found = self.0.find(positions).and_then(|(index, _)| positions.q.get(index));
+        found.copied().unwrap_or(f64::NAN)
+    }
+}

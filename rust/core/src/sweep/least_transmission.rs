@@ -1,0 +1,113 @@
+//! The least transmission angle.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::metric::{Growth, Metric, Need, Positions};
+use crate::batch::outputs::Quantity;
+use crate::math::trig::sin_cos;
+use crate::math::vector::Vector;
+use crate::query::metrics::acute;
+
+/// One of the two lines whose angle is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Line {
+    /// From the first joint to the second.
+    Joints([usize; 2]),
+    /// Along a guide on a link, at the angle that a dimension says, or along the link.
+    Guide(usize, Option<usize>),
+}
+
+/// The least acute angle between two lines, rad; of a slide the complement of the greatest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeastTransmission {
+    /// The lines.
+    pub lines: [Line; 2],
+    /// Whether the angle to the normal of the second line is meant.
+    pub complement: bool,
+}
+
+impl Line {
+    fn needs(self) -> Vec<Need> {
+        let need = |quantity| Need { quantity, order: 0 };
+        match self {
+            Self::Joints(ends) => ends.map(|joint| need(Quantity::Joint(joint))).to_vec(),
+            Self::Guide(link, _) => vec![need(Quantity::Angle(link))],
+        }
+    }
+
+    fn count(self) -> usize {
+        match self {
+            Self::Joints(_) => 2,
+            Self::Guide(..) => 1,
+        }
+    }
+
+    /// Its direction at a position.
+    #[inline]
+    fn direction(self, values: &[&[f64]], dimensions: &[f64], at: usize) -> Vector {
+        match (self, values) {
+            (Self::Joints(_), [from, to]) => {
+                Vector::new(to[2 * at] - from[2 * at], to[2 * at + 1] - from[2 * at + 1])
+            }
+            (Self::Guide(_, own), [angle]) => {
+                let own = own.and_then(|index| dimensions.get(index)).copied().unwrap_or(0.0);
+                let (y, x) = sin_cos(angle[at] + own);
+                Vector::new(x, y)
+            }
+            _ => Vector::new(f64::NAN, f64::NAN),
+        }
+    }
+}
+
+impl Metric for LeastTransmission {
+    fn needs(&self) -> Vec<Need> {
+        self.lines.iter().flat_map(|line| line.needs()).collect()
+    }
+
+    fn of(&self, positions: &Positions<'_>) -> f64 {
+        let [first, second] = self.lines;
+        let (a, b) = positions.values.split_at(first.count().min(positions.values.len()));
+        let found = match (first, second, a, b) {
+            (Line::Joints(_), Line::Joints(_), &[from, to], &[start, end]) => {
+                let along =
+                    |[from, to]: [&[f64; 2]; 2]| Vector::new(to[0] - from[0], to[1] - from[1]);
+                let ends = points(from).iter().zip(points(to));
+                let others = points(start).iter().zip(points(end));
+                self.least(ends.zip(others).map(|(u, v)| [along(u.into()), along(v.into())]))
+            }
+            _ => self.least((0..positions.q.len()).map(|at| {
+                let own = positions.dimensions;
+                [first.direction(a, own, at), second.direction(b, own, at)]
+            })),
+        };
+        let angle = found.map_or(f64::NAN, |[u, v]| acute(u, v));
+        if self.complement { FRAC_PI_2 - angle } else { angle }
+    }
+
+    fn growth(&self) -> Growth {
+        Growth::Falls
+    }
+}
+
+impl LeastTransmission {
+    /// The directions whose angle is least.
+    #[inline]
+    fn least(&self, directions: impl Iterator<Item = [Vector; 2]>) -> Option<[Vector; 2]> {
+        let mut least = f64::INFINITY;
+        let mut found = None;
+        for [u, v] in directions {
+            // The square of the sine, or of the cosine, orders as the angle does.
+            let part = if self.complement { u.dot(v) } else { u.cross(v) };
+            let square = part * part / (u.norm2() * v.norm2());
+            if square < least {
+                (least, found) = (square, Some([u, v]));
+            }
+        }
+        found
+    }
+}
+
+/// x and y of each point.
+fn points(values: &[f64]) -> &[[f64; 2]] {
+    values.as_chunks::<2>().0
+}

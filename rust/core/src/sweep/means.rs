@@ -1,0 +1,42 @@
+//! Means of a coordinate over the positions; evenly spaced over a turn, they are those over the turn.
+
+use super::coordinate::Coordinate;
+use super::metric::{Metric, Need, Positions};
+
+/// The arithmetic mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mean(pub Coordinate);
+
+impl Metric for Mean {
+    fn needs(&self) -> Vec<Need> {
+        vec![self.0.need]
+    }
+
+    fn of(&self, positions: &Positions<'_>) -> f64 {
+        mean(self.0.values(positions))
+    }
+}
+
+/// The root of the mean square.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RootMeanSquare(pub Coordinate);
+
+impl Metric for RootMeanSquare {
+    fn needs(&self) -> Vec<Need> {
+        vec![self.0.need]
+    }
+
+    fn of(&self, positions: &Positions<'_>) -> f64 {
+        mean(self.0.values(positions).map(|value| value * value)).sqrt()
+    }
+}
+
+/// NaN of none.
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for value in values {
+        sum += value;
+        count += 1.0;
+    }
+    sum / count
+}

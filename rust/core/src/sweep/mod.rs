@@ -1,0 +1,52 @@
+//! One number a design: metrics of its motion, without keeping its positions.
+//!
+//! [`Mechanism::measure`] solves one design after another into the memory of a thread,
+//! [`Metric`]s make a number of each motion, [`Condition`]s drop designs early. The metrics here cover
+//! what is often asked; others implement the trait.
+//!
+//! ```
+//! use assur::sweep::{Coordinate, Span, Sweep};
+//! use assur::{Control, Description, Mechanism};
+//!
+//! let engine = Mechanism::new(
+//!     &Description::new()
+//!         .joint("O", [0.0, 0.0])
+//!         .joint("A", [0.03, 0.04])
+//!         .joint("B", [0.2, 0.0])
+//!         .link("ground", ["O"])
+//!         .link("crank", ["O", "A"])
+//!         .link("rod", ["A", "B"])
+//!         .link("piston", ["B"])
+//!         .slide("bore", "piston", "ground", 0.0, Some("O"))
+//!         .driver("crank"),
+//! )?;
+//! let q = [0.0, std::f64::consts::PI];
+//! let stroke = Span(Coordinate::slide(engine.slide("bore")?));
+//! let sweep = Sweep { metrics: &[&stroke], ..Sweep::of(&engine, engine.drawing(), &q) };
+//! let found = engine.measure(&sweep, &Control::default())?;
+//! assert!((found.values[0][0] - 0.1).abs() < 1e-15);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`Mechanism::measure`]: crate::Mechanism::measure
+
+mod coordinate;
+mod deviation;
+mod extremes;
+mod least_transmission;
+mod means;
+mod measure;
+mod metric;
+mod parts;
+mod scratch;
+mod time_ratio;
+
+pub use coordinate::Coordinate;
+pub use deviation::{Deviation, Shape};
+pub use extremes::{Extreme, PlaceOf, Span};
+pub use least_transmission::{LeastTransmission, Line};
+pub use means::{Mean, RootMeanSquare};
+pub use measure::{Measured, Sweep};
+pub use metric::{Condition, Growth, Metric, Moves, Need, Positions, Relation};
+pub use parts::Part;
+pub use time_ratio::TimeRatio;

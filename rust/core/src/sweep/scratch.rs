@@ -1,0 +1,59 @@
+//! The memory into which a thread solves one design after another.
+
+use crate::batch::outputs::Column;
+use crate::batch::solve::as_unwritten;
+use crate::batch::worker::Job;
+use crate::batch::writer::RowSlices;
+
+/// Columns for the positions of one design.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    values: Vec<Vec<f64>>,
+    status: Vec<u8>,
+}
+
+/// The rows of a scratch, to be written and read in turn.
+pub(super) struct ScratchRows<'a>(RowSlices<'a>);
+
+impl Scratch {
+    pub(super) fn new(columns: &[Column], positions: usize) -> Self {
+        let values =
+            columns.iter().map(|column| vec![f64::NAN; positions * column.width]).collect();
+        Self { values, status: vec![0; positions] }
+    }
+
+    pub(super) fn rows(&mut self) -> ScratchRows<'_> {
+        #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
+        // SAFETY: a worker stores only initialised numbers.
+        unsafe {
+            ScratchRows(RowSlices {
+                columns: self.values.iter_mut().map(|values| as_unwritten(values)).collect(),
+                status: as_unwritten(&mut self.status),
+                past_caches: false,
+            })
+        }
+    }
+}
+
+impl<'a> ScratchRows<'a> {
+    /// The job of solving a design at `q`, the same for all designs, into the first rows.
+    pub(super) fn job<'j>(&'j mut self, q: &'j [f64], design: usize) -> Job<'j, 'a> {
+        Job { q, rows: &mut self.0, first: 0, index: 0, design, shared: Some(0) }
+    }
+
+    pub(super) fn column(&self, index: usize) -> &[f64] {
+        #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
+        // SAFETY: the numbers were initialised when the scratch was made.
+        unsafe {
+            self.0.columns[index].assume_init_ref()
+        }
+    }
+
+    pub(super) fn status(&self) -> &[u8] {
+        #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
+        // SAFETY: as above.
+        unsafe {
+            self.0.status.assume_init_ref()
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Metrics and conditions from tuples, as `assur.metric` makes them.
+
+use std::f64::consts::TAU;
+
+use assur::sweep::{
+    Condition, Coordinate, Deviation, Extreme, LeastTransmission, Line, Mean, Metric, Moves, Part,
+    PlaceOf, Relation, RootMeanSquare, Shape, Span, TimeRatio,
+};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+type Own = Box<dyn Metric + Send>;
+
+/// A metric, of which kind and of what.
+pub(crate) struct MetricSpec(pub Own);
+
+impl<'py> FromPyObject<'_, 'py> for MetricSpec {
+    type Error = PyErr;
+
+    fn extract(spec: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let kind: String = spec.get_item(0)?.extract()?;
+        let with_coordinate = || coordinate(&spec.get_item(1)?);
+        let metric: Own = match kind.as_str() {
+            "moves" => Box::new(Moves),
+            "span" => Box::new(Span(with_coordinate()?)),
+            "least" => Box::new(Extreme::Least(with_coordinate()?)),
+            "greatest" => Box::new(Extreme::Greatest(with_coordinate()?)),
+            "place_of_least" => Box::new(PlaceOf(Extreme::Least(with_coordinate()?))),
+            "place_of_greatest" => Box::new(PlaceOf(Extreme::Greatest(with_coordinate()?))),
+            "mean" => Box::new(Mean(with_coordinate()?)),
+            "rms" => Box::new(RootMeanSquare(with_coordinate()?)),
+            "time_ratio" => Box::new(TimeRatio(with_coordinate()?)),
+            "least_transmission" => {
+                let lines = [line(&spec.get_item(1)?)?, line(&spec.get_item(2)?)?];
+                Box::new(LeastTransmission { lines, complement: spec.get_item(3)?.extract()? })
+            }
+            "deviation" => {
+                let (joint, shape, count, is_closed, is_relative): (_, String, _, _, _) =
+                    spec.get_item(1)?.extract()?;
+                let shape = if shape == "line" { Shape::Line } else { Shape::Circle };
+                Box::new(Deviation { joint, shape, count, is_closed, is_relative })
+            }
+            "part" => {
+                let (from, to, of_turn): (f64, f64, bool) = spec.get_item(1)?.extract()?;
+                let MetricSpec(metric) = spec.get_item(2)?.extract()?;
+                let period = of_turn.then_some(TAU);
+                Box::new(Part { metric, from, to, period })
+            }
+            _ => return Err(PyValueError::new_err(format!("{kind:?} is no metric"))),
+        };
+        Ok(Self(metric))
+    }
+}
+
+/// What it belongs to, index, component and order.
+fn coordinate(spec: &Bound<'_, PyAny>) -> PyResult<Coordinate> {
+    let (what, index, component, order): (String, usize, usize, usize) = spec.extract()?;
+    let value = match what.as_str() {
+        "joint" => Coordinate::joint(index, component),
+        "link" => Coordinate::link(index),
+        _ => Coordinate::slide(index),
+    };
+    Ok(value.derivative(order))
+}
+
+/// Two joints; or a link, and the dimension that is the guide's angle.
+fn line(spec: &Bound<'_, PyAny>) -> PyResult<Line> {
+    let kind: String = spec.get_item(0)?.extract()?;
+    if kind == "joints" {
+        Ok(Line::Joints([spec.get_item(1)?.extract()?, spec.get_item(2)?.extract()?]))
+    } else {
+        Ok(Line::Guide(spec.get_item(1)?.extract()?, spec.get_item(2)?.extract()?))
+    }
+}
+
+/// A condition: metric, relation and limit.
+pub(crate) fn condition((metric, relation, limit): (usize, String, f64)) -> Condition {
+    let relation = match relation.as_str() {
+        "<" => Relation::Less,
+        "<=" => Relation::AtMost,
+        ">" => Relation::Greater,
+        _ => Relation::AtLeast,
+    };
+    Condition { metric, relation, limit }
+}

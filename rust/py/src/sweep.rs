@@ -1,0 +1,38 @@
+//! Metrics of a batch.
+
+use std::num::NonZeroUsize;
+
+use assur::sweep::{Measured, Metric, Sweep};
+use assur::{Control, Mechanism};
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::convert::metric::{MetricSpec, condition};
+use crate::{detach, error_map};
+
+/// Values of each metric, statuses, and which designs are kept.
+pub(crate) type Found<'py> =
+    (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<bool>>);
+
+/// See `assur.sweep`.
+pub(crate) fn measure<'py>(
+    py: Python<'py>,
+    mechanism: &Mechanism,
+    (dimensions, q): (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>),
+    signs: &[i8],
+    metrics: &[MetricSpec],
+    conditions: Vec<(usize, String, f64)>,
+    threads: Option<NonZeroUsize>,
+) -> PyResult<Found<'py>> {
+    let (dimensions, q) = (dimensions.as_slice()?, q.as_slice()?);
+    let conditions: Vec<_> = conditions.into_iter().map(condition).collect();
+    let metrics: Vec<&dyn Metric> = metrics.iter().map(|spec| &*spec.0 as &dyn Metric).collect();
+    let sweep = Sweep { dimensions, q, signs, metrics: &metrics, conditions: &conditions };
+    let measured = detach::run(py, false, |cancel| {
+        let control = Control { threads, cancel: Some(cancel), ..Control::default() };
+        mechanism.measure(&sweep, &control)
+    })?;
+    let Measured { values, status, kept } = measured.map_err(error_map::solve)?;
+    let values = values.into_iter().map(|values| PyArray1::from_vec(py, values)).collect();
+    Ok((values, PyArray1::from_vec(py, status), PyArray1::from_vec(py, kept)))
+}

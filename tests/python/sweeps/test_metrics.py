@@ -1,0 +1,201 @@
+"""Metrics of sweeps against NumPy on the stored motions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import library
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+import assur
+import design_spaces
+from assur import metric
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+Float = npt.NDArray[np.float64]
+
+Q = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
+MECHANISMS = ["crank_rocker", "engine", "whitworth", "stephenson_six_bar"]
+
+
+def space(name: str) -> assur.Mechanism:
+    return design_spaces.space(library.LIBRARY[name](), np.random.default_rng(5), 300)
+
+
+def coordinate(motion: assur.Motion, name: str, order: int = 0) -> Float:
+    joint, _, axis = name.rpartition(".")
+    word = ("value", "d1", "d2", "d3")[order]
+    if joint:
+        point: Float = getattr(motion.joint(joint), word)[..., "xy".index(axis)]
+        return point
+    of = motion.slide(name) if name in motion.mechanism.slides else motion.link(name)
+    found: Float = getattr(of, word)
+    return found
+
+
+def best_line(path: Float, count: int, relative: bool) -> float:
+    """Every stretch, by singular values."""
+    best = np.inf
+    for start in range(len(path)):
+        stretch = np.take(path, range(start, start + count), axis=0, mode="wrap")
+        from_middle = stretch - stretch.mean(axis=0)
+        _, _, (along, across) = np.linalg.svd(from_middle)
+        off = np.abs(from_middle @ across).max()
+        if relative:
+            off /= np.ptp(from_middle @ along)
+        best = min(best, off)
+    return best
+
+
+def best_circle(path: Float, count: int) -> float:
+    """Every stretch, by linear least squares (Kåsa)."""
+    best = np.inf
+    for start in range(len(path)):
+        stretch = np.take(path, range(start, start + count), axis=0, mode="wrap")
+        matrix = np.column_stack([2 * stretch, np.ones(count)])
+        (a, b, c), *_ = np.linalg.lstsq(matrix, (stretch**2).sum(axis=1))
+        radius = np.sqrt(c + a * a + b * b)
+        best = min(best, np.abs(np.hypot(*(stretch - [a, b]).T) - radius).max())
+    return best
+
+
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_metrics_are_those_of_the_motion(name: str) -> None:
+    one, batch = library.LIBRARY[name](), space(name)
+    names = [j for j in one.joints if j not in one.links["ground"]]
+    links = [link for link in one.links if link != "ground"]
+    of = [f"{names[-1]}.x", f"{names[0]}.y", links[-1], *one.slides]
+    q = Q + one.q0
+    motion = batch.solve(q, order=2, on_error="nan")
+    moves = (motion.status < assur.Status.SINGULAR).all(axis=-1)
+    assert moves.sum() > 20
+    asked: dict[str, tuple[metric.Metric, Callable[[Float], Any], str, int]] = {}
+    for what in of:
+        for order in (0, 1, 2):
+            reductions: dict[str, tuple[Any, Callable[[Float], Any]]] = {
+                "span": (metric.span, lambda v: np.ptp(v, axis=-1)),
+                "least": (metric.least, lambda v: v.min(axis=-1)),
+                "greatest": (metric.greatest, lambda v: v.max(axis=-1)),
+                "at least": (metric.place_of_least, lambda v: q[v.argmin(axis=-1)]),
+                "at greatest": (metric.place_of_greatest, lambda v: q[v.argmax(axis=-1)]),
+                "mean": (metric.mean, lambda v: v.mean(axis=-1)),
+                "rms": (metric.rms, lambda v: np.sqrt((v * v).mean(axis=-1))),
+            }
+            for word, (make, reduce) in reductions.items():
+                asked[f"{word} {what} {order}"] = (make(what, order), reduce, what, order)
+    found = assur.sweep(batch, {}, q, metrics={name: m for name, (m, *_) in asked.items()})
+    assert found.kept.tolist() == np.flatnonzero(moves).tolist()
+    assert (np.asarray(found.status[~moves]) > assur.Status.NEAR_SINGULAR).all()
+    for key, (_, reduce, what, order) in asked.items():
+        values = coordinate(motion, what, order)[moves]
+        np.testing.assert_allclose(found[key][moves], reduce(values), rtol=1e-13, atol=1e-13)
+        assert np.isnan(found[key][~moves]).all()
+
+
+def test_least_transmission() -> None:
+    for name, at in [("crank_rocker", "C"), ("engine", "B"), ("engine", "bore")]:
+        batch = space(name)
+        motion = batch.solve(Q, order=0, on_error="nan")
+        found = assur.sweep(batch, {}, Q, metrics={"angle": metric.least_transmission(at)})
+        expected = motion.transmission_angle(at).min(axis=-1)
+        np.testing.assert_allclose(found["angle"], expected, rtol=0, atol=1e-15)
+    between = ("B", "D")
+    found = assur.sweep(
+        space("crank_rocker"), {}, Q, metrics={"angle": metric.least_transmission("C", between)}
+    )
+    motion = space("crank_rocker").solve(Q, order=0, on_error="nan")
+    expected = motion.transmission_angle("C", between=between).min(axis=-1)
+    np.testing.assert_allclose(found["angle"], expected, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("part", [0.1, 0.5, 1.0])
+def test_deviation(part: float) -> None:
+    batch = space("stephenson_six_bar")
+    found = assur.sweep(
+        batch,
+        {},
+        Q,
+        metrics={
+            "line": metric.deviation("P", "line", part),
+            "relative": metric.deviation("P", "line", part, relative=True),
+            "circle": metric.deviation("P", "circle", part),
+        },
+    )
+    paths = batch.solve(Q, order=0, on_error="nan").joint("P").value
+    count = min(round(part * 72) + 1, 72) if part > 0.1 else 8
+    for design in found.kept[:40]:
+        path = paths[design]
+        np.testing.assert_allclose(
+            [found["line"][design], found["relative"][design], found["circle"][design]],
+            [best_line(path, count, False), best_line(path, count, True), best_circle(path, count)],
+            rtol=1e-8,
+            atol=1e-15,
+        )
+
+
+def test_time_ratio_of_a_whitworth_mechanism() -> None:
+    batch = space("engine")
+    found = assur.sweep(batch, {}, Q, metrics={"ratio": metric.time_ratio("bore")})
+    values = batch.solve(Q, order=0, on_error="nan").slide("bore").value[found.kept]
+    ahead = np.abs(values.argmax(axis=-1) - values.argmin(axis=-1)) / 72
+    expected = np.maximum(ahead, 1 - ahead) / np.minimum(ahead, 1 - ahead)
+    np.testing.assert_allclose(found["ratio"][found.kept], expected, rtol=1e-12)
+
+
+def test_metrics_of_a_part_of_the_turn() -> None:
+    batch = space("crank_rocker")
+    found = assur.sweep(
+        batch,
+        {},
+        Q,
+        metrics={
+            "inside": metric.greatest("C.y", over=(1.0, 2.0)),
+            "across": metric.mean("rocker", over=(6.0, 7.0)),
+            "none": metric.span("rocker", over=(0.001, 0.002)),
+        },
+    )
+    motion = batch.solve(Q, order=0, on_error="nan")
+    inside, across = (Q >= 1.0) & (Q <= 2.0), (Q >= 6.0) | (Q + 2 * np.pi <= 7.0)
+    height, angle = motion.joint("C").value[..., 1], motion.link("rocker").value
+    kept = found.kept
+    assert (found["inside"][kept] == height[kept][:, inside].max(axis=-1)).all()
+    np.testing.assert_allclose(found["across"][kept], angle[kept][:, across].mean(axis=-1), 1e-13)
+    assert np.isnan(found["none"]).all()
+
+
+def test_combinations_conditions_and_functions() -> None:
+    batch = space("crank_rocker")
+
+    def height(motion: assur.Motion) -> Float:
+        highest: Float = motion.joint("C").value[..., 1].max(axis=-1)
+        return highest
+
+    angle, high = metric.least_transmission("C"), metric.function(height, ["C"])
+    quality = 2.0 * metric.span("rocker") - high / 3.0 + 1.0
+    found = assur.sweep(
+        batch,
+        {},
+        Q,
+        metrics={"quality": quality, "high": high, "turns": metric.full_rotation()},
+        where=[angle > 0.5, metric.span("C.x") <= 2.0, quality < 2.0],
+    )
+    motion = batch.solve(Q, order=0, on_error="nan")
+    highest = motion.joint("C").value[..., 1].max(axis=-1)
+    expected = 2.0 * np.ptp(motion.link("rocker").value, axis=-1) - highest / 3.0 + 1.0
+    moves = (motion.status <= assur.Status.SINGULAR).all(axis=-1)
+    meets = (
+        moves
+        & (motion.transmission_angle("C").min(axis=-1) > 0.5)
+        & (np.ptp(motion.joint("C").value[..., 0], axis=-1) <= 2.0)
+        & (expected < 2.0)
+    )
+    assert 0 < meets.sum() < moves.sum()
+    assert found.kept.tolist() == np.flatnonzero(meets).tolist()
+    assert np.isnan(found["quality"][~meets]).all()
+    assert (found["turns"][meets] == 1.0).all()
+    assert (found["high"][meets] == highest[meets]).all()
+    np.testing.assert_allclose(found["quality"][meets], expected[meets], rtol=1e-13)
