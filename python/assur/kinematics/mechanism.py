@@ -79,6 +79,7 @@ class Mechanism:
         "_description",
         "_joints",
         "_known_signs",
+        "_names",
         "_structure",
         "_values",
     )
@@ -90,6 +91,8 @@ class Mechanism:
     _values: Float
     _structure: Structure | None
     _joints: MappingProxyType[str, Any] | None
+    # Indices of joints, links and slides by name.
+    _names: tuple[dict[str, int], dict[str, int], dict[str, int]] | None
 
     def __init__(
         self,
@@ -126,6 +129,7 @@ class Mechanism:
             ("_known_signs", KnownSigns(math.prod(array.shape[1:]))),
             ("_structure", None),
             ("_joints", None),
+            ("_names", None),
         ):
             object.__setattr__(self, name, value)
 
@@ -218,7 +222,17 @@ class Mechanism:
 
     @property
     def _driver_count(self) -> int:
-        return len(self._core.q0)
+        return len(self._description[3])
+
+    @property
+    def _indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
+        """Indices of joints, links and slides by name; nobody changes them."""
+        if self._names is None:
+            joints, links, slides, *_ = self._description
+            names = tuple({one[0]: i for i, one in enumerate(of)} for of in (joints, links, slides))
+            object.__setattr__(self, "_names", names)
+        assert self._names is not None
+        return self._names
 
     def _q0_array(self) -> Float:
         q0 = np.array(self._core.q0)

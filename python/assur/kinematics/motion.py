@@ -16,6 +16,8 @@ from assur.kinematics.quantity import Analogues
 from assur.kinematics.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from assur.kinematics.request import Results, SolveRequest
 
 __all__ = ["Motion"]
@@ -110,7 +112,9 @@ class Motion:
         formula = self.mechanism._core.formula
         return f"<assur.Motion of {formula}, shape {self.shape}, order {self.order}>"
 
-    def _find(self, kind: str, held: dict[str, tuple[Float, ...]], name: str) -> tuple[Float, ...]:
+    def _find(
+        self, kind: str, held: Mapping[str, tuple[Float, ...]], name: str
+    ) -> tuple[Float, ...]:
         if checked_name(name, kind) not in held:
             self.mechanism._core.require(kind, name)
             message = f"{kind} {name!r} was not among the outputs of this motion"

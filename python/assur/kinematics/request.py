@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from assur.kinematics.held import Held
+
 if TYPE_CHECKING:
     from assur.errors import AssurError
     from assur.kinematics.mechanism import Mechanism
 
 Float: TypeAlias = npt.NDArray[np.float64]
-Held: TypeAlias = dict[str, tuple[Float, ...]]
+# Arrays by name, one for each order.
+Arrays: TypeAlias = Mapping[str, tuple[Float, ...]]
 # Indices of joints, links (angles), links (reference points), slides.
 Outputs: TypeAlias = tuple[list[int], list[int], list[int], list[int]]
 
@@ -35,16 +39,16 @@ class Buffers:
 class Results:
     """The arrays of a motion by name, one for each order."""
 
-    joints: Held
-    links: Held
-    slides: Held
+    joints: Arrays
+    links: Arrays
+    slides: Arrays
     # The same arrays as written by the core; None in a copy.
     buffers: Buffers | None = None
 
     def copied(self) -> Results:
         """Return a copy with arrays of its own."""
 
-        def own(held: Held) -> Held:
+        def own(held: Arrays) -> Arrays:
             return {name: tuple(a.copy() for a in arrays) for name, arrays in held.items()}
 
         return Results(own(self.joints), own(self.links), own(self.slides))
@@ -139,15 +143,4 @@ class SolveRequest:
         found: dict[tuple[str, int, int], Float],
         shape: tuple[int, ...],
     ) -> Held:
-        """Return arrays by name and order; with several drivers each order adds an axis."""
-        drivers = self.mechanism._driver_count
-        held = {}
-        for name, index in names.items():
-            arrays = []
-            for order in range(self.order + 1):
-                tail = (drivers,) * order if drivers > 1 else ()
-                array = found[kind, index, order].reshape(shape + tail)
-                array.flags.writeable = False
-                arrays.append(array)
-            held[name] = tuple(arrays)
-        return held
+        return Held(kind, names, found, shape, self.mechanism._driver_count, self.order)

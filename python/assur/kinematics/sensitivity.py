@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur.kinematics.motion import Motion
-    from assur.kinematics.request import Held
+    from assur.kinematics.request import Arrays
 
 __all__ = ["Sensitivity"]
 
@@ -48,7 +48,7 @@ class Sensitivity:
         """Return derivatives of a slide's value and its analogues, m/m or m/rad."""
         return Analogues(name, self._of("slide", self._results.slides, name), self._drivers, False)
 
-    def _of(self, kind: str, held: Held, name: str) -> tuple[npt.NDArray[np.float64], ...]:
+    def _of(self, kind: str, held: Arrays, name: str) -> tuple[npt.NDArray[np.float64], ...]:
         if checked_name(name, kind) not in held:
             message = f"{kind} {name!r} was not among the outputs of this motion"
             raise InputError(message, **{kind: name})  # type: ignore[arg-type]

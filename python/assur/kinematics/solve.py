@@ -117,22 +117,19 @@ def checked_assembly(mechanism: Mechanism, assembly: Mapping[str, int] | None) -
 
 
 def _outputs(mechanism: Mechanism, names: Iterable[str] | None) -> Names:
-    joints = {name: i for i, (name, _, _) in enumerate(mechanism._description[0])}
-    links = {name: i for i, (name, _) in enumerate(mechanism._description[1])}
-    slides = {name: i for i, (name, _) in enumerate(mechanism._description[2])}
+    joints, links, slides = mechanism._indices
     if names is None:
         return joints, links, slides
     if isinstance(names, str):
         message = f"outputs={names!r}: a list of names is needed, [{names!r}]"
         raise InputError(message)
-    everything = {**joints, **links, **slides}
     try:
         wanted: list[Any] = list(names)
     except TypeError as error:
         message = f"outputs is {short(names)}: a list of names is needed"
         raise InputError(message) from error
     for name in wanted:
-        if not isinstance(name, str) or name not in everything:
+        if not isinstance(name, str) or not (name in joints or name in links or name in slides):
             known = ", ".join(repr(n) for n in (*joints, *links, *slides))
             message = f"outputs: nothing is called {name!r}; there are {known}"
             raise InputError(message)

@@ -12,6 +12,8 @@ use pyo3::types::{PyDict, PySlice};
 const CACHE_LINE: usize = 64;
 /// Bytes from which an array is worth keeping: less is reused by the allocator itself.
 const WORTH_KEEPING: usize = 64 << 10;
+/// Bytes below which an array is quicker made than aligned.
+const FEW: usize = 16 << 10;
 /// Bytes kept at most.
 const MAX_KEPT: usize = 512 << 20;
 
@@ -83,6 +85,9 @@ impl Memory {
         let len = rows.checked_mul(width).and_then(|len| len.checked_add(CACHE_LINE));
         let len = len.ok_or_else(too_many)?;
         let bytes = len.checked_mul(size_of::<T>()).ok_or_else(too_many)?;
+        if bytes < FEW {
+            return Ok(PyArray1::zeros(py, len - CACHE_LINE, false));
+        }
         let fits = |kept: &Kept| {
             let array = kept.array.bind(py).cast::<PyArray1<T>>();
             kept.bytes == bytes && array.is_ok_and(|array| array.len() == len)
