@@ -27,7 +27,7 @@ class Measures(Mapping[str, Float]):
     ----------
     status : numpy.ndarray
         A `Status` of each design, S: that of a position that cannot be solved, if there is
-        one.
+        one, or the worst. With a ``SINGULAR`` position metrics of derivatives are NaN.
     kept : numpy.ndarray
         Indices (of designs in C order) of those that move over all of q and meet all
         conditions, ascending. All others have NaN.

@@ -127,6 +127,21 @@ def test_higher_classes_and_several_drivers() -> None:
     assert (turns["most"][moves] == motion.link(link).d1[moves].max(axis=-1)).all()
 
 
+def test_at_change_points_there_are_no_derivatives() -> None:
+    """A parallelogram moves through them; what is asked besides does not matter."""
+    q = np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
+    asked = {"swing": metric.span("rocker"), "rate": metric.greatest("rocker", order=1)}
+    found = assur.sweep(assur.FourBar(1.0, 2.0, 1.0, 2.0), {}, q, metrics=asked)
+    assert found.status == assur.Status.SINGULAR
+    assert found.kept.tolist() == [0]
+    assert found["swing"] == pytest.approx(1.75 * np.pi, abs=1e-12)
+    assert np.isnan(found["rate"])
+    where = [metric.greatest("rocker", order=1) < 9.0]
+    assert not assur.sweep(
+        assur.FourBar(1.0, 2.0, 1.0, 2.0), {}, q, metrics=asked, where=where
+    ).kept.size
+
+
 def test_progress() -> None:
     calls: list[tuple[int, int]] = []
     space = {"coupler.length": np.linspace(2.0, 4.0, 10)}

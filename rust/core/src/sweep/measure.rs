@@ -28,6 +28,9 @@ const MANY_POSITIONS: usize = 4 * PROBES;
 const TRIAL: usize = 64;
 const LEAST_PART_DROPPED: usize = 8;
 
+/// Code from which a position has failed.
+const FIRST_FAILURE: u8 = Status::Unreachable as u8;
+
 /// What to measure.
 #[derive(Clone, Copy)]
 pub struct Sweep<'a> {
@@ -115,7 +118,6 @@ impl Mechanism {
             sources: &sources,
             probes: &probes,
             shape: &shape,
-            least_failure: if order == 0 { Status::Unreachable } else { Status::Singular } as u8,
             control,
         };
         dispatch::at_level(control.simd, Measure { batch: &batch, chunks })?;
@@ -179,8 +181,6 @@ struct Batch<'b> {
     sources: &'b [Vec<usize>],
     probes: &'b Probes,
     shape: &'b Shape,
-    /// Code from which a position has failed: at a singular one there are no derivatives.
-    least_failure: u8,
     control: &'b Control<'b>,
 }
 
@@ -319,11 +319,11 @@ impl Batch<'_> {
     ) -> Outcome {
         let status = &rows.status()[..q.len() / self.shape.drivers];
         let worst = status.iter().fold(0, |worst, &code| worst.max(code));
-        if worst >= self.least_failure {
+        if worst >= FIRST_FAILURE {
             // The probes come first, whether or not they were solved before.
             let places: &[usize] = if are_probes { &[] } else { &self.probes.places };
             let mut all = places.iter().map(|&place| &status[place]).chain(status);
-            let failed = all.find(|&&code| code >= self.least_failure);
+            let failed = all.find(|&&code| code >= FIRST_FAILURE);
             return Outcome::Fails(failed.copied().unwrap_or(worst));
         }
         let metrics = self.sweep.metrics;
@@ -331,7 +331,7 @@ impl Batch<'_> {
         for condition in self.sweep.conditions {
             let metric = metrics[condition.metric];
             if !are_probes || condition.stays_false(metric.growth()) {
-                let value = self.value(rows, (row, q), condition.metric);
+                let value = self.value(rows, (row, q), condition.metric, worst);
                 found[condition.metric] = value;
                 // A part of the positions may have no probe.
                 if !(condition.holds(value) || are_probes && value.is_nan()) {
@@ -342,19 +342,25 @@ impl Batch<'_> {
         if !are_probes {
             let asked = |metric: usize| self.sweep.conditions.iter().any(|c| c.metric == metric);
             for metric in (0..metrics.len()).filter(|&metric| !asked(metric)) {
-                found[metric] = self.value(rows, (row, q), metric);
+                found[metric] = self.value(rows, (row, q), metric, worst);
             }
         }
         Outcome::Moves(worst)
     }
 
-    /// A metric of the positions at `q`.
+    /// A metric of the positions at `q`, whose worst status is given. At singular ones there are no
+    /// derivatives.
     fn value(
         &self,
         rows: &ScratchRows<'_>,
         (row, q): (DesignRow<'_>, &[f64]),
         metric: usize,
+        worst: u8,
     ) -> f64 {
+        let is_derivative = |&column: &usize| self.columns[column].order > 0;
+        if worst >= Status::Singular as u8 && self.sources[metric].iter().any(is_derivative) {
+            return f64::NAN;
+        }
         let positions = q.len() / self.shape.drivers;
         let column = |&index: &usize| &rows.column(index)[..positions * self.columns[index].width];
         let values: Vec<&[f64]> = self.sources[metric].iter().map(column).collect();
