@@ -145,9 +145,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             }
         }
         if some_open && let Some(log) = &mut self.failures {
-            for place in 0..count {
-                let (group, lane) = (place / R::LANES, place % R::LANES);
-                if open[group].lane(lane) && !log.count_later(job.index + row + place, 1) {
+            for position in 0..count {
+                let (group, lane) = (position / R::LANES, position % R::LANES);
+                if open[group].lane(lane) && !log.count_later(job.index + row + position, 1) {
                     // It has to be described.
                     care[group] = care[group].or(mask::<R>(|i| i == lane));
                     again = true;
@@ -168,12 +168,12 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         count: usize,
         lanes: &[R::Mask; G],
     ) {
-        for place in 0..count {
+        for position in 0..count {
             if self.is_cancelled() {
                 return;
             }
-            if lanes[place / R::LANES].lane(place % R::LANES) {
-                self.solve_scalar(job, row + place);
+            if lanes[position / R::LANES].lane(position % R::LANES) {
+                self.solve_scalar(job, row + position);
             }
         }
     }

@@ -8,8 +8,8 @@ use crate::plan::plan::Plan;
 use crate::state::state::State;
 
 /// The coordinates of a job's positions.
-pub(super) struct Coordinates<R, const G: usize> {
-    blocks: Vec<Block<R, G>>,
+pub(super) struct CoordinateRegisters<R, const G: usize> {
+    blocks: Vec<CoordinateBlock<R, G>>,
     /// Registers with coordinates.
     pub(super) registers: usize,
     /// Index of the first of them among those that all designs share, if they are shared.
@@ -20,22 +20,22 @@ pub(super) struct Coordinates<R, const G: usize> {
     pub(super) is_far: bool,
 }
 
-/// Coordinates with their unit vectors, as [`State`] has them.
-struct Block<R, const G: usize> {
+/// CoordinateRegisters with their unit vectors, as [`State`] has them.
+struct CoordinateBlock<R, const G: usize> {
     q: Vec<[R; G]>,
     unit: Vec<[Vector<R>; G]>,
     /// Whether each position has to be solved by itself.
     by_position: bool,
 }
 
-impl<R: Real, const G: usize> Block<R, G> {
+impl<R: Real, const G: usize> CoordinateBlock<R, G> {
     fn new(drivers: usize) -> Self {
         let (q, unit) = (vec![[R::ZERO; G]; drivers], vec![[Vector::ONE; G]; drivers]);
         Self { q, unit, by_position: false }
     }
 }
 
-impl<R: Real, const G: usize> Coordinates<R, G> {
+impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
     pub(super) fn new(plan: &Plan) -> Self {
         let drivers = 0..plan.drivers.len();
         let is_angle = drivers.map(|driver| plan.driven_slide(driver).is_none()).collect();
@@ -63,7 +63,7 @@ impl<R: Real, const G: usize> Coordinates<R, G> {
         self.registers = positions.div_ceil(R::LANES);
         let needed = positions.div_ceil(G * R::LANES);
         if self.blocks.len() < needed {
-            self.blocks.resize_with(needed, || Block::new(drivers));
+            self.blocks.resize_with(needed, || CoordinateBlock::new(drivers));
         }
         for (block, some) in self.blocks.iter_mut().zip(q.chunks(G * R::LANES * drivers)) {
             let positions = some.len() / drivers;

@@ -55,12 +55,12 @@ impl Designs {
         mechanism.slots.scales(column, row, &mut self.scales);
     }
 
-    /// A design by its place in the chunk.
-    pub(crate) fn row(&self, place: usize) -> DesignRow<'_> {
+    /// A design by its index in the chunk.
+    pub(crate) fn row(&self, index: usize) -> DesignRow<'_> {
         DesignRow {
-            dimensions: &self.rows[place * self.size..][..self.size],
-            scale: self.scales[place],
-            is_valid: self.valid[place],
+            dimensions: &self.rows[index * self.size..][..self.size],
+            scale: self.scales[index],
+            is_valid: self.valid[index],
         }
     }
 }

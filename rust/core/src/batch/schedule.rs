@@ -45,14 +45,14 @@ impl Care {
     /// What `ASSUR_CARE` asks for (`always` or `knots`; else what is needed). The variable is read
     /// once.
     #[must_use]
-    pub fn asked_for() -> Self {
-        static ASKED: LazyLock<Care> =
+    pub fn from_env() -> Self {
+        static FROM_ENV: LazyLock<Care> =
             LazyLock::new(|| match std::env::var("ASSUR_CARE").as_deref() {
                 Ok("always") => Care::Always,
                 Ok("knots") => Care::KnotByKnot,
                 _ => Care::Needed,
             });
-        *ASKED
+        *FROM_ENV
     }
 }
 
@@ -78,7 +78,7 @@ impl Default for Control<'_> {
         Self {
             threads: None,
             simd: Simd::default(),
-            care: Care::asked_for(),
+            care: Care::from_env(),
             cancel: None,
             failures: None,
             known_signs: None,

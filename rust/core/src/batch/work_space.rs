@@ -1,6 +1,6 @@
 //! What a worker computes in: kept for later calls that ask the same of the same mechanism.
 
-use super::coordinates::Coordinates;
+use super::coordinates::CoordinateRegisters;
 use super::outputs::Column;
 use super::writer::Writer;
 use crate::branch::branch::BranchLocation;
@@ -26,14 +26,14 @@ pub(super) struct WorkSpace<R: Real, const G: usize> {
     /// Angles of the classes.
     pub(super) lifted: Vec<[R; G]>,
     /// Of the last job.
-    pub(super) coordinates: Coordinates<R, G>,
+    pub(super) coordinates: CoordinateRegisters<R, G>,
     /// Locations of these registers on the branch.
     pub(super) locations: Vec<BranchLocation<R>>,
     /// Whether that branch was a uniform one.
     pub(super) locations_even: bool,
     /// What the request needs.
     pub(super) tape: Tape,
-    /// Of each class asked for, if the design is plain.
+    /// Of each class wanted for, if the design is plain.
     pub(super) references: Vec<Reference>,
     /// Made for the first design that needs it.
     pub(super) uniform: Option<Box<UniformTracer<R, G>>>,
@@ -65,18 +65,18 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
     ) -> Self {
         let plan = mechanism.plan();
         let mut many = State::new(plan, derivatives);
-        many.work.angle_wanted.clone_from(&writer.asked);
+        many.work.angle_wanted.clone_from(&writer.wanted);
         let mut points = vec![false; plan.points];
-        for point in writer.asked_points() {
+        for point in writer.wanted_points() {
             points[point] = true;
         }
-        let needs = Needs { points: &points, classes: &writer.asked, samples: false };
+        let needs = Needs { points: &points, classes: &writer.wanted, samples: false };
         Self {
             columns: columns.to_vec(),
             one: State::new(plan, derivatives),
             many,
             lifted: vec![[R::ZERO; G]; plan.classes],
-            coordinates: Coordinates::new(plan),
+            coordinates: CoordinateRegisters::new(plan),
             locations: Vec::new(),
             locations_even: false,
             tape: Tape::new(plan, needs),

@@ -75,7 +75,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     ) -> Self {
         let mut design = Design::new(mechanism, request.signs, derivatives);
         if control.care == Care::Needed {
-            design.trace_only(&writer.asked);
+            design.trace_only(&writer.wanted);
         }
         let plan = mechanism.plan();
         Self {

@@ -45,14 +45,14 @@ impl RowRange {
 
 /// Target and source of one number (or point) of a row.
 #[derive(Debug, Clone, Copy)]
-struct Entry {
+struct RowEntry {
     column: usize,
     width: usize,
     /// Index within the row (of x, for a point).
     index: usize,
     /// Offset from x to y.
     y: usize,
-    /// Entry of the derivative in a jet.
+    /// RowEntry of the derivative in a jet.
     k: usize,
     /// Source: the entry of the point, slide or class, or the link.
     source: usize,
@@ -65,16 +65,16 @@ pub(crate) struct Writer<'a> {
     mechanism: &'a Mechanism,
     /// Entries of a jet.
     jet: usize,
-    points: Vec<Entry>,
-    slides: Vec<Entry>,
+    points: Vec<RowEntry>,
+    slides: Vec<RowEntry>,
     /// Angles of links.
-    angles: Vec<Entry>,
+    angles: Vec<RowEntry>,
     /// Derivatives of links' angles.
-    rates: Vec<Entry>,
+    rates: Vec<RowEntry>,
     /// Classes whose angle is wanted.
     pub classes: Vec<usize>,
     /// For each class, whether its rotation or a derivative of its angle is wanted.
-    pub asked: Vec<bool>,
+    pub wanted: Vec<bool>,
     /// Whether the frame's origin is added to the points.
     shifted: bool,
 }
@@ -96,9 +96,9 @@ impl<'a> Writer<'a> {
         classes.sort_unstable();
         classes.dedup();
         classes.retain(|&class| class != 0);
-        let mut asked = vec![false; plan.classes];
+        let mut wanted = vec![false; plan.classes];
         for &class in &classes {
-            asked[class] = true;
+            wanted[class] = true;
         }
         let [mut points, mut slides, mut angles, mut rates] = [const { Vec::new() }; 4];
         for (index, column) in columns.iter().enumerate() {
@@ -121,7 +121,7 @@ impl<'a> Writer<'a> {
                     _ => source * derivatives.len() + k,
                 };
                 let (width, y) = (column.width, tensor.len());
-                list.push(Entry {
+                list.push(RowEntry {
                     column: index,
                     width,
                     index: component,
@@ -140,13 +140,13 @@ impl<'a> Writer<'a> {
             angles,
             rates,
             classes,
-            asked,
+            wanted,
             shifted: true,
         }
     }
 
     /// The points that are written.
-    pub(crate) fn asked_points(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn wanted_points(&self) -> impl Iterator<Item = usize> {
         self.points.iter().map(|entry| entry.source / self.jet)
     }
 
@@ -169,7 +169,7 @@ impl<'a> Writer<'a> {
         for entry in writer.angles.drain(..) {
             let class = plan.rotation[entry.source].class;
             let driven = offsets[entry.source];
-            writer.rates.push(Entry { source: class * derivatives.len(), driven, ..entry });
+            writer.rates.push(RowEntry { source: class * derivatives.len(), driven, ..entry });
         }
         Self { shifted: false, classes: Vec::new(), ..writer }
     }
@@ -228,7 +228,7 @@ impl<'a> Writer<'a> {
     }
 
     /// The constant difference between an angle and that of its class.
-    fn offset(&self, entry: &Entry, constants: &DesignConstants) -> f64 {
+    fn offset(&self, entry: &RowEntry, constants: &DesignConstants) -> f64 {
         let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.source];
         constants.offset[entry.source] + whole
     }
@@ -334,7 +334,7 @@ fn scaled<R: Real>(point: Vector<R>, scale: R, shift: Option<Vector<R>>) -> Vect
     if let Some(shift) = shift { scaled + shift } else { scaled }
 }
 
-impl Entry {
+impl RowEntry {
     /// The rows of each group, with its index.
     #[inline(always)]
     fn groups<'r, R: Real>(
@@ -358,7 +358,7 @@ impl Entry {
 impl RowSlices<'_> {
     /// The rows of an entry's column.
     #[inline(always)]
-    fn of(&mut self, entry: &Entry, range: RowRange) -> &mut [MaybeUninit<f64>] {
+    fn of(&mut self, entry: &RowEntry, range: RowRange) -> &mut [MaybeUninit<f64>] {
         let rows = range.first * entry.width..(range.first + range.count) * entry.width;
         &mut self.columns[entry.column][rows]
     }
@@ -366,7 +366,7 @@ impl RowSlices<'_> {
     /// Whether to write them past the caches: a line that is not read first takes half the time. Whole
     /// lines only, since parts of them would take longer.
     #[inline(always)]
-    fn past_caches(&self, entry: &Entry, range: RowRange) -> bool {
+    fn past_caches(&self, entry: &RowEntry, range: RowRange) -> bool {
         let first = &self.columns[entry.column][range.first * entry.width];
         self.past_caches && range.once && std::ptr::from_ref(first).addr().is_multiple_of(LINE)
     }

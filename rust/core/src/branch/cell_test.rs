@@ -9,7 +9,7 @@ use super::knot::may_touch;
 use super::uniform::previous;
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::plan::dyad::Dyad;
-use crate::state::dyad::sample::Sample;
+use crate::state::dyad::sample::DyadSample;
 use crate::state::state::{Context, State};
 
 /// A square that differs from the trapezoidal rule by this part of itself varies too fast to be
@@ -58,12 +58,12 @@ fn at_both_ends(bits: Bits) -> Bits {
 /// What a dyad shows at the knots of one look.
 #[derive(Debug, Clone)]
 pub(super) struct DyadSamples {
-    /// See [`Sample::square`]. The first [`BEFORE`] entries belong to knots before the first, those
+    /// See [`DyadSample::square`]. The first [`BEFORE`] entries belong to knots before the first, those
     /// after the last to knots behind it; none of these is known.
     square: [f64; SAMPLES],
-    /// See [`Sample::rate`].
+    /// See [`DyadSample::rate`].
     rate: [f64; SAMPLES],
-    /// Knots at which all dyads before it close …
+    /// ScanGrid at which all dyads before it close …
     known: Bits,
     /// … and at which it closes too.
     pub closes: Bits,
@@ -71,10 +71,10 @@ pub(super) struct DyadSamples {
 
 /// Cells of one look.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Cells {
+pub(super) struct CellFlags {
     /// In which the discriminant may vanish, or an interval may hide that can be reached.
     pub uncertain: Bits,
-    /// In which it varies too fast to be judged.
+    /// In which it varies too fast to be flags.
     pub curved: Bits,
     /// With a dead point.
     pub dead_point: Bits,
@@ -84,7 +84,7 @@ pub(super) struct Cells {
 
 /// The knots of one look, and what is asked of them.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Knots {
+pub(super) struct ScanGrid {
     /// Registers of them.
     pub groups: usize,
     /// Width of a cell.
@@ -101,23 +101,23 @@ impl DyadSamples {
     /// dyads before it close; `settled`: its sign is known to be constant. `None` if it is flat at a
     /// knot: whether its sign changes there cannot be seen.
     #[inline(always)]
-    pub(super) fn judge<R: Real, const G: usize>(
+    pub(super) fn classify<R: Real, const G: usize>(
         &mut self,
         state: &State<R, G>,
         cx: &Context<'_>,
         dyad: &Dyad,
-        knots: Knots,
+        grid: ScanGrid,
         (known, settled): (Bits, bool),
-    ) -> Option<Cells> {
+    ) -> Option<CellFlags> {
         let op = &cx.tape.ops[cx.tape.dyads[dyad.index]];
-        let cell = R::splat(knots.cell);
-        let half = R::splat(0.5 * knots.cell);
+        let cell = R::splat(grid.cell);
+        let half = R::splat(0.5 * grid.cell);
         let (mut closes, mut flat, mut vanishing, mut curved) = (0, 0, 0, 0);
-        let nothing = Sample { square: R::ZERO, rate: R::ZERO, side: R::ZERO };
+        let nothing = DyadSample { square: R::ZERO, rate: R::ZERO, side: R::ZERO };
         let mut last = nothing;
-        for group in 0..knots.groups.min(G) {
+        for group in 0..grid.groups.min(G) {
             let first = group * R::LANES;
-            let Sample { square, rate, side } = state.sample(group, cx, dyad, op);
+            let DyadSample { square, rate, side } = state.sample(group, cx, dyad, op);
             for (all, own) in [(&mut self.square, square), (&mut self.rate, rate)] {
                 for (lane, stored) in all[BEFORE + first..][..R::LANES].iter_mut().enumerate() {
                     *stored = own.lane(lane);
@@ -138,9 +138,9 @@ impl DyadSamples {
             let same_side = R::ZERO.lt(side * side_before);
             vanishing |= touches.or(same_side.not()).bits() << first;
             curved |= straight.not().bits() << first;
-            last = Sample { square, rate, side };
+            last = DyadSample { square, rate, side };
         }
-        let count = knots.groups * R::LANES;
+        let count = grid.groups * R::LANES;
         let own = Bits::MAX >> (Bits::BITS as usize - count);
         if known & flat & own != 0 {
             return None;
@@ -150,19 +150,20 @@ impl DyadSamples {
         let (cells, closes) = (at_both_ends(known) & own & !1, self.closes);
         let inside = cells & at_both_ends(closes);
         let outside = cells & at_both_ends(!closes);
-        let mut judged = Cells { dead_point: cells & !inside & !outside, ..Cells::default() };
+        let mut flags =
+            CellFlags { dead_point: cells & !inside & !outside, ..CellFlags::default() };
         if !settled {
-            judged.curved = curved & inside;
-            judged.uncertain = vanishing & inside;
+            flags.curved = curved & inside;
+            flags.uncertain = vanishing & inside;
         }
-        if outside != 0 && (knots.islands || !settled) {
-            let may_close = self.may_close::<R>(count, knots.cell, settled) & outside;
+        if outside != 0 && (grid.islands || !settled) {
+            let may_close = self.may_close::<R>(count, grid.cell, settled) & outside;
             if !settled {
-                judged.uncertain |= may_close;
+                flags.uncertain |= may_close;
             }
-            judged.may_hide_island = may_close;
+            flags.may_hide_island = may_close;
         }
-        Some(judged)
+        Some(flags)
     }
 
     /// Cells in which a dyad might close that closes at neither end: the square would have to rise

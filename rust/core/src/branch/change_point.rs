@@ -10,7 +10,7 @@
 use super::knot::{ChangePoint, Knot, may_vanish};
 use super::tracer::BranchTracer;
 use crate::math::tolerance::{
-    CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,
+    CHANGE_CONDITION, CHANGE_DISCRIMINANT, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,
 };
 use crate::plan::dyad::Dyad;
 
@@ -32,7 +32,7 @@ impl BranchTracer<'_, '_> {
             if tracer.changes.iter().any(known) {
                 continue;
             }
-            let ((from, fall), (to, rise)) = (a.spread[index], b.spread[index]);
+            let ((from, fall), (to, rise)) = (a.discriminants[index], b.discriminants[index]);
             if !may_vanish((from, fall), (to, rise), b.at - a.at) {
                 continue;
             }
@@ -110,7 +110,7 @@ fn locate(
         if tracer.solve(middle) <= step_index {
             return None;
         }
-        let (value, rate) = tracer.spread(dyad);
+        let (value, rate) = tracer.discriminant(dyad);
         if rate.is_nan() {
             (low, high) = (middle - step, middle + step);
             break;
@@ -118,7 +118,7 @@ fn locate(
         if value * rate * tracer.direction < 0.0 { low = middle } else { high = middle }
     }
     let redundant = tracer.cx.plan.redundant_links().next().is_some();
-    let strict = if redundant { REDUNDANT_ROUNDING } else { CHANGE_SPREAD };
+    let strict = if redundant { REDUNDANT_ROUNDING } else { CHANGE_DISCRIMINANT };
     let mut centre = 0.5 * (low + high);
     for _ in 0..if redundant { 2 * MAX_CENTRINGS } else { MAX_CENTRINGS } {
         let fit = LocalFit::around(tracer, (step_index, dyad), centre, step)?;
@@ -168,7 +168,7 @@ impl LocalFit {
                 if tracer.solve(centre + side * offset * step) <= step_index {
                     return None;
                 }
-                let (value, _) = tracer.spread(dyad);
+                let (value, _) = tracer.discriminant(dyad);
                 let value = value.abs() * side;
                 n[index] += 0.5 * value;
                 odd[index] += 0.5 * side * value / (offset * step);

@@ -31,7 +31,7 @@ pub(super) fn find_references(
     let Some(&index) = cx.tape.dyads.first() else { return false };
     let (Op::TwoLegs(op) | Op::StandingGuide(op)) = &cx.tape.ops[index] else { return false };
     let Some(pin) = &op.pin else { return false };
-    let chord = Chord::of(cx, op, pin);
+    let chord = CrankChord::of(cx, op, pin);
     let sign = op.sign.map_or(1.0, |sign| cx.signs[sign]);
     let legs = &cx.constants.legs[op.dyad];
     let own = &cx.constants.dyads[op.dyad];
@@ -45,7 +45,7 @@ pub(super) fn find_references(
         } else {
             let side = if leg == 0 { sign } else { -sign };
             let [own, other] = if leg == 0 { [0, 1] } else { [1, 0] }.map(|i| &legs[i]);
-            Beside { chord: &chord, own, other, side }.reference(q0, start[class])
+            ChordTriangle { chord: &chord, own, other, side }.reference(q0, start[class])
         };
         let Some(found) = found else { return false };
         references[class] = found;
@@ -60,10 +60,10 @@ fn turns(angle: f64, near: f64) -> Option<f64> {
     is_definite.then(|| TAU * turns_between(angle, near))
 }
 
-/// The angle next to the drawing's, if all angles within `spread` of it are so too.
-fn next_to(start: f64, angle: f64, spread: f64) -> Option<f64> {
+/// The angle next to the drawing's, if all angles within `half_width` of it are so too.
+fn next_to(start: f64, angle: f64, half_width: f64) -> Option<f64> {
     let near = unwrap_to(angle, start);
-    ((near - start).abs() + spread < PI - TAU * MIN_FROM_HALF).then_some(near)
+    ((near - start).abs() + half_width < PI - TAU * MIN_FROM_HALF).then_some(near)
 }
 
 /// The angle of a vector, which often is along x.
@@ -85,7 +85,7 @@ fn guided(k: Vector, guide: Vector, leg: &Leg, (sign, start): (f64, f64)) -> Opt
 }
 
 /// The chord of a design's only dyad.
-struct Chord {
+struct CrankChord {
     /// −1 if it begins at the pin.
     sign: f64,
     /// From the crank's pivot to the point on the ground.
@@ -96,7 +96,7 @@ struct Chord {
     rate: f64,
 }
 
-impl Chord {
+impl CrankChord {
     fn of(cx: &Context<'_>, op: &DyadOp, pin: &CrankPin) -> Self {
         let edge = cx.constants.edge_vector[pin.edge];
         let ground = if pin.is_start { op.end } else { op.start };
@@ -128,15 +128,15 @@ impl Chord {
 }
 
 /// A leg beside the chord, with the other leg.
-struct Beside<'a> {
-    chord: &'a Chord,
+struct ChordTriangle<'a> {
+    chord: &'a CrankChord,
     own: &'a Leg,
     other: &'a Leg,
     /// 1 if it is to the left of the chord, −1 if to the right.
     side: f64,
 }
 
-impl Beside<'_> {
+impl ChordTriangle<'_> {
     /// The angle of the class; of the flat dyad where it does not close.
     fn angle(&self, q: f64) -> f64 {
         let (a, b, k) = (self.own.norm, self.other.norm, self.chord.at(q));

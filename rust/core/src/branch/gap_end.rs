@@ -16,9 +16,9 @@ const MARGIN: f64 = 0.25;
 /// Steps of Newton's method on the polynomial between two knots.
 const STEPS: usize = 4;
 
-/// The knots of a look, and what they have shown.
+/// The knots of a look, and what they have scan.
 #[derive(Clone, Copy)]
-pub(super) struct Shown<'l> {
+pub(super) struct ScanView<'l> {
     /// The first knot, the width of a cell, and the number of knots.
     pub from: f64,
     pub cell: f64,
@@ -35,7 +35,7 @@ pub(super) struct Shown<'l> {
 
 /// The end of a gap between two knots.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct End {
+pub(super) struct GapEnd {
     /// The knot behind it.
     pub knot: usize,
     /// The dyad that is flat there.
@@ -48,14 +48,14 @@ pub(super) struct End {
     pub is_confirmed: bool,
 }
 
-impl End {
+impl GapEnd {
     /// Predicts the end in the cell before a knot.
     #[inline(always)]
-    pub(super) fn predict(shown: &Shown<'_>, knot: usize) -> Option<Self> {
-        let dyad = shown.dyads.iter().position(|dyad| dyad.has_dead_point(knot))?;
-        let is_start = has(shown.dyads[dyad].closes, knot - 1);
-        let [[from, fall], [to, rise]] = [knot - 1, knot].map(|at| shown.dyads[dyad].at(at));
-        let [fall, rise] = [fall * shown.cell, rise * shown.cell];
+    pub(super) fn predict(scan: &ScanView<'_>, knot: usize) -> Option<Self> {
+        let dyad = scan.dyads.iter().position(|dyad| dyad.has_dead_point(knot))?;
+        let is_start = has(scan.dyads[dyad].closes, knot - 1);
+        let [[from, fall], [to, rise]] = [knot - 1, knot].map(|at| scan.dyads[dyad].at(at));
+        let [fall, rise] = [fall * scan.cell, rise * scan.cell];
         // Hermite's polynomial: from + t (fall + t (b + t c)).
         let c = fall + rise - 2.0 * (to - from);
         let b = (to - from) - fall - c;
@@ -97,13 +97,13 @@ impl End {
 
     /// The root of the distance of the position that can be reached, as a part of that of the knot.
     fn part_of_root(&self) -> f64 {
-        let [inside, _] = self.lanes(0).map(|place| self.parts()[place]);
+        let [inside, _] = self.lanes(0).map(|side| self.parts()[side]);
         ((inside - self.root).abs() / self.distance()).sqrt()
     }
 
     /// The derivative by this part, at the knot that can be reached, of what has rate `rate` there.
-    fn per_part(&self, shown: &Shown<'_>, rate: f64) -> f64 {
-        let width = 2.0 * self.distance() * shown.cell;
+    fn per_part(&self, scan: &ScanView<'_>, rate: f64) -> f64 {
+        let width = 2.0 * self.distance() * scan.cell;
         if self.is_start { -rate * width } else { rate * width }
     }
 
@@ -111,12 +111,12 @@ impl End {
     /// turns as the root of the distance, and hardly on to that beyond. `rates`: at the knots.
     pub(super) fn is_followed(
         &self,
-        shown: &Shown<'_>,
+        scan: &ScanView<'_>,
         steps: [f64; 2],
         rates: &[f64; KNOTS],
     ) -> bool {
         let [to_end, beyond] = steps;
-        let expected = self.per_part(shown, rates[self.known()]) * (self.part_of_root() - 1.0);
+        let expected = self.per_part(scan, rates[self.known()]) * (self.part_of_root() - 1.0);
         // NaN is not followed.
         to_end.abs() <= 2.0 * KNOT_MAX_TURN
             && (to_end - expected).abs() <= KNOT_MAX_TURN
@@ -129,7 +129,7 @@ impl End {
         &self,
         squares: &[[[f64; LANES]; 2]],
         open: u32,
-        shown: &Shown<'_>,
+        scan: &ScanView<'_>,
         first: usize,
     ) -> bool {
         let [inside, outside] = self.lanes(first);
@@ -137,16 +137,16 @@ impl End {
         for (index, [squares, rates]) in squares.iter().enumerate().skip(self.dyad) {
             let [square, rate] = [squares[inside], rates[inside]];
             if index == self.dyad {
-                let apart = (rate * shown.cell - self.slope).abs();
+                let apart = (rate * scan.cell - self.slope).abs();
                 let is_there = square > 0.0 && squares[outside] < 0.0;
                 if !(is_there && apart <= MAX_APART * self.slope.abs()) {
                     return false;
                 }
                 continue;
             }
-            let [at_knot, rate_at_knot] = shown.dyads[index].at(known);
+            let [at_knot, rate_at_knot] = scan.dyads[index].at(known);
             let y = self.part_of_root();
-            let slopes = [rate_at_knot, y * rate].map(|rate| self.per_part(shown, rate));
+            let slopes = [rate_at_knot, y * rate].map(|rate| self.per_part(scan, rate));
             if !stays_away([at_knot, slopes[0]], y, [square, slopes[1]]) {
                 return false;
             }

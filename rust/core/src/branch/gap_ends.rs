@@ -1,13 +1,13 @@
 //! The ends of the gaps of a turn, found together: the roots of the dyads' discriminants are
 //! predicted from the knots beside them, and positions on either side confirm them.
 //!
-//! Beside a dead point angles vary as the square root of the distance, so that even knots would have
-//! to be very close to follow them. What is not confirmed here is left to closer looks.
+//! EndPosition a dead point angles vary as the square root of the distance, so that even knots would have
+//! to be very close to follow them. What is not confirmed here is left to closer scans.
 
 use std::f64::consts::PI;
 
 use super::cell_test::Bits;
-use super::gap_end::{End, Shown};
+use super::gap_end::{GapEnd, ScanView};
 use super::uniform::UniformTracer;
 use crate::math::angle::unwrap_to;
 use crate::math::lanes::{LANES, Mask, Real};
@@ -23,7 +23,7 @@ pub(super) const MAX_STEP: f64 = PI - 0.5;
 /// The ends found, with what the positions beside them show.
 #[derive(Debug, Default)]
 pub(super) struct GapEnds {
-    ends: Vec<End>,
+    ends: Vec<GapEnd>,
     /// Of every dyad, the square and its rate before every end and after it.
     squares: Vec<[[f64; LANES]; 2]>,
     /// The same of the angles asked for.
@@ -34,7 +34,7 @@ pub(super) struct GapEnds {
 
 /// A position beside an end.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Beside {
+pub(super) struct EndPosition {
     pub at: f64,
     pub reached: bool,
     /// Its place in [`GapEnds::angle`].
@@ -57,26 +57,26 @@ impl GapEnds {
     }
 
     /// The positions beside the end in the cell before a knot, if it was found.
-    pub(super) fn beside(&self, shown: (f64, f64), knot: usize) -> Option<[Beside; 2]> {
+    pub(super) fn beside(&self, scan: (f64, f64), knot: usize) -> Option<[EndPosition; 2]> {
         let index = self.index(knot)?;
         let end = &self.ends[index];
-        let [before, after] = end.beside(shown);
+        let [before, after] = end.beside(scan);
         Some([
-            Beside { at: before, reached: end.is_start, lane: 2 * index },
-            Beside { at: after, reached: !end.is_start, lane: 2 * index + 1 },
+            EndPosition { at: before, reached: end.is_start, lane: 2 * index },
+            EndPosition { at: after, reached: !end.is_start, lane: 2 * index + 1 },
         ])
     }
 
     /// The ends, each with the angle of a class before it, from where the mechanism closes, and beyond.
     /// All must have been found.
-    pub(super) fn with_angles(&self, class: usize) -> impl Iterator<Item = (&End, [f64; 2])> {
+    pub(super) fn with_angles(&self, class: usize) -> impl Iterator<Item = (&GapEnd, [f64; 2])> {
         self.ends.iter().enumerate().map(move |(index, end)| {
             (end, end.lanes(2 * index).map(|lane| self.angles[class][lane]))
         })
     }
 
     /// The angle of a class there.
-    pub(super) fn angle(&self, class: usize, beside: &Beside) -> f64 {
+    pub(super) fn angle(&self, class: usize, beside: &EndPosition) -> f64 {
         self.angles[class][beside.lane]
     }
 
@@ -87,21 +87,21 @@ impl GapEnds {
         cx: &Context<'_>,
         knots: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
-        shown: &Shown<'_>,
+        scan: &ScanView<'_>,
     ) {
         self.ends.clear();
-        let mut left = shown.cells;
+        let mut left = scan.cells;
         while left != 0 && self.ends.len() < MAX_ENDS {
             let knot = left.trailing_zeros() as usize;
             left &= left - 1;
-            self.ends.extend(End::predict(shown, knot));
+            self.ends.extend(GapEnd::predict(scan, knot));
         }
         if self.ends.is_empty() {
             return;
         }
-        self.solve::<L, G>(cx, knots, shown);
+        self.solve::<L, G>(cx, knots, scan);
         for (index, end) in self.ends.iter_mut().enumerate() {
-            end.is_confirmed = end.is_as_predicted(&self.squares, self.open, shown, 2 * index);
+            end.is_confirmed = end.is_as_predicted(&self.squares, self.open, scan, 2 * index);
         }
         self.angles.resize(classes.len(), [0.0; LANES]);
         for (angles, &class) in self.angles.iter_mut().zip(classes) {
@@ -113,7 +113,7 @@ impl GapEnds {
             }
         }
         for index in 0..self.ends.len() {
-            self.ends[index].is_confirmed &= self.turns_little(shown, index);
+            self.ends[index].is_confirmed &= self.turns_little(scan, index);
         }
     }
 
@@ -129,15 +129,15 @@ impl GapEnds {
         &mut self,
         cx: &Context<'_>,
         knots: &mut UniformTracer<L::Register, G>,
-        shown: &Shown<'_>,
+        scan: &ScanView<'_>,
     ) {
-        let mut at = [shown.from; LANES];
+        let mut at = [scan.from; LANES];
         for (end, at) in self.ends.iter().zip(at.chunks_exact_mut(2)) {
-            at.copy_from_slice(&end.beside((shown.from, shown.cell)));
+            at.copy_from_slice(&end.beside((scan.from, scan.cell)));
         }
         knots.set_at(&at);
         knots.solve_carefully::<L>(cx);
-        self.squares.resize(shown.dyads.len(), [[0.0; LANES]; 2]);
+        self.squares.resize(scan.dyads.len(), [[0.0; LANES]; 2]);
         let of_dyads = cx.plan.dyads().zip(&cx.tape.dyads).zip(&mut self.squares);
         for ((dyad, &op), [squares, rates]) in of_dyads {
             for group in 0..LANES / L::Register::LANES {
@@ -155,14 +155,14 @@ impl GapEnds {
     }
 
     /// Whether no angle turns far from the knot that can be reached up to the end, nor at it.
-    fn turns_little(&self, shown: &Shown<'_>, index: usize) -> bool {
+    fn turns_little(&self, scan: &ScanView<'_>, index: usize) -> bool {
         let end = &self.ends[index];
         let [inside, outside] = end.lanes(2 * index);
-        self.angles.iter().zip(shown.angles.iter().zip(shown.rates)).all(|(beside, (at, rate))| {
+        self.angles.iter().zip(scan.angles.iter().zip(scan.rates)).all(|(beside, (at, rate))| {
             let near = at[end.known()];
             let [to_end, beyond] =
                 [inside, outside].map(|lane| unwrap_to(beside[lane], near) - near);
-            end.is_followed(shown, [to_end, beyond], rate)
+            end.is_followed(scan, [to_end, beyond], rate)
         })
     }
 }

@@ -39,7 +39,7 @@ pub(crate) struct Knot {
     /// Rate of every class along the path, without sign.
     pub rates: Vec<f64>,
     /// Spread of every dyad with a sign, and its rate along the path.
-    pub spread: Vec<(f64, f64)>,
+    pub discriminants: Vec<(f64, f64)>,
     /// For every dyad of two guides: on which side of parallel these are. Between the sides its
     /// point passes through infinity.
     pub guide_sides: Vec<bool>,
@@ -60,7 +60,7 @@ impl Knot {
     /// Whether a dyad is flat here, or its outer joints coincide.
     pub(crate) fn is_flat(&self) -> bool {
         let loose = self.open_step.is_some_and(|(_, gap)| gap == 0.0);
-        loose || self.spread.iter().any(|(_, rate)| rate.is_nan())
+        loose || self.discriminants.iter().any(|(_, rate)| rate.is_nan())
     }
 }
 

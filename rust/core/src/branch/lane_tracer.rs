@@ -10,10 +10,10 @@ use std::f64::consts::TAU;
 
 use super::branch::Branch;
 use super::cell_test::has;
-use super::gap_end::Shown;
+use super::gap_end::ScanView;
 use super::gap_ends::{GapEnds, MAX_STEP};
 use super::grid::KNOTS;
-use super::look::Look;
+use super::scan::Scan;
 use super::uniform::UniformTracer;
 use crate::math::angle::{unwrap_to, whole_turns};
 use crate::math::lanes::Real;
@@ -32,14 +32,14 @@ const LEVELS: usize = 5;
 /// beyond, where the dyad is computed flat, are those at the dead point to about as much.
 const DEAD_POINT_LEVELS: usize = 3;
 /// Looks at one design.
-const MAX_LOOKS: usize = 256;
+const MAX_SCANS: usize = 256;
 /// Levels at which islands are searched for: down to the 200th part of a cell.
 const ISLAND_LEVELS: usize = 2;
 
 /// Work space, kept from one design to the next.
 #[derive(Debug, Default)]
 pub(crate) struct LaneTracer {
-    looks: [Look; LEVELS],
+    scans: [Scan; LEVELS],
     /// Unwrapped angles of the classes asked for at the last knot.
     last: Vec<f64>,
     /// The same where the first position can be reached; empty before.
@@ -80,7 +80,7 @@ impl LaneTracer {
                 return traced;
             }
             self.ends.clear();
-            self.looks[0].next = 1;
+            self.scans[0].next = 1;
         }
     }
 
@@ -94,7 +94,7 @@ impl LaneTracer {
         settled: &[bool],
     ) -> bool {
         let grid = knots.grid();
-        self.looks[0].take(cx, knots, classes, settled, (grid.from, grid.cell))
+        self.scans[0].take(cx, knots, classes, settled, (grid.from, grid.cell))
     }
 
     /// Finds the ends of its gaps.
@@ -105,23 +105,23 @@ impl LaneTracer {
         knots: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
     ) {
-        self.ends.find::<L, G>(cx, knots, classes, &self.looks[0].shown());
+        self.ends.find::<L, G>(cx, knots, classes, &self.scans[0].view());
     }
 
     /// What the knots of the turn show of the ends of gaps.
-    pub(super) fn turn(&self) -> Shown<'_> {
-        self.looks[0].shown()
+    pub(super) fn turn_view(&self) -> ScanView<'_> {
+        self.scans[0].view()
     }
 
     /// Whether a sign may change between two knots of the turn.
     pub(super) fn has_uncertain_cells(&self) -> bool {
-        let look = &self.looks[0];
-        look.uncertain | look.curved | look.may_hide_island != 0
+        let scan = &self.scans[0];
+        scan.uncertain | scan.curved | scan.may_hide_island != 0
     }
 
     /// Whether every end of a gap has been found.
     pub(super) fn has_found_all_ends(&self) -> bool {
-        self.ends.cells() == self.looks[0].dead_point
+        self.ends.cells() == self.scans[0].dead_point
     }
 
     /// Traces the turn by the knots of the first look, and closer ones.
@@ -146,18 +146,18 @@ impl LaneTracer {
         let (mut level, mut count) = (0, 0);
         loop {
             if classes.is_empty() {
-                self.looks[level].skip_quiet_cells();
+                self.scans[level].skip_quiet_cells();
             }
-            let knot = self.looks[level].next;
-            if knot == self.looks[level].count {
+            let knot = self.scans[level].next;
+            if knot == self.scans[level].count {
                 if level == 0 {
                     break;
                 }
                 level -= 1;
-                self.looks[level].next += 1;
+                self.scans[level].next += 1;
                 continue;
             }
-            let within = (self.looks[level].from, self.looks[level].cell);
+            let within = (self.scans[level].from, self.scans[level].cell);
             let ends = if level == 0 { self.ends.beside(within, knot) } else { None };
             if let Some(beside) = ends {
                 for beside in beside {
@@ -170,16 +170,16 @@ impl LaneTracer {
             let looked = if ends.is_some() {
                 Some(false)
             } else {
-                self.needs_closer_look(level, knot, !classes.is_empty())
+                self.needs_closer_scan(level, knot, !classes.is_empty())
             };
             let Some(closer) = looked else {
                 return false;
             };
             if closer && level + 1 < LEVELS {
-                let look = &self.looks[level];
-                let (from, width) = (look.from + look.cell * (knot - 1) as f64, look.cell);
+                let scan = &self.scans[level];
+                let (from, width) = (scan.from + scan.cell * (knot - 1) as f64, scan.cell);
                 knots.set_between((from, width));
-                if !classes.is_empty() && has(look.dead_point, knot) {
+                if !classes.is_empty() && has(scan.dead_point, knot) {
                     // Some of these knots are beyond it.
                     knots.solve_carefully::<L>(cx);
                 } else {
@@ -188,8 +188,8 @@ impl LaneTracer {
                 level += 1;
                 count += 1;
                 let within = (from, width / CELLS);
-                let taken = self.looks[level].take(cx, knots, classes, settled, within);
-                if !taken || count > MAX_LOOKS {
+                let taken = self.scans[level].take(cx, knots, classes, settled, within);
+                if !taken || count > MAX_SCANS {
                     return false;
                 }
                 continue;
@@ -197,7 +197,7 @@ impl LaneTracer {
             if !classes.is_empty() {
                 self.push(level, knot, classes, branch);
             }
-            self.looks[level].next += 1;
+            self.scans[level].next += 1;
         }
         if !knots.grid().is_turn {
             return true;
@@ -215,36 +215,36 @@ impl LaneTracer {
 
     /// Whether the cell before a knot needs a closer look; `None` if none would be close enough.
     #[inline(always)]
-    fn needs_closer_look(&self, level: usize, knot: usize, angles: bool) -> Option<bool> {
-        let look = &self.looks[level];
+    fn needs_closer_scan(&self, level: usize, knot: usize, angles: bool) -> Option<bool> {
+        let scan = &self.scans[level];
         let last = level + 1 == LEVELS;
-        if has(look.uncertain, knot) {
+        if has(scan.uncertain, knot) {
             return (!last).then_some(true);
         }
-        if has(look.curved, knot) && !last {
+        if has(scan.curved, knot) && !last {
             return Some(true);
         }
-        if has(look.dead_point, knot) {
+        if has(scan.dead_point, knot) {
             return Some(if angles {
-                level < DEAD_POINT_LEVELS || !look.is_definite(knot)
+                level < DEAD_POINT_LEVELS || !scan.is_definite(knot)
             } else {
-                !look.stays_away(knot)
+                !scan.stays_away(knot)
             });
         }
-        if has(look.may_hide_island, knot) && level < ISLAND_LEVELS {
+        if has(scan.may_hide_island, knot) && level < ISLAND_LEVELS {
             return Some(true);
         }
-        if !(angles && has(look.reached, knot) && has(look.reached, knot - 1)) {
+        if !(angles && has(scan.reached, knot) && has(scan.reached, knot - 1)) {
             return Some(false);
         }
         let mut fast = false;
-        for (index, (angles, rates)) in look.angles.iter().zip(&look.rates).enumerate() {
+        for (index, (angles, rates)) in scan.angles.iter().zip(&scan.rates).enumerate() {
             let turned = unwrap_to(angles[knot], self.last[index]) - self.last[index];
             if last && turned.abs() > KNOT_MAX_TURN {
                 return None;
             }
             let rate = rates[knot].abs().max(rates[knot - 1].abs());
-            fast |= turned.abs() > KNOT_MAX_TURN || rate * look.cell.abs() > KNOT_MAX_TURN;
+            fast |= turned.abs() > KNOT_MAX_TURN || rate * scan.cell.abs() > KNOT_MAX_TURN;
         }
         Some(fast)
     }
@@ -252,11 +252,11 @@ impl LaneTracer {
     /// Adds a knot of a look to the branch.
     #[inline(always)]
     fn push(&mut self, level: usize, knot: usize, classes: &[usize], branch: &mut Branch) {
-        let look = &self.looks[level];
+        let scan = &self.scans[level];
         self.next.clear();
-        self.next.extend(look.angles.iter().map(|angles| angles[knot]));
-        let at = look.from + look.cell * knot as f64;
-        self.push_next((at, has(look.reached, knot)), classes, branch);
+        self.next.extend(scan.angles.iter().map(|angles| angles[knot]));
+        let at = scan.from + scan.cell * knot as f64;
+        self.push_next((at, has(scan.reached, knot)), classes, branch);
     }
 
     /// Adds a knot with the next angles to the branch.

@@ -183,9 +183,9 @@ impl Design<'_> {
                 (!lost).then_some(trial)
             };
             // Values must not depend on the order requested.
-            let judge = DerivativeTables::new(1, ChangeInterpolant::JUDGED_ORDER);
+            let judging = DerivativeTables::new(1, ChangeInterpolant::JUDGED_ORDER);
             let interpolant =
-                ChangeInterpolant::fit(self.change_window, |distance| solve(&judge, distance));
+                ChangeInterpolant::fit(self.change_window, |distance| solve(&judging, distance));
             let interpolant = interpolant.and_then(|interpolant| {
                 interpolant.refit(self.change_window, |at| solve(self.derivatives, at))
             });

@@ -160,9 +160,9 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         let solved = self.solve(at);
         let reached = solved == usize::MAX;
         // Dyads before the step that does not close are solved all the same.
-        let spread = self
+        let discriminants = self
             .dyads()
-            .map(|(step, dyad)| if step < solved { self.spread(dyad) } else { (0.0, 0.0) })
+            .map(|(step, dyad)| if step < solved { self.discriminant(dyad) } else { (0.0, 0.0) })
             .collect();
         if !reached {
             let rates = vec![0.0; from.len()];
@@ -177,7 +177,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
                 reached,
                 angles,
                 rates,
-                spread,
+                discriminants,
                 guide_sides,
                 open_step,
                 solved,
@@ -206,7 +206,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             reached,
             angles,
             rates,
-            spread,
+            discriminants,
             guide_sides,
             open_step: None,
             solved,
@@ -293,7 +293,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
     }
 
     /// Spread of a dyad at the position just solved, and its rate along the path.
-    pub(crate) fn spread(&self, dyad: &Dyad) -> (f64, f64) {
+    pub(crate) fn discriminant(&self, dyad: &Dyad) -> (f64, f64) {
         let at = |driver: usize| self.state.discriminant(0, &self.cx, dyad, driver + 1);
         (at(0).0, self.rate_along(|driver| at(driver).1))
     }
@@ -433,7 +433,9 @@ fn must_refine(a: &Knot, b: &Knot, depth: u32) -> bool {
         && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > KNOT_MAX_TURN);
     let through_infinity = depth < EDGE_HALVINGS && a.guide_sides != b.guide_sides;
     // Beside a near miss of a change point a link may turn round between the knots.
-    let missed = || a.spread.iter().zip(&b.spread).any(|(&x, &y)| may_vanish(x, y, b.at - a.at));
+    let missed = || {
+        a.discriminants.iter().zip(&b.discriminants).any(|(&x, &y)| may_vanish(x, y, b.at - a.at))
+    };
     turned || fast || through_infinity || missed()
 }
 

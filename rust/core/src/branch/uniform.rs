@@ -23,7 +23,7 @@ use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Form, Unknown};
 use crate::plan::plan::Plan;
-use crate::state::dyad::sample::Sample;
+use crate::state::dyad::sample::DyadSample;
 use crate::state::kernel::Level;
 use crate::state::state::{Context, State};
 
@@ -253,7 +253,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         let mut lines = 0;
         let mut suspect = self.not_closed(group);
         for (index, dyad) in cx.plan.dyads().enumerate() {
-            let Sample { square, rate, side } =
+            let DyadSample { square, rate, side } =
                 state.sample(group, cx, dyad, &cx.tape.ops[cx.tape.dyads[index]]);
             match dyad.sign {
                 Some(sign) => {

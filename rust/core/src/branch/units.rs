@@ -27,11 +27,11 @@ impl Units {
             return;
         }
         self.scale = scale;
-        let per = 1.0 / scale;
+        let inverse_scale = 1.0 / scale;
         let slides = |d: usize| mechanism.plan().driven_slide(d).is_some();
         self.coordinate.clear();
         self.coordinate
-            .extend((0..mechanism.q0().len()).map(|d| if slides(d) { per } else { 1.0 }));
+            .extend((0..mechanism.q0().len()).map(|d| if slides(d) { inverse_scale } else { 1.0 }));
         self.angle.clear();
         self.length.clear();
         for power in &derivatives.powers {

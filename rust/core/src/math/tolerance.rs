@@ -89,7 +89,7 @@ pub const CHANGE_STEP: f64 = 1.0 / 128.0;
 
 /// Squared spread, per unit of the upstream condition, below which the spread counts as zero: six
 /// values, each accurate to a few u, with weights up to 15/10.
-pub const CHANGE_SPREAD: f64 = 64.0 * UNIT_ROUNDOFF;
+pub const CHANGE_DISCRIMINANT: f64 = 64.0 * UNIT_ROUNDOFF;
 
 /// Limit of the upstream condition counted there: the product of the conditions overestimates
 /// chains that are singular together.

@@ -1,7 +1,7 @@
 //! One look at a turn or at a cell of it: knots solved side by side, and what they show.
 
-use super::cell_test::{Bits, DyadSamples, Knots};
-use super::gap_end::Shown;
+use super::cell_test::{Bits, DyadSamples, ScanGrid};
+use super::gap_end::ScanView;
 use super::grid::KNOTS;
 use super::uniform::UniformTracer;
 use crate::math::lanes::{Mask, Real};
@@ -10,7 +10,7 @@ use crate::state::state::Context;
 
 /// What one look showed.
 #[derive(Debug, Default)]
-pub(super) struct Look {
+pub(super) struct Scan {
     /// The first knot, and the width of a cell.
     pub from: f64,
     pub cell: f64,
@@ -32,7 +32,7 @@ pub(super) struct Look {
     pub rates: Vec<[f64; KNOTS]>,
 }
 
-impl Look {
+impl Scan {
     /// Takes what the knots just solved show; false if one of them is singular.
     #[inline(always)]
     pub(super) fn take<R: Real, const G: usize>(
@@ -59,7 +59,7 @@ impl Look {
         let unsettled = |dyad: &Dyad| dyad.sign.is_some() && !settled[dyad.index];
         let last = cx.plan.dyads().filter(|dyad| unsettled(dyad)).last();
         let last = last.map_or(0, |dyad| dyad.index);
-        let look = Knots { groups, cell, islands };
+        let grid = ScanGrid { groups, cell, islands };
         let mut known = Bits::MAX;
         [self.uncertain, self.curved, self.dead_point, self.may_hide_island] = [0; 4];
         for (index, dyad) in cx.plan.dyads().enumerate() {
@@ -71,7 +71,7 @@ impl Look {
             }
             let own = &mut self.dyads[index];
             let settled = settled[index];
-            let Some(cells) = own.judge(state, cx, dyad, look, (known, settled)) else {
+            let Some(cells) = own.classify(state, cx, dyad, grid, (known, settled)) else {
                 return false;
             };
             known = own.closes;
@@ -99,11 +99,11 @@ impl Look {
     }
 
     /// What its knots show of the ends of gaps.
-    pub(super) fn shown(&self) -> Shown<'_> {
+    pub(super) fn view(&self) -> ScanView<'_> {
         let against = self.uncertain | self.curved | self.may_hide_island;
         // Where another dyad is open on both sides, it may close between them.
         let at_one_end = self.reached ^ (self.reached << 1);
-        Shown {
+        ScanView {
             from: self.from,
             cell: self.cell,
             count: self.count,
