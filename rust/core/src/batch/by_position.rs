@@ -1,4 +1,4 @@
-//! Positions solved one by one: those that need it, and sensitivities.
+//! Scalar path: positions that lanes cannot decide, and sensitivities.
 
 use std::mem::MaybeUninit;
 
@@ -54,7 +54,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         job.rows.status[at] = MaybeUninit::new(state.status as u8);
     }
 
-    /// Differentiates by a dimension, one position after another.
+    /// Sensitivities to a dimension, one position after another.
     #[cold]
     #[inline(never)]
     pub(super) fn sensitivities(
@@ -81,7 +81,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             job.rows.write_failed(self.columns, at, 1, status as u8);
             let solved = matches!(status, Status::Ok | Status::NearSingular);
             if solved && by.solve(state, &cx, &rate) {
-                // A dimension that moves the frame's origin moves all points with it.
+                // A dimension that moves the frame's origin moves every point with it.
                 for point in by.rates.pose.points.chunks_exact_mut(design.derivatives.len()) {
                     point[0][0] += rate.origin.scale(1.0 / design.constants.scale);
                 }

@@ -1,4 +1,4 @@
-//! Blocks of positions with the condition of each, and what needs still more care one by one.
+//! Careful path: blocks with conditions, then single positions.
 
 use std::mem::MaybeUninit;
 
@@ -33,7 +33,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         }
     }
 
-    /// Lanes that must be solved again by themselves, whatever the vector solution gives.
+    /// Lanes that must be solved again as single positions, whatever the vector solution gives.
     #[inline(always)]
     fn lanes_to_redo(&self, q: R, location: &BranchLocation<R>, with_islands: bool) -> R::Mask {
         let branch = &self.design.branch;
@@ -114,7 +114,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
                 open[group] = state.conditions.open[group].and(care[group].not());
                 some_open |= open[group].any();
                 if !(even || self.writer.classes.is_empty()) {
-                    // The angle on an island that no knot has seen has to be followed to it.
+                    // On an island without a knot the angle must be traced.
                     let location = &self.space.locations[first + group];
                     let unseen = |i: usize| {
                         !open[group].lane(i) && design.branch.in_untraced_island(location, i)
@@ -148,7 +148,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             for position in 0..count {
                 let (group, lane) = (position / R::LANES, position % R::LANES);
                 if open[group].lane(lane) && !log.count_later(job.index + row + position, 1) {
-                    // It has to be described.
+                    // The first failure needs a description.
                     care[group] = care[group].or(mask::<R>(|i| i == lane));
                     again = true;
                 }

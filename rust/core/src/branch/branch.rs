@@ -23,7 +23,7 @@ pub(crate) const CELLS_PER_TURN: u32 = 31;
 pub(super) const CELLS_PER_UNIT: f64 = 16.0;
 /// Steps per cell with which the length of an island between two knots is measured.
 const ISLAND_STEPS: f64 = 1024.0;
-/// Cells of a segment, at most; callers keep their coordinates within that.
+/// Most cells of a segment. Callers limit their coordinates accordingly.
 const MAX_CELLS: f64 = 1.0e6;
 /// Turns after which the signs must be those of the drawing again; a kite needs two.
 const MAX_TURNS: u32 = 64;
@@ -62,9 +62,9 @@ pub(crate) struct BranchLocation<R = f64> {
     periods: R,
     /// The knot whose angles and cells are used.
     pub(crate) knot: [usize; LANES],
-    /// The first and last of these knots, if all lanes have one or the other; and 1 in lanes with
-    /// the last.
+    /// The knots of the first and last lane, if every lane has one or the other.
     pub(crate) pair: Option<[usize; 2]>,
+    /// 1 in lanes with the second knot of `pair`, else 0.
     pub(crate) is_last: R,
 }
 
@@ -80,7 +80,7 @@ impl Branch {
         Self { gain: vec![0.0; classes], sign_intervals, covered, ..Self::default() }
     }
 
-    /// Makes this a branch of positions without angles: the same signs everywhere.
+    /// Makes this a branch without knots: the same signs everywhere, and no angles.
     pub(crate) fn set_constant_signs(&mut self, classes: usize, signs: &[f64]) {
         self.at.clear();
         self.reached.clear();
@@ -98,7 +98,7 @@ impl Branch {
         self.inverse_width = None;
     }
 
-    /// Adds the knots of a branch that leads down from where this one begins.
+    /// Prepends the knots of a branch that was traced downward from where this one begins.
     pub(super) fn extend_down(&mut self, below: Self) {
         let Self { mut at, mut reached, mut angles, .. } = below;
         if at.is_empty() {
@@ -119,12 +119,12 @@ impl Branch {
         (self.at, self.reached, self.angles) = (at, reached, angles);
     }
 
-    /// Whether its first knot can be reached, and none behind one that cannot.
+    /// Whether the knots that can be reached come first, and include the very first.
     pub(super) fn ends_once(&self) -> bool {
         self.at.is_empty() || self.reached[0] && self.reached.is_sorted_by(|a, b| a >= b)
     }
 
-    /// Whether it is known everywhere and has no change points.
+    /// Whether the branch is known everywhere and has no change points.
     pub(crate) fn is_plain(&self) -> bool {
         self.covered.is_none() && self.changes.is_empty()
     }
@@ -185,7 +185,7 @@ impl Branch {
         }
     }
 
-    /// Traces one driven slide from `q0` down to `low` and up to `high`, at most `reach` from `q0`.
+    /// Traces one driven slide from `q0` down to `low` and up to `high`, but no farther than `reach`.
     pub(crate) fn over_range(
         cx: &Context<'_>,
         state: &mut State,
@@ -298,7 +298,7 @@ impl Branch {
         (Self { sign_intervals, changes, gain, covered, ..Self::from_knots(&knots, cx.plan) }, end)
     }
 
-    /// Keeps the part of the knots that is needed later.
+    /// A branch from the tracer's knots, without signs and change points.
     fn from_knots(knots: &[Knot], plan: &Plan) -> Self {
         let mut cells = Vec::new();
         for (i, a) in knots.iter().enumerate() {
@@ -412,7 +412,7 @@ impl Branch {
         self.changes.iter().flat_map(images).find(|(_, distance)| distance.abs() <= reach)
     }
 
-    /// Whether a location lies on an island that no knot has seen.
+    /// Whether a location lies on an island without a knot.
     #[inline(always)]
     pub(crate) fn in_untraced_island<R: Real>(
         &self,
@@ -426,8 +426,8 @@ impl Branch {
         self.inverse_width.is_none() && inside && !self.reached[location.knot[lane]]
     }
 
-    /// Traces such an island from its middle to the parameter: at an end of it a joint may be at
-    /// infinity, where angles are rounding.
+    /// Traces an island without a knot from its middle to the parameter: at its ends a joint may be at
+    /// infinity, where angles are nothing but rounding.
     pub(crate) fn trace_island(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Self {
         let (reduced, periods) = self.reduce(at);
         let after = self.at.partition_point(|&k| k <= reduced);

@@ -1,8 +1,8 @@
-//! The ends of the gaps of a turn, found together: the roots of the dyads' discriminants are
-//! predicted from the knots beside them, and positions on either side confirm them.
+//! Finds the ends of all gaps of a turn together: predicts the roots of the dyads' discriminants from
+//! the neighbouring knots, and confirms each by a position on either side.
 //!
-//! EndPosition a dead point angles vary as the square root of the distance, so that even knots would have
-//! to be very close to follow them. What is not confirmed here is left to closer scans.
+//! Beside a dead point angles vary as the square root of the distance, so evenly spaced knots would
+//! have to be very close to follow them. Ends that are not confirmed here are left to closer scans.
 
 use std::f64::consts::PI;
 
@@ -14,21 +14,21 @@ use crate::math::lanes::{LANES, Mask, Real};
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
-/// Ends looked for at once; a turn seldom has more.
+/// Most ends searched for; a turn seldom has more.
 const MAX_ENDS: usize = LANES / 2;
-/// How far (rad) an angle may step across a gap whose ends are not looked at closely: not nearly half
-/// a turn.
+/// Greatest step (rad) of an angle across a gap that these predictions may decide: well below half a
+/// turn, beyond which the step would be ambiguous.
 pub(super) const MAX_STEP: f64 = PI - 0.5;
 
-/// The ends found, with what the positions beside them show.
+/// Predicted ends, with samples at the positions before and after each.
 #[derive(Debug, Default)]
 pub(super) struct GapEnds {
     ends: Vec<GapEnd>,
-    /// Of every dyad, the square and its rate before every end and after it.
+    /// For every dyad, the squares and their rates at these positions.
     squares: Vec<[[f64; LANES]; 2]>,
-    /// The same of the angles asked for.
+    /// For every requested class, the angles at these positions.
     angles: Vec<[f64; LANES]>,
-    /// Positions that do not close, by their bits.
+    /// A bit for each position that does not close.
     open: u32,
 }
 
@@ -37,17 +37,17 @@ pub(super) struct GapEnds {
 pub(super) struct EndPosition {
     pub at: f64,
     pub reached: bool,
-    /// Its place in [`GapEnds::angle`].
+    /// Its lane, for [`GapEnds::angle`].
     pub lane: usize,
 }
 
 impl GapEnds {
-    /// Forgets all.
+    /// Removes all ends.
     pub(super) fn clear(&mut self) {
         self.ends.clear();
     }
 
-    /// Whether none was found.
+    /// Whether there are no ends.
     pub(super) fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
@@ -56,7 +56,7 @@ impl GapEnds {
         self.ends.iter().position(|end| end.is_confirmed && end.knot == knot)
     }
 
-    /// The positions beside the end in the cell before a knot, if it was found.
+    /// The positions beside the end in the cell before a knot, if that end is confirmed.
     pub(super) fn beside(&self, scan: (f64, f64), knot: usize) -> Option<[EndPosition; 2]> {
         let index = self.index(knot)?;
         let end = &self.ends[index];
@@ -67,15 +67,15 @@ impl GapEnds {
         ])
     }
 
-    /// The ends, each with the angle of a class before it, from where the mechanism closes, and beyond.
-    /// All must have been found.
+    /// All ends, each with the angles of a class at its inside position and beyond. All must be
+    /// confirmed.
     pub(super) fn with_angles(&self, class: usize) -> impl Iterator<Item = (&GapEnd, [f64; 2])> {
         self.ends.iter().enumerate().map(move |(index, end)| {
             (end, end.lanes(2 * index).map(|lane| self.angles[class][lane]))
         })
     }
 
-    /// The angle of a class there.
+    /// The angle of a class at a position beside an end.
     pub(super) fn angle(&self, class: usize, beside: &EndPosition) -> f64 {
         self.angles[class][beside.lane]
     }
@@ -117,7 +117,7 @@ impl GapEnds {
         }
     }
 
-    /// The cells whose ends were found.
+    /// The cells with a confirmed end.
     pub(super) fn cells(&self) -> Bits {
         let found = self.ends.iter().filter(|end| end.is_confirmed);
         found.fold(0, |cells, end| cells | 1 << end.knot)
@@ -154,7 +154,7 @@ impl GapEnds {
         }
     }
 
-    /// Whether no angle turns far from the knot that can be reached up to the end, nor at it.
+    /// Whether all angles can be unwrapped from the reachable knot to an end.
     fn turns_little(&self, scan: &ScanView<'_>, index: usize) -> bool {
         let end = &self.ends[index];
         let [inside, outside] = end.lanes(2 * index);

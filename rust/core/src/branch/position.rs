@@ -1,4 +1,4 @@
-//! One position of a design by itself: with the signs of its branch there, and smooth through change
+//! A single position of a design, with the signs of its branch there, and smooth through change
 //! points.
 
 use std::borrow::Cow;
@@ -54,7 +54,7 @@ impl Design<'_> {
         }
     }
 
-    /// Solves again a position that was not found or came out beyond a fold.
+    /// Solves a position again that did not converge or came out beyond a fold.
     #[cold]
     fn resolve_from_knot(&self, state: &mut State, q: &[f64], (branch, at): (&Branch, f64)) {
         let cx = self.context(&self.tracing_derivatives);
@@ -143,7 +143,7 @@ impl Design<'_> {
     pub(crate) fn reference_angles(&self, point: &BranchPoint<'_>, classes: usize) -> Vec<f64> {
         let location = point.branch.locate(point.at);
         if point.branch.in_untraced_island(&location, 0) {
-            // An island that the tracer has not seen.
+            // An island between two knots.
             let cx = self.context(&self.tracing_derivatives);
             let own = point.branch.trace_island(
                 &cx,

@@ -1,4 +1,4 @@
-//! Designs with gaps that are plain, seen without following their angles knot by knot.
+//! Survey of a design with gaps: shows that it is plain without unwrapping its angles knot by knot.
 
 use super::cell_test::has;
 use super::gap_end::ScanView;
@@ -14,9 +14,8 @@ use crate::state::state::Context;
 type AngleRange = [f64; 2];
 
 impl LaneTracer {
-    /// Whether a design with gaps is plain: no sign may change between two of the knots that have been
-    /// solved, all gaps end where they should, and no angle asked for turns fast or far. Sets the
-    /// reference of each class.
+    /// Whether a design with gaps is plain: no sign may change between the solved knots, the ends of all
+    /// gaps are confirmed, and no requested angle turns fast or far. Sets the reference of each class.
     #[inline(always)]
     pub(crate) fn survey<L: Level, const G: usize>(
         &mut self,
@@ -43,20 +42,18 @@ impl LaneTracer {
 }
 
 impl GapEnds {
-    /// The range of the angle of a class over the knots that can be reached and the ends of gaps, if
-    /// its link turns slowly and stays within half a turn of where it is first; that is the nearest to
-    /// `start`.
+    /// The range of a class's angle over the reachable knots and the ends of gaps, if its link turns
+    /// slowly and stays within half a turn of its first angle, which is unwrapped to `start`.
     fn range(&self, scan: &ScanView<'_>, class: usize, start: f64) -> Option<AngleRange> {
         let (near, range) = self.across(scan, class, start)?;
         over_knots(scan, class, near, range)
     }
 
-    /// Where the angle is first, and its range over the ends of gaps.
+    /// The first angle, and the range over the ends of gaps.
     #[inline(always)]
     fn across(&self, scan: &ScanView<'_>, class: usize, start: f64) -> Option<(f64, AngleRange)> {
         let (angles, rates) = (&scan.angles[class], &scan.rates[class]);
-        // Angles where the mechanism no longer closes, in order; the first gap may begin before the
-        // first knot.
+        // The angle just outside the last end passed. A gap may already be open at the first knot.
         let begins_open = !has(scan.reached, 0);
         let mut outside = start;
         let mut near = if begins_open { None } else { Some(unwrap_to(angles[0], start)) };
@@ -81,7 +78,7 @@ impl GapEnds {
     }
 }
 
-/// The same with the knots that can be reached.
+/// Extends the range over the reachable knots.
 #[inline(always)]
 fn over_knots(
     scan: &ScanView<'_>,

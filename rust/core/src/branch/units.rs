@@ -6,7 +6,7 @@ use crate::plan::mechanism::Mechanism;
 /// Factors between the design's own unit of length and the metre: powers of two.
 #[derive(Debug, Default)]
 pub(crate) struct Units {
-    /// The unit of the design they are for, m.
+    /// The unit of length that they belong to, m.
     scale: f64,
     /// Factor of every coordinate, into the design's unit.
     pub coordinate: Vec<f64>,
@@ -35,7 +35,7 @@ impl Units {
         self.angle.clear();
         self.length.clear();
         for power in &derivatives.powers {
-            // Multiplied one by one: a length's third analogue stays in range where the cube of the
+            // One factor at a time: a length's third analogue stays in range where the cube of the
             // unit does not.
             let (mut angle, mut length) = (1.0, scale);
             for (&power, &unit) in power.iter().zip(&self.coordinate) {

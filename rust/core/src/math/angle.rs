@@ -21,7 +21,7 @@ pub(crate) fn unwrap_to<R: Real>(angle: R, near: R) -> R {
     angle + R::splat(TAU) * turns_between(angle, near)
 }
 
-/// What the whole turns of all angles of a link follow from.
+/// How to unwrap all angles of a link without tracing them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Reference {
     /// All are principal values.
@@ -32,20 +32,20 @@ pub(crate) enum Reference {
     Turning(Turning),
 }
 
-/// Greatest driver coordinate (rad) at which [`Turning`] is certain: its rounding is below 1e-3 rad.
-/// Beyond, whole turns must be taken off exactly.
+/// Greatest driver coordinate (rad) at which [`Turning`] is safe: its rounding is below 1e-3 rad.
+/// Beyond it, whole turns must be subtracted exactly.
 pub(crate) const MAX_TURNED: f64 = (1_u64 << 40) as f64;
 
-/// An angle that turns with the driver, but jumps twice a turn.
+/// An angle that turns with the driver and jumps twice a turn, at gaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Turning {
     /// 1, or −1 if it turns against the driver.
     pub(crate) rate: f64,
     /// The angle where the driver is at 0, without jumps.
     pub(crate) at_zero: f64,
-    /// Where a turn of the driver begins.
+    /// The driver coordinate at which its turns begin.
     pub(crate) from: f64,
-    /// The jump in the middle of the turn, and that of the whole turn.
+    /// The jump in the middle of a turn, and the sum of both jumps.
     pub(crate) jumps: [f64; 2],
 }
 
@@ -62,11 +62,11 @@ impl Turning {
 }
 
 impl Reference {
-    /// A principal value with its whole turns, where the driver is at `q`.
+    /// Unwraps a principal value at driver coordinate `q`.
     #[inline(always)]
     pub(crate) fn lift<R: Real>(self, angle: R, q: R) -> R {
         match self {
-            // As if no turn were added: −0 becomes 0.
+            // As if zero turns were added: −0 becomes 0.
             Self::Principal => angle + R::ZERO,
             Self::Near(near) => {
                 // A principal value gets one of two numbers of turns.

@@ -125,8 +125,8 @@ macro_rules! common {
         fn stream(self, out: &mut [MaybeUninit<f64>]) {
             let out = &mut out[..$lanes];
             if out.as_ptr().addr().is_multiple_of(std::mem::align_of::<$register>()) {
-                // SAFETY: the slice is as long as the register and as aligned. Who streams calls
-                // `fence` before anyone reads or writes the numbers again.
+                // SAFETY: the slice has the length and alignment of the register. The caller calls
+                // `fence` before anyone reads or writes these numbers again.
                 unsafe { $stream(out.as_mut_ptr().cast(), self.0) };
             } else {
                 self.write(out);

@@ -31,7 +31,7 @@ impl Bracket {
 /// Narrows a bracket of the maximum of a function that rises and then falls (J. Kiefer, Sequential
 /// minimax search for a maximum, Proc. AMS 4 (1953)): one evaluation a step, after two at first.
 ///
-/// Returns the bracket as soon as it is `is_narrow`, or after 40 steps.
+/// Returns the bracket as soon as `is_narrow` accepts it, or after 40 steps.
 ///
 /// # Errors
 ///

@@ -1,5 +1,5 @@
-//! The chord of a dyad, from its start to its end, where the tape is run bare: between any two
-//! points, or from or to the pin of a crank or a point of the ground, whose jets need no memory.
+//! The chord of a dyad, from its start to its end, on the bare path: between any two points, or with
+//! a crank's pin or a ground point at one end, whose jets are computed instead of stored.
 
 use crate::math::lanes::Real;
 use crate::math::stride::Stride;
@@ -26,7 +26,7 @@ pub(super) struct Chord<'a, R: Real, const G: usize> {
     pub ground: Vector,
 }
 
-/// The vector from a crank's pivot to its pin; not used between points.
+/// The vector from a crank's pivot to its pin; zero if the chord has no pin.
 #[derive(Clone, Copy)]
 pub(super) struct Arm<W>(Vector<W>);
 
@@ -98,8 +98,8 @@ impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
         vector
     }
 
-    /// Entry `k` of the chord's jet, by one driver: operation by operation as if the pin had been
-    /// placed.
+    /// Entry `k` of the chord's jet, by one driver. The operations are those that would place the pin,
+    /// so the bits are the same.
     #[inline(always)]
     pub(super) fn at<W: Stride<R>, const ENDS: Ends>(
         &self,

@@ -1,4 +1,4 @@
-//! The chord of a dyad in the frame of a guide that stands still: x along the guide, y across it.
+//! The chord of a dyad in the frame of a fixed guide: x along the guide, y across it.
 
 use super::chord::{Arm, Chord, Ends, FROM_PIN, TO_PIN};
 use crate::math::lanes::Real;
@@ -7,19 +7,19 @@ use crate::math::vector::Vector;
 use crate::plan::tape::DyadOp;
 use crate::state::state::Context;
 
-/// The chord of a dyad, without the parts of its loop that stand still.
+/// The chord of a dyad, less the fixed part of its loop.
 pub(super) struct GuideChord<'a, R: Real, const G: usize> {
     chord: Chord<'a, R, G>,
     offset: Vector,
     /// The rotation into the frame.
     into: Vector,
-    /// At the pin of a crank: the crank …
+    /// With a crank's pin: the crank, in the frame of the guide.
     arm: Vector,
-    /// … and all that stands still, in the frame.
+    /// With a crank's pin: everything fixed, in the frame of the guide.
     frame: Vector,
 }
 
-/// The part that turns with a crank; not used between points.
+/// The part of a chord that turns with a crank; zero if the chord has no pin.
 #[derive(Clone, Copy)]
 pub(super) struct Turning<W>(Vector<W>);
 

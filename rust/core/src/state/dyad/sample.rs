@@ -1,4 +1,4 @@
-//! What a dyad shows at a knot of a branch: how far it is from flat, and how fast that changes.
+//! Sample of a dyad at a knot of a branch: how far it is from flat, and how fast that changes.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -12,10 +12,10 @@ pub(crate) struct DyadSample<R> {
     /// Square of the discriminant; negative where the dyad does not close. It follows from the
     /// chord alone, and a dead point is a simple root of it.
     pub square: R,
-    /// Its derivative by the driver; of a dyad without a kernel unknown (NaN) where it does not
-    /// close.
+    /// Its derivative by the driver. Of a dyad without a kernel it is unknown (NaN) where the dyad does
+    /// not close.
     pub rate: R,
-    /// Determinant of the directions of two guides; of any other dyad 1.
+    /// Determinant of the directions of two guides; 1 for any other dyad.
     pub side: R,
 }
 
@@ -100,7 +100,7 @@ impl<R: Real, const G: usize> State<R, G> {
         [[turned[0] * along, k - turned[0] * offset], [turned[1] * along, dk - turned[1] * offset]]
     }
 
-    /// As with a guide that stands still.
+    /// As with a fixed guide.
     #[inline(always)]
     fn sample_moving_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> DyadSample<R> {
         let per = R::splat(cx.constants.legs[op.dyad][0].inv_norm());
