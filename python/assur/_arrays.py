@@ -59,7 +59,7 @@ def real_array(value: Any, what: str, copy: bool = True) -> Float:
 
 def real_number(value: Any, what: str, finite: bool = True) -> float:
     """Return one number; errors name the argument."""
-    # The usual case, without an array.
+    # The usual case needs no array.
     if isinstance(value, float) and math.isfinite(value):
         return float(value)
     array = real_array(value, what)

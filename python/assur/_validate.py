@@ -78,7 +78,7 @@ def _sign(name: str, sign: Any, strict: bool) -> int:
 def whole_number(
     value: Any, what: str, least: int, most: int = MAX_COUNT, needed: str | None = None
 ) -> int:
-    """Return a whole number within limits, no bool; `needed` ends the sentence of the error."""
+    """Return a whole number within limits, not a bool; `needed` ends the error message."""
     try:
         number = operator.index(value)
     except TypeError:

@@ -84,10 +84,10 @@ class Mechanism:
         "_values",
     )
     _core: Core
-    # What solving has found out about the designs.
+    # Designs that earlier calls found to have constant signs.
     _known_signs: KnownSigns
     _description: Description
-    # Dimensions, shape (number of dimensions, *S): those of one name lie together.
+    # Dimensions, shape (number of dimensions, *S).
     _values: Float
     _structure: Structure | None
     _joints: MappingProxyType[str, Any] | None
@@ -118,7 +118,7 @@ class Mechanism:
         self, description: Description, values: Float | None, core: Core | None = None
     ) -> None:
         core = core or encode.core_of(description)
-        # Callers give up their arrays: a batch may be large.
+        # Takes over the caller's array without a copy: a batch may be large.
         given = core.drawing if values is None else values
         array = np.asarray(given, dtype=np.float64, order="C")
         array.flags.writeable = False
@@ -226,7 +226,7 @@ class Mechanism:
 
     @property
     def _indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
-        """Indices of joints, links and slides by name; nobody changes them."""
+        """Indices of joints, links and slides by name; not to be modified."""
         if self._names is None:
             joints, links, slides, *_ = self._description
             names = tuple({one[0]: i for i, one in enumerate(of)} for of in (joints, links, slides))

@@ -37,7 +37,7 @@ class Motion:
     order : int
         Highest order of the analogues.
     kept : numpy.ndarray or None
-        Of a sweep with ``on_error="drop"``: indices of its designs among all.
+        After a sweep with ``on_error="drop"``: indices of its designs among all.
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class Motion:
         buffers = self._stored.buffers
         if buffers is not None and not buffers.complete:
             message = (
-                "this motion is incomplete: a call that overwrites it (out=) is at work, was "
+                "this motion is incomplete: a call that overwrites it (out=) is running, was "
                 "interrupted or failed; solve it again"
             )
             raise InputError(message)

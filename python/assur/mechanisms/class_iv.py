@@ -239,9 +239,9 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
     if found.status > Status.NEAR_SINGULAR:
         apart = abs(at["8"] + leg("6-8", first["7-8"] + angle["7-8-6"]) - at["6"])
         message = (
-            f"from these starting angles no assembly is reached where the crank is at "
-            f"{first['1-2']!r} (the quadrilateral is open by {apart:.3g} m there): start nearer "
-            f"to one, or from another crank angle"
+            f"these starting angles lead to no assembly with the crank at {first['1-2']!r} "
+            f"(the quadrilateral stays open by {apart:.3g} m): choose angles nearer to an assembly, "
+            f"or another crank angle"
         )
         raise InputError(message, q=first["1-2"])
     joints = {name: tuple(found.joint(name).value.tolist()) for name in JOINTS}

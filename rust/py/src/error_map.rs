@@ -198,7 +198,7 @@ pub(crate) fn first_failure(first: &FirstFailure, shape: &[usize], rows: usize) 
     exception(class, Some(kind), &message, hint.as_deref(), &Fields { design, ..fields })
 }
 
-/// Index of a design by axes; `None` without designs.
+/// Index of a design along each axis; `None` if it is not a batch.
 fn design_index(mut flat: usize, shape: &[usize]) -> Option<Vec<usize>> {
     let mut index = vec![0; shape.len()];
     for (entry, &size) in index.iter_mut().zip(shape).rev() {
@@ -207,7 +207,7 @@ fn design_index(mut flat: usize, shape: &[usize]) -> Option<Vec<usize>> {
     (!shape.is_empty()).then_some(index)
 }
 
-/// As Python shows a tuple.
+/// A tuple as Python prints it.
 fn tuple_text(index: &[usize]) -> String {
     match index {
         [one] => format!("({one},)"),
@@ -215,7 +215,7 @@ fn tuple_text(index: &[usize]) -> String {
     }
 }
 
-/// A run that could not be made.
+/// A run that could not start or be computed.
 pub(crate) fn run(error: RunError<PyErr>) -> PyErr {
     if let RunError::Callback(error) = error {
         return error;

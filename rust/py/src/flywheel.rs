@@ -153,17 +153,17 @@ impl Flywheels {
         self.0.get(index)?.as_ref().err().map(Hint::with_hint)
     }
 
-    /// The exception of a table without a flywheel. `place`: its name at the beginning of the
+    /// The exception of a table without a flywheel. `label`: its name at the beginning of the
     /// message; `design`: its index in the batch.
     fn failure(
         &self,
         py: Python<'_>,
         index: usize,
-        place: &str,
+        label: &str,
         design: Option<Vec<usize>>,
     ) -> Option<Py<PyBaseException>> {
         let error = self.0.get(index)?.as_ref().err()?;
-        Some(error_map::table(error, place, design).into_value(py))
+        Some(error_map::table(error, label, design).into_value(py))
     }
 
     /// A quantity of every table at the same number of angles or times, table after table.

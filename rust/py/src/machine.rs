@@ -86,7 +86,7 @@ impl Machine {
         })
     }
 
-    /// A machine of tables of inertia and moment over the angle.
+    /// A machine given by tables of inertia and moment over the angle.
     #[staticmethod]
     fn from_table(
         phi: Flat<'_>,
@@ -241,9 +241,8 @@ impl Machine {
     }
 
     /// The steady state from `q` over a span, with a given flywheel or one sized for a fluctuation.
-    /// `mean`: definition of the mean speed. Returns the run over one
-    /// period, and: multiplier, moment, work of the motors, flywheel, coordinate and value of the
-    /// least and of the greatest speed.
+    /// `mean`: definition of the mean speed. Returns the run over one period, and: multiplier, moment,
+    /// work of the motors, flywheel, coordinate and value of the least and of the greatest speed.
     #[allow(clippy::too_many_arguments, reason = "what is asked of it")]
     fn steady(
         &self,
@@ -297,8 +296,8 @@ impl Machine {
 }
 
 impl Machine {
-    /// Does work with the Python functions of the machine and of events. The GIL is held throughout
-    /// if there are any. Raises what a signal handler raised meanwhile.
+    /// Runs work that may call the Python functions of the machine and of events. With such functions
+    /// it holds the GIL throughout. Raises what a signal handler raised meanwhile.
     fn with_callbacks<T: Send>(
         &self,
         py: Python<'_>,

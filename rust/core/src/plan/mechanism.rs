@@ -233,7 +233,7 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
             return Err(StructureError::Unknown {
                 kind: Named::Dyad,
                 name: name.clone(),
-                place: "assembly".into(),
+                item: "assembly".into(),
                 hint: suggest(name, plan.dyad_names.iter().map(String::as_str)),
             });
         }

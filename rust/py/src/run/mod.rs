@@ -33,7 +33,7 @@ impl PythonCallbacks {
         Self { loads, events, last_check: Instant::now(), signal: None }
     }
 
-    /// Whether the work needs the GIL throughout.
+    /// Whether there are functions to call, so that the work must hold the GIL.
     pub(crate) fn need_gil(&self) -> bool {
         !(self.loads.is_empty() && self.events.is_empty())
     }
