@@ -106,7 +106,7 @@ class Checked(Findings):
     # -- a run --------------------------------------------------------------------------------
 
     def run(self) -> None:
-        """Energy is kept on the way, as far as positions are not near singular ones."""
+        """Energy is conserved along the path, as far as positions are not near singular ones."""
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             run = self.machine.run(
@@ -153,7 +153,7 @@ class Checked(Findings):
             self.fail("balance", f"{text}, {part[k]:.3g} of what is allowed ({run.end})")
 
     def lost(self, run: Run, step: int) -> bool:
-        """Whether `solve` loses the run there: its way to a position of two drivers is straight."""
+        """Whether `solve` loses the run there: its path to a position of two drivers is straight."""
         t = np.linspace(run.t[step - 1], run.t[step], LOOKS)
         status = self.mechanism.solve(run.at(t).q, 0, [], on_error="nan").status
         return self.drivers > 1 and bool((status == Status.LOST).any())

@@ -56,7 +56,7 @@ def test_an_error_of_differences_that_passes_through_zero_is_accepted() -> None:
     assert not campaign.run([("mixed", 49727)]).failures
 
 
-# Two drivers, a link turned by about half a turn across a gap: counted this way and that. And one
+# Two drivers, a link turned by about half a turn across a gap: unwrapped inconsistently. And one
 # driver, between a gap and a joint at infinity.
 @pytest.mark.parametrize("seed", [15343, 19549, 22245, 68526])
 def test_turns_are_counted_alike_across_a_gap(seed: int) -> None:

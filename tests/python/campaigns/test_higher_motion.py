@@ -49,7 +49,7 @@ def test_the_sample_has_no_failures(first: int) -> None:
         geometry = Geometry(case.description)
         misfit, condition = geometry.misfit(fine)
         assert (misfit[fine.reached] <= checks.TERMS).all(), seed
-        # No jump; analogues are differences; the way ends at folds.
+        # No jump; analogues are differences; the branch ends at folds.
         found, edges, _ = checks.broken(solve, fine, geometry.drawn, checks.jumps)
         assert not found, (seed, found[:1])
         failed, _, _ = checks.differences(solve, fine, condition, rng)

@@ -133,10 +133,10 @@ def test_the_time_of_a_dead_point_is_that_of_the_other_driver() -> None:
     at = by_crank.solve(2.0).link("rocker")
     rocker = assur.Machine(by_crank.with_driver("rocker"), bodies)
     for asked in ("t_end", "q_end"):
-        way: dict[str, Any] = {
+        options: dict[str, Any] = {
             asked: 50.0 if asked == "t_end" else at.value + math.copysign(3, at.d1)
         }
-        own = rocker.run(q0=at.value, speed0=at.d1, rtol=1e-12, **way)
+        own = rocker.run(q0=at.value, speed0=at.d1, rtol=1e-12, **options)
         assert own.end == "dead point"
         assert abs(own.t[-1] - run.t[-1]) < 1e-8
 
@@ -218,7 +218,7 @@ def test_motions_are_pickled() -> None:
     again = pickle.loads(pickle.dumps(steady))
     assert (again.delta, again.power, again.mean) == (steady.delta, steady.power, "period")
     assert np.array_equal(again.at([1.0, 9.0]), steady.at([1.0, 9.0]))
-    # The way to a dead point too.
+    # The run up to a dead point too.
     lever = assur.Machine(four_bar().with_driver("rocker"), {"rocker": Body(inertia=1.0)})
     dead = lever.run(9.0, speed0=1.0)
     assert dead.end == "dead point"

@@ -53,7 +53,7 @@ NAMES = [f"library {n}" for n in library.LIBRARY] + [f"model {n}" for n in named
 
 
 def few(m: assur.Mechanism) -> int:
-    """Coordinates to look at; fewer of several drivers, whose way to each is walked by itself."""
+    """Coordinates to compare; fewer with several drivers, which trace a path to each."""
     return 9 if np.ndim(m.q0) else 61
 
 

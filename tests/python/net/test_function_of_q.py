@@ -48,7 +48,7 @@ def selections(n: int, rng: np.random.Generator) -> Iterator[npt.NDArray[np.int6
 def check_coordinates(
     m: assur.Mechanism, q: Float, rng: np.random.Generator, of: str, among: int | None = None
 ) -> None:
-    """All at once on one thread and two, and (`among` of) them in other ways."""
+    """All at once on one thread and two, and (`among` of) them in other orders."""
     whole = solve(m, q, threads=1)
     same(solve(m, q, threads=2), whole, f"{of}, two threads")
     few = rng.choice(len(q), among or len(q), replace=False)

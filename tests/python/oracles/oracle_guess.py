@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from oracle_system import Pose, Vec
 
 FLOAT_TOL = 1e-13  # residual of `follow`: some hundred roundoffs
-LEAST_STEP = 1e-8  # of `follow`, part of the way: below it roundoff hides that the path bends
+LEAST_STEP = 1e-8  # of `follow`, part of the path: below it roundoff hides that the path bends
 
 
 class StuckError(ArithmeticError):

@@ -84,8 +84,8 @@ def test_results_that_are_held_stay() -> None:
     held = [solve(m) for _ in range(5)]
     views: list[npt.NDArray[np.float64]] = [motion.joint("C").value[3:5, ::2] for motion in held]
     copies = [view.copy() for view in views]
-    places = {motion.joint("C").value.__array_interface__["data"][0] for motion in held}
-    assert len(places) == 5
+    addresses = {motion.joint("C").value.__array_interface__["data"][0] for motion in held}
+    assert len(addresses) == 5
     del held
     for other in (batch(), batch(DESIGNS + 1), batch(2 * DESIGNS)):
         solve(other)

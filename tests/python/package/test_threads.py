@@ -82,7 +82,7 @@ def test_strange_coordinates(name: str) -> None:
     strange = rng.permutation(np.repeat(STRANGE, 2))
     if q.ndim == 1:
         q[: len(strange)] = strange
-    else:  # far ways of several drivers are long
+    else:  # paths to far positions of several drivers are long
         q[: len(strange), -1] = np.where(np.abs(strange) > 1.0, math.nan, strange)
     q = rng.permutation(q)
     motion = m.solve(q, order=3, on_error="nan")

@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::worker::{Job, Worker, mask};
 use super::writer::RowRange;
-use crate::branch::branch::BranchLocation;
+use crate::branch::location::BranchLocation;
 use crate::math::angle::unwrap_to;
 use crate::math::lanes::{Mask, Real};
 use crate::state::kernel::Level;

@@ -3,7 +3,7 @@
 use super::coordinates::CoordinateRegisters;
 use super::outputs::Column;
 use super::writer::Writer;
-use crate::branch::branch::BranchLocation;
+use crate::branch::location::BranchLocation;
 use crate::branch::uniform::UniformTracer;
 use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;

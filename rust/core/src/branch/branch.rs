@@ -11,8 +11,7 @@ use std::f64::consts::TAU;
 use super::hermite::HermiteCell;
 use super::knot::{ChangePoint, InitialGuess, Knot, SignInterval};
 use super::tracer::BranchTracer;
-use crate::math::angle::{reduce_turns, whole_part, whole_turns};
-use crate::math::lanes::{LANES, Real};
+use crate::math::angle::whole_turns;
 use crate::plan::plan::Plan;
 use crate::state::state::{Context, State};
 
@@ -51,21 +50,6 @@ pub(crate) struct Branch {
     pub(crate) det_signs: Vec<bool>,
     /// Knots per unit of the parameter, if all are reached and equally spaced.
     pub(crate) inverse_width: Option<f64>,
-}
-
-/// Locations on a branch, one per lane.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct BranchLocation<R = f64> {
-    /// The parameter reduced to the first period.
-    pub(crate) reduced: R,
-    /// Whole periods taken off.
-    periods: R,
-    /// The knot whose angles and cells are used.
-    pub(crate) knot: [usize; LANES],
-    /// The knots of the first and last lane, if every lane has one or the other.
-    pub(crate) pair: Option<[usize; 2]>,
-    /// 1 in lanes with the second knot of `pair`, else 0.
-    pub(crate) is_last: R,
 }
 
 impl Branch {
@@ -320,78 +304,10 @@ impl Branch {
         }
     }
 
-    /// Reduces a parameter to the first period; also returns the whole periods taken off.
-    #[inline(always)]
-    pub(crate) fn reduce<R: Real>(&self, at: R) -> (R, R) {
-        let (Some(&first), Some(period)) = (self.at.first(), self.period) else {
-            return (at, R::ZERO);
-        };
-        let periods = ((at - R::splat(first)) * R::splat(1.0 / period)).floor();
-        if self.inverse_width.is_some() {
-            // On the uniform branch only the number of turns must be exact.
-            return (at - periods * R::splat(period), periods);
-        }
-        let turns = (period / TAU).round();
-        (R::from_lanes(|lane| reduce_turns(at.lane(lane), periods.lane(lane) * turns)), periods)
-    }
-
     /// Whether the branch is known at a parameter.
     #[inline(always)]
     pub(crate) fn covers(&self, at: f64) -> bool {
         self.covered.is_none_or(|[low, high]| (low..=high).contains(&at))
-    }
-
-    /// Locates parameters among the knots; without knots, only reduces them.
-    #[inline(always)]
-    pub(crate) fn locate<R: Real>(&self, at: R) -> BranchLocation<R> {
-        let (reduced, periods) = self.reduce(at);
-        let mut knot = [0; LANES];
-        let last = self.at.len().saturating_sub(1);
-        if self.at.is_empty() {
-            return BranchLocation { reduced, periods, knot, ..BranchLocation::default() };
-        }
-        if let Some(inverse_width) = self.inverse_width {
-            let cells = (reduced - R::splat(self.at[0])) * R::splat(inverse_width);
-            for lane in 0..R::LANES {
-                // At the edge of a cell either knot will do.
-                let cell = whole_part(cells.lane(lane));
-                knot[lane] = cell.min(last);
-            }
-        } else {
-            for lane in 0..R::LANES {
-                knot[lane] = self.knot_before(reduced.lane(lane)).min(last);
-            }
-        }
-        if self.cells.is_empty() {
-            return BranchLocation { reduced, periods, knot, ..BranchLocation::default() };
-        }
-        let pair = [knot[0], knot[R::LANES - 1]];
-        let is_pair = knot[..R::LANES].iter().all(|knot| pair.contains(knot));
-        let is_last = R::from_lanes(|lane| if knot[lane] == pair[1] { 1.0 } else { 0.0 });
-        BranchLocation { reduced, periods, knot, pair: is_pair.then_some(pair), is_last }
-    }
-
-    /// The last knot at or before a parameter; the next knot if only that one can be reached.
-    fn knot_before(&self, reduced: f64) -> usize {
-        let after = self.at.partition_point(|&k| k <= reduced);
-        let left = after.saturating_sub(1);
-        let ahead = self.reached.get(after).copied().unwrap_or(false);
-        if ahead && !self.reached[left] { after } else { left }
-    }
-
-    /// The assembly signs at a location.
-    #[inline(always)]
-    pub(crate) fn signs_at<R: Real>(&self, location: &BranchLocation<R>, lane: usize) -> &[f64] {
-        let after = match self.sign_intervals.len() {
-            1 => 1,
-            _ => self.sign_intervals.partition_point(|s| s.from <= location.reduced.lane(lane)),
-        };
-        self.sign_intervals.get(after.saturating_sub(1)).map_or(&[], |s| &s.signs)
-    }
-
-    /// The assembly signs at a parameter.
-    pub(crate) fn signs(&self, at: f64) -> &[f64] {
-        self.signs_at(&self.locate(at), 0)
     }
 
     /// Whether the signs are the same everywhere.
@@ -410,20 +326,6 @@ impl Branch {
         let period = self.period.unwrap_or(0.0);
         let images = |c: &ChangePoint| [0.0, -period, period].map(|by| (*c, reduced - (c.at + by)));
         self.changes.iter().flat_map(images).find(|(_, distance)| distance.abs() <= reach)
-    }
-
-    /// Whether a location lies on an island without a knot.
-    #[inline(always)]
-    pub(crate) fn in_untraced_island<R: Real>(
-        &self,
-        location: &BranchLocation<R>,
-        lane: usize,
-    ) -> bool {
-        // The knot is one that can be reached, if there is one before or after the location.
-        let at = location.reduced.lane(lane);
-        let inside = self.at.first().is_some_and(|&first| first <= at)
-            && self.at.last().is_some_and(|&last| at < last);
-        self.inverse_width.is_none() && inside && !self.reached[location.knot[lane]]
     }
 
     /// Traces an island without a knot from its middle to the parameter: at its ends a joint may be at
@@ -468,48 +370,5 @@ impl Branch {
             }
         }
         Self { gain: self.gain.clone(), ..Self::from_knots(&knots, cx.plan) }
-    }
-
-    /// The angle of a class at the knots of a location.
-    #[inline(always)]
-    pub(crate) fn reference_angle<R: Real>(&self, location: &BranchLocation<R>, class: usize) -> R {
-        let classes = self.gain.len();
-        if self.at.is_empty() {
-            return R::ZERO;
-        }
-        let angle = R::from_lanes(|lane| self.angles[location.knot[lane] * classes + class]);
-        angle + location.periods * R::splat(self.gain[class])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Removing whole turns leaves the angle, to the rounding of the sum itself.
-    #[test]
-    fn reducing_turns_restores_the_angle() {
-        for turns in [1.0, 2.0, 64.0, 1000.0, 4_194_303.0, 4_194_304.0, 1e9] {
-            for part in [0.001, 0.735_422_665_253_286_5, 3.0, 6.2] {
-                for turns in [turns, -turns] {
-                    let angle = part + TAU * turns;
-                    // 2π as a double, and its error.
-                    let lost = (angle - TAU * turns) - part;
-                    let wanted = part + lost - turns * 2.449_293_598_294_706_4e-16;
-                    let rounding = 2.0 * f64::EPSILON * angle.abs().max(TAU);
-                    let found = reduce_turns(angle, turns);
-                    assert!((found - wanted).abs() <= rounding, "{turns} {part}: {found} {wanted}");
-                }
-            }
-        }
-    }
-
-    /// Also backward: a small angle less −1 turn is the sum, rounded once or twice.
-    #[test]
-    fn small_angles_keep_their_digits() {
-        for angle in [-0.735_422_665_253_286_5, -1e-9, 0.1, 3.0] {
-            let found = reduce_turns(angle, -1.0);
-            assert!((found - (angle + TAU)).abs() <= 2.0 * f64::EPSILON * TAU, "{angle}: {found}");
-        }
     }
 }

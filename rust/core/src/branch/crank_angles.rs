@@ -8,7 +8,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::math::angle::{Reference, Turning, turns_between, unwrap_to};
+use crate::math::angle::{Reference, TurningAngle, turns_between, unwrap_to};
 use crate::math::vector::Vector;
 use crate::plan::leg::Leg;
 use crate::plan::tape::{CrankPin, DyadOp, Op};
@@ -193,7 +193,7 @@ impl ChordTriangle<'_> {
             return None;
         }
         // A turn begins where the chord is longest.
-        let mut turning = Turning {
+        let mut turning = TurningAngle {
             rate: chord.rate,
             at_zero: angle_of(chord.arm) + away + beside,
             from: chord.along_frame() - PI,

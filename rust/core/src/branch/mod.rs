@@ -15,6 +15,7 @@ pub(crate) mod hermite;
 pub(crate) mod homotopy;
 pub(crate) mod knot;
 pub(crate) mod lane_tracer;
+pub(crate) mod location;
 pub(crate) mod position;
 pub(crate) mod predictor;
 pub(crate) mod scalar_chord;

@@ -3,10 +3,11 @@
 
 use std::borrow::Cow;
 
-use super::branch::{Branch, BranchLocation};
+use super::branch::Branch;
 use super::change_interpolant::ChangeInterpolant;
 use super::design::Design;
 use super::knot::{ChangePoint, InitialGuess};
+use super::location::BranchLocation;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};

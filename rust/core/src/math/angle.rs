@@ -29,16 +29,16 @@ pub(crate) enum Reference {
     /// All are less than half a turn from this angle.
     Near(f64),
     /// All are less than half a turn from an angle that turns with the driver.
-    Turning(Turning),
+    Turning(TurningAngle),
 }
 
-/// Greatest driver coordinate (rad) at which [`Turning`] is safe: its rounding is below 1e-3 rad.
+/// Greatest driver coordinate (rad) at which [`TurningAngle`] is safe: its rounding is below 1e-3 rad.
 /// Beyond it, whole turns must be subtracted exactly.
 pub(crate) const MAX_TURNED: f64 = (1_u64 << 40) as f64;
 
 /// An angle that turns with the driver and jumps twice a turn, at gaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Turning {
+pub(crate) struct TurningAngle {
     /// 1, or −1 if it turns against the driver.
     pub(crate) rate: f64,
     /// The angle where the driver is at 0, without jumps.
@@ -49,7 +49,7 @@ pub(crate) struct Turning {
     pub(crate) jumps: [f64; 2],
 }
 
-impl Turning {
+impl TurningAngle {
     #[inline(always)]
     pub(crate) fn at<R: Real>(&self, q: R) -> R {
         let on = q - R::splat(self.from);
@@ -115,6 +115,33 @@ mod tests {
     fn half_a_turn_counts_as_none() {
         for (turns, whole) in [(0.5, 0.0), (0.500_001, 0.0), (0.51, 1.0), (1.2, 1.0), (2.0, 2.0)] {
             assert_eq!([turns * TAU, -turns * TAU].map(whole_turns), [whole, -whole], "{turns}");
+        }
+    }
+
+    /// Removing whole turns leaves the angle, to the rounding of the sum itself.
+    #[test]
+    fn reducing_turns_restores_the_angle() {
+        for turns in [1.0, 2.0, 64.0, 1000.0, 4_194_303.0, 4_194_304.0, 1e9] {
+            for part in [0.001, 0.735_422_665_253_286_5, 3.0, 6.2] {
+                for turns in [turns, -turns] {
+                    let angle = part + TAU * turns;
+                    // 2π as a double, and its error.
+                    let lost = (angle - TAU * turns) - part;
+                    let wanted = part + lost - turns * 2.449_293_598_294_706_4e-16;
+                    let rounding = 2.0 * f64::EPSILON * angle.abs().max(TAU);
+                    let found = reduce_turns(angle, turns);
+                    assert!((found - wanted).abs() <= rounding, "{turns} {part}: {found} {wanted}");
+                }
+            }
+        }
+    }
+
+    /// Also backward: a small angle less −1 turn is the sum, rounded once or twice.
+    #[test]
+    fn small_angles_keep_their_digits() {
+        for angle in [-0.735_422_665_253_286_5, -1e-9, 0.1, 3.0] {
+            let found = reduce_turns(angle, -1.0);
+            assert!((found - (angle + TAU)).abs() <= 2.0 * f64::EPSILON * TAU, "{angle}: {found}");
         }
     }
 }

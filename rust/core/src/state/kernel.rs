@@ -5,7 +5,7 @@ use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::pair::Pair;
 #[cfg(target_arch = "x86_64")]
-use crate::math::registers::{F64x2, F64x4, F64x8};
+use crate::math::registers::{avx2::F64x4, avx512::F64x8, sse2::F64x2};
 use crate::math::stride::Stride;
 use crate::plan::group::Group;
 use crate::plan::tape::{DyadOp, PlaceOp};

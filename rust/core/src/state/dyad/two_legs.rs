@@ -1,6 +1,6 @@
 //! The dyad of two legs (RRR), the most frequent one.
 
-use super::chord::{Chord, Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
+use super::chord::{DyadChord, Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
 use super::intersections::{Closing, TwoCircles};
 use super::turning_leg::{entry, second_rest, third_rest};
 use crate::math::lanes::Real;
@@ -63,7 +63,7 @@ impl<R: Real, const G: usize> State<R, G> {
         len: usize,
     ) {
         let jet = |i: usize| i * len..i * len + len;
-        let chord = Chord::new(cx, op, &self.pose.points, &self.pose.unit, len);
+        let chord = DyadChord::new(cx, op, &self.pose.points, &self.pose.unit, len);
         let (Ok([a_jet, b_jet]), Ok([u, v]), Ok([a_turn, b_turn])) = (
             self.pose.legs.get_disjoint_mut([2 * op.dyad, 2 * op.dyad + 1].map(jet)),
             self.pose.theta.get_disjoint_mut(op.unknowns.map(jet)),
