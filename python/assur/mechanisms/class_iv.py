@@ -240,8 +240,8 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
         apart = abs(at["8"] + leg("6-8", first["7-8"] + angle["7-8-6"]) - at["6"])
         message = (
             f"these starting angles lead to no assembly with the crank at {first['1-2']!r} "
-            f"(the quadrilateral stays open by {apart:.3g} m): choose angles nearer to an assembly, "
-            f"or another crank angle"
+            f"(the quadrilateral stays open by {apart:.3g} m): choose angles nearer to one, or "
+            f"another crank angle"
         )
         raise InputError(message, q=first["1-2"])
     joints = {name: tuple(found.joint(name).value.tolist()) for name in JOINTS}

@@ -35,9 +35,9 @@ BEND = 0.05
 HALVINGS = 40
 # Coordinates, in sizes of the drawing, beyond which a point is about to pass through infinity.
 POLE = 1e6
-# The same of groups above class II, whose branches end before: their condition grows with the square of
-# it. That it is a pole must show in how it grows, v = A / (distance to the pole): two places so far
-# apart tell the distance (rad, or of the size), which must be small.
+# The same of groups above class II, whose branches end earlier: their condition grows with its
+# square. That it is a pole must show in how it grows, v = A / (distance to the pole): two points so
+# far apart give the distance (rad, or of the size), which must be small.
 POLE_OF_GROUPS = 100.0
 POLE_STEP = 1e-6
 POLE_NEAR = 1e-2
@@ -171,7 +171,9 @@ def narrow_poles(solve: Solve, edges: Array) -> Bools:
     direction = np.sign(edges[:, 0] - edges[:, 1])
     found = np.zeros(len(edges), dtype=np.bool_)
     for step in POLE_STEPS:
-        sample = solve(np.concatenate([edges[:, 0] + direction * reach * step for reach in (1, 4, 10)]))
+        sample = solve(
+            np.concatenate([edges[:, 0] + direction * reach * step for reach in (1, 4, 10)])
+        )
         rates = np.abs(sample.rate[:, : sample.lengths]).reshape(3, len(edges), -1)
         place = rates[0].argmax(axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):

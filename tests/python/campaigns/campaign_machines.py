@@ -153,7 +153,7 @@ class Checked(Findings):
             self.fail("balance", f"{text}, {part[k]:.3g} of what is allowed ({run.end})")
 
     def lost(self, run: Run, step: int) -> bool:
-        """Whether `solve` loses the run there: its path to a position of two drivers is straight."""
+        """Whether `solve` loses the run there: with two drivers it takes a straight path."""
         t = np.linspace(run.t[step - 1], run.t[step], LOOKS)
         status = self.mechanism.solve(run.at(t).q, 0, [], on_error="nan").status
         return self.drivers > 1 and bool((status == Status.LOST).any())

@@ -56,7 +56,7 @@ def clear(values: list[Any]) -> list[Any]:
 def four_bar(rng: np.random.Generator) -> Linkage | None:
     """The coupler and the rocker are in line: BD = b + c or |b − c|."""
     a, b, c, d = (MP.mpf(x) for x in rng.uniform(0.3, 3.0, 4).tolist())
-    side = -1 if rng.random() < 0.5 else 1  # C to the right or to the left of the ray D → B
+    sign = -1 if rng.random() < 0.5 else 1  # C to the right or to the left of the ray D → B
 
     def square(q: Any) -> Any:
         return a * a + d * d - 2 * a * d * MP.cos(q)
@@ -68,16 +68,16 @@ def four_bar(rng: np.random.Generator) -> Linkage | None:
     def exact(q: Any) -> Any:
         e = square(q)
         x, y = a * MP.cos(q) - d, a * MP.sin(q)  # D → B
-        along, up = (e + c * c - b * b) / (2 * e), side * MP.sqrt(discriminant(q)) / (2 * e)
+        along, up = (e + c * c - b * b) / (2 * e), sign * MP.sqrt(discriminant(q)) / (2 * e)
         return d + along * x - up * y, along * y + up * x
 
     def side(motion: assur.Motion) -> Float:
         (bx, by), (x, y) = motion.joint("B").value.T, motion.joint("C").value.T
-        return np.asarray(side * np.sign((bx - float(d)) * y - by * (x - float(d))))
+        return np.asarray(sign * np.sign((bx - float(d)) * y - by * (x - float(d))))
 
     cosines = clear([(a * a + d * d - (b + s * c) ** 2) / (2 * a * d) for s in (1, -1)])
     return Linkage(
-        assur.FourBar(*(float(a), float(b), float(c), float(d)), "open" if side < 0 else "crossed"),
+        assur.FourBar(*(float(a), float(b), float(c), float(d)), "open" if sign < 0 else "crossed"),
         float(a + b + c + d),
         [s * MP.acos(x) for x in cosines for s in (1, -1)],
         discriminant,
@@ -115,7 +115,7 @@ def slider_crank(rng: np.random.Generator) -> Linkage | None:
 def turning_guide(rng: np.random.Generator) -> Linkage | None:
     """The guide, `offset` from its pivot, is square to the line from there to the pin."""
     r, d, offset = (MP.mpf(x) for x in rng.uniform([0.5, 0.5, -1.5], [3.0, 3.0, 1.5]).tolist())
-    side = -1 if rng.random() < 0.5 else 1  # of the pin along the guide
+    sign = -1 if rng.random() < 0.5 else 1  # of the pin along the guide
 
     def square(q: Any) -> Any:
         return r * r + d * d - 2 * r * d * MP.cos(q)
@@ -124,13 +124,13 @@ def turning_guide(rng: np.random.Generator) -> Linkage | None:
         return square(q) - offset**2
 
     def exact(q: Any) -> Any:
-        return (side * MP.sqrt(discriminant(q)),)
+        return (sign * MP.sqrt(discriminant(q)),)
 
     cosine = clear([(r * r + d * d - offset**2) / (2 * r * d)])
     drawn = assur.Mechanism(
         joints={"O": (0, 0), "A": (0, 1), "D": (1, 0), "E": (0, 1)},
         links={"ground": "OD", "crank": "OA", "block": "A", "lever": "DE"},
-        slides={"slot": assur.Slide("block", "lever", math.radians(135 - (side < 0) * 180), "D")},
+        slides={"slot": assur.Slide("block", "lever", math.radians(135 - (sign < 0) * 180), "D")},
         driver="crank",
     )
     lengths = {"crank.length": float(r), "ground.D.x": float(d), "slot.offset": float(offset)}
@@ -141,7 +141,7 @@ def turning_guide(rng: np.random.Generator) -> Linkage | None:
         discriminant,
         exact,
         lambda motion: motion.slide("slot").value[:, None],
-        lambda motion: np.sign(side * motion.slide("slot").value),
+        lambda motion: np.sign(sign * motion.slide("slot").value),
     )
 
 

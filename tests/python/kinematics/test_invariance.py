@@ -177,7 +177,7 @@ def test_translation(case: dyad_models.Case, move: float, shift: tuple[float, fl
 
 
 def test_a_half_turn_behind_a_gap() -> None:
-    """Found once: a link that is half a turn on, whose mirror image turned in the same direction."""
+    """Found once: a link half a turn on, whose mirror image turned in the same direction."""
     case = dyad_models.build(2635, "cylinder", ("PRP", "RRP", "PRP", "PRP", "PRP", "RPR"))
     check_frame(case, 0.06597458344611529, Frame(mirror=True))
 
@@ -399,7 +399,7 @@ def test_third_bar() -> None:
     ],
 )
 def test_angles_do_not_depend_on_the_grid(make: object) -> None:
-    """Continuous over four turns in each direction; the same bits alone, coarse, backwards or fine."""
+    """Continuous over four turns both ways; the same bits alone, coarse, backwards or fine."""
     d = make()  # type: ignore[operator]
     m = made(d)
     fine = m.q0 + np.linspace(-4 * math.tau, 4 * math.tau, 4001)
