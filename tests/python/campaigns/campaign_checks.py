@@ -1,4 +1,4 @@
-"""What a campaign asks of one motion.
+"""The checks of a campaign on one motion.
 
 Motions are checked against their own first analogues, ends of gaps against the Jacobian of the
 bodies.
@@ -61,11 +61,11 @@ DIFFERENCE_MARGIN = 4.0  # times the change when the step is halved (their error
 # Part of the change by the halving before, as much as it is of the next term of the error: where
 # the first one passes through zero a single halving promises too much.
 DIFFERENCE_NEXT = 1.0 / 64.0
-DIFFERENCE_KNOWN = 1e-3  # where halving the step changes more (of the value), they tell nothing
+DIFFERENCE_KNOWN = 1e-3  # where halving the step changes more (of the value), they are no evidence
 
 
 class HasDeterminants(Protocol):
-    """Something that knows the Jacobian of a mechanism's bodies."""
+    """An oracle for the Jacobian of a mechanism's bodies."""
 
     def determinants(self, motion: assur.Motion) -> Array:
         """The Jacobian's determinant at every position."""
@@ -149,7 +149,7 @@ def bisected(solve: Solve, edges: Array, bits: int = 4) -> Array:
 
 
 def poles(solve: Solve, edges: Array, size: float, higher: bool) -> Bools:
-    """Whether a point goes to infinity right behind the ends (bisected)."""
+    """Whether a point goes to infinity just beyond the ends (bisected)."""
     direction = np.sign(edges[:, 1] - edges[:, 0])
     inside, before = solve(edges[:, 0]), solve(edges[:, 0] - direction * POLE_STEP)
     near, far = (np.abs(sample.value[:, : sample.lengths]) for sample in (inside, before))
@@ -163,7 +163,7 @@ def poles(solve: Solve, edges: Array, size: float, higher: bool) -> Bools:
 
 
 def narrow_poles(solve: Solve, edges: Array) -> Bools:
-    """Whether a joint goes to infinity right behind ends (bisected), though it is not far there.
+    """Whether a joint goes to infinity just beyond ends (bisected), though not far away there.
 
     Its rate grows like the inverse square of the distance from infinity: the inverse root of it
     falls linearly to zero. (At a fold its fourth power does, at other ends it stays.)
@@ -230,7 +230,7 @@ def unreal(solve: Solve, geometry: HasDeterminants, edges: Array) -> tuple[list[
 
 
 def goes_on(solve: Solve, last: float, beyond: float) -> bool:
-    """Whether some assembly beyond the last position of a motion is beside it."""
+    """Whether some assembly beyond the last position of a motion is close to it."""
     motion = solve(np.array([last])).motion
     if motion.mechanism.structure.cls > 2:  # their assemblies are not found yet
         return True

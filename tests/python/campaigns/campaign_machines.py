@@ -30,7 +30,7 @@ NODES, FEWER = 12, 6
 QUADRATURE = 0.1  # of what is allowed, else the interval is halved
 HALVINGS = 6
 PLACES = 4  # where reductions are compared
-REACH = 0.4  # either way of the drawing, rad or m
+REACH = 0.4  # to either side of the drawing, rad or m
 # Of the sum of absolute values, besides 64 u κ² of analogues and 8 u κ of positions.
 MOMENT = 1e-10
 POTENTIAL = 1e-12

@@ -1,4 +1,4 @@
-"""A sample of the campaign on mixed groups, what it draws, and that its checks see their faults."""
+"""A sample of the campaign on mixed groups, its models, and proof that checks detect faults."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ def test_overconstrained_drawings_need_more_rows_than_unknowns() -> None:
         assert regularity(case.exact, overconstrained=True) > mixed_models.REGULAR
 
 
-# -- the checks see their faults --------------------------------------------------------------
+# -- the checks detect faults -----------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", sorted(named_models.NAMED))

@@ -1,4 +1,4 @@
-"""Where one number is wanted, text, times, masks and the like are refused, not converted."""
+"""Where one number is expected, text, times, masks and the like are refused, not converted."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def test_a_run_refuses_a_function_that_gives_no_number(what: str) -> None:
 
 
 def made(name: str, value: Any) -> type:
-    """What becomes of a number: a value, or which refusal of it."""
+    """The outcome for a number: a value, or the error that refuses it."""
     try:
         return type(ASKS[name]((value, value) if name == "both of a joint" else value))
     except assur.AssurError as error:
@@ -197,7 +197,7 @@ def test_a_flywheel_of_infinite_energy_is_refused() -> None:
 
 @pytest.mark.filterwarnings("error")
 def test_a_flywheel_whose_period_is_rounding_is_refused_soon() -> None:
-    # One moment of 1e16 N·m: what is left of the energies elsewhere has no digits.
+    # One moment of 1e16 N·m: the remaining energies have no correct digit.
     moment = np.r_[-0.75, -0.75, 1e16, np.full(13, 3.8)]
     table = np.linspace(0.0, 2.0 * np.pi, 16), moment, 1.8
     with pytest.raises(assur.MotionError):

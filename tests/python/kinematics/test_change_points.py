@@ -30,7 +30,7 @@ DIRECTIONS = {"forward": (0, 1), "backward": (0, -1), "far": (1000 * TURN, 1)}
 
 # The law: a position is good to 8 u κ of the size, a first analogue to 64 u κ² of its own.
 POSITION, ANALOGUE = 8 * U, 64 * U
-# A spread N of which the square is rounded is off by 8 u/N of the size, and its second derivative
+# A discriminant N whose square is rounded is off by 8 u/N of the size, and its second derivative
 # by 2 N'²/N³ times as much, whatever the program: 16 u κ³, more than the law beyond κ = 4.
 SECOND = 16 * U
 # At a change point the motion is a polynomial's through 16 positions, the nearest 0.1 cos(15π/32)
@@ -211,7 +211,7 @@ def test_closed_forms(make: Callable[[], Case], direction: str) -> None:
 
 @cases
 def test_the_same_alone(make: Callable[[], Case]) -> None:
-    """At change points: bits do not depend on what else is asked, nor on threads."""
+    """At change points: bits do not depend on what else is requested, nor on threads."""
     case = make()
     q = case.first + case.every * np.arange(-8.0, 9.0)
     alone = [case.mechanism.solve(x) for x in q]

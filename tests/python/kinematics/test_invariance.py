@@ -157,7 +157,7 @@ def check_frame(case: dyad_models.Case, move: float, frame: Frame) -> None:
 
 
 def gap_before(m: assur.Mechanism, change: float) -> bool:
-    """Whether a stretch that cannot be reached lies between the drawing and there."""
+    """Whether a gap lies between the drawing and there."""
     if np.size(m.q0) > 1:
         return False
     path = float(m.q0) + np.linspace(0.0, change, CHECKED)
@@ -197,7 +197,7 @@ def test_scale(case: dyad_models.Case, move: float, scale: float) -> None:
 @NO_SHRINK
 @given(ANY, moves, st.integers(-300, 300))
 def test_scale_by_a_power_of_two(case: dyad_models.Case, move: float, power: int) -> None:
-    """Not a bit changes."""
+    """No bit changes."""
     d, scale = case.description, 2.0**power
     one, two = made(d), made(Frame(scale=scale).of(d))
     slide = [kind == "slide" for kind, *_ in d.drivers]

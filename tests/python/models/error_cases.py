@@ -1,4 +1,4 @@
-"""Every kind of error by its origin: a case, or why no input of Python reaches it."""
+"""Every kind of error by its origin: a case, or why no Python input reaches it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Descriptions of no mechanism: what is changed, words of the message, fields of the error."""
+"""Invalid descriptions: the change, words of the message, fields of the error."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ def coordinates(m: assur.Mechanism, rng: np.random.Generator, count: int, name: 
 
 
 def designs(m: assur.Mechanism, rng: np.random.Generator, count: int) -> assur.Mechanism:
-    """A batch, every dimension up to 3 % longer or shorter; not everywhere to be assembled."""
+    """A batch, every dimension up to 3 % longer or shorter; some cannot be assembled everywhere."""
     scaled = {n: v * rng.uniform(0.97, 1.03, count) for n, v in m.dimensions.items()}
     return m.with_dimensions(scaled)
 

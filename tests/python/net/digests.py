@@ -1,7 +1,7 @@
-"""Digests of results over everything that computes: the net under changes that must change no bit.
+"""Digests of results of all kinds: the net under changes that must not change a bit.
 
-``python tests/python/digests.py`` compares with ``digests.json``; ``--write`` writes it anew, for a
-commit that changes results on purpose. The level of vector instructions is read from ASSUR_SIMD.
+``python net/digests.py`` (see CONTRIBUTING.md) compares with ``digests.json``; ``--write`` writes it
+anew, for a commit that changes results on purpose. The level of vector instructions is read from ASSUR_SIMD.
 
 Inputs are rounded to ten decimals: sines and logarithms of the platform's library, of which they
 are made, differ in their last bits from one processor to another.

@@ -1,4 +1,4 @@
-"""What the tests of the library of named mechanisms have in common."""
+"""Helpers for the tests of the library of named mechanisms."""
 
 from __future__ import annotations
 

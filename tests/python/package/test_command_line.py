@@ -1,4 +1,4 @@
-"""The command line: whatever the terminal, pipe or disk, a result or one line of why not."""
+"""The command line: a result or a one-line error, whatever the terminal, pipe or disk."""
 
 from __future__ import annotations
 

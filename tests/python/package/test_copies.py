@@ -1,4 +1,4 @@
-"""Copies of machines are the same machines, whatever becomes of the caller's arrays and lists."""
+"""Copies of machines stay the same, whatever the caller does to its arrays and lists."""
 
 from __future__ import annotations
 

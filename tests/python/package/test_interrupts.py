@@ -1,4 +1,4 @@
-"""Signals stop long calls at the next block; what they leave behind cannot be read.
+"""Signals stop long calls at the next block; incomplete results cannot be read.
 
 Work is counted, not time on the wall clock: processor time, or pages of memory.
 """

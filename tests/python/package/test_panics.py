@@ -1,4 +1,4 @@
-"""A panic of the core is an AssurError in Python, and leaves nothing half done to be read."""
+"""A panic of the core is an AssurError in Python, and no incomplete result can be read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The memory of results that were dropped is used again: no new pages, no mixture of results."""
+"""The memory of dropped results is reused: no new pages, no mixed results."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ assert good and status == 0
 
 
 def test_only_the_last_call_is_kept() -> None:
-    """Another call gives back what it does not take."""
+    """A call frees what it does not reuse."""
     large = batch(4000)
     size = 4000 * 360 * 9 * 8
     solve(large)

@@ -1,4 +1,4 @@
-"""A run is copied by its arrays: to the bit, and only from a state that fits."""
+"""A run is copied by its arrays: to the bit, and only from a valid state."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ OPTIONAL = ("tail", "smallest", "largest")
 
 
 def wrong_values(value: Any) -> list[Any]:
-    """Values that cannot stand in place of one of a state."""
+    """Values that are invalid in place of one of a state."""
     wrong: list[Any] = ["text", object()]
     if isinstance(value, np.ndarray):
         longer = np.append(value, 0.0)

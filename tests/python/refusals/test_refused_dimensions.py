@@ -1,4 +1,4 @@
-"""Bad dimensions and designs: named errors, or a status in their own place."""
+"""Bad dimensions and designs: errors that name them, or a status for each design."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names that are not Unicode text, and words that are none of those known, are refused by name."""
+"""Names that are not Unicode text and unknown words are refused by name."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is no mechanism is refused, with the thing and the number named."""
+"""An invalid mechanism is refused; the error names the part and the number."""
 
 from __future__ import annotations
 

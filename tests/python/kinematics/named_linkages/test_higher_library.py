@@ -129,7 +129,7 @@ def test_past_a_dead_point_by_another_driver_and_back() -> None:
     crank = by_rocker.link("crank").value
     top = int(np.nanargmax(np.where(given, crank, np.nan)))
     assert abs(crank[top] - dead) < 2e-3
-    # Up to there both tell the same positions.
+    # Up to there both give the same positions.
     monotone = np.diff(rocker) * np.sign(rocker[last] - rocker[0]) > 0
     assert monotone.all()
     for i in range(0, top - 3, 20):
