@@ -1,7 +1,8 @@
 """Digests of results of all kinds: the net under changes that must not change a bit.
 
-``python net/digests.py`` (see CONTRIBUTING.md) compares with ``digests.json``; ``--write`` writes it
-anew, for a commit that changes results on purpose. The level of vector instructions is read from ASSUR_SIMD.
+``python net/digests.py`` (see CONTRIBUTING.md) compares with ``digests.json``; ``--write`` writes
+it anew, for a commit that changes results on purpose. The level of vector instructions is read from
+ASSUR_SIMD.
 
 Inputs are rounded to ten decimals: sines and logarithms of the platform's library, of which they
 are made, differ in their last bits from one processor to another.
