@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import real_array
+from assur._arrays import Float, counted, real_array
 from assur._validate import one_of
 from assur.errors import InputError
 
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statistics"]
 
-Float: TypeAlias = npt.NDArray[np.float64]
 
 # `Run.at` accepts points this many ulps beyond an end: sums of steps are off by as many.
 END_ULPS = 4.0

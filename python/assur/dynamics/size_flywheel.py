@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import real_array, real_number
+from assur._arrays import finite_array, real_number
 from assur._validate import one_of
 from assur.dynamics.integrate import steady_state
 from assur.dynamics.motors import ConstantTorque
@@ -91,15 +91,12 @@ def _from_tables(
 ) -> Flywheel:
     """Refine tables of moment and inertia until the flywheel converges."""
     knots = _knots(machine)
-    speed = real_array(mean_speed, "mean_speed")
+    speed = finite_array(mean_speed, "mean_speed")
     if speed.ndim and speed.shape != machine.shape:
         message = (
             f"mean_speed has the shape {speed.shape}, the designs {machine.shape}: a number, or "
             "one for each design"
         )
-        raise InputError(message)
-    if not np.isfinite(speed).all():
-        message = f"mean_speed is {mean_speed!r}: finite numbers are needed"
         raise InputError(message)
     last: Flywheel | None = None
     rows = FIRST_ROWS

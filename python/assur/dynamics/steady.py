@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from assur._arrays import real_array
+from assur._arrays import finite_array
 from assur._extreme import Extreme
 from assur.dynamics.run import Run
-from assur.errors import InputError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -105,11 +104,7 @@ class SteadyState:
         State
             t (0 at the start of the period), q, speed and acceleration, of the shape of q.
         """
-        x = real_array(q, "q")
-        if not np.isfinite(x).all():
-            value = float(x[~np.isfinite(x)].flat[0])
-            message = f"q has {value}: finite numbers are needed"
-            raise InputError(message, value=value)
+        x = finite_array(q, "q")
         first, last = float(self.q[0]), float(self.q[-1])
         low, high = min(first, last), max(first, last)
         # The remainder is exact however large q is.

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import short
+from assur._arrays import Float, short
 from assur._core import KnownSigns
 from assur._validate import checked_index, checked_name, checked_signs, real_array
 from assur.description import encode
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from assur.kinematics.motion import Motion
 
 __all__ = ["Mechanism"]
-
-Float: TypeAlias = npt.NDArray[np.float64]
 
 
 class Mechanism:

@@ -237,7 +237,7 @@ def test_motions_are_pickled() -> None:
         (lambda: wheel().run(1.0, q_end=2.0), "run needs t_end or q_end"),
         (lambda: wheel().run(q_end=2.0), "needs an initial speed"),
         (lambda: wheel().run(q_end=-2.0, q0=0.0, speed0=1.0), "lies behind q0"),
-        (lambda: wheel().run(1.0, breaks=[-np.inf]), "breaks is"),
+        (lambda: wheel().run(1.0, breaks=[-np.inf]), "breaks has -inf"),
         (lambda: wheel().run(1.0, rtol=0.0), "rtol is 0.0"),
         (lambda: wheel().run(1.0, atol=-1.0), "atol is -1.0"),
         (lambda: wheel().run(1.0, max_step=0.0), "max_step is 0.0"),
