@@ -172,7 +172,7 @@ def _function(event: Any, function: Any) -> Function:
 
 def _driver(event: Any, driver: Any, drivers: int) -> int:
     if not isinstance(driver, int) or not 0 <= driver < drivers:
-        message = f"{event!r}: there are {drivers} drivers, counted from 0"
+        message = f"{event!r}: the machine has {counted(drivers, 'driver')}, numbered from 0"
         raise InputError(message)
     return driver
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from assur import _core
-from assur._arrays import real_array
+from assur._arrays import counted, real_array
 from assur._validate import one_of
 from assur.dynamics import parts, reduce
 from assur.dynamics.loads import checked_load
@@ -158,7 +158,8 @@ class MachineModel:
         if self.mechanism is None:
             return "<assur.Machine of a table>"
         formula = self.mechanism.structure.formula
-        return f"<assur.Machine {formula}, {len(self.bodies)} bodies, {len(self.loads)} loads>"
+        bodies = "1 body" if len(self.bodies) == 1 else f"{len(self.bodies)} bodies"
+        return f"<assur.Machine {formula}, {bodies}, {counted(len(self.loads), 'load')}>"
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -204,8 +204,9 @@ class Run:
 
     def __repr__(self) -> str:
         return (
-            f"<assur.Run t = {self.t[0]:g} … {self.t[-1]:g} s, {self.statistics.steps} steps, "
-            f"{len(self.events)} events, {self.end}>"
+            f"<assur.Run t = {self.t[0]:g} … {self.t[-1]:g} s, "
+            f"{counted(self.statistics.steps, 'step')}, "
+            f"{counted(len(self.events), 'event')}, {self.end}>"
         )
 
     def at(self, t: npt.ArrayLike | None = None, *, q: npt.ArrayLike | None = None) -> State:
