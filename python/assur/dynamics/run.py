@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from assur._arrays import Float, counted, real_array
 from assur._validate import one_of
-from assur.errors import InputError
+from assur.errors import InputError, MotionError
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -266,9 +266,14 @@ class Run:
         work, kinetic, potential = self._energies
         with np.errstate(over="ignore", invalid="ignore"):
             total = kinetic + potential - work
-        if any(np.isinf(energy).any() for energy in (kinetic, potential, work, total)):
-            message = "energies of the run are infinite: its speeds, masses or loads are too great"
-            raise InputError(message)
+        infinite = np.isinf([kinetic, potential, work, total]).any(axis=0)
+        if infinite.any():
+            first = float(self.t[np.argmax(infinite)])
+            message = (
+                f"energies of the run are infinite at t = {first:g} s: its speeds, masses or loads "
+                "are too great"
+            )
+            raise MotionError(message, kind="not_finite", t=first)
         return Energy(kinetic, potential, work, total - total[0])
 
     def plot(self, what: str = "speed", ax: Any = None) -> Any:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from assur import _core
 from assur._arrays import Float, real_array
 from assur._extreme import Extreme
-from assur._validate import checked_threads, one_of
+from assur._validate import checked_threads, one_of, require_rows
 from assur.errors import AssurWarning, InputError
 from assur.flywheel.result import MEANS, Curve, Flywheel, Mean
 
@@ -254,9 +254,7 @@ def tabulated_flywheel(
     if x.ndim != 1:
         message = f"phi has the shape {x.shape}: one list of coordinates is needed"
         raise InputError(message)
-    if x.size < 2:
-        message = f"the table has {x.size} rows: at least 2 are needed"
-        raise InputError(message)
+    require_rows(x.size, 2, "the table")
     warn_if_degrees(float(x[-1] - x[0]))
     if i.ndim == 0:
         i = np.full(x.shape, i)
