@@ -189,6 +189,13 @@ class MachineModel:
         Reduced
             `value` and `d1`, of shape S + (N,), rotors of motors included.
 
+        Raises
+        ------
+        PositionError
+            A position that the assembly does not reach, or without analogues.
+        InputError
+            Wrong arguments, or coordinates beyond a table.
+
         Examples
         --------
         >>> import assur
@@ -222,6 +229,15 @@ class MachineModel:
         -------
         ndarray
             N·m (driven slide: N), of shape S + (N,); for n drivers (..., n).
+
+        Raises
+        ------
+        PositionError
+            See `reduced_inertia`.
+        InputError
+            Wrong arguments, coordinates beyond a table, a function that gives no finite number.
+        MotionError
+            A damper or spring of length zero, or a load too great.
         """
         moment = self._reduce(q, real_array(speed, "speed"), on_error)[2]
         return moment[..., 0][()] if self._drivers == 1 else moment

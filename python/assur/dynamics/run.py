@@ -262,7 +262,10 @@ class Run:
 
     @cached_property
     def energy(self) -> Energy:
-        """Kinetic and potential energy, work and their balance at the ends of the steps, J."""
+        """Kinetic and potential energy, work and their balance at the ends of the steps, J.
+
+        Raises MotionError if one of them is infinite.
+        """
         work, kinetic, potential = self._energies
         with np.errstate(over="ignore", invalid="ignore"):
             total = kinetic + potential - work

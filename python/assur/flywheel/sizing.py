@@ -139,6 +139,8 @@ def from_table(
     InputError
         A table that is short, not ascending, not periodic or of negative inertia; an impossible
         fluctuation or speed; a fluctuation that is already met without a flywheel.
+    MotionError
+        No finite flywheel gives the fluctuation.
 
     Warns
     -----
@@ -213,8 +215,10 @@ def evaluate(
     Raises
     ------
     InputError
-        See `from_table`; also neither or both speeds given, or a speed at which the machine stops
-        within the period.
+        See `from_table`; also neither or both speeds given, no positive inertia, or an infinite
+        energy.
+    MotionError
+        A speed at which the machine stalls within the period, or no motion with the mean speed.
 
     Examples
     --------
