@@ -1,5 +1,5 @@
 from collections.abc import Callable
-from typing import Any, Literal, TypeAlias, final
+from typing import Any, Literal, TypeAlias, TypedDict, final
 
 import numpy as np
 import numpy.typing as npt
@@ -63,6 +63,25 @@ _Drawing: TypeAlias = tuple[
     list[tuple[str, tuple[str, str, float, str | None]]],
     str | None,
 ]
+
+class _JammingEvent(TypedDict):
+    kind: Literal["jam", "return", "dead point", "no return"]
+    side: Literal["outer", "inner"]
+    t: float
+    phi1: float
+    l4: float
+    ground: float
+    ground_speed: tuple[float, float]
+    rod_speed: tuple[float, float]
+
+class _JammingRun(TypedDict):
+    t: _Float
+    l4: _Float
+    gamma: _Float
+    sliding: npt.NDArray[np.bool_]
+    b: _Float
+    c: _Float
+    events: list[_JammingEvent]
 
 @final
 class KnownSigns:
@@ -269,8 +288,8 @@ def crank_rocker_ground_range(
 def crank_rocker_extremes(lengths: list[_Float]) -> _Float: ...
 def crank_rocker_least_gamma(friction: list[_Float], rocker: _Float) -> _Float: ...
 def crank_rocker_run(
-    case: list[float], ground: Callable[[float], float]
-) -> tuple[_Float, list[tuple[str, bool, list[float]]], tuple[str, float] | None]: ...
+    case: dict[str, float], ground: Callable[[float], float]
+) -> _JammingRun: ...
 def error_kinds() -> list[tuple[str, list[str]]]: ...
 def four_bar_drawing(mode: Literal["open", "crossed"]) -> _Drawing: ...
 def slider_crank_drawing() -> _Drawing: ...

@@ -22,11 +22,11 @@ from assur import _core
 from assur._arrays import Float, finite_array, real_array, real_number
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
-from assur.papers.jamming import Event, Run, run
+from assur.papers.jamming import JammingEvent, JammingRun, run
 
 __all__ = [
-    "Event",
-    "Run",
+    "JammingEvent",
+    "JammingRun",
     "Solution",
     "Table1",
     "blocked",
