@@ -32,13 +32,17 @@ class TabulatedFlywheel(Flywheel):
         self._arguments = arguments
         self._core = _core.Flywheels(*arguments)
         phi = arguments[0]
-        numbers = [_shaped(one, shape) for one in self._core.numbers()]
+        columns: Any = self._core.numbers()
+        numbers = {name: _shaped(column, shape) for name, column in columns.items()}
         super().__init__(
-            inertia=numbers[0],
-            speed0=numbers[1],
-            motor_moment=numbers[2],
-            extremes=(Extreme(*numbers[3:5]), Extreme(*numbers[5:7])),
-            period=numbers[7],
+            inertia=numbers["inertia"],
+            speed0=numbers["speed0"],
+            motor_moment=numbers["motor_moment"],
+            extremes=(
+                Extreme(numbers["greatest_at"], numbers["greatest"]),
+                Extreme(numbers["least_at"], numbers["least"]),
+            ),
+            period=numbers["period"],
             mean=mean,
             turn=(float(phi[0]), float(phi[-1])),
             shape=shape,
@@ -54,7 +58,7 @@ class TabulatedFlywheel(Flywheel):
     def _curve(self, what: Curve, x: Float) -> Any:
         shape = self.shape + x.shape
         flat = np.ascontiguousarray(np.broadcast_to(x, shape)).ravel()
-        return _shaped(self._core.curve("angle" if what == "coordinate" else what, flat), shape)
+        return _shaped(self._core.curve(what, flat), shape)
 
 
 def _shaped(flat: Float, shape: tuple[int, ...]) -> Any:
