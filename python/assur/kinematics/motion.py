@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,11 +18,10 @@ from assur.kinematics.sensitivity import Sensitivity
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from assur._arrays import Float
     from assur.kinematics.request import Results, SolveRequest
 
 __all__ = ["Motion"]
-
-Float: TypeAlias = npt.NDArray[np.float64]
 
 
 class Motion:

@@ -39,8 +39,18 @@ const POSITIONS_PER_CHECK: usize = 8192;
 type Solution<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>, Option<Py<PyBaseException>>);
 /// Residuals and conditions.
 type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
-type GroupFields =
-    (usize, usize, Option<&'static str>, Option<usize>, Vec<String>, Vec<String>, Vec<String>);
+
+/// An Assur group with the names of its links, joints and slides.
+#[derive(IntoPyObject)]
+pub(crate) struct GroupFields {
+    cls: usize,
+    order: usize,
+    kind: Option<&'static str>,
+    artobolevsky_kind: Option<usize>,
+    links: Vec<String>,
+    joints: Vec<String>,
+    slides: Vec<String>,
+}
 
 /// A compiled mechanism.
 #[pyclass(frozen, module = "assur._core")]
@@ -133,20 +143,18 @@ impl Mechanism {
         catch_panic(|| Ok((links(), slides())))
     }
 
-    /// Groups: class, order, kind, Artobolevsky's number, links, joints, slides.
+    /// Groups in solving order.
     #[getter]
     fn groups(&self) -> PyResult<Vec<GroupFields>> {
         let linkage = self.inner.linkage();
-        let parts = |g: &assur::Group| {
-            (
-                g.class,
-                g.order,
-                g.kind,
-                g.artobolevsky_kind(),
-                g.links.iter().map(|&l| linkage.links[l].name.clone()).collect(),
-                g.joints.iter().map(|&j| linkage.joints[j].name.clone()).collect(),
-                g.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect(),
-            )
+        let parts = |g: &assur::Group| GroupFields {
+            cls: g.class,
+            order: g.order,
+            kind: g.kind,
+            artobolevsky_kind: g.artobolevsky_kind(),
+            links: g.links.iter().map(|&l| linkage.links[l].name.clone()).collect(),
+            joints: g.joints.iter().map(|&j| linkage.joints[j].name.clone()).collect(),
+            slides: g.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect(),
         };
         catch_panic(|| Ok(self.inner.structure().groups.iter().map(parts).collect()))
     }

@@ -282,7 +282,7 @@ def pushed(t: float, q: float, speed: float) -> Any:
             lambda m: Machine(
                 m, {}, [Torque("rocker", Table([0, 1], [1, 2], periodic=False))]
             ).reduced_moment([0.5, 2.0]),
-            "q = 2: a load has no value there",
+            "a table over q covers 0 to 1: 2 is not in it",
         ),
         (
             lambda m: Machine(m, {}, [Torque("rocker", pushed)]).reduced_moment([0.5]),
