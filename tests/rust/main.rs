@@ -7,3 +7,4 @@ mod kinematics;
 mod models;
 mod oracles;
 mod structure;
+mod sweep;
