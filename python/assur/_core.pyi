@@ -199,6 +199,7 @@ class Mechanism:
         conditions: list[tuple[int, str, float]],
         threads: int | None,
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_]]: ...
+    def refusal_of_metric(self, q: _Float, metric: tuple[Any, ...]) -> str | None: ...
     def diagnostics(
         self,
         dimensions: _Float,

@@ -7,3 +7,4 @@ mod fuzzing;
 mod kinematics;
 mod models;
 mod oracles;
+mod sweep;

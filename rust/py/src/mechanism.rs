@@ -306,6 +306,16 @@ impl Mechanism {
         sweep::measure(py, &self.inner, (dimensions, q), &signs, &metrics, conditions, threads)
     }
 
+    /// Why a metric has no meaning at coordinates, if so.
+    fn refusal_of_metric(
+        &self,
+        q: PyReadonlyArray1<'_, f64>,
+        metric: MetricSpec,
+    ) -> PyResult<Option<String>> {
+        let q = q.as_slice()?;
+        catch_panic(|| Ok(metric.0.check(&self.inner.course(q)).err()))
+    }
+
     /// Residual and condition of every position.
     fn diagnostics<'py>(
         &self,

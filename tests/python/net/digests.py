@@ -23,6 +23,7 @@ import digest_dynamics
 import digest_kinematics
 import digest_papers
 import digest_refusals
+import digest_sweeps
 from assur import _core
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ SECTIONS: dict[str, Callable[[], Iterator[tuple[str, Any]]]] = {
     "dynamics": digest_dynamics.results,
     "papers": digest_papers.results,
     "refusals": digest_refusals.results,
+    "sweeps": digest_sweeps.results,
 }
 
 
