@@ -140,7 +140,7 @@ def test_a_table_has_its_own_rows_and_they_do_not_change() -> None:
         (lambda: Table([0.0, 1.0], [np.inf, 1]), "Table value[0] inf finite"),
         (lambda: Table([0.0, 1.0], [1.0]), "Table (2,) (1,)"),
         (lambda: Table([[0.0], [1.0]], [[1.0], [1.0]]), "Table (2, 1)"),
-        (lambda: Table([0.0], [1.0]), "Table 1 rows 2"),
+        (lambda: Table([0.0], [1.0]), "Table 1 row 2"),
         (lambda: Table([0.0, 1.0], [1.0, 1.0], "periodic"), "Table 2 rows 3"),
         (lambda: Table([0.0, 1.0], [1.0, 1.0], ANY), "Table spline 'cubic' 'natural'"),
         (lambda: Table([0.0, 1.0], [1.0, 1.0], ratio=0.0), "Table ratio 0"),
