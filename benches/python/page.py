@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 import figures
@@ -47,7 +48,7 @@ def write() -> None:
     def fresh(found: re.Match[str]) -> str:
         start, name, _, end = found.groups()
         if name == "machine":
-            return f"{start}{_machine(everything['machine'])}\n{end}"
+            return f"{start}{_machine(everything['machine'], cases)}\n{end}"
         if name == "expect":
             return f"{start}{_expect(cases)}\n{end}"
         if name not in cases:
@@ -62,15 +63,18 @@ def write() -> None:
         print(f"docs/speed.md has no marker of {name}")
 
 
-def _machine(machine: dict[str, Any]) -> str:
+def _machine(machine: dict[str, Any], cases: dict[str, Any]) -> str:
     level = table.LEVELS[machine["level"]]
-    return f"{machine['processor']}, {level}, {machine['threads']} threads."
+    subjects = [subject for case in cases.values() for subject in case["subjects"]]
+    spread = median(t["spread"] for subject in subjects for t in subject["timings"])
+    about = f"{machine['processor']}, {level}, {machine['threads']} threads; "
+    return f"{about}half of the rounds differ by less than {spread:.0%}."
 
 
 def _section(name: str, case: dict[str, Any]) -> str:
     subjects, unit, axis = case["subjects"], case["unit"], case["axis"]
     lines = table.rows(unit, axis, subjects)
-    notes = [f"{_size(subjects[0])}{s['note']}." for s in subjects if s["note"]]
+    notes = [f"{_size(s)}{s['note']}." for s in subjects if s["note"]]
     few = [_few(t) for t in subjects[0]["timings"] if t["designs"] < subjects[0]["designs"]]
     if notes or few:
         lines += ["", " ".join([*notes, *few])]
@@ -87,12 +91,11 @@ def _section(name: str, case: dict[str, Any]) -> str:
 
 
 def _size(subject: dict[str, Any]) -> str:
-    return f"Of {subject['designs']:,} designs ".replace(",", "\u202f")
+    return f"Of {table.count(subject['designs'])} designs "
 
 
 def _few(timing: dict[str, Any]) -> str:
-    count = f"{timing['designs']:,}".replace(",", "\u202f")
-    return f"{timing['name']}: timed with {count} designs, scaled."
+    return f"{timing['name']}: timed with {table.count(timing['designs'])} designs, scaled."
 
 
 def _is_skipped(level: str, subjects: list[dict[str, Any]]) -> bool:
@@ -100,8 +103,7 @@ def _is_skipped(level: str, subjects: list[dict[str, Any]]) -> bool:
 
 
 def _expect(cases: dict[str, Any]) -> str:
-    heads = ["your case", "a call", "a design", "a position", *OTHERS]
-    lines = ["| " + " | ".join(heads) + " |", "| --- " * len(heads) + "|"]
+    rows = [["your case", "a call", "a design", "a position", *OTHERS]]
     drawn = []
     for words, name, place in EXPECT:
         if name not in cases:
@@ -115,11 +117,11 @@ def _expect(cases: dict[str, Any]) -> str:
         per += [table.quantity(seconds / designs / positions) if positions > 1 else ""]
         ratios = _ratios(subject)
         cells = [f"{table.number(ratios[kind])} ×" if kind in ratios else "" for kind in OTHERS]
-        count = f"{designs:,} ".replace(",", "\u202f") if many else ""
-        lines.append("| " + " | ".join([count + words, call, *per, *cells]) + " |")
+        title = f"{table.count(designs)} {words}" if many else words
+        rows.append([title, call, *per, *cells])
         drawn.append((words, ratios))
     file = plots.overview(drawn)
-    return "\n".join(["", *lines, "", f"![Times of others, assur = 1]({file})", ""])
+    return "\n".join(["", *table.lines(rows), "", f"![Times of others, assur = 1]({file})", ""])
 
 
 def _ratios(subject: dict[str, Any]) -> dict[str, float]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
 
 import table
 from subject import OURS
@@ -58,6 +59,7 @@ def alone(name: str, unit: str, subject: dict[str, Any]) -> str:
             va="center", fontsize=8,
         )  # fmt: skip
     axes.set_xscale("log")
+    axes.xaxis.set_minor_locator(NullLocator())
     axes.set_xlim(min(values) / 2.5, max(values) * 2.5)
     axes.set_xlabel(f"ns a {unit}")
     return save(figure, name)
@@ -79,6 +81,8 @@ def growth(name: str, unit: str, axis: str, subjects: list[dict[str, Any]]) -> s
         axes.plot(*zip(*points, strict=True), style, marker="o", ms=3, color=colour(key), label=key)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_minor_locator(NullLocator())
     axes.set_xlabel(axis)
     axes.set_ylabel(f"ns a {unit}")
     axes.legend(frameon=False, fontsize=8)
@@ -102,6 +106,7 @@ def overview(rows: list[tuple[str, dict[str, float]]]) -> str:
     axes.axvline(1.0, color=COLOURS[OURS], lw=1.5)
     axes.set_yticks(places, [words for words, _ in rows])
     axes.set_xscale("log")
+    axes.xaxis.set_minor_locator(NullLocator())
     axes.set_xlabel("time, assur = 1 (left: quicker than assur)")
     axes.grid(axis="y", lw=0.3)
     axes.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.4, 1.22), ncols=5)

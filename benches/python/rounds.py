@@ -15,7 +15,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from assur import _core
-from subject import OURS
+from subject import OURS, Others
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 LOWER = ("avx2", "baseline")
 # Rounds at least and at most, and the time after which there are enough, s.
 LEAST, MOST, ENOUGH = 7, 31, 4.0
-# A call that takes less is repeated within a round, s.
-SHORT = 2e-3
+# A call that takes less is repeated within a round; one that takes more runs once to warm up, s.
+SHORT, LONG = 2e-3, 1.0
 
 Key: TypeAlias = tuple[str, str]  # a contender's name and the level of its process
 
@@ -54,7 +54,7 @@ class Bench:
         self.contenders = {
             name: contender
             for name, contender in subject.contenders.items()
-            if name.startswith(OURS) or not only_ours
+            if not only_ours or (name.startswith(OURS) and contender.every_level)
         }
         self.repeats = dict.fromkeys(self.contenders, 1)
 
@@ -64,8 +64,9 @@ class Bench:
     def warm(self) -> None:
         """Run all once, and see how often a short one must be repeated."""
         for name in self.contenders:
-            self.seconds(name)
             once = self.seconds(name)
+            if once < LONG:  # the first call of a short one says little
+                once = self.seconds(name)
             self.repeats[name] = max(1, int(SHORT / max(once, 1e-7)))
 
     def seconds(self, name: str) -> float:
@@ -84,20 +85,22 @@ class Bench:
 
 
 def measure(
-    case: Case, label: str | int, quick: bool = False
+    case: Case, label: str | int, quick: bool = False, rounds: int | None = None
 ) -> tuple[dict[str, Any], list[Timing]]:
-    """Check that a subject's contenders agree; return its facts and their times."""
+    """Check that a subject's contenders agree; return its facts and their times.
+
+    quick: in this process alone. rounds: so many of them, not as many as there is time for.
+    """
     with _benches(case, label, quick) as benches:
-        facts, keys = benches[0].facts, []
-        for bench in benches:
-            keys += [(name, bench) for name in bench.names]
-        # What a user calls first is what ratios refer to; its levels follow it.
+        facts, names = benches[0].facts, benches[0].names
+        # The levels of a contender follow each other.
+        keys = [(name, bench) for name in names for bench in benches if name in bench.names]
         times: dict[Key, list[float]] = {(name, bench.level): [] for name, bench in keys}
         start = perf_counter()
-        for done in range(1, 2 if quick else MOST + 1):
+        for done in range(1, (rounds or MOST) + 1):
             for name, bench in keys:
                 times[name, bench.level].append(bench.seconds(name))
-            if done >= LEAST and perf_counter() - start > ENOUGH:
+            if rounds is None and done >= LEAST and perf_counter() - start > ENOUGH:
                 break
         designs = {(name, bench.level): bench.designs[name] for name, bench in keys}
     return facts, list(_medians(times, designs))
@@ -153,6 +156,7 @@ def _opened(case: Case, label: str | int, only_ours: bool) -> tuple[Bench, tuple
 
 def _serve(pipe: Connection, case: Case, label: str | int, only_ours: bool) -> None:
     """Answer with times until there is no more question."""
+    Others.wanted = not only_ours
     bench, about = _opened(case, label, only_ours)
     pipe.send(about)
     while (name := pipe.recv()) is not None:

@@ -34,6 +34,7 @@ def parsed() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", nargs="+", metavar="NAME", help=", ".join(cases(quick=True)))
     parser.add_argument("--quick", action="store_true", help="few designs, one round, one level")
+    parser.add_argument("--rounds", type=int, metavar="N", help="so many, however long they take")
     parser.add_argument("--write", action="store_true", help="write docs/speed.md and its figures")
     parser.add_argument("--page", action="store_true", help="write docs/speed.md, measure nothing")
     asked = parser.parse_args()
@@ -54,7 +55,8 @@ def main() -> None:
                 continue
             start, found = perf_counter(), []
             for label in case.subjects:
-                facts, timings = measure(case, label, asked.quick)
+                rounds = 1 if asked.quick else asked.rounds or case.rounds
+                facts, timings = measure(case, label, asked.quick, rounds)
                 rows: list[dict[str, Any]] = [asdict(timing) for timing in timings]
                 found.append({"label": label, **facts, "timings": rows})
             print(f"\n{name} ({perf_counter() - start:.0f} s)\n")

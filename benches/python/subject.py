@@ -22,9 +22,15 @@ TOLERANCE = 1e-8
 GOOD = 1e3
 
 
+class Others:
+    """Whether contenders of other packages are made: not in the processes of the lower levels."""
+
+    wanted = True
+
+
 def installed(*modules: str) -> bool:
-    """Whether all of these can be imported."""
-    return all(find_spec(module) is not None for module in modules)
+    """Whether contenders that need these packages run."""
+    return Others.wanted and all(find_spec(module) is not None for module in modules)
 
 
 def turn(count: int) -> Float:
@@ -40,7 +46,7 @@ class Contender:
     contender; None: it has no answer (writing to memory). designs: how many of the designs it
     does, the first ones; its time is scaled. where: the only places where it is compared.
     prepare: called before each run, outside the clock; what it returns is held until the run has
-    ended.
+    ended. every_level: of this package, whether it runs at the lower levels too.
     """
 
     run: Callable[[], Any]
@@ -48,6 +54,7 @@ class Contender:
     designs: int | None = None
     where: Bool | None = None
     prepare: Callable[[], Any] | None = None
+    every_level: bool = True
 
 
 @dataclass(frozen=True)
@@ -55,7 +62,7 @@ class Subject:
     """One question.
 
     units: how many designs (positions, dyads …) a call does, which its time is divided by.
-    angles: places among the answers whose turns are not compared. good: where answers are
+    angles: places among the answers whose turns are not compared. good: finds where answers are
     compared, of the shape of the first axes; everywhere by default. A NaN agrees with a NaN.
     """
 
@@ -64,7 +71,7 @@ class Subject:
     contenders: dict[str, Contender]
     units: int = 1
     angles: Sequence[int] = ()
-    good: Bool | None = None
+    good: Callable[[], Bool] | None = None
     tolerance: float = TOLERANCE
     note: str = ""
     facts: dict[str, float] = field(default_factory=dict)
@@ -72,35 +79,34 @@ class Subject:
     def check(self) -> None:
         """Assert that all contenders give the first one's answer."""
         first: Sequence[Any] | None = None
+        good = None if self.good is None else self.good()
         for name, contender in self.contenders.items():
             if contender.answer is None:
                 contender.run()
                 continue
-            found = contender.answer(contender.run())
+            found = [np.atleast_1d(array) for array in contender.answer(contender.run())]
             if first is None:
                 # Arrays that are used again must not be compared with themselves.
                 first = [np.array(array) for array in found]
                 continue
             assert len(found) == len(first), f"{name}: {len(found)} arrays"
-            for place, (ours, theirs) in enumerate(zip(first, found, strict=True)):
-                self._compare(name, place, ours, np.asarray(theirs), contender)
+            for place, (every, theirs) in enumerate(zip(first, found, strict=True)):
+                ours = every[: contender.designs]
+                assert ours.shape == theirs.shape, f"{name}: {theirs.shape}, not {ours.shape}"
+                where = np.ones(ours.shape, dtype=bool) if good is None else good[: len(ours)]
+                if contender.where is not None:
+                    where = where & contender.where
+                self._compare(f"{name}, array {place}", ours[where], theirs[where], place)
 
-    def _compare(self, name: str, place: int, ours: Any, theirs: Any, contender: Contender) -> None:
-        good = np.ones(ours.shape, dtype=bool) if self.good is None else self.good
-        if contender.designs is not None and contender.designs < len(ours):
-            ours, good = ours[: contender.designs], good[: contender.designs]
-        if contender.where is not None:
-            good = good & contender.where
-        assert ours.shape == theirs.shape, f"{name}: {theirs.shape}, not {ours.shape}"
-        ours, theirs = ours[good], theirs[good]
-        assert ours.size, f"{name}: nothing to compare"
+    def _compare(self, what: str, ours: Float, theirs: Float, place: int) -> None:
+        assert ours.size, f"{what}: nothing to compare"
         missing = np.isnan(ours)
-        assert np.array_equal(missing, np.isnan(theirs)), f"{name}: others are missing"
+        assert np.array_equal(missing, np.isnan(theirs)), f"{what}: others are missing"
         difference = (ours - theirs)[~missing]
         if place in self.angles:
             difference -= 2 * np.pi * np.round(difference / (2 * np.pi))
         most = np.abs(difference).max(initial=0.0)
-        assert most < self.tolerance, f"{name}, array {place}: differs by {most:.2e}"
+        assert most < self.tolerance, f"{what}: differs by {most:.2e}"
 
 
 @dataclass(frozen=True)
@@ -108,7 +114,8 @@ class Case:
     """One section of the page: a question, or one that grows.
 
     name: of its marker in the page. unit: what a time is divided by. subjects: a function each,
-    by label (a number where something grows); `axis` says what the labels count.
+    by label (a number where something grows); `axis` says what the labels count. rounds: of a
+    case whose calls take long.
     """
 
     name: str
@@ -116,3 +123,4 @@ class Case:
     subjects: dict[str | int, Callable[[], Subject]]
     axis: str = ""
     plotted: bool = True
+    rounds: int | None = None

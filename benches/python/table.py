@@ -21,7 +21,7 @@ def number(value: float, digits: int = 2) -> str:
     """To so many digits, without an exponent; a thousand and more with blanks between them."""
     rounded = float(f"{value:.{digits}g}")
     if rounded >= 1000:
-        return f"{rounded:,.0f}".replace(",", "\u202f")
+        return count(round(rounded))
     decimals = max(0, digits - len(str(int(rounded)))) if rounded >= 1 else None
     return f"{rounded:.{decimals}f}" if decimals is not None else f"{rounded:.{digits}g}"
 
@@ -42,49 +42,58 @@ def levels(subjects: list[dict[str, Any]]) -> list[str]:
 
 
 def rows(unit: str, axis: str, subjects: list[dict[str, Any]]) -> list[str]:
-    """One subject: a row a contender; several: a column each."""
-    if len(subjects) == 1 and not axis:
-        return _alone(subjects[0])
-    return _side_by_side(unit, axis, subjects)
+    """One subject: a row a contender; several: a row each; where something grows, a column each."""
+    if axis:
+        cells = _side_by_side(f"{axis}: time a {unit}", subjects)
+        return lines([list(column) for column in zip(*cells, strict=True)])
+    return lines(
+        _alone(subjects[0]) if len(subjects) == 1 else _side_by_side(f"time a {unit}", subjects)
+    )
 
 
-def _alone(subject: dict[str, Any]) -> list[str]:
-    per = {"design": subject["designs"], "position": subject["designs"] * subject["positions"]}
-    lines = ["| | a call | a design | a position | of `assur` |", "| --- | --- | --- | --- | --- |"]
+def lines(cells: list[list[str]]) -> list[str]:
+    """Markdown of a table; its first row is the head."""
+    head, *body = ["| " + " | ".join(row) + " |" for row in cells]
+    return [head, "| --- " * len(cells[0]) + "|", *body]
+
+
+def count(value: int) -> str:
+    """A number of things, with thin blanks between thousands."""
+    return f"{value:,}".replace(",", "\u202f")
+
+
+def _alone(subject: dict[str, Any]) -> list[list[str]]:
+    designs, positions = subject["designs"], subject["positions"]
+    cells = [["", "a call", "a design", "a position", "of `assur`"]]
     for timing in _sorted(subject["timings"]):
         seconds = timing["seconds"]
-        cells = [
-            title(timing, len(levels([subject]))),
-            quantity(seconds),
-            quantity(seconds / per["design"]),
-            quantity(seconds / per["position"]),
-            f"{number(timing['ratio'])} ×",
-        ]
-        lines.append("| " + " | ".join(cells) + " |")
-    return lines
+        per = [seconds, seconds / designs, seconds / designs / positions]
+        name = title(timing, len(levels([subject])))
+        cells.append([name, *map(quantity, per), f"{number(timing['ratio'])} ×"])
+    return cells
 
 
-def _side_by_side(unit: str, axis: str, subjects: list[dict[str, Any]]) -> list[str]:
-    """Beside a time, in brackets, its ratio to that of the first row."""
-    count = len(levels(subjects))
+def _side_by_side(head: str, subjects: list[dict[str, Any]]) -> list[list[str]]:
+    """Beside a time, in brackets, its ratio to that of the first contender."""
     keys = list(dict.fromkeys((t["name"], t["level"]) for s in subjects for t in s["timings"]))
     names = list(dict.fromkeys(name for name, _ in keys))
     keys.sort(key=lambda key: names.index(key[0]))
-    heads = [str(s["label"]) for s in subjects]
-    if axis:
-        heads = [f"{s['label']:,}".replace(",", "\u202f") for s in subjects]
-    first = f"{axis}: time a {unit}" if axis else f"time a {unit}"
-    lines = ["| " + " | ".join([first, *heads]) + " |", "| --- " * (len(heads) + 1) + "|"]
-    for name, level in keys:
-        cells = [title({"name": name, "level": level}, count)]
-        for subject in subjects:
-            found = [t for t in subject["timings"] if (t["name"], t["level"]) == (name, level)]
-            cell = quantity(found[0]["seconds"] / subject["units"]) if found else ""
-            if found and found[0] is not subject["timings"][0]:
-                cell += f" ({number(found[0]['ratio'])} ×)"
-            cells.append(cell)
-        lines.append("| " + " | ".join(cells) + " |")
-    return lines
+    many = len(levels(subjects))
+    cells = [[head, *(title({"name": name, "level": level}, many) for name, level in keys)]]
+    for subject in subjects:
+        found = {(t["name"], t["level"]): t for t in subject["timings"]}
+        label = subject["label"]
+        label = count(label) if isinstance(label, int) else label
+        cells.append([label, *(_cell(subject, found.get(key)) for key in keys)])
+    return cells
+
+
+def _cell(subject: dict[str, Any], timing: dict[str, Any] | None) -> str:
+    if timing is None:
+        return ""
+    time = quantity(timing["seconds"] / subject["units"])
+    is_first = timing is subject["timings"][0]
+    return time if is_first else f"{time} ({number(timing['ratio'])} ×)"
 
 
 def _sorted(timings: list[dict[str, Any]]) -> list[dict[str, Any]]:

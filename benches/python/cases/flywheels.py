@@ -20,7 +20,7 @@ TOLERANCE = 1e-3
 
 
 def case(quick: bool) -> Case:
-    many = 50 if quick else 100_000
+    many = 50 if quick else 10_000
     subjects = {"one table": one, f"{many} tables": partial(tables, many)}
     return Case("flywheels", "design", subjects, plotted=False)
 

@@ -13,7 +13,6 @@ from rivals import closed_form
 from subject import Case, Contender, Subject, installed, turn
 
 if TYPE_CHECKING:
-    import assur
     from subject import Float
 
 # Designs that a loop in Python does, and the condition below which assemblies are far apart.
@@ -43,11 +42,17 @@ def subject(designs: int, positions: int) -> Subject:
         contenders["JAX"] = by_jax(lengths, point, q)
     motion = space.batch().solve(q, 0, ["P"], on_error="nan")
     if installed("pylinkage", "numba"):
-        contenders["pylinkage, ensemble"] = by_pylinkage(lengths, point, motion)
+        contenders["pylinkage, ensemble"] = by_pylinkage(space, q)
     contenders |= memory.ceilings([out])
     turns = np.isfinite(motion.joint("P").value[..., 0]).all(axis=-1)
-    note = f"{turns.mean():.0%} of them turn fully"
-    return Subject(designs, positions, contenders, designs, good=ours.good(motion), note=note)
+    return Subject(
+        designs,
+        positions,
+        contenders,
+        designs,
+        good=lambda: ours.good(motion),
+        note=f"{turns.mean():.0%} of them turn fully",
+    )
 
 
 def by_numba(lengths: Float, point: Float, q: Float, out: Float) -> dict[str, Contender]:
@@ -78,19 +83,19 @@ def by_jax(lengths: Float, point: Float, q: Float) -> Contender:
     )
 
 
-def by_pylinkage(lengths: Float, point: Float, motion: assur.Motion) -> Contender:
+def by_pylinkage(space: spaces.Space, q: Float) -> Contender:
     """It ends a design at its first gap, and goes to the nearer of two places, maybe the other."""
     from rivals import with_pylinkage
 
-    positions = motion.status.shape[-1]
-    designs = min(lengths.shape[1], FEW)
+    few = spaces.Space(space.mechanism, space.names, space.values[:, :FEW])
+    condition = few.batch().solve(q, 0, ["P"], on_error="nan").condition
     with np.errstate(invalid="ignore"):
-        made = with_pylinkage.ensemble(lengths[:, :designs], point[:, :designs], positions)
+        made = with_pylinkage.ensemble(few.values[:4], few.values[4:], q.size)
         # No gap, and the other assembly far away (NaN: a gap).
-        clear = motion.condition[:designs].max(axis=-1) < CLEAR
+        clear = condition.max(axis=-1) < CLEAR
     return Contender(
-        lambda: made.simulate(positions, store=False),
+        lambda: made.simulate(q.size, store=False),
         lambda found: [found[:, :, -1]],
-        designs,
-        where=np.broadcast_to(clear[:, None], (designs, positions)),
+        len(clear),
+        where=np.broadcast_to(clear[:, None], condition.shape),
     )

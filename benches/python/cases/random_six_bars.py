@@ -37,8 +37,14 @@ def subject(designs: int, positions: int) -> Subject:
     contenders |= memory.ceilings([out])
     motion = space.batch().solve(q, 0, ["T"], on_error="nan")
     turns = np.isfinite(motion.joint("T").value[..., 0]).all(axis=-1)
-    note = f"{turns.mean():.0%} of them turn fully"
-    return Subject(designs, positions, contenders, designs, good=ours.good(motion), note=note)
+    return Subject(
+        designs,
+        positions,
+        contenders,
+        designs,
+        good=lambda: ours.good(motion),
+        note=f"{turns.mean():.0%} of them turn fully",
+    )
 
 
 def by_numba(values: Float, q: Float, out: Float) -> dict[str, Contender]:
