@@ -27,6 +27,7 @@ import figures  # noqa: E402 (the path comes first)
 import page  # noqa: E402
 import table  # noqa: E402
 from cases import cases  # noqa: E402
+from levels import sides  # noqa: E402
 from rounds import measure  # noqa: E402
 
 
@@ -54,11 +55,12 @@ def main() -> None:
             if asked.only and name not in asked.only:
                 continue
             start, found = perf_counter(), []
-            for label in case.subjects:
-                rounds = 1 if asked.quick else asked.rounds or case.rounds
-                facts, timings = measure(case, label, asked.quick, rounds)
-                rows: list[dict[str, Any]] = [asdict(timing) for timing in timings]
-                found.append({"label": label, **facts, "timings": rows})
+            rounds = 1 if asked.quick else asked.rounds or case.rounds
+            with sides(case, asked.quick) as levels:
+                for label in case.subjects:
+                    about, timings = measure(levels, label, rounds)
+                    rows: list[dict[str, Any]] = [asdict(timing) for timing in timings]
+                    found.append({"label": label, **asdict(about), "timings": rows})
             print(f"\n{name} ({perf_counter() - start:.0f} s)\n")
             print("\n".join(table.rows(case.unit, case.axis, found)), flush=True)
             if asked.write:

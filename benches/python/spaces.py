@@ -82,14 +82,18 @@ def random_six_bars(designs: int) -> Space:
     return Space(one, (*four_bars.names, *names), values)
 
 
+# Dyads of a chain after which its proportions begin again.
+PERIOD = 50
+
+
 def chain(dyads: int, designs: int) -> Space:
     """Rockers to the right and to the left in turns, each driven by the one before; none folds."""
     joints = {"O": (0.0, 0.0), "C0": (0.0, 0.5)}
     links = {"ground": ["O"], "crank": ["O", "C0"]}
     for k in range(1, dyads + 1):
         before, foot, tip = f"C{k - 1}", f"D{k}", f"C{k}"
-        x, y = 3.0 if k % 2 else 0.02 * k, joints[before][1]
-        joints |= {foot: (x, y - 3.0 + 0.01 * k), tip: (x, y + 0.01)}
+        x, y = 3.0 if k % 2 else 0.02 * (k % PERIOD), joints[before][1]
+        joints |= {foot: (x, y - 3.0 + 0.01 * (k % PERIOD)), tip: (x, y + 0.01)}
         links["ground"].append(foot)
         links |= {f"coupler{k}": [before, tip], f"rocker{k}": [foot, tip]}
     one = assur.Mechanism(joints, links, "crank")

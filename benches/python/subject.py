@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -74,7 +74,6 @@ class Subject:
     good: Callable[[], Bool] | None = None
     tolerance: float = TOLERANCE
     note: str = ""
-    facts: dict[str, float] = field(default_factory=dict)
 
     def check(self) -> None:
         """Assert that all contenders give the first one's answer."""
