@@ -32,6 +32,7 @@ def keep(name: str, case: Case, found: list[dict[str, Any]]) -> None:
         "unit": case.unit,
         "axis": case.axis,
         "plotted": case.plotted,
+        "every_level": case.every_level,
         "subjects": [_rounded(subject) for subject in found],
     }
     text = json.dumps(everything, indent=1, ensure_ascii=False, sort_keys=True)

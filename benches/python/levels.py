@@ -155,7 +155,7 @@ def sides(case: Case, quick: bool) -> Iterator[list[Side]]:
         return
     opened: list[There] = []
     try:
-        for limit in ("", *LOWER):
+        for limit in ("", *(LOWER if case.every_level else ())):
             there = There(case, limit)
             # A limit above what the processor has changes nothing: the level is there already.
             if there.level in [side.level for side in opened]:

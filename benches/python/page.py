@@ -79,7 +79,7 @@ def _section(name: str, case: dict[str, Any]) -> str:
     if notes or few:
         lines += ["", " ".join([*notes, *few])]
     missing = [words for level, words in table.LEVELS.items() if _is_skipped(level, subjects)]
-    if missing:
+    if missing and case["every_level"]:
         lines += ["", f"Skipped, this processor has none: {', '.join(missing)}."]
     if case["plotted"] and axis:
         file = plots.growth(name, unit, axis, subjects)

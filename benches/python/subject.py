@@ -113,8 +113,8 @@ class Case:
     """One section of the page: a question, or one that grows.
 
     name: of its marker in the page. unit: what a time is divided by. subjects: a function each,
-    by label (a number where something grows); `axis` says what the labels count. rounds: of a
-    case whose calls take long.
+    by label (a number where something grows); `axis` says what the labels count. every_level:
+    whether vector instructions matter. rounds: of a case whose calls take long.
     """
 
     name: str
@@ -122,4 +122,5 @@ class Case:
     subjects: dict[str | int, Callable[[], Subject]]
     axis: str = ""
     plotted: bool = True
+    every_level: bool = True
     rounds: int | None = None

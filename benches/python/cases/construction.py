@@ -18,7 +18,7 @@ def case(quick: bool) -> Case:
     subjects: dict[str | int, Callable[[], Subject]] = {
         2 * dyads + 1: partial(subject, dyads) for dyads in counts
     }
-    return Case("construction", "call", subjects, axis="links")
+    return Case("construction", "call", subjects, axis="links", every_level=False)
 
 
 def side_by_side(dyads: int) -> assur.Mechanism:

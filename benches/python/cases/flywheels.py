@@ -22,7 +22,7 @@ TOLERANCE = 1e-3
 def case(quick: bool) -> Case:
     many = 50 if quick else 10_000
     subjects = {"one table": one, f"{many} tables": partial(tables, many)}
-    return Case("flywheels", "design", subjects, plotted=False)
+    return Case("flywheels", "design", subjects, plotted=False, every_level=False)
 
 
 def one() -> Subject:

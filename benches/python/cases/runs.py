@@ -27,7 +27,7 @@ def case(quick: bool) -> Case:
         f"{turns} turns of a press, from a table": lambda: press(turns),
         f"{seconds:g} s of a slider-crank": lambda: slider_crank(seconds),
     }
-    return Case("runs", "call", subjects, plotted=False)
+    return Case("runs", "call", subjects, plotted=False, every_level=False)
 
 
 def press(turns: int) -> Subject:
