@@ -31,23 +31,22 @@ const MAX_ORDER: usize = 3;
 pub fn kernels(c: &mut Criterion) {
     let q = turn();
     for simd in levels("kernels") {
-        let mut found = Vec::new();
-        for (name, mechanism) in mechanisms::of_all_kernels() {
+        let mut found: Vec<String> = Vec::new();
+        for mechanism in mechanisms::of_all_kernels() {
+            let before = found.clone();
             for order in 0..=MAX_ORDER {
                 let outputs = Outputs::all(&mechanism);
                 let request = request(&mechanism, &outputs, order, &q);
-                let known = found.clone();
+                let mut done = before.clone();
                 each_part(&mechanism, &request, simd, &mut |part, positions, run| {
-                    if part == "rows" || part == "group" || known.iter().any(|k| k == part) {
+                    if part == "rows" || part == "group" || done.iter().any(|d| d == part) {
                         return;
                     }
-                    if order == MAX_ORDER {
-                        found.push(part.to_owned());
-                    }
+                    done.push(part.to_owned());
                     bench(c, &format!("kernel/{part}"), simd, order, positions, run);
                 });
+                found = done;
             }
-            println!("{name}: {found:?}");
         }
         for kernel in KERNELS {
             assert!(found.iter().any(|k| k == kernel), "no mechanism has the kernel {kernel:?}");

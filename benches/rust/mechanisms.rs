@@ -186,18 +186,22 @@ fn parallel_cranks() -> Description {
 }
 
 /// Mechanisms that have all kernels together.
-pub fn of_all_kernels() -> Vec<(&'static str, Mechanism)> {
-    [
-        ("stephenson", stephenson()),
-        ("engine", SliderCrank::description()),
-        ("press", press()),
-        ("block on rocker", block_on_rocker()),
-        ("whitworth", whitworth()),
-        ("trammel", trammel()),
-        ("scotch yoke", scotch_yoke()),
-        ("tangent generator", tangent_generator()),
-        ("parallel cranks", parallel_cranks()),
+pub fn of_all_kernels() -> Vec<Mechanism> {
+    let mut all: Vec<Mechanism> = [
+        stephenson(),
+        SliderCrank::description(),
+        press(),
+        block_on_rocker(),
+        whitworth(),
+        trammel(),
+        scotch_yoke(),
+        tangent_generator(),
+        parallel_cranks(),
     ]
-    .map(|(name, description)| (name, Mechanism::new(&description).expect(name)))
-    .to_vec()
+    .iter()
+    .map(|description| Mechanism::new(description).expect("a mechanism"))
+    .collect();
+    // Points of its links are placed by their rotations.
+    all.push(class_iv());
+    all
 }
