@@ -37,7 +37,7 @@ help:
 	@echo "make rust-test    the Rust half of it"
 	@echo "make python-test  the Python half of it"
 	@echo "make wheel        a wheel for release in dist/, audited, installed and tested"
-	@echo "make bench        benchmarks, beside NumPy and numba"
+	@echo "make bench        benchmarks, beside NumPy and numba; docs/speed.md"
 	@echo "make campaign     random mechanisms by the hundred thousand (three hours); docs/campaign*.md"
 	@echo "make fuzz         libFuzzer on the core, SECONDS=60 each target (fuzz/README.md)"
 	@echo "make clean        remove everything that was built, the environment too"
@@ -86,11 +86,10 @@ wheel: rust-tools $(RUN_STAMP)
 	$(PY) -m maturin build --release --out dist $(LOCKED)
 	$(PY) tools/check_wheel dist -n auto
 
-bench: rust-tools $(EXTENSION) $(DEV_STAMP)
+bench: rust-tools $(EXTENSION)
 	@$(PY) -m pip install --quiet --group bench
 	cargo bench $(LOCKED)
-	$(PY) -m pytest benches/python
-	ASSUR_SIMD=baseline $(PY) -m pytest benches/python -k assur
+	$(PY) benches/python/run.py --write
 
 CAMPAIGN := PYTHONPATH=tests/python/models:tests/python/oracles $(PY) tests/python/campaigns/campaign.py
 campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
@@ -111,7 +110,7 @@ fuzz: rust-tools
 
 clean:
 	cargo clean
-	rm -rf $(VENV) out dist .benchmarks .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) out dist .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	rm -f python/assur/_core*.so
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 

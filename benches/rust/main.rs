@@ -5,11 +5,14 @@
 
 mod beside_by_hand;
 mod by_hand;
+mod kernels;
 mod mechanisms;
+mod metrics;
 
 use std::hint::black_box;
 use std::mem::MaybeUninit;
 use std::num::NonZeroUsize;
+use std::time::Duration;
 
 use assur::{Arrays, Column, Control, Coordinates, Mechanism, Outputs, Request, Simd, fill};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
@@ -41,6 +44,17 @@ impl Buffers {
 
 fn turn() -> Vec<f64> {
     (0..POSITIONS).map(|i| f64::from(i) * std::f64::consts::TAU / f64::from(POSITIONS)).collect()
+}
+
+/// Levels that this processor has, the quickest first; says which ones it has not.
+fn levels(what: &str) -> Vec<Simd> {
+    let (has, lacks): (Vec<_>, Vec<_>) =
+        [Simd::Avx512, Simd::Avx2, Simd::Baseline].into_iter().partition(|&s| s <= Simd::best());
+    println!("{what}: levels {}", has.iter().map(|s| s.name()).collect::<Vec<_>>().join(", "));
+    for simd in lacks {
+        println!("{what}, {}: skipped, this processor has no such instructions", simd.name());
+    }
+    has
 }
 
 /// Dimensions of designs near the drawing's, all of the same type of motion.
@@ -83,14 +97,7 @@ fn batch(c: &mut Criterion, designs_of_each: u32) {
         let mut group = c.benchmark_group(format!("{name}/{designs_of_each}x{POSITIONS}"));
         group.throughput(Throughput::Elements(u64::from(designs_of_each * POSITIONS)));
         group.sample_size(10);
-        for simd in [Simd::Baseline, Simd::Avx2, Simd::Avx512] {
-            if simd > Simd::best() {
-                println!(
-                    "{name}, {}: skipped, this processor has no such instructions",
-                    simd.name()
-                );
-                continue;
-            }
+        for simd in levels(name) {
             for threads in [1, 2] {
                 let id = BenchmarkId::new(format!("{simd:?}"), format!("{threads} threads"));
                 let control =
@@ -138,5 +145,12 @@ fn one_design(c: &mut Criterion) {
     group.finish();
 }
 
+/// Parts of a sweep take microseconds a call: less time than criterion's own is enough.
+fn short() -> Criterion {
+    let (warm_up, measured) = (Duration::from_millis(200), Duration::from_millis(500));
+    Criterion::default().sample_size(20).warm_up_time(warm_up).measurement_time(measured)
+}
+
 criterion_group!(benches, beside_by_hand::beside_by_hand, many_designs, one_design);
-criterion_main!(benches);
+criterion_group! { name = parts; config = short(); targets = kernels::kernels, metrics::metrics }
+criterion_main!(benches, parts);

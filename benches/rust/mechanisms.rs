@@ -1,5 +1,7 @@
 //! Mechanisms of the benches.
 
+use std::f64::consts::FRAC_PI_2;
+
 use assur::{ClassIv, Description, FourBar, FourBarMode, Mechanism, SliderCrank};
 
 pub fn four_bar() -> Mechanism {
@@ -56,4 +58,150 @@ pub fn engine() -> Mechanism {
 
 pub fn all() -> [(&'static str, Mechanism); 3] {
     [("four_bar", four_bar()), ("engine", engine()), ("jansen", jansen())]
+}
+
+/// The crank-rocker that others are built upon: joints A to D, a coupler point P.
+fn four_bar_with_point() -> Description {
+    Description::new()
+        .joint("A", [0.0, 0.0])
+        .joint("B", [0.0, 0.04])
+        .joint("C", [0.093, 0.116])
+        .joint("D", [0.1, 0.0])
+        .joint("P", [0.03, 0.12])
+        .link("crank", ["A", "B"])
+        .link("coupler", ["B", "C", "P"])
+        .link("rocker", ["D", "C"])
+        .driver("crank")
+}
+
+/// Stephenson III: a second dyad on the coupler point.
+fn stephenson() -> Description {
+    four_bar_with_point()
+        .joint("E", [0.18, 0.05])
+        .joint("S", [0.1, 0.19])
+        .link("ground", ["A", "D", "E"])
+        .link("link", ["P", "S"])
+        .link("lever", ["E", "S"])
+}
+
+/// A rod from the coupler point to a block on a bed.
+fn press() -> Description {
+    four_bar_with_point()
+        .joint("F", [0.2, 0.1])
+        .link("ground", ["A", "D"])
+        .link("rod", ["P", "F"])
+        .link("ram", ["F"])
+        .slide("bed", "ram", "ground", 0.0, Some("A"))
+}
+
+/// A rod from the coupler point to a block on the rocker.
+fn block_on_rocker() -> Description {
+    four_bar_with_point()
+        .joint("F", [0.085, 0.05])
+        .link("ground", ["A", "D"])
+        .link("rod", ["P", "F"])
+        .link("block", ["F"])
+        .slide("way", "block", "rocker", FRAC_PI_2, Some("D"))
+}
+
+/// Whitworth's quick return: a slotted lever, and a ram on its end.
+fn whitworth() -> Description {
+    Description::new()
+        .joint("O", [0.0, 0.0])
+        .joint("A", [0.0, 0.1])
+        .joint("D", [0.0, -0.05])
+        .joint("E", [0.0, -0.2])
+        .joint("F", [0.36, -0.05])
+        .link("ground", ["O", "D"])
+        .link("crank", ["O", "A"])
+        .link("block", ["A"])
+        .link("lever", ["D", "E"])
+        .link("rod", ["E", "F"])
+        .link("ram", ["F"])
+        .slide("slot", "block", "lever", FRAC_PI_2, Some("D"))
+        .slide("bed", "ram", "ground", 0.0, Some("D"))
+        .driver("crank")
+}
+
+/// Elliptic trammel, driven by its bar.
+fn trammel() -> Description {
+    Description::new()
+        .joint("O", [0.0, 0.0])
+        .joint("A", [0.096, 0.0])
+        .joint("B", [0.0, 0.072])
+        .joint("P", [0.16, -0.048])
+        .link("ground", ["O"])
+        .link("x_block", ["A"])
+        .link("y_block", ["B"])
+        .link("bar", ["B", "A", "P"])
+        .slide("x", "x_block", "ground", 0.0, Some("O"))
+        .slide("y", "y_block", "ground", FRAC_PI_2, Some("O"))
+        .driver("bar")
+}
+
+/// Scotch yoke: a dyad with a guide that moves, and one that stands still.
+fn scotch_yoke() -> Description {
+    Description::new()
+        .joint("O", [0.0, 0.0])
+        .joint("A", [0.03, 0.04])
+        .link("ground", ["O"])
+        .link("crank", ["O", "A"])
+        .link("block", ["A"])
+        .link("yoke", [])
+        .slide("slot", "yoke", "block", FRAC_PI_2, Some("A"))
+        .slide("bed", "yoke", "ground", 0.0, Some("O"))
+        .driver("crank")
+}
+
+/// Tangent generator: a pin on a rail and in the slot of the driven lever.
+fn tangent_generator() -> Description {
+    Description::new()
+        .joint("O", [0.0, 0.0])
+        .joint("A", [0.1, 0.0])
+        .joint("H", [0.1, 0.0])
+        .link("ground", ["O", "H"])
+        .link("lever", ["O"])
+        .link("block", ["A"])
+        .link("cursor", ["A"])
+        .slide("slot", "block", "lever", 0.0, Some("O"))
+        .slide("rail", "cursor", "ground", FRAC_PI_2, Some("H"))
+        .driver("lever")
+}
+
+/// A locomotive's wheels: the third rod is redundant.
+fn parallel_cranks() -> Description {
+    Description::new()
+        .joint("A", [0.0, 0.0])
+        .joint("D", [2.0, 0.0])
+        .joint("G", [1.0, 0.0])
+        .joint("B", [0.0, 0.5])
+        .joint("C", [2.0, 0.5])
+        .joint("F", [1.0, 0.5])
+        .link("ground", ["A", "D", "G"])
+        .link("crank", ["A", "B"])
+        .link("rod", ["B", "C", "F"])
+        .link("wheel", ["D", "C"])
+        .link("third", ["G", "F"])
+        .driver("crank")
+}
+
+/// Mechanisms that have all kernels together.
+pub fn of_all_kernels() -> Vec<Mechanism> {
+    let mut all: Vec<Mechanism> = [
+        stephenson(),
+        SliderCrank::description(),
+        press(),
+        block_on_rocker(),
+        whitworth(),
+        trammel(),
+        scotch_yoke(),
+        tangent_generator(),
+        parallel_cranks(),
+    ]
+    .iter()
+    .map(|description| Mechanism::new(description).expect("a mechanism"))
+    .collect();
+    // Points of its links are placed by their rotations.
+    all.push(class_iv());
+    all
 }

@@ -61,6 +61,8 @@ mod state;
 mod structure;
 pub mod sweep;
 
+#[doc(hidden)]
+pub use batch::bench_hooks;
 pub use batch::failure_log::{FailureLog, FirstFailure};
 pub use batch::known_signs::KnownSigns;
 pub use batch::outputs::{Arrays, Column, Outputs, Quantity};

@@ -1,4 +1,5 @@
 //! Solves many designs at many positions into arrays, in blocks of lanes and on all cores.
+pub mod bench_hooks;
 mod by_position;
 mod careful;
 mod coordinates;

@@ -165,5 +165,4 @@ def _sweep(dimensions, start, q, order, out):
                 break
 
 
-one_thread = njit(error_model="numpy")(_sweep)
-two_threads = njit(parallel=True, error_model="numpy")(_sweep)
+sweep = njit(parallel=True, error_model="numpy", cache=True)(_sweep)

@@ -26,11 +26,12 @@ ATAN = (
 )  # fmt: skip
 
 
-def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
+def compiled(function: Callable[..., Any]) -> Any:
     """Compile with everything that a specialist turns on."""
-    jit: Callable[..., Any] = numba.njit(parallel=True, fastmath=True, error_model="numpy")
-    made: Callable[..., Any] = jit(function)
-    return made
+    jit: Callable[..., Any] = numba.njit(
+        parallel=True, fastmath=True, error_model="numpy", cache=True
+    )
+    return jit(function)
 
 
 @numba.njit(fastmath=True, inline="always")
@@ -161,9 +162,87 @@ def four_bar(lengths: Float, cos: Float, sin: Float, coupler: Any, rocker: Any) 
 
 
 @compiled
-def fill(arrays: Any, value: float) -> None:
-    """Write one number everywhere: what memory allows."""
-    for d in numba.prange(arrays[0].shape[0]):
-        for array in arrays:
-            for i in range(array.shape[1]):
-                array[d, i] = value
+def chain_tip(
+    crank: Float, start: Float, feet: Float, lengths: Float, cos: Float, sin: Float, out: Float
+) -> None:
+    """Last joint (x, y) of chains of dyads: to the right and to the left in turns.
+
+    feet: fixed pivot of each rocker; lengths: of its coupler and of the rocker itself. A dyad at a
+    time over all positions, which stay in the cache.
+    """
+    n = cos.size
+    for d in numba.prange(crank.size):
+        cx, cy = np.empty(n), np.empty(n)
+        for i in range(n):
+            cx[i], cy[i] = start[0] + crank[d] * cos[i], start[1] + crank[d] * sin[i]
+        for k in range(feet.shape[0]):
+            a, b = lengths[k, 0], lengths[k, 1]
+            less, more, split = (a - b) ** 2, (a + b) ** 2, (a - b) * (a + b)
+            side = lengths[k, 2]
+            for i in range(n):
+                kx, ky = feet[k, 0] - cx[i], feet[k, 1] - cy[i]
+                d2 = kx * kx + ky * ky
+                half = 0.5 / d2
+                x, y = (d2 + split) * half, side * np.sqrt((d2 - less) * (more - d2)) * half
+                cx[i], cy[i] = cx[i] + kx * x - ky * y, cy[i] + ky * x + kx * y
+        for i in range(n):
+            out[d, i, 0], out[d, i, 1] = cx[i], cy[i]
+
+
+@compiled
+def transmission_and_span(lengths: Float, cos: Float, sin: Float, out: Float) -> None:
+    """Least transmission angle and span of the rocker of four-bars that turn; NaN for others."""
+    for d in numba.prange(lengths.shape[1]):
+        a, b, c, g = lengths[0, d], lengths[1, d], lengths[2, d], lengths[3, d]
+        out[0, d] = out[1, d] = np.nan
+        # The diagonal is shortest and longest on the line of the pivots.
+        if g + a > b + c or abs(g - a) < abs(b - c):
+            continue
+        worst = 0.0
+        low = high = last = 0.0
+        for i in range(cos.size):
+            bx, by = a * cos[i], a * sin[i]
+            kx, ky = g - bx, -by
+            d2 = kx * kx + ky * ky
+            cosine = (b * b + c * c - d2) / (2.0 * b * c)
+            worst = max(worst, abs(cosine))
+            half = 0.5 / d2
+            x = (d2 + (b - c) * (b + c)) * half
+            y = np.sqrt(max(b * b / d2 - x * x, 0.0))
+            angle = np.arctan2(by + ky * x + kx * y, bx + kx * x - ky * y - g)
+            if i == 0:
+                low = high = last = angle
+            angle -= 2.0 * np.pi * np.round((angle - last) / (2.0 * np.pi))
+            last = angle
+            low, high = min(low, angle), max(high, angle)
+        out[0, d] = np.arccos(min(worst, 1.0))
+        out[1, d] = high - low
+
+
+@compiled
+def rocker(lengths: Float, cos: Float, sin: Float, out: Float) -> None:
+    """Rocker angle of four-bars; the open assembly."""
+    for d in numba.prange(lengths.shape[1]):
+        a, b, c, g = lengths[0, d], lengths[1, d], lengths[2, d], lengths[3, d]
+        less, more, split = (b - c) ** 2, (b + c) ** 2, (b - c) * (b + c)
+        for i in range(cos.size):
+            bx, by = a * cos[i], a * sin[i]
+            kx, ky = g - bx, -by
+            d2 = kx * kx + ky * ky
+            half = 0.5 / d2
+            x, y = (d2 + split) * half, np.sqrt((d2 - less) * (more - d2)) * half
+            out[d, i] = atan2(ky * x + kx * y - ky, kx * x - ky * y - kx)
+
+
+# For one design, where threads would cost more than they gain.
+four_bar_alone = numba.njit(fastmath=True, error_model="numpy")(four_bar.py_func)
+
+
+@numba.njit(parallel=True, cache=True)
+def arithmetic(sums: Float) -> None:
+    """Nothing but multiplications and additions, each waiting for the last: what a thread gains."""
+    for i in numba.prange(sums.size):
+        x = sums[i]
+        for _ in range(10_000):
+            x = x * 0.999 + 0.001
+        sums[i] = x

@@ -17,7 +17,7 @@ import numpy.typing as npt
 Float: TypeAlias = npt.NDArray[np.float64]
 
 
-@numba.njit(fastmath=True)
+@numba.njit(fastmath=True, cache=True)
 def off_line(path: Float, count: int) -> float:
     """How far the straightest stretch of a closed path is from its line."""
     best = math.inf
@@ -49,7 +49,7 @@ def off_line(path: Float, count: int) -> float:
     return best
 
 
-@numba.njit(parallel=True, fastmath=True, error_model="numpy")
+@numba.njit(parallel=True, fastmath=True, error_model="numpy", cache=True)
 def search(
     lengths: Float, point: Float, cos: Float, sin: Float, least_angle: float, off: Float
 ) -> None:

@@ -1,4 +1,4 @@
-"""Closed forms in NumPy that the benchmarks set beside `assur`.
+"""Closed forms in NumPy.
 
 Every form takes dimensions that broadcast with the coordinates: columns (designs, 1) make whole
 arrays (designs, positions). Angles are as they come: not continuous.
@@ -79,11 +79,7 @@ def vectors(crank: Float, coupler: Float, rocker: Float, ground: Float, q: Float
     equations; trigonometry is left in the two angles only.
     """
     bx, by = crank * np.cos(q), crank * np.sin(q)
-    kx = ground - bx  # from B to D; ky is -by
-    r = 1 / (kx * kx + by * by)
-    along = 0.5 + (0.5 * (coupler * coupler - rocker * rocker)) * r
-    up = np.sqrt(coupler * coupler * r - along * along)
-    u, v = along * kx + up * by, up * kx - along * by
+    u, v, kx = _coupler(bx, by, coupler, rocker, ground)
     w, z = u - kx, v + by
     r = 1 / (v * w - u * z)
     coupler1, rocker1 = (bx * z - by * w) * r, (bx * v - by * u) * r
@@ -96,6 +92,48 @@ def vectors(crank: Float, coupler: Float, rocker: Float, ground: Float, q: Float
         *(bx + u, z, -z * rocker1, w * rocker1, -z * rocker2 - wx, w * rocker2 - wy),
         *(np.arctan2(v, u), coupler1, coupler2, np.arctan2(z, w), rocker1, rocker2),
     )
+
+
+def angles(crank: Float, coupler: Float, rocker: Float, ground: Float, q: Float) -> list[Float]:
+    """Coupler's and rocker's angle alone, each with two analogues, as `vectors` has them."""
+    bx, by = crank * np.cos(q), crank * np.sin(q)
+    u, v, kx = _coupler(bx, by, coupler, rocker, ground)
+    w, z = u - kx, v + by
+    r = 1 / (v * w - u * z)
+    coupler1, rocker1 = (bx * z - by * w) * r, (bx * v - by * u) * r
+    square3, square4 = coupler1 * coupler1, rocker1 * rocker1
+    fx, fy = w * square4 - u * square3 - bx, z * square4 - v * square3 - by
+    coupler2, rocker2 = (fx * w + fy * z) * r, (fx * u + fy * v) * r
+    return [np.arctan2(v, u), coupler1, coupler2, np.arctan2(z, w), rocker1, rocker2]
+
+
+def rocker(crank: Float, coupler: Float, rocker: Float, ground: Float, q: Float) -> Float:
+    """Rocker's angle alone."""
+    bx, by = crank * np.cos(q), crank * np.sin(q)
+    u, v, kx = _coupler(bx, by, coupler, rocker, ground)
+    return np.arctan2(v + by, u - kx)
+
+
+def _coupler(
+    bx: Float, by: Float, coupler: Float, rocker: Float, ground: Float
+) -> tuple[Float, Float, Float]:
+    """From B to C as x and y, and from B to D along the ground."""
+    kx = ground - bx
+    r = 1 / (kx * kx + by * by)
+    along = 0.5 + (0.5 * (coupler * coupler - rocker * rocker)) * r
+    up = np.sqrt(coupler * coupler * r - along * along)
+    return along * kx + up * by, up * kx - along * by, kx
+
+
+def slider_crank(crank: Float, rod: Float, offset: Float, q: Float) -> tuple[Float, ...]:
+    """Slide and rod angle with two analogues each; the guide is the x axis."""
+    bx, by = crank * np.cos(q), crank * np.sin(q)
+    y = offset - by
+    x = np.sqrt((rod - y) * (rod + y))
+    per = 1 / x
+    w = -bx * per
+    v = (y * w * w + by) * per
+    return bx + x, -by - y * w, -bx - x * w * w - y * v, np.arctan2(y, x), w, v
 
 
 Point: TypeAlias = tuple[Float, Float]
@@ -115,6 +153,31 @@ def _third(a: Point, b: Point, length: Float, x: Float, y: Float) -> Point:
     x, y = x / length, y / length
     s, t = b[0] - a[0], b[1] - a[1]
     return a[0] + x * s - y * t, a[1] + x * t + y * s
+
+
+def four_bar_point(
+    crank: Float, coupler: Float, rocker: Float, ground: Float, x: Float, y: Float, q: Float
+) -> Point:
+    """Coupler point of four-bars, NaN where they cannot be assembled (open)."""
+    b = crank * np.cos(q), crank * np.sin(q)
+    c = _meet(b, coupler, (ground, np.zeros_like(ground)), rocker, +1)
+    return _third(b, c, coupler, x, y)
+
+
+def stephenson_point(
+    four_bar: Sequence[Float],
+    fifth: Float,
+    sixth: Float,
+    ex: Float,
+    ey: Float,
+    x: Float,
+    y: Float,
+    q: Float,
+) -> Point:
+    """A point of the fifth link of Stephenson III six-bars: a dyad on the coupler point."""
+    p = four_bar_point(*four_bar, q)
+    s = _meet(p, fifth, (ex, ey), sixth, +1)
+    return _third(p, s, fifth, x, y)
 
 
 def jansen(

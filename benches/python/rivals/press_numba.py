@@ -1,20 +1,19 @@
-"""P3's press as a user of numba or SciPy would write it: splines by coefficients, loops by hand."""
+"""P3's press as a user of numba would write it: splines by coefficients, loops by hand."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numba import njit
-from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
-PHI = np.linspace(0.0, 2 * np.pi, 9)
-MOMENT = np.array([-0.23, -274.4, -950.5, 19.9, 1.26, -300.0, -23.9, -15.9, -0.23])
-INERTIA = np.array([4.93, 5.07, 5.1, 5.1, 4.93, 5.05, 5.1, 5.14, 4.93])
-DELTA, MEAN = 1 / 8, 15.0
-TURNS = 20
+from rivals.press_table import DELTA, INERTIA, MEAN, MOMENT, PHI
+
+if TYPE_CHECKING:
+    from assur.flywheel import Flywheel
+
 WIDTH = float(PHI[1])
 # Steps of the fourth order between two knots, so many that the error is below 1e-9.
 STEPS = 24
@@ -27,53 +26,50 @@ def coefficients(values: Any) -> Any:
     return np.ascontiguousarray(CubicSpline(PHI, values).c.T)
 
 
-@njit(cache=False)
+def flywheel() -> float:
+    """Inertia of the flywheel."""
+    return float(sized(coefficients(MOMENT), coefficients(INERTIA), DELTA, MEAN)[0])
+
+
+def run(evened: Flywheel, turns: int) -> Any:
+    """Speed and time after some turns."""
+    moment, inertia = coefficients(MOMENT), coefficients(INERTIA)
+    return rk4(moment, inertia, evened.motor_moment, evened.inertia, evened.speed0, turns)
+
+
+@njit(cache=True)
 def horner(row: Any, x: float) -> float:
     return float(((row[0] * x + row[1]) * x + row[2]) * x + row[3])
 
 
-@njit(cache=False)
-def rates(moment: Any, inertia: Any, motor: float, flywheel: float, x: float, w: float) -> Any:
+@njit(cache=True)
+def rates(moment: Any, inertia: Any, motor: float, wheel: float, x: float, w: float) -> Any:
     """d(ω²)/dφ and dt/dφ in a piece."""
     slope = (3.0 * inertia[0] * x + 2.0 * inertia[1]) * x + inertia[2]
     change = 2.0 * (horner(moment, x) + motor) - slope * w
-    return change / (horner(inertia, x) + flywheel), 1.0 / math.sqrt(w)
+    return change / (horner(inertia, x) + wheel), 1.0 / math.sqrt(w)
 
 
-@njit(cache=False)
-def rk4(moment: Any, inertia: Any, motor: float, flywheel: float, speed0: float) -> Any:
-    """Speed and time after 20 turns, over φ from knot to knot."""
+@njit(cache=True)
+def rk4(moment: Any, inertia: Any, motor: float, wheel: float, speed0: float, turns: int) -> Any:
+    """Speed and time after some turns, over φ from knot to knot."""
     w, t, h = speed0 * speed0, 0.0, WIDTH / STEPS
-    for _ in range(TURNS):
+    for _ in range(turns):
         for piece in range(moment.shape[0]):
             m, i = moment[piece], inertia[piece]
             for step in range(STEPS):
                 x = step * h
-                a, p = rates(m, i, motor, flywheel, x, w)
-                b, q = rates(m, i, motor, flywheel, x + h / 2, w + h / 2 * a)
-                c, r = rates(m, i, motor, flywheel, x + h / 2, w + h / 2 * b)
-                d, s = rates(m, i, motor, flywheel, x + h, w + h * c)
+                a, p = rates(m, i, motor, wheel, x, w)
+                b, q = rates(m, i, motor, wheel, x + h / 2, w + h / 2 * a)
+                c, r = rates(m, i, motor, wheel, x + h / 2, w + h / 2 * b)
+                d, s = rates(m, i, motor, wheel, x + h, w + h * c)
                 w += h / 6 * (a + 2 * b + 2 * c + d)
                 t += h / 6 * (p + 2 * q + 2 * r + s)
     return math.sqrt(w), t
 
 
-def dop853(motor: float, flywheel: float, speed0: float, time: float) -> tuple[float, float]:
-    """Angle and speed after a time, by SciPy over the time."""
-    moment, inertia = (CubicSpline(PHI, v) for v in (MOMENT, INERTIA))
-    slope = inertia.derivative()
-
-    def motion(_: float, y: Any) -> list[float]:
-        phi = y[0] % (2 * np.pi)
-        force = moment(phi) + motor - slope(phi) * y[1] ** 2 / 2
-        return [y[1], float(force / (inertia(phi) + flywheel))]
-
-    made: Any = solve_ivp(motion, (0.0, time), [0.0, speed0], "DOP853", rtol=1e-10, atol=1e-10)
-    return float(made.y[0, -1]), float(made.y[1, -1])
-
-
-@njit(cache=False)
-def extremes(moment: Any, inertia: Any, motor: float, flywheel: float, speed0: float) -> Any:
+@njit(cache=True)
+def extremes(moment: Any, inertia: Any, motor: float, wheel: float, speed0: float) -> Any:
     """Least and greatest speed: the best of a grid, then a parabola through its neighbours."""
     pieces = moment.shape[0]
     ends = np.zeros(pieces + 1)
@@ -81,7 +77,7 @@ def extremes(moment: Any, inertia: Any, motor: float, flywheel: float, speed0: f
         c = moment[k]
         area = (((c[0] / 4 * WIDTH + c[1] / 3) * WIDTH + c[2] / 2) * WIDTH + c[3]) * WIDTH
         ends[k + 1] = ends[k] + area + motor * WIDTH
-    start = (inertia[0, 3] + flywheel) * speed0 * speed0
+    start = (inertia[0, 3] + wheel) * speed0 * speed0
     h = 2 * np.pi / (GRID - 1)
     values = np.empty(GRID)
     for g in range(GRID):
@@ -89,7 +85,7 @@ def extremes(moment: Any, inertia: Any, motor: float, flywheel: float, speed0: f
         k = min(int(phi / WIDTH), pieces - 1)
         x, c = phi - k * WIDTH, moment[k]
         area = (((c[0] / 4 * x + c[1] / 3) * x + c[2] / 2) * x + c[3]) * x + motor * x
-        values[g] = math.sqrt((2 * (ends[k] + area) + start) / (horner(inertia[k], x) + flywheel))
+        values[g] = math.sqrt((2 * (ends[k] + area) + start) / (horner(inertia[k], x) + wheel))
     found = np.empty(2)
     for which in range(2):
         g = values.argmin() if which == 0 else values.argmax()
@@ -102,7 +98,7 @@ def extremes(moment: Any, inertia: Any, motor: float, flywheel: float, speed0: f
     return found
 
 
-@njit(cache=False)
+@njit(cache=True)
 def sized(moment: Any, inertia: Any, delta: float, mean: float) -> Any:
     """Flywheel and speed at the beginning, by Newton's steps with differences."""
     motor = 0.0

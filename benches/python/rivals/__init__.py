@@ -1,0 +1,1 @@
+"""What users would write without `assur`, each for one linkage."""
