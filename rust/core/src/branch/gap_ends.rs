@@ -4,8 +4,6 @@
 //! Beside a dead point angles vary as the square root of the distance, so that even knots would have
 //! to be very close to follow them. What is not confirmed here is left to closer looks.
 
-use std::f64::consts::PI;
-
 use super::cell_test::Bits;
 use super::gap_end::{End, Shown};
 use super::uniform::UniformTracer;
@@ -16,9 +14,6 @@ use crate::state::state::Context;
 
 /// Ends looked for at once; a turn seldom has more.
 const MAX_ENDS: usize = LANES / 2;
-/// How far (rad) an angle may step across a gap whose ends are not looked at closely: not nearly half
-/// a turn.
-pub(super) const MAX_STEP: f64 = PI - 0.5;
 
 /// The ends found, with what the positions beside them show.
 #[derive(Debug, Default)]

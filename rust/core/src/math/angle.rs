@@ -8,8 +8,8 @@ use super::lanes::Real;
 const ABOUT_HALF: f64 = 0.5 - 1.0 / 1024.0;
 
 /// Number of whole turns to add to `angle` to come nearest to `near`. About half a turn away (a
-/// link that points to where a joint went through infinity) it rounds up, whatever the rounding
-/// errors.
+/// link that points to where a joint went through infinity) the sum is clockwise of `near`, whatever
+/// the rounding errors.
 #[inline(always)]
 pub(crate) fn turns_between<R: Real>(angle: R, near: R) -> R {
     ((near - angle) * R::splat(1.0 / TAU) + R::splat(ABOUT_HALF)).floor()
@@ -80,13 +80,6 @@ impl Reference {
     }
 }
 
-/// Whole turns in the change of an angle over a period, to the nearest. An angle may change by half
-/// a turn exactly, from one dead point to another: that counts as none, whatever the rounding
-/// errors.
-pub(crate) fn whole_turns(change: f64) -> f64 {
-    (change.abs() * (1.0 / TAU) + ABOUT_HALF).floor().copysign(change)
-}
-
 /// Subtracts whole turns from an angle, accurate to the last bit for fewer than 2^48 turns: 2π is
 /// in parts whose products with the two halves of `turns` are exact (Cody & Waite 1980).
 pub(crate) fn reduce_turns(angle: f64, turns: f64) -> f64 {
@@ -111,10 +104,17 @@ pub(crate) fn whole_part(cells: f64) -> usize {
 mod tests {
     use super::*;
 
+    /// Whatever the rounding errors, and whichever of both is the greater.
     #[test]
-    fn half_a_turn_counts_as_none() {
-        for (turns, whole) in [(0.5, 0.0), (0.500_001, 0.0), (0.51, 1.0), (1.2, 1.0), (2.0, 2.0)] {
-            assert_eq!([turns * TAU, -turns * TAU].map(whole_turns), [whole, -whole], "{turns}");
+    fn half_a_turn_is_clockwise() {
+        for near in [0.0, 1.0, -40.0] {
+            for (turn, nearest) in [(0.5, -0.5), (0.500_1, -0.499_9), (0.49, 0.49), (1.2, 0.2)] {
+                for (turn, nearest) in [(turn, nearest), (turn - 3.0, nearest)] {
+                    let found = unwrap_to(near + TAU * turn, near);
+                    assert!((found - (near + TAU * nearest)).abs() < 1e-12, "{near} {turn}");
+                }
+            }
+            assert!((unwrap_to(near - TAU * 0.499_9, near) - (near - TAU * 0.499_9)).abs() < 1e-12);
         }
     }
 }
