@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Array: TypeAlias = NDArray[np.float64]
 
-# About half a turn counts as clockwise: by so much, rad, the one way may be longer than the other.
+# About half a turn counts as half a turn: by so much, rad, the one way may be longer than the other.
 ABOUT_HALF = math.tau / 1024
 # To how much the core knows the angle at an end of a gap, rad: closer to a tie, either will do.
 KNOWN = 2e-3
@@ -41,9 +41,8 @@ class Gap(NamedTuple):
 
 
 def is_nearest(steps: Array) -> NDArray[np.bool_]:
-    """Whether no other step would be shorter, half a turn counting as clockwise."""
-    low, high = -math.pi - ABOUT_HALF - KNOWN, math.pi - ABOUT_HALF + KNOWN
-    return np.asarray((low <= steps) & (steps <= high))
+    """Whether no other step would be shorter; of two that are half a turn either will do."""
+    return np.asarray(np.abs(steps) <= math.pi + ABOUT_HALF + KNOWN)
 
 
 def is_known(m: assur.Mechanism, gap: Gap) -> NDArray[np.bool_]:

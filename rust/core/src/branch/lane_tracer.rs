@@ -15,7 +15,7 @@ use super::gap_ends::GapEnds;
 use super::grid::KNOTS;
 use super::look::Look;
 use super::uniform::UniformTracer;
-use crate::math::angle::{turns_between, unwrap_to};
+use crate::math::angle::{unwrap_to, whole_turns};
 use crate::math::lanes::Real;
 use crate::math::tolerance::{GAP_MAX_TURN, KNOT_MAX_TURN};
 use crate::state::kernel::Level;
@@ -209,7 +209,7 @@ impl LaneTracer {
         }
         for (index, &class) in classes.iter().enumerate().take(self.first.len()) {
             let [a, b] = [self.first[index], self.last[index]];
-            branch.gain[class] = TAU * turns_between(a, b);
+            branch.gain[class] = TAU * whole_turns(b - a);
             self.judge_step((a + branch.gain[class]) - b);
         }
         if !classes.is_empty() {

@@ -9,7 +9,7 @@ use super::knot::{
     ChangePoint, InitialGuess, Knot, SignInterval, Taylor2, closes, may_vanish, predict,
     prediction_error, prediction_failed,
 };
-use crate::math::angle::{turns_between, unwrap_to};
+use crate::math::angle::{unwrap_to, whole_turns};
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
 use crate::math::tolerance::{GAP_MAX_TURN, KNOT_MAX_HALVINGS, KNOT_MAX_TURN};
 use crate::math::vector::Vector;
@@ -399,8 +399,8 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         }
     }
 
-    /// The change of every angle over all knots, after which these are the first again: whole turns,
-    /// by which it goes the shorter way across a gap at their end.
+    /// The change of every angle over all knots, after which these are the first again: whole turns, the
+    /// nearest, across a gap at their end too.
     pub(crate) fn gain(&mut self) -> Vec<f64> {
         let reached = |knot: &Knot| knot.reached;
         let ends = [self.knots.iter().position(reached), self.knots.iter().rposition(reached)];
@@ -412,7 +412,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             a = self.angles_at_edge([self.knots[first].at, self.knots[first - 1].at], &a);
             b = self.angles_after(last);
         }
-        a.iter().zip(&b).map(|(&a, &b)| TAU * turns_between(a, b)).collect()
+        a.iter().zip(&b).map(|(&a, &b)| TAU * whole_turns(b - a)).collect()
     }
 
     /// Whether a link turns fast beside a change point between two parameters. If the outer joints

@@ -16,7 +16,7 @@ use super::hermite::HermiteCell;
 use super::knot::{
     MAX_FIRST_STEP, MAX_LATER_STEPS, SignInterval, Taylor2, closes, may_touch, prediction_failed,
 };
-use crate::math::angle::{Reference, turns_between, unwrap_to};
+use crate::math::angle::{Reference, turns_between, unwrap_to, whole_turns};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
@@ -221,7 +221,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         branch.gain.clear();
         for class in 0..classes {
             let (a, b) = (branch.angles[class], branch.angles[(KNOTS - 1) * classes + class]);
-            branch.gain.push(TAU * turns_between(a, b));
+            branch.gain.push(TAU * whole_turns(b - a));
         }
         branch.reached.clear();
         branch.reached.resize(KNOTS, true);

@@ -80,6 +80,13 @@ impl Reference {
     }
 }
 
+/// Whole turns in the change of an angle over a period, to the nearest. An angle may change by half
+/// a turn exactly, from one dead point to another: that counts as none, whatever the rounding
+/// errors.
+pub(crate) fn whole_turns(change: f64) -> f64 {
+    (change.abs() * (1.0 / TAU) + ABOUT_HALF).floor().copysign(change)
+}
+
 /// Subtracts whole turns from an angle, accurate to the last bit for fewer than 2^48 turns: 2π is
 /// in parts whose products with the two halves of `turns` are exact (Cody & Waite 1980).
 pub(crate) fn reduce_turns(angle: f64, turns: f64) -> f64 {
@@ -103,6 +110,13 @@ pub(crate) fn whole_part(cells: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn half_a_turn_counts_as_none() {
+        for (turns, whole) in [(0.5, 0.0), (0.500_001, 0.0), (0.51, 1.0), (1.2, 1.0), (2.0, 2.0)] {
+            assert_eq!([turns * TAU, -turns * TAU].map(whole_turns), [whole, -whole], "{turns}");
+        }
+    }
 
     /// Whatever the rounding errors, and whichever of both is the greater.
     #[test]
