@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Array: TypeAlias = NDArray[np.float64]
 
-# About half a turn counts as half a turn: by so much, rad, the one way may be longer than the other.
+# About half a turn counts as half: by so much, rad, the one way may be longer than the other.
 ABOUT_HALF = math.tau / 1024
 # To how much the core knows the angle at an end of a gap, rad: closer to a tie, either will do.
 KNOWN = 2e-3
