@@ -40,9 +40,7 @@ fn every_metric(mechanism: &Mechanism) -> Vec<(&'static str, Box<dyn Metric>)> {
     let [b, c, d] = ["B", "C", "D"].map(joint);
     let lines = [Line::Joints([c, b]), Line::Joints([c, d])];
     let transmission = LeastTransmission { lines, complement: false };
-    let count = POSITIONS as usize / 2 + 1;
-    let deviation =
-        |shape| Deviation { joint: c, shape, count, is_closed: true, is_relative: false };
+    let deviation = |shape| Deviation { joint: c, shape, part: 0.5, is_relative: false };
     vec![
         ("moves", Box::new(Moves)),
         ("span of x", Box::new(Span(x))),

@@ -22,6 +22,7 @@ import numpy as np
 import assur
 import campaign_cases as cases
 import campaign_checks as checks
+import gap_steps
 from assur import Status
 from campaign_geometry import Geometry, Sample
 from campaign_machines import Checked
@@ -129,6 +130,12 @@ class Check(Findings):
         if not len(edges):
             return
         edges = checks.bisected(self.solve, edges)
+        if not self.higher:
+            # Angles of groups follow theirs, and end with them.
+            across = gap_steps.gaps_between(self.m, edges)
+            self.report.counts["steps"] += len(across)
+            wrong = (text for gap in across for text in gap_steps.too_far(self.m, gap))
+            self.fail("step", *wrong)
         far = checks.poles(self.solve, edges, size, self.higher)
         edges = edges[~far]
         self.report.counts["infinite"] += int(far.sum())

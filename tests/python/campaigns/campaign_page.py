@@ -66,6 +66,7 @@ def one_kind(report: Report, higher: bool) -> str:
             number(report, "determinants"),
         ),
     ]
+    steps = [("gaps across which every angle goes the shorter way", number(report, "steps"))]
     rows = [
         ("mechanisms", number(report, "mechanisms")),
         *(of_higher if higher else changing),
@@ -73,6 +74,7 @@ def one_kind(report: Report, higher: bool) -> str:
         *statuses(report, "fine grids"),
         ("positions compared to the bit between grids", number(report, "shared")),
         *motions(report),
+        *([] if higher else steps),
     ]
     return page(report, HIGHER if higher else CLASS_II, rows, TEXT)
 
@@ -99,6 +101,7 @@ in ten with a dyad that has change points), moves each over {cases.TURNS} turns 
 range of its slide, and asks what no example can: that nothing goes wrong anywhere. This page is
 written by it; there are others on [classes III and IV](campaign-higher.md), on
 [dyads and higher groups in any order](campaign-mixed.md) and on [machines](campaign-machines.md).
+Besides what is said below, every angle must step across every gap by at most half a turn.
 
 """
 

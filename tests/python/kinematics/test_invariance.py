@@ -82,8 +82,8 @@ def check_same(
     """Values and analogues of two motions, the second in another frame.
 
     Angles (and, where `shifted`, slides' values) are compared from the drawing on; `across` a gap
-    but for whole turns: a link that is half a turn on behind it has turned counter-clockwise by
-    convention, in a mirror too.
+    but for whole turns: a link that is half a turn on behind it has turned clockwise by convention,
+    in a mirror too.
     """
     one, two = motions
     size = max(float(np.max(np.abs(one.joint(n).value))) for n in d.joints)

@@ -93,6 +93,28 @@ def slide_space(seed: int, designs: int = DESIGNS) -> assur.Mechanism:
     return space(one, rng, designs)
 
 
+def edge_spaces() -> Iterator[tuple[str, assur.Mechanism, float]]:
+    """Designs 1e-16 to 1e-2 from a change point, or a narrow gap, each with where that is."""
+    off = np.concatenate([[0.0], np.outer([1.0, -1.0], 10.0 ** -np.arange(2.0, 17.0)).ravel()])
+    yield "parallelogram", assur.FourBar(1.0, 3.0, 1.0 + off, 3.0), np.pi
+    yield "kite", assur.FourBar(1.0, 1.0 + off, 2.0, 2.0), 0.0
+    yield "even", assur.FourBar(1.0, 3.0, 2.0 + off, 4.0, mode="crossed"), np.pi
+    # The crank's pin passes the rocker's pivot.
+    yield "coincident", assur.FourBar(2.0, 1.5, 1.5 + off, 2.0), 0.0
+    yield "near pivot", assur.FourBar(2.0 + off, 1.5, 1.5, 2.0), 0.0
+    yield "isosceles", assur.SliderCrank(1.0, 1.0 + off), np.pi / 2
+    yield "offset", assur.SliderCrank(1.0, 2.0 + off, offset=1.0), np.pi / 2
+
+
+def edge_digests() -> Iterator[tuple[str, tuple[str, str]]]:
+    """Of these, beside the event and far from it, and where q is no angle at all."""
+    near = np.outer([1.0, -1.0], 10.0 ** -np.arange(1.0, 17.0)).ravel()
+    odd = [np.nan, np.inf, -np.inf, 1e9, -1e9, 1e17, 1e300, 5e-324]
+    for name, batch, event in edge_spaces():
+        q = np.concatenate([event + near, event + np.linspace(0.0, 7.0, 20), odd])
+        yield f"edge {name}", digest_of(batch, q)
+
+
 def digest(m: assur.Mechanism, seed: int) -> tuple[str, str]:
     """The digest of a mechanism's space."""
     rng = np.random.default_rng(seed)
@@ -124,6 +146,7 @@ def digests(seeds: int) -> Iterator[tuple[str, tuple[str, str]]]:
         if np.ndim(bits.named(name).q0):
             for seed in range(4):
                 yield f"{name} {seed}", digest(bits.named(name), seed)
+    yield from edge_digests()
     for seed in range(seeds):
         yield f"seed {seed}", digest(bits.random(seed), seed)
         q = np.random.default_rng(seed).uniform(-9.0, 15.0, POSITIONS)

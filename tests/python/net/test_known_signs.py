@@ -15,6 +15,12 @@ import design_spaces
 from assur import _core
 
 NAMES = ("crank_rocker", "watt_six_bar", "stephenson_six_bar", "jansen_leg")
+# Driven slides; several drivers; dyads of all kinds.
+OTHERS = (
+    *(f"slide {seed}" for seed in range(6)),
+    *(f"seed {seed}" for seed in range(20)),
+    "model five_bar",
+)
 ORDER = 1
 
 
@@ -31,11 +37,23 @@ def answers(batch: assur.Mechanism, q: bits.Float) -> list[bits.Bits]:
     return [bits.bits(motion) for motion in motions]
 
 
-@pytest.mark.parametrize("name", NAMES)
+def space(name: str, rng: np.random.Generator) -> assur.Mechanism:
+    if name in NAMES:
+        return design_spaces.space(library.LIBRARY[name](), rng, 300)
+    kind, _, seed = name.partition(" ")
+    if kind == "slide":
+        return design_spaces.slide_space(int(seed), 60)
+    one = bits.random(int(seed)) if kind == "seed" else bits.named(name)
+    return design_spaces.space(one, rng, 12 if np.ndim(one.q0) else 60)
+
+
+@pytest.mark.parametrize("name", NAMES + OTHERS)
 def test_first_second_and_concurrent_calls_give_the_same_bits(name: str) -> None:
     rng = np.random.default_rng(5)
-    batch = design_spaces.space(library.LIBRARY[name](), rng, 300)
-    q = rng.uniform(-7.0, 9.0, 23)
+    batch = space(name, rng)
+    q = rng.uniform(-7.0, 9.0, (23, *np.shape(batch.q0)))
+    if isinstance(batch.driver, str) and batch.driver in batch.slides:
+        q = batch.q0 + 0.2 * (q - 1.0)
     first = answers(batch, q)
     fresh = pickle.loads(pickle.dumps(batch))
     with ThreadPoolExecutor(4) as threads:

@@ -11,7 +11,6 @@ use std::f64::consts::TAU;
 use super::hermite::HermiteCell;
 use super::knot::{ChangePoint, InitialGuess, Knot, SignInterval};
 use super::tracer::BranchTracer;
-use crate::math::angle::whole_turns;
 use crate::plan::plan::Plan;
 use crate::state::state::{Context, State};
 
@@ -140,6 +139,7 @@ impl Branch {
             returned = tracer.has_returned();
         }
         let sign_intervals = tracer.sign_intervals();
+        let gain = tracer.gain();
         let BranchTracer { knots, changes, ended, .. } = tracer;
         if ended {
             // A group folds ahead: trace backward as well.
@@ -149,13 +149,6 @@ impl Branch {
             let ends = [branch.at.first(), branch.at.last()].map(|end| end.copied().unwrap_or(q0));
             return Self { covered: Some(ends), ..branch };
         }
-        let gain = match (knots.iter().find(|k| k.reached), knots.last()) {
-            (Some(first), Some(last)) => {
-                let pairs = first.angles.iter().zip(&last.angles);
-                pairs.map(|(&a, &b)| TAU * whole_turns(b - a)).collect()
-            }
-            _ => vec![0.0; start.angles.len()],
-        };
         let period = returned.then_some(TAU * f64::from(turns));
         let end = if returned { f64::INFINITY } else { q0 + TAU * f64::from(turns) };
         let covered = [if returned { f64::NEG_INFINITY } else { q0 }, end];

@@ -186,6 +186,10 @@ impl DyadSamples {
                 // Where the neighbour is unknown, the rate at the knot stands in.
                 rise = R::select(before.finite().or(start.finite().not()), rise, start);
                 fall = R::select(after.finite().or(end.finite().not()), fall, -end);
+            } else {
+                // Beyond the peak there may be another gap, less deep: its own rate shows that too.
+                rise = R::select(rise.lt(start), start, rise);
+                fall = R::select(fall.lt(-end), -end, fall);
             }
             let both = R::ZERO.lt(rise).and(R::ZERO.lt(fall));
             let mut may_close = both.and((-from).lt(falls * rise)).and((-to).lt(falls * fall));

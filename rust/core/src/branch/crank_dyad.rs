@@ -6,7 +6,9 @@ use crate::plan::dyad::{Dyad, Form};
 use crate::plan::plan::{EdgeSlide, Plan, Step};
 
 /// A dyad that comes this near to flat at an extreme (relative to the sum of all lengths) is left to
-/// the tracer: far above rounding, and far below what a design meets by chance.
+/// the tracer: far above rounding, and far below what a design meets by chance. The same bound holds
+/// for the square of the sine between its legs: with legs of one length that is the square of the
+/// distance.
 const NEAR: f64 = 1.0e-9;
 
 /// The attachment of a dyad to the pin of a crank and to the ground.
@@ -70,8 +72,14 @@ impl CrankDyad {
         let frame = frame.norm();
         let (longest, shortest) = (frame + crank, (frame - crank).abs());
         let near = NEAR * (longest + a.norm + b.norm);
+        let cosine = |chord: f64| {
+            (a.norm * a.norm + b.norm * b.norm - chord * chord) / (2.0 * a.norm * b.norm)
+        };
+        let is_flat = |chord: f64| (1.0 - cosine(chord).abs()).abs() <= NEAR;
         (longest - (a.norm + b.norm)).abs() > near
             && (shortest - (a.norm - b.norm).abs()).abs() > near
+            && !is_flat(longest)
+            && !is_flat(shortest)
     }
 }
 
@@ -129,6 +137,9 @@ mod tests {
             ([1.0, 4.0, 2.0, 3.0], false),
             ([1.0, 2.0, 1.0, 2.0], false),
             ([3.0, 1.0, 1.5, 2.0], true),
+            // The crank's pin passes 1e-8 beside the rocker's pivot.
+            ([2.000_000_01, 1.5, 1.5, 2.0], false),
+            ([2.001, 1.5, 1.5, 2.0], true),
         ] {
             let [crank, coupler, rocker, ground] = lengths;
             let four_bar = FourBar { crank, coupler, rocker, ground, mode: FourBarMode::Open };

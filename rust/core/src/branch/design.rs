@@ -7,6 +7,7 @@ use super::change_interpolant::{ChangeInterpolant, ChangeWindow};
 use super::crank_dyad::CrankDyad;
 use super::knot::Taylor2;
 use super::lane_tracer::LaneTracer;
+use super::scalar_chord::may_change;
 use super::uniform::UniformTracer;
 use super::units::Units;
 use crate::math::derivatives::DerivativeTables;
@@ -53,6 +54,8 @@ pub(crate) struct Design<'a> {
     pub change_window: ChangeWindow,
     /// Interpolants in use, by their change point.
     pub(super) interpolants: RefCell<Vec<(f64, Option<ChangeInterpolant>)>>,
+    /// Work space of [`Self::may_change`].
+    at_drawing: Option<State>,
 }
 
 impl<'a> Design<'a> {
@@ -83,6 +86,7 @@ impl<'a> Design<'a> {
             lane_tracer: LaneTracer::default(),
             change_window: ChangeWindow::SHORT,
             interpolants: RefCell::default(),
+            at_drawing: None,
         }
     }
 
@@ -109,6 +113,22 @@ impl<'a> Design<'a> {
         self.q0.extend(mechanism.q0().iter().zip(&self.units.coordinate).map(|(q, unit)| q * unit));
         self.values.clear();
         self.values.extend_from_slice(values);
+        // What moves over an area in the drawing may move along a curve in a design, where joints
+        // coincide.
+        if mechanism.plan().may_change.contains(&false) {
+            self.constants.may_change = self.may_change();
+        }
+    }
+
+    /// For every sign, whether its dyad can pass change points.
+    pub(crate) fn may_change(&mut self) -> Vec<bool> {
+        let state = self.at_drawing.take();
+        let mut state = state.unwrap_or_else(|| self.state(&self.tracing_derivatives));
+        let cx = self.context(&self.tracing_derivatives);
+        state.prepare(cx.plan, cx.constants, cx.derivatives);
+        let may_change = may_change(&cx, &mut state, &self.q0);
+        self.at_drawing = Some(state);
+        may_change
     }
 
     /// Rates of the fixed vectors by a dimension.

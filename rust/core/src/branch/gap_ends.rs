@@ -4,8 +4,6 @@
 //! Beside a dead point angles vary as the square root of the distance, so evenly spaced knots would
 //! have to be very close to follow them. Ends that are not confirmed here are left to closer scans.
 
-use std::f64::consts::PI;
-
 use super::cell_test::Bits;
 use super::gap_end::{GapEnd, ScanView};
 use super::uniform::UniformTracer;
@@ -16,9 +14,6 @@ use crate::state::state::Context;
 
 /// Most ends searched for; a turn seldom has more.
 const MAX_ENDS: usize = LANES / 2;
-/// Greatest step (rad) of an angle across a gap that these predictions may decide: well below half a
-/// turn, beyond which the step would be ambiguous.
-pub(super) const MAX_STEP: f64 = PI - 0.5;
 
 /// Predicted ends, with samples at the positions before and after each.
 #[derive(Debug, Default)]

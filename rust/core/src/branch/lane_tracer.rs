@@ -5,18 +5,18 @@
 //! its own, and so on. Designs that may have a change point, or angles that cannot be unwrapped in
 //! this way, are left to [`super::tracer`].
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::branch::Branch;
 use super::cell_test::has;
 use super::gap_end::ScanView;
-use super::gap_ends::{GapEnds, MAX_STEP};
+use super::gap_ends::GapEnds;
 use super::grid::KNOTS;
 use super::scan::Scan;
 use super::uniform::UniformTracer;
 use crate::math::angle::{unwrap_to, whole_turns};
 use crate::math::lanes::Real;
-use crate::math::tolerance::KNOT_MAX_TURN;
+use crate::math::tolerance::{GAP_MAX_TURN, KNOT_MAX_TURN};
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
@@ -24,13 +24,16 @@ use crate::state::state::Context;
 const CLOSER_KNOTS: usize = KNOTS / 2;
 /// Cells of a closer scan.
 const CELLS: f64 = (CLOSER_KNOTS - 1) as f64;
-/// Levels of looks, each [`CELLS`] times as close as the one before: down to the 50 000th part of a
+/// Levels of scans, each [`CELLS`] times as close as the one before: down to the 50 000th part of a
 /// cell.
 const LEVELS: usize = 5;
 /// Levels at which dead points are scanned: down to the 3 000th part of a cell. Angles at the knot
 /// beyond, where the dyad is computed as flat, are those at the dead point to about this accuracy.
 const DEAD_POINT_LEVELS: usize = 3;
-/// Looks at one design.
+/// How far (rad) an angle may step across a gap whose ends are known from scans alone: not so nearly
+/// half a turn that their errors decide which way it goes.
+const MAX_KNOWN_STEP: f64 = PI - 0.0625;
+/// Most scans of one design.
 const MAX_SCANS: usize = 256;
 /// Levels at which islands are searched for: down to the 200th part of a cell.
 const ISLAND_LEVELS: usize = 2;
@@ -51,6 +54,8 @@ pub(crate) struct LaneTracer {
     pub(super) ends: GapEnds,
     /// Whether an angle steps by about half a turn across a gap with one of `ends`.
     is_ambiguous: bool,
+    /// Whether it does so across any gap, so nearly that ends have to be known to rounding.
+    is_tie: bool,
 }
 
 impl LaneTracer {
@@ -77,7 +82,7 @@ impl LaneTracer {
         loop {
             let traced = self.follow_knots::<L, G>(cx, knots, classes, start, settled, branch);
             if !self.is_ambiguous {
-                return traced;
+                return traced && !self.is_tie;
             }
             self.ends.clear();
             self.scans[0].next = 1;
@@ -139,7 +144,7 @@ impl LaneTracer {
         self.last.clear();
         self.last.extend(classes.iter().map(|&class| start[class]));
         self.first.clear();
-        self.is_ambiguous = false;
+        (self.is_ambiguous, self.is_tie) = (false, false);
         if !classes.is_empty() {
             self.push(0, 0, classes, branch);
         }
@@ -202,10 +207,10 @@ impl LaneTracer {
         if !knots.grid().is_turn {
             return true;
         }
-        for ((&class, &a), &b) in classes.iter().zip(&self.first).zip(&self.last) {
+        for (index, &class) in classes.iter().enumerate().take(self.first.len()) {
+            let [a, b] = [self.first[index], self.last[index]];
             branch.gain[class] = TAU * whole_turns(b - a);
-            let step = (b - a) - branch.gain[class];
-            self.is_ambiguous |= !self.ends.is_empty() && step.abs() > MAX_STEP;
+            self.judge_step((a + branch.gain[class]) - b);
         }
         if !classes.is_empty() {
             branch.period = Some(TAU);
@@ -249,6 +254,13 @@ impl LaneTracer {
         Some(fast)
     }
 
+    /// Whether a step across a gap leaves open which way is the shorter.
+    #[inline(always)]
+    fn judge_step(&mut self, step: f64) {
+        self.is_ambiguous |= !self.ends.is_empty() && step.abs() > GAP_MAX_TURN;
+        self.is_tie |= step.abs() > MAX_KNOWN_STEP;
+    }
+
     /// Adds a knot of a scan to the branch.
     #[inline(always)]
     fn push(&mut self, level: usize, knot: usize, classes: &[usize], branch: &mut Branch) {
@@ -272,20 +284,20 @@ impl LaneTracer {
         let was_reached = self.was_reached && !is_first;
         for (index, &class) in classes.iter().enumerate() {
             let next = self.next[index];
-            let last = &mut self.last[index];
+            let mut last = self.last[index];
             if !is_first && !was_reached && reached {
-                // By way of the angle at the dead point between both knots.
-                let before = *last;
-                follow(last, self.principal[index]);
-                self.is_ambiguous |= !self.ends.is_empty() && (*last - before).abs() > MAX_STEP;
+                // Through the dead point between both knots.
+                follow(&mut last, self.principal[index]);
+                self.judge_step(last - self.last[index]);
             }
             if reached && !has_first {
-                self.first.push(if is_first { unwrap_to(next, *last) } else { *last });
+                self.first.push(if is_first { unwrap_to(next, last) } else { last });
             }
             if reached || was_reached {
-                follow(last, next);
+                follow(&mut last, next);
             }
-            branch.angles[row + class] = *last;
+            branch.angles[row + class] = last;
+            self.last[index] = last;
         }
         self.was_reached = reached;
         std::mem::swap(&mut self.principal, &mut self.next);

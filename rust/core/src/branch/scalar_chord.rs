@@ -6,13 +6,10 @@
 //! nothing changes. If it moves along a curve, as a joint of the next body does, the length depends
 //! on one scalar, and paths in every direction lead through its extremes.
 
-use crate::branch::design::Design;
-use crate::math::derivatives::DerivativeTables;
 use crate::plan::dyad::{Dyad, Unknown};
-use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::{Plan, Step};
-use crate::state::state::State;
-use crate::state::status::Status;
+use crate::state::state::{Context, State};
+use crate::state::status::{Fault, Status};
 
 /// Offsets from the drawing (rad, or units of the scale) at which chords are examined: the drawing
 /// itself may be special, arbitrary offsets hardly are.
@@ -21,49 +18,44 @@ const OFFSETS: [f64; 3] = [0.0, 0.0437, -0.0713];
 /// a curve: far above rounding.
 const CURVE: f64 = 1.0e-8;
 
-/// For every sign, whether its dyad can pass change points: with one driver, all.
-pub(crate) fn may_change(mechanism: &Mechanism) -> Vec<bool> {
-    let plan = mechanism.plan();
-    let drivers = mechanism.q0().len();
-    let mut may_change = vec![true; plan.signs()];
-    if drivers == 1 || !plan.has_closed_forms() {
+/// For every sign, whether its dyad can pass change points in a design: with one driver, all. `q0`:
+/// the drawing's coordinates; `state`: work space for first analogues.
+pub(super) fn may_change(cx: &Context<'_>, state: &mut State, q0: &[f64]) -> Vec<bool> {
+    let mut may_change = vec![true; cx.plan.signs()];
+    if q0.len() == 1 || !cx.plan.has_closed_forms() {
         return may_change;
     }
-    let derivatives = DerivativeTables::new(drivers, 1);
-    let mut design = Design::new(mechanism, mechanism.signs(), &derivatives);
-    design.bind(mechanism.drawing());
-    let q0 = design.scaled(mechanism.q0());
-    let cx = design.context(&derivatives);
-    let mut state = design.state(&derivatives);
-    // The greatest area for every sign and link.
-    let mut areas = vec![vec![0.0_f64; plan.rotation.len()]; plan.signs()];
     for offset in OFFSETS {
         let moved = |(driver, &q): (usize, &f64)| q + offset / (1.0 + driver as f64 / 3.0);
         let q: Vec<f64> = q0.iter().enumerate().map(moved).collect();
-        state.solve(&cx, &q);
-        if !matches!(state.status, Status::Ok | Status::NearSingular) {
-            continue;
-        }
-        for dyad in plan.dyads() {
-            let Some(sign) = dyad.sign else { continue };
-            for (link, area) in areas[sign].iter_mut().enumerate() {
-                *area = area.max(greatest_area(&state, plan, dyad, link, drivers));
+        state.solve(cx, &q);
+        // The chord of a dyad that does not close is known all the same.
+        let last = match (state.status, state.fault) {
+            (Status::Ok | Status::NearSingular, _) => usize::MAX,
+            (Status::Unreachable, Some(Fault::NotClosed { step, .. })) => step,
+            _ => continue,
+        };
+        let mut known = vec![false; cx.plan.classes];
+        known[0] = true;
+        for (step, what) in cx.plan.steps.iter().enumerate() {
+            let Step::Dyad(dyad) = what else { continue };
+            if step > last {
+                break;
+            }
+            if let Some(sign) = dyad.sign {
+                let mut links =
+                    (0..cx.plan.rotation.len()).filter(|&link| known[cx.plan.rotation[link].class]);
+                may_change[sign] &=
+                    links.any(|link| greatest_area(state, cx.plan, dyad, link, q0.len()) < CURVE);
+            }
+            for unknown in dyad.unknowns {
+                if let Unknown::Class(class) = unknown {
+                    known[class] = true;
+                }
             }
         }
-    }
-    let mut known = vec![false; plan.classes];
-    known[0] = true;
-    for step in &plan.steps {
-        let Step::Dyad(dyad) = step else { continue };
-        if let Some(sign) = dyad.sign {
-            let links = plan.rotation.iter().zip(&areas[sign]);
-            may_change[sign] =
-                links.filter(|(rotation, _)| known[rotation.class]).any(|(_, &area)| area < CURVE);
-        }
-        for unknown in dyad.unknowns {
-            if let Unknown::Class(class) = unknown {
-                known[class] = true;
-            }
+        if !may_change.contains(&true) {
+            break;
         }
     }
     may_change
@@ -93,8 +85,8 @@ fn greatest_area(state: &State, plan: &Plan, dyad: &Dyad, link: usize, drivers: 
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::Description;
+    use crate::plan::mechanism::Mechanism;
 
     fn drawn(drawing: &Description) -> Vec<bool> {
         let mechanism = Mechanism::new(drawing).unwrap_or_else(|error| panic!("{error}"));

@@ -84,6 +84,10 @@ impl Scan {
             }
             self.may_hide_island |= cells.may_hide_island;
         }
+        if islands {
+            // A later dyad that nothing asked for depends on is sampled, but not solved.
+            self.reached &= known;
+        }
         self.angles.resize(classes.len(), [0.0; KNOTS]);
         self.rates.resize(classes.len(), [0.0; KNOTS]);
         for (index, &class) in classes.iter().enumerate() {

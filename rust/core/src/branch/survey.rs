@@ -2,11 +2,11 @@
 
 use super::cell_test::has;
 use super::gap_end::ScanView;
-use super::gap_ends::{GapEnds, MAX_STEP};
+use super::gap_ends::GapEnds;
 use super::lane_tracer::LaneTracer;
 use super::uniform::{UniformTracer, reference_of};
 use crate::math::angle::{Reference, unwrap_to};
-use crate::math::tolerance::KNOT_MAX_TURN;
+use crate::math::tolerance::{GAP_MAX_TURN, KNOT_MAX_TURN};
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
@@ -64,7 +64,7 @@ impl GapEnds {
             let [inside, beyond] = beside.map(|angle| unwrap_to(angle, near));
             let known = unwrap_to(angles[end.known()], near);
             let steps = [inside - known, beyond - known];
-            let steps_far = !end.is_start && (beyond - outside).abs() > MAX_STEP;
+            let steps_far = !end.is_start && (beyond - outside).abs() > GAP_MAX_TURN;
             if steps_far || !end.is_followed(scan, steps, rates) {
                 return None;
             }
@@ -72,8 +72,8 @@ impl GapEnds {
             outside = beyond;
             first_outside.get_or_insert(beyond);
         }
-        let wraps_far =
-            begins_open && first_outside.is_some_and(|first| (outside - first).abs() > MAX_STEP);
+        let wraps_far = begins_open
+            && first_outside.is_some_and(|first| (outside - first).abs() > GAP_MAX_TURN);
         if wraps_far { None } else { near.map(|near| (near, range)) }
     }
 }

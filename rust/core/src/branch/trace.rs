@@ -31,7 +31,7 @@ impl Design<'_> {
             return Traced::No;
         }
         for (dyad, on_crank) in plan.dyads().zip(&self.crank_dyads) {
-            let fixed = several && dyad.sign.is_none_or(|sign| !plan.may_change[sign]);
+            let fixed = several && dyad.sign.is_none_or(|sign| !self.constants.may_change[sign]);
             let keeps_sign = || on_crank.is_some_and(|dyad| dyad.keeps_sign(&self.constants));
             self.settled.push(fixed || keeps_sign());
         }
@@ -116,7 +116,7 @@ impl Design<'_> {
             uniform.take_care_of_doubts::<L>(&cx);
             let mut plain = uniform.survey(&cx, classes, start, references);
             is_solved = true;
-            if plain.is_none() && grid.is_turn && uniform.state.has_open() {
+            if plain.is_none() && grid.is_turn {
                 is_solved = false;
                 if tracer.survey::<L, G>(&cx, uniform, (classes, start), settled, references) {
                     plain = Some(true);

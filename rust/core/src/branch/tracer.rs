@@ -2,15 +2,16 @@
 //! and to count the turns of every angle.
 
 use std::convert::Infallible;
+use std::f64::consts::TAU;
 
 use super::hermite::HermiteCell;
 use super::knot::{
     ChangePoint, InitialGuess, Knot, SignInterval, Taylor2, closes, may_vanish, predict,
     prediction_error, prediction_failed,
 };
-use crate::math::angle::unwrap_to;
+use crate::math::angle::{unwrap_to, whole_turns};
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
-use crate::math::tolerance::{KNOT_MAX_HALVINGS, KNOT_MAX_TURN};
+use crate::math::tolerance::{GAP_MAX_TURN, KNOT_MAX_HALVINGS, KNOT_MAX_TURN};
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Dyad, Form, Unknown};
 use crate::plan::plan::Step;
@@ -353,25 +354,65 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
 
     /// Unwraps the angles of a knot at the very edge of the gap between it and the knot before.
     /// With several drivers every position has a branch and knots of its own: an angle that differs
-    /// by about half a turn across a gap would otherwise be unwrapped to either side.
+    /// by about half a turn across a gap would otherwise be unwrapped to either side. With one, knots
+    /// in lanes would decide otherwise.
     fn unwrap_across_gap(&mut self, from: &Knot, mut knot: Knot) -> Knot {
-        if self.rates.len() == 1 || from.reached == knot.reached {
+        if from.reached == knot.reached {
             return knot;
         }
-        let ends = if from.reached { [from.at, knot.at] } else { [knot.at, from.at] };
-        let edge = self.find_edge(ends);
-        if !self.visit(edge) {
-            return knot;
-        }
-        let classes = self.state.pose.class.iter().zip(&from.angles);
-        let edge: Vec<f64> = classes.map(|(u, &near)| unwrap_to(u[0].angle(), near)).collect();
-        if knot.reached {
-            let pairs = knot.angles.iter().zip(&edge);
-            knot.angles = pairs.map(|(&angle, &near)| unwrap_to(angle, near)).collect();
-        } else {
-            knot.angles = edge;
+        if self.rates.len() > 1 {
+            let ends = if from.reached { [from.at, knot.at] } else { [knot.at, from.at] };
+            let edge = self.angles_at_edge(ends, &from.angles);
+            knot.angles = if knot.reached { unwrapped(&knot.angles, &edge) } else { edge };
+        } else if knot.reached && self.is_ambiguous(&from.angles, &knot.angles) {
+            let before = self.knots.iter().rposition(|knot| knot.reached);
+            let near = before.map_or_else(|| from.angles.clone(), |last| self.angles_after(last));
+            let edge = self.angles_at_edge([knot.at, from.at], &near);
+            knot.angles = unwrapped(&knot.angles, &edge);
         }
         knot
+    }
+
+    /// Whether some angle differs by so much across a gap that the knots beside it may not show which
+    /// way is the shorter. (Angles of groups are followed from knot to knot.)
+    fn is_ambiguous(&self, before: &[f64], behind: &[f64]) -> bool {
+        let mut steps = before.iter().zip(behind).map(|(a, b)| (b - a).abs());
+        self.last_group.is_none() && steps.any(|step| step > GAP_MAX_TURN)
+    }
+
+    /// The angles at the edge of a gap, given a parameter that can be reached and one that cannot.
+    fn angles_at_edge(&mut self, inside_and_outside: [f64; 2], near: &[f64]) -> Vec<f64> {
+        let edge = self.find_edge(inside_and_outside);
+        if !self.visit(edge) {
+            return near.to_vec();
+        }
+        let angles: Vec<f64> = self.state.pose.class.iter().map(|u| u[0].angle()).collect();
+        unwrapped(&angles, near)
+    }
+
+    /// The angles at the edge of the gap behind a knot.
+    fn angles_after(&mut self, knot: usize) -> Vec<f64> {
+        let near = self.knots[knot].angles.clone();
+        match self.knots.get(knot + 1) {
+            Some(next) => self.angles_at_edge([self.knots[knot].at, next.at], &near),
+            None => near,
+        }
+    }
+
+    /// The change of every angle over all knots, after which these are the first again: whole turns, the
+    /// nearest, across a gap at their end too.
+    pub(crate) fn gain(&mut self) -> Vec<f64> {
+        let reached = |knot: &Knot| knot.reached;
+        let ends = [self.knots.iter().position(reached), self.knots.iter().rposition(reached)];
+        let [Some(first), Some(last)] = ends else { return vec![0.0; self.state.pose.class.len()] };
+        let mut a = self.knots[first].angles.clone();
+        let mut b = self.knots[last].angles.clone();
+        let next = unwrapped(&a, &b);
+        if first > 0 && self.is_ambiguous(&b, &next) {
+            a = self.angles_at_edge([self.knots[first].at, self.knots[first - 1].at], &a);
+            b = self.angles_after(last);
+        }
+        a.iter().zip(&b).map(|(&a, &b)| TAU * whole_turns(b - a)).collect()
     }
 
     /// Whether a link turns fast beside a change point between two parameters. If the outer joints
@@ -417,6 +458,11 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         }
         sign_intervals
     }
+}
+
+/// Angles, each next to another.
+fn unwrapped(angles: &[f64], near: &[f64]) -> Vec<f64> {
+    angles.iter().zip(near).map(|(&angle, &near)| unwrap_to(angle, near)).collect()
 }
 
 fn must_refine(a: &Knot, b: &Knot, depth: u32) -> bool {

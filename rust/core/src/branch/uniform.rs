@@ -261,6 +261,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                     let before = (previous(last, square), previous(last_rate, rate));
                     suspect =
                         suspect.or(may_touch(before, (square, rate), R::splat(self.grid.cell)));
+                    // A dyad that nothing asked for depends on is sampled, but not solved.
+                    suspect = suspect.or(R::ZERO.lt(square).not());
                     self.squares[sign] = (square.lane(R::LANES - 1), rate.lane(R::LANES - 1));
                 }
                 None if dyad.form == Form::TwoLines => {

@@ -8,8 +8,8 @@ use super::lanes::Real;
 const ABOUT_HALF: f64 = 0.5 - 1.0 / 1024.0;
 
 /// Number of whole turns to add to `angle` to come nearest to `near`. About half a turn away (a
-/// link that points to where a joint went through infinity) it rounds up, whatever the rounding
-/// errors.
+/// link that points to where a joint went through infinity) the sum is clockwise of `near`, whatever
+/// the rounding errors.
 #[inline(always)]
 pub(crate) fn turns_between<R: Real>(angle: R, near: R) -> R {
     ((near - angle) * R::splat(1.0 / TAU) + R::splat(ABOUT_HALF)).floor()
@@ -115,6 +115,20 @@ mod tests {
     fn half_a_turn_counts_as_none() {
         for (turns, whole) in [(0.5, 0.0), (0.500_001, 0.0), (0.51, 1.0), (1.2, 1.0), (2.0, 2.0)] {
             assert_eq!([turns * TAU, -turns * TAU].map(whole_turns), [whole, -whole], "{turns}");
+        }
+    }
+
+    /// Whatever the rounding errors, and whichever of both is the greater.
+    #[test]
+    fn half_a_turn_is_clockwise() {
+        for near in [0.0, 1.0, -40.0] {
+            for (turn, nearest) in [(0.5, -0.5), (0.500_1, -0.499_9), (0.49, 0.49), (1.2, 0.2)] {
+                for (turn, nearest) in [(turn, nearest), (turn - 3.0, nearest)] {
+                    let found = unwrap_to(near + TAU * turn, near);
+                    assert!((found - (near + TAU * nearest)).abs() < 1e-12, "{near} {turn}");
+                }
+            }
+            assert!((unwrap_to(near - TAU * 0.499_9, near) - (near - TAU * 0.499_9)).abs() < 1e-12);
         }
     }
 

@@ -47,6 +47,8 @@ pub(crate) struct DesignConstants {
     /// The misfit of redundant links is relative to this size: 1, or less where a joint far from
     /// all pairs sets the scale.
     pub pair_size: f64,
+    /// For every sign, whether its dyad can pass change points.
+    pub may_change: Vec<bool>,
 }
 
 /// Index of every edge's and slide's dimensions in the list of values; found once per mechanism.
@@ -255,6 +257,7 @@ impl DesignConstants {
 
     /// Resizes the arrays. Entries that stay 0 are never written.
     fn resize(&mut self, plan: &Plan, slots: &DimensionMap) {
+        self.may_change.clone_from(&plan.may_change);
         let edges = plan.edges.len();
         for vectors in [&mut self.edge_vector, &mut self.guide, &mut self.on_leg] {
             vectors.resize(edges, Vector::ZERO);

@@ -113,7 +113,7 @@ impl Mechanism {
         &self.plan
     }
 
-    /// Sets, for every sign, whether its dyad can pass change points.
+    /// Sets, for every sign, whether its dyad can pass change points in the drawing.
     pub(crate) fn set_may_change(&mut self, may_change: Vec<bool>) {
         self.plan.may_change = may_change;
     }

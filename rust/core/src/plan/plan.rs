@@ -154,7 +154,7 @@ pub(crate) struct Plan {
     pub higher: Option<Higher>,
     /// Pairs of every link; empty if no link or slide is redundant.
     pub pairs: PairSpans,
-    /// For every sign, whether its dyad can pass change points.
+    /// For every sign, whether its dyad can pass change points in the drawing.
     pub may_change: Vec<bool>,
     /// The edges whose sums the legs are.
     pub leg_edges: LegEdges,

@@ -4,9 +4,10 @@
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
-use crate::branch::scalar_chord::may_change;
+use crate::branch::design::Design;
 use crate::description::Description;
 use crate::description::error::StructureError;
+use crate::math::derivatives::DerivativeTables;
 use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
 use crate::plan::constants::DesignConstants;
 use crate::plan::mechanism::Mechanism;
@@ -38,7 +39,13 @@ impl Mechanism {
         cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
         let mut mechanism = Self::compile(description, cancel)?;
-        mechanism.set_may_change(may_change(&mechanism));
+        if mechanism.q0().len() > 1 {
+            let derivatives = DerivativeTables::new(mechanism.q0().len(), 1);
+            let mut drawing = Design::new(&mechanism, mechanism.signs(), &derivatives);
+            drawing.bind(mechanism.drawing());
+            let may_change = drawing.may_change();
+            mechanism.set_may_change(may_change);
+        }
         let constants =
             DesignConstants::new(mechanism.plan(), &mechanism.slots, mechanism.drawing());
         mechanism.check_redundancy_along_motion(constants.scale)?;

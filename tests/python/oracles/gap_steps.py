@@ -1,0 +1,141 @@
+"""By how much angles step across gaps, from a dense sample that knows nothing of knots.
+
+By convention an angle beyond a gap is the one closest to that before it. So the ends of every gap
+that the sample shows are bisected to neighbouring numbers, and the angles there compared.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+import assur
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+Array: TypeAlias = NDArray[np.float64]
+
+# About half a turn counts as half: by so much, rad, the one way may be longer than the other.
+ABOUT_HALF = math.tau / 1024
+# To how much the core knows the angle at an end of a gap, rad: closer to a tie, either will do.
+KNOWN = 2e-3
+# The branch may miss islands narrower than 0.1° (conventions.md).
+NARROW = math.radians(0.1)
+# Links whose steps agree so well, rad, turn together, or with the driver between them.
+TOGETHER = 1e-6
+# Bits of a cell's part that one call bisects, and positions of a gap that is looked at closely.
+BITS = 4
+CLOSE = 4001
+
+
+class Gap(NamedTuple):
+    """The last coordinates that can be reached, and the step of every link between them."""
+
+    before: float
+    behind: float
+    steps: Array
+
+
+def is_nearest(steps: Array) -> NDArray[np.bool_]:
+    """Whether no other step would be shorter; of two that are half a turn either will do."""
+    return np.asarray(np.abs(steps) <= math.pi + ABOUT_HALF + KNOWN)
+
+
+def is_known(m: assur.Mechanism, gap: Gap) -> NDArray[np.bool_]:
+    """Links that step no farther than they need, or turn with such a link, or from it by q."""
+    near = is_nearest(gap.steps)
+    if isinstance(m.driver, str) and m.driver in m.slides:
+        return near
+    apart = np.abs(gap.steps[:, np.newaxis] - gap.steps)
+    driven = np.abs(apart - (gap.behind - gap.before)) < TOGETHER
+    return np.asarray(near | (driven & near).any(axis=1))
+
+
+def reached(m: assur.Mechanism, q: Array) -> NDArray[np.bool_]:
+    """Whether a design can be assembled there."""
+    return m.solve(q, order=0, outputs=[], on_error="nan").status <= assur.Status.SINGULAR
+
+
+def angles(m: assur.Mechanism, q: Array) -> Array:
+    """The angles of all links, a column each."""
+    motion = m.solve(q, order=0, outputs=list(m.links), on_error="nan")
+    return np.stack([motion.link(name).value for name in m.links], axis=-1)
+
+
+def bisected(m: assur.Mechanism, inside: Array, outside: Array) -> Array:
+    """The last coordinates that can be reached, from there towards those that cannot."""
+    parts = np.arange(1, 2**BITS) / 2.0**BITS
+    for _ in range(56 // BITS):
+        grid = inside[:, np.newaxis] + parts * (outside - inside)[:, np.newaxis]
+        good = reached(m, grid.reshape(-1)).reshape(grid.shape)
+        first = np.where(good.all(axis=1), len(parts), np.argmin(good, axis=1))
+        ends = np.concatenate([inside[:, np.newaxis], grid, outside[:, np.newaxis]], axis=1)
+        row = np.arange(len(grid))
+        inside, outside = ends[row, first], ends[row, first + 1]
+    return inside
+
+
+def stretches(m: assur.Mechanism, q: Array) -> Array:
+    """First and last coordinate of every stretch that can be reached, in the order of q."""
+    good = reached(m, q)
+    begin = np.flatnonzero(good[1:] & ~good[:-1]) + 1
+    end = np.flatnonzero(good[:-1] & ~good[1:])
+    found = bisected(m, q[np.concatenate([begin, end])], q[np.concatenate([begin - 1, end + 1])])
+    first, last = found[: len(begin)], found[len(begin) :]
+    if good[0]:
+        first = np.append(q[0], first)
+    if good[-1]:
+        last = np.append(last, q[-1])
+    return np.stack([first, last], axis=1)
+
+
+def gaps(m: assur.Mechanism, q: Array) -> list[Gap]:
+    """The gaps of a design, in the order of q, which is the way from its drawing."""
+    ends = stretches(m, q).reshape(-1)
+    steps = np.diff(angles(m, ends), axis=0)[1::2]
+    rows = zip(ends[1:-1:2], ends[2::2], steps, strict=True)
+    return [Gap(float(before), float(behind), own) for before, behind, own in rows]
+
+
+def gaps_between(m: assur.Mechanism, edges: Array) -> list[Gap]:
+    """The same of edges that are bisected: each a coordinate that can be reached, one that cannot.
+
+    A driven slide goes away from the drawing.
+    """
+    ordered = edges[np.argsort(edges.min(axis=1))]
+    ends = ordered[:, 0]
+    into = np.flatnonzero((ordered[:-1, 0] < ordered[:-1, 1]) & (ordered[1:, 0] > ordered[1:, 1]))
+    pairs = np.stack([ends[into], ends[into + 1]], axis=1)
+    if isinstance(m.driver, str) and m.driver in m.slides:
+        down = pairs[:, 1] < m.q0
+        pairs[down] = pairs[down, ::-1]
+    steps = np.diff(angles(m, pairs.reshape(-1)), axis=0)[::2]
+    rows = zip(pairs, steps, strict=True)
+    return [Gap(float(before), float(behind), own) for (before, behind), own in rows]
+
+
+def too_far(m: assur.Mechanism, gap: Gap) -> Iterator[str]:
+    """Links that step farther across it than they need, in words."""
+    wrong = ~is_known(m, gap)
+    if not wrong.any():
+        return
+    # A closer look: the sample may have missed islands, and the branch narrow ones.
+    inside = np.linspace(gap.before, gap.behind, CLOSE)
+    pieces = stretches(m, inside)
+    wide = np.abs(np.diff(pieces[1:-1], axis=1)[:, 0]) > NARROW
+    for some in (pieces, pieces[[0, *(np.flatnonzero(wide) + 1), -1]]):
+        steps = np.diff(angles(m, some.reshape(-1)), axis=0)[1::2]
+        wrong &= ~is_nearest(steps).all(axis=0)
+    names = np.array(list(m.links))[wrong]
+    for name, step in zip(names, gap.steps[wrong], strict=True):
+        yield f"{name} steps by {step:.4f} at q = {gap.before!r} … {gap.behind!r}"
+
+
+def far(m: assur.Mechanism, q: Array) -> Iterator[str]:
+    """The same of all gaps."""
+    for gap in gaps(m, q):
+        yield from too_far(m, gap)
