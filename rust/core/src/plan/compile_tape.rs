@@ -22,6 +22,8 @@ struct Uses {
     points_bare: Vec<bool>,
     orientations: Vec<bool>,
     legs: Vec<bool>,
+    /// Points whose conditions are read.
+    conditions: Vec<bool>,
     classes: Vec<bool>,
     slides: Vec<bool>,
 }
@@ -41,7 +43,9 @@ impl Tape {
 
     /// What a request needs of a plan. All dyads are needed: whether they close decides the status.
     pub(crate) fn new(plan: &Plan, needs: Needs<'_>) -> Self {
-        let all = !plan.has_closed_forms() || needs.points.iter().all(|&needed| needed);
+        let has_redundant = plan.steps.iter().any(|step| matches!(step, Step::Redundant(_)));
+        let all_points = has_redundant || needs.points.iter().all(|&needed| needed);
+        let all = !plan.has_closed_forms() || all_points;
         // Discriminants of dyads without a kernel read orientations.
         let general = plan.dyads().any(|dyad| !dyad.has_kernel(plan));
         let mut uses = Uses {
@@ -49,6 +53,7 @@ impl Tape {
             points_bare: needs.points.to_vec(),
             orientations: vec![all || general; plan.orientations.len()],
             legs: vec![all || general; plan.legs()],
+            conditions: vec![has_redundant; plan.points],
             classes: needs.classes.to_vec(),
             slides: vec![all || general || !needs.samples; plan.slide_links.len()],
         };
@@ -65,6 +70,8 @@ impl Tape {
                     let [start, end] = if needs.samples { [true; 2] } else { op.columns() };
                     uses.points_bare[dyad.start] |= start;
                     uses.points_bare[dyad.end] |= end;
+                    uses.conditions[dyad.start] = true;
+                    uses.conditions[dyad.end] = true;
                     if let Op::MovingGuide(DyadOp { carrier: Some(carrier), .. }) = op {
                         uses.orientations[carrier] = true;
                     }
@@ -78,13 +85,22 @@ impl Tape {
                     }
                     ops.push(op);
                 }
-                Step::Group(_) => ops.push(Op::Group { step }),
+                Step::Group(group) => {
+                    for point in group.loops.iter().flat_map(|l| [l.start, l.end]) {
+                        uses.points[point] = true;
+                        uses.points_bare[point] = true;
+                        uses.conditions[point] = true;
+                    }
+                    ops.push(Op::Group { step });
+                }
                 Step::Redundant(_) => ops.push(Op::Redundant { step }),
                 &Step::Place { edge, backward } => {
                     let mut place = PlaceOp::new(plan, edge, backward);
-                    if !(all || uses.points[place.to]) {
+                    if !(all_points || uses.points[place.to]) {
                         continue;
                     }
+                    place.is_recorded = uses.conditions[place.to];
+                    uses.conditions[place.from] |= place.is_recorded;
                     place.is_used = all || uses.points_bare[place.to];
                     uses.points[place.from] = true;
                     let from_column = !place.from_ground || place.kind == PlaceKind::Along;
@@ -336,7 +352,17 @@ impl PlaceOp {
             _ => PlaceKind::Along,
         };
         let from_ground = plan.fixed[from];
-        Self { edge, class: of.class, from, to, backward, kind, from_ground, is_used: true }
+        Self {
+            edge,
+            class: of.class,
+            from,
+            to,
+            backward,
+            kind,
+            from_ground,
+            is_used: true,
+            is_recorded: true,
+        }
     }
 }
 
