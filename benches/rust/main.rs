@@ -5,6 +5,7 @@
 
 mod beside_by_hand;
 mod by_hand;
+mod kernels;
 mod mechanisms;
 
 use std::hint::black_box;
@@ -138,5 +139,11 @@ fn one_design(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, beside_by_hand::beside_by_hand, many_designs, one_design);
+criterion_group!(
+    benches,
+    beside_by_hand::beside_by_hand,
+    many_designs,
+    one_design,
+    kernels::kernels
+);
 criterion_main!(benches);

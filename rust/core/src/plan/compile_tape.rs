@@ -28,6 +28,24 @@ struct Uses {
     slides: Vec<bool>,
 }
 
+#[cfg(any(test, feature = "test-hooks"))]
+impl Plan {
+    /// Leaves all dyads and groups to the general formulas.
+    pub(crate) fn generalize(&mut self) {
+        self.is_general = true;
+        for step in &mut self.steps {
+            if let Step::Group(group) = step {
+                group.binary_loops = None;
+            }
+        }
+        for edge in &mut self.edges {
+            // Legs of guides that turn are found by their kernel alone.
+            edge.on_leg = None;
+        }
+        self.tape = Tape::whole(self);
+    }
+}
+
 impl Tape {
     /// All of a plan.
     pub(crate) fn whole(plan: &Plan) -> Self {
@@ -297,6 +315,10 @@ impl CrankPin {
 impl Dyad {
     /// Whether a kernel solves it.
     pub(super) fn has_kernel(&self, plan: &Plan) -> bool {
+        !plan.is_general && self.fits_kernel(plan)
+    }
+
+    fn fits_kernel(&self, plan: &Plan) -> bool {
         match self.form {
             Form::TwoCircles => self.rrr_classes.is_some(),
             Form::CircleAndLine => {
