@@ -8,6 +8,7 @@ mod by_hand;
 mod kernels;
 mod mechanisms;
 mod metrics;
+mod special_kernels;
 
 use std::hint::black_box;
 use std::mem::MaybeUninit;
@@ -151,6 +152,12 @@ fn short() -> Criterion {
     Criterion::default().sample_size(20).warm_up_time(warm_up).measurement_time(measured)
 }
 
-criterion_group!(benches, beside_by_hand::beside_by_hand, many_designs, one_design);
+criterion_group!(
+    benches,
+    beside_by_hand::beside_by_hand,
+    many_designs,
+    one_design,
+    special_kernels::special_kernels
+);
 criterion_group! { name = parts; config = short(); targets = kernels::kernels, metrics::metrics }
 criterion_main!(benches, parts);

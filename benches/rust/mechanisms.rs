@@ -205,3 +205,58 @@ pub fn of_all_kernels() -> Vec<Mechanism> {
     all.push(class_iv());
     all
 }
+
+pub fn quick_return() -> Mechanism {
+    Mechanism::new(&whitworth()).expect("a mechanism")
+}
+
+pub fn yoke() -> Mechanism {
+    Mechanism::new(&scotch_yoke()).expect("a mechanism")
+}
+
+fn crank() -> Description {
+    Description::new().joint("O", [0.0, 0.0]).joint("A", [0.3, 0.2]).link("crank", ["O", "A"])
+}
+
+/// A plate on three legs, one of them on the crank (class III).
+fn with_triad(on: Description) -> Description {
+    on.joint("B", [1.0, 2.0])
+        .joint("C", [2.5, 1.5])
+        .joint("D", [2.0, 3.0])
+        .joint("E", [4.0, 0.0])
+        .joint("F", [0.0, 4.0])
+        .link("rod", ["A", "B"])
+        .link("plate", ["B", "C", "D"])
+        .link("right", ["C", "E"])
+        .link("left", ["D", "F"])
+}
+
+/// A dyad from a joint to the ground.
+fn with_dyad(on: Description, from: &str, tip: [f64; 2], end: [f64; 2]) -> Description {
+    on.joint("G", tip).joint("H", end).link("upper", [from, "G"]).link("lower", ["G", "H"])
+}
+
+fn driven(chain: Description, ground: &[&str]) -> Mechanism {
+    let ground = ground.iter().copied();
+    Mechanism::new(&chain.link("ground", ground).driver("crank")).expect("a mechanism")
+}
+
+pub fn triad() -> Mechanism {
+    driven(with_triad(crank()), &["O", "E", "F"])
+}
+
+pub fn dyad() -> Mechanism {
+    driven(with_dyad(crank(), "A", [-1.0, 1.2], [-1.5, 0.0]), &["O", "H"])
+}
+
+/// Both on one crank.
+pub fn triad_beside_dyad() -> Mechanism {
+    let both = with_dyad(with_triad(crank()), "A", [-1.0, 1.2], [-1.5, 0.0]);
+    driven(both, &["O", "E", "F", "H"])
+}
+
+/// The dyad hangs on the triad's plate.
+pub fn dyad_on_triad() -> Mechanism {
+    let both = with_dyad(with_triad(crank()), "D", [3.0, 4.0], [5.0, 2.5]);
+    driven(both, &["O", "E", "F", "H"])
+}

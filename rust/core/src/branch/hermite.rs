@@ -1,7 +1,7 @@
 //! Hermite interpolation of a group's unknown between two knots.
 
 use super::knot::Taylor2;
-use crate::math::lanes::Real;
+use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 use crate::plan::dyad::Unknown;
 
@@ -19,19 +19,10 @@ impl HermiteCell {
     /// `h`; Taylor's of the second degree without a second end.
     #[inline(always)]
     pub(crate) fn new(a: &Taylor2, b: Option<&Taylor2>, h: f64, unit: Vector) -> Self {
-        let &[value, rate, second] = a;
-        let coefficients = [value, rate, 0.5 * second, 0.0, 0.0, 0.0];
-        let Some(&[end, end_rate, end_second]) = b else { return Self { coefficients, unit } };
-        let d0 = end - (value + h * (rate + 0.5 * h * second));
-        let d1 = h * (end_rate - rate - h * second);
-        let d2 = h * h * (end_second - second);
-        let inv_h = 1.0 / h;
-        let inv_h3 = inv_h * inv_h * inv_h;
-        let c3 = (10.0 * d0 - 4.0 * d1 + 0.5 * d2) * inv_h3;
-        let c4 = (-15.0 * d0 + 7.0 * d1 - d2) * (inv_h3 * inv_h);
-        let c5 = (6.0 * d0 - 3.0 * d1 + 0.5 * d2) * (inv_h3 * inv_h * inv_h);
-        let with = [value, rate, 0.5 * second, c3, c4, c5];
-        let coefficients = if with.iter().all(|c| c.is_finite()) { with } else { coefficients };
+        let coefficients = match b {
+            Some(&b) => coefficients(*a, b, h),
+            None => [a[0], a[1], 0.5 * a[2], 0.0, 0.0, 0.0],
+        };
         Self { coefficients, unit }
     }
 
@@ -48,6 +39,36 @@ impl HermiteCell {
     pub(crate) fn value(&self, step: f64) -> f64 {
         self.coefficients.iter().rev().fold(0.0, |sum, c| sum * step + c)
     }
+}
+
+/// Coefficients of the Hermite polynomial through values and two derivatives at both ends of a cell of
+/// width `h`; those of the first end's Taylor polynomial where one of them is not finite.
+#[inline(always)]
+pub(crate) fn coefficients<R: Real>(a: [R; 3], b: [R; 3], h: f64) -> [R; 6] {
+    let ([value, rate, second], [end, end_rate, end_second]) = (a, b);
+    let (half, inv_h) = (R::splat(0.5), 1.0 / h);
+    let inv_h3 = inv_h * inv_h * inv_h;
+    let d0 = end - (value + R::splat(h) * (rate + R::splat(0.5 * h) * second));
+    let d1 = R::splat(h) * (end_rate - rate - R::splat(h) * second);
+    let d2 = R::splat(h * h) * (end_second - second);
+    let combine = |[x, y, z]: [f64; 3], factor: f64| {
+        (R::splat(x) * d0 + R::splat(y) * d1 + R::splat(z) * d2) * R::splat(factor)
+    };
+    let all = [
+        value,
+        rate,
+        half * second,
+        combine([10.0, -4.0, 0.5], inv_h3),
+        combine([-15.0, 7.0, -1.0], inv_h3 * inv_h),
+        combine([6.0, -3.0, 0.5], inv_h3 * inv_h * inv_h),
+    ];
+    let mut finite = R::Mask::NONE.not();
+    for c in all {
+        finite = finite.and(c.finite());
+    }
+    let [c0, c1, c2, rest @ ..] = all;
+    let [c3, c4, c5] = rest.map(|c| R::select(finite, c, R::ZERO));
+    [c0, c1, c2, c3, c4, c5]
 }
 
 /// A unit vector at an angle of less than a quarter turn. Its direction is good to 1e-9 at π/4

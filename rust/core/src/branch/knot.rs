@@ -110,29 +110,33 @@ pub(crate) fn may_touch<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell:
 }
 
 /// Taylor polynomial of second degree.
-pub(crate) fn predict([value, rate, second]: &Taylor2, step: f64) -> f64 {
-    value + step * (rate + 0.5 * step * second)
+#[inline(always)]
+pub(crate) fn predict<R: Real>([value, rate, second]: &[R; 3], step: f64) -> R {
+    *value + R::splat(step) * (*rate + R::splat(0.5 * step) * *second)
 }
 
 /// How far an unknown, one cell on, is from its prediction; also backward, so that the polynomial
 /// between both holds.
-pub(crate) fn prediction_error(a: &Taylor2, b: &Taylor2, cell: f64) -> f64 {
+#[inline(always)]
+pub(crate) fn prediction_error<R: Real>(a: &[R; 3], b: &[R; 3], cell: f64) -> R {
     let ahead = (predict(a, cell) - b[0]).abs();
     let back = (predict(b, -cell) - a[0]).abs();
     // NaN must count as far.
-    if ahead.is_nan() || back.is_nan() { f64::INFINITY } else { ahead.max(back) }
+    let known = ahead.finite().and(back.finite());
+    R::select(known, ahead.max(back), R::splat(f64::INFINITY))
 }
 
 /// Whether an unknown, one cell on, may have left its branch.
-pub(crate) fn prediction_failed(a: &Taylor2, b: &Taylor2, cell: f64) -> bool {
-    prediction_error(a, b, cell) > MAX_PREDICTION_ERROR
+#[inline(always)]
+pub(crate) fn prediction_failed<R: Real>(a: &[R; 3], b: &[R; 3], cell: f64) -> R::Mask {
+    R::splat(MAX_PREDICTION_ERROR).lt(prediction_error(a, b, cell))
 }
 
-/// Whether an unknown is the same again after some turns.
-pub(crate) fn closes(unknown: Unknown, a: &Taylor2, b: &Taylor2) -> bool {
+/// Whether an unknown with these values is the same again after some turns.
+pub(crate) fn closes(unknown: Unknown, a: f64, b: f64) -> bool {
     let difference = match unknown {
-        Unknown::Class(_) => (b[0] - a[0]) - TAU * ((b[0] - a[0]) / TAU).round(),
-        Unknown::Slide(_) => b[0] - a[0],
+        Unknown::Class(_) => (b - a) - TAU * ((b - a) / TAU).round(),
+        Unknown::Slide(_) => b - a,
     };
     difference.abs() <= MAX_RETURN_ERROR
 }

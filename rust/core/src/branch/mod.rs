@@ -13,6 +13,8 @@ mod gap_ends;
 mod grid;
 pub(crate) mod hermite;
 pub(crate) mod homotopy;
+#[cfg(test)]
+mod kernels_agree;
 pub(crate) mod knot;
 pub(crate) mod lane_tracer;
 pub(crate) mod location;

@@ -443,7 +443,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             return false;
         };
         let mut pairs = self.unknowns.iter().zip(first.taylor.iter().zip(&last.taylor));
-        let same = pairs.all(|(&unknown, (a, b))| closes(unknown, a, b));
+        let same = pairs.all(|(&unknown, (a, b))| closes(unknown, a[0], b[0]));
         same && self.signs_at(f64::INFINITY) == self.start_signs
     }
 

@@ -12,9 +12,9 @@ use std::f64::consts::{PI, TAU};
 
 use super::branch::{Branch, CELLS_PER_TURN};
 use super::grid::{CELL, Grid, KNOTS};
-use super::hermite::HermiteCell;
+use super::hermite::{HermiteCell, coefficients};
 use super::knot::{
-    MAX_FIRST_STEP, MAX_LATER_STEPS, SignInterval, Taylor2, closes, may_touch, prediction_failed,
+    MAX_FIRST_STEP, MAX_LATER_STEPS, SignInterval, closes, may_touch, prediction_failed,
 };
 use crate::math::angle::{Reference, turns_between, unwrap_to, whole_turns};
 use crate::math::derivatives::DerivativeTables;
@@ -62,8 +62,6 @@ pub(crate) struct UniformTracer<R: Real, const G: usize> {
     guide_sides: Vec<bool>,
     /// Unknowns of groups at the knots of the drawing's branch; computed once.
     pub(crate) reference: OnceCell<Option<ReferenceBranch<R, G>>>,
-    /// Unknowns of groups at the knots, knot by knot.
-    pub(crate) taylor: Vec<Taylor2>,
 }
 
 impl<R: Real, const G: usize> UniformTracer<R, G> {
@@ -81,7 +79,6 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             last_angles: vec![(0.0, 0.0); plan.classes],
             guide_sides: Vec::new(),
             reference: OnceCell::new(),
-            taylor: Vec::new(),
         }
     }
 
@@ -473,45 +470,63 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                 return false;
             }
         }
-        let unknowns = || cx.plan.groups().flat_map(|group| &group.unknowns);
         let count = reference.unknowns.len();
-        self.taylor.clear();
-        self.taylor.resize(KNOTS * count, [0.0; 3]);
-        for (index, &unknown) in unknowns().enumerate() {
-            let jet = match unknown {
-                Unknown::Class(class) => &state.pose.theta[class * state.len..],
-                Unknown::Slide(slide) => &state.pose.slides[slide * state.len..],
+        let classes = self.last_angles.len();
+        let cell = HermiteCell { coefficients: [0.0; 6], unit: Vector::ONE };
+        branch.cells.resize(KNOTS * count, cell);
+        let unknowns = cx.plan.groups().flat_map(|group| &group.unknowns);
+        for (index, &unknown) in unknowns.enumerate() {
+            let (jet, mut values) = match unknown {
+                Unknown::Class(class) => (&state.pose.theta[class * state.len..], [R::ZERO; G]),
+                Unknown::Slide(slide) => {
+                    let jet = &state.pose.slides[slide * state.len..];
+                    (jet, jet[0])
+                }
             };
-            for knot in 0..KNOTS {
-                let (group, lane) = (knot / R::LANES, knot % R::LANES);
-                let value = match unknown {
-                    Unknown::Class(class) => branch.angles[knot * self.last_angles.len() + class],
-                    Unknown::Slide(_) => jet[0][group].lane(lane),
-                };
-                self.taylor[knot * count + index] =
-                    [value, jet[1][group].lane(lane), jet[2][group].lane(lane)];
+            if let Unknown::Class(class) = unknown {
+                for group in 0..(KNOTS / R::LANES).min(G) {
+                    values[group] = R::from_lanes(|lane| {
+                        branch.angles[(group * R::LANES + lane) * classes + class]
+                    });
+                }
             }
-        }
-        branch.cells.reserve(KNOTS * count);
-        for knot in 0..KNOTS {
-            for (index, &unknown) in unknowns().enumerate() {
-                let a = &self.taylor[knot * count + index];
-                let b = self.taylor.get((knot + 1) * count + index);
-                if b.is_some_and(|b| prediction_failed(a, b, CELL)) {
+            let taylor = [&values, &jet[1], &jet[2]];
+            for group in 0..(KNOTS / R::LANES).min(G) {
+                let here = taylor.map(|knots| knots[group]);
+                let next = taylor.map(|knots| one_on(knots, group));
+                let has_next = |lane: usize| group * R::LANES + lane + 1 < KNOTS;
+                let failed = prediction_failed(&here, &next, CELL);
+                if (0..R::LANES).any(|lane| has_next(lane) && failed.lane(lane)) {
                     return false;
                 }
-                let unit = match unknown {
-                    Unknown::Class(class) => {
-                        let unit = state.pose.class[class][knot / R::LANES];
-                        let lane = knot % R::LANES;
-                        Vector::new(unit.x.lane(lane), unit.y.lane(lane))
+                let polynomial = coefficients(here, next, CELL);
+                let mut unit = Vector::ONE;
+                if let Unknown::Class(class) = unknown {
+                    unit = state.pose.class[class][group];
+                }
+                for lane in 0..R::LANES {
+                    let cell = &mut branch.cells[(group * R::LANES + lane) * count + index];
+                    cell.coefficients = polynomial.map(|c| c.lane(lane));
+                    cell.unit = Vector::new(unit.x.lane(lane), unit.y.lane(lane));
+                    if !has_next(lane) {
+                        let [c0, c1, c2, ..] = cell.coefficients;
+                        cell.coefficients = [c0, c1, c2, 0.0, 0.0, 0.0];
                     }
-                    Unknown::Slide(_) => Vector::ONE,
-                };
-                branch.cells.push(HermiteCell::new(a, b, CELL, unit));
+                }
+            }
+            let last = values[KNOTS / R::LANES - 1].lane(R::LANES - 1);
+            if !closes(unknown, values[0].lane(0), last) {
+                return false;
             }
         }
-        let (first, last) = (&self.taylor[..count], &self.taylor[(KNOTS - 1) * count..]);
-        unknowns().zip(first.iter().zip(last)).all(|(&u, (a, b))| closes(u, a, b))
+        true
     }
+}
+
+/// The knot after each of a register; 0 after the last of all.
+#[inline(always)]
+fn one_on<R: Real>(knots: &[R], group: usize) -> R {
+    let after = if (group + 1) * R::LANES < KNOTS { knots[group + 1].lane(0) } else { 0.0 };
+    let here = knots[group];
+    R::from_lanes(|lane| if lane + 1 < R::LANES { here.lane(lane + 1) } else { after })
 }

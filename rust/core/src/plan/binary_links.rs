@@ -36,7 +36,8 @@ impl BinaryLoops {
             }
             match edge.turns {
                 Some(unknown) => {
-                    arms.push(Arm { edge: edge.edge, leg: group.first_leg + index, unknown });
+                    let class = class_of(&group.unknowns[unknown])?;
+                    arms.push(Arm { edge: edge.edge, leg: group.first_leg + index, class });
                 }
                 None if edge.is_bar => {}
                 None => return None,
@@ -53,25 +54,28 @@ impl BinaryLoops {
         fits.then_some(Self { first_span, first_bar, classes, bar_classes, arms })
     }
 
-    /// The spans and binary links of one design.
+    /// The spans and binary links of one design, if it has `N` of these.
     #[inline(always)]
-    #[must_use]
-    pub(crate) fn links<'b>(&self, constants: &'b LoopVectors) -> Links<'b> {
-        let count = self.bar_classes.len();
-        let spans = &constants.spans[self.first_span..][..count * count];
-        Links { count, spans, bars: &constants.bars[self.first_bar..][..count] }
+    pub(crate) fn links<'b, const N: usize>(
+        &self,
+        constants: &'b LoopVectors,
+    ) -> Option<Links<'b, N>> {
+        let spans = constants.spans.get(self.first_span..)?;
+        let bars = constants.bars.get(self.first_bar..)?;
+        Some(Links {
+            spans: spans.as_chunks::<N>().0.first_chunk::<N>()?,
+            bars: bars.first_chunk::<N>()?,
+        })
     }
 }
 
-/// Spans and binary links of one group of one design.
+/// Spans and binary links of one group of one design, with `N` loops and as many unknowns.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Links<'b> {
-    /// Number of loops, and of unknowns.
-    pub count: usize,
+pub(crate) struct Links<'b, const N: usize> {
     /// Spans: for every loop, one per unknown.
-    pub spans: &'b [Vector],
+    pub spans: &'b [[Vector; N]; N],
     /// The binary link of every loop.
-    pub bars: &'b [Leg],
+    pub bars: &'b [Leg; N],
 }
 
 fn class_of(unknown: &Unknown) -> Option<usize> {

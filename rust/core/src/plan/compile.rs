@@ -93,6 +93,7 @@ impl Plan {
             pairs: PairSpans::default(),
             may_change: Vec::new(),
             leg_edges: LegEdges::default(),
+            is_general: false,
             tape: Tape::default(),
         };
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();

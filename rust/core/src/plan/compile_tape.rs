@@ -22,8 +22,28 @@ struct Uses {
     points_bare: Vec<bool>,
     orientations: Vec<bool>,
     legs: Vec<bool>,
+    /// Points whose conditions are read.
+    conditions: Vec<bool>,
     classes: Vec<bool>,
     slides: Vec<bool>,
+}
+
+#[cfg(any(test, feature = "test-hooks"))]
+impl Plan {
+    /// Leaves all dyads and groups to the general formulas.
+    pub(crate) fn generalize(&mut self) {
+        self.is_general = true;
+        for step in &mut self.steps {
+            if let Step::Group(group) = step {
+                group.binary_loops = None;
+            }
+        }
+        for edge in &mut self.edges {
+            // Legs of guides that turn are found by their kernel alone.
+            edge.on_leg = None;
+        }
+        self.tape = Tape::whole(self);
+    }
 }
 
 impl Tape {
@@ -41,7 +61,9 @@ impl Tape {
 
     /// The part of a plan that a request needs. All dyads are part of it: they decide the status.
     pub(crate) fn new(plan: &Plan, needs: Needs<'_>) -> Self {
-        let all = !plan.has_closed_forms() || needs.points.iter().all(|&needed| needed);
+        let has_redundant = plan.steps.iter().any(|step| matches!(step, Step::Redundant(_)));
+        let all_points = has_redundant || needs.points.iter().all(|&needed| needed);
+        let all = !plan.has_closed_forms() || all_points;
         // Discriminants of dyads without a kernel read orientations.
         let general = plan.dyads().any(|dyad| !dyad.has_kernel(plan));
         let mut uses = Uses {
@@ -49,6 +71,7 @@ impl Tape {
             points_bare: needs.points.to_vec(),
             orientations: vec![all || general; plan.orientations.len()],
             legs: vec![all || general; plan.legs()],
+            conditions: vec![has_redundant; plan.points],
             classes: needs.classes.to_vec(),
             slides: vec![all || general || !needs.samples; plan.slide_links.len()],
         };
@@ -65,6 +88,8 @@ impl Tape {
                     let [start, end] = if needs.samples { [true; 2] } else { op.columns() };
                     uses.points_bare[dyad.start] |= start;
                     uses.points_bare[dyad.end] |= end;
+                    uses.conditions[dyad.start] = true;
+                    uses.conditions[dyad.end] = true;
                     if let Op::MovingGuide(DyadOp { carrier: Some(carrier), .. }) = op {
                         uses.orientations[carrier] = true;
                     }
@@ -78,13 +103,22 @@ impl Tape {
                     }
                     ops.push(op);
                 }
-                Step::Group(_) => ops.push(Op::Group { step }),
+                Step::Group(group) => {
+                    for point in group.loops.iter().flat_map(|l| [l.start, l.end]) {
+                        uses.points[point] = true;
+                        uses.points_bare[point] = true;
+                        uses.conditions[point] = true;
+                    }
+                    ops.push(Op::Group { step });
+                }
                 Step::Redundant(_) => ops.push(Op::Redundant { step }),
                 &Step::Place { edge, backward } => {
                     let mut place = PlaceOp::new(plan, edge, backward);
-                    if !(all || uses.points[place.to]) {
+                    if !(all_points || uses.points[place.to]) {
                         continue;
                     }
+                    place.is_recorded = uses.conditions[place.to];
+                    uses.conditions[place.from] |= place.is_recorded;
                     place.is_used = all || uses.points_bare[place.to];
                     uses.points[place.from] = true;
                     let from_column = !place.from_ground || place.kind == PlaceKind::Along;
@@ -281,6 +315,10 @@ impl CrankPin {
 impl Dyad {
     /// Whether a kernel solves it.
     pub(super) fn has_kernel(&self, plan: &Plan) -> bool {
+        !plan.is_general && self.fits_kernel(plan)
+    }
+
+    fn fits_kernel(&self, plan: &Plan) -> bool {
         match self.form {
             Form::TwoCircles => self.rrr_classes.is_some(),
             Form::CircleAndLine => {
@@ -336,7 +374,17 @@ impl PlaceOp {
             _ => PlaceKind::Along,
         };
         let from_ground = plan.fixed[from];
-        Self { edge, class: of.class, from, to, backward, kind, from_ground, is_used: true }
+        Self {
+            edge,
+            class: of.class,
+            from,
+            to,
+            backward,
+            kind,
+            from_ground,
+            is_used: true,
+            is_recorded: true,
+        }
     }
 }
 

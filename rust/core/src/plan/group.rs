@@ -122,8 +122,8 @@ pub(crate) struct Arm {
     pub edge: usize,
     /// Index among the legs.
     pub leg: usize,
-    /// The unknown that turns it.
-    pub unknown: usize,
+    /// Its class, an unknown rotation.
+    pub class: usize,
 }
 
 /// A small group of rigid links and turning pairs, prepared for its special kernel.

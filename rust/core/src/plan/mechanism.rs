@@ -38,6 +38,18 @@ pub struct Mechanism {
     pub(crate) number: PlanNumber,
 }
 
+#[cfg(any(test, feature = "test-hooks"))]
+impl Mechanism {
+    /// The same mechanism, solved by the general formulas alone: to compare kernels with them.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_general_kernels(mut self) -> Self {
+        self.plan.generalize();
+        self.number = PlanNumber::next();
+        self
+    }
+}
+
 impl Mechanism {
     /// Analyses and compiles a description; stops when `cancel` becomes true.
     ///

@@ -99,6 +99,7 @@ impl CrankPin {
 }
 
 /// Indices of a point to be placed.
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PlaceOp {
     pub edge: usize,
@@ -113,6 +114,8 @@ pub(crate) struct PlaceOp {
     pub from_ground: bool,
     /// Whether any operation of the bare path uses the point.
     pub is_used: bool,
+    /// Whether a later operation reads the point's condition.
+    pub is_recorded: bool,
 }
 
 /// How the vector of an edge is computed.

@@ -37,7 +37,9 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn place_point(&mut self, cx: &Context<'_>, op: &PlaceOp) {
         self.place_of_length(cx, op, self.len);
-        self.record_point(cx, op);
+        if op.is_recorded {
+            self.record_point(cx, op);
+        }
     }
 
     /// Value and analogues: jets of `len` entries.

@@ -1,6 +1,5 @@
 //! Work space of the iteration for groups above class II, with the results that the branch checks.
 
-use super::group::workspace::GroupWorkspace;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -18,8 +17,6 @@ pub(crate) struct Workspace<R: Real = f64, const G: usize = 1> {
     pub(crate) inv_length: Vec<[R; G]>,
     /// Whether the caller wants the rotation of each class; used for bars that no step needs.
     pub(crate) angle_wanted: Vec<bool>,
-    /// Work space of the kernel for groups of binary links.
-    pub(crate) loops: GroupWorkspace<R>,
     /// Determinant of every group's matrix at the solution (with analogues only).
     pub(crate) determinants: Vec<[R; G]>,
     /// Determinant of that matrix in the last Newton round; its sign distinguishes branches.
@@ -42,7 +39,6 @@ impl<R: Real, const G: usize> Workspace<R, G> {
             chords: vec![[Vector::ZERO; G]; loops * len],
             inv_length: vec![[R::ONE; G]; loops],
             angle_wanted: vec![true; plan.classes],
-            loops: GroupWorkspace::default(),
             determinants: vec![[R::ZERO; G]; plan.groups().count()],
             det_sign: vec![[R::ZERO; G]; plan.groups().count()],
             first_step: [R::ZERO; G],

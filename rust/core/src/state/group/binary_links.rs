@@ -1,25 +1,28 @@
-//! Kernel for groups of rigid links and turning pairs (see [`crate::plan::binary_links`]).
+//! Equations of groups of rigid links and turning pairs (see [`crate::plan::binary_links`]), for one
+//! driver and one register of positions at a time.
 //!
-//! Equations, iteration and stopping rule are those of every group (see `newton`), for one driver. It
-//! solves one lane group after another, so that all data stay in a small work space.
+//! They are those of [`super::equations`]. The number of unknowns `N` is known to the compiler, so all
+//! that one register needs stays in registers.
 
-use super::newton::NewtonState;
+use super::newton::{Equations, iterate};
 use super::turn::turned;
-use super::workspace::{ENTRIES, GroupWorkspace, VectorJet};
 use crate::math::derivatives::ONE_DRIVER;
 use crate::math::inverse::invert;
 use crate::math::lanes::{Mask, Real};
-use crate::math::tolerance::{NEWTON_MAX_ROUNDS, NEWTON_MAX_STEP};
+use crate::math::tolerance::NEWTON_MAX_STEP;
 use crate::math::vector::Vector;
 use crate::plan::binary_links::{Links, MAX_UNKNOWNS};
-use crate::plan::group::{BinaryLoops, Group};
+use crate::plan::group::{BinaryLoops, Group, Loop};
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
+/// Entries of a jet: the value and three analogues.
+const ENTRIES: usize = ONE_DRIVER.len();
+
 impl<R: Real, const G: usize> State<R, G> {
-    /// Solves a group (step `index`).
+    /// Solves a group of `N` loops (step `index`).
     #[inline(always)]
-    pub(crate) fn solve_binary_loops(
+    pub(crate) fn solve_binary_loops<const N: usize>(
         &mut self,
         cx: &Context<'_>,
         group: &Group,
@@ -27,94 +30,75 @@ impl<R: Real, const G: usize> State<R, G> {
         index: usize,
     ) {
         let len = self.len.min(ENTRIES);
-        let links = binary.links(&cx.constants.spans);
-        let mut max_arm2 = [R::ZERO; MAX_UNKNOWNS];
-        for (max_arm2, &class) in max_arm2.iter_mut().zip(&binary.classes) {
-            *max_arm2 = R::splat(cx.constants.max_arm2[class]);
-        }
-        let mut wanted = [false; MAX_UNKNOWNS];
-        for ((wanted, &class), l) in wanted.iter_mut().zip(&binary.bar_classes).zip(&group.loops) {
-            *wanted = self.work.angle_wanted[class] || !l.orientations.is_empty();
+        let (Some(links), Some(classes), Some(bar_classes), Some(loops)) = (
+            binary.links::<N>(&cx.constants.spans),
+            binary.classes.first_chunk::<N>(),
+            binary.bar_classes.first_chunk::<N>(),
+            group.loops.first_chunk::<N>(),
+        ) else {
+            return;
+        };
+        let inv_norms = links.bars.each_ref().map(|bar| R::splat(bar.inv_norm()));
+        let max_arm2 = classes.map(|class| R::splat(cx.constants.max_arm2[class]));
+        let mut wanted = [false; N];
+        for i in 0..N {
+            wanted[i] = self.work.angle_wanted[bar_classes[i]] || !loops[i].orientations.is_empty();
         }
         for g in 0..self.groups.min(G) {
-            let loops = &mut self.work.loops;
-            for (known, l) in loops.known.iter_mut().zip(&group.loops) {
-                let (start, end) =
-                    (&self.pose.points[l.start * len..], &self.pose.points[l.end * len..]);
-                for (known, (start, end)) in known[..len].iter_mut().zip(start.iter().zip(end)) {
-                    *known = end[g] - start[g];
-                }
+            let mut known = [Vector::ZERO; N];
+            for (known, l) in known.iter_mut().zip(loops) {
+                *known = self.pose.points[l.end * len][g] - self.pose.points[l.start * len][g];
             }
-            for (unit, &class) in loops.units.iter_mut().zip(&binary.classes) {
-                *unit = self.pose.class[class][g];
+            let mut equations = BinaryEquations {
+                links: &links,
+                inv_norms,
+                max_arm2,
+                known,
+                units: classes.map(|class| self.pose.class[class][g]),
+                spans: [[Vector::ZERO; N]; N],
+                chords: [Vector::ZERO; N],
+                matrix: [[R::ZERO]; 2 * MAX_UNKNOWNS * MAX_UNKNOWNS],
+            };
+            let skipped = [self.conditions.needs_scalar[g]];
+            let last_determinant = [self.work.det_sign[group.index][g]];
+            let newton = iterate(&mut equations, skipped, last_determinant);
+            self.record_iteration(g, &newton, 0, group);
+            for (&class, &unit) in classes.iter().zip(&equations.units) {
+                self.pose.class[class][g] = unit;
             }
-            let mut work = NewtonState::<R, 1>::new([self.conditions.needs_scalar[g]]);
-            let mut last_determinant = self.work.det_sign[group.index][g];
-            loops.turn_spans(&links);
-            for round in 0..NEWTON_MAX_ROUNDS {
-                if work.done[0].all() {
-                    break;
-                }
-                let determinant = loops.invert(&links);
-                last_determinant = R::select(work.done[0], last_determinant, determinant);
-                work.record_inverse_size([loops.inverse_size2(&links, &max_arm2)]);
-                let first = loops.step(&links, work.done[0]);
-                let skip = work.skip_second_step([first]);
-                loops.turn_spans(&links);
-                let mut second = R::ZERO;
-                if !skip[0].all() {
-                    second = loops.step(&links, skip[0]);
-                    loops.turn_spans(&links);
-                }
-                work.record_steps([first], [second], &skip, round == 0);
-            }
-            if len > 1 {
-                self.work.determinants[group.index][g] = loops.invert(&links);
-                loops.find_analogues(&links, len, wanted);
-            }
-            for (i, &class) in binary.classes.iter().enumerate().take(MAX_UNKNOWNS) {
-                self.pose.class[class][g] = loops.units[i];
-                for k in 1..len {
-                    self.pose.theta[class * len + k][g] = loops.rates[i][k];
-                }
-            }
-            for (i, &class) in binary.bar_classes.iter().enumerate().take(MAX_UNKNOWNS) {
-                if !wanted[i] {
-                    continue;
-                }
-                self.pose.class[class][g] = links.bars[i].on_lanes().turn_to(loops.chords[i][0]);
-                for k in 1..len {
-                    self.pose.theta[class * len + k][g] = loops.bar_rates[i][k];
+            for i in 0..N {
+                if wanted[i] {
+                    let bar = links.bars[i].on_lanes();
+                    self.pose.class[bar_classes[i]][g] = bar.turn_to(equations.chords[i]);
                 }
             }
             for arm in &binary.arms {
-                let unknown = arm.unknown.min(MAX_UNKNOWNS - 1);
-                let rates = &loops.rates[unknown];
-                let v = loops.units[unknown] * Vector::splat(cx.constants.edge_vector[arm.edge]);
-                let jet = &mut self.pose.legs[arm.leg * len..][..len];
-                jet[0][g] = v;
-                for k in 1..len {
-                    let mut sum = v.scale(rates[k]);
-                    for term in ONE_DRIVER[k] {
-                        sum += jet[term.left][g].scale(R::splat(term.factor) * rates[term.right]);
-                    }
-                    jet[k][g] = sum.left();
+                let unit = self.pose.class[arm.class][g];
+                let vector = Vector::splat(cx.constants.edge_vector[arm.edge]);
+                self.pose.legs[arm.leg * len][g] = unit * vector;
+            }
+            if len > 1 {
+                let [determinant] = equations.invert();
+                self.work.determinants[group.index][g] = determinant;
+                let mut jets = Jets::new(&equations);
+                let of = Analogues { binary, loops, classes, bar_classes, wanted };
+                self.binary_analogues::<1, N>(g, &of, &equations, &mut jets);
+                if len > 2 {
+                    self.binary_analogues::<2, N>(g, &of, &equations, &mut jets);
+                }
+                if len > 3 {
+                    self.binary_analogues::<3, N>(g, &of, &equations, &mut jets);
                 }
             }
-            self.work.det_sign[group.index][g] = last_determinant;
-            self.conditions.needs_scalar[g] =
-                self.conditions.needs_scalar[g].or(work.done[0].not());
-            self.work.first_step[g] = self.work.first_step[g].max(work.first_step[0]);
-            self.work.later_steps[g] = self.work.later_steps[g].max(work.later_steps[0]);
-            if R::LANES == 1 && !work.done[0].all() {
+            if R::LANES == 1 && !newton.done[0].all() {
                 self.fault = Some(Fault::NotConverged { step: index });
                 self.status = Status::NotConverged;
                 return;
             }
-            self.update_condition(g, cx, group, index, work.inverse_size2[0]);
+            self.update_condition(g, cx, group, index, newton.inverse_size2[0]);
         }
-        let of_unknowns = group.orientations.iter().zip(&binary.classes);
-        let of_bars = group.loops.iter().map(|l| &l.orientations).zip(&binary.bar_classes);
+        let of_unknowns = group.orientations.iter().zip(classes);
+        let of_bars = loops.iter().map(|l| &l.orientations).zip(bar_classes);
         for (orientations, &class) in of_unknowns.chain(of_bars) {
             for &o in orientations {
                 for g in 0..self.groups.min(G) {
@@ -123,153 +107,244 @@ impl<R: Real, const G: usize> State<R, G> {
             }
         }
     }
+
+    /// Analogues of order `K` of the unknowns, of the wanted bars and of the arms.
+    #[inline(always)]
+    fn binary_analogues<const K: usize, const N: usize>(
+        &mut self,
+        g: usize,
+        of: &Analogues<'_, N>,
+        equations: &BinaryEquations<'_, R, N>,
+        jets: &mut Jets<R, N>,
+    ) {
+        let len = self.len;
+        let mut known = [Vector::ZERO; N];
+        for (known, l) in known.iter_mut().zip(of.loops) {
+            let points = &self.pose.points;
+            *known = points[l.end * len + K][g] - points[l.start * len + K][g];
+        }
+        jets.find::<K>(equations, &known, of.wanted);
+        for i in 0..N {
+            self.pose.theta[of.classes[i] * len + K][g] = jets.rates[i][K];
+            if of.wanted[i] {
+                self.pose.theta[of.bar_classes[i] * len + K][g] = jets.bar_rates[i][K];
+            }
+        }
+        for arm in &of.binary.arms {
+            let rate = |k: usize| &self.pose.theta[arm.class * len + k];
+            let jet = &self.pose.legs[arm.leg * len..][..len];
+            let mut sum = jet[0][g].scale(rate(K)[g]);
+            for term in ONE_DRIVER[K] {
+                sum += jet[term.left][g].scale(R::splat(term.factor) * rate(term.right)[g]);
+            }
+            self.pose.legs[arm.leg * len + K][g] = sum.left();
+        }
+    }
 }
 
-impl<R: Real> GroupWorkspace<R> {
-    /// Updates spans and chords to the present unknowns.
+/// What the analogues of a group of `N` loops are of.
+struct Analogues<'b, const N: usize> {
+    binary: &'b BinaryLoops,
+    loops: &'b [Loop; N],
+    classes: &'b [usize; N],
+    bar_classes: &'b [usize; N],
+    /// The bars whose rotations are needed.
+    wanted: [bool; N],
+}
+
+/// One register of positions of a group of `N` loops and as many unknown rotations.
+struct BinaryEquations<'l, R, const N: usize> {
+    links: &'l Links<'l, N>,
+    /// 1/length of every bar.
+    inv_norms: [R; N],
+    /// Square of the greatest arm that turns with each unknown.
+    max_arm2: [R; N],
+    /// The known part of every loop: from its start to its end point.
+    known: [Vector<R>; N],
+    /// Unknown rotations.
+    units: [Vector<R>; N],
+    /// The turned spans, by loop and unknown.
+    spans: [[Vector<R>; N]; N],
+    /// The loops' chords.
+    chords: [Vector<R>; N],
+    /// The Jacobian, with its inverse beside it.
+    matrix: [[R; 1]; 2 * MAX_UNKNOWNS * MAX_UNKNOWNS],
+}
+
+impl<R: Real, const N: usize> BinaryEquations<'_, R, N> {
+    /// Product of an unknown's row of the inverse with a right-hand side.
     #[inline(always)]
-    fn turn_spans(&mut self, links: &Links<'_>) {
-        for l in 0..links.count.min(MAX_UNKNOWNS) {
-            let mut chord = self.known[l][0];
-            for unknown in 0..links.count.min(MAX_UNKNOWNS) {
-                let span = Vector::splat(links.spans[l * links.count + unknown]);
+    fn inverse_times(&self, unknown: usize, right: &[R; N]) -> R {
+        let mut sum = R::ZERO;
+        for l in 0..N {
+            sum += self.matrix[unknown * 2 * N + N + l][0] * right[l];
+        }
+        sum
+    }
+}
+
+impl<R: Real, const N: usize> Equations<R, 1> for BinaryEquations<'_, R, N> {
+    #[inline(always)]
+    fn update(&mut self) {
+        for l in 0..N {
+            let mut chord = self.known[l];
+            for unknown in 0..N {
+                let span = Vector::splat(self.links.spans[l][unknown]);
                 let turned = self.units[unknown] * span;
-                self.spans[l][unknown][0] = turned;
+                self.spans[l][unknown] = turned;
                 chord += turned;
             }
-            self.chords[l][0] = chord;
+            self.chords[l] = chord;
         }
     }
 
-    /// Inverts the Jacobian of the length equations; returns its determinant.
+    /// The equations are those of the bars' lengths.
     #[inline(always)]
-    fn invert(&mut self, links: &Links<'_>) -> R {
-        let n = links.count.min(MAX_UNKNOWNS);
-        for l in 0..n {
-            let along = self.chords[l][0].scale(R::splat(links.bars[l].inv_norm()));
-            for unknown in 0..n {
+    fn invert(&mut self) -> [R; 1] {
+        for l in 0..N {
+            let along = self.chords[l].scale(self.inv_norms[l]);
+            for unknown in 0..N {
                 // Derivative of the length: unit vector along the chord · i · span.
-                self.matrix[l * 2 * n + unknown][0] = self.spans[l][unknown][0].cross(along);
+                self.matrix[l * 2 * N + unknown][0] = self.spans[l][unknown].cross(along);
             }
         }
-        let [determinant] = invert(&mut self.matrix, n);
-        determinant
+        invert(&mut self.matrix, N)
     }
 
-    /// Square of the weighted norm of the inverse.
     #[inline(always)]
-    fn inverse_size2(&self, links: &Links<'_>, max_arm2: &[R; MAX_UNKNOWNS]) -> R {
-        let n = links.count.min(MAX_UNKNOWNS);
+    fn inverse_size2(&self) -> [R; 1] {
         let mut size2 = R::ZERO;
-        for unknown in 0..n {
+        for unknown in 0..N {
             let mut sum = R::ZERO;
-            for l in 0..n {
-                let entry = self.matrix[unknown * 2 * n + n + l][0];
+            for l in 0..N {
+                let entry = self.matrix[unknown * 2 * N + N + l][0];
                 sum += entry * entry;
             }
-            size2 += max_arm2[unknown] * sum;
+            size2 += self.max_arm2[unknown] * sum;
         }
-        size2
+        [size2]
     }
 
-    /// Takes a Newton step with the present inverse on the lanes that are not done; returns the
-    /// largest change of an unknown before it is limited.
     #[inline(always)]
-    fn step(&mut self, links: &Links<'_>, done: R::Mask) -> R {
-        let n = links.count.min(MAX_UNKNOWNS);
-        for l in 0..n {
-            let excess2 = self.chords[l][0].norm2() - R::splat(links.bars[l].norm2);
-            self.residual[l] = excess2 * R::splat(0.5 * links.bars[l].inv_norm());
+    fn step(&mut self, done: &[R::Mask; 1]) -> [R; 1] {
+        let mut residual = [R::ZERO; N];
+        for l in 0..N {
+            let excess2 = self.chords[l].norm2() - R::splat(self.links.bars[l].norm2);
+            residual[l] = excess2 * (R::splat(0.5) * self.inv_norms[l]);
         }
         let longest = R::splat(NEWTON_MAX_STEP);
         let mut largest = R::ZERO;
-        for unknown in 0..n {
-            let change = -self.inverse_times_residual(n, unknown);
+        for unknown in 0..N {
+            let change = -self.inverse_times(unknown, &residual);
             let size = change.abs();
             // NaN must count as large, so that it does not look converged.
             largest = R::select(size.le(largest), largest, size);
             let old = self.units[unknown];
             let new = turned(old, change.max(-longest).min(longest));
             self.units[unknown] =
-                Vector::new(R::select(done, old.x, new.x), R::select(done, old.y, new.y));
+                Vector::new(R::select(done[0], old.x, new.x), R::select(done[0], old.y, new.y));
         }
-        largest
+        [largest]
+    }
+}
+
+/// Jets of the loops, from the solved equations.
+struct Jets<R, const N: usize> {
+    /// Of the turned spans, by loop and unknown.
+    spans: [[VectorJet<R>; N]; N],
+    /// Of the loops' chords.
+    chords: [VectorJet<R>; N],
+    /// Analogues of the unknowns.
+    rates: [[R; ENTRIES]; N],
+    /// Analogues of the bars' rotations.
+    bar_rates: [[R; ENTRIES]; N],
+}
+
+/// Jet of a vector.
+type VectorJet<R> = [Vector<R>; ENTRIES];
+
+impl<R: Real, const N: usize> Jets<R, N> {
+    #[inline(always)]
+    fn new(equations: &BinaryEquations<'_, R, N>) -> Self {
+        let jet = |value: Vector<R>| {
+            let mut jet = [Vector::ZERO; ENTRIES];
+            jet[0] = value;
+            jet
+        };
+        Self {
+            spans: equations.spans.map(|spans| spans.map(jet)),
+            chords: equations.chords.map(jet),
+            rates: [[R::ZERO; ENTRIES]; N],
+            bar_rates: [[R::ZERO; ENTRIES]; N],
+        }
     }
 
-    /// Product of an unknown's row of the inverse with the residuals.
+    /// Analogues of order `K` of the unknowns and of the wanted bars. Every order has the same matrix;
+    /// the right-hand side follows from lower orders.
     #[inline(always)]
-    fn inverse_times_residual(&self, n: usize, unknown: usize) -> R {
-        let mut sum = R::ZERO;
-        for l in 0..n {
-            sum += self.matrix[unknown * 2 * n + n + l][0] * self.residual[l];
+    fn find<const K: usize>(
+        &mut self,
+        equations: &BinaryEquations<'_, R, N>,
+        known: &[Vector<R>; N],
+        wanted: [bool; N],
+    ) {
+        let mut right = [R::ZERO; N];
+        for l in 0..N {
+            let mut chord = known[l];
+            if K > 1 {
+                for unknown in 0..N {
+                    let span = without_top::<R, K>(&self.spans[l][unknown], &self.rates[unknown]);
+                    self.spans[l][unknown][K] = span;
+                    chord += span;
+                }
+            }
+            self.chords[l][K] = chord;
+            // Half the derivative of the square of the length.
+            let jet = &self.chords[l];
+            let mut sum = jet[0].dot(chord);
+            match K {
+                2 => sum += jet[1].norm2(),
+                3 => sum += R::splat(3.0) * jet[1].dot(jet[2]),
+                _ => {}
+            }
+            right[l] = sum * equations.inv_norms[l];
         }
-        sum
-    }
-
-    /// Analogues of the unknowns and of the wanted bars. Every order has the same matrix; the
-    /// right-hand side follows from lower orders.
-    #[inline(always)]
-    fn find_analogues(&mut self, links: &Links<'_>, len: usize, wanted: [bool; MAX_UNKNOWNS]) {
-        let n = links.count.min(MAX_UNKNOWNS);
-        for k in 1..len.min(ENTRIES) {
-            for l in 0..n {
-                let mut chord = self.known[l][k];
-                if k > 1 {
-                    for unknown in 0..n {
-                        let span = without_top(&self.spans[l][unknown], &self.rates[unknown], k);
-                        self.spans[l][unknown][k] = span;
-                        chord += span;
-                    }
+        for unknown in 0..N {
+            self.rates[unknown][K] = -equations.inverse_times(unknown, &right);
+        }
+        for l in 0..N {
+            let mut chord = self.chords[l][K];
+            for unknown in 0..N {
+                let jet = &mut self.spans[l][unknown];
+                let top = jet[0].left().scale(self.rates[unknown][K]);
+                chord += top;
+                if K == 1 {
+                    jet[1] = top;
+                } else {
+                    jet[K] += top;
                 }
-                self.chords[l][k] = chord;
-                // Half the derivative of the square of the length.
-                let jet = &self.chords[l];
-                let mut sum = jet[0].dot(chord);
-                match k {
-                    2 => sum += jet[1].norm2(),
-                    3 => sum += R::splat(3.0) * jet[1].dot(jet[2]),
-                    _ => {}
-                }
-                self.residual[l] = sum * R::splat(links.bars[l].inv_norm());
             }
-            for unknown in 0..n {
-                self.rates[unknown][k] = -self.inverse_times_residual(n, unknown);
+            self.chords[l][K] = chord;
+            if !wanted[l] {
+                continue;
             }
-            for l in 0..n {
-                let mut chord = self.chords[l][k];
-                for unknown in 0..n {
-                    let jet = &mut self.spans[l][unknown];
-                    let top = jet[0].left().scale(self.rates[unknown][k]);
-                    chord += top;
-                    // The last entry is never read.
-                    if k == 1 {
-                        jet[1] = top;
-                    } else if k + 1 < len {
-                        jet[k] += top;
-                    }
-                }
-                self.chords[l][k] = chord;
-                if !wanted[l] {
-                    continue;
-                }
-                // The chord is rigid: its jet follows from its lower entries.
-                let mut top = chord;
-                if k > 1 {
-                    top = top - without_top(&self.chords[l], &self.bar_rates[l], k);
-                }
-                self.bar_rates[l][k] =
-                    self.chords[l][0].cross(top) * R::splat(links.bars[l].inv_norm2);
+            // The chord is rigid: its jet follows from its lower entries.
+            let mut top = chord;
+            if K > 1 {
+                top = top - without_top::<R, K>(&self.chords[l], &self.bar_rates[l]);
             }
+            let inv_norm2 = R::splat(equations.links.bars[l].inv_norm2);
+            self.bar_rates[l][K] = self.chords[l][0].cross(top) * inv_norm2;
         }
     }
 }
 
-/// Entry `k` of the jet of a vector that turns with these analogues, without the term in analogue
-/// `k` itself.
+/// Entry `K` of the jet of a vector that turns with these analogues, without the term in analogue
+/// `K` itself.
 #[inline(always)]
-fn without_top<R: Real>(jet: &VectorJet<R>, rates: &[R; ENTRIES], k: usize) -> Vector<R> {
+fn without_top<R: Real, const K: usize>(jet: &VectorJet<R>, rates: &[R; ENTRIES]) -> Vector<R> {
     let mut sum = Vector::ZERO;
-    for term in ONE_DRIVER[k] {
+    for term in ONE_DRIVER[K] {
         sum += jet[term.left].scale(R::splat(term.factor) * rates[term.right]);
     }
     sum.left()

@@ -4,11 +4,100 @@
 //! `k` of a jet gives the derivative of the residual by the drivers in the same way as entry 0
 //! gives the residual.
 
+use super::newton::Equations;
+use super::turn::turned;
+use crate::math::inverse::invert;
 use crate::math::lanes::Real;
+use crate::math::tolerance::NEWTON_MAX_STEP;
 use crate::math::vector::Vector;
+use crate::plan::dyad::Unknown;
 use crate::plan::group::{Chord, Group};
 use crate::plan::plan::EdgeSlide;
 use crate::state::state::{Context, State};
+
+/// The equations of a group of any links and joints.
+pub(super) struct GroupEquations<'s, 'c, R: Real, const G: usize> {
+    pub state: &'s mut State<R, G>,
+    pub cx: &'c Context<'c>,
+    pub group: &'c Group,
+    /// Jacobian with its inverse beside it, then a right-hand side.
+    pub matrix: Vec<[R; G]>,
+}
+
+impl<R: Real, const G: usize> Equations<R, G> for GroupEquations<'_, '_, R, G> {
+    #[inline(always)]
+    fn update(&mut self) {
+        for (i, &unknown) in self.group.unknowns.iter().enumerate() {
+            if let Unknown::Class(class) = unknown {
+                self.state.set_orientations(self.cx, &self.group.orientations[i], class);
+            }
+        }
+        self.state.update_edge_vectors(self.cx, self.group, 0);
+    }
+
+    #[inline(always)]
+    fn invert(&mut self) -> [R; G] {
+        self.state.jacobian(self.group, &mut self.matrix);
+        invert(&mut self.matrix, self.group.rows)
+    }
+
+    #[inline(always)]
+    fn inverse_size2(&self) -> [R; G] {
+        let n = self.group.rows;
+        let mut size2 = [R::ZERO; G];
+        for (i, &unknown) in self.group.unknowns.iter().enumerate() {
+            let max_arm2 = match unknown {
+                Unknown::Class(class) => R::splat(self.cx.constants.max_arm2[class]),
+                Unknown::Slide(_) => R::ONE,
+            };
+            let row = &self.matrix[i * 2 * n + n..][..n];
+            for g in 0..G {
+                let mut sum = R::ZERO;
+                for entry in row {
+                    sum += entry[g] * entry[g];
+                }
+                size2[g] += max_arm2 * sum;
+            }
+        }
+        size2
+    }
+
+    #[inline(always)]
+    fn step(&mut self, done: &[R::Mask; G]) -> [R; G] {
+        let (len, n) = (self.state.len, self.group.rows);
+        let (inverse, residual) = self.matrix.split_at_mut(2 * n * n);
+        self.state.group_residual(self.cx, self.group, 0, residual);
+        let longest = R::splat(NEWTON_MAX_STEP);
+        let mut largest = [R::ZERO; G];
+        for (i, &unknown) in self.group.unknowns.iter().enumerate() {
+            let row = &inverse[i * 2 * n + n..][..n];
+            for g in 0..G {
+                let mut step = R::ZERO;
+                for (inverse, residual) in row.iter().zip(&residual[..n]) {
+                    step = step - inverse[g] * residual[g];
+                }
+                let size = step.abs();
+                // NaN must count as large, so that it does not look converged.
+                largest[g] = R::select(size.le(largest[g]), largest[g], size);
+                let step = R::select(done[g], R::ZERO, step.max(-longest).min(longest));
+                match unknown {
+                    Unknown::Class(class) => {
+                        let old = self.state.pose.class[class][g];
+                        let new = turned(old, step);
+                        let x = R::select(done[g], old.x, new.x);
+                        self.state.pose.class[class][g] =
+                            Vector::new(x, R::select(done[g], old.y, new.y));
+                    }
+                    Unknown::Slide(slide) => {
+                        let value = &mut self.state.pose.slides[slide * len][g];
+                        *value += step;
+                    }
+                }
+            }
+        }
+        largest
+    }
+}
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Computes entry `k` of the edges, guides and chords.
@@ -187,11 +276,10 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The Jacobian of the equations, followed by their residuals.
+    /// The Jacobian of the equations.
     #[inline(always)]
-    pub(crate) fn jacobian(&self, cx: &Context<'_>, group: &Group, matrix: &mut [[R; G]]) {
+    pub(crate) fn jacobian(&self, group: &Group, matrix: &mut [[R; G]]) {
         let (len, n) = (self.len, group.rows);
-        self.group_residual(cx, group, 0, &mut matrix[2 * n * n..]);
         let mut row = 0;
         for (i, l) in group.loops.iter().enumerate() {
             let chord = &self.work.chords[i * len];

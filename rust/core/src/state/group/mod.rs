@@ -4,5 +4,5 @@ pub(crate) mod analogues;
 pub(crate) mod binary_links;
 pub(crate) mod equations;
 pub(crate) mod newton;
+pub(crate) mod solve;
 pub(crate) mod turn;
-pub(crate) mod workspace;
