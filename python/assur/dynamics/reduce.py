@@ -33,7 +33,7 @@ def reduce(
         message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
         raise InputError(message)
     positions = x.shape if n == 1 else x.shape[:-1]
-    shape = _with_designs(positions, designs)
+    shape = with_designs(positions, designs)
     full = shape if n == 1 else (*shape, n)
     if not np.isfinite(v).all():
         message = f"speed is {speed!r}: finite numbers are needed"
@@ -82,7 +82,7 @@ def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[n
         raise InputError(message, q=first, value=first)
 
 
-def _with_designs(positions: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
+def with_designs(positions: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
     """Return the shape of the result: q is a number, (N,) or S + (N,)."""
     if not designs:
         return positions

@@ -38,7 +38,7 @@ mod means;
 mod measure;
 mod metric;
 mod parts;
-mod scratch;
+pub(crate) mod scratch;
 mod time_ratio;
 
 pub use coordinate::Coordinate;
