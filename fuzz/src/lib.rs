@@ -1,13 +1,13 @@
 //! What the bytes mean and what must hold: shared with the tests of the core.
 
-#[path = "../../tests/rust/fuzz/mod.rs"]
-mod fuzz;
+#[path = "../../tests/rust/fuzzing/mod.rs"]
+mod fuzzing;
 #[path = "../../tests/rust/models"]
 mod models {
     pub mod assembly;
     pub mod builder;
 }
 
-pub use fuzz::description::description;
-pub use fuzz::solve::solve;
-pub use fuzz::structure::structure;
+pub use fuzzing::description::description;
+pub use fuzzing::solve::solve;
+pub use fuzzing::structure::structure;

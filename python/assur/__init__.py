@@ -108,7 +108,7 @@ __all__ = [
 
 __version__ = version()
 
-# Imported when first asked for: more than half of what `import assur` would take (PEP 562).
+# Imported at first use: more than half of what `import assur` would take (PEP 562).
 _LATER = {
     "assur": ("events", "flywheel", "metric"),
     "assur.dynamics.loads": (

@@ -57,9 +57,25 @@ def real_array(value: Any, what: str, copy: bool = True) -> Float:
     raise InputError(message)
 
 
+def finite_array(value: Any, what: str) -> Float:
+    """Copy to an array of finite numbers."""
+    array = real_array(value, what)
+    require_finite(array, what)
+    return array
+
+
+def require_finite(array: Float, what: str) -> None:
+    """Raise InputError for the first number that is not finite."""
+    bad = ~np.isfinite(array)
+    if bad.any():
+        wrong = float(array[bad].flat[0])
+        message = f"{what} {'has' if array.ndim else 'is'} {wrong}: finite numbers are needed"
+        raise InputError(message, value=wrong)
+
+
 def real_number(value: Any, what: str, finite: bool = True) -> float:
     """Return one number; errors name the argument."""
-    # The usual case, without an array.
+    # The usual case needs no array.
     if isinstance(value, float) and math.isfinite(value):
         return float(value)
     array = real_array(value, what)
@@ -105,6 +121,11 @@ def in_range(what: str) -> Iterator[None]:
     except FloatingPointError as error:
         message = f"{what} is beyond the greatest number, {np.finfo(np.float64).max:.3g}"
         raise InputError(message) from error
+
+
+def counted(count: int, noun: str) -> str:
+    """Return a number with its noun: "1 row", "2 rows"."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
 def short(value: Any) -> str:

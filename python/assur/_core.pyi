@@ -1,5 +1,5 @@
 from collections.abc import Callable
-from typing import Any, Literal, TypeAlias, final
+from typing import Any, Literal, TypeAlias, TypedDict, final
 
 import numpy as np
 import numpy.typing as npt
@@ -56,13 +56,88 @@ __all__ = [
 
 _Float: TypeAlias = npt.NDArray[np.float64]
 _Three: TypeAlias = tuple[_Float, _Float, _Float]
-# Joints, links, slides (link, on, angle, origin) by name, and the driver.
-_Drawing: TypeAlias = tuple[
-    list[tuple[str, list[float]]],
-    list[tuple[str, list[str]]],
-    list[tuple[str, tuple[str, str, float, str | None]]],
-    str | None,
-]
+
+class _Slide(TypedDict):
+    link: str
+    on: str
+    angle: float
+    origin: str | None
+
+class _Drawing(TypedDict):
+    joints: list[tuple[str, list[float]]]
+    links: list[tuple[str, list[str]]]
+    slides: list[tuple[str, _Slide]]
+    driver: str | None
+
+class _Group(TypedDict):
+    cls: int
+    order: int
+    kind: str | None
+    artobolevsky_kind: int | None
+    links: list[str]
+    joints: list[str]
+    slides: list[str]
+
+class _FlywheelNumbers(TypedDict):
+    inertia: _Float
+    speed0: _Float
+    motor_moment: _Float
+    greatest_at: _Float
+    greatest: _Float
+    least_at: _Float
+    least: _Float
+    period: _Float
+
+class _Event(TypedDict):
+    event: int
+    t: float
+    q: list[float]
+    speed: list[float]
+
+class _NearChangePoint(TypedDict):
+    dyad: str
+    miss: float
+    q: float
+
+class _Ending(TypedDict):
+    kind: str
+    event: int | None
+    table: int | None
+    motor: int | None
+    stiff: bool | None
+    why: str | None
+    near_change_point: _NearChangePoint | None
+
+class _Extreme(TypedDict):
+    at: float
+    value: float
+
+class _SteadyNumbers(TypedDict):
+    multiplier: float
+    found_moment: float
+    motor_work: float
+    inertia: float
+    least: _Extreme
+    greatest: _Extreme
+
+class _JammingEvent(TypedDict):
+    kind: Literal["jam", "return", "dead point", "no return"]
+    side: Literal["outer", "inner"]
+    t: float
+    phi1: float
+    l4: float
+    ground: float
+    ground_speed: tuple[float, float]
+    rod_speed: tuple[float, float]
+
+class _JammingRun(TypedDict):
+    t: _Float
+    l4: _Float
+    gamma: _Float
+    sliding: npt.NDArray[np.bool_]
+    b: _Float
+    c: _Float
+    events: list[_JammingEvent]
 
 @final
 class KnownSigns:
@@ -97,9 +172,7 @@ class Mechanism:
     @property
     def redundant(self) -> tuple[list[str], list[str]]: ...
     @property
-    def groups(
-        self,
-    ) -> list[tuple[int, int, str | None, int | None, list[str], list[str], list[str]]]: ...
+    def groups(self) -> list[_Group]: ...
     def dimension(self, name: str) -> int: ...
     def require(self, kind: str, name: str) -> int: ...
     def check_dimensions(self, values: list[float]) -> None: ...
@@ -126,6 +199,7 @@ class Mechanism:
         conditions: list[tuple[int, str, float]],
         threads: int | None,
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_]]: ...
+    def refusal_of_metric(self, q: _Float, metric: tuple[Any, ...]) -> str | None: ...
     def diagnostics(
         self,
         dimensions: _Float,
@@ -166,9 +240,9 @@ class Flywheels:
         threads: int | None = None,
         corners: list[int] | None = None,
     ) -> Self: ...
-    def numbers(self) -> list[_Float]: ...
+    def numbers(self) -> _FlywheelNumbers: ...
     def problem(self, index: int) -> str | None: ...
-    def failure(self, index: int, place: str, design: list[int] | None) -> Any: ...
+    def failure(self, index: int, label: str, design: list[int] | None) -> Any: ...
     def curve(self, quantity: str, points: _Float) -> _Float: ...
 
 @final
@@ -178,11 +252,9 @@ class Run:
     def arrays(self) -> list[_Float]: ...
     def at(self, points: list[float]) -> list[_Float]: ...
     @property
-    def events(self) -> list[tuple[int, float, list[float], list[float]]]: ...
+    def events(self) -> list[_Event]: ...
     @property
-    def near_change_point(self) -> tuple[str, float, float] | None: ...
-    @property
-    def ending(self) -> tuple[str, int, str]: ...
+    def ending(self) -> _Ending: ...
     @property
     def statistics(self) -> dict[str, Any]: ...
 
@@ -254,7 +326,7 @@ class Machine:
         breaks: list[float],
         flywheel: float,
         fluctuation: float | None,
-    ) -> tuple[Run, list[float]]: ...
+    ) -> tuple[Run, _SteadyNumbers]: ...
 
 def slider_crank_stroke(phi: _Float, lambda_: _Float) -> _Three: ...
 def slider_crank_fraction(phi: _Float, lambda_: _Float, n: int) -> _Three: ...
@@ -280,9 +352,7 @@ def crank_rocker_ground_range(
 ) -> _Float: ...
 def crank_rocker_extremes(lengths: list[_Float]) -> _Float: ...
 def crank_rocker_least_gamma(friction: list[_Float], rocker: _Float) -> _Float: ...
-def crank_rocker_run(
-    case: list[float], ground: Callable[[float], float]
-) -> tuple[_Float, list[tuple[str, bool, list[float]]], tuple[str, float] | None]: ...
+def crank_rocker_run(case: dict[str, float], ground: Callable[[float], float]) -> _JammingRun: ...
 def error_kinds() -> list[tuple[str, list[str]]]: ...
 def four_bar_drawing(mode: Literal["open", "crossed"]) -> _Drawing: ...
 def slider_crank_drawing() -> _Drawing: ...

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 
 class Extreme(NamedTuple):
-    """An extreme value and where it is.
+    """An extreme value and where it occurs.
 
     Attributes
     ----------

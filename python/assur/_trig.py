@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from assur import _core
 
-Float: TypeAlias = npt.NDArray[np.float64]
+if TYPE_CHECKING:
+    from assur._arrays import Float
 
 
 def sin_cos(angle: npt.ArrayLike) -> tuple[Float, Float]:

@@ -7,7 +7,7 @@ import operator
 from collections.abc import Mapping
 from typing import Any
 
-from assur._arrays import real_array, real_number, short
+from assur._arrays import counted, real_array, real_number, short
 from assur.errors import InputError
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "one_of",
     "real_array",
     "real_number",
+    "require_rows",
     "whole_number",
 ]
 
@@ -36,6 +37,13 @@ def one_of(value: Any, known: tuple[str, ...], what: str) -> str:
         return value
     message = f"{what} is {short(value)}: one of {', '.join(map(repr, known))} is needed"
     raise InputError(message)
+
+
+def require_rows(count: int, least: int, what: str) -> None:
+    """Raise InputError for a table of too few rows, as the core does (`TableError::TooShort`)."""
+    if count < least:
+        message = f"{what} has {counted(count, 'row')}: at least {least} are needed"
+        raise InputError(message, kind="too_short", value=float(count))
 
 
 def checked_name(name: Any, what: str) -> str:
@@ -78,7 +86,7 @@ def _sign(name: str, sign: Any, strict: bool) -> int:
 def whole_number(
     value: Any, what: str, least: int, most: int = MAX_COUNT, needed: str | None = None
 ) -> int:
-    """Return a whole number within limits, no bool; `needed` ends the sentence of the error."""
+    """Return a whole number within limits, not a bool; `needed` ends the error message."""
     try:
         number = operator.index(value)
     except TypeError:

@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from assur._arrays import flag, real_number, short
+from assur._arrays import counted, flag, real_number, short
+from assur._validate import one_of
 from assur.errors import InputError
 from assur.kinematics import transmission
 
@@ -157,11 +158,8 @@ def checked(
 
 
 def _direction(event: Any, direction: Any) -> Direction:
-    if not isinstance(direction, str) or direction not in DIRECTIONS:
-        message = f"{event!r}: direction is one of {', '.join(DIRECTIONS)}"
-        raise InputError(message)
-    known: Direction = direction  # type: ignore[assignment]
-    return known
+    known: Any = one_of(direction, DIRECTIONS, f"{type(event).__name__} direction")
+    return known  # type: ignore[no-any-return]
 
 
 def _function(event: Any, function: Any) -> Function:
@@ -174,7 +172,7 @@ def _function(event: Any, function: Any) -> Function:
 
 def _driver(event: Any, driver: Any, drivers: int) -> int:
     if not isinstance(driver, int) or not 0 <= driver < drivers:
-        message = f"{event!r}: there are {drivers} drivers, counted from 0"
+        message = f"{event!r}: the machine has {counted(drivers, 'driver')}, numbered from 0"
         raise InputError(message)
     return driver
 

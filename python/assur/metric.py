@@ -1,8 +1,9 @@
 """Metrics: one number of the motion of a design, for `assur.sweep`.
 
 A coordinate is named ``"B.x"`` or ``"B.y"`` (a joint, m), ``"rocker"`` (a link's angle, rad) or
-``"bore"`` (a slide's value, m); ``order=1`` means its derivative by the driver's coordinate.
-Metrics add, multiply and compare:
+``"bore"`` (a slide's value, m); ``order=1`` means its derivative by the driver's coordinate. A
+metric is made of the positions of q alone: extremes lie between them by the square of a step.
+Metrics add, multiply and compare, with numbers and with each other:
 
 >>> from assur import metric
 >>> quality = metric.span("B.x") - 0.1 * metric.rms("rocker", order=2)
@@ -12,21 +13,19 @@ least_transmission('C') > 0.7
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import short
+from assur._arrays import flag, short
 from assur._validate import checked_name, checked_order, one_of, real_number
 from assur.errors import InputError
-from assur.kinematics import transmission
+from assur.sweeps.terms import Condition, Function, Leaf, Metric, Part
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable
 
-    from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
 __all__ = [
@@ -46,164 +45,6 @@ __all__ = [
     "time_ratio",
 ]
 
-Float: TypeAlias = npt.NDArray[np.float64]
-Part: TypeAlias = tuple[float, float] | None
-
-
-@dataclass(frozen=True)
-class Condition:
-    """A metric compared with a limit: ``where=`` drops designs for which it is false."""
-
-    metric: Metric
-    relation: str
-    limit: float
-
-    def __repr__(self) -> str:
-        return f"{self.metric!r} {self.relation} {self.limit!r}"
-
-    def __bool__(self) -> bool:
-        message = f"{self!r} is a condition, which has no value by itself: pass it in where=[...]"
-        raise InputError(message)
-
-    def holds(self, values: Float) -> npt.NDArray[np.bool_]:
-        """Whether values meet it; NaN does not."""
-        compare = {
-            "<": np.less,
-            "<=": np.less_equal,
-            ">": np.greater,
-            ">=": np.greater_equal,
-        }[self.relation]
-        met: npt.NDArray[np.bool_] = compare(values, self.limit)
-        return met
-
-
-class Metric:
-    """One number of a motion; metrics add, subtract, multiply, divide and compare."""
-
-    def leaves(self) -> Iterator[Leaf | Function]:
-        """The metrics that it is made of."""
-        raise NotImplementedError
-
-    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
-        """Its values, given those of its leaves."""
-        raise NotImplementedError
-
-    def __add__(self, other: object) -> Metric:
-        return _combined("+", self, other)
-
-    def __radd__(self, other: object) -> Metric:
-        return _combined("+", other, self)
-
-    def __sub__(self, other: object) -> Metric:
-        return _combined("-", self, other)
-
-    def __rsub__(self, other: object) -> Metric:
-        return _combined("-", other, self)
-
-    def __mul__(self, other: object) -> Metric:
-        return _combined("*", self, other)
-
-    def __rmul__(self, other: object) -> Metric:
-        return _combined("*", other, self)
-
-    def __truediv__(self, other: object) -> Metric:
-        return _combined("/", self, other)
-
-    def __rtruediv__(self, other: object) -> Metric:
-        return _combined("/", other, self)
-
-    def __neg__(self) -> Metric:
-        return _combined("*", -1.0, self)
-
-    def __lt__(self, limit: object) -> Condition:
-        return Condition(self, "<", real_number(limit, "the limit of a condition"))
-
-    def __le__(self, limit: object) -> Condition:
-        return Condition(self, "<=", real_number(limit, "the limit of a condition"))
-
-    def __gt__(self, limit: object) -> Condition:
-        return Condition(self, ">", real_number(limit, "the limit of a condition"))
-
-    def __ge__(self, limit: object) -> Condition:
-        return Condition(self, ">=", real_number(limit, "the limit of a condition"))
-
-
-@dataclass(frozen=True, repr=False)
-class Combination(Metric):
-    """Two metrics, or a metric and a number."""
-
-    sign: str
-    left: Metric | float
-    right: Metric | float
-
-    def leaves(self) -> Iterator[Leaf | Function]:
-        for side in (self.left, self.right):
-            if isinstance(side, Metric):
-                yield from side.leaves()
-
-    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
-        left, right = (
-            side.value(of) if isinstance(side, Metric) else side for side in (self.left, self.right)
-        )
-        combine = {"+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide}[self.sign]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            values: Float = combine(left, right)
-        return values
-
-    def __repr__(self) -> str:
-        return f"({self.left!r} {self.sign} {self.right!r})"
-
-
-def _combined(sign: str, left: object, right: object) -> Combination:
-    sides = [
-        side if isinstance(side, Metric) else real_number(side, "a number beside a metric")
-        for side in (left, right)
-    ]
-    return Combination(sign, *sides)
-
-
-@dataclass(frozen=True, repr=False)
-class Leaf(Metric):
-    """A metric of the core."""
-
-    kind: str
-    of: str | None = None
-    order: int = 0
-    options: tuple[Any, ...] = ()
-    over: Part = None
-
-    def leaves(self) -> Iterator[Leaf | Function]:
-        yield self
-
-    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
-        return of(self)
-
-    def __repr__(self) -> str:
-        name = {"moves": "full_rotation"}.get(self.kind, self.kind)
-        words = [] if self.of is None else [repr(self.of)]
-        words += [f"order={self.order}"] if self.order else []
-        words += [repr(option) for option in self.options if option is not None]
-        words += [f"over={self.over!r}"] if self.over else []
-        return f"{name}({', '.join(words)})"
-
-
-@dataclass(frozen=True, repr=False)
-class Function(Metric):
-    """A function of motions, in Python."""
-
-    function: Callable[[Motion], npt.ArrayLike]
-    outputs: tuple[str, ...] | None
-    order: int
-
-    def leaves(self) -> Iterator[Leaf | Function]:
-        yield self
-
-    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
-        return of(self)
-
-    def __repr__(self) -> str:
-        return f"function({getattr(self.function, '__name__', self.function)!s})"
-
 
 def _leaf(kind: str, of: str, order: int, over: Part, *options: Any) -> Leaf:
     return Leaf(kind, checked_name(of, kind), checked_order(order), options, _checked_part(over))
@@ -217,7 +58,10 @@ def _checked_part(over: Any) -> Part:
         raise InputError(message)
     first, last = (real_number(end, "over") for end in over)
     if not first <= last:
-        message = f"over=({first!r}, {last!r}): the last coordinate is below the first"
+        message = (
+            f"over=({first!r}, {last!r}): the last coordinate is below the first; for a part of a "
+            f"turn that passes its end write ({first!r}, {last + 2 * np.pi!r})"
+        )
         raise InputError(message)
     return first, last
 
@@ -230,57 +74,285 @@ def span(of: str, order: int = 0, over: Part = None) -> Metric:
     of : str
         The coordinate, for instance ``"B.x"``, ``"rocker"``, ``"bore"``.
     order : {0, 1, 2, 3}
-        Which derivative by the driver's coordinate.
+        Which derivative by the driver's coordinate; NaN if a position is ``SINGULAR``.
     over : (float, float), optional
-        Only positions between these driver coordinates, rad (modulo a turn) or m.
+        Only positions between these driver coordinates, rad (modulo a turn) or m, ends
+        included; (6.0, 7.0) passes the end of the turn.
+
+    Returns
+    -------
+    Metric
+        m or rad, of a derivative per rad or m of the driver.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for a name that is unknown, and with several
+        drivers for `order` and `over`.
 
     Examples
     --------
     >>> import assur, numpy as np
     >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
-    >>> engine = assur.SliderCrank(1.0, 3.0)
-    >>> crank = {"crank.length": [1.0, 1.5]}
-    >>> found = assur.sweep(engine, crank, q, metrics={"stroke": assur.metric.span("bore")})
-    >>> found["stroke"]
+    >>> engine, cranks = assur.SliderCrank(1.0, 3.0), {"crank.length": [1.0, 1.5]}
+    >>> asked = {"a": assur.metric.span("bore")}
+    >>> assur.sweep(engine, cranks, q, metrics=asked)["a"]
     array([2., 3.])
     """
     return _leaf("span", of, order, over)
 
 
 def least(of: str, order: int = 0, over: Part = None) -> Metric:
-    """The least value of a coordinate; parameters as of `span`."""
+    """The least value of a coordinate.
+
+    Parameters
+    ----------
+    of : str
+        The coordinate, for instance ``"B.x"``, ``"rocker"``, ``"bore"``.
+    order : {0, 1, 2, 3}
+        Which derivative by the driver's coordinate; NaN if a position is ``SINGULAR``.
+    over : (float, float), optional
+        Only positions between these driver coordinates, rad (modulo a turn) or m, ends
+        included; (6.0, 7.0) passes the end of the turn.
+
+    Returns
+    -------
+    Metric
+        m or rad, of a derivative per rad or m of the driver.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for a name that is unknown, and with several
+        drivers for `order` and `over`.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> engine, cranks = assur.SliderCrank(1.0, 3.0), {"crank.length": [1.0, 1.5]}
+    >>> asked = {"a": assur.metric.least("bore")}
+    >>> assur.sweep(engine, cranks, q, metrics=asked)["a"]
+    array([2. , 1.5])
+    """
     return _leaf("least", of, order, over)
 
 
 def greatest(of: str, order: int = 0, over: Part = None) -> Metric:
-    """The greatest value of a coordinate; parameters as of `span`."""
+    """The greatest value of a coordinate.
+
+    Parameters
+    ----------
+    of : str
+        The coordinate, for instance ``"B.x"``, ``"rocker"``, ``"bore"``.
+    order : {0, 1, 2, 3}
+        Which derivative by the driver's coordinate; NaN if a position is ``SINGULAR``.
+    over : (float, float), optional
+        Only positions between these driver coordinates, rad (modulo a turn) or m, ends
+        included; (6.0, 7.0) passes the end of the turn.
+
+    Returns
+    -------
+    Metric
+        m or rad, of a derivative per rad or m of the driver.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for a name that is unknown, and with several
+        drivers for `order` and `over`.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> engine, cranks = assur.SliderCrank(1.0, 3.0), {"crank.length": [1.0, 1.5]}
+    >>> asked = {"a": assur.metric.greatest("bore")}
+    >>> assur.sweep(engine, cranks, q, metrics=asked)["a"]
+    array([4. , 4.5])
+    """
     return _leaf("greatest", of, order, over)
 
 
 def place_of_least(of: str, order: int = 0, over: Part = None) -> Metric:
-    """The driver's coordinate where a coordinate is least; parameters as of `span`."""
+    """The driver's coordinate where a coordinate is least; of several such the first.
+
+    Parameters
+    ----------
+    of : str
+        The coordinate, for instance ``"B.x"``, ``"rocker"``, ``"bore"``.
+    order : {0, 1, 2, 3}
+        Which derivative by the driver's coordinate; NaN if a position is ``SINGULAR``.
+    over : (float, float), optional
+        Only positions between these driver coordinates, rad (modulo a turn) or m, ends
+        included; (6.0, 7.0) passes the end of the turn.
+
+    Returns
+    -------
+    Metric
+        One of q, rad or m.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for a name that is unknown, and with several
+        drivers for `order` and `over`, as a
+        place is then several numbers.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> engine, cranks = assur.SliderCrank(1.0, 3.0), {"crank.length": [1.0, 1.5]}
+    >>> asked = {"a": assur.metric.place_of_least("bore")}
+    >>> assur.sweep(engine, cranks, q, metrics=asked)["a"] * 180 / np.pi
+    array([180., 180.])
+    """
     return _leaf("place_of_least", of, order, over)
 
 
 def place_of_greatest(of: str, order: int = 0, over: Part = None) -> Metric:
-    """The driver's coordinate where a coordinate is greatest; parameters as of `span`."""
+    """The driver's coordinate where a coordinate is greatest; of several such the first.
+
+    Parameters
+    ----------
+    of : str
+        The coordinate, for instance ``"B.x"``, ``"rocker"``, ``"bore"``.
+    order : {0, 1, 2, 3}
+        Which derivative by the driver's coordinate; NaN if a position is ``SINGULAR``.
+    over : (float, float), optional
+        Only positions between these driver coordinates, rad (modulo a turn) or m, ends
+        included; (6.0, 7.0) passes the end of the turn.
+
+    Returns
+    -------
+    Metric
+        One of q, rad or m.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for a name that is unknown, and with several
+        drivers for `order` and `over`, as a
+        place is then several numbers.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> engine, cranks = assur.SliderCrank(1.0, 3.0), {"crank.length": [1.0, 1.5]}
+    >>> asked = {"a": assur.metric.place_of_greatest("bore", over=(1.0, 2.0))}
+    >>> assur.sweep(engine, cranks, q, metrics=asked)["a"] * 180 / np.pi
+    array([60., 60.])
+    """
     return _leaf("place_of_greatest", of, order, over)
 
 
 def mean(of: str, order: int = 0, over: Part = None) -> Metric:
-    """The arithmetic mean of a coordinate over the positions; parameters as of `span`."""
+    """The arithmetic mean of a coordinate over the positions.
+
+    Parameters
+    ----------
+    of : str
+        The coordinate, for instance ``"B.x"``, ``"rocker"``, ``"bore"``.
+    order : {0, 1, 2, 3}
+        Which derivative by the driver's coordinate; NaN if a position is ``SINGULAR``.
+    over : (float, float), optional
+        Only positions between these driver coordinates, rad (modulo a turn) or m, ends
+        included; (6.0, 7.0) passes the end of the turn.
+
+    Returns
+    -------
+    Metric
+        m or rad, of a derivative per rad or m of the driver; over one turn in even steps it is the
+        mean of the turn.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for a name that is unknown, and with several
+        drivers for `order` and `over`.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> engine, cranks = assur.SliderCrank(1.0, 3.0), {"crank.length": [1.0, 1.5]}
+    >>> asked = {"a": assur.metric.mean("A.x")}
+    >>> assur.sweep(engine, cranks, q, metrics=asked)["a"].round(12) + 0.0
+    array([0., 0.])
+    """
     return _leaf("mean", of, order, over)
 
 
 def rms(of: str, order: int = 0, over: Part = None) -> Metric:
-    """The root of the mean square of a coordinate; parameters as of `span`."""
+    """The root of the mean square of a coordinate.
+
+    Parameters
+    ----------
+    of : str
+        The coordinate, for instance ``"B.x"``, ``"rocker"``, ``"bore"``.
+    order : {0, 1, 2, 3}
+        Which derivative by the driver's coordinate; NaN if a position is ``SINGULAR``.
+    over : (float, float), optional
+        Only positions between these driver coordinates, rad (modulo a turn) or m, ends
+        included; (6.0, 7.0) passes the end of the turn.
+
+    Returns
+    -------
+    Metric
+        m or rad, of a derivative per rad or m of the driver.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for a name that is unknown, and with several
+        drivers for `order` and `over`.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> engine, cranks = assur.SliderCrank(1.0, 3.0), {"crank.length": [1.0, 1.5]}
+    >>> asked = {"a": assur.metric.rms("A.x")}
+    >>> assur.sweep(engine, cranks, q, metrics=asked)["a"].round(3)
+    array([0.707, 1.061])
+    """
     return _leaf("rms", of, order, over)
 
 
 def time_ratio(of: str) -> Metric:
-    """The time of the slower stroke of a coordinate, per that of the quicker; at least 1.
+    """The time of the slower stroke of a coordinate, per that of the quicker.
 
-    The driver turns at a constant speed; q covers one turn evenly.
+    The driver turns at a constant speed, and q goes over one turn in even steps:
+    ``np.linspace(0, 2 * np.pi, n, endpoint=False)`` (Uicker, Pennock and Shigley, *Theory of
+    Machines and Mechanisms*: advance-to-return ratio).
+
+    Parameters
+    ----------
+    of : str
+        The coordinate, for instance ``"B.x"``, ``"rocker"``, ``"bore"``.
+
+    Returns
+    -------
+    Metric
+        At least 1. NaN for a coordinate that is not at the end of the turn what it was at its
+        start: of a link that turns, or of a motion that takes two turns.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for a name that is unknown, several drivers, or
+        other coordinates.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> engine, offsets = assur.SliderCrank(1.0, 3.0), {"bore.offset": [0.0, 0.8]}
+    >>> asked = {"a": assur.metric.time_ratio("bore")}
+    >>> assur.sweep(engine, offsets, q, metrics=asked)["a"].round(2)
+    array([1.  , 1.18])
     """
     return _leaf("time_ratio", of, 0, None)
 
@@ -288,7 +360,7 @@ def time_ratio(of: str) -> Metric:
 def least_transmission(
     at: str, between: tuple[str, str] | None = None, over: Part = None
 ) -> Metric:
-    """The least transmission angle, rad, as `Motion.transmission_angle` defines it.
+    """The least transmission angle, as `Motion.transmission_angle` defines it.
 
     Parameters
     ----------
@@ -298,9 +370,36 @@ def least_transmission(
         Two other joints: the lines to these are meant.
     over : (float, float), optional
         As of `span`.
+
+    Returns
+    -------
+    Metric
+        rad, from 0 to π/2.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for a name that is unknown, and with several
+        drivers for `order` and `over`.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> four_bar, couplers = assur.FourBar(1.0, 3.0, 2.5, 3.0), {"coupler.length": [2.0, 3.0]}
+    >>> asked = {"a": assur.metric.least_transmission("C")}
+    >>> np.degrees(assur.sweep(four_bar, couplers, q, metrics=asked)["a"]).round(1)
+    array([51.3, 41.4])
     """
-    pair = None if between is None else tuple(between)
+    pair = None if between is None else _checked_pair(between)
     return _leaf("least_transmission", at, 0, over, pair)
+
+
+def _checked_pair(between: Any) -> tuple[str, ...]:
+    if not (isinstance(between, tuple | list) and len(between) == 2):
+        message = f"between={short(between)}: two joints are needed"
+        raise InputError(message)
+    return tuple(checked_name(joint, "between") for joint in between)
 
 
 def deviation(
@@ -317,30 +416,72 @@ def deviation(
     of : str
         A joint.
     shape : {"line", "circle"}
-        Fitted by least squares to each stretch of the path (a circle by Kåsa's method).
+        Fitted by least squares to each stretch of the path (a circle by Kåsa's method; that of
+        points on a line is infinitely large).
     part : float
-        The part of the positions that counts: of all such stretches that with the least
-        of the greatest distances. Where q goes once round, they pass its end.
+        The part of the positions that counts, those of `over` if it is given: of all stretches
+        of so many that with the least of the greatest distances. Where q goes once round in even
+        steps, without its end, stretches pass the end of the turn of every design whose path is
+        closed then; others take two turns.
     relative : bool
         Divide by the length along the line, or by the radius.
     over : (float, float), optional
-        As of `span`.
+        As of `span`. NaN for a design whose path is not closed, if it passes the end of q.
 
     Returns
     -------
     Metric
-        The greatest distance from the line or circle, m (or none).
+        The greatest distance from the line or circle, m; relative, none. NaN for a point that
+        stands still if it is relative.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for a name that is unknown, and with several
+        drivers for `over`; if a stretch has less than 3 positions (a circle: 4), or those of
+        `over` do not follow each other.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> chebyshev = assur.Mechanism(
+    ...     joints={"A": (0, 0), "B": (-1, 0), "C": (0.5, 2), "D": (2, 0), "P": (2, 4)},
+    ...     links={"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
+    ...     driver="crank",
+    ... )
+    >>> asked = {"a": assur.metric.deviation("P", "line", relative=True)}
+    >>> bool(assur.sweep(chebyshev, {}, q, metrics=asked)["a"] < 0.01)
+    True
     """
     one_of(shape, ("line", "circle"), "shape")
     share = real_number(part, "part")
     if not 0.0 < share <= 1.0:
         message = f"part={share!r}: more than 0 and at most 1 is needed"
         raise InputError(message)
-    return _leaf("deviation", of, 0, over, shape, share, bool(relative))
+    return _leaf("deviation", of, 0, over, shape, share, flag(relative, "relative"))
 
 
 def full_rotation() -> Metric:
-    """1 for designs that move over all of q; the others have NaN, as of every metric."""
+    """Whether a design moves over all of q: a full rotation, where q goes once round.
+
+    It says what the positions of q show. A gap between two of them is not seen.
+
+    Returns
+    -------
+    Metric
+        1, or 0 for a design with a position that cannot be solved; NaN, as all metrics, for one
+        that misses a condition of ``where=``, which is not solved further.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> four_bar, couplers = assur.FourBar(1.0, 3.0, 2.5, 3.0), {"coupler.length": [3.0, 9.0]}
+    >>> asked = {"a": assur.metric.full_rotation()}
+    >>> assur.sweep(four_bar, couplers, q, metrics=asked)["a"]
+    array([1., 0.])
+    """
     return Leaf("moves")
 
 
@@ -351,93 +492,48 @@ def function(
 ) -> Metric:
     """A metric of one's own, in NumPy.
 
+    Its conditions are asked last: a design is dropped by them after all of its positions.
+
     Parameters
     ----------
     of_motion : callable
-        Takes a `Motion` of n designs that move over all of q; returns n numbers.
+        Takes a `Motion` of n designs that move over all of q and meet all conditions without
+        functions; returns n numbers.
     outputs : iterable of str, optional
         Names of joints, links and slides that it reads; all by default.
     order : {0, 1, 2, 3}
         Highest order of the analogues that it reads.
 
+    Returns
+    -------
+    Metric
+        What the function returns.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` if the function returns other than n numbers.
+
     Examples
     --------
-    >>> import assur
+    >>> import assur, numpy as np
     >>> def height(motion):
     ...     return motion.joint("C").value[..., 1].max(axis=-1)
-    >>> highest = assur.metric.function(height, outputs=["C"])
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> four_bar, couplers = assur.FourBar(1.0, 3.0, 2.5, 3.0), {"coupler.length": [2.0, 3.0]}
+    >>> asked = {"a": assur.metric.function(height, outputs=["C"])}
+    >>> assur.sweep(four_bar, couplers, q, metrics=asked)["a"].round(2)
+    array([2.27, 2.5 ])
     """
     if not callable(of_motion):
         message = f"function is {short(of_motion)}: a function of a motion is needed"
         raise InputError(message)
-    names = None if outputs is None else tuple(outputs)
-    return Function(of_motion, names, checked_order(order))
-
-
-# -- for the core -----------------------------------------------------------
-
-
-def encoded(leaf: Leaf, mechanism: Mechanism, q: Float) -> tuple[Any, ...]:
-    """A metric of the core as the core takes it; names are looked up."""
-    spec = _encoded_whole(leaf, mechanism, q)
-    if leaf.over is None:
-        return spec
-    return ("part", (*leaf.over, _is_angle(mechanism)), spec)
-
-
-def _encoded_whole(leaf: Leaf, mechanism: Mechanism, q: Float) -> tuple[Any, ...]:
-    if leaf.kind == "moves":
-        return ("moves",)
-    assert leaf.of is not None
-    if leaf.kind == "least_transmission":
-        pair, complement = transmission.lines(mechanism, leaf.of, leaf.options[0])
-        return (leaf.kind, *(_line(mechanism, line) for line in pair), complement)
-    if leaf.kind == "deviation":
-        shape, part, relative = leaf.options
-        joint = mechanism._core.require("joint", leaf.of)
-        closed = _goes_round(mechanism, q) and leaf.over is None
-        count = int(part * (len(q) if closed else len(q) - 1) + 1e-9) + 1
-        count = min(count, len(q))
-        if count < (3 if shape == "line" else 4):
-            message = f"deviation: part={part} of {len(q)} positions are {count}: too few"
-            raise InputError(message)
-        return (leaf.kind, (joint, shape, count, closed, relative))
-    if leaf.kind == "time_ratio" and not _goes_round(mechanism, q):
-        message = "time_ratio needs q evenly over one turn: np.linspace(0, 2 * np.pi, n, False)"
+    if isinstance(outputs, str):
+        message = f"outputs={outputs!r}: a list of names is needed, [{outputs!r}]"
         raise InputError(message)
-    return (leaf.kind, _coordinate(mechanism, leaf.of, leaf.order))
-
-
-def _coordinate(mechanism: Mechanism, name: str, order: int) -> tuple[str, int, int, int]:
-    joint, dot, axis = name.rpartition(".")
-    if dot:
-        if axis not in ("x", "y"):
-            message = f'coordinate {name!r}: "{joint}.x" or "{joint}.y" is needed'
-            raise InputError(message)
-        return "joint", mechanism._core.require("joint", joint), "xy".index(axis), order
-    if name in mechanism.joints:
-        message = f'coordinate {name!r} is a joint: "{name}.x" or "{name}.y" is needed'
-        raise InputError(message, joint=name)
-    kind = "slide" if name in mechanism.slides else "link"
-    return kind, mechanism._core.require(kind, name), 0, order
-
-
-def _line(mechanism: Mechanism, line: transmission.Line) -> tuple[Any, ...]:
-    if isinstance(line, transmission.JointLine):
-        return ("joints", *(mechanism._core.require("joint", joint) for joint in line))
-    names, angle = mechanism._core.dimension_names, f"{line.slide}.angle"
-    index = names.index(angle) if angle in names else None
-    return ("guide", mechanism._core.require("link", line.link), index)
-
-
-def _is_angle(mechanism: Mechanism) -> bool:
-    driver = mechanism._description[3]
-    return not any(name in mechanism.slides for name in driver if isinstance(name, str))
-
-
-def _goes_round(mechanism: Mechanism, q: Float) -> bool:
-    """Whether q goes once round in even steps, without its end repeated."""
-    if len(q) < 3 or not _is_angle(mechanism):
-        return False
-    steps = np.diff(q, append=q[0] + np.copysign(2.0 * np.pi, q[1] - q[0]))
-    return bool(np.ptp(steps) <= 1e-9 * abs(steps[0]))
+    try:
+        names = None if outputs is None else tuple(outputs)
+    except TypeError as error:
+        message = f"outputs is {short(outputs)}: a list of names is needed"
+        raise InputError(message) from error
+    return Function(of_motion, names, checked_order(order))

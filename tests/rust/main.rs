@@ -1,9 +1,10 @@
 //! Integration tests of the core: one binary, one module per subject.
 #![allow(clippy::disallowed_methods, reason = "tests compare with the platform's functions")]
 
+mod description;
 mod dynamics;
-mod fuzz;
+mod fuzzing;
 mod kinematics;
 mod models;
 mod oracles;
-mod structure;
+mod sweep;

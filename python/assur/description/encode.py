@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -14,24 +14,26 @@ from assur.description.words import Drive, Slide
 from assur.errors import InputError
 
 DriverLike: TypeAlias = str | Drive
-Description: TypeAlias = tuple[
-    tuple[tuple[str, float, float], ...],
-    tuple[tuple[str, tuple[str, ...]], ...],
-    tuple[tuple[str, Slide], ...],
-    tuple[DriverLike, ...],
-    tuple[tuple[str, int], ...],
-]
+
+
+class Description(NamedTuple):
+    """A description that is checked: names with coordinates, members, slides; drivers; signs."""
+
+    joints: tuple[tuple[str, float, float], ...]
+    links: tuple[tuple[str, tuple[str, ...]], ...]
+    slides: tuple[tuple[str, Slide], ...]
+    drivers: tuple[DriverLike, ...]
+    assembly: tuple[tuple[str, int], ...]
 
 
 def core_of(description: Description) -> Core:
     """Compile a description."""
-    joints, links, slides, drivers, assembly = description
     return Core(
-        joints=list(joints),
-        links=[(name, list(on)) for name, on in links],
-        slides=list(slides),
-        drivers=list(drivers),
-        assembly=list(assembly),
+        joints=list(description.joints),
+        links=[(name, list(on)) for name, on in description.links],
+        slides=list(description.slides),
+        drivers=list(description.drivers),
+        assembly=list(description.assembly),
     )
 
 

@@ -6,11 +6,9 @@ import math
 import warnings
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from assur import events as known_events
 from assur import flywheel as flywheels
-from assur._arrays import real_array, real_number
+from assur._arrays import finite_array, real_number
 from assur._validate import one_of
 from assur.dynamics.options import (
     as_list,
@@ -153,13 +151,10 @@ def _dimensions(machine: Machine) -> list[float]:
 def _start(machine: Machine, value: npt.ArrayLike | None, name: str) -> list[float]:
     if value is None and name == "q0":
         value = machine._core.tables[0][0][0] if machine.mechanism is None else machine.mechanism.q0
-    array = real_array(value, name)
+    array = finite_array(value, name)
     n = machine._drivers
     if array.shape not in ((), (n,)):
         message = f"{name} has the shape {array.shape}: {n} numbers are needed"
-        raise InputError(message)
-    if not np.isfinite(array).all():
-        message = f"{name} is {value!r}: finite numbers are needed"
         raise InputError(message)
     numbers: list[float] = array.tolist() if array.ndim else [float(array)] * n
     return numbers

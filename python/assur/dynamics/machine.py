@@ -196,8 +196,13 @@ class Machine(MachineModel):
         Raises
         ------
         InputError
-            A driver that is not an angle or does not turn fully, a motion that does not repeat
-            after one turn, and all errors of `assur.flywheel.from_table` and `steady_state`.
+            A driver that is not an angle, wrong arguments, a table that does not fit a turn, a
+            fluctuation that is already met without a flywheel.
+        PositionError
+            A driver that does not turn fully.
+        MotionError
+            A motion that does not repeat after one turn, a mean speed too low for the machine to
+            keep turning, a motor that cannot carry the load, no finite flywheel.
 
         Warns
         -----
@@ -278,10 +283,13 @@ class Machine(MachineModel):
         Raises
         ------
         InputError
-            Wrong arguments, a position without inertia, a function that does not return a number.
-            Exceptions raised by functions are passed on.
+            Wrong arguments, a position without inertia, a function that does not return a number, a
+            table that does not cover the start. Exceptions raised by functions are passed on.
         PositionError
             No valid position at q0.
+        MotionError
+            A motion that is not finite: a load, a speed or a mass is too great, or a damper or
+            spring has length zero.
 
         Warns
         -----
@@ -374,9 +382,14 @@ class Machine(MachineModel):
         Raises
         ------
         InputError
-            A motor that cannot carry the load or does not balance it, a mean speed so low that the
-            machine would stop within the turn, a dead point, tables that do not fit the period, or
-            a motion that does not repeat after the period.
+            Wrong arguments, a position without inertia, no speed to begin with, tables that do not
+            fit the period, a motor's table that ends.
+        PositionError
+            A dead point, or lengths that nearly have a change point; no valid position at q0.
+        MotionError
+            A motor that cannot carry the load or does not balance it, a machine that runs away, a
+            mean speed so low that it would stop within the turn, a motion that does not repeat
+            after the period or is not finite, a limit of steps or seconds that is reached.
 
         Warns
         -----

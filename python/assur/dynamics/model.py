@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from assur import _core
-from assur._arrays import real_array
+from assur._arrays import counted, real_array
 from assur._validate import one_of
 from assur.dynamics import parts, reduce
 from assur.dynamics.loads import checked_load
@@ -158,7 +158,8 @@ class MachineModel:
         if self.mechanism is None:
             return "<assur.Machine of a table>"
         formula = self.mechanism.structure.formula
-        return f"<assur.Machine {formula}, {len(self.bodies)} bodies, {len(self.loads)} loads>"
+        bodies = "1 body" if len(self.bodies) == 1 else f"{len(self.bodies)} bodies"
+        return f"<assur.Machine {formula}, {bodies}, {counted(len(self.loads), 'load')}>"
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -187,6 +188,13 @@ class MachineModel:
         -------
         Reduced
             `value` and `d1`, of shape S + (N,), rotors of motors included.
+
+        Raises
+        ------
+        PositionError
+            A position that the assembly does not reach, or without analogues.
+        InputError
+            Wrong arguments, or coordinates beyond a table.
 
         Examples
         --------
@@ -221,6 +229,15 @@ class MachineModel:
         -------
         ndarray
             N·m (driven slide: N), of shape S + (N,); for n drivers (..., n).
+
+        Raises
+        ------
+        PositionError
+            See `reduced_inertia`.
+        InputError
+            Wrong arguments, coordinates beyond a table, a function that gives no finite number.
+        MotionError
+            A damper or spring of length zero, or a load too great.
         """
         moment = self._reduce(q, real_array(speed, "speed"), on_error)[2]
         return moment[..., 0][()] if self._drivers == 1 else moment

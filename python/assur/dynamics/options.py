@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import real_array, real_number, short
+from assur._arrays import finite_array, real_number, short
 from assur._validate import whole_number
 from assur.errors import InputError
 
@@ -83,13 +83,13 @@ def tolerance_pair(atol: Any) -> list[float] | None:
     """Return absolute tolerances of coordinate and speed, or None."""
     if atol is None:
         return None
-    array = real_array(atol, "atol")
+    array = finite_array(atol, "atol")
     if array.shape not in ((), (2,)):
         wanted = "a number, or one for the coordinate and one for the speed"
         message = f"atol is {short(atol)}: {wanted}"
         raise InputError(message)
-    if not (np.isfinite(array).all() and (array > 0.0).all()):
-        message = f"atol is {short(atol)}: positive and finite numbers are needed"
+    if (array <= 0.0).any():
+        message = f"atol is {short(atol)}: positive numbers are needed"
         raise InputError(message)
     both: list[float] = np.broadcast_to(array, (2,)).tolist()
     return both
@@ -97,10 +97,7 @@ def tolerance_pair(atol: Any) -> list[float] | None:
 
 def checked_breaks(breaks: Any) -> list[float]:
     """Return the breaks in ascending order."""
-    array = real_array(() if breaks is None else breaks, "breaks")
-    if not np.isfinite(array).all():
-        message = f"breaks is {short(breaks)}: finite numbers are needed"
-        raise InputError(message)
+    array = finite_array(() if breaks is None else breaks, "breaks")
     ordered: list[float] = sorted(array.ravel().tolist())
     return ordered
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import Float, real_array, short
-from assur._validate import checked_name
+from assur._validate import checked_name, require_rows
 from assur.dynamics.loads import Body
 from assur.dynamics.motors import checked_motor
 from assur.errors import InputError
@@ -67,15 +67,10 @@ def columns(phi: Any, moment: Any, inertia: Any) -> tuple[Float, dict[str, Float
         if x.ndim != 1 or x.shape != column.shape:
             message = f"phi has the shape {x.shape}, {name} {column.shape}: two lists are needed"
             raise InputError(message)
-    if x.size < 2:
-        message = f"the table has {x.size} rows: at least 2 are needed"
-        raise InputError(message)
+    require_rows(x.size, 2, "the table")
     row = int(np.argmin(numbers["inertia"]))
     least = float(numbers["inertia"][row])
     if least < 0.0:
-        message = (
-            f"the inertia is {least:g} kg·m² at phi = {x[row]:g} rad in the table, it must not be "
-            "negative"
-        )
-        raise InputError(message, value=least)
+        message = f"the inertia is {least:g} kg·m² at phi = {x[row]:g} rad: it must not be negative"
+        raise InputError(message, kind="negative", q=float(x[row]), value=least)
     return x, numbers

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import real_array
+from assur._arrays import Float, finite_array, real_array
 from assur._validate import one_of
 from assur.description.words import Status
 from assur.dynamics.values import function_values
-from assur.errors import InputError
+from assur.errors import InputError, MotionError
 
 if TYPE_CHECKING:
     from assur.dynamics.model import MachineModel
-
-Float: TypeAlias = npt.NDArray[np.float64]
+    from assur.errors import AssurError
 
 
 def reduce(
@@ -28,16 +28,13 @@ def reduce(
     """
     one_of(on_error, ("raise", "nan"), "on_error")
     n, designs = machine._drivers, machine.shape
-    x, v = real_array(q, "q"), real_array(0.0 if speed is None else speed, "speed")
+    x, v = real_array(q, "q"), finite_array(0.0 if speed is None else speed, "speed")
     if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
         message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
         raise InputError(message)
     positions = x.shape if n == 1 else x.shape[:-1]
     shape = with_designs(positions, designs)
     full = shape if n == 1 else (*shape, n)
-    if not np.isfinite(v).all():
-        message = f"speed is {speed!r}: finite numbers are needed"
-        raise InputError(message)
     try:
         x, v = np.broadcast_to(x, full), np.broadcast_to(v, full)
     except ValueError as error:
@@ -57,15 +54,16 @@ def reduce(
             raise failure
         _require_within_table(machine, flat, status)
     inertia, rates, moment, potential = arrays
-    beyond = np.flatnonzero(np.isnan(moment).reshape(-1, n).any(axis=1) & (status < 2))
-    if speed is not None and on_error == "raise" and beyond.size:
-        at = flat.reshape(-1, n)[beyond[0]].tolist()
-        shown = ", ".join(f"{number:.15g}" for number in at)
-        message = (
-            f"q = {shown if n == 1 else f'({shown})'}: a load has no value there (a table ends, a "
-            "function gave nan, or a damper or spring has length zero)"
-        )
-        raise InputError(message, q=at[0] if n == 1 else tuple(at))
+    if speed is not None and on_error == "raise":
+        missing = np.flatnonzero(np.isnan(moment).reshape(-1, n).any(axis=1) & (status < 2))
+        if missing.size:
+            row = int(missing[0])
+            given = given.reshape(status.size, -1)[row]
+            failed = _without_moment(machine, flat.reshape(-1, n)[row].tolist(), given)
+            if designs:
+                index = np.unravel_index(row // (status.size // math.prod(designs)), designs)
+                failed.design = tuple(int(i) for i in index)
+            raise failed
     return (
         inertia.reshape(*shape, n, n),
         rates.reshape(*shape, n, n, n),
@@ -74,12 +72,36 @@ def reduce(
     )
 
 
+def _without_moment(machine: MachineModel, q: list[float], values: Float) -> AssurError:
+    """Return the error of a load without a value: that of a run that begins there."""
+    at = q[0] if len(q) == 1 else tuple(q)
+    shown = f"{q[0]:.15g}" if len(q) == 1 else f"({', '.join(f'{x:.15g}' for x in q)})"
+    for knots, periodic in machine._core.tables:
+        if not (periodic or knots[0] <= q[0] <= knots[-1]):
+            return _beyond_table(q[0], knots)
+    if not np.isfinite(values).all():
+        number = float(values[~np.isfinite(values)][0])
+        message = f"q = {shown}: a function among the loads gave {number}, it must be finite"
+        return InputError(message, q=at, value=number)
+    message = (
+        f"the moment is not finite at q = {shown}: a load, a speed or a mass is too great there, "
+        "or a damper or spring has length zero"
+    )
+    return MotionError(message, kind="not_finite", q=at)
+
+
 def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[np.uint8]) -> None:
     beyond = np.flatnonzero(status > Status.NEAR_SINGULAR)
     if machine.mechanism is None and beyond.size:
-        first = float(q[beyond[0]])
-        message = f"q = {first:g} is beyond the table"
-        raise InputError(message, q=first, value=first)
+        raise _beyond_table(float(q[beyond[0]]), machine._core.tables[0][0])
+
+
+def _beyond_table(q: float, knots: list[float]) -> InputError:
+    hint = "extend the table"
+    message = (
+        f"a table over q covers {knots[0]:.9g} to {knots[-1]:.9g}: {q:.9g} is not in it; {hint}"
+    )
+    return InputError(message, kind="table_ends", hint=hint, q=q, value=q)
 
 
 def with_designs(positions: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import real_array
+from assur._arrays import Float, counted, real_array
 from assur._validate import one_of
-from assur.errors import InputError
+from assur.errors import InputError, MotionError
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statistics"]
 
-Float: TypeAlias = npt.NDArray[np.float64]
 
 # `Run.at` accepts points this many ulps beyond an end: sums of steps are off by as many.
 END_ULPS = 4.0
@@ -191,13 +190,18 @@ class Run:
         self._energies = arrays[3:]
         self.statistics = Statistics(**core.statistics)
         self.events = [
-            EventRecord(events[which], t, self._per_driver(q), self._per_driver(speed))
-            for which, t, q, speed in core.events
+            EventRecord(
+                events[one["event"]],
+                one["t"],
+                self._per_driver(one["q"]),
+                self._per_driver(one["speed"]),
+            )
+            for one in core.events
         ]
         self.end, self.message = self._end_and_message(events)
         if self.end in ("dead point", "rest", "near_change_point"):
-            near = core.near_change_point
-            event = self.end if near is None else NearChangePoint(*near)
+            near = core.ending["near_change_point"]
+            event = self.end if near is None else NearChangePoint(**near)
             self.events.append(EventRecord(event, float(self.t[-1]), self.q[-1], self.speed[-1]))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -205,8 +209,9 @@ class Run:
 
     def __repr__(self) -> str:
         return (
-            f"<assur.Run t = {self.t[0]:g} … {self.t[-1]:g} s, {self.statistics.steps} steps, "
-            f"{len(self.events)} events, {self.end}>"
+            f"<assur.Run t = {self.t[0]:g} … {self.t[-1]:g} s, "
+            f"{counted(self.statistics.steps, 'step')}, "
+            f"{counted(len(self.events), 'event')}, {self.end}>"
         )
 
     def at(self, t: npt.ArrayLike | None = None, *, q: npt.ArrayLike | None = None) -> State:
@@ -262,13 +267,21 @@ class Run:
 
     @cached_property
     def energy(self) -> Energy:
-        """Kinetic and potential energy, work and their balance at the ends of the steps, J."""
+        """Kinetic and potential energy, work and their balance at the ends of the steps, J.
+
+        Raises MotionError if one of them is infinite.
+        """
         work, kinetic, potential = self._energies
         with np.errstate(over="ignore", invalid="ignore"):
             total = kinetic + potential - work
-        if any(np.isinf(energy).any() for energy in (kinetic, potential, work, total)):
-            message = "energies of the run are infinite: its speeds, masses or loads are too great"
-            raise InputError(message)
+        infinite = np.isinf([kinetic, potential, work, total]).any(axis=0)
+        if infinite.any():
+            first = float(self.t[np.argmax(infinite)])
+            message = (
+                f"energies of the run are infinite at t = {first:g} s: its speeds, masses or loads "
+                "are too great"
+            )
+            raise MotionError(message, kind="not_finite", t=first)
         return Energy(kinetic, potential, work, total - total[0])
 
     def plot(self, what: str = "speed", ax: Any = None) -> Any:
@@ -297,27 +310,28 @@ class Run:
         return numbers[0] if self._drivers == 1 else np.array(numbers)
 
     def _end_and_message(self, events: list[Any]) -> tuple[str, str]:
-        kind, which, why = self._core.ending
+        ending = self._core.ending
+        kind, which, near = ending["kind"], ending["event"], ending["near_change_point"]
         place = f"t = {self.t[-1]:.9g} s, q = {self.q[-1]}"
-        if self._core.near_change_point is not None:
-            dyad, miss, at = self._core.near_change_point
+        if near is not None:
             return kind, (
-                f"nearly a change point of dyad {dyad!r} at {place}: near q = {at:.9g} its lengths "
-                f"miss one by {miss:.1e} m, and the motion turns within less than can be "
-                "integrated; draw the change point exactly, or lengths clear of it"
+                f"nearly a change point of dyad {near['dyad']!r} at {place}: near q = "
+                f"{near['q']:.9g} its lengths miss one by {near['miss']:.1e} m, and the motion "
+                "turns within less than can be integrated; draw the change point exactly, or "
+                "lengths clear of it"
             )
-        event = events[which] if kind == "event" else None
+        event = None if which is None else events[which]
         sentences = {
             "reached": "reached its end",
             "event": f"{event} at {place}",
             "dead point": f"a dead point at {place}: this assembly has no motion beyond it",
-            "lost": f"the branch cannot be tracked beyond {place}: {why}",
+            "lost": f"the branch cannot be tracked beyond {place}: {ending['why']}",
             "rest": f"the machine came to rest at {place}",
             "table ends": f"a table over q ends at {place}",
             "motor table ends": f"the motor's table ends at {place}",
             "stalled": f"the tolerance cannot be met with any step beyond {place}",
             "step limit": f"max_steps was reached at {place}"
-            + (": the equation is stiff there" if which else ""),
+            + (": the equation is stiff there" if ending["stiff"] else ""),
             "time limit": f"max_seconds was reached at {place}",
         }
         return kind, sentences[kind]

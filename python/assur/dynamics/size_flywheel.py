@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import real_array, real_number
+from assur._arrays import finite_array, real_number
 from assur._validate import one_of
 from assur.dynamics.integrate import steady_state
 from assur.dynamics.motors import ConstantTorque
 from assur.dynamics.options import PERIOD_RTOL, require_rotary_driver, require_whole_periods
 from assur.dynamics.steady_flywheel import SteadyFlywheel
 from assur.dynamics.table import Table
-from assur.errors import AssurWarning, InputError
+from assur.errors import AssurWarning, InputError, MotionError
 from assur.flywheel.sizing import tabulated_flywheel
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def flywheel(
         wanted = real_number(fluctuation, "fluctuation")
         if not 0.0 < wanted < 2.0:
             message = f"fluctuation = {wanted:g}: it must be more than 0 and less than 2"
-            raise InputError(message, value=wanted)
+            raise InputError(message, kind="bad_fluctuation", value=wanted)
         steady = steady_state(machine, None, 1, None, wanted, mean=mean, **STEADY_OPTIONS)
         return SteadyFlywheel(machine, steady)
     if not constant:
@@ -91,15 +91,12 @@ def _from_tables(
 ) -> Flywheel:
     """Refine tables of moment and inertia until the flywheel converges."""
     knots = _knots(machine)
-    speed = real_array(mean_speed, "mean_speed")
+    speed = finite_array(mean_speed, "mean_speed")
     if speed.ndim and speed.shape != machine.shape:
         message = (
             f"mean_speed has the shape {speed.shape}, the designs {machine.shape}: a number, or "
             "one for each design"
         )
-        raise InputError(message)
-    if not np.isfinite(speed).all():
-        message = f"mean_speed is {mean_speed!r}: finite numbers are needed"
         raise InputError(message)
     last: Flywheel | None = None
     rows = FIRST_ROWS
@@ -152,25 +149,29 @@ def aperiodic_designs(
         * of_inertia
         * np.square(np.max(speed, axis=-1) if np.ndim(speed) else speed)
     )
-    for name, one, two, least in (
-        ("inertia", inertia, later, 0.0),
-        ("moment", moment, other, floor),
+    for name, kind, one, two, least in (
+        ("inertia", "inertia_not_periodic", inertia, later, 0.0),
+        ("moment", "not_periodic", moment, other, floor),
     ):
-        size = np.nanmax(np.abs(_flat(machine, one)), axis=-1, initial=0.0)
-        off = np.nanmax(np.abs(_flat(machine, two - one)), axis=-1, initial=0.0)
+        first, second = _flat(machine, one), _flat(machine, two)
+        size = np.nanmax(np.abs(first), axis=-1, initial=0.0)
+        off = np.nanmax(np.abs(second - first), axis=-1, initial=0.0)
         others = off > PERIODIC_RTOL * size + least
         if not others.any():
             continue
         found |= others
         if on_error == "nan":
             continue
-        first = tuple(int(i) for i in np.argwhere(others)[0])
-        which = f"design {first if len(first) > 1 else first[0]}: " if first else ""
+        design = tuple(int(i) for i in np.argwhere(others)[0])
+        row = int(np.nanargmax(np.abs(second - first)[design]))
+        q, value = float(phi[row]), float(first[design][row])
+        unit = "kg·m²" if name == "inertia" else "N·m"
         message = (
-            f"{which}the reduced {name} is not periodic over a turn (it differs by "
-            f"{off[first]:.3g}): there is no flywheel of one turn"
+            f"{f'design {design}: ' if design else ''}the reduced {name} is not periodic over a "
+            f"turn: it is {value:g} {unit} at q = {q:g}, but {second[design][row]:g} a turn on; "
+            "there is no flywheel of one turn"
         )
-        raise InputError(message)
+        raise MotionError(message, kind=kind, design=design or None, q=q, value=value)
     return found
 
 

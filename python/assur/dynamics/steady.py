@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from assur._arrays import real_array
+from assur._arrays import finite_array
 from assur._extreme import Extreme
 from assur.dynamics.run import Run
-from assur.errors import InputError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -64,23 +63,24 @@ class SteadyState:
     def __init__(
         self,
         core: _core.Run,
-        numbers: list[float],
+        numbers: _core._SteadyNumbers,
         mechanism: Mechanism | None,
         mean: Literal["extremes", "period"],
     ) -> None:
         self._init_args = core, numbers, mechanism, mean
         self.run = Run(core, mechanism, 1, [EXTREME], along_q=True)
-        multiplier, found, work, inertia, least_at, least, greatest_at, greatest = numbers
         self.q, self.speed = self.run.q, self.run.speed
         self.period = float(self.run.t[-1] - self.run.t[0])
-        self.greatest, self.least = Extreme(greatest_at, greatest), Extreme(least_at, least)
+        self.greatest, self.least = Extreme(**numbers["greatest"]), Extreme(**numbers["least"])
+        greatest, least = self.greatest.value, self.least.value
         span = abs(float(self.q[-1] - self.q[0]))
         self.mean = mean
         self.mean_speed = span / self.period if mean == "period" else 0.5 * (least + greatest)
         self.delta = (greatest - least) / self.mean_speed
-        self.multiplier, self.found_moment, self.inertia = multiplier, found, inertia
-        self.motor_work, self.power = work, work / self.period
-        self.motor_moment = work / math.copysign(span, float(self.q[-1] - self.q[0]))
+        self.multiplier, self.found_moment = numbers["multiplier"], numbers["found_moment"]
+        self.inertia, self.motor_work = numbers["inertia"], numbers["motor_work"]
+        self.power = self.motor_work / self.period
+        self.motor_moment = self.motor_work / math.copysign(span, float(self.q[-1] - self.q[0]))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return SteadyState, self._init_args
@@ -105,11 +105,7 @@ class SteadyState:
         State
             t (0 at the start of the period), q, speed and acceleration, of the shape of q.
         """
-        x = real_array(q, "q")
-        if not np.isfinite(x).all():
-            value = float(x[~np.isfinite(x)].flat[0])
-            message = f"q has {value}: finite numbers are needed"
-            raise InputError(message, value=value)
+        x = finite_array(q, "q")
         first, last = float(self.q[0]), float(self.q[-1])
         low, high = min(first, last), max(first, last)
         # The remainder is exact however large q is.

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, flag, not_negative, real_array, real_number
-from assur._validate import one_of
+from assur._validate import one_of, require_rows
 from assur.errors import InputError
 from assur.flywheel import SPLINES, Spline
 
@@ -96,15 +96,13 @@ def _check_rows(q: Float, value: Float, least: int) -> None:
     if q.ndim != 1 or q.shape != value.shape:
         message = f"Table: q has the shape {q.shape}, value {value.shape}: two lists are needed"
         raise InputError(message)
-    if q.size < least:
-        message = f"Table: it has {q.size} rows, at least {least} are needed"
-        raise InputError(message)
+    require_rows(q.size, least, "Table: it")
     for name, column in (("q", q), ("value", value)):
         bad = np.flatnonzero(~np.isfinite(column))
         if bad.size:
             wrong = float(column[bad[0]])
             message = f"Table: {name}[{bad[0]}] is {wrong}, it must be finite"
-            raise InputError(message, value=wrong)
+            raise InputError(message, kind="not_finite", value=wrong)
     back = np.flatnonzero(np.diff(q) <= 0.0)
     if back.size:
         row = int(back[0]) + 1
@@ -112,7 +110,7 @@ def _check_rows(q: Float, value: Float, least: int) -> None:
             f"Table: q[{row}] = {q[row]!s} is not above q[{row - 1}] = {q[row - 1]!s}: "
             "coordinates must ascend without repeats"
         )
-        raise InputError(message, value=float(q[row]))
+        raise InputError(message, kind="not_increasing", q=float(q[row]), value=float(q[row]))
 
 
 def checked_ratio(value: Any, what: str) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import Float, real_array
+from assur._arrays import Float, finite_array
 from assur._validate import checked_index, one_of, whole_number
 from assur.errors import InputError
 
@@ -120,15 +120,15 @@ class Flywheel(ABC):
         >>> round(f.speed(np.pi), 3)
         10.954
         """
-        return self._curve("speed", _finite(q, "q"))
+        return self._curve("speed", finite_array(q, "q"))
 
     def time(self, q: npt.ArrayLike) -> Any:
         """Return the time at which coordinates are reached, s; 0 at the start of the turn."""
-        return self._curve("time", _finite(q, "q"))
+        return self._curve("time", finite_array(q, "q"))
 
     def coordinate(self, t: npt.ArrayLike) -> Any:
         """Return the coordinate at times t (s), rad; the inverse of `time`."""
-        return self._curve("coordinate", _finite(t, "t"))
+        return self._curve("coordinate", finite_array(t, "t"))
 
     def speed_at(self, t: npt.ArrayLike) -> Any:
         """Return the speed at times t (s), rad/s."""
@@ -142,15 +142,15 @@ class Flywheel(ABC):
 
         Of a `Machine` the loads are those at the mean speed, or with its own motor at `speed(q)`.
         """
-        return self._curve("moment", _finite(q, "q"))
+        return self._curve("moment", finite_array(q, "q"))
 
     def reduced_inertia(self, q: npt.ArrayLike) -> Any:
         """Return the reduced inertia at coordinates, kg·m², without the flywheel."""
-        return self._curve("inertia", _finite(q, "q"))
+        return self._curve("inertia", finite_array(q, "q"))
 
     def work(self, q: npt.ArrayLike) -> Any:
         """Return the work of loads and motor since the start of the turn, J."""
-        return self._curve("work", _finite(q, "q"))
+        return self._curve("work", finite_array(q, "q"))
 
     def explain(self, index: Any = ()) -> str:
         """Return why one of a batch has no flywheel, or the flywheel it has.
@@ -210,12 +210,3 @@ class Flywheel(ABC):
             raise InputError(message)
         one_of(what, ("speed", "time", "energy-mass"), "what")
         return flywheel_picture(self, what, self._turn, PLOT_POINTS, ax)
-
-
-def _finite(value: npt.ArrayLike, name: str) -> Float:
-    x = real_array(value, name)
-    if not np.isfinite(x).all():
-        wrong = float(x[~np.isfinite(x)].flat[0])
-        message = f"{name} has {wrong}: finite numbers are needed"
-        raise InputError(message, value=wrong)
-    return x

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from assur import _core
 from assur._arrays import Float, real_array
 from assur._extreme import Extreme
-from assur._validate import checked_threads, one_of
+from assur._validate import checked_threads, one_of, require_rows
 from assur.errors import AssurWarning, InputError
 from assur.flywheel.result import MEANS, Curve, Flywheel, Mean
 
@@ -32,13 +32,17 @@ class TabulatedFlywheel(Flywheel):
         self._arguments = arguments
         self._core = _core.Flywheels(*arguments)
         phi = arguments[0]
-        numbers = [_shaped(one, shape) for one in self._core.numbers()]
+        columns: Any = self._core.numbers()
+        numbers = {name: _shaped(column, shape) for name, column in columns.items()}
         super().__init__(
-            inertia=numbers[0],
-            speed0=numbers[1],
-            motor_moment=numbers[2],
-            extremes=(Extreme(*numbers[3:5]), Extreme(*numbers[5:7])),
-            period=numbers[7],
+            inertia=numbers["inertia"],
+            speed0=numbers["speed0"],
+            motor_moment=numbers["motor_moment"],
+            extremes=(
+                Extreme(numbers["greatest_at"], numbers["greatest"]),
+                Extreme(numbers["least_at"], numbers["least"]),
+            ),
+            period=numbers["period"],
             mean=mean,
             turn=(float(phi[0]), float(phi[-1])),
             shape=shape,
@@ -54,7 +58,7 @@ class TabulatedFlywheel(Flywheel):
     def _curve(self, what: Curve, x: Float) -> Any:
         shape = self.shape + x.shape
         flat = np.ascontiguousarray(np.broadcast_to(x, shape)).ravel()
-        return _shaped(self._core.curve("angle" if what == "coordinate" else what, flat), shape)
+        return _shaped(self._core.curve(what, flat), shape)
 
 
 def _shaped(flat: Float, shape: tuple[int, ...]) -> Any:
@@ -139,6 +143,8 @@ def from_table(
     InputError
         A table that is short, not ascending, not periodic or of negative inertia; an impossible
         fluctuation or speed; a fluctuation that is already met without a flywheel.
+    MotionError
+        No finite flywheel gives the fluctuation.
 
     Warns
     -----
@@ -213,8 +219,10 @@ def evaluate(
     Raises
     ------
     InputError
-        See `from_table`; also neither or both speeds given, or a speed at which the machine stops
-        within the period.
+        See `from_table`; also neither or both speeds given, no positive inertia, or an infinite
+        energy.
+    MotionError
+        A speed at which the machine stalls within the period, or no motion with the mean speed.
 
     Examples
     --------
@@ -254,9 +262,7 @@ def tabulated_flywheel(
     if x.ndim != 1:
         message = f"phi has the shape {x.shape}: one list of coordinates is needed"
         raise InputError(message)
-    if x.size < 2:
-        message = f"the table has {x.size} rows: at least 2 are needed"
-        raise InputError(message)
+    require_rows(x.size, 2, "the table")
     warn_if_degrees(float(x[-1] - x[0]))
     if i.ndim == 0:
         i = np.full(x.shape, i)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from assur._validate import require_rows
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -76,9 +77,7 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> ReducedTable
         line, text = kept[bad]
         message = f"{path}, line {line}: {text!r} is not three numbers phi, moment, inertia"
         raise InputError(message)
-    if len(rows) < 2:
-        message = f"{path}: the table has {len(rows)} rows: at least 2 are needed"
-        raise InputError(message)
+    require_rows(len(rows), 2, f"{path}: the table")
     phi, moment, inertia = np.array(rows, np.float64).reshape(-1, 3).T
     return ReducedTable(np.deg2rad(phi) if degrees else phi, moment, inertia)
 

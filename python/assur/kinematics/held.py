@@ -1,4 +1,4 @@
-"""The arrays that a motion holds, by name: shaped when they are first asked for."""
+"""The arrays that a motion holds, by name: shaped at first access."""
 
 from __future__ import annotations
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import short
+from assur._arrays import Float, short
 from assur._core import KnownSigns
 from assur._validate import checked_index, checked_name, checked_signs, real_array
 from assur.description import encode
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from assur.kinematics.motion import Motion
 
 __all__ = ["Mechanism"]
-
-Float: TypeAlias = npt.NDArray[np.float64]
 
 
 class Mechanism:
@@ -84,10 +82,10 @@ class Mechanism:
         "_values",
     )
     _core: Core
-    # What solving has found out about the designs.
+    # Designs that earlier calls found to have constant signs.
     _known_signs: KnownSigns
     _description: Description
-    # Dimensions, shape (number of dimensions, *S): those of one name lie together.
+    # Dimensions, shape (number of dimensions, *S).
     _values: Float
     _structure: Structure | None
     _joints: MappingProxyType[str, Any] | None
@@ -102,15 +100,17 @@ class Mechanism:
         slides: Mapping[str, Slide] | None = None,
         assembly: Mapping[str, int] | None = None,
     ) -> None:
-        description: Description = (
-            tuple(encode.joint(name, at) for name, at in encode.items(joints, "joints")),
-            tuple((name, encode.members(name, on)) for name, on in encode.items(links, "links")),
-            tuple(
+        description = encode.Description(
+            joints=tuple(encode.joint(name, at) for name, at in encode.items(joints, "joints")),
+            links=tuple(
+                (name, encode.members(name, on)) for name, on in encode.items(links, "links")
+            ),
+            slides=tuple(
                 (name, encode.slide(name, s))
                 for name, s in encode.items({} if slides is None else slides, "slides")
             ),
-            encode.drivers(driver),
-            checked_signs(assembly, strict=False),
+            drivers=encode.drivers(driver),
+            assembly=checked_signs(assembly, strict=False),
         )
         self._initialise(description, None)
 
@@ -118,7 +118,7 @@ class Mechanism:
         self, description: Description, values: Float | None, core: Core | None = None
     ) -> None:
         core = core or encode.core_of(description)
-        # Callers give up their arrays: a batch may be large.
+        # Takes over the caller's array without a copy: a batch may be large.
         given = core.drawing if values is None else values
         array = np.asarray(given, dtype=np.float64, order="C")
         array.flags.writeable = False
@@ -182,11 +182,11 @@ class Mechanism:
         NaN for designs that cannot be assembled at `q0`.
         """
         if self._joints is None:
-            drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._description[0]}
+            drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._description.joints}
             # The drawing holds unless another assembly is named or redundant links adjusted it.
             as_drawn = (
                 self._values.tolist() == self._core.drawing
-                and not self._description[4]
+                and not self._description.assembly
                 and self._core.adjustment == 0.0
             )
             if not as_drawn:
@@ -201,17 +201,17 @@ class Mechanism:
     @property
     def links(self) -> Mapping[str, tuple[str, ...]]:
         """Joints of each link."""
-        return MappingProxyType(dict(self._description[1]))
+        return MappingProxyType(dict(self._description.links))
 
     @property
     def slides(self) -> Mapping[str, Slide]:
         """Sliding pairs by name."""
-        return MappingProxyType(dict(self._description[2]))
+        return MappingProxyType(dict(self._description.slides))
 
     @property
     def driver(self) -> DriverLike | tuple[DriverLike, ...]:
         """The driver, or a tuple of drivers."""
-        drivers = self._description[3]
+        drivers = self._description.drivers
         return drivers[0] if len(drivers) == 1 else drivers
 
     @property
@@ -222,14 +222,15 @@ class Mechanism:
 
     @property
     def _driver_count(self) -> int:
-        return len(self._description[3])
+        return len(self._description.drivers)
 
     @property
     def _indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
-        """Indices of joints, links and slides by name; nobody changes them."""
+        """Indices of joints, links and slides by name; not to be modified."""
         if self._names is None:
-            joints, links, slides, *_ = self._description
-            names = tuple({one[0]: i for i, one in enumerate(of)} for of in (joints, links, slides))
+            own = self._description
+            named = own.joints, own.links, own.slides
+            names = tuple({one[0]: i for i, one in enumerate(of)} for of in named)
             object.__setattr__(self, "_names", names)
         assert self._names is not None
         return self._names
@@ -245,8 +246,16 @@ class Mechanism:
             real, drawn, counted = self._core.mobility
             links, slides = self._core.redundant
             groups = tuple(
-                Group(cls, order, kind, number, tuple(on), tuple(pins), tuple(guides))
-                for cls, order, kind, number, on, pins, guides in self._core.groups
+                Group(
+                    cls=one["cls"],
+                    order=one["order"],
+                    kind=one["kind"],
+                    artobolevsky_kind=one["artobolevsky_kind"],
+                    links=tuple(one["links"]),
+                    joints=tuple(one["joints"]),
+                    slides=tuple(one["slides"]),
+                )
+                for one in self._core.groups
             )
             structure = Structure(
                 mobility=real,
@@ -359,11 +368,10 @@ class Mechanism:
         >>> assur.FourBar(1.0, 3.0, 2.5, 3.0).with_driver("rocker").structure.formula
         'I(rocker) → II(crank, coupler)'
         """
-        joints, links, slides, _, _ = self._description
-        return self._make(
-            (joints, links, slides, encode.drivers(driver), checked_signs(assembly, strict=False)),
-            np.array(self._values),
+        description = self._description._replace(
+            drivers=encode.drivers(driver), assembly=checked_signs(assembly, strict=False)
         )
+        return self._make(description, np.array(self._values))
 
     def design(self, index: int | tuple[int, ...]) -> Mechanism:
         """Return one design of a batch as a single mechanism."""

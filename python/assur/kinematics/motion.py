@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,11 +18,10 @@ from assur.kinematics.sensitivity import Sensitivity
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from assur._arrays import Float
     from assur.kinematics.request import Results, SolveRequest
 
 __all__ = ["Motion"]
-
-Float: TypeAlias = npt.NDArray[np.float64]
 
 
 class Motion:
@@ -37,7 +36,7 @@ class Motion:
     order : int
         Highest order of the analogues.
     kept : numpy.ndarray or None
-        Of a sweep with ``on_error="drop"``: indices of its designs among all.
+        After a sweep with ``on_error="drop"``: indices of its designs among all.
     """
 
     def __init__(
@@ -70,7 +69,7 @@ class Motion:
         buffers = self._stored.buffers
         if buffers is not None and not buffers.complete:
             message = (
-                "this motion is incomplete: a call that overwrites it (out=) is at work, was "
+                "this motion is incomplete: a call that overwrites it (out=) is running, was "
                 "interrupted or failed; solve it again"
             )
             raise InputError(message)

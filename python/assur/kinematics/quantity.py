@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
-
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import in_range, real_array
+from assur._arrays import Float, in_range, real_array
 from assur.errors import InputError
 
 __all__ = ["Analogues"]
-
-Float: TypeAlias = npt.NDArray[np.float64]
 
 
 class Analogues:

@@ -80,7 +80,7 @@ def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
             message = f"out has {of} {one}, this call needs {other}"
             raise InputError(message)
     if held.buffers is None:
-        message = "out: a copy cannot be overwritten, only a motion as solve returned it"
+        message = "out: a copy cannot be overwritten; pass a motion as solve returned it"
         raise InputError(message)
     return held.buffers
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import short
+from assur._arrays import Float, short
 from assur._trig import sin_cos
 from assur._validate import checked_name
 from assur.errors import InputError
@@ -16,8 +15,6 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
-
-Float: TypeAlias = npt.NDArray[np.float64]
 
 
 class JointLine(NamedTuple):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur import _core
-from assur._arrays import real_array, short
+from assur._arrays import real_number, short, two_numbers
 from assur._trig import sin_cos
 from assur.description import encode
 from assur.description.words import Status
@@ -184,14 +184,7 @@ def _require_names(given: Any, names: Iterable[str], what: str) -> None:
 
 def _numbers(given: Any, names: Sequence[str], what: str) -> dict[str, float]:
     _require_names(given, names, what)
-    numbers = {}
-    for name in names:
-        array = real_array(given[name], f"{what}[{name!r}]")
-        if array.ndim or not np.isfinite(array):
-            message = f"{what}[{name!r}] is {given[name]!r}: a finite number is needed"
-            raise InputError(message)
-        numbers[name] = float(array)
-    return numbers
+    return {name: real_number(given[name], f"{what}[{name!r}]") for name in names}
 
 
 def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism:
@@ -205,11 +198,7 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
             raise DimensionError(message, dimension=name, value=value)
     at: dict[str, complex] = {}
     for name in PIVOTS:
-        point = real_array(pivots[name], f"pivots[{name!r}]")
-        if point.shape != (2,) or not np.isfinite(point).all():
-            message = f"pivots[{name!r}] is {pivots[name]!r}: two finite numbers are needed"
-            raise InputError(message)
-        at[name] = complex(*point)
+        at[name] = complex(*two_numbers(pivots[name], f"pivots[{name!r}]"))
 
     def leg(name: str, turn: float) -> complex:
         return complex(_polar(length[name], turn))
@@ -239,9 +228,9 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
     if found.status > Status.NEAR_SINGULAR:
         apart = abs(at["8"] + leg("6-8", first["7-8"] + angle["7-8-6"]) - at["6"])
         message = (
-            f"from these starting angles no assembly is reached where the crank is at "
-            f"{first['1-2']!r} (the quadrilateral is open by {apart:.3g} m there): start nearer "
-            f"to one, or from another crank angle"
+            f"these starting angles lead to no assembly with the crank at {first['1-2']!r} "
+            f"(the quadrilateral stays open by {apart:.3g} m): choose angles nearer to one, or "
+            f"another crank angle"
         )
         raise InputError(message, q=first["1-2"])
     joints = {name: tuple(found.joint(name).value.tolist()) for name in JOINTS}

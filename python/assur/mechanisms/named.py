@@ -100,9 +100,8 @@ class SliderCrank(Mechanism):
 
 def from_drawing(drawing: Any) -> Mechanism:
     """Return the mechanism of a drawing that the core made."""
-    joints, links, slides, driver = drawing
-    guides = {name: Slide(*fields) for name, fields in slides}
-    return Mechanism(dict(joints), dict(links), driver, guides)
+    slides = {name: Slide(**fields) for name, fields in drawing["slides"]}
+    return Mechanism(dict(drawing["joints"]), dict(drawing["links"]), drawing["driver"], slides)
 
 
 def _copy_from(mechanism: Mechanism, drawing: Any, dimensions: dict[str, npt.ArrayLike]) -> None:

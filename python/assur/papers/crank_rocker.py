@@ -13,20 +13,20 @@ non-ideal constraints* (in Russian).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import real_array, real_number
+from assur._arrays import Float, finite_array, real_array, real_number
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
-from assur.papers.jamming import Event, Run, run
+from assur.papers.jamming import JammingEvent, JammingRun, run
 
 __all__ = [
-    "Event",
-    "Run",
+    "JammingEvent",
+    "JammingRun",
     "Solution",
     "Table1",
     "blocked",
@@ -40,7 +40,6 @@ __all__ = [
     "transmission_extremes",
 ]
 
-Float: TypeAlias = npt.NDArray[np.float64]
 LENGTHS = ("l1", "l2", "l3", "l4")
 # Sums of lengths that agree to this fraction of the greatest make a change point, up to rounding.
 CHANGE_TOLERANCE = 1e-12
@@ -143,7 +142,7 @@ def solve(
     one_of(assembly, ("printed", "other"), "assembly")
     named = [("phi1", phi1), *zip(LENGTHS, (l1, l2, l3, l4), strict=True)]
     named += [("speed", speed), ("ground_speed", ground_speed)]
-    arrays = [_finite(value, name) for name, value in named]
+    arrays = [finite_array(value, name) for name, value in named]
     for name, array in zip(LENGTHS, arrays[1:5], strict=True):
         _positive(array, name)
     flat, shape = _broadcast(*arrays)
@@ -252,7 +251,7 @@ def ground_range(
         message = f"margin is {margin!r}: one or two numbers, not negative, are needed"
         raise InputError(message)
     named = {"coupler": coupler, "rocker": rocker, "gamma_min": gamma_min}
-    arrays = {name: _finite(value, name) for name, value in named.items()}
+    arrays = {name: finite_array(value, name) for name, value in named.items()}
     for name in ("coupler", "rocker"):
         _positive(arrays[name], name)
     _angle(arrays["gamma_min"], "gamma_min")
@@ -297,7 +296,7 @@ def least_transmission_angle(
     0.1337316
     """
     named = {"f_c": f_c, "r_c": r_c, "f_d": f_d, "r_d": r_d, "rocker": rocker}
-    arrays = {name: _finite(value, name) for name, value in named.items()}
+    arrays = {name: finite_array(value, name) for name, value in named.items()}
     for name, array in arrays.items():
         if (array < 0.0).any():
             wrong = float(array[array < 0.0].flat[0])
@@ -388,16 +387,6 @@ def table1() -> Table1:
     return Table1(degrees, grounds, printed, true)
 
 
-def _finite(value: Any, name: str) -> Float:
-    array = real_array(value, name)
-    bad = ~np.isfinite(array)
-    if bad.any():
-        wrong = float(array[bad].flat[0])
-        message = f"{name} is {wrong!r}: finite numbers are needed"
-        raise InputError(message, value=wrong)
-    return array
-
-
 def _positive(array: Float, name: str) -> None:
     if (array <= 0.0).any():
         wrong = float(array[array <= 0.0].flat[0])
@@ -406,7 +395,7 @@ def _positive(array: Float, name: str) -> None:
 
 
 def _angle(value: Any, name: str) -> None:
-    array = _finite(value, name)
+    array = finite_array(value, name)
     bad = ~((array >= 0.0) & (array < np.pi / 2))
     if bad.any():
         wrong = float(array[bad].flat[0])
@@ -426,7 +415,7 @@ def _broadcast(*arrays: Float) -> tuple[list[Float], tuple[int, ...]]:
 
 
 def _designs(*lengths: Any) -> tuple[list[Float], tuple[int, ...]]:
-    arrays = [_finite(value, name) for name, value in zip(LENGTHS, lengths, strict=True)]
+    arrays = [finite_array(value, name) for name, value in zip(LENGTHS, lengths, strict=True)]
     for name, array in zip(LENGTHS, arrays, strict=True):
         _positive(array, name)
     return _broadcast(*arrays)

@@ -18,13 +18,14 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import real_number
+from assur._arrays import Float, real_number
 from assur._trig import sin_cos
-from assur.errors import DimensionError, InputError, PositionError
+from assur.errors import DimensionError, InputError
 
-__all__ = ["Event", "Run", "run"]
+__all__ = ["JammingEvent", "JammingRun", "run"]
 
-Float: TypeAlias = npt.NDArray[np.float64]
+Kind: TypeAlias = Literal["jam", "return", "dead point", "no return"]
+Side: TypeAlias = Literal["outer", "inner"]
 Ground: TypeAlias = float | Callable[[float], float]
 
 # A turn has 720 positions: more turns would fill the memory.
@@ -32,7 +33,7 @@ MAX_TURNS = 10_000
 
 
 @dataclass(frozen=True)
-class Event:
+class JammingEvent:
     """A change of structure, or the end, of a run.
 
     Attributes
@@ -50,18 +51,18 @@ class Event:
         The event as a sentence.
     """
 
-    kind: Literal["jam", "return", "dead point", "no return"]
+    kind: Kind
     t: float
     phi1: float
     l4: float
-    side: Literal["outer", "inner"]
+    side: Side
     ground_speed: tuple[float, float]
     rod_speed: tuple[float, float]
     text: str
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Run:
+class JammingRun:
     """A motion in time; made by `run`. A is the origin, D on the negative x-axis.
 
     Attributes
@@ -72,7 +73,7 @@ class Run:
         Whether D slides.
     B, C, D : numpy.ndarray
         Positions of the joints, m, shape (n, 2).
-    events : tuple of Event
+    events : tuple of JammingEvent
         In order; their times are among `t`.
     """
 
@@ -84,11 +85,11 @@ class Run:
     B: Float
     C: Float
     D: Float
-    events: tuple[Event, ...]
+    events: tuple[JammingEvent, ...]
 
     def __repr__(self) -> str:
         kinds = ", ".join(event.kind for event in self.events) or "no events"
-        return f"<assur.crank_rocker.Run of {len(self.t)} positions: {kinds}>"
+        return f"<assur.crank_rocker.JammingRun of {len(self.t)} positions: {kinds}>"
 
 
 def run(
@@ -100,7 +101,7 @@ def run(
     speed: float = 1.0,
     phi0: float = math.pi / 2,
     turns: float = 1.0,
-) -> Run:
+) -> JammingRun:
     """Simulate a crank-rocker that moves as a slider-crank while friction jams it.
 
     Parameters
@@ -120,7 +121,7 @@ def run(
 
     Returns
     -------
-    Run
+    JammingRun
         Positions are continuous, also at events; speeds jump there and are stored in the events.
 
     Raises
@@ -171,45 +172,27 @@ def run(
         return number
 
     fixed = None if callable(ground) else ground_at(0.0)
-    case = list(values.values())
     given = ground_at if fixed is None else lambda _: fixed
-    flat, events, refused = _core.crank_rocker_run(case, given)
-    if refused is not None:
-        raise _start_error(*refused, values)
-    rows = flat.reshape(-1, 8)
-    t, l4, gamma = (np.ascontiguousarray(column) for column in rows.T[:3])
-    d = np.stack([-l4, np.zeros_like(l4)], axis=-1)
-    return Run(
+    made = _core.crank_rocker_run(values, given)
+    t, l4 = made["t"], made["l4"]
+    return JammingRun(
         t,
         values["phi0"] + values["speed"] * t,
         l4,
-        gamma,
-        rows[:, 3] > 0.0,
-        rows[:, 4:6].copy(),
-        rows[:, 6:8].copy(),
-        d,
-        tuple(_event(*event, values) for event in events),
+        made["gamma"],
+        made["sliding"],
+        made["b"].reshape(-1, 2),
+        made["c"].reshape(-1, 2),
+        np.stack([-l4, np.zeros_like(l4)], axis=-1),
+        tuple(_event(values, **event) for event in made["events"]),
     )
 
 
-def _start_error(why: str, value: float, case: dict[str, float]) -> PositionError:
-    if why == "reach":
-        low, high = abs(case["l2"] - case["l3"]), case["l2"] + case["l3"]
-        message = (
-            f"the coupler does not reach at the start: BD is {value:.9g}, not in {low} … {high}"
-        )
-    else:
-        message = (
-            f"the start at phi0 = {case['phi0']!r} is blocked ({why}): its transmission angle "
-            f"{value:.6g} is not above gamma_min; begin outside the blocked zone"
-        )
-    return PositionError(message, q=case["phi0"])
-
-
-def _event(kind: Any, is_outer: bool, numbers: list[float], case: dict[str, float]) -> Event:
-    t, phi1, l4, ground, *speeds = numbers
-    side: Literal["outer", "inner"] = "outer" if is_outer else "inner"
-    sign = 1.0 if is_outer else -1.0
+def _event(
+    case: dict[str, float], kind: Kind, side: Side, ground: float, **numbers: Any
+) -> JammingEvent:
+    """Return an event with its sentence."""
+    sign = 1.0 if side == "outer" else -1.0
     l2, l3, cosine = case["l2"], case["l3"], sin_cos(case["gamma_min"])[1]
     rod = math.sqrt(l2 * l2 + l3 * l3 + sign * 2.0 * l2 * l3 * cosine)
     texts = {
@@ -221,6 +204,5 @@ def _event(kind: Any, is_outer: bool, numbers: list[float], case: dict[str, floa
             f"{rod - case['l1']:.9g} to {rod + case['l1']:.9g} m"
         ),
     }
-    text = f"t = {t:.9g} s, φ₁ = {math.degrees(phi1):.9g}°: {texts[kind]}"
-    of_ground, of_rod = (speeds[0], speeds[1]), (speeds[2], speeds[3])
-    return Event(kind, t, phi1, l4, side, of_ground, of_rod, text)
+    at = f"t = {numbers['t']:.9g} s, φ₁ = {math.degrees(numbers['phi1']):.9g}°"
+    return JammingEvent(kind=kind, side=side, **numbers, text=f"{at}: {texts[kind]}")

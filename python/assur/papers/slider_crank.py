@@ -12,13 +12,13 @@ kinematic parameters of planar lever mechanisms* (2021). R. V. Ambarcumyanc, M. 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import in_range, real_array, real_number
+from assur._arrays import Float, finite_array, in_range, real_array, real_number, require_finite
 from assur._extreme import Extreme
 from assur._trig import arctan2
 from assur._validate import one_of, whole_number
@@ -42,7 +42,6 @@ __all__ = [
     "stroke",
 ]
 
-Float: TypeAlias = npt.NDArray[np.float64]
 # More terms change no digit of any approximation (k = 1.001 needs some 400).
 MAX_TERMS = 100_000
 
@@ -235,7 +234,7 @@ def rod_point(
     angles, cranks, rods = _lengths(phi, crank, rod)
     a, b = real_array(along, "along"), real_array(across, "across")
     for name, array in (("along", a), ("across", b)):
-        _finite(array, name)
+        require_finite(array, name)
     angles, cranks, rods, a, b = _broadcast(angles, cranks, rods, a, b)
     with in_range("place / crank"):
         flat = _flat(angles, cranks / rods, a / cranks, b / cranks)
@@ -342,8 +341,7 @@ def deviation(
     >>> (100 * largest.relative).round(6)                         # per cent
     np.float64(0.472502)
     """
-    ratios = real_array(lam, "lam")
-    _finite(ratios, "lam")
+    ratios = finite_array(lam, "lam")
     bad = ~((ratios > 0.0) & (ratios < 1.0))
     if bad.any():
         value = float(ratios[bad].flat[0])
@@ -379,16 +377,8 @@ def contour(phi: float, crank: float, rod: float) -> Float:
     return np.array([[0.0, 0.0], pin, [float(coordinate(at, *lengths).value), 0.0], [0.0, 0.0]])
 
 
-def _finite(array: Float, name: str) -> None:
-    bad = ~np.isfinite(array)
-    if bad.any():
-        value = float(array[bad].flat[0])
-        message = f"{name} is {value!r}: finite numbers are needed"
-        raise InputError(message, value=value)
-
-
 def _ratio(k: Float, name: str) -> None:
-    _finite(k, name)
+    require_finite(k, name)
     if (k <= 1.0).any():
         value = float(k[k <= 1.0].flat[0])
         message = f"{name} is {value!r}: the rod must be longer than the crank, {name} > 1"
@@ -400,7 +390,7 @@ def _lengths(phi: Any, crank: Any, rod: Any) -> tuple[Float, Float, Float]:
     angles = real_array(phi, "phi")
     cranks, rods = real_array(crank, "crank"), real_array(rod, "rod")
     for name, array in (("phi", angles), ("crank", cranks), ("rod", rods)):
-        _finite(array, name)
+        require_finite(array, name)
     for name, array in (("crank", cranks), ("rod", rods)):
         if (array <= 0.0).any():
             value = float(array[array <= 0.0].flat[0])

@@ -12,12 +12,13 @@ from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.errors import InputError
 from assur.kinematics.mechanism import Mechanism
+from assur.sweeps.grid import Grid
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
 
 class Designs:
-    """Designs of a mechanism with dimensions that broadcast, none of which is copied as a whole."""
+    """Designs of a mechanism with dimensions that broadcast: no dimension is repeated."""
 
     def __init__(self, mechanism: Any, dimensions: Any) -> None:
         if not isinstance(mechanism, Mechanism):
@@ -29,7 +30,9 @@ class Designs:
         self.mechanism = mechanism
         names = [checked_name(name, "dimensions") for name in dimensions]
         indices = [mechanism._core.dimension(name) for name in names]
-        new = [real_array(dimensions[n], f"dimension {n!r}", copy=False) for n in names]
+        # Designs are asked for later, when the caller may have changed his arrays (no grid's).
+        copy = not isinstance(dimensions, Grid)
+        new = [real_array(dimensions[n], f"dimension {n!r}", copy=copy) for n in names]
         own = mechanism.shape
         try:
             self.shape = np.broadcast_shapes(own, *(array.shape for array in new))
@@ -42,7 +45,10 @@ class Designs:
             columns[index] = array
         # One number, or one of each design.
         self._columns = [np.broadcast_to(c, self.shape) if np.ndim(c) else c for c in columns]
+        self.changed = dict(zip(names, indices, strict=True))
         self.count = int(np.prod(self.shape, dtype=np.int64))
+        if not self.shape:
+            mechanism._core.check_dimensions([float(column) for column in columns])
 
     def some(self, which: slice | npt.NDArray[np.intp], memory: Float | None = None) -> Mechanism:
         """Return a batch of some of them, by their indices in C order.
@@ -70,6 +76,12 @@ class Designs:
     def all(self) -> Mechanism:
         """Return all of them."""
         values = np.empty((len(self._columns), *self.shape))
-        for row, column in zip(values, self._columns, strict=True):
-            row[...] = column
+        for index, column in enumerate(self._columns):
+            values[index] = column
         return self.mechanism._make(self.mechanism._description, values, self.mechanism._core)
+
+    def values(self, name: str) -> Float:
+        """Return a dimension that the sweep changes, of all designs in C order."""
+        column = self._columns[self.changed[name]]
+        values: Float = np.broadcast_to(column, self.shape).reshape(-1)
+        return values

@@ -29,7 +29,8 @@ class Grid(Mapping[str, Float]):
 
     Notes
     -----
-    A grid is a mapping of names to arrays that broadcast: ``with_dimensions`` takes it too.
+    A grid is a mapping of names to arrays that broadcast, read-only: ``with_dimensions`` takes
+    it too. Names are looked up when it is used.
 
     Examples
     --------
@@ -57,6 +58,7 @@ class Grid(Mapping[str, Float]):
                 raise InputError(message)
             after = len(wanted) - axis - 1
             self._axes[name] = array.reshape(-1, *(1,) * after)
+            self._axes[name].flags.writeable = False
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -71,6 +73,18 @@ class Grid(Mapping[str, Float]):
 
     def __len__(self) -> int:
         return len(self._axes)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Grid):
+            return NotImplemented
+        return list(self) == list(other) and all(np.array_equal(self[n], other[n]) for n in self)
+
+    def __hash__(self) -> int:
+        return hash(tuple((name, *axis.ravel().tolist()) for name, axis in self._axes.items()))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # A copy is read-only too.
+        return Grid, ({name: axis.ravel() for name, axis in self._axes.items()},)
 
     def __repr__(self) -> str:
         sizes = ", ".join(f"{name!r}: {len(axis)}" for name, axis in self._axes.items())

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import short
+from assur._arrays import flag, short
+from assur._validate import whole_number
+from assur.description.words import Status
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -23,14 +26,20 @@ Float: TypeAlias = npt.NDArray[np.float64]
 class Measures(Mapping[str, Float]):
     """The metrics of designs by name, arrays of shape S; made by `assur.sweep`.
 
+    Every design is one of three: it does not move over all of q (its `status` says why not), it
+    misses a condition of ``where=`` (it is in `missed`), or it is in `kept`. Only those kept have
+    metrics, the others have NaN (`metric.full_rotation` has 0 for those that do not move).
+
     Attributes
     ----------
     status : numpy.ndarray
-        A `Status` of each design, S: that of a position that cannot be solved, if there is
-        one, or the worst. With a ``SINGULAR`` position metrics of derivatives are NaN.
+        A `Status` of each design, S: that of a position that cannot be solved, if one was
+        found, or the worst. With a ``SINGULAR`` position metrics of derivatives are NaN. A
+        design that misses a condition is not solved further: it has ``OK``, or what its solved
+        positions have.
     kept : numpy.ndarray
         Indices (of designs in C order) of those that move over all of q and meet all
-        conditions, ascending. All others have NaN.
+        conditions, ascending.
     """
 
     def __init__(
@@ -50,8 +59,82 @@ class Measures(Mapping[str, Float]):
         """Shape of the designs."""
         return self.status.shape
 
-    def designs(self, indices: int | Sequence[int] | npt.NDArray[np.intp]) -> Mechanism:
-        """Return the designs with these indices (in C order): one mechanism, or a batch (n,).
+    @property
+    def missed(self) -> npt.NDArray[np.intp]:
+        """Indices (of designs in C order) of those that miss a condition of ``where=``."""
+        rest = (self.status < Status.UNREACHABLE).reshape(-1)
+        rest[self.kept] = False
+        return np.flatnonzero(rest)
+
+    def best(self, n: int, by: str, greatest: bool = False) -> npt.NDArray[np.intp]:
+        """Return the indices of the n designs with the least values of a metric, best first.
+
+        Parameters
+        ----------
+        n : int
+            How many; fewer are returned if fewer have a value.
+        by : str
+            Name of the metric. NaN is left out; of equal values the first is first.
+        greatest : bool
+            Those with the greatest values instead.
+
+        Returns
+        -------
+        numpy.ndarray
+            Indices of designs in C order, for `designs`.
+
+        Raises
+        ------
+        InputError
+            If no design has a value.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+        >>> space = {"coupler.length": [2.0, 2.5, 3.0, 9.0]}
+        >>> angle = {"angle": assur.metric.least_transmission("C")}
+        >>> found = assur.sweep(assur.FourBar(1.0, 3.0, 2.5, 3.0), space, q, metrics=angle)
+        >>> found.best(2, by="angle", greatest=True)
+        array([0, 1])
+        """
+        wanted = whole_number(n, "n", 1)
+        if by not in self._values:
+            message = f"by={short(by)}: one of {', '.join(map(repr, self._values))} is needed"
+            raise InputError(message)
+        values = self._values[by].reshape(-1)
+        indices = np.flatnonzero(~np.isnan(values))
+        if len(indices) == 0:
+            message = f"best: no design has a value of {by!r}: {self._counts()}"
+            raise InputError(message)
+        some = -values[indices] if flag(greatest, "greatest") else values[indices]
+        if wanted < len(some):
+            # Sorting all would take longer than measuring them.
+            few = np.flatnonzero(some <= np.partition(some, wanted - 1)[wanted - 1])
+            indices, some = indices[few], some[few]
+        return indices[np.argsort(some, kind="stable")[:wanted]]
+
+    def _counts(self) -> str:
+        kept, missed = len(self.kept), len(self.missed)
+        fail = self.status.size - kept - missed
+        of = f"of {self.status.size} designs {fail} do not move"
+        return f"{of}, {missed} miss a condition, {kept} are kept"
+
+    def designs(
+        self, indices: int | tuple[Any, ...] | Sequence[int] | npt.NDArray[Any]
+    ) -> Mechanism:
+        """Return some designs: one mechanism, or a batch (n,).
+
+        Parameters
+        ----------
+        indices : int, sequence of int, tuple, or array
+            Indices of designs in C order, as in `kept`; a tuple is an index into S, an entry for
+            each axis; an array of bool of shape S chooses.
+
+        Raises
+        ------
+        InputError
+            If there is no such design.
 
         Examples
         --------
@@ -64,14 +147,65 @@ class Measures(Mapping[str, Float]):
         >>> round(best.dimensions["coupler.length"], 3)
         2.0
         """
-        wanted = np.asarray(indices)
-        count = self._designs.count
-        whole = wanted.dtype.kind in "iu" and wanted.ndim <= 1
-        if not (whole and ((-count <= wanted) & (wanted < count)).all()):
-            message = f"designs: {short(indices)}: indices below {count} are needed, one or (n,)"
-            raise InputError(message)
-        some = self._designs.some(np.atleast_1d(wanted) % max(1, count))
+        wanted = self._flat(indices)
+        some = self._designs.some(np.atleast_1d(wanted))
         return some if wanted.ndim else some.design(0)
+
+    def _flat(self, indices: Any) -> npt.NDArray[np.intp]:
+        """Return indices in C order, one or (n,)."""
+        if isinstance(indices, tuple):
+            shape, given = self.shape, indices
+        else:
+            shape, given = (self._designs.count,), (indices,)
+        entries: tuple[npt.NDArray[Any], ...] = ()
+        with suppress(ValueError):
+            entries = tuple(np.broadcast_arrays(*(np.asarray(entry) for entry in given)))
+        if len(entries) == 1 and entries[0].dtype == np.bool_ and entries[0].shape == self.shape:
+            return np.flatnonzero(entries[0])
+        axes = zip(entries, shape, strict=False)
+        fits = len(entries) == len(shape) and all(
+            entry.ndim <= 1
+            and (entry.dtype.kind in "iu" or entry.size == 0)
+            and ((-size <= entry) & (entry < size)).all()
+            for entry, size in axes
+        )
+        if not fits:
+            what = f"one index into the shape {self.shape}"
+            message = f"designs: {short(indices)}: indices below {self._designs.count}, or {what}"
+            raise InputError(message)
+        flat = np.zeros((), dtype=np.intp)
+        for entry, size in zip(entries, shape, strict=True):
+            flat = flat * size + entry.astype(np.intp) % max(1, size)
+        return np.asarray(flat)
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas DataFrame with one row per design (needs pandas).
+
+        Columns: the design's index (one for each axis of S), the dimensions that the sweep
+        changes, status, whether it is kept, and every metric. A metric named like one of the
+        other columns appears as ``metric status``.
+        """
+        try:
+            import pandas as pd
+        except ImportError as error:  # pragma: no cover
+            message = "to_dataframe needs pandas: pip install pandas"
+            raise ImportError(message) from error
+        columns: dict[str, Any] = {}
+        axes = len(self.shape)
+        for axis, index in enumerate(np.indices(self.shape, sparse=True)):
+            name = "design" if axes == 1 else f"design{axis}"
+            columns[name] = np.broadcast_to(index, self.shape).reshape(-1)
+        columns.update({name: self._designs.values(name) for name in self._designs.changed})
+        columns["status"] = self.status.reshape(-1)
+        columns["kept"] = np.isin(np.arange(self.status.size), self.kept)
+        for name, values in self._values.items():
+            taken = f"metric {name}" if name in columns else name
+            columns[taken] = values.reshape(-1)
+        return pd.DataFrame(columns)
+
+    # As a mapping it would compare arrays.
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
 
     def __getitem__(self, name: str) -> Float:
         return self._values[name]

@@ -2,35 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
-import numpy as np
-import numpy.typing as npt
-
-from assur._arrays import short
-from assur._validate import checked_name, checked_threads, one_of, real_array
+from assur._validate import checked_order, checked_threads, one_of
+from assur.description.words import Status
 from assur.errors import InputError
-from assur.kinematics.solve import checked_assembly
-from assur.metric import Condition, Function, Leaf, Metric, encoded
 from assur.sweeps.designs import Designs
-from assur.sweeps.measures import Measures
+from assur.sweeps.engine import checked_engine
+from assur.sweeps.measuring import Measuring
+from assur.sweeps.motions import Course, Solving, in_blocks, moving
+from assur.sweeps.progress import reporter, silent
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
+
+    import numpy.typing as npt
 
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
+    from assur.sweeps.engine import Engine
+    from assur.sweeps.measures import Measures
+    from assur.sweeps.progress import Progress, Report
+    from assur.sweeps.terms import Condition, Metric
 
 __all__ = ["sweep"]
-
-Float: TypeAlias = npt.NDArray[np.float64]
-Progress: TypeAlias = bool | Callable[[int, int], object]
-
-# Designs of a block, between two reports of progress, and positions whose motions a function in
-# Python sees at once.
-BLOCK_OF_METRICS = 262_144
-POSITIONS_OF_FUNCTIONS = 262_144
 
 
 @overload
@@ -39,7 +34,7 @@ def sweep(
     dimensions: Mapping[str, npt.ArrayLike],
     q: npt.ArrayLike,
     outputs: Iterable[str] | None = ...,
-    order: int = ...,
+    order: int | None = ...,
     *,
     assembly: Mapping[str, int] | None = ...,
     metrics: None = ...,
@@ -48,6 +43,7 @@ def sweep(
     threads: int | None = ...,
     progress: Progress = ...,
     out: Motion | None = ...,
+    engine: Engine | None = ...,
 ) -> Motion: ...
 @overload
 def sweep(
@@ -60,13 +56,14 @@ def sweep(
     where: Iterable[Condition] | None = ...,
     threads: int | None = ...,
     progress: Progress = ...,
+    engine: Engine | None = ...,
 ) -> Measures: ...
 def sweep(
     mechanism: Mechanism,
     dimensions: Mapping[str, npt.ArrayLike],
     q: npt.ArrayLike,
     outputs: Iterable[str] | None = None,
-    order: int = 2,
+    order: int | None = None,
     *,
     assembly: Mapping[str, int] | None = None,
     metrics: Mapping[str, Metric] | None = None,
@@ -75,6 +72,7 @@ def sweep(
     threads: int | None = None,
     progress: Progress = False,
     out: Motion | None = None,
+    engine: Engine | None = None,
 ) -> Motion | Measures:
     """Solve many designs of a mechanism, or measure them.
 
@@ -89,27 +87,36 @@ def sweep(
         Coordinate of the driver, rad or m: as for `Mechanism.solve`; with `metrics` of
         shape (N,), n drivers add a last axis of n.
     outputs : iterable of str, optional
-        Names of joints, links and slides to keep; all by default.
-    order : {2, 0, 1, 3}
-        Highest order of the analogues.
+        Names of joints, links and slides to keep; all by default. Not with `metrics`.
+    order : {2, 0, 1, 3}, optional
+        Highest order of the analogues. Not with `metrics`, which have an order each.
     assembly : mapping of str to int, optional
         Signs of dyads where they differ from the drawing's.
     metrics : mapping of str to metric, optional
         What is measured of each design (see `assur.metric`). Positions are not kept: memory
         does not grow with them.
     where : iterable of Condition, optional
-        Conditions on metrics, ``assur.metric.least_transmission("C") > 0.7``. A design that
-        misses one is dropped, often after a few positions; put the quickest first.
+        Conditions on metrics, ``assur.metric.least_transmission("C") > 0.7``, also on their sums
+        and multiples. A design that misses one is dropped: after a few positions, if more of
+        them cannot change that (a span only grows, a least value only falls). Put the quickest
+        first. Only with `metrics`.
     on_error : {"nan", "raise", "drop"}
         For positions that cannot be solved: NaN, each with its status; an error for the first
         one; or the motion of the designs alone that move over all of q, with their indices in
-        `Motion.kept`.
+        `Motion.kept`. With `metrics` it is "nan": `Measures.kept` has the indices.
     threads : int, optional
-        Maximum number of threads; by default one per core. Results do not depend on it.
+        Maximum number of threads; by default one per core (of each task of an engine: 1).
+        Results do not depend on it. Threads share designs, not the positions of one.
     progress : bool or callable, default False
-        Called with the number of designs done, and of all; True shows a bar (needs tqdm).
+        Called after every block of designs with the number of designs done, and of all; True
+        shows a bar (needs tqdm). With "drop" designs that do not move are done first.
     out : Motion, optional
-        A motion of the same call: overwritten.
+        A motion of the same call: overwritten. Not with `metrics`.
+    engine : optional
+        Where blocks of designs are solved: a Dask client, a
+        `concurrent.futures.ProcessPoolExecutor`, or anything with ``submit(function, argument)``
+        that returns a future. Results are the same bits. Functions in `metrics` must be such
+        that `pickle` sends them.
 
     Returns
     -------
@@ -119,8 +126,15 @@ def sweep(
 
     Raises
     ------
-    InputError, PositionError, DimensionError
-        As of `Mechanism.solve`.
+    InputError
+        For arguments that have no meaning, as of `Mechanism.solve` and of the metrics.
+    DimensionError
+        For one design (S is ``()``) whose dimensions are invalid; in a batch it has
+        ``Status.BAD_DIMENSION``.
+    PositionError
+        With ``on_error="raise"``, for the first position that has no solution.
+    AssurError
+        If a task of an engine fails; the message names its designs.
 
     Examples
     --------
@@ -145,186 +159,77 @@ def sweep(
     """
     designs = Designs(mechanism, dimensions)
     one_of(on_error, ("nan", "raise", "drop"), "on_error")
+    engine, threads = checked_engine(engine), checked_threads(threads)
+    # Each worker of an engine is a core by itself.
+    threads = 1 if threads is None and engine is not None else threads
     if metrics is None:
         if where is not None:
             message = "where= is for metrics=; on_error='drop' keeps the designs that move"
             raise InputError(message)
-        return _motions(designs, q, outputs, order, assembly, on_error, threads, progress, out)
-    if out is not None or outputs is not None:
-        message = f"{'out' if outputs is None else 'outputs'}= is for motions, not for metrics="
+        every = checked_order(2 if order is None else order)
+        solving = Solving(every, outputs, assembly, threads)
+        with reporter(progress, designs.count) as report:
+            return _motions(designs, q, solving, on_error, out, report, engine)
+    _refuse_for_metrics(outputs=outputs, order=order, out=out)
+    if on_error != "nan":
+        message = (
+            f"on_error={on_error!r} is for motions; with metrics= designs that do not move have "
+            "NaN and a status, and .kept has the indices of the others"
+        )
         raise InputError(message)
-    return _Measuring(designs, q, metrics, where, assembly, threads, progress).run()
+    measuring = Measuring(designs.mechanism, q, metrics, where, assembly, threads)
+    with reporter(progress, designs.count) as report:
+        return measuring.run(designs, report, engine)
+
+
+def _refuse_for_metrics(**given: object) -> None:
+    for name, value in given.items():
+        if value is not None:
+            message = f"{name}= is for motions, not for metrics="
+            if name == "order":
+                message += ": each metric has an order of its own, metric.span('rocker', order=1)"
+            raise InputError(message)
 
 
 def _motions(
     designs: Designs,
     q: npt.ArrayLike,
-    outputs: Iterable[str] | None,
-    order: int,
-    assembly: Mapping[str, int] | None,
+    solving: Solving,
     on_error: str,
-    threads: int | None,
-    progress: Progress,
     out: Motion | None,
+    report: Report,
+    engine: Any,
 ) -> Motion:
+    every = designs.all()
     if on_error == "drop":
-        moving = {"moves": Leaf("moves")}
-        found = _Measuring(designs, q, moving, None, assembly, threads, progress).run()
-        some = designs.some(found.kept)
-        motion = some.solve(q, order, outputs, assembly, "nan", threads, out)
-        motion.kept = found.kept
-        return motion
-    every: Any = on_error
-    report = _reporter(progress, designs.count)
-    motion = designs.all().solve(q, order, outputs, assembly, every, threads, out)
-    report(designs.count)
+        return _moving(designs, Course(every, q), solving, out, report, engine)
+    course = Course(every, q)
+    # Without a need for blocks one call writes all of it.
+    reports = engine is not None or report is not silent
+    if reports and designs.shape and designs.count:
+        motion = in_blocks(designs, every, course, solving, out, report, engine)
+    else:
+        motion = solving.solve((every, course.whole), out)
+        report(designs.count)
+    if on_error == "raise" and (motion.status >= Status.SINGULAR).any():
+        # It raises what it finds first, and counts the others.
+        every.solve(q, solving.order, (), solving.assembly, "raise", solving.threads)
     return motion
 
 
-class _Measuring:
-    """One sweep for metrics."""
-
-    def __init__(
-        self,
-        designs: Designs,
-        q: npt.ArrayLike,
-        metrics: Any,
-        where: Any,
-        assembly: Mapping[str, int] | None,
-        threads: Any,
-        progress: Progress,
-    ) -> None:
-        if not isinstance(metrics, Mapping):
-            message = f"metrics is {short(metrics)}: a mapping of names to metrics is needed"
-            raise InputError(message)
-        self.metrics = {
-            checked_name(name, "metrics"): _metric(name, m) for name, m in metrics.items()
-        }
-        self.conditions = [] if where is None else [_condition(one) for one in where]
-        self.designs = designs
-        self.assembly = assembly
-        self.threads = checked_threads(threads)
-        self.signs = checked_assembly(designs.mechanism, assembly)
-        self.report = _reporter(progress, designs.count)
-        self.q = real_array(q, "q")
-        drivers = designs.mechanism._driver_count
-        needed = 1 if drivers == 1 else 2
-        if self.q.ndim != needed or (drivers > 1 and self.q.shape[-1] != drivers):
-            shape = "(N,)" if drivers == 1 else f"(N, {drivers})"
-            message = f"q has shape {self.q.shape}: metrics need {shape}, the same for all designs"
-            raise InputError(message)
-        if not np.isfinite(self.q).all():
-            message = "q: a coordinate is not finite: no design could move over all of q"
-            raise InputError(message)
-        everything = [*self.metrics.values(), *(c.metric for c in self.conditions)]
-        leaves = list(dict.fromkeys(leaf for metric in everything for leaf in metric.leaves()))
-        self.leaves = [leaf for leaf in leaves if isinstance(leaf, Leaf)]
-        self.functions = [leaf for leaf in leaves if isinstance(leaf, Function)]
-        if drivers > 1 and any(leaf.order or leaf.over for leaf in self.leaves):
-            message = "order= and over= of metrics are for mechanisms with one driver"
-            raise InputError(message)
-        flat = self.q if drivers == 1 else self.q[:, 0]
-        self.encoded = [encoded(leaf, designs.mechanism, flat) for leaf in self.leaves]
-        self.early = [
-            (self.leaves.index(c.metric), c.relation, c.limit)
-            for c in self.conditions
-            if isinstance(c.metric, Leaf)
-        ]
-        self.late = [c for c in self.conditions if not isinstance(c.metric, Leaf)]
-
-    def run(self) -> Measures:
-        """Measure all designs, block by block."""
-        count, shape = self.designs.count, self.designs.shape
-        values = {name: np.full(count, np.nan) for name in self.metrics}
-        status = np.zeros(count, dtype=np.uint8)
-        kept = np.zeros(count, dtype=np.bool_)
-        memory = np.empty(self.designs.size * min(count, BLOCK_OF_METRICS))
-        for first in range(0, count, BLOCK_OF_METRICS):
-            block = slice(first, min(first + BLOCK_OF_METRICS, count))
-            some = self.designs.some(block, memory)
-            status[block], kept[block] = self._measure(some, values, block)
-            self.report(block.stop)
-        for array in (*values.values(), status):
-            array.flags.writeable = False
-        indices = np.flatnonzero(kept)
-        arrays = {name: array.reshape(shape) for name, array in values.items()}
-        return Measures(arrays, status.reshape(shape), indices, self.designs)
-
-    def _measure(
-        self, some: Mechanism, values: dict[str, Float], block: slice
-    ) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.bool_]]:
-        """Measure a block into `values`; return statuses, and which are kept."""
-        found, status, kept = some._core.measure(
-            some._values.reshape(-1),
-            np.ascontiguousarray(self.q).reshape(-1),
-            self.signs,
-            self.encoded,
-            self.early,
-            self.threads,
-        )
-        of: dict[Leaf | Function, Float] = dict(zip(self.leaves, found, strict=True))
-        if self.functions:
-            indices = np.flatnonzero(kept)
-            for function in self.functions:
-                of[function] = self._called(function, some, indices)
-        for condition in self.late:
-            kept &= condition.holds(condition.metric.value(of.__getitem__))
-        for name, metric in self.metrics.items():
-            one = metric.value(of.__getitem__)
-            values[name][block] = np.where(kept, one, np.nan) if self.late else one
-        return status, kept
-
-    def _called(self, function: Function, some: Mechanism, indices: npt.NDArray[np.intp]) -> Float:
-        """Call a function with the motions of some designs."""
-        found = np.full(some.shape[0], np.nan)
-        size = max(1, POSITIONS_OF_FUNCTIONS // max(1, len(self.q)))
-        for first in range(0, len(indices), size):
-            few = indices[first : first + size]
-            batch = some._make(some._description, some._values[:, few], some._core)
-            motion = batch.solve(
-                self.q, function.order, function.outputs, self.assembly, "nan", self.threads
-            )
-            numbers = real_array(function.function(motion), f"the values of {function!r}")
-            if numbers.shape != few.shape:
-                message = f"{function!r} returned shape {numbers.shape} for designs {few.shape}"
-                raise InputError(message)
-            found[few] = numbers
-        return found
-
-
-def _metric(name: str, metric: Any) -> Metric:
-    if not isinstance(metric, Metric):
-        message = f"metrics[{name!r}] is {short(metric)}: one of assur.metric is needed"
-        raise InputError(message)
-    return metric
-
-
-def _condition(condition: Any) -> Condition:
-    if not isinstance(condition, Condition):
-        message = f"where: {short(condition)} is no condition, as metric > limit is"
-        raise InputError(message)
-    return condition
-
-
-def _reporter(progress: Any, total: int) -> Callable[[int], object]:
-    """Return what is called with the number of designs done."""
-    if progress is False or progress is None:
-        return lambda _: None
-    if callable(progress):
-        return lambda done: progress(done, total)
-    if progress is not True:
-        message = f"progress is {short(progress)}: True, False or a function is needed"
-        raise InputError(message)
-    try:
-        from tqdm.auto import tqdm
-    except ImportError as error:
-        message = "progress=True needs tqdm: pip install assur[progress], or pass a function"
-        raise ImportError(message) from error
-    bar = tqdm(total=total, unit="design", unit_scale=True)
-
-    def show(done: int) -> None:
-        bar.update(done - bar.n)
-        if done == total:
-            bar.close()
-
-    return show
+def _moving(
+    designs: Designs,
+    course: Course,
+    solving: Solving,
+    out: Motion | None,
+    report: Report,
+    engine: Any,
+) -> Motion:
+    """Solve the designs that move over all of q, in a first pass for their statuses alone."""
+    kept = moving(designs, course, solving, report, engine)
+    some = Designs(designs.some(kept), {})
+    dropped = designs.count - len(kept)
+    rest = silent if report is silent else lambda done: report(dropped + done)
+    motion = _motions(some, course.of(kept), solving, "nan", out, rest, engine)
+    motion.kept = kept
+    return motion

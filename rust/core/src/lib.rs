@@ -81,10 +81,11 @@ pub use description::slider_crank::SliderCrank;
 pub use description::{
     Description, Driver, DriverDescription, Joint, Link, Linkage, Slide, SlideDescription,
 };
-pub use math::pair::Lanes;
 pub use math::simd::Simd;
 pub use math::vector::Vector;
-pub use math::{lanes, tolerance, trig};
+// For the binding (`assur._trig`), tests and benches: no part of the public face.
+#[doc(hidden)]
+pub use math::{lanes, pair::Lanes, tolerance, trig};
 pub use plan::mechanism::Mechanism;
 pub use query::diagnosis::Diagnosis;
 pub use query::failure::{Failure, GroupName, Reason};

@@ -4,8 +4,8 @@ use assur::papers::crank_rocker as core;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::detach;
 use crate::metrics::check_same_length;
+use crate::{detach, error_map};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -148,21 +148,66 @@ pub(crate) fn crank_rocker_least_gamma<'py>(
     Ok(PyArray1::from_vec(py, detach::map(py, rows.len(), least)?))
 }
 
-/// Kind, whether at the outer side, and t, φ₁, l₄, ground, speeds of D and of the rod (each before
-/// and after).
-type Event = (&'static str, bool, [f64; 8]);
-/// Rows of t, l₄, γ, sliding, B, C (8 numbers each), and events; or why the run cannot start.
-type Run<'py> = (Array<'py>, Vec<Event>, Option<(&'static str, f64)>);
+/// What is asked of a run that may jam.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Case {
+    l1: f64,
+    l2: f64,
+    l3: f64,
+    gamma_min: f64,
+    speed: f64,
+    phi0: f64,
+    turns: f64,
+}
 
-/// Simulates a crank-rocker that jams. `ground`: a function of time. `case`: l₁, l₂, l₃, the least
-/// transmission angle, speed, φ₀, turns.
+/// An event; speeds before and after it.
+#[derive(IntoPyObject)]
+pub(crate) struct JammingEvent {
+    kind: &'static str,
+    side: &'static str,
+    t: f64,
+    phi1: f64,
+    l4: f64,
+    ground: f64,
+    ground_speed: (f64, f64),
+    rod_speed: (f64, f64),
+}
+
+impl From<&core::Event> for JammingEvent {
+    fn from(event: &core::Event) -> Self {
+        let kind = match event.kind {
+            core::Kind::Jam => "jam",
+            core::Kind::Return => "return",
+            core::Kind::DeadPoint => "dead point",
+            core::Kind::NoReturn => "no return",
+        };
+        let &core::Event { side, t, phi1, l4, ground, ground_speed, rod_speed, .. } = event;
+        let [ground_speed, rod_speed] = [ground_speed, rod_speed].map(Into::into);
+        Self { kind, side: side.name(), t, phi1, l4, ground, ground_speed, rod_speed }
+    }
+}
+
+/// The positions of a run (x and y of B and C in turn), and its events.
+#[derive(IntoPyObject)]
+pub(crate) struct JammingRun<'py> {
+    t: Array<'py>,
+    l4: Array<'py>,
+    gamma: Array<'py>,
+    sliding: Bound<'py, PyArray1<bool>>,
+    b: Array<'py>,
+    c: Array<'py>,
+    events: Vec<JammingEvent>,
+}
+
+/// Simulates a crank-rocker that jams. `ground`: a function of time.
 #[pyfunction]
 pub(crate) fn crank_rocker_run<'py>(
     py: Python<'py>,
-    case: [f64; 7],
+    case: Case,
     ground: Bound<'py, PyAny>,
-) -> PyResult<Run<'py>> {
-    let [l1, l2, l3, gamma_min, speed, phi0, turns] = case;
+) -> PyResult<JammingRun<'py>> {
+    let Case { l1, l2, l3, gamma_min, speed, phi0, turns } = case;
     let case = core::Case { lengths: [l1, l2, l3], gamma_min, speed, phi0, turns };
     let mut calls = 0_u32;
     let mut simulate = || {
@@ -174,34 +219,18 @@ pub(crate) fn crank_rocker_run<'py>(
             ground.call1((t,))?.extract::<f64>()
         })
     };
-    let found = detach::catch_panic(|| Ok(simulate()))?;
-    let refused =
-        |why, value| Ok((PyArray1::from_vec(py, Vec::new()), Vec::new(), Some((why, value))));
-    match found {
-        Err(core::Refused::Ground(error)) => Err(error),
-        Err(core::Refused::OutOfReach(s)) => refused("reach", s),
-        Err(core::Refused::Blocked(core::Side::Outer, gamma)) => refused("outer", gamma),
-        Err(core::Refused::Blocked(core::Side::Inner, gamma)) => refused("inner", gamma),
-        Ok((rows, events)) => {
-            let flat = rows.iter().flat_map(|row| {
-                let [[bx, by], [cx, cy]] = row.positions;
-                let sliding = if row.sliding { 1.0 } else { 0.0 };
-                [row.t, row.l4, row.gamma, sliding, bx, by, cx, cy]
-            });
-            let event = |event: &core::Event| {
-                let kind = match event.kind {
-                    core::Kind::Jam => "jam",
-                    core::Kind::Return => "return",
-                    core::Kind::DeadPoint => "dead point",
-                    core::Kind::NoReturn => "no return",
-                };
-                let [g0, g1] = event.ground_speed;
-                let [r0, r1] = event.rod_speed;
-                let numbers = [event.t, event.phi1, event.l4, event.ground, g0, g1, r0, r1];
-                (kind, event.side == core::Side::Outer, numbers)
-            };
-            let events = events.iter().map(event).collect();
-            Ok((PyArray1::from_vec(py, flat.collect()), events, None))
-        }
-    }
+    let (rows, events) = detach::catch_panic(|| Ok(simulate()))?.map_err(error_map::jamming)?;
+    let column = |of: fn(&core::Row) -> f64| PyArray1::from_vec(py, rows.iter().map(of).collect());
+    let points = |which: usize| {
+        PyArray1::from_vec(py, rows.iter().flat_map(|r| r.positions[which]).collect())
+    };
+    Ok(JammingRun {
+        t: column(|row| row.t),
+        l4: column(|row| row.l4),
+        gamma: column(|row| row.gamma),
+        sliding: PyArray1::from_vec(py, rows.iter().map(|row| row.sliding).collect()),
+        b: points(0),
+        c: points(1),
+        events: events.iter().map(JammingEvent::from).collect(),
+    })
 }

@@ -13,13 +13,13 @@ use pyo3::prelude::*;
 
 use crate::error;
 
-/// Time between two checks for signals.
+/// Time between checks for signals.
 pub(crate) const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
-/// Items between two checks whether the work is cancelled.
+/// Items between checks for cancellation.
 const ITEMS_PER_CHECK: usize = 256;
 /// Length from which a list takes long enough to check for signals.
 const LONG_LIST: usize = 16_384;
-/// The same for items that take some tenth of a millisecond each.
+/// The same for items that take about a tenth of a millisecond each.
 const LONG_LIST_OF_SLOW_ITEMS: usize = 512;
 
 /// Source location of the last panic.
@@ -36,10 +36,10 @@ pub(crate) fn record_panic_locations() {
     }));
 }
 
-/// Does short work and turns a panic into an `AssurError`.
+/// Runs short work and turns a panic into an `AssurError`.
 pub(crate) fn catch_panic<T>(work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
-    // Unwind safety: what a panic leaves incomplete is dropped with the closure, or its owner
-    // marks it.
+    // Unwind safety: data that a panic leaves incomplete is dropped with the closure, or marked by its
+    // owner.
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(panic_error(&*panic)))
 }
 
@@ -50,7 +50,7 @@ fn panic_error(panic: &(dyn Any + Send)) -> PyErr {
         .or_else(|| panic.downcast_ref::<String>().cloned())
         .unwrap_or_else(|| "unknown".into());
     let location = LAST_PANIC.lock().ok().and_then(|mut last| last.take());
-    error::internal(&text, location.as_deref().unwrap_or("unknown place"))
+    error::internal(&text, location.as_deref().unwrap_or("unknown location"))
 }
 
 /// Runs `work` without the GIL. Unless it is `small`, the calling thread checks for signals in the
@@ -72,7 +72,7 @@ pub(crate) fn map<T: Send>(
     map_list(py, count, LONG_LIST, one)
 }
 
-/// [`map`] for items that take some tenth of a millisecond each.
+/// [`map`] for items that take about a tenth of a millisecond each.
 pub(crate) fn map_slow<T: Send>(
     py: Python<'_>,
     count: usize,

@@ -27,7 +27,7 @@ pub(crate) enum Class {
     Input,
     Position,
     Motion,
-    /// A fault of the library itself.
+    /// A bug in the library.
     Internal,
 }
 
@@ -84,10 +84,10 @@ pub(crate) fn input(message: &str, value: Option<f64>) -> PyErr {
     exception(Class::Input, None, message, None, &Fields { value, ..Fields::default() })
 }
 
-/// An `AssurError` for a fault of the library.
-pub(crate) fn internal(what: &str, place: &str) -> PyErr {
+/// An `AssurError` for a bug in the library.
+pub(crate) fn internal(what: &str, location: &str) -> PyErr {
     let message = format!(
-        "a fault of assur, not of your input: {what} ({place}); please report it with the call that led to it"
+        "a fault of assur, not of your input: {what} ({location}); please report it with the call that led to it"
     );
     exception(Class::Internal, Some("internal"), &message, None, &Fields::default())
 }

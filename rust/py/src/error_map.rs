@@ -2,7 +2,9 @@
 //!
 //! The kind is the name of the error's variant; `docs/errors.md` lists them all.
 
-use assur::dynamics::{RunError, SteadyError, TableError};
+use assur::dynamics::{RunError, SteadyError, TableError, Variable};
+use assur::papers::crank_rocker::JammingError;
+use assur::papers::slider_crank::SeriesError;
 use assur::{
     DriverFault, Failure, FirstFailure, GroupName, Hint, Named, Overconstraint, Reason, SolveError,
     StructureError,
@@ -22,6 +24,8 @@ pub(crate) fn error_kinds() -> Vec<(&'static str, &'static [&'static str])> {
         ("run", RunError::<PyErr>::VARIANTS),
         ("steady state", SteadyError::<PyErr>::VARIANTS),
         ("table", TableError::VARIANTS),
+        ("series", SeriesError::VARIANTS),
+        ("jamming", JammingError::<PyErr>::VARIANTS),
     ]
 }
 
@@ -198,7 +202,7 @@ pub(crate) fn first_failure(first: &FirstFailure, shape: &[usize], rows: usize) 
     exception(class, Some(kind), &message, hint.as_deref(), &Fields { design, ..fields })
 }
 
-/// Index of a design by axes; `None` without designs.
+/// Index of a design along each axis; `None` if it is not a batch.
 fn design_index(mut flat: usize, shape: &[usize]) -> Option<Vec<usize>> {
     let mut index = vec![0; shape.len()];
     for (entry, &size) in index.iter_mut().zip(shape).rev() {
@@ -207,7 +211,7 @@ fn design_index(mut flat: usize, shape: &[usize]) -> Option<Vec<usize>> {
     (!shape.is_empty()).then_some(index)
 }
 
-/// As Python shows a tuple.
+/// A tuple as Python prints it.
 fn tuple_text(index: &[usize]) -> String {
     match index {
         [one] => format!("({one},)"),
@@ -215,7 +219,7 @@ fn tuple_text(index: &[usize]) -> String {
     }
 }
 
-/// A run that could not be made.
+/// A run that could not start or be computed.
 pub(crate) fn run(error: RunError<PyErr>) -> PyErr {
     if let RunError::Callback(error) = error {
         return error;
@@ -230,7 +234,7 @@ pub(crate) fn run(error: RunError<PyErr>) -> PyErr {
             let driver = driver.as_deref();
             (Class::Input, Fields { driver, q: Some(q), value: Some(*value), ..none() })
         }
-        RunError::NotFinite { along, at } if *along == "t" => {
+        RunError::NotFinite { along: Variable::Time, at } => {
             (Class::Motion, Fields { t: Some(*at), ..none() })
         }
         RunError::NotFinite { at, .. } => {
@@ -307,4 +311,22 @@ pub(crate) fn table(error: &TableError, where_: &str, design: Option<Vec<usize>>
     let message = format!("{where_}{}", error.with_hint());
     let hint = error.hint();
     exception(class, Some(error.into()), &message, hint.as_deref(), &Fields { design, ..fields })
+}
+
+/// A series of the slider-crank that gives no number.
+pub(crate) fn series(error: SeriesError) -> PyErr {
+    let SeriesError::DoesNotEnd { k } = error;
+    let fields = Fields { value: Some(k), ..Fields::default() };
+    raised(&error, Class::Input, (&error).into(), &fields)
+}
+
+/// A crank-rocker with friction that cannot start.
+pub(crate) fn jamming(error: JammingError<PyErr>) -> PyErr {
+    let (phi0, value) = match error {
+        JammingError::Ground(error) => return error,
+        JammingError::Blocked { gamma, phi0, .. } => (phi0, gamma),
+        JammingError::OutOfReach { distance, phi0, .. } => (phi0, distance),
+    };
+    let fields = Fields { q: Some(&[phi0]), value: Some(value), ..Fields::default() };
+    raised(&error, Class::Position, (&error).into(), &fields)
 }

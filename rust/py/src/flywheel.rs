@@ -47,12 +47,12 @@ impl Task {
     }
 }
 
-/// A quantity over the angle, or over the time.
+/// A quantity over the coordinate, or over the time.
 #[derive(Clone, Copy)]
 enum Curve {
     Speed,
     Time,
-    Angle,
+    Coordinate,
     Moment,
     Inertia,
     Work,
@@ -63,7 +63,7 @@ impl Words for Curve {
     const KNOWN: &'static [(&'static str, Self)] = &[
         ("speed", Self::Speed),
         ("time", Self::Time),
-        ("angle", Self::Angle),
+        ("coordinate", Self::Coordinate),
         ("moment", Self::Moment),
         ("inertia", Self::Inertia),
         ("work", Self::Work),
@@ -75,12 +75,25 @@ impl Curve {
         match self {
             Self::Speed => flywheel.speed(x),
             Self::Time => flywheel.time(x),
-            Self::Angle => flywheel.angle(x),
+            Self::Coordinate => flywheel.angle(x),
             Self::Moment => flywheel.cycle.moment(x),
             Self::Inertia => flywheel.cycle.inertia(x),
             Self::Work => flywheel.cycle.work(x),
         }
     }
+}
+
+/// Numbers of the flywheels of several tables; `greatest` and `least` are extreme speeds.
+#[derive(IntoPyObject)]
+pub(crate) struct FlywheelNumbers<'py> {
+    inertia: Array<'py>,
+    speed0: Array<'py>,
+    motor_moment: Array<'py>,
+    greatest_at: Array<'py>,
+    greatest: Array<'py>,
+    least_at: Array<'py>,
+    least: Array<'py>,
+    period: Array<'py>,
 }
 
 /// The flywheels of several tables with the same angles.
@@ -127,24 +140,23 @@ impl Flywheels {
         .map(Self)
     }
 
-    /// For each table: flywheel, initial speed, moment of the motor, angle and value of the
-    /// greatest speed and of the least, period. NaN for a table without a flywheel.
-    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Vec<Array<'py>>> {
-        let columns: [fn(&Flywheel) -> f64; 8] = [
-            |f| f.inertia,
-            |f| f.speed0,
-            |f| f.cycle.motor,
-            |f| f.greatest.at,
-            |f| f.greatest.value,
-            |f| f.least.at,
-            |f| f.least.value,
-            Flywheel::period,
-        ];
-        let values = |column: fn(&Flywheel) -> f64| {
-            self.0.iter().map(|one| one.as_ref().map_or(f64::NAN, column)).collect()
+    /// A number of each table, NaN for one without a flywheel.
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<FlywheelNumbers<'py>> {
+        let column = |of: fn(&Flywheel) -> f64| {
+            let values = self.0.iter().map(|one| one.as_ref().map_or(f64::NAN, of));
+            PyArray1::from_vec(py, values.collect())
         };
         detach::catch_panic(|| {
-            Ok(columns.into_iter().map(|column| PyArray1::from_vec(py, values(column))).collect())
+            Ok(FlywheelNumbers {
+                inertia: column(|f| f.inertia),
+                speed0: column(|f| f.speed0),
+                motor_moment: column(|f| f.cycle.motor),
+                greatest_at: column(|f| f.greatest.at),
+                greatest: column(|f| f.greatest.value),
+                least_at: column(|f| f.least.at),
+                least: column(|f| f.least.value),
+                period: column(Flywheel::period),
+            })
         })
     }
 
@@ -153,20 +165,20 @@ impl Flywheels {
         self.0.get(index)?.as_ref().err().map(Hint::with_hint)
     }
 
-    /// The exception of a table without a flywheel. `place`: its name at the beginning of the
+    /// The exception of a table without a flywheel. `label`: its name at the beginning of the
     /// message; `design`: its index in the batch.
     fn failure(
         &self,
         py: Python<'_>,
         index: usize,
-        place: &str,
+        label: &str,
         design: Option<Vec<usize>>,
     ) -> Option<Py<PyBaseException>> {
         let error = self.0.get(index)?.as_ref().err()?;
-        Some(error_map::table(error, place, design).into_value(py))
+        Some(error_map::table(error, label, design).into_value(py))
     }
 
-    /// A quantity of every table at the same number of angles or times, table after table.
+    /// A quantity of every table at the same number of coordinates or times, table after table.
     fn curve<'py>(
         &self,
         py: Python<'py>,

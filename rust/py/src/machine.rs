@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 use assur::dynamics::{
-    EndCondition, FluctuationTarget, Mean, ReducedTable, RunOptions, SteadyOptions,
+    EndCondition, Extreme, FluctuationTarget, Mean, ReducedTable, RunOptions, SteadyOptions,
     TabulatedMachine, Variable,
 };
 use assur::ode::Method;
@@ -39,6 +39,31 @@ type Arrays<'py> = (
     Bound<'py, PyArray1<u8>>,
     Option<Py<PyBaseException>>,
 );
+
+/// Numbers of a steady state: the multiplier, the moment that keeps the speed, N·m, the work of the
+/// motors, J, the flywheel, kg·m², and the extreme speeds.
+#[derive(IntoPyObject)]
+pub(crate) struct SteadyNumbers {
+    multiplier: f64,
+    found_moment: f64,
+    motor_work: f64,
+    inertia: f64,
+    least: ExtremeFields,
+    greatest: ExtremeFields,
+}
+
+/// An extreme value and its coordinate.
+#[derive(IntoPyObject)]
+struct ExtremeFields {
+    at: f64,
+    value: f64,
+}
+
+impl From<Extreme> for ExtremeFields {
+    fn from(Extreme { at, value }: Extreme) -> Self {
+        Self { at, value }
+    }
+}
 
 /// Positions up to which a call need not check for signals.
 const FEW_POSITIONS: usize = 20_000;
@@ -88,7 +113,7 @@ impl Machine {
         })
     }
 
-    /// A machine of tables of inertia and moment over the angle.
+    /// A machine given by tables of inertia and moment over the angle.
     #[staticmethod]
     fn from_table(
         phi: Flat<'_>,
@@ -268,9 +293,7 @@ impl Machine {
     }
 
     /// The steady state from `q` over a span, with a given flywheel or one sized for a fluctuation.
-    /// `mean`: definition of the mean speed. Returns the run over one
-    /// period, and: multiplier, moment, work of the motors, flywheel, coordinate and value of the
-    /// least and of the greatest speed.
+    /// `mean`: definition of the mean speed. Returns the run over one period and its numbers.
     #[allow(clippy::too_many_arguments, reason = "what is asked of it")]
     fn steady(
         &self,
@@ -286,7 +309,7 @@ impl Machine {
         breaks: Vec<f64>,
         flywheel: f64,
         fluctuation: Option<f64>,
-    ) -> PyResult<(Run, Vec<f64>)> {
+    ) -> PyResult<(Run, SteadyNumbers)> {
         let Word(mean) = mean;
         let options = SteadyOptions {
             q,
@@ -309,23 +332,21 @@ impl Machine {
         })?;
         let steady = steady.map_err(error_map::steady)?;
         let [least, greatest] = steady.extremes();
-        let numbers = vec![
-            steady.multiplier,
-            steady.moment,
-            steady.drive,
-            steady.flywheel,
-            least.at,
-            least.value,
-            greatest.at,
-            greatest.value,
-        ];
+        let numbers = SteadyNumbers {
+            multiplier: steady.multiplier,
+            found_moment: steady.moment,
+            motor_work: steady.drive,
+            inertia: steady.flywheel,
+            least: least.into(),
+            greatest: greatest.into(),
+        };
         Ok((Run::new(steady.run), numbers))
     }
 }
 
 impl Machine {
-    /// Does work with the Python functions of the machine and of events. The GIL is held throughout
-    /// if there are any. Raises what a signal handler raised meanwhile.
+    /// Runs work that may call the Python functions of the machine and of events. With such functions
+    /// it holds the GIL throughout. Raises what a signal handler raised meanwhile.
     fn with_callbacks<T: Send>(
         &self,
         py: Python<'_>,

@@ -1,4 +1,4 @@
-//! The mechanism for Python: takes names, returns arrays.
+//! The mechanism for Python: names in, arrays out.
 
 use std::mem::MaybeUninit;
 use std::num::NonZeroUsize;
@@ -30,7 +30,7 @@ const FEW_POSITIONS: usize = 100_000;
 const FEW_SIGNS: usize = 12;
 /// Links below which building a mechanism need not check for signals.
 const FEW_LINKS: usize = 64;
-/// Positions that take as long as tracing one branch from the drawing.
+/// Number of positions that take as long as tracing one branch from the drawing.
 const POSITIONS_PER_BRANCH: usize = 1000;
 /// Positions to diagnose between two checks for cancellation; fewer with several drivers.
 const POSITIONS_PER_CHECK: usize = 8192;
@@ -39,8 +39,18 @@ const POSITIONS_PER_CHECK: usize = 8192;
 type Solution<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>, Option<Py<PyBaseException>>);
 /// Residuals and conditions.
 type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
-type GroupFields =
-    (usize, usize, Option<&'static str>, Option<usize>, Vec<String>, Vec<String>, Vec<String>);
+
+/// An Assur group with the names of its links, joints and slides.
+#[derive(IntoPyObject)]
+pub(crate) struct GroupFields {
+    cls: usize,
+    order: usize,
+    kind: Option<&'static str>,
+    artobolevsky_kind: Option<usize>,
+    links: Vec<String>,
+    joints: Vec<String>,
+    slides: Vec<String>,
+}
 
 /// A compiled mechanism.
 #[pyclass(frozen, module = "assur._core")]
@@ -133,20 +143,18 @@ impl Mechanism {
         catch_panic(|| Ok((links(), slides())))
     }
 
-    /// Groups: class, order, kind, Artobolevsky's number, links, joints, slides.
+    /// Groups in solving order.
     #[getter]
     fn groups(&self) -> PyResult<Vec<GroupFields>> {
         let linkage = self.inner.linkage();
-        let parts = |g: &assur::Group| {
-            (
-                g.class,
-                g.order,
-                g.kind,
-                g.artobolevsky_kind(),
-                g.links.iter().map(|&l| linkage.links[l].name.clone()).collect(),
-                g.joints.iter().map(|&j| linkage.joints[j].name.clone()).collect(),
-                g.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect(),
-            )
+        let parts = |g: &assur::Group| GroupFields {
+            cls: g.class,
+            order: g.order,
+            kind: g.kind,
+            artobolevsky_kind: g.artobolevsky_kind(),
+            links: g.links.iter().map(|&l| linkage.links[l].name.clone()).collect(),
+            joints: g.joints.iter().map(|&j| linkage.joints[j].name.clone()).collect(),
+            slides: g.slides.iter().map(|&s| linkage.slides[s].name.clone()).collect(),
         };
         catch_panic(|| Ok(self.inner.structure().groups.iter().map(parts).collect()))
     }
@@ -173,11 +181,10 @@ impl Mechanism {
     }
 
     /// Solves designs at positions; see `assur.Mechanism.solve`. `outputs`: indices of joints,
-    /// links (angles), links (points) and slides. `buffers`: the arrays of an
-    /// earlier result (`columns`, `status`) to overwrite; its `complete` is false meanwhile.
-    /// `dimension`: that by which the results are differentiated. `report`: the shape of
-    /// the designs, for the exception of the first position that failed. `known_signs`: of these
-    /// dimensions and signs.
+    /// links (angles), links (reference points) and slides. `buffers`: the arrays of an earlier result
+    /// (`columns`, `status`) to overwrite; its `complete` is false meanwhile. `dimension`: the
+    /// dimension to differentiate by. `report`: the shape of the designs, for the exception of the
+    /// first position that failed. `known_signs`: valid for these dimensions and signs.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     #[pyo3(signature = (
         dimensions, q, per_design, signs, order, outputs, threads, buffers, dimension, report,
@@ -299,6 +306,16 @@ impl Mechanism {
         sweep::measure(py, &self.inner, (dimensions, q), &signs, &metrics, conditions, threads)
     }
 
+    /// Why a metric has no meaning at coordinates, if so.
+    fn refusal_of_metric(
+        &self,
+        q: PyReadonlyArray1<'_, f64>,
+        metric: MetricSpec,
+    ) -> PyResult<Option<String>> {
+        let q = q.as_slice()?;
+        catch_panic(|| Ok(metric.0.check(&self.inner.course(q)).err()))
+    }
+
     /// Residual and condition of every position.
     fn diagnostics<'py>(
         &self,
@@ -337,7 +354,7 @@ impl Mechanism {
         Ok((PyArray1::from_vec(py, diagnostics.0), PyArray1::from_vec(py, diagnostics.1)))
     }
 
-    /// How one position came out, as a sentence.
+    /// The outcome of one position, as a sentence.
     fn explain(&self, dimensions: Vec<f64>, q: Vec<f64>, signs: Vec<i8>) -> PyResult<String> {
         catch_panic(|| {
             let found = self.inner.diagnose(&dimensions, &q, &signs).map_err(error_map::solve)?;
@@ -380,7 +397,7 @@ pub(crate) const STATUSES: [(&str, Status); 8] = [
 ];
 
 fn in_use(error: numpy::BorrowError) -> PyErr {
-    error::input(&format!("out: its arrays are in use ({error}): another call writes them"), None)
+    error::input(&format!("out: another call is writing to its arrays ({error})"), None)
 }
 
 /// The memory of an array borrowed for writing.
@@ -389,10 +406,10 @@ pub(crate) fn as_uninitialized<'a, T: numpy::Element>(
 ) -> PyResult<&'a mut [MaybeUninit<T>]> {
     let data: *mut T = array.data();
     if !(array.is_c_contiguous() && data.is_aligned()) {
-        let message = "out: its arrays are not contiguous: only those of a motion can be written";
+        let message = "out: its arrays are not contiguous; pass a motion as solve returned it";
         return Err(error::input(message, None));
     }
-    #[allow(unsafe_code, reason = "NumPy knows no places that are not written")]
+    #[allow(unsafe_code, reason = "NumPy has no type for uninitialised entries")]
     // SAFETY: the array is one-dimensional, contiguous and aligned (checked above) and has this
     // length; the exclusive borrow excludes other calls. `fill` writes every entry, or nobody reads
     // them: new arrays are dropped, and those of a motion are marked as incomplete.

@@ -1,5 +1,5 @@
-//! The memory of results: what one call leaves when its arrays are dropped, the next one takes. New
-//! pages would cost more than the numbers that are written to them.
+//! The memory of results: arrays dropped since the last call are reused by the next. New pages would
+//! take longer than writing the numbers.
 
 use std::sync::Mutex;
 
@@ -8,31 +8,31 @@ use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice};
 
-/// Bytes of a cache line. As a number of extra entries it is more than enough to align an array.
+/// Bytes of a cache line. So many extra entries are more than enough to align an array.
 const CACHE_LINE: usize = 64;
-/// Bytes from which an array is worth keeping: less is reused by the allocator itself.
+/// Smallest array to keep, in bytes: the allocator itself reuses smaller ones.
 const WORTH_KEEPING: usize = 64 << 10;
-/// Bytes below which an array is quicker made than aligned.
+/// Bytes below which allocating an array is quicker than aligning it.
 const FEW: usize = 16 << 10;
-/// Bytes kept at most.
+/// Most bytes kept.
 const MAX_KEPT: usize = 512 << 20;
 
-/// An array that nobody uses.
+/// A dropped array.
 struct Kept {
     bytes: usize,
     array: Py<PyAny>,
 }
 
-/// What has been dropped since the last call began. It is locked for moments only, by threads attached
-/// to the interpreter: a fork finds it free.
+/// Arrays dropped since the last call began. Only threads that hold the interpreter lock this, and
+/// only for moments, so it is free in a forked process.
 static DROPPED: Mutex<Vec<Kept>> = Mutex::new(Vec::new());
 
-/// The owner of an array's memory: NumPy's arrays have it as their base, and the last of them drops it.
+/// The owner of an array's memory: the base of NumPy's arrays, dropped with the last of them.
 #[pyclass(module = "assur._core", frozen)]
 struct Owner {
     kept: Mutex<Option<Kept>>,
-    /// Place, number of entries and their type, as NumPy describes them.
-    place: usize,
+    /// Address, number of entries and their type, as NumPy describes them.
+    address: usize,
     len: usize,
     kind: String,
 }
@@ -45,7 +45,7 @@ impl Owner {
         interface.set_item("version", 3)?;
         interface.set_item("shape", (self.len,))?;
         interface.set_item("typestr", &self.kind)?;
-        interface.set_item("data", (self.place, false))?;
+        interface.set_item("data", (self.address, false))?;
         Ok(interface)
     }
 }
@@ -53,7 +53,7 @@ impl Owner {
 impl Drop for Owner {
     fn drop(&mut self) {
         let Ok(Some(kept)) = self.kept.get_mut().map(Option::take) else { return };
-        // Where another thread is at it, the memory is given back.
+        // If another thread holds the lock, the memory is freed.
         let Ok(mut dropped) = DROPPED.try_lock() else { return };
         let bytes: usize = dropped.iter().map(|kept| kept.bytes).sum();
         if bytes + kept.bytes <= MAX_KEPT {
@@ -62,7 +62,8 @@ impl Drop for Owner {
     }
 }
 
-/// Memory for the results of one call. What it does not use of that of the last call is given back.
+/// Memory for the results of one call: the arrays dropped since the last one. What the call does not
+/// reuse is freed.
 pub(crate) struct Memory(Vec<Kept>);
 
 impl Memory {
@@ -79,7 +80,7 @@ impl Memory {
     ) -> PyResult<Bound<'py, PyArray1<T>>> {
         let too_many = || {
             PyMemoryError::new_err(
-                "the result has more numbers than can be counted: ask for fewer designs or positions",
+                "the result has more numbers than an array can hold: ask for fewer designs or positions",
             )
         };
         let len = rows.checked_mul(width).and_then(|len| len.checked_add(CACHE_LINE));
@@ -98,7 +99,7 @@ impl Memory {
             None => py.import("numpy")?.call_method1("empty", (len, T::get_dtype(py)))?,
         };
         let array: Bound<'py, PyArray1<T>> = array.cast_into()?;
-        // Rows of eight numbers are written faster if they start at a cache line.
+        // Blocks of eight numbers are written faster if they start at a cache line.
         let first = array.data().align_offset(CACHE_LINE).min(CACHE_LINE);
         let len = len - CACHE_LINE;
         if bytes < WORTH_KEEPING {
@@ -106,7 +107,7 @@ impl Memory {
             return Ok(array.get_item(aligned)?.cast_into()?);
         }
         let owner = Owner {
-            place: array.data().addr() + first * size_of::<T>(),
+            address: array.data().addr() + first * size_of::<T>(),
             len,
             kind: T::get_dtype(py).getattr("str")?.extract()?,
             kept: Mutex::new(Some(Kept { bytes, array: array.into_any().unbind() })),

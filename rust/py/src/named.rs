@@ -3,15 +3,17 @@
 use assur::{ClassIv, Description, DriverDescription, FourBar, FourBarMode, SliderCrank};
 use pyo3::prelude::*;
 
+use crate::convert::description::Slide;
 use crate::convert::word::{Word, Words};
 
-/// Joints, links, slides (link, on, angle, origin) by name, and the driver.
-type Drawing = (
-    Vec<(String, [f64; 2])>,
-    Vec<(String, Vec<String>)>,
-    Vec<(String, (String, String, f64, Option<String>))>,
-    Option<String>,
-);
+/// What `assur.Mechanism` is made of.
+#[derive(IntoPyObject)]
+pub(crate) struct Drawing {
+    joints: Vec<(String, [f64; 2])>,
+    links: Vec<(String, Vec<String>)>,
+    slides: Vec<(String, Slide)>,
+    driver: Option<String>,
+}
 
 impl Words for FourBarMode {
     const WHAT: &'static str = "mode";
@@ -39,10 +41,10 @@ fn drawing(description: Description) -> Drawing {
     let driver = description.drivers.into_iter().next().map(|driver| match driver {
         DriverDescription::Named(name) | DriverDescription::Relative { link: name, .. } => name,
     });
-    (
-        description.joints,
-        description.links,
-        slides.map(|s| (s.name, (s.link, s.on, s.angle, s.origin))).collect(),
+    Drawing {
+        joints: description.joints,
+        links: description.links,
+        slides: slides.map(Slide::with_name).collect(),
         driver,
-    )
+    }
 }

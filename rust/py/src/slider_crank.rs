@@ -3,12 +3,12 @@
 use std::sync::atomic::Ordering;
 
 use assur::papers::slider_crank as core;
-use assur::papers::slider_crank::{Jet, Quantity, Series, SlowSeries};
+use assur::papers::slider_crank::{Jet, Quantity, Series};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::metrics::check_same_length;
-use crate::{detach, error};
+use crate::{detach, error_map};
 
 /// Values below which summing a series need not check for signals.
 const FEW_VALUES: usize = 4096;
@@ -27,10 +27,6 @@ fn orders<'py>(py: Python<'py>, jets: &[Jet]) -> Orders<'py> {
 
 fn angles_and_values(py: Python<'_>, angles: Vec<f64>, values: Vec<f64>) -> AnglesAndValues<'_> {
     (PyArray1::from_vec(py, angles), PyArray1::from_vec(py, values))
-}
-
-fn series_error(error: SlowSeries) -> PyErr {
-    error::input(&error.to_string(), Some(error.k))
 }
 
 /// Evaluates a function for each pair of angle and ratio.
@@ -102,7 +98,7 @@ pub(crate) fn slider_crank_series<'py>(
         }
         Ok(jets)
     })?;
-    Ok(orders(py, &jets.map_err(series_error)?))
+    Ok(orders(py, &jets.map_err(error_map::series)?))
 }
 
 /// Fourier coefficients, one k after another.
@@ -122,7 +118,7 @@ pub(crate) fn slider_crank_fourier<'py>(
         }
         Ok(all)
     })?;
-    Ok(PyArray1::from_vec(py, all.map_err(series_error)?))
+    Ok(PyArray1::from_vec(py, all.map_err(error_map::series)?))
 }
 
 /// Coordinates (flat x, y) of points of the rod and their analogues.
@@ -156,7 +152,7 @@ pub(crate) fn slider_crank_greatest_speed<'py>(
         if exact { Ok(core::greatest_speed(k)) } else { core::greatest_speed_by_series(k) }
     };
     let found = detach::map(py, k.len(), |i| of(k[i]))?;
-    let found = found.into_iter().collect::<Result<Vec<_>, _>>().map_err(series_error)?;
+    let found = found.into_iter().collect::<Result<Vec<_>, _>>().map_err(error_map::series)?;
     let (angles, values) = found.iter().map(|g| (g.at, g.value)).unzip();
     Ok(angles_and_values(py, angles, values))
 }

@@ -1,10 +1,8 @@
 """A campaign over random mechanisms: nothing jumps, nothing is called solved that is not, every
 gap is real, and the energy of machines is kept.
 
-    python tests/python/campaign.py --count 100000 --out docs/campaign.md
-    python tests/python/campaign.py --higher --count 10000 --out docs/campaign-higher.md
-    python tests/python/campaign.py --mixed --count 100000 --out docs/campaign-mixed.md
-    python tests/python/campaign.py --machines --count 10000 --out docs/campaign-machines.md
+``make campaign`` runs it for every kind (class II, ``--higher``, ``--mixed``, ``--machines``), with
+``--count`` mechanisms, and writes the page ``--out``.
 """
 
 from __future__ import annotations
@@ -96,7 +94,7 @@ class Check(Findings):
         return Sample(self.m.solve(q, order=2, on_error="nan", threads=1), order=1)
 
     def bits(self, fine: Sample, turn: int) -> None:
-        """At the user's steps, over one turn and all: the same to the bit."""
+        """At the user's steps, over one turn and over all turns: the same to the bit."""
         coarse = fine.q[:: cases.FINER]
         for q in (coarse, coarse[:turn]) if turn else (coarse,):
             track = self.solve(q)
@@ -184,7 +182,7 @@ def run(work: Iterable[tuple[str, int]]) -> Report:
 
 
 def work(count: int, which: str = "class II") -> list[tuple[str, int]]:
-    """So many mechanisms (or machines) of a campaign."""
+    """Run `count` mechanisms (or machines) of a campaign."""
     if which in ("higher", "machines"):
         return [(which.rstrip("s"), i) for i in range(count)]
     some, most = {"class II": ("changing", "random"), "mixed": ("overconstrained", "mixed")}[which]

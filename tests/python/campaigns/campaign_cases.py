@@ -1,4 +1,4 @@
-"""What a campaign looks at: mechanisms by seed, and the user's steps."""
+"""Input of a campaign: mechanisms by seed, and the user's steps."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TURN_STEPS = (math.radians(3.0), math.radians(6.0))
 SLIDE_STEPS = (0.03, 0.06)
 FINER = 8
 TURNS = 3
-SLIDE_RANGE = 3.0  # either way of the drawing, whose links are 0.3 to 3 long
+SLIDE_RANGE = 3.0  # to either side of the drawing, whose links are 0.3 to 3 long
 CHANGING = ("parallelogram", "antiparallelogram", "kite", "even", "isosceles", "shaper")
 
 

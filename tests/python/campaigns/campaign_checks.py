@@ -1,4 +1,4 @@
-"""What a campaign asks of one motion.
+"""The checks of a campaign on one motion.
 
 Motions are checked against their own first analogues, ends of gaps against the Jacobian of the
 bodies.
@@ -24,7 +24,7 @@ Test: TypeAlias = "Callable[[Array, Array, Array, Array, Array], Bools]"
 # A closure equation is met by three numbers, each good to the law's 8 u κ of the size.
 TERMS = 3.0
 # What counts as a jump: 1/1000 of the drawing, or 1/1000 rad. Cells are halved until the analogues
-# at both ends tell the way between to that much, or nothing moves that far.
+# at both ends predict the motion between to that much, or nothing moves that far.
 JUMP = 1e-3
 # The trapezoid's own error where the second analogue is 0 within a cell.
 TRAPEZOID = 1e-5
@@ -33,11 +33,11 @@ TRAPEZOID = 1e-5
 BEND = 0.05
 # A cell of 1e-2 halved so often is a few spacings of q.
 HALVINGS = 40
-# Coordinates, in sizes of the drawing, beyond which a point is on its way through infinity.
+# Coordinates, in sizes of the drawing, beyond which a point is about to pass through infinity.
 POLE = 1e6
-# The same of groups above class II, whose ways end before: their condition grows with the square of
-# it. That it is a pole must show in how it grows, v = A / (distance to the pole): two places so far
-# apart tell the distance (rad, or of the size), which must be small.
+# The same of groups above class II, whose branches end earlier: their condition grows with its
+# square. That it is a pole must show in how it grows, v = A / (distance to the pole): two points so
+# far apart give the distance (rad, or of the size), which must be small.
 POLE_OF_GROUPS = 100.0
 POLE_STEP = 1e-6
 POLE_NEAR = 1e-2
@@ -61,11 +61,11 @@ DIFFERENCE_MARGIN = 4.0  # times the change when the step is halved (their error
 # Part of the change by the halving before, as much as it is of the next term of the error: where
 # the first one passes through zero a single halving promises too much.
 DIFFERENCE_NEXT = 1.0 / 64.0
-DIFFERENCE_KNOWN = 1e-3  # where halving the step changes more (of the value), they tell nothing
+DIFFERENCE_KNOWN = 1e-3  # where halving the step changes more (of the value), they are no evidence
 
 
 class HasDeterminants(Protocol):
-    """Something that knows the Jacobian of a mechanism's bodies."""
+    """An oracle for the Jacobian of a mechanism's bodies."""
 
     def determinants(self, motion: assur.Motion) -> Array:
         """The Jacobian's determinant at every position."""
@@ -119,16 +119,16 @@ def broken(
 
 
 def jumps(h: Array, moved: Array, u: Array, v: Array, scale: Array) -> Bools:
-    """Where the rates u and v at both ends of cells tell the way between."""
+    """Where the rates u and v at both ends of cells predict the motion between them."""
     error = np.abs(moved - 0.5 * h * (u + v))
     bend = h * np.abs(v - u)
-    # A rate that does not turn back keeps the way within half its change.
+    # A rate that does not turn back keeps the motion within half its change.
     carried = error <= 0.5 * bend + TRAPEZOID * scale
     return np.asarray(carried & (np.minimum(bend, np.abs(moved)) <= JUMP * scale))
 
 
 def bends(h: Array, moved: Array, u: Array, v: Array, scale: Array) -> Bools:
-    """The same of first analogues, by the second: a bend in the way, roughly."""
+    """The same of first analogues, by the second: a bend in the path, roughly."""
     return np.asarray(np.abs(moved - 0.5 * h * (u + v)) <= BEND * scale)
 
 
@@ -149,9 +149,9 @@ def bisected(solve: Solve, edges: Array, bits: int = 4) -> Array:
 
 
 def poles(solve: Solve, edges: Array, size: float, higher: bool) -> Bools:
-    """Whether a point goes to infinity right behind the ends (bisected)."""
-    way = np.sign(edges[:, 1] - edges[:, 0])
-    inside, before = solve(edges[:, 0]), solve(edges[:, 0] - way * POLE_STEP)
+    """Whether a point goes to infinity just beyond the ends (bisected)."""
+    direction = np.sign(edges[:, 1] - edges[:, 0])
+    inside, before = solve(edges[:, 0]), solve(edges[:, 0] - direction * POLE_STEP)
     near, far = (np.abs(sample.value[:, : sample.lengths]) for sample in (inside, before))
     if not higher:
         return np.asarray(near.max(axis=1) > POLE * size)
@@ -163,15 +163,17 @@ def poles(solve: Solve, edges: Array, size: float, higher: bool) -> Bools:
 
 
 def narrow_poles(solve: Solve, edges: Array) -> Bools:
-    """Whether a joint goes to infinity right behind ends (bisected), though it is not far there.
+    """Whether a joint goes to infinity just beyond ends (bisected), though not far away there.
 
     Its rate grows like the inverse square of the distance from infinity: the inverse root of it
     falls linearly to zero. (At a fold its fourth power does, at other ends it stays.)
     """
-    way = np.sign(edges[:, 0] - edges[:, 1])
+    direction = np.sign(edges[:, 0] - edges[:, 1])
     found = np.zeros(len(edges), dtype=np.bool_)
     for step in POLE_STEPS:
-        sample = solve(np.concatenate([edges[:, 0] + way * reach * step for reach in (1, 4, 10)]))
+        sample = solve(
+            np.concatenate([edges[:, 0] + direction * reach * step for reach in (1, 4, 10)])
+        )
         rates = np.abs(sample.rate[:, : sample.lengths]).reshape(3, len(edges), -1)
         place = rates[0].argmax(axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -188,10 +190,10 @@ def crossings(solve: Solve, geometry: HasDeterminants, edges: Array) -> Bools:
     The determinant itself falls linearly there, and first analogues stay (at a fold they grow like
     1/√distance: twofold here).
     """
-    way = np.sign(edges[:, 0] - edges[:, 1])
+    direction = np.sign(edges[:, 0] - edges[:, 1])
     found = np.zeros(len(edges), dtype=np.bool_)
     for step in CROSSING_STEPS:
-        sample = solve(np.concatenate([edges[:, 0] + way * reach * step for reach in (1, 4)]))
+        sample = solve(np.concatenate([edges[:, 0] + direction * reach * step for reach in (1, 4)]))
         near, far = geometry.determinants(sample.motion).reshape(2, -1)
         slow, fast = sample.rate.reshape(2, len(edges), -1)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -206,11 +208,11 @@ def unreal(solve: Solve, geometry: HasDeterminants, edges: Array) -> tuple[list[
     if not len(edges):
         return [], 0.0
     ratio = np.full(len(edges), np.nan)
-    way = np.sign(edges[:, 0] - edges[:, 1])
+    direction = np.sign(edges[:, 0] - edges[:, 1])
     left = np.arange(len(edges))
     for step in FOLD_STEPS:
-        near = edges[left, 0] + way[left] * step
-        far = edges[left, 0] + way[left] * 4 * step
+        near = edges[left, 0] + direction[left] * step
+        far = edges[left, 0] + direction[left] * 4 * step
         sample = solve(np.concatenate([near, far]))
         d = geometry.determinants(sample.motion).reshape(2, -1)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -220,7 +222,7 @@ def unreal(solve: Solve, geometry: HasDeterminants, edges: Array) -> tuple[list[
         if not len(left):
             break
     if len(left):
-        ends = [goes_on(solve, edges[i, 0], edges[i, 0] - way[i] * BEYOND) for i in left]
+        ends = [goes_on(solve, edges[i, 0], edges[i, 0] - direction[i] * BEYOND) for i in left]
         left = left[~((ratio[left] > 1.0) & ~np.array(ends, dtype=np.bool_))]
     found = [f"no fold at q = {edges[i, 0]!r} | {edges[i, 1]!r}: {ratio[i]:.3g}" for i in left]
     good = np.abs(ratio - 1.0) <= FOLD_RATIO
@@ -228,7 +230,7 @@ def unreal(solve: Solve, geometry: HasDeterminants, edges: Array) -> tuple[list[
 
 
 def goes_on(solve: Solve, last: float, beyond: float) -> bool:
-    """Whether some assembly beyond the last position of a motion is beside it."""
+    """Whether some assembly beyond the last position of a motion is close to it."""
     motion = solve(np.array([last])).motion
     if motion.mechanism.structure.cls > 2:  # their assemblies are not found yet
         return True

@@ -30,7 +30,7 @@ NODES, FEWER = 12, 6
 QUADRATURE = 0.1  # of what is allowed, else the interval is halved
 HALVINGS = 6
 PLACES = 4  # where reductions are compared
-REACH = 0.4  # either way of the drawing, rad or m
+REACH = 0.4  # to either side of the drawing, rad or m
 # Of the sum of absolute values, besides 64 u κ² of analogues and 8 u κ of positions.
 MOMENT = 1e-10
 POTENTIAL = 1e-12
@@ -106,7 +106,7 @@ class Checked(Findings):
     # -- a run --------------------------------------------------------------------------------
 
     def run(self) -> None:
-        """Energy is kept on the way, as far as positions are not near singular ones."""
+        """Energy is conserved along the path, as far as positions are not near singular ones."""
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             run = self.machine.run(
@@ -153,7 +153,7 @@ class Checked(Findings):
             self.fail("balance", f"{text}, {part[k]:.3g} of what is allowed ({run.end})")
 
     def lost(self, run: Run, step: int) -> bool:
-        """Whether `solve` loses the run there: its way to a position of two drivers is straight."""
+        """Whether `solve` loses the run there: with two drivers it takes a straight path."""
         t = np.linspace(run.t[step - 1], run.t[step], LOOKS)
         status = self.mechanism.solve(run.at(t).q, 0, [], on_error="nan").status
         return self.drivers > 1 and bool((status == Status.LOST).any())

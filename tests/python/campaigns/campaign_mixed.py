@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from campaign_geometry import Array
 
 DESIGNS = 3  # beside the drawing
-CHANGES = (0.02, 0.40)  # of dimensions, either way
+CHANGES = (0.02, 0.40)  # of dimensions, up or down
 # The path: mean steps, and ends to either side in rad or (of a slide, of two drivers together) m.
 STEPS = (0.08, 0.16)
 TURN = 1.2 * math.pi

@@ -111,7 +111,7 @@ there are others on [class II](campaign.md), on [mixed groups](campaign-mixed.md
 [machines](campaign-machines.md). Besides what is said below, the sign of the Jacobian's
 determinant must be the same at all positions of a mechanism: where two assemblies meet, the other
 one has the other sign. Ends with a point beyond {checks.POLE_OF_GROUPS:g} sizes of the drawing
-are counted apart: the condition has grown with the square of that, and the way is given up.
+are counted apart: the condition has grown with the square of that, and following it is given up.
 
 """
 

@@ -80,7 +80,7 @@ class Overconstrained(Findings):
         self.fail("jump", *found)
 
     def designs(self, exact: assur.Mechanism, path: Path, there: Sample) -> None:
-        """What fits but for rounding moves too: the redundant links' own dimensions."""
+        """Designs whose redundant links fit only to rounding move too."""
         own, rng = exact.dimensions, self.rng
         spare = exact.structure.redundant
         by = {n: OFF * rng.uniform(-1.0, 1.0) if n.split(".")[0] in spare else 0.0 for n in own}
@@ -96,7 +96,7 @@ class Overconstrained(Findings):
             self.fail(f"design {what}", *(motion.explain((i, int(k))) for k in missing))
 
     def moves(self, there: Sample, here: Sample) -> None:
-        """Wherever the exact one is, and there."""
+        """Solved wherever the exact one is, at the same position."""
         condition = np.asarray(there.motion.condition)
         near = condition < ROOM / np.sqrt(self.rounding)
         wanted = there.reached & (near | self.case.everywhere)

@@ -1,4 +1,4 @@
-"""What a campaign has counted and found."""
+"""The counts and findings of a campaign."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Report:
             self.note(name, value)
 
     def note(self, name: str, value: float) -> None:
-        """A figure of which the greatest is wanted."""
+        """A figure whose maximum is reported."""
         self.worst[name] = max(self.worst.get(name, 0.0), value)
 
 
@@ -40,13 +40,13 @@ class Findings:
         self.failed: set[str] = set()
 
     def fail(self, kind: str, *texts: str) -> None:
-        """Of each kind the first: the others mostly have its cause."""
+        """The first of each kind: the others mostly have the same cause."""
         if texts and kind not in self.failed:
             self.failed.add(kind)
             self.report.failures.append(f"{kind}: {texts[0]}")
 
     def guarded(self, check: Callable[..., None], *of: int) -> None:
-        """Run a check; what it raises is a failure, panics too."""
+        """Run a check; any exception or panic is a failure."""
         try:
             check(*of)
         except KeyboardInterrupt:

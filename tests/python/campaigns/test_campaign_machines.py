@@ -1,4 +1,4 @@
-"""A sample of the campaign on machines, its own formulas, and that its checks see their faults."""
+"""A sample of the campaign on machines, its formulas, and proof that its checks detect faults."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def test_machines_keep_their_energy(part: int) -> None:
     assert report.counts["machines"] == COUNT // PARTS
 
 
-# Dead points of long chains, places looked at aside, steps whose estimate deceives: found in longer
+# Dead points of long chains, trial positions, misleading step estimates: found in longer
 # scans.
 @pytest.mark.parametrize(
     "seed", [23, 29, 38, 67, 92, 231, 483, 710, 987, 1557, 6729, 6785, 7561, 9039]
@@ -165,7 +165,7 @@ def test_a_periodic_table_goes_on_in_either_direction() -> None:
     assert spline(table, periodic=True)(np.array([1.25, 3.25, -0.75])) == pytest.approx([1.0] * 3)
 
 
-# -- the checks see their faults --------------------------------------------------------------
+# -- the checks detect faults -----------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

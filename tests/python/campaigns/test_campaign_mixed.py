@@ -1,4 +1,4 @@
-"""A sample of the campaign on mixed groups, what it draws, and that its checks see their faults."""
+"""A sample of the campaign on mixed groups, its models, and proof that checks detect faults."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_an_error_of_differences_that_passes_through_zero_is_accepted() -> None:
     assert not campaign.run([("mixed", 49727)]).failures
 
 
-# Two drivers, a link turned by about half a turn across a gap: counted this way and that. And one
+# Two drivers, a link turned by about half a turn across a gap: unwrapped inconsistently. And one
 # driver, between a gap and a joint at infinity.
 @pytest.mark.parametrize("seed", [15343, 19549, 22245, 68526])
 def test_turns_are_counted_alike_across_a_gap(seed: int) -> None:
@@ -142,7 +142,7 @@ def test_overconstrained_drawings_need_more_rows_than_unknowns() -> None:
         assert regularity(case.exact, overconstrained=True) > mixed_models.REGULAR
 
 
-# -- the checks see their faults --------------------------------------------------------------
+# -- the checks detect faults -----------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", sorted(named_models.NAMED))

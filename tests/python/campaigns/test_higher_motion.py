@@ -1,4 +1,4 @@
-"""Random mechanisms of class III and IV over three turns: what a campaign asks, of some."""
+"""Random mechanisms of class III and IV over three turns: a short campaign."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_the_sample_has_no_failures(first: int) -> None:
         geometry = Geometry(case.description)
         misfit, condition = geometry.misfit(fine)
         assert (misfit[fine.reached] <= checks.TERMS).all(), seed
-        # No jump; analogues are differences; the way ends at folds.
+        # No jump; analogues are differences; the branch ends at folds.
         found, edges, _ = checks.broken(solve, fine, geometry.drawn, checks.jumps)
         assert not found, (seed, found[:1])
         failed, _, _ = checks.differences(solve, fine, condition, rng)
@@ -61,7 +61,7 @@ def test_the_sample_has_no_failures(first: int) -> None:
 
 
 def test_the_determinant_keeps_its_sign() -> None:
-    """Another assembly has the other sign where two of them meet."""
+    """Where two assemblies meet, their determinants have opposite signs."""
     for seed in range(40):
         case = higher_models.higher_case(seed)
         m = assur.Mechanism(**arguments(case.description))
@@ -116,7 +116,7 @@ def test_with_several_drivers_they_are_followed_straight() -> None:
 
 
 def test_slides_drive_them_as_well() -> None:
-    """No jump, no false position, and no bit that depends on how far is asked for."""
+    """No jump, no false position, and no bit that depends on the requested range."""
     seen = 0
     for seed in range(60):
         description = higher_models.higher_case(seed).description

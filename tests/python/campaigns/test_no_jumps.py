@@ -42,7 +42,7 @@ def test_former_jumps_are_gone(seed: int) -> None:
 
 
 def test_a_motion_ends_at_two_folds_that_nearly_meet() -> None:
-    """Some 1e-9 rad behind the fold another branch goes on, its determinant of the same sign."""
+    """Some 1e-9 rad beyond the fold another branch continues, its determinant of the same sign."""
     m = assur.Mechanism(**mechanism_data.arguments(mixed_models.mixed_case(20118).description))
     fold = -1.612990846616
     before, behind = fold + np.geomspace(1e-10, 0.1, 200), fold - np.geomspace(1e-10, 0.1, 200)
@@ -59,7 +59,7 @@ def test_a_motion_ends_at_two_folds_that_nearly_meet() -> None:
     assert (m.solve(behind, on_error="nan").status == assur.Status.LOST).all()
 
 
-# -- the checks themselves: each sees its fault -----------------------------------------------
+# -- the checks themselves: each detects its fault---------------------------------------------
 
 
 def four_bar() -> mechanism_data.Description:

@@ -17,7 +17,7 @@ SIZE = 4.0  # of the drawing, about
 
 
 def typed(place: tuple[float, float], digits: int) -> tuple[float, float]:
-    """A place turned by 0.7 rad, with so many significant digits."""
+    """A point turned by 0.7 rad, rounded to so many significant digits."""
     c, s = math.cos(0.7), math.sin(0.7)
     x, y = place[0] * c - place[1] * s, place[0] * s + place[1] * c
     return float(f"{x:.{digits - 1}e}"), float(f"{y:.{digits - 1}e}")
@@ -49,7 +49,7 @@ def test_a_locomotive_typed_with_ten_digits_moves_through_its_change_points(digi
 @pytest.mark.parametrize("digits", [9, 10, 12])
 def test_the_adjustment_stays_within_the_typed_digits(digits: int) -> None:
     m = locomotive(digits)
-    half_a_unit = 0.5 * 10.0 ** (1 - digits)  # of places from 1 m to 10 m
+    half_a_unit = 0.5 * 10.0 ** (1 - digits)  # of coordinates from 1 m to 10 m
     assert 0.0 < m.structure.adjustment < half_a_unit
     for name, place in m.joints.items():
         drawn = typed(
@@ -57,7 +57,7 @@ def test_the_adjustment_stays_within_the_typed_digits(digits: int) -> None:
             digits,
         )
         assert math.dist(place, drawn) < 2.0 * half_a_unit
-    # What is adjusted moves as a drawing that was exact: misfits are rounding.
+    # An adjusted drawing moves like an exact one: misfits are rounding.
     assert m.solve(m.q0 + Q).residual.max() < 1e-13
 
 
@@ -96,7 +96,7 @@ def test_designs_whose_redundant_link_misses_by_more_do_not(off: float) -> None:
 @pytest.mark.parametrize("far", [5.0, 1e3, 1e6])
 @pytest.mark.parametrize("crank", ["APB", "ABP", "PAB"])
 def test_a_point_far_away_lets_no_misfit_through(crank: str, far: float) -> None:
-    """What misses is a part of the size of what is paired, wherever other points are."""
+    """The misfit is relative to the greatest length between pairs, wherever other points are."""
     joints = {"A": (0, 0), "B": (0.75, 1), "C": (3.75, 1), "D": (3, 0), "E": (1.5, 0)}
     m = assur.Mechanism(
         {**joints, "F": (2.25, 1), "P": (far, 0)},

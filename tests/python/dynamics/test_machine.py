@@ -282,7 +282,7 @@ def pushed(t: float, q: float, speed: float) -> Any:
             lambda m: Machine(
                 m, {}, [Torque("rocker", Table([0, 1], [1, 2], periodic=False))]
             ).reduced_moment([0.5, 2.0]),
-            "q = 2: a load has no value there",
+            "a table over q covers 0 to 1: 2 is not in it",
         ),
         (
             lambda m: Machine(m, {}, [Torque("rocker", pushed)]).reduced_moment([0.5]),
@@ -312,15 +312,15 @@ def test_designs_are_those_one_by_one() -> None:
     moment = machine.reduced_moment(q, on_error="nan")
     potential = machine.potential(q, on_error="nan")
     assert value.shape == d1.shape == moment.shape == potential.shape == (2, 3, 7)
-    for place in np.ndindex(2, 3):
-        if place == (1, 2):
-            assert np.isnan(value[place]).all()
+    for index in np.ndindex(2, 3):
+        if index == (1, 2):
+            assert np.isnan(value[index]).all()
             continue
-        own = machine.design(place)
-        assert np.array_equal(value[place], own.reduced_inertia(q).value)
-        assert np.array_equal(d1[place], own.reduced_inertia(q).d1)
-        assert np.array_equal(moment[place], own.reduced_moment(q))
-        assert np.array_equal(potential[place], own.potential(q))
+        own = machine.design(index)
+        assert np.array_equal(value[index], own.reduced_inertia(q).value)
+        assert np.array_equal(d1[index], own.reduced_inertia(q).d1)
+        assert np.array_equal(moment[index], own.reduced_moment(q))
+        assert np.array_equal(potential[index], own.potential(q))
     with pytest.raises(assur.PositionError, match=r"design \(1, 2\)"):
         machine.reduced_inertia(q)
     each = np.arange(6.0).reshape(2, 3, 1) + np.array([0.0, 0.5])
@@ -344,7 +344,7 @@ def test_flywheels_of_designs() -> None:
     for i, speed in ((0, 20.0), (1, 20.0), (3, 25.0)):
         one = machine.design(i).flywheel(0.05, speed, mean="period")
         assert many.inertia[i] == pytest.approx(one.inertia, rel=1e-9)
-        # And by another way altogether: the flywheel of the integrated motion.
+        # And by another method: the flywheel of the integrated motion.
         steady = machine.design(i).steady_state(speed, flywheel=one.inertia, mean="period")
         assert steady.delta == pytest.approx(0.05, rel=1e-9)
 

@@ -46,15 +46,17 @@ def test_periods_must_be_the_same() -> None:
         with pytest.raises(assur.MotionError, match="differs from period to period"):
             press(motor, loads=[load]).steady_state()
     assert press(motor, loads=[half]).steady_state(turns=2).multiplier < 1.0
-    with pytest.raises(InputError, match="not periodic over a turn"):
+    with pytest.raises(assur.MotionError, match="moment is not periodic over a turn") as caught:
         press(loads=[half]).flywheel(0.01, 12.0)
+    assert (caught.value.kind, caught.value.design) == ("not_periodic", None)
     # A design that is a thousandth of another is seen too.
     lengths = np.array([1e3, 1.0])
     pair = assur.SliderCrank(0.1 * lengths, 0.4 * lengths)
     half_turns = Force("B", (lambda _, q, __: -1.0 if q < TURN else -1.1, 0.0))
     both = assur.Machine(pair, {"crank": Body(inertia=1.0)}, [half_turns])
-    with pytest.raises(InputError, match="not periodic over a turn"):
+    with pytest.raises(assur.MotionError, match="not periodic over a turn") as caught:
         both.flywheel(0.01, 12.0)
+    assert (caught.value.kind, caught.value.design) == ("not_periodic", (0,))
     # Of this mechanism the inertia is the same after a turn from 0, the assembly is not.
     kite = assur.Machine(
         assur.FourBar(1.0, 2.0, 3.0, 4.0),
@@ -134,10 +136,16 @@ def test_designs_that_are_others_a_turn_on_are_nan() -> None:
     lengths = ([3.0, 2.5, 4.0], [1.0, 2.5, 2.5], [3.0, 1.0, 4.5])
     bodies = {"crank": Body(inertia=0.1), "coupler": Body(2.0, 0.3), "rocker": Body(1.0, 0.2)}
     batch = assur.Machine(assur.FourBar(1.0, *lengths), bodies)
-    with pytest.raises(
-        InputError, match="design 1: the reduced inertia is not periodic over a turn"
-    ):
+    with pytest.raises(assur.MotionError, match=r"design \(1,\): the reduced inertia") as caught:
         batch.flywheel(0.001, 10.0)
+    error = caught.value
+    assert (error.kind, error.design) == ("inertia_not_periodic", (1,))
+    # The same kind, and the same inertia there, as of the one design in a steady state.
+    alone = batch.design(1)
+    assert error.value == alone.reduced_inertia(error.q).value  # type: ignore[arg-type]
+    with pytest.raises(assur.MotionError) as caught:
+        alone.steady_state(10.0)
+    assert caught.value.kind == error.kind
     made = batch.flywheel(0.001, 10.0, on_error="nan")
     assert np.isnan(made.inertia[1])
     assert made.inertia[2] == batch.design(2).flywheel(0.001, 10.0).inertia

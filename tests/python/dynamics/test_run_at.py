@@ -52,10 +52,10 @@ def test_last_digits_beyond_an_end_are_at_it() -> None:
     run = coasting().run(0.3, 0.0, 2.0, t0=0.1)
     ends = {0.1: run.q[0], 0.3: run.q[-1]}
     for end, q in ends.items():
-        for way in (-math.inf, math.inf):
+        for toward in (-math.inf, math.inf):
             beside = end
             for _ in range(3):
-                beside = math.nextafter(beside, way)
+                beside = math.nextafter(beside, toward)
             assert run.at(beside).q == pytest.approx(q, rel=1e-15, abs=1e-15)
     # 0.1 + 0.2 + … as a loop adds them up.
     times = np.cumsum(np.full(3, 0.1))

@@ -133,10 +133,10 @@ def test_the_time_of_a_dead_point_is_that_of_the_other_driver() -> None:
     at = by_crank.solve(2.0).link("rocker")
     rocker = assur.Machine(by_crank.with_driver("rocker"), bodies)
     for asked in ("t_end", "q_end"):
-        way: dict[str, Any] = {
+        options: dict[str, Any] = {
             asked: 50.0 if asked == "t_end" else at.value + math.copysign(3, at.d1)
         }
-        own = rocker.run(q0=at.value, speed0=at.d1, rtol=1e-12, **way)
+        own = rocker.run(q0=at.value, speed0=at.d1, rtol=1e-12, **options)
         assert own.end == "dead point"
         assert abs(own.t[-1] - run.t[-1]) < 1e-8
 
@@ -218,7 +218,7 @@ def test_motions_are_pickled() -> None:
     again = pickle.loads(pickle.dumps(steady))
     assert (again.delta, again.power, again.mean) == (steady.delta, steady.power, "period")
     assert np.array_equal(again.at([1.0, 9.0]), steady.at([1.0, 9.0]))
-    # The way to a dead point too.
+    # The run up to a dead point too.
     lever = assur.Machine(four_bar().with_driver("rocker"), {"rocker": Body(inertia=1.0)})
     dead = lever.run(9.0, speed0=1.0)
     assert dead.end == "dead point"
@@ -237,7 +237,7 @@ def test_motions_are_pickled() -> None:
         (lambda: wheel().run(1.0, q_end=2.0), "run needs t_end or q_end"),
         (lambda: wheel().run(q_end=2.0), "needs an initial speed"),
         (lambda: wheel().run(q_end=-2.0, q0=0.0, speed0=1.0), "lies behind q0"),
-        (lambda: wheel().run(1.0, breaks=[-np.inf]), "breaks is"),
+        (lambda: wheel().run(1.0, breaks=[-np.inf]), "breaks has -inf"),
         (lambda: wheel().run(1.0, rtol=0.0), "rtol is 0.0"),
         (lambda: wheel().run(1.0, atol=-1.0), "atol is -1.0"),
         (lambda: wheel().run(1.0, max_step=0.0), "max_step is 0.0"),
@@ -247,7 +247,10 @@ def test_motions_are_pickled() -> None:
         (lambda: wheel().run(1.0, events=ANY), "events must be a sequence"),
         (lambda: wheel().run(1.0, events=[ANY]), "None is not an event"),
         (lambda: wheel().run(1.0, events=[events.TransmissionAngle("A", 50.0)]), "acute"),
-        (lambda: wheel().run(1.0, events=[events.Rest(driver=1)]), "there are 1 drivers"),
+        (
+            lambda: wheel().run(1.0, events=[events.Rest(driver=1)]),
+            "the machine has 1 driver,",
+        ),
         (lambda: wheel().run(1.0, events=[events.Crossing(ANY)]), "a function of"),
         (lambda: wheel().run(1.0, q0=[1.0, 2.0]), "q0 has the shape"),
         (lambda: wheel().run(math.inf), "t_end is inf"),
@@ -257,20 +260,6 @@ def test_motions_are_pickled() -> None:
         (lambda: wheel(Torque(ANY, 1.0)), "Torque link is None"),
         (lambda: wheel(Torque("crank", 1.0, on="crank")), "give two links"),
         (lambda: wheel(assur.Spring("A", "A", 1.0, 0.0)), "it has no length"),
-        (lambda: assur.Machine.from_table([], [], []), "0 rows"),
-        (lambda: wheel(inertia=0.0).run(1.0, speed0=1.0), "must be positive everywhere"),
-        (
-            lambda: assur.Machine.from_table([0, 1], [1, 1], [1, 1], periodic=False).run(
-                1.0, q0=3.0
-            ),
-            "table over q covers 0 to 1: 3 is not in it",
-        ),
-        (
-            lambda: assur.Machine.from_table(
-                [0.0, TURN], [1.0, 1.0], [1.0, 1.0], Table([0.0, 9.0], [1.0, 0.0])
-            ).run(1.0, speed0=11.0),
-            "motor's table over its speed covers 0 to 9: 11 is not in it",
-        ),
         (lambda: wheel(Torque("crank", lambda *_: math.nan)).run(1.0), "gave nan at t = 0"),
     ],
 )
@@ -279,10 +268,65 @@ def test_refusals(make: Any, said: str) -> None:
         make()
 
 
+def from_table(inertia: Any = 1.0, motor: Any = None, **options: Any) -> assur.Machine:
+    return assur.Machine.from_table([0.0, TURN], [1.0, 1.0], inertia, motor, **options)
+
+
+@pytest.mark.parametrize(
+    ("make", "kind", "fields"),
+    [
+        (lambda: assur.Machine.from_table([], [], []), "too_short", {"value": 0.0}),
+        (lambda: from_table([1.0, -2.0]), "negative", {"q": TURN, "value": -2.0}),
+        (lambda: Table([1.0], [1.0]), "too_short", {"value": 1.0}),
+        (lambda: Table([0.0, 1.0], [1.0, 1.0], "periodic"), "too_short", {"value": 2.0}),
+        (lambda: Table([0.0, 1.0], [1.0, math.nan]), "not_finite", {"value": math.nan}),
+        (lambda: Table([0.0, 2.0, 1.0], [1, 1, 1]), "not_increasing", {"q": 1.0, "value": 1.0}),
+        (
+            lambda: wheel(inertia=0.0).run(1.0, speed0=1.0),
+            "no_inertia",
+            {"driver": "crank", "q": 0.0, "value": 0.0},
+        ),
+        (lambda: from_table(periodic=False).run(1.0, q0=7.0), "table_ends", {"value": 7.0}),
+        (
+            lambda: from_table(motor=Table([0.0, 9.0], [1.0, 0.0])).run(1.0, speed0=11.0),
+            "table_ends",
+            {"value": 11.0},
+        ),
+    ],
+)
+def test_refusals_with_a_kind(make: Any, kind: str, fields: dict[str, Any]) -> None:
+    with pytest.raises(InputError) as caught:
+        make()
+    assert caught.value.kind == kind
+    names = ("joint", "link", "driver", "design", "q", "t", "value")
+    found = {name: getattr(caught.value, name) for name in names}
+    np.testing.assert_equal(found, dict.fromkeys(names) | fields)  # NaN is NaN
+
+
+def test_a_load_without_a_value_is_the_same_error_in_a_run_and_by_itself() -> None:
+    """A damper along no line, a table that ends, a function that gives NaN."""
+    outside = Table([1.0, 2.0], [1.0, 1.0], periodic=False)
+    cases: list[tuple[Any, type[assur.AssurError], str | None]] = [
+        (assur.Damper("A", ("ground", (0.1, 0.0)), 3.0), assur.MotionError, "not_finite"),
+        (Torque("crank", outside), InputError, "table_ends"),
+        (Torque("crank", lambda *_: math.nan), InputError, None),
+    ]
+    for load, error, kind in cases:
+        machine = wheel(load)
+        with pytest.raises(error) as by_itself:
+            machine.reduced_moment([0.0, 0.5], 1.0)
+        with pytest.raises(error) as in_a_run:
+            machine.run(1.0, q0=0.0, speed0=1.0)
+        assert by_itself.value.kind == in_a_run.value.kind == kind
+        assert by_itself.value.q == 0.0
+
+
 def test_a_start_without_a_position_is_refused() -> None:
     swinging = assur.Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), {"crank": Body(inertia=1.0)})
-    with pytest.raises(assur.PositionError, match="cannot start at q0: at q = 3, dyad"):
+    with pytest.raises(assur.PositionError, match="cannot start at q0: at q = 3, dyad") as caught:
         swinging.run(1.0, q0=3.0)
+    error = caught.value
+    assert (error.kind, error.joint, error.group, error.q) == ("not_closed", "C", "C", 3.0)
 
 
 def test_degrees_are_doubted() -> None:

@@ -1,4 +1,4 @@
-"""Public entries with any arguments: a result or an AssurError, never anything else.
+"""Public functions with any arguments: a result or an AssurError, never anything else.
 
 The bytes come from hypothesis in `test_fuzz_entries.py` and from atheris in `fuzz/entries.py`.
 """

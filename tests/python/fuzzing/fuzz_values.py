@@ -1,4 +1,4 @@
-"""Arguments from bytes: some that fit, some that nobody should pass."""
+"""Arguments from bytes: valid ones, and ones that nobody should pass."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Arrays of any type and layout are the numbers they hold; what holds no numbers is refused."""
+"""Arrays of any type and layout count as their numbers; anything without numbers is refused."""
 
 from __future__ import annotations
 

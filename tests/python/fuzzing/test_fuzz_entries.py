@@ -1,4 +1,4 @@
-"""Whatever a public entry is given, it answers or raises an error of this package."""
+"""Whatever its arguments, a public function returns a result or raises an error of this package."""
 
 from __future__ import annotations
 

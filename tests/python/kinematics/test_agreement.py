@@ -1,7 +1,7 @@
 """assur against the oracle, within the law of the design's "Numbers" (see agreement.py).
 
-Every random mechanism is tried at its drawing and at three other q: half way and all the way
-forward, and backward; where a fold comes before, half way to it.  Analogues to order 3 are
+Every random mechanism is tried at its drawing and at three other q: halfway and all the way
+forward, and backward; where a fold comes before, halfway to it.  Analogues to order 3 are
 compared at one of the four, whichever the seed says (at all of them in the slow profile).
 Beyond a fold assur must either decline or stand where its own assembly really closes.  No case
 is thrown away.
@@ -70,7 +70,7 @@ def check(
         assert math.remainder(mine - its, math.tau) == pytest.approx(0, abs=1e-14)
     qs, poses, beyond = [start], [oracle_guess.drawing_pose(d)], list[Q]()
     for size, stops in ((forward, [0.5, 1.0]), (-backward, [1.0])):
-        # two drivers go different ways
+        # two drivers move differently
         move = tuple(size * (1 - 1.6 * k) for k in range(len(start)))
         path, scale = tracer.follow(move), 1.0
         if path.fold is not None:

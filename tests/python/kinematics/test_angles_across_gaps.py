@@ -1,4 +1,4 @@
-"""Angles of designs that do not turn fully, against a dense sample that knows nothing of knots."""
+"""Angles of designs that do not turn fully, against a dense sample without knots."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def test_angles_continue_into_the_next_turn(name: str) -> None:
             own, at = angles[design][reached[design]], q[reached[design]]
             steps = np.abs(np.diff(own)) % (2 * np.pi)
             if np.ptp(own - at) < 1e-9 or (np.abs(steps - np.pi) < 0.1).any():
-                continue  # half a turn either way is as near
+                continue  # half a turn is as near in either direction
             np.testing.assert_allclose(own, followed(own), rtol=0, atol=1e-6, err_msg=f"{design}")
             compared += 1
     assert compared > len(batch.links)
@@ -105,7 +105,7 @@ def test_angles_of_driven_slides_continue_from_the_drawing() -> None:
                     own = angles[design][at]
                     steps = np.abs(np.diff(own))
                     if (np.abs(steps - np.pi) < 0.1).any():
-                        continue  # a cylinder points the other way: either half turn will do
+                        continue  # a cylinder is reversed: either half turn is right
                     behind_gaps += bool((np.diff(at) > 1).any())
                     np.testing.assert_allclose(
                         own, followed(own), rtol=0, atol=1e-6, err_msg=f"{seed} {link} {design}"

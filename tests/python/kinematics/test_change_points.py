@@ -25,12 +25,12 @@ Float = npt.NDArray[np.float64]
 U = 2.220446049250313e-16
 STEPS = (10, 75, 300, 450)  # tenths of a degree: 1°, 7.5°, 30°, 45°
 TURN = 3600
-# Four turns from the drawing either way, and four far away; tenths of a degree.
-WAYS = {"forward": (0, 1), "backward": (0, -1), "far": (1000 * TURN, 1)}
+# Four turns from the drawing in either direction, and four far away; tenths of a degree.
+DIRECTIONS = {"forward": (0, 1), "backward": (0, -1), "far": (1000 * TURN, 1)}
 
 # The law: a position is good to 8 u κ of the size, a first analogue to 64 u κ² of its own.
 POSITION, ANALOGUE = 8 * U, 64 * U
-# A spread N of which the square is rounded is off by 8 u/N of the size, and its second derivative
+# A discriminant N whose square is rounded is off by 8 u/N of the size, and its second derivative
 # by 2 N'²/N³ times as much, whatever the program: 16 u κ³, more than the law beyond κ = 4.
 SECOND = 16 * U
 # At a change point the motion is a polynomial's through 16 positions, the nearest 0.1 cos(15π/32)
@@ -173,13 +173,13 @@ def isosceles() -> Case:
 
 
 CASES = [parallelogram, antiparallelogram, kite, isosceles]
-ways = pytest.mark.parametrize("way", WAYS)
+directions = pytest.mark.parametrize("direction", DIRECTIONS)
 cases = pytest.mark.parametrize("make", CASES, ids=lambda make: make.__name__)
 
 
-def grid(way: str, first: float = 0.0) -> Float:
+def grid(direction: str, first: float = 0.0) -> Float:
     """Four turns by 0.1° from `first` (drawn: a change point)."""
-    start, sign = WAYS[way]
+    start, sign = DIRECTIONS[direction]
     return np.asarray(first + np.deg2rad((start + sign * np.arange(4 * TURN + 1)) / 10))
 
 
@@ -196,11 +196,11 @@ def same_bits(m: assur.Mechanism, fine: assur.Motion) -> None:
                     assert np.array_equal(getattr(a, index), want), (name, index, step)
 
 
-@ways
+@directions
 @cases
-def test_closed_forms(make: Callable[[], Case], way: str) -> None:
+def test_closed_forms(make: Callable[[], Case], direction: str) -> None:
     case = make()
-    q = grid(way)
+    q = grid(direction)
     motion = case.mechanism.solve(q, threads=1)
     at = case.sharpness(q) > 1e10
     assert 4 <= at.sum() <= 9
@@ -211,7 +211,7 @@ def test_closed_forms(make: Callable[[], Case], way: str) -> None:
 
 @cases
 def test_the_same_alone(make: Callable[[], Case]) -> None:
-    """At change points: bits do not depend on what else is asked, nor on threads."""
+    """At change points: bits do not depend on what else is requested, nor on threads."""
     case = make()
     q = case.first + case.every * np.arange(-8.0, 9.0)
     alone = [case.mechanism.solve(x) for x in q]
@@ -289,16 +289,16 @@ def test_parallelogram_drawn_from_coordinates(seed: int) -> None:
     # what coordinates are rounded to, they lose of the lengths
     size = crank + ground + float(np.abs(shift).max())
     case = Case(m, size, forms, first=attitude - ahead)
-    for way in WAYS if seed % 10 == 0 else ("forward",):
-        motion = m.solve(grid(way, case.first), threads=1)
+    for direction in DIRECTIONS if seed % 10 == 0 else ("forward",):
+        motion = m.solve(grid(direction, case.first), threads=1)
         at = case.sharpness(motion.q) > 1e10
         assert (motion.status == np.where(at, Status.SINGULAR, Status.OK)).all()
         case.check(motion)
         same_bits(m, motion)
 
 
-@ways
-def test_chain_of_ten_parallelograms(way: str) -> None:
+@directions
+def test_chain_of_ten_parallelograms(direction: str) -> None:
     """All of them change at once, each upon the other; their rods stay parallel to the ground.
 
     Each adds an error like one's, which goes on undiminished: ten times the bound, with κ of one.
@@ -320,7 +320,7 @@ def test_chain_of_ten_parallelograms(way: str) -> None:
     forms = [angle(f"crank{i}", cranks, 1.0) for i in range(1, 11)]
     forms += [angle(f"rod{i}", rods, 2.0) for i in range(1, 11)]
     case = Case(m, 21.0, forms, first=0.3)
-    motion = m.solve(grid(way, 0.3), threads=1)
+    motion = m.solve(grid(direction, 0.3), threads=1)
     at = case.sharpness(motion.q) > 1e10
     assert (motion.status[at] == Status.SINGULAR).all()
     # the product of the conditions overrates the chain, so all but OK are called near
@@ -330,8 +330,8 @@ def test_chain_of_ten_parallelograms(way: str) -> None:
 
 
 @pytest.mark.parametrize("phase", [225, 0, 137])
-@ways
-def test_whitworth_turns_188_degrees_in_a_step(way: str, phase: int) -> None:
+@directions
+def test_whitworth_turns_188_degrees_in_a_step(direction: str, phase: int) -> None:
     """A guide whose pivot is just within the crank circle: 188° while the crank turns 45°."""
     r, narrow, wide = 0.1, math.radians(22.5), math.radians(4.0)
     d = r * (math.cos(narrow) + math.sin(narrow) * math.tan(wide))
@@ -366,7 +366,7 @@ def test_whitworth_turns_188_degrees_in_a_step(way: str, phase: int) -> None:
         s = np.sqrt(s2)
         return s, a1 / s, a2 / s - a1**2 / s**3
 
-    q = grid(way, math.radians(phase / 10))
+    q = grid(direction, math.radians(phase / 10))
     motion = m.solve(q, threads=1)
     assert (motion.status == Status.OK).all()
     plain = np.unwrap(np.arctan2(r * np.sin(q), r * np.cos(q) - d))
@@ -416,7 +416,7 @@ def test_a_near_miss_is_not_a_change_point() -> None:
 
 
 def test_a_gap_is_not_a_change_point() -> None:
-    """Lengths off the other way: two dead points close together, the same assembly beyond.
+    """Lengths off in the other direction: two dead points close together, the same assembly beyond.
 
     At the dead points coupler and rocker are in one line: their sum is the distance from B to D.
     """

@@ -1,4 +1,4 @@
-"""Tables of motions hold everything, whatever the parts are called."""
+"""Tables of motions hold everything, whatever the names of the parts."""
 
 from __future__ import annotations
 

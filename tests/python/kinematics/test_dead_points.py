@@ -41,7 +41,7 @@ class Linkage:
     mechanism: assur.Mechanism
     size: float
     dead: list[Any]  # crank angles, MP
-    spread: Callable[[Any], Any]  # of the dyad, squared, at an angle: negative in the gaps
+    discriminant: Callable[[Any], Any]  # of the dyad, squared, at an angle: negative in the gaps
     exact: Callable[[Any], Any]  # one output at an angle, MP
     found: Callable[[assur.Motion], Float]  # the same of a motion
     side: Callable[[assur.Motion], Float]  # sign of the dyad
@@ -56,31 +56,31 @@ def clear(values: list[Any]) -> list[Any]:
 def four_bar(rng: np.random.Generator) -> Linkage | None:
     """The coupler and the rocker are in line: BD = b + c or |b − c|."""
     a, b, c, d = (MP.mpf(x) for x in rng.uniform(0.3, 3.0, 4).tolist())
-    way = -1 if rng.random() < 0.5 else 1  # C to the right or to the left of the ray D → B
+    sign = -1 if rng.random() < 0.5 else 1  # C to the right or to the left of the ray D → B
 
     def square(q: Any) -> Any:
         return a * a + d * d - 2 * a * d * MP.cos(q)
 
-    def spread(q: Any) -> Any:
+    def discriminant(q: Any) -> Any:
         e = square(q)
         return ((b + c) ** 2 - e) * (e - (b - c) ** 2)
 
     def exact(q: Any) -> Any:
         e = square(q)
         x, y = a * MP.cos(q) - d, a * MP.sin(q)  # D → B
-        along, up = (e + c * c - b * b) / (2 * e), way * MP.sqrt(spread(q)) / (2 * e)
+        along, up = (e + c * c - b * b) / (2 * e), sign * MP.sqrt(discriminant(q)) / (2 * e)
         return d + along * x - up * y, along * y + up * x
 
     def side(motion: assur.Motion) -> Float:
         (bx, by), (x, y) = motion.joint("B").value.T, motion.joint("C").value.T
-        return np.asarray(way * np.sign((bx - float(d)) * y - by * (x - float(d))))
+        return np.asarray(sign * np.sign((bx - float(d)) * y - by * (x - float(d))))
 
     cosines = clear([(a * a + d * d - (b + s * c) ** 2) / (2 * a * d) for s in (1, -1)])
     return Linkage(
-        assur.FourBar(*(float(a), float(b), float(c), float(d)), "open" if way < 0 else "crossed"),
+        assur.FourBar(*(float(a), float(b), float(c), float(d)), "open" if sign < 0 else "crossed"),
         float(a + b + c + d),
         [s * MP.acos(x) for x in cosines for s in (1, -1)],
-        spread,
+        discriminant,
         exact,
         lambda motion: motion.joint("C").value,
         side,
@@ -91,11 +91,11 @@ def slider_crank(rng: np.random.Generator) -> Linkage | None:
     """The rod is square to the bore: |r sin q − offset| = rod."""
     r, rod, offset = (MP.mpf(x) for x in rng.uniform([0.5, 0.3, -1.5], [3.0, 3.0, 1.5]).tolist())
 
-    def spread(q: Any) -> Any:
+    def discriminant(q: Any) -> Any:
         return rod**2 - (r * MP.sin(q) - offset) ** 2
 
     def exact(q: Any) -> Any:
-        return (r * MP.cos(q) + MP.sqrt(spread(q)),)
+        return (r * MP.cos(q) + MP.sqrt(discriminant(q)),)
 
     def side(motion: assur.Motion) -> Float:
         return np.asarray(np.sign(motion.slide("bore").value - motion.joint("A").value[:, 0]))
@@ -105,7 +105,7 @@ def slider_crank(rng: np.random.Generator) -> Linkage | None:
         assur.SliderCrank(float(r), float(rod), float(offset)),
         float(r + rod + abs(offset)),
         [x for s in sines for x in (MP.asin(s), MP.pi - MP.asin(s))],
-        spread,
+        discriminant,
         exact,
         lambda motion: motion.slide("bore").value[:, None],
         side,
@@ -115,22 +115,22 @@ def slider_crank(rng: np.random.Generator) -> Linkage | None:
 def turning_guide(rng: np.random.Generator) -> Linkage | None:
     """The guide, `offset` from its pivot, is square to the line from there to the pin."""
     r, d, offset = (MP.mpf(x) for x in rng.uniform([0.5, 0.5, -1.5], [3.0, 3.0, 1.5]).tolist())
-    way = -1 if rng.random() < 0.5 else 1  # of the pin along the guide
+    sign = -1 if rng.random() < 0.5 else 1  # of the pin along the guide
 
     def square(q: Any) -> Any:
         return r * r + d * d - 2 * r * d * MP.cos(q)
 
-    def spread(q: Any) -> Any:
+    def discriminant(q: Any) -> Any:
         return square(q) - offset**2
 
     def exact(q: Any) -> Any:
-        return (way * MP.sqrt(spread(q)),)
+        return (sign * MP.sqrt(discriminant(q)),)
 
     cosine = clear([(r * r + d * d - offset**2) / (2 * r * d)])
     drawn = assur.Mechanism(
         joints={"O": (0, 0), "A": (0, 1), "D": (1, 0), "E": (0, 1)},
         links={"ground": "OD", "crank": "OA", "block": "A", "lever": "DE"},
-        slides={"slot": assur.Slide("block", "lever", math.radians(135 - (way < 0) * 180), "D")},
+        slides={"slot": assur.Slide("block", "lever", math.radians(135 - (sign < 0) * 180), "D")},
         driver="crank",
     )
     lengths = {"crank.length": float(r), "ground.D.x": float(d), "slot.offset": float(offset)}
@@ -138,10 +138,10 @@ def turning_guide(rng: np.random.Generator) -> Linkage | None:
         drawn.with_dimensions(lengths),
         float(r + d + abs(offset)),
         [s * MP.acos(x) for x in cosine for s in (1, -1)],
-        spread,
+        discriminant,
         exact,
         lambda motion: motion.slide("slot").value[:, None],
-        lambda motion: np.sign(way * motion.slide("slot").value),
+        lambda motion: np.sign(sign * motion.slide("slot").value),
     )
 
 
@@ -152,8 +152,8 @@ def check(linkage: Linkage) -> None:
         [float(x + s + 2 * k * MP.pi) for x in linkage.dead for k in TURNS for s in beside]
     )
     motion = m.solve(q, on_error="nan")
-    spread = [linkage.spread(MP.mpf(x)) for x in q.tolist()]
-    within = np.array([s > 0 for s in spread])
+    discriminant = [linkage.discriminant(MP.mpf(x)) for x in q.tolist()]
+    within = np.array([s > 0 for s in discriminant])
     assert within.sum() * 2 == len(q)  # one side each
     assert (motion.status[~within] == Status.UNREACHABLE).all(), q[~within]
     assert (motion.status[within] <= Status.SINGULAR).all(), q[within]
@@ -163,7 +163,7 @@ def check(linkage: Linkage) -> None:
     assert (error <= agreement.POSITION * motion.condition[within] * linkage.size).all()
     # over five turns, through the gaps: the same assembly wherever there is one
     motion = m.solve(GRID, on_error="nan")
-    within = np.array([linkage.spread(MP.mpf(x)) > 0 for x in GRID[:121].tolist()])
+    within = np.array([linkage.discriminant(MP.mpf(x)) > 0 for x in GRID[:121].tolist()])
     within = np.append(np.tile(within[:-1], 5), within[0])  # the grid has 120 steps a turn
     assert 0 < within.sum() < len(GRID)
     assert ((motion.status == Status.UNREACHABLE) == ~within).all()

@@ -35,8 +35,8 @@ moves = st.floats(-0.5, 0.5)
 # Dyads alone as often as dyads and higher groups in any order.
 ANY = dyad_models.sequences() | mixed_models.mixed()
 PARTS = (0.0, 0.1, 1.0)  # of a move: half of the whole ones end beyond a fold
-# Positions looked at for a gap on the way.
-LOOKS = 1001
+# Positions checked for a gap on the path.
+CHECKED = 1001
 
 
 def made(d: Description) -> assur.Mechanism:
@@ -157,11 +157,11 @@ def check_frame(case: dyad_models.Case, move: float, frame: Frame) -> None:
 
 
 def gap_before(m: assur.Mechanism, change: float) -> bool:
-    """Whether a stretch that cannot be reached lies between the drawing and there."""
+    """Whether a gap lies between the drawing and there."""
     if np.size(m.q0) > 1:
         return False
-    way = float(m.q0) + np.linspace(0.0, change, LOOKS)
-    return bool((m.solve(way, order=0, on_error="nan").status == Status.UNREACHABLE).any())
+    path = float(m.q0) + np.linspace(0.0, change, CHECKED)
+    return bool((m.solve(path, order=0, on_error="nan").status == Status.UNREACHABLE).any())
 
 
 @NO_SHRINK
@@ -177,7 +177,7 @@ def test_translation(case: dyad_models.Case, move: float, shift: tuple[float, fl
 
 
 def test_a_half_turn_behind_a_gap() -> None:
-    """Found once: a link that is half a turn on, whose mirror image turned the same way."""
+    """Found once: a link half a turn on, whose mirror image turned in the same direction."""
     case = dyad_models.build(2635, "cylinder", ("PRP", "RRP", "PRP", "PRP", "PRP", "RPR"))
     check_frame(case, 0.06597458344611529, Frame(mirror=True))
 
@@ -197,7 +197,7 @@ def test_scale(case: dyad_models.Case, move: float, scale: float) -> None:
 @NO_SHRINK
 @given(ANY, moves, st.integers(-300, 300))
 def test_scale_by_a_power_of_two(case: dyad_models.Case, move: float, power: int) -> None:
-    """Not a bit changes."""
+    """No bit changes."""
     d, scale = case.description, 2.0**power
     one, two = made(d), made(Frame(scale=scale).of(d))
     slide = [kind == "slide" for kind, *_ in d.drivers]
@@ -269,7 +269,7 @@ def per_q(m: assur.Mechanism) -> int:
     return int(set(np.atleast_1d(np.asarray(m.driver, dtype=object))) <= set(m.slides))
 
 
-# The way of a driven slide starts from its value in the drawing, which `larger` leaves as it is.
+# The branch of a driven slide starts from its value in the drawing, which `larger` leaves as it is.
 of_library = pytest.mark.parametrize(
     ("name", "make"),
     [
@@ -399,7 +399,7 @@ def test_third_bar() -> None:
     ],
 )
 def test_angles_do_not_depend_on_the_grid(make: object) -> None:
-    """Continuous over four turns each way; the same bits alone, coarse, backwards or fine."""
+    """Continuous over four turns both ways; the same bits alone, coarse, backwards or fine."""
     d = make()  # type: ignore[operator]
     m = made(d)
     fine = m.q0 + np.linspace(-4 * math.tau, 4 * math.tau, 4001)

@@ -1,4 +1,4 @@
-"""Designs whose group folds while their dimensions go from the drawing's to their own."""
+"""Designs whose group folds during the homotopy from the drawing's dimensions to theirs."""
 
 from __future__ import annotations
 

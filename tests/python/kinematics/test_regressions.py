@@ -1,4 +1,4 @@
-"""Faults that were found once, kept with their smallest examples."""
+"""Faults once found, with their smallest examples."""
 
 from __future__ import annotations
 
@@ -211,7 +211,7 @@ def test_rocker_that_swings_round_beside_a_change_point(ground: float) -> None:
 
 
 def test_signs_that_return_through_a_gap() -> None:
-    """A change point beside the end of a gap is found however small the cells there are."""
+    """A change point beside the end of a gap is found however small its cells are."""
     m = assur.Mechanism(
         joints={
             "J0": (1.4455748336062872, -1.2644110393420958),

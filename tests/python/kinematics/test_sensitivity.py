@@ -52,10 +52,10 @@ def check(
     """Every output's sensitivity by some of the dimensions; how many, and the greatest share."""
     m, tracer = assur.Mechanism(**arguments(d)), agreement.Tracer(d)
     start = oracle_guess.drawing_q(d)
-    ways = tuple(move * (1 - 1.6 * k) for k in range(len(start)))
-    path = tracer.follow(ways)
+    moves = tuple(move * (1 - 1.6 * k) for k in range(len(start)))
+    path = tracer.follow(moves)
     part = 1.0 if path.fold is None else path.fold / 2
-    q = tuple(a + part * b for a, b in zip(start, ways, strict=True))
+    q = tuple(a + part * b for a, b in zip(start, moves, strict=True))
     motion = m.solve(q[0] if len(q) == 1 else np.array(q), order=order)
     pose, kappa = path.pose(part), float(motion.condition)
     names = [name for name in m.dimensions if known(d, name)]

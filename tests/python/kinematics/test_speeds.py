@@ -1,4 +1,4 @@
-"""Speeds against motions: broadcast by NumPy's rules, whatever axes either of them has."""
+"""Speeds and motions broadcast by NumPy's rules, whatever axes each has."""
 
 from __future__ import annotations
 

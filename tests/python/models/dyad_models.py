@@ -106,7 +106,7 @@ class _Builder:
         return self.rng.choice(free) if free and self.rng.random() < 0.4 else None
 
     def near(self) -> Place:
-        """A place about the middle of what is there, so that links do not grow without end."""
+        """A point about the middle of the drawing, so that links do not grow without end."""
         n = max(len(self.joints), 1)
         x, y = (sum(p[i] for p in self.joints.values()) / n for i in (0, 1))
         return x + self.rng.uniform(-2, 2), y + self.rng.uniform(-2, 2)

@@ -1,4 +1,4 @@
-"""One way to an error of each kind: what is asked, the class of the error and its fields."""
+"""A request that raises each kind of error: the call, the class of the error and its fields."""
 
 from __future__ import annotations
 

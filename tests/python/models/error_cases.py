@@ -1,10 +1,11 @@
-"""Every kind of error by its origin: a case, or why no input of Python reaches it."""
+"""Every kind of error by its origin: a case, or why no Python input reaches it."""
 
 from __future__ import annotations
 
 from error_case import FIELDS, Case
 from error_cases_dynamics import RUN, STEADY, TABLE
 from error_cases_kinematics import POSITION, REQUEST, STRUCTURE
+from error_cases_papers import JAMMING, SERIES
 
 __all__ = ["CASES", "FIELDS", "UNREACHABLE", "Case"]
 
@@ -15,6 +16,8 @@ CASES: dict[str, dict[str, Case]] = {
     "run": RUN,
     "steady state": STEADY,
     "table": TABLE,
+    "series": SERIES,
+    "jamming": JAMMING,
 }
 
 UNREACHABLE: dict[str, dict[str, str]] = {
@@ -39,4 +42,6 @@ UNREACHABLE: dict[str, dict[str, str]] = {
         "not_rotary": "Python checks the driver first.",
     },
     "table": {"unequal": "Python checks shapes first."},
+    "series": {},
+    "jamming": {"ground": "An exception of the function is raised as it is."},
 }

@@ -29,7 +29,7 @@ TRIES = 200
 
 
 def higher_case(seed: int) -> dyad_models.Case:
-    """A random drawing, which is an assembly whatever it looks like."""
+    """A random drawing; any drawing is an assembly."""
     rng = random.Random(f"higher {seed}")
     names = [n for n in TOPOLOGIES if n != "six ternaries" and n != "pentagon"]
     for _ in range(TRIES):

@@ -1,4 +1,4 @@
-"""Random machines: bodies, loads and motors at random places of random mechanisms."""
+"""Random machines: bodies, loads and motors at random points of random mechanisms."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def machine_case(seed: int) -> Case:
 
 
 class Parts:
-    """What a machine carries and what acts on it."""
+    """Bodies and loads of a machine."""
 
     def __init__(self, rng: random.Random, description: Description) -> None:
         self.rng, self.description = rng, description
@@ -104,7 +104,7 @@ class Parts:
         return [getattr(self, kind.replace(" ", "_"))() for kind in kinds]
 
     def place(self) -> Any:
-        """A joint, or a place in the frame of a link or of the ground."""
+        """A joint, or a point in the frame of a link or of the ground."""
         rng = self.rng
         if rng.random() < 0.4:
             return rng.choice(list(self.description.joints))

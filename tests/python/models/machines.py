@@ -1,4 +1,4 @@
-"""Mechanisms and machines that several tests move."""
+"""Mechanisms and machines that several tests share."""
 
 from __future__ import annotations
 

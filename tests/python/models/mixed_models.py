@@ -101,7 +101,7 @@ class Builder(dyad_models._Builder):
         return self.joint(self.apart(), host)
 
     def apart(self) -> dyad_models.Place:
-        """A place about the middle, not too near to any joint."""
+        """A point about the middle, not too near to any joint."""
         while True:
             place = self.near()
             if all(math.dist(place, other) > LEAST_APART for other in self.joints.values()):

@@ -1,4 +1,4 @@
-"""Named mechanisms to test with, and structures that are to be refused."""
+"""Named mechanisms for tests, and structures to be refused."""
 
 from __future__ import annotations
 
@@ -190,7 +190,7 @@ NAMED: dict[str, Callable[[], Description]] = {
 
 
 def locked() -> dict[str, Description]:
-    """No mechanisms: to be refused, with the part that is wrong named."""
+    """Invalid structures: refused with an error that names the wrong part."""
     d = crank_rocker()
     triangle = _bars(
         {"A": (0.0, 0.0), "B": (1.0, 2.0), "C": (3.0, 0.0)},

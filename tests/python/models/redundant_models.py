@@ -57,7 +57,7 @@ def redundant_case(seed: int) -> Rounded:
 class RedundantBuilder(Builder):
     """Overconstrained mechanisms on a crank."""
 
-    # Links of which one can be left out: nothing may hang on them.
+    # Links of which one can be left out: nothing may be attached to them.
     spare: tuple[str, ...] = ()
 
     def two_links(self) -> tuple[str, str]:

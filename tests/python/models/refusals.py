@@ -1,4 +1,4 @@
-"""What the tests of refusals change and ask: a crank-rocker and its like."""
+"""Mechanisms and helpers for the tests of refusals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Descriptions of no mechanism: what is changed, words of the message, fields of the error."""
+"""Invalid descriptions: the change, words of the message, fields of the error."""
 
 from __future__ import annotations
 
@@ -165,12 +165,12 @@ REFUSED: dict[str, Refusal] = {
     # flat drawings
     "in line": (
         {"joints": {"A": (0, 0), "B": (1, 0), "C": (4, 0), "D": (2, 0)}, "links": FOUR},
-        ("flat", "C", "assembly"),
+        ("collinear", "C", "assembly"),
         {"joint": "C", "value": 0.0},
     ),
     "engine at its dead point": (
         engine("bore") | {"joints": {"O": (0, 0), "A": (0.05, 0), "B": (0.25, 0)}},
-        ("flat", "A", "assembly"),
+        ("collinear", "A", "assembly"),
         {"joint": "A"},
     ),
     "no such dyad": ({"assembly": {"X": 1}}, ("X", "C"), {"joint": "X"}),

@@ -53,7 +53,7 @@ NAMES = [f"library {n}" for n in library.LIBRARY] + [f"model {n}" for n in named
 
 
 def few(m: assur.Mechanism) -> int:
-    """Coordinates to look at; fewer of several drivers, whose way to each is walked by itself."""
+    """Coordinates to compare; fewer with several drivers, which trace a path to each."""
     return 9 if np.ndim(m.q0) else 61
 
 
@@ -73,7 +73,7 @@ def coordinates(m: assur.Mechanism, rng: np.random.Generator, count: int, name: 
 
 
 def designs(m: assur.Mechanism, rng: np.random.Generator, count: int) -> assur.Mechanism:
-    """A batch, every dimension up to 3 % longer or shorter; not everywhere to be assembled."""
+    """A batch, every dimension up to 3 % longer or shorter; some cannot be assembled everywhere."""
     scaled = {n: v * rng.uniform(0.97, 1.03, count) for n, v in m.dimensions.items()}
     return m.with_dimensions(scaled)
 

@@ -69,7 +69,7 @@ def mechanisms() -> Iterator[tuple[str, assur.Mechanism]]:
 
 
 def change_points() -> Iterator[tuple[str, assur.Mechanism]]:
-    """Lengths with which dyads fold on the way, and lengths just beside them."""
+    """Lengths with which dyads fold on the path, and lengths just beside them."""
     near = [0.0, 1e-13, -1e-13, 1e-10, 1e-6, -1e-6, 1e-3]
     yield "parallelogram", assur.FourBar(1.0, 3.0 + np.array(near), 1.0, 3.0)
     yield "antiparallelogram", assur.FourBar(1.0, 3.0 + np.array(near), 1.0, 3.0, mode="crossed")

@@ -1,4 +1,4 @@
-"""The computing of the papers: slider-crank and its series, class IV, crank-rocker with jamming."""
+"""Computations of the papers: slider-crank and its series, class IV, crank-rocker with jamming."""
 
 from __future__ import annotations
 

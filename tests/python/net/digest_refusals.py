@@ -1,4 +1,4 @@
-"""What is refused: the type of the error and its fields, not its words."""
+"""Refusals: the type of the error and its fields, not its words."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
-"""Digests of results over everything that computes: the net under changes that must change no bit.
+"""Digests of results of all kinds: the net under changes that must not change a bit.
 
-``python tests/python/digests.py`` compares with ``digests.json``; ``--write`` writes it anew, for a
-commit that changes results on purpose. The level of vector instructions is read from ASSUR_SIMD.
+``python net/digests.py`` (see CONTRIBUTING.md) compares with ``digests.json``; ``--write`` writes
+it anew, for a commit that changes results on purpose. The level of vector instructions is read from
+ASSUR_SIMD.
 
 Inputs are rounded to ten decimals: sines and logarithms of the platform's library, of which they
 are made, differ in their last bits from one processor to another.
@@ -22,6 +23,7 @@ import digest_dynamics
 import digest_kinematics
 import digest_papers
 import digest_refusals
+import digest_sweeps
 from assur import _core
 
 if TYPE_CHECKING:
@@ -33,6 +35,7 @@ SECTIONS: dict[str, Callable[[], Iterator[tuple[str, Any]]]] = {
     "dynamics": digest_dynamics.results,
     "papers": digest_papers.results,
     "refusals": digest_refusals.results,
+    "sweeps": digest_sweeps.results,
 }
 
 

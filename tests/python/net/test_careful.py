@@ -1,4 +1,4 @@
-"""Kernels and short cuts against the careful path, to the bit."""
+"""Kernels and shortcuts against the careful path, to the bit."""
 
 from __future__ import annotations
 

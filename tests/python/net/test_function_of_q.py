@@ -48,7 +48,7 @@ def selections(n: int, rng: np.random.Generator) -> Iterator[npt.NDArray[np.int6
 def check_coordinates(
     m: assur.Mechanism, q: Float, rng: np.random.Generator, of: str, among: int | None = None
 ) -> None:
-    """All at once on one thread and two, and (`among` of) them in other ways."""
+    """All at once on one thread and two, and (`among` of) them in other orders."""
     whole = solve(m, q, threads=1)
     same(solve(m, q, threads=2), whole, f"{of}, two threads")
     few = rng.choice(len(q), among or len(q), replace=False)
@@ -123,7 +123,7 @@ def test_many_turns_of_several_drivers() -> None:
 
 @pytest.mark.parametrize("near", [1e-12, 1e-3, 1.0])
 def test_pin_in_two_guides_beside_where_they_are_parallel(near: float) -> None:
-    """The loop of these guides closes at the ground's origin: what it hangs on is no unknown."""
+    """The loop of these guides closes at the ground's origin, which is not an unknown."""
     m = assur.Mechanism(
         joints={"O": (0, 0), "P": (1.5, 1)},
         links={"ground": "O", "crank": "O", "block": "P", "cursor": "P"},
@@ -137,7 +137,7 @@ def test_pin_in_two_guides_beside_where_they_are_parallel(near: float) -> None:
     same(solve(m, q), np.concatenate([solve(m, one) for one in q]), "in one")
     condition = m.solve(q, on_error="nan").condition
     assert len(np.unique(condition)) == 2
-    # Beside where rounding cannot tell them from parallel guides there are no analogues.
+    # Where rounding cannot distinguish them from parallel guides there are no analogues.
     status = m.solve(q, on_error="nan").status
     assert ((status == assur.Status.SINGULAR) == (np.abs(np.sin(q - 1.0)) < 2.0**-24)).all()
 

@@ -1,4 +1,4 @@
-"""Work space that calls leave to later ones changes no bit, whatever was asked before."""
+"""Work space kept from earlier calls changes no bit, whatever those requested."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ HIGHER = tuple(f"higher {name}" for name in higher_library.HIGHER)
 
 @dataclass(frozen=True)
 class Request:
-    """What one call asks for."""
+    """One request."""
 
     q: Float
     order: int

@@ -1,4 +1,4 @@
-"""What a batch remembers of its designs changes no bit of any later motion."""
+"""Known signs change no bit of any later motion."""
 
 from __future__ import annotations
 

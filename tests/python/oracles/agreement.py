@@ -152,7 +152,7 @@ class Path:
     delta: Array
     knots: list[Array]
     fold: float | None
-    sign: float  # of the determinant, all the way
+    sign: float  # of the determinant, along the whole path
 
     def pose(self, t: float) -> Pose:
         """The pose at t, which the path passed."""

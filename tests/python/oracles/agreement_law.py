@@ -1,4 +1,4 @@
-"""Motions held to the law: what two tests of agreement share."""
+"""The law of accuracy for motions, shared by two tests of agreement."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def by_dimensions(d: Description, q: Q, solution: oracle.Solution, order: int) -
 
 
 def check_law(d: Description, q: Q, solution: oracle.Solution, gap: agreement.Gap) -> None:
-    """Nothing is further off than the law allows, or than the drawing's own last bits."""
+    """No error exceeds the law, or what the drawing's own last bits cause."""
     for k, (used, whose) in enumerate(zip((gap.position, *gap.analogues), gap.worst, strict=True)):
         if used > 1:
             own = max(agreement.inherent(d, q, solution, k), by_dimensions(d, q, solution, k))

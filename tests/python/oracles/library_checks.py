@@ -1,4 +1,4 @@
-"""What the tests of the library of named mechanisms have in common."""
+"""Helpers for the tests of the library of named mechanisms."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ def coordinates(name: str, count: int = 241) -> Float:
     low, high = (np.array(end) for end in library.RANGES[name])
     if low.ndim == 0:
         return np.linspace(float(low), float(high), count)
-    ways = []
+    paths = []
     for backwards in diagonals(len(low)):
         start, stop = np.where(backwards, high, low), np.where(backwards, low, high)
-        ways.append(start + np.linspace(0.0, 1.0, count)[:, np.newaxis] * (stop - start))
-    return np.concatenate(ways)
+        paths.append(start + np.linspace(0.0, 1.0, count)[:, np.newaxis] * (stop - start))
+    return np.concatenate(paths)
 
 
 def distance(motion: assur.Motion, a: str, b: str) -> Float:

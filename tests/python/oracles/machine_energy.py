@@ -78,7 +78,7 @@ class Balance:
         return Moving(along, 1j * along[:, np.newaxis] * turned)
 
     def place(self, at: Any) -> Moving:
-        """A joint, or a place in a link's frame; the ground's frame is the drawing's."""
+        """A joint, or a point in a link's frame; the ground's frame is the drawing's."""
         if isinstance(at, str):
             return self.joint(at)
         link, (x, y) = at
@@ -95,7 +95,7 @@ class Balance:
         return self.place((link, body.at))
 
     def along(self, first: Any, second: Any) -> Moving:
-        """The distance of two places."""
+        """The distance between two points."""
         span = self.place(second) - self.place(first)
         length = np.abs(span.value)
         with np.errstate(invalid="ignore"):
@@ -152,11 +152,11 @@ class Balance:
     # -- generalised forces -------------------------------------------------------------------
 
     def conservative(self) -> NDArray[np.float64]:
-        """What weights and springs do to the drivers, (parts, N, n)."""
+        """Generalised forces of weights and springs on the drivers, (parts, N, n)."""
         return self.to_drivers(self.stored())
 
     def applied(self) -> NDArray[np.float64]:
-        """What all other loads do to the drivers, (parts, N, n)."""
+        """Generalised forces of all other loads on the drivers, (parts, N, n)."""
         return self.to_drivers(self.other())
 
     def to_drivers(self, acting: Iterable[Acting]) -> NDArray[np.float64]:

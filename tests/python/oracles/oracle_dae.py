@@ -28,7 +28,7 @@ def turned(angle: float) -> Any:
 
 @dataclass
 class Point:
-    """A place fixed to a link (-1: the frame)."""
+    """A point fixed to a link (-1: the frame)."""
 
     link: int
     at: Any

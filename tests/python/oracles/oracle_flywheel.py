@@ -114,7 +114,7 @@ class Machine:
 
 @dataclass(frozen=True)
 class Motion:
-    """The extremes of the speed over a turn, their places and the time of the turn."""
+    """The extremes of the speed over a turn, where they occur, and the time of the turn."""
 
     flywheel: Number
     speed0: Number
@@ -174,7 +174,7 @@ def stationary(f: Function, breaks: Sequence[Number], samples: int = 24) -> list
 
 
 def extremes(k: Machine, flywheel: Number, speed0: Number) -> tuple[Number, Number, Number, Number]:
-    """Return max ω, its place, min ω, its place (the first of equals)."""
+    """Return max ω, its angle, min ω, its angle (the first of equals)."""
     c = (k.inertia(k.breaks[0]) + flywheel) * speed0**2
 
     def rate(p: Number) -> Number:  # the numerator of d(ω²)/dφ

@@ -1,4 +1,4 @@
-"""Poses for the oracle to start from: the drawing's, from joint places, or followed to q."""
+"""Poses for the oracle to start from: the drawing's, from joint positions, or followed to q."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from oracle_system import Pose, Vec
 
 FLOAT_TOL = 1e-13  # residual of `follow`: some hundred roundoffs
-LEAST_STEP = 1e-8  # of `follow`, part of the way: below it roundoff hides that the path bends
+LEAST_STEP = 1e-8  # of `follow`, part of the path: below it roundoff hides that the path bends
 
 
 class StuckError(ArithmeticError):
@@ -48,7 +48,7 @@ def guess_from_joints(
     joints: Mapping[str, Any],
     angles: Mapping[str, Any] | None = None,
 ) -> Pose:
-    """A pose from approximate joint places and, where known, link angles (with their turns).
+    """A pose from approximate joint positions and, where known, link angles (with their turns).
 
     Rotations not given are found from two joints, or from the links slid on; where only the
     distance along a guide between two single joints is left, it keeps the drawing's sign.
@@ -103,7 +103,7 @@ def _spread(system: System, turn: dict[int, float], place: dict[int, Any]) -> No
 def _crossing(
     system: System, i: int, turn: dict[int, float], place: dict[int, Any]
 ) -> NDArray[np.float64]:
-    """Place of a link without joints: where its guides cross."""
+    """Position of a link without joints: where its guides intersect."""
 
     def spin(body: int, u: Vec) -> NDArray[np.float64]:
         c, s = math.cos(turn.get(body, 0.0)), math.sin(turn.get(body, 0.0))

@@ -84,7 +84,7 @@ class System:
     # -- from the drawing ---------------------------------------------------------------------
 
     def _reference(self, body: int) -> Vec:
-        """First joint; without joints where the two guides cross that do so most squarely."""
+        """First joint; without joints where the two guides closest to perpendicular intersect."""
         name = self.names[body]
         if self.joint_lists[body]:
             return self._drawn[self.joint_lists[body][0]]

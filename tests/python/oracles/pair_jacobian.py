@@ -1,4 +1,4 @@
-"""The Jacobian of all pairs and drivers from places of joints and directions of guides.
+"""The Jacobian of all pairs and drivers from positions of joints and directions of guides.
 
 Every moving link has a velocity at the ground's first joint and an angular velocity; every pair
 and driver is a row or two.  Lengths are in parts of the drawing.
@@ -32,7 +32,7 @@ def jacobian(
     rows: list[NDArray[np.float64]] = []
 
     def relative(a: str, b: str, direction: Any, place: Any = 0.0, turning: float = 0.0) -> None:
-        """A row: velocity of `a` relative to `b` at a place along a direction, and its turning."""
+        """A row: velocity of `a` relative to `b` at a point along a direction, and its rotation."""
         out = np.zeros((*shape, 3 * len(index)))
         lever = np.imag(np.conj(place) * direction) + turning
         for link, sign in ((a, 1.0), (b, -1.0)):

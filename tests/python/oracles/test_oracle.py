@@ -31,7 +31,7 @@ def at_drawing(d: Description, order: int = 3) -> oracle.Solution:
 
 
 def near_drawing(d: Description, move: float) -> tuple[tuple[float, ...], Pose]:
-    """Towards q0 + move, or half of the way to the fold before it."""
+    """Towards q0 + move, or halfway to the fold before it."""
     start = oracle_guess.drawing_q(d)
     q = tuple(v + move for v in start)
     try:

@@ -1,4 +1,4 @@
-"""The command line: whatever the terminal, pipe or disk, a result or one line of why not."""
+"""The command line: a result or a one-line error, whatever the terminal, pipe or disk."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def test_an_invalid_table_gives_one_line_with_its_name(tmp_path: Path) -> None:
         ("", "table.csv: the table has 0 rows"),
         ("# nothing\n", "table.csv: the table has 0 rows"),
         ("phi,moment,inertia\n", "table.csv: the table has 0 rows"),
-        ("0,1,2\n", "table.csv: the table has 1 rows"),
+        ("0,1,2\n", "table.csv: the table has 1 row:"),
         ("0," + "1" * 140_000 + ",2\n1,1,2\n", "table.csv: the table cannot be read (field larger"),
     ):
         path.write_text(text)

@@ -1,4 +1,4 @@
-"""Copies of machines are the same machines, whatever becomes of the caller's arrays and lists."""
+"""Copies of machines stay the same, whatever the caller does to its arrays and lists."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 TURN = 2.0 * np.pi
 Q = np.linspace(0.0, 6.0, 7)
 ANY: Any = "cubic"  # what types would not let pass
-WAYS: list[Callable[[Any], Any]] = [
+COPIERS: list[Callable[[Any], Any]] = [
     copy.copy,
     copy.deepcopy,
     lambda x: pickle.loads(pickle.dumps(x)),
@@ -71,25 +71,25 @@ def loaded() -> tuple[Machine, list[Any]]:
     return machine, given
 
 
-@pytest.mark.parametrize("way", WAYS, ids=["copy", "deepcopy", "pickle"])
-def test_a_copy_is_the_same_machine_after_the_arrays_changed(way: Callable[[Any], Any]) -> None:
+@pytest.mark.parametrize("copier", COPIERS, ids=["copy", "deepcopy", "pickle"])
+def test_a_copy_is_the_same_machine_after_the_arrays_changed(copier: Callable[[Any], Any]) -> None:
     machine, given = loaded()
     before = answers(machine)
     spoil(*given)
-    for own in (machine, way(machine)):
+    for own in (machine, copier(machine)):
         for one, other in zip(before, answers(own), strict=True):
             assert one.tobytes() == other.tobytes()
 
 
-@pytest.mark.parametrize("way", WAYS, ids=["copy", "deepcopy", "pickle"])
-def test_a_copied_machine_of_tables_is_the_same(way: Callable[[Any], Any]) -> None:
+@pytest.mark.parametrize("copier", COPIERS, ids=["copy", "deepcopy", "pickle"])
+def test_a_copied_machine_of_tables_is_the_same(copier: Callable[[Any], Any]) -> None:
     q, value = rows()
     inertia = np.full(9, 2.0)
     over = np.array([0.0, 10.0, 20.0]), np.array([30.0, 25.0, 0.0])
     machine = Machine.from_table(q, value - 2.0, inertia, Table(*over, "linear"))
     before = answers(machine)
     spoil(q, value, inertia, *over)
-    for own in (machine, way(machine)):
+    for own in (machine, copier(machine)):
         for one, other in zip(before, answers(own), strict=True):
             assert one.tobytes() == other.tobytes()
 
@@ -119,7 +119,7 @@ def test_a_table_has_its_own_rows_and_they_do_not_change() -> None:
     q, value = rows()
     table = Table(q, value)
     spoil(q, value)
-    for own in (table, *(way(table) for way in WAYS)):
+    for own in (table, *(copier(table) for copier in COPIERS)):
         assert own.q.tolist() == rows()[0].tolist()
         assert own.value.tolist() == rows()[1].tolist()
         for column in (own.q, own.value):

@@ -83,7 +83,7 @@ def test_copies_have_all_fields(
 def test_every_class_of_errors_is_raised() -> None:
     classes = {getattr(errors, name) for name in errors.__all__} - {assur.AssurWarning}
     raised = {one.error for cases in CASES.values() for one in cases.values()}
-    # A fault of the library itself is an AssurError: test_panics.py.
+    # A bug in the library is an AssurError: test_panics.py.
     assert raised == classes - {assur.AssurError}
 
 

@@ -1,4 +1,4 @@
-"""`import assur` takes NumPy and nothing else that has to be installed."""
+"""`import assur` needs NumPy and nothing else that must be installed."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ print(*sorted({name.partition(".")[0] for name in set(sys.modules) - before}))
 
 
 def test_nothing_is_imported_beyond_numpy_and_dataclasses() -> None:
-    """The standard library too takes its time at each start (argparse, csv, pathlib)."""
+    """The standard library also takes time at each start (argparse, csv, pathlib)."""
     done = subprocess.run(
         [sys.executable, "-c", BEYOND], capture_output=True, text=True, check=False
     )
@@ -54,7 +54,7 @@ def test_nothing_is_imported_beyond_numpy_and_dataclasses() -> None:
 
 
 def test_every_public_name_is_there_when_asked_for() -> None:
-    """Those imported late are listed from the start, and what they are called."""
+    """Modules imported late are listed from the start, with their names."""
     named = set(assur.__all__)
     assert named == {name for name in dir(assur) if name in named}
     for name in named - {"__version__"}:

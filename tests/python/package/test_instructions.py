@@ -1,4 +1,4 @@
-"""Vector instructions stand in the kernels: a called intrinsic costs a sweep its speed."""
+"""Vector instructions are inlined in the kernels: a called intrinsic makes a sweep slow."""
 
 from __future__ import annotations
 

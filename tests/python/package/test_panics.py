@@ -1,4 +1,4 @@
-"""A panic of the core is an AssurError in Python, and leaves nothing half done to be read."""
+"""A panic of the core is an AssurError in Python, and no incomplete result can be read."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def test_a_panic_is_an_error_that_names_its_place(
         m.solve(Q, threads=threads)
     assert type(caught.value) is assur.AssurError
     text = str(caught.value)
-    assert text.startswith("a fault of assur, not of your input: a panic on purpose (rust/core/")
+    assert text.startswith("a fault of assur, not of your input: deliberate panic (rust/core/")
     assert "test_hooks.rs:" in text
     assert "please report it" in text
     assert capfd.readouterr() == ("", "")  # the library prints nothing
@@ -56,7 +56,7 @@ def test_a_panic_is_an_error_that_names_its_place(
 def test_a_panic_in_a_single_position_is_an_error() -> None:
     m = assur.FourBar(1.0, 3.0, 2.5, 3.0)
     _core.panic_in_chunk(1)
-    with pytest.raises(assur.AssurError, match="a panic on purpose"):
+    with pytest.raises(assur.AssurError, match="deliberate panic"):
         m.solve(1.0)
     assert m.solve(1.0).status == assur.Status.OK
 
@@ -67,7 +67,7 @@ def test_no_mixture_of_old_and_new_values_can_be_read(threads: int) -> None:
     motion = m.solve(Q)
     joint, status = motion.joint("C"), motion.status
     _core.panic_in_chunk(2)
-    with pytest.raises(assur.AssurError, match="a panic on purpose"):
+    with pytest.raises(assur.AssurError, match="deliberate panic"):
         m.solve(Q + 0.1, threads=threads, out=motion)
     # What was taken from the motion before shares its memory.
     assert all(np.isnan(a).all() for a in (joint.value, joint.d1, joint.d2))

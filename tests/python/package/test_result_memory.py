@@ -1,4 +1,4 @@
-"""The memory of results that were dropped is used again: no new pages, no mixture of results."""
+"""The memory of dropped results is reused: no new pages, no mixed results."""
 
 from __future__ import annotations
 
@@ -78,14 +78,58 @@ print(faults() - before)
     assert int(found.stdout) < 5000
 
 
+PROGRAM_OF_METRICS = """
+import sys
+sys.path[:0] = {path!r}
+import numpy as np
+import assur
+from test_result_memory import batch, faults, resident, without_huge_pages
+
+without_huge_pages()
+m = batch({designs})
+q = np.linspace(0.0, 2 * np.pi, {positions}, endpoint=False)
+asked = {{"off": assur.metric.deviation("C"), "swing": assur.metric.span("rocker", order=2)}}
+assur.sweep(batch(10), {{}}, q[:9], metrics=asked)
+before = faults()
+for _ in range({calls}):
+    assur.sweep(m, {{}}, q, metrics=asked, threads=1)
+print(faults() - before)
+"""
+
+
+def pages_of_metrics(designs: int, positions: int, calls: int = 1) -> int:
+    program = PROGRAM_OF_METRICS.format(
+        path=sys.path, designs=designs, positions=positions, calls=calls
+    )
+    found = subprocess.run(
+        [sys.executable, "-c", program],
+        check=True,
+        timeout=120,
+        cwd=Path(__file__).parent,
+        capture_output=True,
+        text=True,
+    )
+    return int(found.stdout)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="pages are counted as Linux does")
+def test_memory_of_metrics_does_not_grow_with_positions() -> None:
+    """Stored, the motions of 2000 designs at 1440 positions would need 65 000 pages."""
+    few, many = pages_of_metrics(2000, 72), pages_of_metrics(2000, 1440)
+    assert many - few < 2000
+    # Two metrics, a status and 8 dimensions of 100 000 designs are 2 100 pages, with room for two.
+    assert pages_of_metrics(100_000, 8) < 6000
+    assert pages_of_metrics(2000, 72, calls=50) < 5000
+
+
 def test_results_that_are_held_stay() -> None:
     m = batch()
     expected = digest(solve(m))
     held = [solve(m) for _ in range(5)]
     views: list[npt.NDArray[np.float64]] = [motion.joint("C").value[3:5, ::2] for motion in held]
     copies = [view.copy() for view in views]
-    places = {motion.joint("C").value.__array_interface__["data"][0] for motion in held}
-    assert len(places) == 5
+    addresses = {motion.joint("C").value.__array_interface__["data"][0] for motion in held}
+    assert len(addresses) == 5
     del held
     for other in (batch(), batch(DESIGNS + 1), batch(2 * DESIGNS)):
         solve(other)
@@ -136,7 +180,7 @@ assert good and status == 0
 
 
 def test_only_the_last_call_is_kept() -> None:
-    """Another call gives back what it does not take."""
+    """A call frees what it does not reuse."""
     large = batch(4000)
     size = 4000 * 360 * 9 * 8
     solve(large)

@@ -1,4 +1,4 @@
-"""A run is copied by its arrays: to the bit, and only from a state that fits."""
+"""A run is copied by its arrays: to the bit, and only from a valid state."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ OPTIONAL = ("tail", "smallest", "largest")
 
 
 def wrong_values(value: Any) -> list[Any]:
-    """Values that cannot stand in place of one of a state."""
+    """Values that are invalid in place of one of a state."""
     wrong: list[Any] = ["text", object()]
     if isinstance(value, np.ndarray):
         longer = np.append(value, 0.0)
@@ -105,12 +105,14 @@ def test_a_bad_state_is_refused(name: str) -> None:
     run = runs()[name]
     make: Any = type(run._core)
     good = state(run)
-    for part in (good, *(value for value in good.values() if isinstance(value, dict))):
+    near = good["stop_reason"]["near_change_point"]
+    parts = [good, *(value for value in good.values() if isinstance(value, dict))]
+    for part in parts if near is None else [*parts, near]:
         for key, value in list(part.items()):
             del part[key]
             refused(assur.InputError, "not the state of a run", lambda: make(good))
             for wrong in wrong_values(value):
-                if part is not good and isinstance(value, str) and isinstance(wrong, str):
+                if key == "dyad" and isinstance(wrong, str):
                     continue  # the name of a dyad may be any text
                 if wrong is None and key in OPTIONAL:
                     continue
@@ -121,7 +123,7 @@ def test_a_bad_state_is_refused(name: str) -> None:
         refused(assur.InputError, "not the state of a run", partial(make, wrong))
     reason = good["stop_reason"]
     for kind in ("edge", "near_change_point", "anything"):
-        good["stop_reason"] = {**reason, "kind": kind, "index": 99, "numbers": [1.0]}
+        good["stop_reason"] = {**reason, "kind": kind, "event": 99}
         refused(assur.InputError, "not the state of a run", lambda: make(good))
 
 

@@ -41,7 +41,7 @@ def test_threads_accepted(threads: int) -> None:
 @pytest.mark.parametrize("positions", [360, 361])
 @pytest.mark.parametrize("threads", [1, 2])
 def test_results_beyond_the_caches_have_the_same_bits(threads: int, positions: int) -> None:
-    """From 32 MiB on whole lines are stored past the caches; rows of 361 begin within lines."""
+    """From 32 MiB on whole lines bypass the caches; rows of 361 begin within lines."""
     q = np.linspace(0.0, 6.0, positions)
     lengths = np.linspace(2.9, 3.1, 1200)
     many = assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"coupler.length": lengths})
@@ -82,7 +82,7 @@ def test_strange_coordinates(name: str) -> None:
     strange = rng.permutation(np.repeat(STRANGE, 2))
     if q.ndim == 1:
         q[: len(strange)] = strange
-    else:  # far ways of several drivers are long
+    else:  # paths to far positions of several drivers are long
         q[: len(strange), -1] = np.where(np.abs(strange) > 1.0, math.nan, strange)
     q = rng.permutation(q)
     motion = m.solve(q, order=3, on_error="nan")
@@ -138,7 +138,7 @@ def many_designs(rng: np.random.Generator, size: int) -> Work:
 
 
 def many_turns(rng: np.random.Generator, size: int) -> Work:
-    """The angle of a coupler: only an angle that is asked for is followed from the drawing."""
+    """The angle of a coupler: only requested angles are followed from the drawing."""
     return bits.named("model five_bar"), rng.uniform(-314.0, 314.0, (size, 2)), ["l3"]
 
 
@@ -148,7 +148,7 @@ LONG = (many_positions, many_designs, many_turns)
 @pytest.mark.parametrize("threads", [1, None])
 @pytest.mark.parametrize("make", LONG)
 def test_interrupt(make: Callable[[np.random.Generator, int], Work], threads: int | None) -> None:
-    """Heard long before the work is done, whatever it is; the next call is as ever."""
+    """Stops long before the work is done, whatever it is; the next call works as usual."""
 
     def work(size: int) -> Callable[[], object]:
         m, q, outputs = make(np.random.default_rng(6), size)

@@ -50,17 +50,17 @@ def test_table_1_printed_and_true() -> None:
     table = cr.table1()
     assert table.printed.shape == table.true.shape == (13, 5)
     for line in rows(PRINTED):
-        place = int(line[0]) // 30
-        assert np.abs(table.printed[place] - line[1:]).max() < 1e-6, line[0]
+        row = int(line[0]) // 30
+        assert np.abs(table.printed[row] - line[1:]).max() < 1e-6, line[0]
     for line in rows(TRUE):
-        place = int(line[0]) // 30
-        for mirrored in (place, 12 - place):
+        row = int(line[0]) // 30
+        for mirrored in (row, 12 - row):
             assert np.abs(table.true[mirrored] - line[1:]).max() < 6e-7, line[0]
     assert tuple(table.l4) == GROUNDS
 
 
 def triangle(phi: Any, lengths: tuple[Any, ...], side: int) -> dict[str, Any]:
-    """Places by the triangle BCD, from D as seen by the paper: x toward A."""
+    """Positions by the triangle BCD, from D as seen by the paper: x toward A."""
     l1, l2, l3, l4 = lengths
     b = l4 + l1 * MP.expj(phi)
     s = abs(b)

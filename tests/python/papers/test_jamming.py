@@ -12,16 +12,16 @@ import assur
 from assur import crank_rocker as cr
 
 if TYPE_CHECKING:
-    from assur.papers.crank_rocker import Run
+    from assur.papers.crank_rocker import JammingRun
 
 LENGTHS = (1.0, 4.5, 1.5)
 
 
-def degrees(run: Run) -> list[float]:
+def degrees(run: JammingRun) -> list[float]:
     return [math.degrees(event.phi1) for event in run.events]
 
 
-def check_geometry(run: Run, lengths: tuple[float, float, float] = LENGTHS) -> None:
+def check_geometry(run: JammingRun, lengths: tuple[float, float, float] = LENGTHS) -> None:
     """Every length holds at every moment, and nothing jumps."""
     l1, l2, l3 = lengths
     np.testing.assert_allclose(np.hypot(*run.B.T), l1, rtol=2e-13)

@@ -100,11 +100,11 @@ def test_coefficients_at_fifty_digits(k: float) -> None:
     values = [exact(p, MP.mpf(k)) for p in points]
     found = sc.fourier(k, 12)
     assert found.shape == (8,)
-    for place, harmonic in enumerate((0, 1, 2, 4, 6, 8, 10, 12)):
+    for index, harmonic in enumerate((0, 1, 2, 4, 6, 8, 10, 12)):
         cosines = (MP.cos(harmonic * p) for p in points)
         total = MP.fsum(v * c for v, c in zip(values, cosines, strict=True)) / count
         wanted = total if harmonic == 0 else 2 * total
-        assert abs(found[place] - wanted) <= LAST_BIT * abs(wanted) + MP.mpf("1e-40"), harmonic
+        assert abs(found[index] - wanted) <= LAST_BIT * abs(wanted) + MP.mpf("1e-40"), harmonic
 
 
 @pytest.mark.parametrize("k", [1.05, 1.2, *RATIOS, 100.0])
@@ -233,7 +233,7 @@ def test_errata_of_the_vector_paper() -> None:
 def test_a_point_of_the_rod_at_fifty_digits() -> None:
     k, a, b = MP.mpf(3), MP.mpf(1), MP.mpf("0.25")
 
-    def place(p: Any) -> tuple[Any, Any]:
+    def position(p: Any) -> tuple[Any, Any]:
         d = MP.asin(MP.sin(p) / k)
         x = MP.cos(p) + a * MP.cos(d) + b * MP.sin(d)
         return x, MP.sin(p) - a * MP.sin(d) + b * MP.cos(d)
@@ -241,7 +241,7 @@ def test_a_point_of_the_rod_at_fifty_digits() -> None:
     found = sc.rod_point(0.7, 1.0, 3.0, 1.0, 0.25)
     for i in range(2):
         for order, got in enumerate((found.value, found.d1, found.d2)):
-            wanted = MP.diff(lambda p, i=i: place(p)[i], MP.mpf(0.7), order)
+            wanted = MP.diff(lambda p, i=i: position(p)[i], MP.mpf(0.7), order)
             assert abs(got[i] - wanted) < 1e-15
 
 
@@ -285,9 +285,9 @@ def test_largest_deviations_printed() -> None:
     # The paper's 0.022 % is the extreme of 0-90° only.
     phi = np.linspace(1e-3, np.pi / 2, 20001)
     near = sc.stroke(phi, 1.0, 3.0, method="fraction", n=2).d1 / sc.stroke(phi, 1.0, 3.0).d1 - 1
-    place = int(np.abs(near).argmax())
-    assert abs(100 * abs(near[place]) - 0.021751) < 6e-7
-    assert abs(math.degrees(phi[place]) - 65.61) < 6e-3
+    worst = int(np.abs(near).argmax())
+    assert abs(100 * abs(near[worst]) - 0.021751) < 6e-7
+    assert abs(math.degrees(phi[worst]) - 65.61) < 6e-3
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 6, 12])

@@ -1,4 +1,4 @@
-"""Bad driver coordinates: named errors, or a status in their own place."""
+"""Bad driver coordinates: errors that name them, or a status for each position."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def test_many_turns() -> None:
 
 
 def test_many_turns_of_one_of_two_drivers() -> None:
-    """Too far to be followed from the drawing: said so, at once, instead of hours of following."""
+    """Too far to be followed from the drawing: refused at once instead of after hours."""
     m = build(
         joints={"O": (0, 0), "A": (0.3, 0.4), "B": (2.3, 0), "G": (5, 1)},
         links={"ground": "O", "crank": "OA", "cart": "B", "long": "AG", "short": "GB"},

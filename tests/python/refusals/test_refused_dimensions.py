@@ -1,4 +1,4 @@
-"""Bad dimensions and designs: named errors, or a status in their own place."""
+"""Bad dimensions and designs: errors that name them, or a status for each design."""
 
 from __future__ import annotations
 
@@ -32,10 +32,15 @@ def test_invalid_lengths_are_refused(value: float) -> None:
 @pytest.mark.parametrize("make", [assur.FourBar, assur.SliderCrank])
 def test_named_mechanisms_refuse_bad_lengths(make: Callable[..., assur.Mechanism]) -> None:
     lengths: list[Any] = [1.0, 3.0, 2.5, 3.0] if make is assur.FourBar else [1.0, 3.0]
-    for place in range(len(lengths)):
+    names = ["crank.length", "coupler.length", "rocker.length", "ground.D.x"]
+    if make is assur.SliderCrank:
+        names = ["crank.length", "rod.length"]
+    for place, name in enumerate(names):
         for bad in (0.0, -3.0, nan):
-            with pytest.raises(assur.DimensionError):
+            with pytest.raises(assur.DimensionError) as caught:
                 make(*lengths[:place], bad, *lengths[place + 1 :])
+            assert caught.value.dimension == name
+            np.testing.assert_equal(caught.value.value, bad)
     refused(assur.InputError, "mode 'x' open crossed", lambda: assur.FourBar(1, 3, 2.5, 3, "x"))  # type: ignore[arg-type]
 
 

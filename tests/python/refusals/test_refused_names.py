@@ -1,4 +1,4 @@
-"""Names that are not Unicode text, and words that are none of those known, are refused by name."""
+"""Names that are not Unicode text and unknown words are refused by name."""
 
 from __future__ import annotations
 
@@ -48,13 +48,21 @@ NAMES: dict[str, Callable[[Any], object]] = {
 }
 
 
+PLACES = ("force", "spring", "damper")
+
+
 @pytest.mark.parametrize("name", list(NAMES))
 @pytest.mark.parametrize("wrong", [HALF, 7, ("A", "B"), b"A"], ids=["half", "7", "pair", "bytes"])
 def test_non_names_are_refused(name: str, wrong: Any) -> None:
-    with pytest.raises(assur.AssurError) as caught:
+    # A pair is a sequence of drivers, the first of them a joint; a place of a load on a link.
+    is_drivers = name == "driver" and isinstance(wrong, tuple)
+    with pytest.raises(assur.StructureError if is_drivers else assur.InputError) as caught:
         NAMES[name](wrong)
-    # The message itself can be printed.
-    str(caught.value).encode()
+    # The message itself can be printed, and shows the name.
+    message = str(caught.value)
+    message.encode()
+    last = wrong[-1] if isinstance(wrong, tuple) and name in PLACES else wrong
+    assert (caught.value.link == "A") if is_drivers else (ascii(last) in message)
 
 
 @pytest.mark.parametrize("origin", [0, 0.0, False, b"", [], np.array("O")])
@@ -99,8 +107,11 @@ def test_ends_of_springs_that_are_arrays_are_refused_or_read() -> None:
     assert spring.second == ("ground", (1.0, 2.0))
     for wrong in (np.array(["A", "B"]), np.zeros(2), ("ground", np.zeros(3)), ("ground", "12")):
         ends: Any = wrong
-        for make in (lambda e=ends: Spring("C", e, 1.0, 1.0), lambda e=ends: Damper(e, "C", 1.0)):
-            with pytest.raises(assur.InputError):
+        for make, end in (
+            (lambda e=ends: Spring("C", e, 1.0, 1.0), "Spring second"),
+            (lambda e=ends: Damper(e, "C", 1.0), "Damper first"),
+        ):
+            with pytest.raises(assur.InputError, match=f"^{end}"):
                 make()
 
 

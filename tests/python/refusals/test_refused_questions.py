@@ -1,4 +1,4 @@
-"""Bad arguments of solve and bad questions to a motion: named errors."""
+"""Bad arguments of solve and of a motion's methods: errors that name them."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_assemblies_refuse_other_signs() -> None:
     refused(assur.InputError, "C 2 +1 -1", lambda: assur.Assembly({"C": 2}), joint="C")
 
 
-# -- questions to a motion -----------------------------------------------------------------------
+# -- methods of a motion --------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

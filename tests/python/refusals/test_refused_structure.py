@@ -1,8 +1,9 @@
-"""What is no mechanism is refused, with the thing and the number named."""
+"""An invalid mechanism is refused; the error names the part and the number."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -44,8 +45,9 @@ def test_names_not_allowed(name: str) -> None:
         {"links": {**LINKS, name: ["C", "P"]}},
         {"slides": {name: slide("rocker", "ground", 0)}},
     ):
-        with pytest.raises(assur.StructureError, match="not allowed"):
+        with pytest.raises(assur.StructureError, match="not allowed") as caught:
             build(**parts)
+        assert caught.value.kind == "bad_name"
 
 
 @pytest.mark.parametrize("name", ["é", "γ1", "A′", "1", "-", "a_b", "x" * 1000])
@@ -54,36 +56,32 @@ def test_names_allowed(name: str) -> None:
     assert f"rocker.{name}.x" in m.dimensions
 
 
-@pytest.mark.parametrize(
-    "changed",
-    [
-        *(joint(P=at) for at in ((1,), (1, 2, 3), 5, None, "ab", (1 + 2j, 0), (10**400, 0))),
-        joint(P=np.zeros(3)),
-        {"joints": {**JOINTS, 3: (0, 0)}},
-        {"links": {**LINKS, 3: "AB"}},
-        {"joints": [("A", (0, 0))]},
-        {"slides": {"s": ("rocker", "ground", 0.0)}},
-        {"slides": {"s": slide("rocker", "ground", "x")}},  # type: ignore[arg-type]
-        {"driver": [None]},
-        {"joints": {**JOINTS, "a\ud800": (0, 0)}},
-    ],
-)
-def test_wrong_values_are_errors_of_ours(changed: Table) -> None:
-    with pytest.raises(assur.AssurError):
-        build(**changed)
+# What is no description at all, and the fields that name where.
+WRONG_VALUES: list[tuple[Table, dict[str, Any]]] = [
+    *(
+        (joint(P=at), {"joint": "P"})
+        for at in ((1,), (1, 2, 3), 5, None, "ab", (1 + 2j, 0), (10**400, 0), np.zeros(3))
+    ),
+    ({"joints": {**JOINTS, 3: (0, 0)}}, {}),
+    ({"links": {**LINKS, 3: "AB"}}, {}),
+    ({"joints": [("A", (0, 0))]}, {}),
+    ({"slides": {"s": ("rocker", "ground", 0.0)}}, {"slide": "s"}),
+    ({"slides": {"s": slide("rocker", "ground", "x")}}, {"slide": "s"}),  # type: ignore[arg-type]
+    ({"joints": {**JOINTS, "a\ud800": (0, 0)}}, {}),
+    (link(coupler=["B", "C", 3]), {"link": "coupler"}),
+    (link(coupler=None), {"link": "coupler"}),
+    ({"driver": None}, {}),
+    ({"driver": [None]}, {}),
+    ({"driver": assur.Drive(3)}, {}),  # type: ignore[arg-type]
+    ({"assembly": {"C": "x"}}, {"joint": "C"}),
+    ({"assembly": ["C"]}, {}),
+]
+NAMES = ("joint", "link", "slide", "driver", "dimension", "group")
 
 
-@pytest.mark.parametrize(
-    "changed",
-    [
-        link(coupler=["B", "C", 3]),
-        link(coupler=None),
-        {"driver": None},
-        {"driver": assur.Drive(3)},  # type: ignore[arg-type]
-        {"assembly": {"C": "x"}},
-        {"assembly": ["C"]},
-    ],
-)
-def test_wrong_types(changed: Table) -> None:
-    with pytest.raises((assur.AssurError, TypeError)):
+@pytest.mark.parametrize(("changed", "fields"), WRONG_VALUES)
+def test_wrong_values_are_errors_of_ours(changed: Table, fields: dict[str, Any]) -> None:
+    with pytest.raises(assur.InputError) as caught:
         build(**changed)
+    found = {name: getattr(caught.value, name) for name in NAMES}
+    assert found == dict.fromkeys(NAMES) | fields

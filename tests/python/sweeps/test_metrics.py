@@ -11,6 +11,7 @@ import pytest
 
 import assur
 import design_spaces
+import textbook
 from assur import metric
 
 if TYPE_CHECKING:
@@ -35,32 +36,6 @@ def coordinate(motion: assur.Motion, name: str, order: int = 0) -> Float:
     of = motion.slide(name) if name in motion.mechanism.slides else motion.link(name)
     found: Float = getattr(of, word)
     return found
-
-
-def best_line(path: Float, count: int, relative: bool) -> float:
-    """Every stretch, by singular values."""
-    best = np.inf
-    for start in range(len(path)):
-        stretch = np.take(path, range(start, start + count), axis=0, mode="wrap")
-        from_middle = stretch - stretch.mean(axis=0)
-        _, _, (along, across) = np.linalg.svd(from_middle)
-        off = np.abs(from_middle @ across).max()
-        if relative:
-            off /= np.ptp(from_middle @ along)
-        best = min(best, off)
-    return best
-
-
-def best_circle(path: Float, count: int) -> float:
-    """Every stretch, by linear least squares (Kåsa)."""
-    best = np.inf
-    for start in range(len(path)):
-        stretch = np.take(path, range(start, start + count), axis=0, mode="wrap")
-        matrix = np.column_stack([2 * stretch, np.ones(count)])
-        (a, b, c), *_ = np.linalg.lstsq(matrix, (stretch**2).sum(axis=1))
-        radius = np.sqrt(c + a * a + b * b)
-        best = min(best, np.abs(np.hypot(*(stretch - [a, b]).T) - radius).max())
-    return best
 
 
 @pytest.mark.parametrize("name", MECHANISMS)
@@ -131,13 +106,17 @@ def test_deviation(part: float) -> None:
         path = paths[design]
         np.testing.assert_allclose(
             [found["line"][design], found["relative"][design], found["circle"][design]],
-            [best_line(path, count, False), best_line(path, count, True), best_circle(path, count)],
+            [
+                textbook.off_line(path, count, True, False),
+                textbook.off_line(path, count, True, True),
+                textbook.off_circle(path, count, True, False),
+            ],
             rtol=1e-8,
             atol=1e-15,
         )
 
 
-def test_time_ratio_of_a_whitworth_mechanism() -> None:
+def test_time_ratio_is_that_of_the_positions() -> None:
     batch = space("engine")
     found = assur.sweep(batch, {}, Q, metrics={"ratio": metric.time_ratio("bore")})
     values = batch.solve(Q, order=0, on_error="nan").slide("bore").value[found.kept]

@@ -14,7 +14,7 @@ import pytest
 import assur
 import design_spaces
 from assur import metric
-from assur.sweeps import sweep as sweeps
+from assur.sweeps import measuring
 
 Q = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 
@@ -86,7 +86,7 @@ def test_neighbours_blocks_and_threads_do_not_matter(
         "turn": metric.span([link for link in batch.links if link != "ground"][-1], order=1),
     }
     whole = assur.sweep(batch, {}, Q, metrics=asked)
-    monkeypatch.setattr(sweeps, "BLOCK_OF_METRICS", 7)
+    monkeypatch.setattr(measuring, "POSITIONS_OF_BLOCK", 7 * 72)
     apart = assur.sweep(batch, {}, Q, metrics=asked, threads=1)
     order = np.random.default_rng(1).permutation(200)
     turned = assur.sweep(whole.designs(order), {}, Q, metrics=asked, threads=2)

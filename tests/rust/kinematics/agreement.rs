@@ -27,9 +27,9 @@ fn check(case: &Case) -> Result<Vec<Worst>, TestCaseError> {
         .map_err(|e| TestCaseError::fail(format!("{e}\n{:#?}", case.description)))?;
     let mut kinds: Vec<_> = mechanism.structure().groups.iter().filter_map(|g| g.kind).collect();
     for kind in &case.kinds {
-        let place = kinds.iter().position(|k| k == kind);
-        prop_assert!(place.is_some(), "{kind} is not among the groups");
-        place.map(|p| kinds.remove(p));
+        let index = kinds.iter().position(|k| k == kind);
+        prop_assert!(index.is_some(), "{kind} is not among the groups");
+        index.map(|p| kinds.remove(p));
     }
     let oracle = Oracle::new(&case.description);
     let q0 = mechanism.q0().to_vec();

@@ -23,8 +23,8 @@ fn jansens_foot() {
     let leg = Mechanism::new(&jansen()).expect("a mechanism");
     let motion = solve(&leg, leg.drawing(), &[0.0]);
     let foot = leg.joint("7").expect("the foot");
-    let place = &motion.joints[foot].derivatives[0];
-    for (value, printed) in place.iter().zip([-43.170055, -91.753226]) {
+    let position = &motion.joints[foot].derivatives[0];
+    for (value, printed) in position.iter().zip([-43.170055, -91.753226]) {
         assert!((value - printed).abs() <= 0.5e-6, "{value} {printed}");
     }
 }

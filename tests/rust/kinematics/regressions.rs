@@ -84,7 +84,7 @@ fn guide_nearly_along_the_motion() {
 }
 
 /// A link without joints is placed where its first two guides cross; here these
-/// are 1° from parallel (a third crosses both well), and the place is forty sizes
+/// are 1° from parallel (a third crosses both well), and the point is forty sizes
 /// away.
 #[test]
 fn link_placed_by_nearly_parallel_guides() {

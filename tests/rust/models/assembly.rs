@@ -86,8 +86,8 @@ impl Builder<'_> {
     }
 
     fn prp(&mut self, a: usize, b: usize) -> [usize; 2] {
-        let place = self.near();
-        let middle = self.joint(place, &[]);
+        let point = self.near();
+        let middle = self.joint(point, &[]);
         let links = [self.link(&[middle]), self.link(&[middle])];
         self.crossed_guides([(links[0], a), (links[1], b)]);
         links
@@ -98,8 +98,8 @@ impl Builder<'_> {
         let first = self.link(&[outer]);
         let second = self.link(&[]);
         if self.coin(0.5) || self.links[b].is_empty() {
-            let place = self.near();
-            self.joint(place, &[second]);
+            let point = self.near();
+            self.joint(point, &[second]);
         }
         self.crossed_guides([(second, b), (first, second)]);
         [first, second]
@@ -134,14 +134,14 @@ impl Builder<'_> {
     }
 
     fn ground_joint(&mut self) -> usize {
-        let place = match self.links[GROUND].first() {
+        let point = match self.links[GROUND].first() {
             None => self.near(),
             Some(&first) => {
                 let (length, angle) = (self.leg(), self.angle());
                 beyond(self.joints[first], length, angle)
             }
         };
-        self.joint(place, &[GROUND])
+        self.joint(point, &[GROUND])
     }
 
     fn crank(&mut self) {
@@ -156,8 +156,8 @@ impl Builder<'_> {
         if self.coin(0.7) {
             self.ground_joint();
         }
-        let (place, angle) = (self.near(), self.angle());
-        let joint = self.joint(place, &[]);
+        let (point, angle) = (self.near(), self.angle());
+        let joint = self.joint(point, &[]);
         let link = self.link(&[joint]);
         let slide = self.slide(link, GROUND, angle);
         self.driver(|d| d.driver(&slide_name(slide)));

@@ -9,13 +9,13 @@ const LEAST_SINE: f64 = 0.05;
 /// Joints of one link are at least this far from its first.
 const APART: f64 = 0.3;
 
-type Place = [f64; 2];
+type Point = [f64; 2];
 /// Index of the ground among the links.
 pub const GROUND: usize = 0;
 
 pub struct Builder<'a> {
     tape: &'a [f64],
-    pub joints: Vec<Place>,
+    pub joints: Vec<Point>,
     pub links: Vec<Vec<usize>>,
     /// Sliding link, carrying link, angle, origin.
     pub slides: Vec<(usize, usize, f64, Option<usize>)>,
@@ -31,15 +31,15 @@ pub fn slide_name(slide: usize) -> String {
     format!("s{slide}")
 }
 
-pub fn beyond(from: Place, length: f64, angle: f64) -> Place {
+pub fn beyond(from: Point, length: f64, angle: f64) -> Point {
     [from[0] + length * angle.cos(), from[1] + length * angle.sin()]
 }
 
-fn distance(a: Place, b: Place) -> f64 {
+fn distance(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-pub fn direction(from: Place, to: Place) -> f64 {
+pub fn direction(from: Point, to: Point) -> f64 {
     (to[1] - from[1]).atan2(to[0] - from[0])
 }
 
@@ -70,8 +70,8 @@ impl Builder<'_> {
     }
 
     pub fn among<T: Copy>(&mut self, choices: &[T]) -> T {
-        let place = (self.next() * choices.len() as f64).floor();
-        let found = choices.iter().enumerate().find(|(i, _)| *i as f64 >= place);
+        let chosen = (self.next() * choices.len() as f64).floor();
+        let found = choices.iter().enumerate().find(|(i, _)| *i as f64 >= chosen);
         *found.expect("choices to take from").1
     }
 
@@ -97,8 +97,8 @@ impl Builder<'_> {
         0.3 * 10.0_f64.powf(self.next())
     }
 
-    /// A place about the middle of what is there.
-    pub fn near(&mut self) -> Place {
+    /// A point about the middle of what is there.
+    pub fn near(&mut self) -> Point {
         let n = self.joints.len().max(1) as f64;
         [0, 1].map(|axis| {
             let middle = self.joints.iter().map(|p| p[axis]).sum::<f64>() / n;
@@ -109,8 +109,8 @@ impl Builder<'_> {
 
 /// Joints, links, slides.
 impl Builder<'_> {
-    pub fn joint(&mut self, place: Place, links: &[usize]) -> usize {
-        self.joints.push(place);
+    pub fn joint(&mut self, point: Point, links: &[usize]) -> usize {
+        self.joints.push(point);
         let joint = self.joints.len() - 1;
         for &link in links {
             self.links[link].push(joint);
@@ -123,17 +123,17 @@ impl Builder<'_> {
         self.links.len() - 1
     }
 
-    /// A new joint of `link`, in this direction from a place; farther off where it
+    /// A new joint of `link`, in this direction from a point; farther off where it
     /// would come near the link's first joint.
-    pub fn joint_beyond(&mut self, from: Place, angle: f64, link: usize) -> usize {
+    pub fn joint_beyond(&mut self, from: Point, angle: f64, link: usize) -> usize {
         let length = self.leg();
-        let mut place = beyond(from, length, angle);
+        let mut point = beyond(from, length, angle);
         if let Some(&first) = self.links[link].first()
-            && distance(self.joints[first], place) < APART
+            && distance(self.joints[first], point) < APART
         {
-            place = beyond(from, length + 2.5 * APART, angle);
+            point = beyond(from, length + 2.5 * APART, angle);
         }
-        self.joint(place, &[link])
+        self.joint(point, &[link])
     }
 
     /// A joint of `link` to hang a dyad on: a new one, or an old one that is not on
@@ -148,8 +148,8 @@ impl Builder<'_> {
             let angle = self.angle();
             return self.joint_beyond(self.joints[first], angle, link);
         }
-        let place = self.near();
-        self.joint(place, &[link])
+        let point = self.near();
+        self.joint(point, &[link])
     }
 
     /// A sliding pair; either link may carry the guide, with an origin or without.

@@ -1,6 +1,6 @@
 //! Independent oracle: body coordinates in double-double.
 //!
-//! Every moving link has three unknowns: the place of one of its points and its
+//! Every moving link has three unknowns: the position of one of its points and its
 //! rotation from the drawing. The drawing's coordinates are exact numbers. Pairs
 //! and drivers are equations between these unknowns (Haug, *Computer Aided
 //! Kinematics and Dynamics*, 1989, ch. 3): Newton's method with an f64 inverse
@@ -39,7 +39,7 @@ enum Equation {
     Reach(Reach, Option<usize>),
 }
 
-/// Power series of one body: place, rotation from the drawing, cosine, sine.
+/// Power series of one body: position, rotation from the drawing, cosine, sine.
 #[derive(Debug, Clone)]
 pub struct Body {
     pub x: Vec<Dd>,
@@ -107,11 +107,11 @@ impl Oracle {
 
     fn add_pairs(&mut self, drawing: &Drawing<'_>) {
         for (name, _) in &drawing.description.joints {
-            let place = drawing.joint(name);
+            let position = drawing.joint(name);
             let on: Vec<usize> = (0..drawing.description.links.len())
                 .filter(|&l| drawing.description.links[l].1.contains(name))
                 .collect();
-            let local: Vec<Point> = on.iter().map(|&l| drawing.local(l, place)).collect();
+            let local: Vec<Point> = on.iter().map(|&l| drawing.local(l, position)).collect();
             self.joints.push((on[0], local[0]));
             self.pins.extend(on.iter().copied().zip(local.iter().copied()));
             for k in 1..on.len() {

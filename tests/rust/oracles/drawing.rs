@@ -1,4 +1,4 @@
-//! A description's drawing, read by the oracle: places of links, angles, local
+//! A description's drawing, read by the oracle: positions of links, angles, local
 //! coordinates, all as exact numbers divided by one power of two.
 
 use assur::Description;
@@ -19,9 +19,9 @@ impl<'a> Drawing<'a> {
     pub fn new(description: &'a Description) -> Self {
         let mut extent = 0.0_f64;
         for axis in 0..2 {
-            let places = || description.joints.iter().map(|(_, at)| at[axis]);
-            let high = places().fold(f64::NEG_INFINITY, f64::max);
-            extent = extent.max(high - places().fold(f64::INFINITY, f64::min));
+            let coordinates = || description.joints.iter().map(|(_, at)| at[axis]);
+            let high = coordinates().fold(f64::NEG_INFINITY, f64::max);
+            extent = extent.max(high - coordinates().fold(f64::INFINITY, f64::min));
         }
         let size = if extent > 0.0 { extent.log2().round().exp2() } else { 1.0 };
         Self { description, size }
@@ -102,15 +102,15 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// Place of a body's own point: the reference point, the origin for the ground.
-    fn place(&self, link: usize) -> Point {
+    /// Position of a body's own point: the reference point, the origin for the ground.
+    fn reference_point(&self, link: usize) -> Point {
         if self.ground(link) { [Dd::ZERO; 2] } else { self.reference(link) }
     }
 
     /// A point of the drawing seen from a link.
     pub fn local(&self, link: usize, point: Point) -> Point {
-        let place = self.place(link);
-        [point[0] - place[0], point[1] - place[1]]
+        let origin = self.reference_point(link);
+        [point[0] - origin[0], point[1] - origin[1]]
     }
 
     /// Every body as drawn, as series of `len` coefficients.
@@ -122,7 +122,7 @@ impl<'a> Drawing<'a> {
         };
         (0..self.description.links.len())
             .map(|link| {
-                let [x, y] = self.place(link).map(series);
+                let [x, y] = self.reference_point(link).map(series);
                 let [turn, sin, cos] = [Dd::ZERO, Dd::ZERO, Dd::ONE].map(series);
                 Body { x, y, turn, cos, sin }
             })

@@ -60,10 +60,10 @@ impl Comparison<'_> {
         let unit = if length { self.oracle.size } else { 1.0 };
         let (mut worst, mut squares) = (0.0_f64, 0.0);
         for component in 0..components {
-            for (place, drivers) in indices.iter().enumerate() {
+            for (index, drivers) in indices.iter().enumerate() {
                 let (k, factor) = self.oracle.tables.partial(drivers);
                 let scale: f64 = drivers.iter().map(|&d| self.oracle.unit[d]).product();
-                let value = values[component * indices.len() + place] / unit * scale;
+                let value = values[component * indices.len() + index] / unit * scale;
                 let expected = series(component, k) * Dd::from(factor);
                 let error = f64::from(Dd::from(value) - expected).abs();
                 // NaN must not be lost in a maximum.

@@ -1,4 +1,4 @@
-//! Other ways to the same numbers, which share no code with the core.
+//! Other methods for the same numbers, which share no code with the core.
 
 pub mod body;
 pub mod double_double;

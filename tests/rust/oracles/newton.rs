@@ -13,7 +13,7 @@ const SOLVED: f64 = 1e-28;
 const NEAR: f64 = 1e-9;
 /// Iterations: some to come near, then each gains 1e-16 times the condition.
 const ITERATIONS: usize = 40;
-/// A way that needs smaller parts counts as blocked.
+/// A path that needs smaller parts counts as blocked.
 const LEAST_STEP: f64 = 1.0 / 256.0;
 /// How far from its prediction a position may be, as part of the step.
 const BEND: f64 = 0.2;
@@ -83,17 +83,17 @@ impl Oracle {
 
     /// From one position to another value of the drivers, straight and in steps
     /// small enough to stay in the assembly: near the tangent, and the determinant
-    /// keeps its sign. None where a fold is in the way.
+    /// keeps its sign. None if a fold blocks the path.
     pub fn follow(&self, from: &Position, to: &[f64]) -> Option<Position> {
         let goal: Vec<Dd> = to.iter().zip(&self.unit).map(|(q, u)| Dd::from(q / u)).collect();
-        let way: Vec<Dd> = goal.iter().zip(&from.q).map(|(g, q)| *g - *q).collect();
+        let path: Vec<Dd> = goal.iter().zip(&from.q).map(|(g, q)| *g - *q).collect();
         let (mut at, mut factors) = self.assemble(from.clone())?;
         let sign = factors.determinant().signum();
         let (mut gone, mut step) = (0.0, 0.25);
         while gone < 1.0 {
             // q enters its own equation only, with the factor −1.
             let mut guess = at.clone();
-            for ((q, w), f) in guess.q.iter_mut().zip(&way).zip(&from.q) {
+            for ((q, w), f) in guess.q.iter_mut().zip(&path).zip(&from.q) {
                 *q = *f + *w * Dd::from(gone + step);
             }
             let tangent = solve(&factors, &self.residual(&guess, 0))?;
@@ -113,7 +113,7 @@ impl Oracle {
                 _ => step *= 0.5,
             }
         }
-        // The way's last point is the goal up to rounding in double-double.
+        // The last point of the path is the goal up to rounding in double-double.
         at.q = goal;
         Some(self.assemble(at)?.0)
     }

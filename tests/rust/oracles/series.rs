@@ -35,14 +35,14 @@ impl Tables {
                 .collect();
         }
         exponents.sort_by_key(|e| e.iter().sum::<usize>());
-        let place = |e: &[usize]| exponents.iter().position(|x| x == e);
+        let entry = |e: &[usize]| exponents.iter().position(|x| x == e);
         let product: Vec<Vec<Term>> = exponents
             .iter()
             .map(|whole| {
                 let splits = exponents.iter().enumerate().filter_map(|(left, part)| {
                     let pairs = whole.iter().zip(part);
                     let rest: Option<Vec<usize>> = pairs.map(|(w, p)| w.checked_sub(*p)).collect();
-                    Some(Term { factor: 1.0, left, right: place(&rest?)? })
+                    Some(Term { factor: 1.0, left, right: entry(&rest?)? })
                 });
                 splits.collect()
             })
@@ -81,8 +81,8 @@ impl Tables {
             wanted[d] += 1;
             factor *= wanted[d] as f64;
         }
-        let place = self.exponents.iter().position(|e| *e == wanted);
-        (place.expect("a partial derivative of order 3 at most"), factor)
+        let entry = self.exponents.iter().position(|e| *e == wanted);
+        (entry.expect("a partial derivative of order 3 at most"), factor)
     }
 }
 

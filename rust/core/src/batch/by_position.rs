@@ -1,4 +1,4 @@
-//! Positions solved one by one: those that need it, and sensitivities.
+//! Scalar path: positions that lanes cannot decide, and sensitivities.
 
 use std::mem::MaybeUninit;
 
@@ -27,9 +27,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
     pub(super) fn solve_scalar(&mut self, job: &mut Job<'_, '_>, row: usize) {
         let drivers = self.design.mechanism.q0().len();
         let q = self.design.scaled(&job.q[row * drivers..][..drivers]);
-        let place = self.design.branch_to(&q);
+        let point = self.design.branch_to(&q);
         let state = &mut self.space.one;
-        let analogues = self.design.solve(state, &q, place.as_ref());
+        let analogues = self.design.solve(state, &q, point.as_ref());
         let at = job.first + row;
         let solved = matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular);
         let no_analogues = !analogues && self.columns.iter().any(|column| column.order > 0);
@@ -39,11 +39,11 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             let describe = || Failure::of(&self.design, Rejection::Failed { status, fault }, q);
             log.record(job.index + row, 1, describe);
         }
-        let (true, Some(place)) = (solved, &place) else {
+        let (true, Some(point)) = (solved, &point) else {
             job.rows.write_failed(self.columns, at, 1, state.status as u8);
             return;
         };
-        let near = self.design.reference_angles(place, self.space.lifted.len());
+        let near = self.design.reference_angles(point, self.space.lifted.len());
         let lift = |class: usize| [unwrap_to(state.pose.class[class][0].unit_angle(), near[class])];
         let lifted: Vec<[f64; 1]> = (0..near.len()).map(lift).collect();
         let with = (&self.design.constants, &self.design.units);
@@ -54,7 +54,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         job.rows.status[at] = MaybeUninit::new(state.status as u8);
     }
 
-    /// Differentiates by a dimension, one position after another.
+    /// Sensitivities to a dimension, one position after another.
     #[cold]
     #[inline(never)]
     pub(super) fn sensitivities(
@@ -73,15 +73,15 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
                 return;
             }
             let q = design.scaled(q);
-            let place = design.branch_to(&q);
+            let point = design.branch_to(&q);
             let state = &mut self.space.one;
-            design.solve(state, &q, place.as_ref());
+            design.solve(state, &q, point.as_ref());
             let at = job.first + row;
             let status = state.status;
             job.rows.write_failed(self.columns, at, 1, status as u8);
             let solved = matches!(status, Status::Ok | Status::NearSingular);
             if solved && by.solve(state, &cx, &rate) {
-                // A dimension that moves the frame's origin moves all points with it.
+                // A dimension that moves the frame's origin moves every point with it.
                 for point in by.rates.pose.points.chunks_exact_mut(design.derivatives.len()) {
                     point[0][0] += rate.origin.scale(1.0 / design.constants.scale);
                 }

@@ -1,10 +1,10 @@
-//! Blocks of positions with the condition of each, and what needs still more care one by one.
+//! Careful path: blocks with conditions, then single positions.
 
 use std::mem::MaybeUninit;
 
 use super::worker::{Job, Worker, mask};
 use super::writer::RowRange;
-use crate::branch::branch::BranchLocation;
+use crate::branch::location::BranchLocation;
 use crate::math::angle::unwrap_to;
 use crate::math::lanes::{Mask, Real};
 use crate::state::kernel::Level;
@@ -33,7 +33,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         }
     }
 
-    /// Lanes that must be solved again by themselves, whatever the vector solution gives.
+    /// Lanes that must be solved again as single positions, whatever the vector solution gives.
     #[inline(always)]
     fn lanes_to_redo(&self, q: R, location: &BranchLocation<R>, with_islands: bool) -> R::Mask {
         let branch = &self.design.branch;
@@ -114,7 +114,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
                 open[group] = state.conditions.open[group].and(care[group].not());
                 some_open |= open[group].any();
                 if !(even || self.writer.classes.is_empty()) {
-                    // The angle on an island that no knot has seen has to be followed to it.
+                    // On an island without a knot the angle must be traced.
                     let location = &self.space.locations[first + group];
                     let unseen = |i: usize| {
                         !open[group].lane(i) && design.branch.in_untraced_island(location, i)
@@ -145,10 +145,10 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             }
         }
         if some_open && let Some(log) = &mut self.failures {
-            for place in 0..count {
-                let (group, lane) = (place / R::LANES, place % R::LANES);
-                if open[group].lane(lane) && !log.count_later(job.index + row + place, 1) {
-                    // It has to be described.
+            for position in 0..count {
+                let (group, lane) = (position / R::LANES, position % R::LANES);
+                if open[group].lane(lane) && !log.count_later(job.index + row + position, 1) {
+                    // The first failure needs a description.
                     care[group] = care[group].or(mask::<R>(|i| i == lane));
                     again = true;
                 }
@@ -168,12 +168,12 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         count: usize,
         lanes: &[R::Mask; G],
     ) {
-        for place in 0..count {
+        for position in 0..count {
             if self.is_cancelled() {
                 return;
             }
-            if lanes[place / R::LANES].lane(place % R::LANES) {
-                self.solve_scalar(job, row + place);
+            if lanes[position / R::LANES].lane(position % R::LANES) {
+                self.solve_scalar(job, row + position);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Driver coordinates in registers, block by block: what all designs at the same positions share.
+//! Driver coordinates in registers, block by block. Designs at the same positions share them.
 
 use crate::branch::design::Design;
 use crate::math::angle::MAX_TURNED;
@@ -8,50 +8,50 @@ use crate::plan::plan::Plan;
 use crate::state::state::State;
 
 /// The coordinates of a job's positions.
-pub(super) struct Coordinates<R, const G: usize> {
-    blocks: Vec<Block<R, G>>,
+pub(super) struct CoordinateRegisters<R, const G: usize> {
+    blocks: Vec<CoordinateBlock<R, G>>,
     /// Registers with coordinates.
     pub(super) registers: usize,
-    /// Index of the first of them among those that all designs share, if they are shared.
+    /// Offset into the shared coordinates, if shared.
     shared: Option<usize>,
-    /// For every driver, whether its coordinate is an angle.
+    /// Whether each driver's coordinate is an angle.
     is_angle: Vec<bool>,
-    /// Whether one of them is too far for angles that turn with the driver.
+    /// Whether a coordinate is too large for [`Reference::Turning`](crate::math::angle::Reference).
     pub(super) is_far: bool,
 }
 
 /// Coordinates with their unit vectors, as [`State`] has them.
-struct Block<R, const G: usize> {
+struct CoordinateBlock<R, const G: usize> {
     q: Vec<[R; G]>,
     unit: Vec<[Vector<R>; G]>,
-    /// Whether each position has to be solved by itself.
+    /// Whether its positions must be solved one by one.
     by_position: bool,
 }
 
-impl<R: Real, const G: usize> Block<R, G> {
+impl<R: Real, const G: usize> CoordinateBlock<R, G> {
     fn new(drivers: usize) -> Self {
         let (q, unit) = (vec![[R::ZERO; G]; drivers], vec![[Vector::ONE; G]; drivers]);
         Self { q, unit, by_position: false }
     }
 }
 
-impl<R: Real, const G: usize> Coordinates<R, G> {
+impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
     pub(super) fn new(plan: &Plan) -> Self {
         let drivers = 0..plan.drivers.len();
         let is_angle = drivers.map(|driver| plan.driven_slide(driver).is_none()).collect();
         Self { blocks: Vec::new(), registers: 0, shared: None, is_angle, is_far: false }
     }
 
-    /// Forgets which coordinates were loaded.
+    /// Forgets which shared coordinates are loaded.
     pub(super) fn forget(&mut self) {
         self.shared = None;
     }
 
-    /// Loads coordinates, drivers fastest, rad or m; true if they are not the shared ones that were
-    /// loaded last.
+    /// Loads coordinates, drivers fastest, rad or m. Returns false if these shared coordinates were
+    /// loaded already.
     #[inline(always)]
     pub(super) fn load(&mut self, q: &[f64], shared: Option<usize>, design: &Design<'_>) -> bool {
-        // Slides are in the design's own unit of length.
+        // Slides are scaled by the design's unit of length, so they must be loaded again.
         let same = self.shared.is_some() && self.shared == shared;
         if same && self.is_angle.iter().all(|&angle| angle) {
             return false;
@@ -63,13 +63,13 @@ impl<R: Real, const G: usize> Coordinates<R, G> {
         self.registers = positions.div_ceil(R::LANES);
         let needed = positions.div_ceil(G * R::LANES);
         if self.blocks.len() < needed {
-            self.blocks.resize_with(needed, || Block::new(drivers));
+            self.blocks.resize_with(needed, || CoordinateBlock::new(drivers));
         }
         for (block, some) in self.blocks.iter_mut().zip(q.chunks(G * R::LANES * drivers)) {
             let positions = some.len() / drivers;
             for (driver, &is_angle) in self.is_angle.iter().enumerate() {
                 let scale = design.units.coordinate[driver];
-                // Lanes beyond the last position are solved with it.
+                // Lanes past the last position repeat it.
                 let at = |lane: usize| some[lane.min(positions - 1) * drivers + driver] * scale;
                 let columns = block.q[driver].iter_mut().zip(&mut block.unit[driver]);
                 for (g, (q, unit)) in columns.enumerate() {
@@ -91,12 +91,12 @@ impl<R: Real, const G: usize> Coordinates<R, G> {
         true
     }
 
-    /// Whether each position of a block has to be solved by itself.
+    /// Whether the positions of a block must be solved one by one.
     pub(super) fn by_position(&self, block: usize) -> bool {
         self.blocks[block].by_position
     }
 
-    /// Exchanges a block with the coordinates of a state.
+    /// Swaps a block with the coordinates of a state.
     #[inline(always)]
     pub(super) fn swap(&mut self, block: usize, state: &mut State<R, G>) {
         let block = &mut self.blocks[block];
@@ -104,13 +104,13 @@ impl<R: Real, const G: usize> Coordinates<R, G> {
         std::mem::swap(&mut block.unit, &mut state.pose.unit);
     }
 
-    /// A register of a driver's coordinates.
+    /// One register of a driver's coordinates.
     #[inline(always)]
     pub(super) fn q(&self, driver: usize, register: usize) -> R {
         self.blocks[register / G].q[driver][register % G]
     }
 
-    /// Their unit vectors.
+    /// The unit vectors at these coordinates.
     #[inline(always)]
     pub(super) fn unit(&self, driver: usize, register: usize) -> Vector<R> {
         self.blocks[register / G].unit[driver][register % G]

@@ -1,5 +1,5 @@
-//! Reads the designs of a chunk, dimension by dimension: what needs no more than comparisons takes
-//! hardly longer for all of them than for one.
+//! Reads the designs of a chunk, dimension by dimension, so that range checks and scales vectorise
+//! over the designs.
 
 use std::ops::Range;
 
@@ -10,13 +10,13 @@ use crate::plan::mechanism::Mechanism;
 pub(crate) struct Designs {
     /// Number of dimensions.
     size: usize,
-    /// All dimensions of the first design, then of the second.
+    /// Dimensions, design after design.
     rows: Vec<f64>,
     scales: Vec<f64>,
     valid: Vec<bool>,
 }
 
-/// One of them.
+/// One design of a chunk.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DesignRow<'a> {
     pub dimensions: &'a [f64],
@@ -27,7 +27,8 @@ pub(crate) struct DesignRow<'a> {
 }
 
 impl Designs {
-    /// Reads some of `all` designs; `dimensions`: the first of every design, then the second.
+    /// Reads some of `all` designs. `dimensions` holds the first dimension of every design, then the
+    /// second of every design, and so on.
     pub(crate) fn read(
         &mut self,
         mechanism: &Mechanism,
@@ -55,12 +56,12 @@ impl Designs {
         mechanism.slots.scales(column, row, &mut self.scales);
     }
 
-    /// A design by its place in the chunk.
-    pub(crate) fn row(&self, place: usize) -> DesignRow<'_> {
+    /// The design at an index of the chunk.
+    pub(crate) fn row(&self, index: usize) -> DesignRow<'_> {
         DesignRow {
-            dimensions: &self.rows[place * self.size..][..self.size],
-            scale: self.scales[place],
-            is_valid: self.valid[place],
+            dimensions: &self.rows[index * self.size..][..self.size],
+            scale: self.scales[index],
+            is_valid: self.valid[index],
         }
     }
 }

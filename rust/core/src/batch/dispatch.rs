@@ -6,10 +6,10 @@ use crate::math::simd::Simd;
 use crate::state::kernel::portable::Portable;
 use crate::state::kernel::{BLOCK, Level};
 
-/// Work that is compiled for each level.
+/// Work compiled once for each level.
 pub(crate) trait ForLevel {
     type Output;
-    /// Does it with blocks of `G` registers, that is of [`BLOCK`] positions.
+    /// Runs it with blocks of `G` registers, which hold [`BLOCK`] positions.
     fn run<L: Entry, const G: usize>(self) -> Self::Output;
 }
 
@@ -33,7 +33,7 @@ pub(crate) trait Entry: Level {
     fn call(task: &mut impl Task<Self::Register>);
 }
 
-/// Does the work at the requested SIMD level, or at the best one the processor has.
+/// Runs the work at the requested level, or at the best one that the processor has.
 pub(crate) fn at_level<W: ForLevel>(simd: Simd, work: W) -> W::Output {
     match simd.min(Simd::best()) {
         #[cfg(target_arch = "x86_64")]
@@ -70,7 +70,7 @@ macro_rules! entry {
     ($module:ident, $level:ident, $features:literal) => {
         impl Entry for crate::state::kernel::$module::$level {
             #[inline(always)]
-            #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+            #[allow(unsafe_code, reason = "only levels that the processor has are used")]
             fn run<const G: usize>(
                 worker: &mut Worker<'_, Self::Register, G>,
                 job: &mut Job<'_, '_>,
@@ -87,7 +87,7 @@ macro_rules! entry {
                 unsafe { with(worker, job) }
             }
             #[inline(always)]
-            #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+            #[allow(unsafe_code, reason = "only levels that the processor has are used")]
             fn trace<const G: usize>(
                 worker: &mut Worker<'_, Self::Register, G>,
                 job: &Job<'_, '_>,

@@ -9,7 +9,7 @@ use crate::query::failure::Failure;
 #[derive(Debug)]
 pub struct FailureLog {
     first: Mutex<Option<(usize, Failure)>>,
-    /// Its row; the greatest number as long as there is none.
+    /// The row of `first`; `usize::MAX` while there is none.
     row: AtomicUsize,
     count: AtomicUsize,
 }
@@ -33,7 +33,7 @@ pub struct FirstFailure {
 }
 
 impl FailureLog {
-    /// Counts failures of rows from `row` on; describes the first if none before it is known.
+    /// Counts `count` failures from `row` on; describes the first unless an earlier one is known.
     fn record(&self, row: usize, count: usize, describe: impl FnOnce() -> Failure) {
         self.count.fetch_add(count, Ordering::Relaxed);
         let Ok(mut first) = self.first.lock() else { return };
@@ -52,8 +52,8 @@ impl FailureLog {
     }
 }
 
-/// One thread's access to the log. It counts by itself until it is dropped: threads that shared a
-/// counter would wait for each other at every design.
+/// One thread's access to the log. It counts locally and adds its count when dropped: a shared
+/// counter would make threads wait for each other at every design.
 #[derive(Debug)]
 pub(super) struct FailureCounter<'a> {
     log: &'a FailureLog,
@@ -65,13 +65,13 @@ impl<'a> FailureCounter<'a> {
         Self { log, later: 0 }
     }
 
-    /// Counts failures of rows from `row` on; describes the first if none before it is known.
+    /// Counts `count` failures from `row` on; describes the first unless an earlier one is known.
     pub(super) fn record(&self, row: usize, count: usize, describe: impl FnOnce() -> Failure) {
         self.log.record(row, count, describe);
     }
 
-    /// Counts failures of rows from `row` on, if one before them is known; else the caller has to
-    /// describe the first by [`record`](Self::record).
+    /// Counts `count` failures from `row` on if an earlier one is known. Otherwise returns false, and
+    /// the caller must describe the first with [`record`](Self::record).
     #[inline(always)]
     pub(super) fn count_later(&mut self, row: usize, count: usize) -> bool {
         let later = self.log.row.load(Ordering::Relaxed) < row;

@@ -1,22 +1,22 @@
-//! What solving a batch has found out about its designs, for later calls.
+//! Which designs of a batch have constant signs: found by one call, used by later ones.
 
 use std::collections::TryReserveError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// For every design of a batch, whether its signs are known to be the same everywhere: joints and
-/// slides need no tracing then.
+/// For every design of a batch, whether its signs are known to be the same everywhere. Joints and
+/// slides of such a design need no tracing.
 ///
-/// It belongs to the dimensions and the assembly of one batch. It says only what tracing finds again,
-/// so several calls may use it at once, and results do not depend on it.
+/// It is valid for the dimensions and the assembly of one batch only. It repeats what tracing would
+/// find, so results do not depend on it, and several calls may share it.
 #[derive(Debug, Default)]
 pub struct KnownSigns(Vec<AtomicBool>);
 
 impl KnownSigns {
-    /// Nothing is known yet.
+    /// For a batch of which nothing is known yet.
     ///
     /// # Errors
     ///
-    /// [`TryReserveError`] if one byte a design does not fit in memory.
+    /// [`TryReserveError`] if memory has no room for one byte per design.
     pub fn new(designs: usize) -> Result<Self, TryReserveError> {
         let mut known = Vec::new();
         known.try_reserve_exact(designs)?;

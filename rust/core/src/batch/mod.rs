@@ -1,4 +1,4 @@
-//! Solves many designs at many positions into arrays, in blocks and on all cores.
+//! Solves many designs at many positions into arrays, in blocks of lanes and on all cores.
 mod by_position;
 mod careful;
 mod coordinates;

@@ -1,10 +1,10 @@
-//! Which quantities of a motion are kept, and the layout of their arrays.
+//! Which quantities of a motion are returned, and the layout of their arrays.
 
 use std::mem::MaybeUninit;
 
 use crate::plan::mechanism::Mechanism;
 
-/// Quantities to keep: indices of joints, links and slides.
+/// Quantities to return: indices of joints, links and slides.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Outputs {
     /// Joints: their positions.

@@ -1,5 +1,5 @@
-//! Designs without change points, on tapes with kernels alone: their positions are computed bare,
-//! block by block. A block with a doubtful position is left to the careful path.
+//! Plain path: designs without change points whose dyads all have kernels. Blocks are computed bare,
+//! that is without conditions; a block with a doubtful position is left to the careful path.
 
 use std::mem::MaybeUninit;
 
@@ -13,15 +13,15 @@ use crate::state::state::Context;
 use crate::state::status::Status;
 
 impl<R: Real, const G: usize> Worker<'_, R, G> {
-    /// Whether the design is of that kind.
+    /// Whether the design is plain.
     #[inline(always)]
     pub(super) fn is_plain(&self) -> bool {
         let branch = &self.design.branch;
         self.space.tape.is_bounded && self.is_smooth && branch.has_constant_signs()
     }
 
-    /// Finds for every class asked for an angle from which its whole turns follow everywhere; true
-    /// if some class has none, so that positions must be located among the knots.
+    /// Finds a turn reference for every requested class. Returns true if a class has none: positions
+    /// must then be located among the knots.
     #[inline(always)]
     pub(super) fn find_references(&mut self) -> bool {
         let branch = &self.design.branch;
@@ -41,8 +41,8 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         false
     }
 
-    /// Solves up to `G` registers of positions, whose status is `Ok` as yet; false if some position is
-    /// doubtful, and nothing is written.
+    /// Solves up to `G` registers of positions, whose status is already set to `Ok`. Returns false and
+    /// writes nothing if a position is doubtful.
     #[inline(always)]
     pub(super) fn solve_bare<L: Level<Register = R>>(
         &mut self,
@@ -71,7 +71,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         let design = &self.design;
         let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
         let range = RowRange { first: job.first + row, count, once: true };
-        // Stores to memory would wait for it; meanwhile the positions are computed.
+        // The memory arrives while the positions are computed.
         job.rows.prefetch::<R>(self.columns, range);
         L::bare(&mut self.space.many, &cx);
         if self.space.many.is_doubtful() {
@@ -110,8 +110,8 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         true
     }
 
-    /// Lifts angles to those of the knots beside them; false if one is on an island that no knot has
-    /// seen, to which it has to be followed.
+    /// Unwraps angles to those of the neighbouring knots; false if one is on an island without a knot,
+    /// which must be traced.
     #[inline(always)]
     fn lift_by_knots(&mut self, first: usize, groups: usize) -> bool {
         let branch = &self.design.branch;
@@ -135,7 +135,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         true
     }
 
-    /// Counts the positions that are open, if none of them has to be described.
+    /// Counts the positions that do not close; false if the first of them needs a description.
     #[inline(always)]
     fn is_counted(&mut self, job: &Job<'_, '_>, row: usize, count: usize) -> bool {
         let Some(log) = &mut self.failures else { return true };
@@ -153,7 +153,8 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
     }
 }
 
-/// The status of eight positions; the open ones have their bit set, the first the last bit.
+/// The status of eight positions, given a bit for each that does not close (the lowest for the
+/// first).
 #[inline(always)]
 fn open_codes(open: u32) -> [u8; LANES] {
     const ONES: u64 = 0x0101_0101_0101_0101;

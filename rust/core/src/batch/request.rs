@@ -36,7 +36,7 @@ pub struct Request<'a> {
     pub signs: &'a [i8],
     /// Highest order of the analogues, 0 to 3.
     pub order: usize,
-    /// The quantities to keep.
+    /// The quantities to return.
     pub outputs: &'a Outputs,
     /// The dimension to differentiate by, in the order of [`Mechanism::dimensions`]; `None` gives
     /// the motion itself.
@@ -107,7 +107,8 @@ impl Request<'_> {
 }
 
 pub(crate) fn product(designs: usize, positions: usize) -> Result<usize, SolveError> {
-    let error = || SolveError::Shape(format!("{designs} × {positions} positions are too many"));
+    let error =
+        || SolveError::Shape(format!("{designs} designs × {positions} positions are too many"));
     designs.checked_mul(positions).ok_or_else(error)
 }
 
@@ -152,12 +153,12 @@ impl Shape {
             && all_below(&outputs.links, linkage.links.len())
             && all_below(&outputs.slides, linkage.slides.len()))
         {
-            return Err(SolveError::Shape("an output's index is beyond what there is".into()));
+            return Err(SolveError::Shape("an output has an index that does not exist".into()));
         }
         let error = |what: String| Err(SolveError::Shape(what));
         if request.signs.len() != mechanism.plan().signs() {
             return error(format!(
-                "{} assembly signs were given, this mechanism has {} dyads with two solutions",
+                "got {} assembly signs, but the mechanism has {} dyads with two solutions",
                 request.signs.len(),
                 mechanism.plan().signs()
             ));

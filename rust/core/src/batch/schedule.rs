@@ -17,42 +17,42 @@ use crate::math::simd::Simd;
 /// Positions per chunk: some hundred microseconds of work, so that tracing the branch and taking
 /// the chunk from the queue cost little.
 const CHUNK: usize = 8192;
-/// The same of each of [`MANY_DESIGNS`]: the shared coordinates and their unit vectors are loaded
-/// once for all of them, if they fit in a cache.
+/// The same with at least [`MANY_DESIGNS`]: a longer chunk loads the shared coordinates and their
+/// unit vectors once for all its designs, as long as they fit in a cache.
 const CHUNK_OF_MANY_DESIGNS: usize = 65_536;
-/// Designs of which each may be a chunk, so that all threads have work.
+/// With so many designs all threads have work even if each design is one chunk.
 const MANY_DESIGNS: usize = 64;
 /// The same with several drivers, where each position needs a branch of its own.
 const CHUNK_SEVERAL_DRIVERS: usize = 8;
 /// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
 const MAX_DESIGNS: usize = 128;
-/// Numbers of a result that is greater than the caches: 32 MiB.
+/// Numbers in a result that no cache holds: 32 MiB.
 const BEYOND_CACHES: usize = 4 << 20;
 
-/// Which positions and designs take the careful path. The results are the same, but slow: to
-/// compare with.
+/// Which positions and designs take the careful path. Results are the same with any choice; tests
+/// compare the paths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Care {
     /// Those that need it.
     Needed,
-    /// All positions are solved by themselves.
+    /// Every position, each solved alone.
     Always,
-    /// And all branches are traced knot by knot.
+    /// The same, with every branch traced knot by knot.
     KnotByKnot,
 }
 
 impl Care {
-    /// What `ASSUR_CARE` asks for (`always` or `knots`; else what is needed). The variable is read
-    /// once.
+    /// The choice of the environment variable `ASSUR_CARE`: `always`, `knots`, or anything else for
+    /// [`Care::Needed`]. The variable is read once.
     #[must_use]
-    pub fn asked_for() -> Self {
-        static ASKED: LazyLock<Care> =
+    pub fn from_env() -> Self {
+        static FROM_ENV: LazyLock<Care> =
             LazyLock::new(|| match std::env::var("ASSUR_CARE").as_deref() {
                 Ok("always") => Care::Always,
                 Ok("knots") => Care::KnotByKnot,
                 _ => Care::Needed,
             });
-        *ASKED
+        *FROM_ENV
     }
 }
 
@@ -69,7 +69,7 @@ pub struct Control<'a> {
     pub cancel: Option<&'a AtomicBool>,
     /// Where to record the first position that fails.
     pub failures: Option<&'a FailureLog>,
-    /// What earlier calls have found out about the same designs in the same assembly.
+    /// Designs that earlier calls found to have constant signs, in the same assembly.
     pub known_signs: Option<&'a KnownSigns>,
 }
 
@@ -78,7 +78,7 @@ impl Default for Control<'_> {
         Self {
             threads: None,
             simd: Simd::default(),
-            care: Care::asked_for(),
+            care: Care::from_env(),
             cancel: None,
             failures: None,
             known_signs: None,
@@ -93,9 +93,8 @@ pub(crate) struct Chunk {
     pub positions: Range<usize>,
 }
 
-/// The chunks still to do, with the rows to write. Each is taken by one thread. After an
-/// interruption the rest stays unwritten: nobody may read it, and filling it would take as long as
-/// solving.
+/// The chunks still to do, with the rows to write. After an interruption the rest stays unwritten:
+/// nobody may read it, and filling it would take as long as solving.
 pub(crate) struct Chunks<'a> {
     rest: Arrays<'a>,
     columns: &'a [Column],
@@ -192,7 +191,7 @@ impl Control<'_> {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
-    /// Does all chunks; each thread makes its own worker, and finishes it after the last chunk.
+    /// Runs all chunks. Each thread makes its own worker and finishes it after its last chunk.
     ///
     /// The threads live only during the call: starting them costs some ten microseconds, and no
     /// idle thread is left that a fork of the process could break.
@@ -230,12 +229,12 @@ impl Control<'_> {
             work_until_done();
         } else {
             thread::scope(|scope| {
-                // The calling thread only waits: a thread that is started by one that works on may
-                // be kept waiting behind it for a millisecond, though another core is idle.
+                // The calling thread only waits: if it worked too, the scheduler could keep a new
+                // thread queued behind it for a millisecond while another core is idle.
                 let others: Vec<_> = (0..threads)
                     .map_while(|_| thread::Builder::new().spawn_scoped(scope, work_until_done).ok())
                     .collect();
-                // If the system refuses a thread, the others do its share.
+                // If the system refuses a thread, this one helps.
                 if others.len() < threads {
                     work_until_done();
                 }

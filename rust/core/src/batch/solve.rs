@@ -139,22 +139,22 @@ impl ForLevel for Fill<'_, '_> {
     type Output = Result<(), SolveError>;
 
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
-        type Own<'a, R, const G: usize> = (Worker<'a, R, G>, Designs);
+        type ThreadState<'a, R, const G: usize> = (Worker<'a, R, G>, Designs);
         let Batch { mechanism, request, derivatives, writer, columns, shape, control } = self.batch;
-        let worker = || -> Own<'_, L::Register, G> {
+        let worker = || -> ThreadState<'_, L::Register, G> {
             let one = Worker::new(mechanism, request, derivatives, writer, columns, control);
             (one, Designs::default())
         };
-        let work = |(worker, designs): &mut Own<'_, L::Register, G>,
+        let work = |(worker, designs): &mut ThreadState<'_, L::Register, G>,
                     chunk: &Chunk,
                     mut rows: RowSlices<'_>| {
             designs.read(mechanism, request.dimensions, shape.designs, chunk.designs.clone());
-            for (place, design) in chunk.designs.clone().enumerate() {
+            for (index, design) in chunk.designs.clone().enumerate() {
                 if control.is_cancelled() {
                     break;
                 }
                 let mut job = self.batch.job(design, chunk, &mut rows);
-                if worker.bind(designs.row(place), &mut job) {
+                if worker.bind(designs.row(index), &mut job) {
                     L::run(worker, &mut job);
                 }
             }

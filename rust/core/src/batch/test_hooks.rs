@@ -1,5 +1,5 @@
-//! A deliberate panic, to test how the library handles one. Only with the feature `test-hooks`,
-//! which no release has.
+//! A deliberate panic, to test how the library handles one. Only the feature `test-hooks` has it,
+//! which releases are built without.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -14,5 +14,5 @@ pub fn panic_in_chunk(number: usize) {
 pub(crate) fn before_chunk() {
     let less = |left: usize| left.checked_sub(1);
     let before = CHUNKS.fetch_update(Ordering::SeqCst, Ordering::SeqCst, less);
-    assert!(before != Ok(1), "a panic on purpose");
+    assert!(before != Ok(1), "deliberate panic");
 }

@@ -1,9 +1,9 @@
-//! What a worker computes in: kept for later calls that ask the same of the same mechanism.
+//! A worker's work space, kept for later calls with the same request and mechanism.
 
-use super::coordinates::Coordinates;
+use super::coordinates::CoordinateRegisters;
 use super::outputs::Column;
 use super::writer::Writer;
-use crate::branch::branch::BranchLocation;
+use crate::branch::location::BranchLocation;
 use crate::branch::uniform::UniformTracer;
 use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
@@ -13,34 +13,35 @@ use crate::plan::mechanism::Mechanism;
 use crate::plan::tape::Tape;
 use crate::state::state::State;
 
-/// Work space of greater mechanisms takes megabytes, and is not kept.
+/// Points beyond which a work space is not kept: it would take megabytes.
 const MAX_POINTS: usize = 100;
 
-/// Work space of one thread, with registers of type `R` and blocks of `G` of them.
+/// Work space of one thread, with blocks of `G` registers `R`.
 pub(super) struct WorkSpace<R: Real, const G: usize> {
-    /// What it was made for.
+    /// The columns that it was made for.
     columns: Vec<Column>,
-    /// Of single positions.
+    /// State of a single position.
     pub(super) one: State,
+    /// State of a block.
     pub(super) many: State<R, G>,
-    /// Angles of the classes.
+    /// Unwrapped angles of the classes.
     pub(super) lifted: Vec<[R; G]>,
-    /// Of the last job.
-    pub(super) coordinates: Coordinates<R, G>,
-    /// Locations of these registers on the branch.
+    /// Coordinates of the last job.
+    pub(super) coordinates: CoordinateRegisters<R, G>,
+    /// Location of each of their registers on the branch.
     pub(super) locations: Vec<BranchLocation<R>>,
-    /// Whether that branch was a uniform one.
+    /// Whether these are locations on a uniform branch.
     pub(super) locations_even: bool,
-    /// What the request needs.
+    /// The operations that the request needs.
     pub(super) tape: Tape,
-    /// Of each class asked for, if the design is plain.
+    /// Turn reference of each requested class, for plain designs.
     pub(super) references: Vec<Reference>,
     /// Made for the first design that needs it.
     pub(super) uniform: Option<Box<UniformTracer<R, G>>>,
 }
 
 impl<R: Real, const G: usize> WorkSpace<R, G> {
-    /// One that an earlier call has left, or a new one.
+    /// Reuses an earlier call's work space, or makes one.
     pub(super) fn take(
         mechanism: &Mechanism,
         derivatives: &DerivativeTables,
@@ -65,18 +66,18 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
     ) -> Self {
         let plan = mechanism.plan();
         let mut many = State::new(plan, derivatives);
-        many.work.angle_wanted.clone_from(&writer.asked);
+        many.work.angle_wanted.clone_from(&writer.wanted);
         let mut points = vec![false; plan.points];
-        for point in writer.asked_points() {
+        for point in writer.wanted_points() {
             points[point] = true;
         }
-        let needs = Needs { points: &points, classes: &writer.asked, samples: false };
+        let needs = Needs { points: &points, classes: &writer.wanted, samples: false };
         Self {
             columns: columns.to_vec(),
             one: State::new(plan, derivatives),
             many,
             lifted: vec![[R::ZERO; G]; plan.classes],
-            coordinates: Coordinates::new(plan),
+            coordinates: CoordinateRegisters::new(plan),
             locations: Vec::new(),
             locations_even: false,
             tape: Tape::new(plan, needs),
@@ -85,13 +86,13 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
         }
     }
 
-    /// Leaves it to later calls.
+    /// Keeps it for later calls.
     pub(super) fn keep(mut self: Box<Self>, mechanism: &Mechanism) {
         if mechanism.plan().points > MAX_POINTS || std::thread::panicking() {
             return;
         }
         if let Some(uniform) = &mut self.uniform {
-            // Another call may ask for another assembly.
+            // A later call may ask for another assembly.
             uniform.reference.take();
         }
         mechanism.number.keep(self);

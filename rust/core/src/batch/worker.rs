@@ -1,5 +1,5 @@
-//! Solves the positions of one design into their rows: as many at once as a register holds, and one
-//! by one those that need special care.
+//! Solves the positions of one design into their rows: in blocks of lanes, and one by one where a
+//! lane cannot decide.
 
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,8 +12,8 @@ use super::request::Request;
 use super::schedule::{Care, Control};
 use super::work_space::WorkSpace;
 use super::writer::{RowSlices, Writer};
-use crate::branch::branch::BranchLocation;
 use crate::branch::design::Design;
+use crate::branch::location::BranchLocation;
 use crate::branch::uniform::Traced;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
@@ -24,24 +24,24 @@ use crate::state::sensitivity::Sensitivity;
 use crate::state::state::Context;
 use crate::state::status::Status;
 
-/// Blocks of a design with doubtful positions, after which all are computed carefully at once.
+/// Doubtful blocks of one design after which the rest takes the careful path directly.
 const MAX_DOUBTS: usize = 2;
 
-/// The range of no values.
+/// An empty range.
 const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
-/// Workspace of one thread, with registers of type `R` and blocks of `G` of them.
+/// Solver of one thread, with blocks of `G` registers `R`.
 pub(crate) struct Worker<'a, R: Real, const G: usize> {
     pub(super) design: Design<'a>,
     pub(super) writer: &'a Writer<'a>,
     pub(super) columns: &'a [Column],
     pub(super) space: Box<WorkSpace<R, G>>,
-    /// The dimension to differentiate by, with its workspace.
+    /// The dimension to differentiate by, with its work space.
     by: Option<(usize, Sensitivity)>,
     care: Care,
-    /// Whether the branch serves all positions of the job, without change points.
+    /// Whether the branch serves all positions of the job and has no change points.
     pub(super) is_smooth: bool,
-    /// Of the last job: its shared coordinates, and the range of its driven slides' values, m.
+    /// The last job's offset into the shared coordinates, and its range of driven slides' values, m.
     driven_range: (Option<usize>, [f64; 2]),
     /// When true, work stops after the block in progress.
     cancel: Option<&'a AtomicBool>,
@@ -54,13 +54,13 @@ pub(crate) struct Job<'j, 'r> {
     /// Coordinates, drivers fastest, rad or m.
     pub q: &'j [f64],
     pub rows: &'j mut RowSlices<'r>,
-    /// Row of the first position.
+    /// Row of the first position in `rows`.
     pub first: usize,
-    /// The same in the whole batch.
+    /// Row of the first position in the whole batch.
     pub index: usize,
     /// Index of the design.
     pub design: usize,
-    /// Index of the first of these among the coordinates shared by all designs, if they are shared.
+    /// Offset into the shared coordinates, if shared.
     pub shared: Option<usize>,
 }
 
@@ -75,7 +75,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     ) -> Self {
         let mut design = Design::new(mechanism, request.signs, derivatives);
         if control.care == Care::Needed {
-            design.trace_only(&writer.asked);
+            design.trace_only(&writer.wanted);
         }
         let plan = mechanism.plan();
         Self {
@@ -93,12 +93,13 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
     }
 
-    /// Exchanges work spaces with a worker of the same request: each keeps the coordinates of its jobs.
+    /// Swaps work spaces with a worker of the same request, so that each set of jobs finds its own
+    /// coordinates loaded.
     pub(crate) fn swap_space(&mut self, other: &mut Self) {
         std::mem::swap(&mut self.space, &mut other.space);
     }
 
-    /// Leaves the work space to later calls.
+    /// Keeps the work space for later calls.
     pub(crate) fn finish(self) {
         self.space.keep(self.design.mechanism);
     }
@@ -108,8 +109,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
-    /// Loads a design. Returns false if its dimensions are invalid: the job is then done, with its
-    /// rows set to NaN and the status `BadDimension`.
+    /// Loads a design. If its dimensions are invalid, fills the job's rows with NaN and
+    /// `BadDimension`, and returns false.
     pub(crate) fn bind(&mut self, design: DesignRow<'_>, job: &mut Job<'_, '_>) -> bool {
         let mechanism = self.design.mechanism;
         let fault = || mechanism.dimensions().first_fault(design.dimensions);
@@ -144,8 +145,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         range
     }
 
-    /// Solves the positions of the design; only `dispatch` calls this. `trace`: [`Worker::trace`],
-    /// compiled by itself.
+    /// Solves the positions of the design; only `dispatch` calls this. `trace` is [`Worker::trace`],
+    /// compiled as a separate function.
     #[inline(always)]
     pub(crate) fn run<L: Level<Register = R>>(
         &mut self,
@@ -219,7 +220,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
     }
 
-    /// Traces the branch. True if it is only known to be plain, which `plain` permits.
+    /// Traces the branch. Returns true if it only showed the design to be plain (allowed by `plain`).
     #[inline(always)]
     pub(super) fn trace<L: Level<Register = R>>(&mut self, job: &Job<'_, '_>, plain: bool) -> bool {
         if self.has_known_signs(job.design) {
@@ -256,14 +257,14 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         traced == Traced::Surveyed
     }
 
-    /// Whether nothing but the signs is wanted of the branch, and they are known to be constant.
+    /// Whether only the signs of the branch are needed, and they are known to be constant.
     #[inline(always)]
     fn has_known_signs(&self, design: usize) -> bool {
         let wanted = self.care == Care::Needed && self.writer.classes.is_empty();
         wanted && self.known_signs.is_some_and(|known| known.are_constant(design))
     }
 
-    /// Loads the coordinates into registers; those that all designs share are kept.
+    /// Loads the coordinates into registers; shared ones are loaded once.
     #[inline(always)]
     fn load_coordinates(&mut self, job: &Job<'_, '_>) {
         if self.space.coordinates.load(job.q, job.shared, &self.design) {
@@ -272,7 +273,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     }
 }
 
-/// The lanes of which something is true.
+/// The lanes for which `of` is true.
 #[inline(always)]
 pub(super) fn mask<R: Real>(of: impl Fn(usize) -> bool) -> R::Mask {
     R::ZERO.lt(R::from_lanes(|lane| if of(lane) { 1.0 } else { 0.0 }))

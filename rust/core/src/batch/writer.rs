@@ -23,7 +23,7 @@ const LINE: usize = 64;
 pub(crate) struct RowSlices<'a> {
     pub columns: Vec<&'a mut [MaybeUninit<f64>]>,
     pub status: &'a mut [MaybeUninit<u8>],
-    /// Whether they are part of a result that no cache holds.
+    /// Whether the whole result exceeds the caches, so that rows may bypass them.
     pub past_caches: bool,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct RowSlices<'a> {
 pub(crate) struct RowRange {
     pub first: usize,
     pub count: usize,
-    /// Whether nobody reads them, or writes them again, before the chunk is done.
+    /// Whether rows may bypass the caches: untouched until the chunk ends.
     pub once: bool,
 }
 
@@ -43,18 +43,18 @@ impl RowRange {
     }
 }
 
-/// Target and source of one number (or point) of a row.
+/// One number (or point) of a row: where it goes and where it comes from.
 #[derive(Debug, Clone, Copy)]
-struct Entry {
+struct RowEntry {
     column: usize,
     width: usize,
     /// Index within the row (of x, for a point).
     index: usize,
     /// Offset from x to y.
     y: usize,
-    /// Entry of the derivative in a jet.
+    /// Entry of the jet.
     k: usize,
-    /// Source: the entry of the point, slide or class, or the link.
+    /// Source: the jet entry of the point, slide or class; of an angle, the link.
     source: usize,
     /// The drivers' contribution to an angle's derivative.
     driven: f64,
@@ -65,17 +65,17 @@ pub(crate) struct Writer<'a> {
     mechanism: &'a Mechanism,
     /// Entries of a jet.
     jet: usize,
-    points: Vec<Entry>,
-    slides: Vec<Entry>,
+    points: Vec<RowEntry>,
+    slides: Vec<RowEntry>,
     /// Angles of links.
-    angles: Vec<Entry>,
+    angles: Vec<RowEntry>,
     /// Derivatives of links' angles.
-    rates: Vec<Entry>,
+    rates: Vec<RowEntry>,
     /// Classes whose angle is wanted.
     pub classes: Vec<usize>,
     /// For each class, whether its rotation or a derivative of its angle is wanted.
-    pub asked: Vec<bool>,
-    /// Whether the frame's origin is added to the points.
+    pub wanted: Vec<bool>,
+    /// Whether points get the frame's origin added.
     shifted: bool,
 }
 
@@ -96,9 +96,9 @@ impl<'a> Writer<'a> {
         classes.sort_unstable();
         classes.dedup();
         classes.retain(|&class| class != 0);
-        let mut asked = vec![false; plan.classes];
+        let mut wanted = vec![false; plan.classes];
         for &class in &classes {
-            asked[class] = true;
+            wanted[class] = true;
         }
         let [mut points, mut slides, mut angles, mut rates] = [const { Vec::new() }; 4];
         for (index, column) in columns.iter().enumerate() {
@@ -121,7 +121,7 @@ impl<'a> Writer<'a> {
                     _ => source * derivatives.len() + k,
                 };
                 let (width, y) = (column.width, tensor.len());
-                list.push(Entry {
+                list.push(RowEntry {
                     column: index,
                     width,
                     index: component,
@@ -140,18 +140,17 @@ impl<'a> Writer<'a> {
             angles,
             rates,
             classes,
-            asked,
+            wanted,
             shifted: true,
         }
     }
 
     /// The points that are written.
-    pub(crate) fn asked_points(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn wanted_points(&self) -> impl Iterator<Item = usize> {
         self.points.iter().map(|entry| entry.source / self.jet)
     }
 
-    /// A writer of derivatives by a dimension: it treats angles like their analogues and adds no
-    /// origin to points.
+    /// A writer of sensitivities: it treats angles like their analogues and adds no origin to points.
     pub(crate) fn for_sensitivity(
         mechanism: &'a Mechanism,
         derivatives: &DerivativeTables,
@@ -169,7 +168,7 @@ impl<'a> Writer<'a> {
         for entry in writer.angles.drain(..) {
             let class = plan.rotation[entry.source].class;
             let driven = offsets[entry.source];
-            writer.rates.push(Entry { source: class * derivatives.len(), driven, ..entry });
+            writer.rates.push(RowEntry { source: class * derivatives.len(), driven, ..entry });
         }
         Self { shifted: false, classes: Vec::new(), ..writer }
     }
@@ -199,7 +198,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The same where the whole turns of all angles follow from references.
+    /// The same for a plain design: references give the whole turns of its angles.
     #[inline(always)]
     pub(crate) fn write_plain<W: Stride<R>, R: Real, const G: usize>(
         &self,
@@ -228,12 +227,12 @@ impl<'a> Writer<'a> {
     }
 
     /// The constant difference between an angle and that of its class.
-    fn offset(&self, entry: &Entry, constants: &DesignConstants) -> f64 {
+    fn offset(&self, entry: &RowEntry, constants: &DesignConstants) -> f64 {
         let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.source];
         constants.offset[entry.source] + whole
     }
 
-    /// Writes all but angles.
+    /// Writes points, slides, and the derivatives of angles.
     #[inline(always)]
     fn write_jets<R: Real, const G: usize>(
         &self,
@@ -298,7 +297,7 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Some numbers from register `g` on, NaN in the lanes that failed.
+/// `numbers` of the lanes from register `g` on, with NaN in those that failed.
 #[inline(always)]
 fn or_nan<W: Stride<R>, R: Real, const G: usize>(
     failed: Option<&[R::Mask; G]>,
@@ -327,15 +326,15 @@ fn of_link<W: Stride<R>, R: Real, const G: usize>(
     angle
 }
 
-/// A point in metres, shifted if it is no derivative.
+/// A point in metres; at order 0 the frame's origin is added.
 #[inline(always)]
 fn scaled<R: Real>(point: Vector<R>, scale: R, shift: Option<Vector<R>>) -> Vector<R> {
     let scaled = point.scale(scale);
     if let Some(shift) = shift { scaled + shift } else { scaled }
 }
 
-impl Entry {
-    /// The rows of each group, with its index.
+impl RowEntry {
+    /// The rows of each register, with its index.
     #[inline(always)]
     fn groups<'r, R: Real>(
         &self,
@@ -344,7 +343,7 @@ impl Entry {
         rows.chunks_mut(self.width * R::LANES).enumerate()
     }
 
-    /// Writes one number for each lane, as far as there are rows.
+    /// Writes one number for each lane that has a row.
     #[inline(always)]
     fn store<R: Real>(&self, out: &mut [MaybeUninit<f64>], past: bool, x: R) {
         if self.width == 1 && out.len() == R::LANES {
@@ -358,20 +357,20 @@ impl Entry {
 impl RowSlices<'_> {
     /// The rows of an entry's column.
     #[inline(always)]
-    fn of(&mut self, entry: &Entry, range: RowRange) -> &mut [MaybeUninit<f64>] {
+    fn of(&mut self, entry: &RowEntry, range: RowRange) -> &mut [MaybeUninit<f64>] {
         let rows = range.first * entry.width..(range.first + range.count) * entry.width;
         &mut self.columns[entry.column][rows]
     }
 
-    /// Whether to write them past the caches: a line that is not read first takes half the time. Whole
-    /// lines only, since parts of them would take longer.
+    /// Whether to bypass the caches: a line that need not be read first takes half the time. Only for
+    /// whole lines; partial ones would take longer.
     #[inline(always)]
-    fn past_caches(&self, entry: &Entry, range: RowRange) -> bool {
+    fn past_caches(&self, entry: &RowEntry, range: RowRange) -> bool {
         let first = &self.columns[entry.column][range.first * entry.width];
         self.past_caches && range.once && std::ptr::from_ref(first).addr().is_multiple_of(LINE)
     }
 
-    /// Asks for the memory of rows that will not be written past the caches.
+    /// Prefetches rows that will be written through the caches.
     #[inline(always)]
     pub(crate) fn prefetch<R: Real>(&self, columns: &[Column], range: RowRange) {
         if !self.past_caches {
@@ -417,13 +416,14 @@ fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], past: bool, p: Vector<R>) 
     write(last, past, after);
 }
 
-/// Writes a whole register, past the caches if that is wanted.
+/// Writes a whole register, past the caches if `past`.
 #[inline(always)]
 fn write<R: Real>(out: &mut [MaybeUninit<f64>], past: bool, x: R) {
     if past { x.stream(out) } else { x.write(out) }
 }
 
-/// Writes whole registers of numbers to a column, each with a term and a factor. Returns how many.
+/// Writes `(number + term) * factor` for each whole register of a column; returns how many there
+/// were.
 #[inline(always)]
 fn write_scaled<R: Real>(
     out: &mut [MaybeUninit<f64>],

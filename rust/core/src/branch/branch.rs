@@ -11,8 +11,7 @@ use std::f64::consts::TAU;
 use super::hermite::HermiteCell;
 use super::knot::{ChangePoint, InitialGuess, Knot, SignInterval};
 use super::tracer::BranchTracer;
-use crate::math::angle::{reduce_turns, whole_part, whole_turns};
-use crate::math::lanes::{LANES, Real};
+use crate::math::angle::whole_turns;
 use crate::plan::plan::Plan;
 use crate::state::state::{Context, State};
 
@@ -23,7 +22,7 @@ pub(crate) const CELLS_PER_TURN: u32 = 31;
 pub(super) const CELLS_PER_UNIT: f64 = 16.0;
 /// Steps per cell with which the length of an island between two knots is measured.
 const ISLAND_STEPS: f64 = 1024.0;
-/// Cells of a segment, at most; callers keep their coordinates within that.
+/// Most cells of a segment. Callers limit their coordinates accordingly.
 const MAX_CELLS: f64 = 1.0e6;
 /// Turns after which the signs must be those of the drawing again; a kite needs two.
 const MAX_TURNS: u32 = 64;
@@ -53,21 +52,6 @@ pub(crate) struct Branch {
     pub(crate) inverse_width: Option<f64>,
 }
 
-/// Locations on a branch, one per lane.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct BranchLocation<R = f64> {
-    /// The parameter reduced to the first period.
-    pub(crate) reduced: R,
-    /// Whole periods taken off.
-    periods: R,
-    /// The knot whose angles and cells are used.
-    pub(crate) knot: [usize; LANES],
-    /// The first and last of these knots, if all lanes have one or the other; and 1 in lanes with
-    /// the last.
-    pub(crate) pair: Option<[usize; 2]>,
-    pub(crate) is_last: R,
-}
-
 impl Branch {
     /// A branch without a single position: the dimensions cannot be followed from the drawing's, or
     /// the branch ends where it begins.
@@ -80,7 +64,7 @@ impl Branch {
         Self { gain: vec![0.0; classes], sign_intervals, covered, ..Self::default() }
     }
 
-    /// Makes this a branch of positions without angles: the same signs everywhere.
+    /// Makes this a branch without knots: the same signs everywhere, and no angles.
     pub(crate) fn set_constant_signs(&mut self, classes: usize, signs: &[f64]) {
         self.at.clear();
         self.reached.clear();
@@ -98,7 +82,7 @@ impl Branch {
         self.inverse_width = None;
     }
 
-    /// Adds the knots of a branch that leads down from where this one begins.
+    /// Prepends the knots of a branch that was traced downward from where this one begins.
     pub(super) fn extend_down(&mut self, below: Self) {
         let Self { mut at, mut reached, mut angles, .. } = below;
         if at.is_empty() {
@@ -119,12 +103,12 @@ impl Branch {
         (self.at, self.reached, self.angles) = (at, reached, angles);
     }
 
-    /// Whether its first knot can be reached, and none behind one that cannot.
+    /// Whether the knots that can be reached come first, and include the very first.
     pub(super) fn ends_once(&self) -> bool {
         self.at.is_empty() || self.reached[0] && self.reached.is_sorted_by(|a, b| a >= b)
     }
 
-    /// Whether it is known everywhere and has no change points.
+    /// Whether the branch is known everywhere and has no change points.
     pub(crate) fn is_plain(&self) -> bool {
         self.covered.is_none() && self.changes.is_empty()
     }
@@ -185,7 +169,7 @@ impl Branch {
         }
     }
 
-    /// Traces one driven slide from `q0` down to `low` and up to `high`, at most `reach` from `q0`.
+    /// Traces one driven slide from `q0` down to `low` and up to `high`, but no farther than `reach`.
     pub(crate) fn over_range(
         cx: &Context<'_>,
         state: &mut State,
@@ -298,7 +282,7 @@ impl Branch {
         (Self { sign_intervals, changes, gain, covered, ..Self::from_knots(&knots, cx.plan) }, end)
     }
 
-    /// Keeps the part of the knots that is needed later.
+    /// A branch from the tracer's knots, without signs and change points.
     fn from_knots(knots: &[Knot], plan: &Plan) -> Self {
         let mut cells = Vec::new();
         for (i, a) in knots.iter().enumerate() {
@@ -320,78 +304,10 @@ impl Branch {
         }
     }
 
-    /// Reduces a parameter to the first period; also returns the whole periods taken off.
-    #[inline(always)]
-    pub(crate) fn reduce<R: Real>(&self, at: R) -> (R, R) {
-        let (Some(&first), Some(period)) = (self.at.first(), self.period) else {
-            return (at, R::ZERO);
-        };
-        let periods = ((at - R::splat(first)) * R::splat(1.0 / period)).floor();
-        if self.inverse_width.is_some() {
-            // On the uniform branch only the number of turns must be exact.
-            return (at - periods * R::splat(period), periods);
-        }
-        let turns = (period / TAU).round();
-        (R::from_lanes(|lane| reduce_turns(at.lane(lane), periods.lane(lane) * turns)), periods)
-    }
-
     /// Whether the branch is known at a parameter.
     #[inline(always)]
     pub(crate) fn covers(&self, at: f64) -> bool {
         self.covered.is_none_or(|[low, high]| (low..=high).contains(&at))
-    }
-
-    /// Locates parameters among the knots; without knots, only reduces them.
-    #[inline(always)]
-    pub(crate) fn locate<R: Real>(&self, at: R) -> BranchLocation<R> {
-        let (reduced, periods) = self.reduce(at);
-        let mut knot = [0; LANES];
-        let last = self.at.len().saturating_sub(1);
-        if self.at.is_empty() {
-            return BranchLocation { reduced, periods, knot, ..BranchLocation::default() };
-        }
-        if let Some(inverse_width) = self.inverse_width {
-            let cells = (reduced - R::splat(self.at[0])) * R::splat(inverse_width);
-            for lane in 0..R::LANES {
-                // At the edge of a cell either knot will do.
-                let cell = whole_part(cells.lane(lane));
-                knot[lane] = cell.min(last);
-            }
-        } else {
-            for lane in 0..R::LANES {
-                knot[lane] = self.knot_before(reduced.lane(lane)).min(last);
-            }
-        }
-        if self.cells.is_empty() {
-            return BranchLocation { reduced, periods, knot, ..BranchLocation::default() };
-        }
-        let pair = [knot[0], knot[R::LANES - 1]];
-        let is_pair = knot[..R::LANES].iter().all(|knot| pair.contains(knot));
-        let is_last = R::from_lanes(|lane| if knot[lane] == pair[1] { 1.0 } else { 0.0 });
-        BranchLocation { reduced, periods, knot, pair: is_pair.then_some(pair), is_last }
-    }
-
-    /// The last knot at or before a parameter; the next knot if only that one can be reached.
-    fn knot_before(&self, reduced: f64) -> usize {
-        let after = self.at.partition_point(|&k| k <= reduced);
-        let left = after.saturating_sub(1);
-        let ahead = self.reached.get(after).copied().unwrap_or(false);
-        if ahead && !self.reached[left] { after } else { left }
-    }
-
-    /// The assembly signs at a location.
-    #[inline(always)]
-    pub(crate) fn signs_at<R: Real>(&self, location: &BranchLocation<R>, lane: usize) -> &[f64] {
-        let after = match self.sign_intervals.len() {
-            1 => 1,
-            _ => self.sign_intervals.partition_point(|s| s.from <= location.reduced.lane(lane)),
-        };
-        self.sign_intervals.get(after.saturating_sub(1)).map_or(&[], |s| &s.signs)
-    }
-
-    /// The assembly signs at a parameter.
-    pub(crate) fn signs(&self, at: f64) -> &[f64] {
-        self.signs_at(&self.locate(at), 0)
     }
 
     /// Whether the signs are the same everywhere.
@@ -412,22 +328,8 @@ impl Branch {
         self.changes.iter().flat_map(images).find(|(_, distance)| distance.abs() <= reach)
     }
 
-    /// Whether a location lies on an island that no knot has seen.
-    #[inline(always)]
-    pub(crate) fn in_untraced_island<R: Real>(
-        &self,
-        location: &BranchLocation<R>,
-        lane: usize,
-    ) -> bool {
-        // The knot is one that can be reached, if there is one before or after the location.
-        let at = location.reduced.lane(lane);
-        let inside = self.at.first().is_some_and(|&first| first <= at)
-            && self.at.last().is_some_and(|&last| at < last);
-        self.inverse_width.is_none() && inside && !self.reached[location.knot[lane]]
-    }
-
-    /// Traces such an island from its middle to the parameter: at an end of it a joint may be at
-    /// infinity, where angles are rounding.
+    /// Traces an island without a knot from its middle to the parameter: at its ends a joint may be at
+    /// infinity, where angles are nothing but rounding.
     pub(crate) fn trace_island(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Self {
         let (reduced, periods) = self.reduce(at);
         let after = self.at.partition_point(|&k| k <= reduced);
@@ -468,48 +370,5 @@ impl Branch {
             }
         }
         Self { gain: self.gain.clone(), ..Self::from_knots(&knots, cx.plan) }
-    }
-
-    /// The angle of a class at the knots of a location.
-    #[inline(always)]
-    pub(crate) fn reference_angle<R: Real>(&self, location: &BranchLocation<R>, class: usize) -> R {
-        let classes = self.gain.len();
-        if self.at.is_empty() {
-            return R::ZERO;
-        }
-        let angle = R::from_lanes(|lane| self.angles[location.knot[lane] * classes + class]);
-        angle + location.periods * R::splat(self.gain[class])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Removing whole turns leaves the angle, to the rounding of the sum itself.
-    #[test]
-    fn reducing_turns_restores_the_angle() {
-        for turns in [1.0, 2.0, 64.0, 1000.0, 4_194_303.0, 4_194_304.0, 1e9] {
-            for part in [0.001, 0.735_422_665_253_286_5, 3.0, 6.2] {
-                for turns in [turns, -turns] {
-                    let angle = part + TAU * turns;
-                    // 2π as a double, and its error.
-                    let lost = (angle - TAU * turns) - part;
-                    let wanted = part + lost - turns * 2.449_293_598_294_706_4e-16;
-                    let rounding = 2.0 * f64::EPSILON * angle.abs().max(TAU);
-                    let found = reduce_turns(angle, turns);
-                    assert!((found - wanted).abs() <= rounding, "{turns} {part}: {found} {wanted}");
-                }
-            }
-        }
-    }
-
-    /// Also backward: a small angle less −1 turn is the sum, rounded once or twice.
-    #[test]
-    fn small_angles_keep_their_digits() {
-        for angle in [-0.735_422_665_253_286_5, -1e-9, 0.1, 3.0] {
-            let found = reduce_turns(angle, -1.0);
-            assert!((found - (angle + TAU)).abs() <= 2.0 * f64::EPSILON * TAU, "{angle}: {found}");
-        }
     }
 }

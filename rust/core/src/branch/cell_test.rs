@@ -1,37 +1,37 @@
-//! What may happen between two knots, from what the dyads show at them.
+//! What may happen between two knots, judged from samples of the dyads at both.
 //!
-//! Signs change at change points alone, and a generic design has none: between two knots the
-//! discriminant of every dyad stays away from zero. Where it may not, and where a stretch may begin
-//! or end that can be reached, the cell needs a closer look.
+//! Signs change at change points only, and a generic design has none: between two knots the
+//! discriminant of every dyad stays away from zero. A cell needs a closer scan if a discriminant may
+//! vanish in it, or if a gap may begin or end there.
 
 use super::grid::KNOTS;
 use super::knot::may_touch;
 use super::uniform::previous;
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::plan::dyad::Dyad;
-use crate::state::dyad::sample::Sample;
+use crate::state::dyad::sample::DyadSample;
 use crate::state::state::{Context, State};
 
-/// A square that differs from the trapezoidal rule by this part of itself varies too fast to be
-/// judged by its ends.
+/// A cell is too coarse if a square differs from the trapezoidal rule by this fraction of itself.
 const MAX_CURVATURE: f64 = 0.5;
-/// How many times its fall between two knots a margin must be away from zero.
+/// A negative square stays below zero in a cell if it is below zero by this many times its rise over
+/// the neighbouring cell.
 const MAX_FALLS: f64 = 4.0;
-/// How many times as far as the tangents at both ends meet above these a peak must be below zero.
+/// A peak is below zero if the tangents at both ends meet below zero by this many times their rise.
 const MAX_PEAKS: f64 = 3.0;
-/// How many times as much as expected the square of a later dyad may change before a dead point.
+/// Factor of safety on the expected change of a later dyad's square up to a dead point.
 const CHANGE_MARGIN: f64 = 2.5;
 
-/// Square below which a dyad counts as flat: it grows with the square of the distance from a change
-/// point, so this is 1e-6 rad from one.
+/// Square below which a dyad counts as flat at a knot. The square grows with the square of the
+/// distance from a change point, so this is 1e-6 rad from one.
 const FLAT_SQUARE: f64 = 1.0e-12;
 
-/// Entries before that of the first knot.
+/// Padding before the entry of the first knot.
 const BEFORE: usize = 2;
-/// Entries for every knot, those beside, and as many more as a register has.
+/// Entries for all knots, their neighbours, and the rest of a register.
 const SAMPLES: usize = BEFORE + KNOTS + 1 + LANES;
 
-/// One bit per knot; a cell has that of the knot at its end.
+/// One bit per knot. A cell has the bit of the knot at its end.
 pub(super) type Bits = u32;
 
 const _: () = assert!(KNOTS <= Bits::BITS as usize, "a bit for every knot");
@@ -42,39 +42,39 @@ pub(super) fn has(bits: Bits, knot: usize) -> bool {
     bits >> knot & 1 != 0
 }
 
-/// As many entries as a register holds.
+/// The entries of one register.
 #[inline(always)]
 fn entries<R: Real>(all: &[f64; SAMPLES], from: usize) -> R {
     let entries = &all[from..][..R::LANES];
     R::from_lanes(|lane| entries[lane])
 }
 
-/// Cells that end at knots of which this is true at both ends.
+/// Cells with the bits of both their knots set.
 #[inline(always)]
 fn at_both_ends(bits: Bits) -> Bits {
     bits & bits << 1
 }
 
-/// What a dyad shows at the knots of one look.
+/// Samples of one dyad at the knots of a scan.
 #[derive(Debug, Clone)]
 pub(super) struct DyadSamples {
-    /// See [`Sample::square`]. The first [`BEFORE`] entries belong to knots before the first, those
-    /// after the last to knots behind it; none of these is known.
+    /// See [`DyadSample::square`]. The first [`BEFORE`] entries and those after the last knot are
+    /// padding that no knot sets.
     square: [f64; SAMPLES],
-    /// See [`Sample::rate`].
+    /// See [`DyadSample::rate`].
     rate: [f64; SAMPLES],
-    /// Knots at which all dyads before it close …
+    /// Knots at which all dyads before it close.
     known: Bits,
-    /// … and at which it closes too.
+    /// Knots at which it closes too.
     pub closes: Bits,
 }
 
-/// Cells of one look.
+/// Classification of the cells of a scan.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Cells {
-    /// In which the discriminant may vanish, or an interval may hide that can be reached.
+pub(super) struct CellFlags {
+    /// Where the discriminant may vanish, or an island may hide.
     pub uncertain: Bits,
-    /// In which it varies too fast to be judged.
+    /// Where the discriminant varies too fast for two knots to show it.
     pub curved: Bits,
     /// With a dead point.
     pub dead_point: Bits,
@@ -82,10 +82,10 @@ pub(super) struct Cells {
     pub may_hide_island: Bits,
 }
 
-/// The knots of one look, and what is asked of them.
+/// The knots of a scan.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Knots {
-    /// Registers of them.
+pub(super) struct ScanGrid {
+    /// Number of registers.
     pub groups: usize,
     /// Width of a cell.
     pub cell: f64,
@@ -97,27 +97,27 @@ impl DyadSamples {
     pub(super) const NONE: Self =
         Self { square: [f64::NEG_INFINITY; SAMPLES], rate: [0.0; SAMPLES], known: 0, closes: 0 };
 
-    /// Takes what a dyad shows at the knots, and judges the cells. `known`: knots at which all
-    /// dyads before it close; `settled`: its sign is known to be constant. `None` if it is flat at a
-    /// knot: whether its sign changes there cannot be seen.
+    /// Samples a dyad at the knots and classifies the cells. `known`: knots at which all dyads before
+    /// it close; `settled`: its sign is known to be constant. `None` if it is flat at a knot, where
+    /// samples do not show whether its sign changes.
     #[inline(always)]
-    pub(super) fn judge<R: Real, const G: usize>(
+    pub(super) fn classify<R: Real, const G: usize>(
         &mut self,
         state: &State<R, G>,
         cx: &Context<'_>,
         dyad: &Dyad,
-        knots: Knots,
+        grid: ScanGrid,
         (known, settled): (Bits, bool),
-    ) -> Option<Cells> {
+    ) -> Option<CellFlags> {
         let op = &cx.tape.ops[cx.tape.dyads[dyad.index]];
-        let cell = R::splat(knots.cell);
-        let half = R::splat(0.5 * knots.cell);
+        let cell = R::splat(grid.cell);
+        let half = R::splat(0.5 * grid.cell);
         let (mut closes, mut flat, mut vanishing, mut curved) = (0, 0, 0, 0);
-        let nothing = Sample { square: R::ZERO, rate: R::ZERO, side: R::ZERO };
+        let nothing = DyadSample { square: R::ZERO, rate: R::ZERO, side: R::ZERO };
         let mut last = nothing;
-        for group in 0..knots.groups.min(G) {
+        for group in 0..grid.groups.min(G) {
             let first = group * R::LANES;
-            let Sample { square, rate, side } = state.sample(group, cx, dyad, op);
+            let DyadSample { square, rate, side } = state.sample(group, cx, dyad, op);
             for (all, own) in [(&mut self.square, square), (&mut self.rate, rate)] {
                 for (lane, stored) in all[BEFORE + first..][..R::LANES].iter_mut().enumerate() {
                     *stored = own.lane(lane);
@@ -138,37 +138,38 @@ impl DyadSamples {
             let same_side = R::ZERO.lt(side * side_before);
             vanishing |= touches.or(same_side.not()).bits() << first;
             curved |= straight.not().bits() << first;
-            last = Sample { square, rate, side };
+            last = DyadSample { square, rate, side };
         }
-        let count = knots.groups * R::LANES;
+        let count = grid.groups * R::LANES;
         let own = Bits::MAX >> (Bits::BITS as usize - count);
         if known & flat & own != 0 {
             return None;
         }
         (self.known, self.closes) = (known, known & closes);
-        // The cell before the first knot belongs to no look.
+        // The cell before the first knot is not part of the scan.
         let (cells, closes) = (at_both_ends(known) & own & !1, self.closes);
         let inside = cells & at_both_ends(closes);
         let outside = cells & at_both_ends(!closes);
-        let mut judged = Cells { dead_point: cells & !inside & !outside, ..Cells::default() };
+        let mut flags =
+            CellFlags { dead_point: cells & !inside & !outside, ..CellFlags::default() };
         if !settled {
-            judged.curved = curved & inside;
-            judged.uncertain = vanishing & inside;
+            flags.curved = curved & inside;
+            flags.uncertain = vanishing & inside;
         }
-        if outside != 0 && (knots.islands || !settled) {
-            let may_close = self.may_close::<R>(count, knots.cell, settled) & outside;
+        if outside != 0 && (grid.islands || !settled) {
+            let may_close = self.may_close::<R>(count, grid.cell, settled) & outside;
             if !settled {
-                judged.uncertain |= may_close;
+                flags.uncertain |= may_close;
             }
-            judged.may_hide_island = may_close;
+            flags.may_hide_island = may_close;
         }
-        Some(judged)
+        Some(flags)
     }
 
-    /// Cells in which a dyad might close that closes at neither end: the square would have to rise
-    /// from both sides. Of a dyad on a crank (`settled`) the square varies slowly: the tangents at both
-    /// ends would have to meet near zero, too. Any other may have a narrow peak beside a dead point of
-    /// a dyad before it.
+    /// Cells in which a dyad that closes at neither end might close: its square would have to rise from
+    /// both sides. The square of a dyad on a crank (`settled`) varies slowly, so the tangents at both
+    /// ends would also have to meet near zero. That of any other dyad may have a narrow peak beside a
+    /// dead point of an earlier dyad.
     #[inline(always)]
     fn may_close<R: Real>(&self, count: usize, cell: f64, settled: bool) -> Bits {
         let mut cells = 0;
@@ -182,7 +183,7 @@ impl DyadSamples {
             let end = entries::<R>(&self.rate, first + 2) * cell;
             let (mut rise, mut fall) = (from - before, to - after);
             if settled {
-                // Beside a knot that is not known, its own rate says as much.
+                // Where the neighbour is unknown, the rate at the knot stands in.
                 rise = R::select(before.finite().or(start.finite().not()), rise, start);
                 fall = R::select(after.finite().or(end.finite().not()), fall, -end);
             }
@@ -202,21 +203,20 @@ impl DyadSamples {
         cells
     }
 
-    /// Whether it has a dead point in the cell before a knot.
+    /// Whether the dyad has a dead point in the cell before a knot.
     pub(super) fn has_dead_point(&self, knot: usize) -> bool {
         let [before, after] = [knot - 1, knot].map(|at| has(self.closes, at));
         has(self.known, knot - 1) && has(self.known, knot) && before != after
     }
 
-    /// Its square at a knot, and the rate of that.
+    /// The square at a knot, and its rate.
     pub(super) fn at(&self, knot: usize) -> [f64; 2] {
         [self.square[BEFORE + knot], self.rate[BEFORE + knot]]
     }
 
-    /// How much the square of a later dyad is expected to change from the last knot before the dead
-    /// point in the cell before `knot` up to that point, as a part of its change over the last cell:
-    /// it varies as the square root of the distance from there. `None` if this dyad has no dead
-    /// point in the cell.
+    /// The expected change of a later dyad's square from the last closed knot to this dyad's dead point
+    /// in the cell before `knot`, relative to its change over the cell before that. The square varies
+    /// as the square root of the distance from the dead point. `None` without a dead point.
     pub(super) fn change_to_dead_point(&self, knot: usize) -> Option<f64> {
         if !self.has_dead_point(knot) {
             return None;
@@ -224,7 +224,7 @@ impl DyadSamples {
         let before = has(self.closes, knot - 1);
         let [from, to] = [knot - 1, knot].map(|at| self.square[BEFORE + at]);
         let near = if before { from } else { to };
-        // The part of the cell up to the root of a straight line, or farther.
+        // Distance of the root of a straight line, in cells, with a margin.
         let part = (1.5 * near / (from - to).abs() + 0.05).min(1.0);
         Some(part.sqrt() / ((part + 1.0).sqrt() - part.sqrt()))
     }
@@ -234,13 +234,13 @@ impl DyadSamples {
     /// [`Self::change_to_dead_point`].
     pub(super) fn stays_away(&self, knot: usize, change: f64) -> bool {
         let known = |at: usize| has(self.known, at);
-        // The two knots before the dead point; the farther one may belong to another look.
+        // The two knots before the dead point; the farther one may be outside this scan.
         let (near, far) = match (known(knot - 1), known(knot)) {
             (true, false) => (knot - 1, knot.checked_sub(2)),
             (false, true) => (knot, Some(knot + 1)),
             _ => return true,
         };
-        // If it does not close there, a gap of its own ends before the dead point.
+        // A dyad that does not close here is in a gap of its own.
         !has(self.closes, near)
             || far.is_some_and(|far| {
                 let known = far < Bits::BITS as usize && has(self.closes, far);

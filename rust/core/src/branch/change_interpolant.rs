@@ -22,9 +22,8 @@ impl ChangeWindow {
     /// For single positions: where too few digits remain.
     pub(crate) const SHORT: Self =
         Self { reach: CHANGE_REACH, max_reach: 0.1, node_count: 16, uses_node_condition: false };
-    /// For integration: beside a change point second analogues are off by u κ³, and no step of an
-    /// integrator is short enough for that. States at the nodes, the nearest at 0.03, are good to
-    /// about 1e-12.
+    /// For integration: beside a change point second analogues have errors of u κ³, too rough for any
+    /// step of an integrator. States at the nodes, the nearest at 0.03, are good to about 1e-12.
     pub(crate) const LONG: Self =
         Self { reach: 0.03, max_reach: 0.5, node_count: 24, uses_node_condition: true };
 }
@@ -37,7 +36,7 @@ const TRUNCATION_GAIN: f64 = 0.25;
 /// The polynomial is used within this part of its half-width, away from its ends.
 const INNER: f64 = 0.5;
 
-/// The polynomial through states around a change point, as wide as it represents the motion.
+/// The polynomial through states around a change point, as wide as it still represents the motion.
 #[derive(Debug, Clone)]
 pub(crate) struct ChangeInterpolant {
     reach: f64,
@@ -49,7 +48,7 @@ pub(crate) struct ChangeInterpolant {
 }
 
 impl ChangeInterpolant {
-    /// Order of analogues by which the error is judged.
+    /// Order of the analogues that the error estimate uses.
     pub(crate) const JUDGED_ORDER: usize = 2;
 
     /// Fits the polynomial; `solve` gives the state at a distance from the change point. `None` if

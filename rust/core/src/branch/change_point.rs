@@ -1,16 +1,16 @@
 //! Change points: where both solutions of a dyad meet and the smooth motion goes from one to the
 //! other.
 //!
-//! The signed spread N of the dyad (sine of the angle between its legs, or its chord) crosses zero
-//! there; with a fixed sign it touches zero from one side. N² is a smooth function of q in both
-//! cases. Its least value, found from points far enough away that nothing is singular,
+//! The discriminant N of the dyad (sine of the angle between its legs, or its chord) crosses zero
+//! there; with a fixed assembly sign it touches zero from one side. N² is a smooth function of q in
+//! both cases. Its least value, found from points far enough away that nothing is singular,
 //! distinguishes a change point (zero, to rounding) from a near miss (positive) and from a gap
 //! between two dead points (negative).
 
 use super::knot::{ChangePoint, Knot, may_vanish};
 use super::tracer::BranchTracer;
 use crate::math::tolerance::{
-    CHANGE_CONDITION, CHANGE_SPREAD, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,
+    CHANGE_CONDITION, CHANGE_DISCRIMINANT, CHANGE_STEP, REDUNDANT_CLOSURE, REDUNDANT_ROUNDING,
 };
 use crate::plan::dyad::Dyad;
 
@@ -32,13 +32,13 @@ impl BranchTracer<'_, '_> {
             if tracer.changes.iter().any(known) {
                 continue;
             }
-            let ((from, fall), (to, rise)) = (a.spread[index], b.spread[index]);
+            let ((from, fall), (to, rise)) = (a.discriminants[index], b.discriminants[index]);
             if !may_vanish((from, fall), (to, rise), b.at - a.at) {
                 continue;
             }
             let Some((at, certain)) = locate(tracer, (step, dyad), a.at, b.at) else { continue };
-            // It may come out on the wrong side of the first knot, and would be found again and
-            // again.
+            // Rounding may put it on the wrong side of the first knot, where it would be found again
+            // and again.
             let least = (a.at.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
             let at = if (at - a.at) * tracer.direction > 0.0 {
                 at
@@ -90,7 +90,7 @@ const GOLDEN: f64 = 0.381_966_011_250_105;
 /// are then good to the sixth power of the step.
 const NEAR_ENOUGH: f64 = 1e-6;
 
-/// Times the six points are centred, at most; twice that with redundant links.
+/// Most times that the six points are centred; twice that with redundant links.
 const MAX_CENTRINGS: u32 = 3;
 
 /// The change point between `a` and `b`, if there is one, and whether it is one to rounding. Where
@@ -103,14 +103,14 @@ fn locate(
 ) -> Option<(f64, bool)> {
     let (mut low, mut high) = (a, b);
     let step = CHANGE_STEP * (b - a);
-    // Bisection of the slope of N², but at the golden section (`math::root` halves): the change point
-    // itself, where nothing is known, is often in the middle.
+    // Bisection of the slope of N² at the golden section, not in the middle: the change point itself,
+    // where the slope is undefined, is often there.
     while (high - low).abs() > 4.0 * step.abs() {
         let middle = low + GOLDEN * (high - low);
         if tracer.solve(middle) <= step_index {
             return None;
         }
-        let (value, rate) = tracer.spread(dyad);
+        let (value, rate) = tracer.discriminant(dyad);
         if rate.is_nan() {
             (low, high) = (middle - step, middle + step);
             break;
@@ -118,14 +118,14 @@ fn locate(
         if value * rate * tracer.direction < 0.0 { low = middle } else { high = middle }
     }
     let redundant = tracer.cx.plan.redundant_links().next().is_some();
-    let strict = if redundant { REDUNDANT_ROUNDING } else { CHANGE_SPREAD };
+    let strict = if redundant { REDUNDANT_ROUNDING } else { CHANGE_DISCRIMINANT };
     let mut centre = 0.5 * (low + high);
     for _ in 0..if redundant { 2 * MAX_CENTRINGS } else { MAX_CENTRINGS } {
         let fit = LocalFit::around(tracer, (step_index, dyad), centre, step)?;
         let zero = fit.zero();
         let own = fit.upstream_condition.min(CHANGE_CONDITION) * fit.length_ratio;
         let noise = strict * own;
-        // In a small cell the zero is known no better than the spread there.
+        // In a small cell the zero is known no better than the discriminant.
         let rise = fit.slope * step;
         if zero.abs() < NEAR_ENOUGH.max(noise / (rise * rise)) {
             let curved = (rise * zero) * (rise * zero);
@@ -138,7 +138,7 @@ fn locate(
     None
 }
 
-/// The spread on both sides of a point, as if that were a change point.
+/// The discriminant on both sides of a point, as if that were a change point.
 struct LocalFit {
     /// N at the centre, by an even polynomial through six points.
     value: f64,
@@ -168,7 +168,7 @@ impl LocalFit {
                 if tracer.solve(centre + side * offset * step) <= step_index {
                     return None;
                 }
-                let (value, _) = tracer.spread(dyad);
+                let (value, _) = tracer.discriminant(dyad);
                 let value = value.abs() * side;
                 n[index] += 0.5 * value;
                 odd[index] += 0.5 * side * value / (offset * step);

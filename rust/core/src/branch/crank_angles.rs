@@ -1,26 +1,26 @@
 //! The angles of a dyad on a crank and the ground: their whole turns follow from the direction of
 //! its chord, without solving a position.
 //!
-//! A leg is always on the same side of the chord, as long as the assembly sign does not change: its
-//! angle is within a quarter turn of the chord's and a quarter turn more. The chord never turns by
-//! more than a quarter from the frame if the crank is shorter than that, or from the crank if it is
-//! longer. A gap ends where the leg is along the chord; across it the angle goes the shorter way.
+//! As long as the assembly sign does not change, a leg stays on one side of the chord: its angle is
+//! the chord's plus (or minus) a quarter turn, to within a quarter turn. The chord stays within a
+//! quarter turn of the frame if the crank is shorter than the frame, and of the crank if it is
+//! longer. A gap ends where the leg is along the chord; across it the angle takes the shorter turn.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::math::angle::{Reference, Turning, turns_between, unwrap_to};
+use crate::math::angle::{Reference, TurningAngle, turns_between, unwrap_to};
 use crate::math::vector::Vector;
 use crate::plan::leg::Leg;
 use crate::plan::tape::{CrankPin, DyadOp, Op};
 use crate::state::state::Context;
 
-/// How nearly equal crank and frame may be.
+/// Greatest ratio of the shorter of crank and frame to the longer.
 const MAX_RATIO: f64 = 0.99;
-/// Least distance (turns) of two angles from half a turn: nearer, the tracer decides.
+/// Two angles must differ from half a turn by at least this (turns); otherwise the tracer decides.
 const MIN_FROM_HALF: f64 = 0.01;
 
-/// Sets the references of `classes`; false if they have to be found in another way. `start`: the
-/// drawing's angles, at driver coordinate `q0`.
+/// Sets the references of `classes`; false if they must be found by tracing. `start`: the drawing's
+/// angles, at driver coordinate `q0`.
 pub(super) fn find_references(
     cx: &Context<'_>,
     q0: f64,
@@ -31,7 +31,7 @@ pub(super) fn find_references(
     let Some(&index) = cx.tape.dyads.first() else { return false };
     let (Op::TwoLegs(op) | Op::StandingGuide(op)) = &cx.tape.ops[index] else { return false };
     let Some(pin) = &op.pin else { return false };
-    let chord = Chord::of(cx, op, pin);
+    let chord = CrankChord::of(cx, op, pin);
     let sign = op.sign.map_or(1.0, |sign| cx.signs[sign]);
     let legs = &cx.constants.legs[op.dyad];
     let own = &cx.constants.dyads[op.dyad];
@@ -45,7 +45,7 @@ pub(super) fn find_references(
         } else {
             let side = if leg == 0 { sign } else { -sign };
             let [own, other] = if leg == 0 { [0, 1] } else { [1, 0] }.map(|i| &legs[i]);
-            Beside { chord: &chord, own, other, side }.reference(q0, start[class])
+            ChordTriangle { chord: &chord, own, other, side }.reference(q0, start[class])
         };
         let Some(found) = found else { return false };
         references[class] = found;
@@ -53,25 +53,27 @@ pub(super) fn find_references(
     true
 }
 
-/// The whole turns that bring an angle next to another; `None` about half a turn away.
+/// The whole turns (rad) from `angle` to nearest `near`; `None` if they are about half a turn apart.
 fn turns(angle: f64, near: f64) -> Option<f64> {
     let turns = (near - angle) * (1.0 / TAU);
     let is_definite = (turns - turns.floor() - 0.5).abs() >= MIN_FROM_HALF;
     is_definite.then(|| TAU * turns_between(angle, near))
 }
 
-/// The angle next to the drawing's, if all angles within `spread` of it are so too.
-fn next_to(start: f64, angle: f64, spread: f64) -> Option<f64> {
+/// `angle` unwrapped to the drawing's, `start`, if this also unwraps all angles within `half_width`
+/// of it.
+fn next_to(start: f64, angle: f64, half_width: f64) -> Option<f64> {
     let near = unwrap_to(angle, start);
-    ((near - start).abs() + spread < PI - TAU * MIN_FROM_HALF).then_some(near)
+    ((near - start).abs() + half_width < PI - TAU * MIN_FROM_HALF).then_some(near)
 }
 
-/// The angle of a vector, which often is along x.
+/// The angle of a vector, with a shortcut for the frequent case along x.
 fn angle_of(vector: Vector) -> f64 {
     if vector.y == 0.0 && vector.x > 0.0 { 0.0 } else { vector.angle() }
 }
 
-/// A leg from a guide that stands still, in direction `guide`: on one side of its normal.
+/// Reference of a leg on a fixed guide with direction `guide`: the leg stays on one side of the
+/// guide's normal.
 fn guided(k: Vector, guide: Vector, leg: &Leg, (sign, start): (f64, f64)) -> Option<Reference> {
     let turn = angle_of(leg.vector);
     let middle = angle_of(guide) + if sign > 0.0 { PI } else { 0.0 } - turn;
@@ -85,7 +87,7 @@ fn guided(k: Vector, guide: Vector, leg: &Leg, (sign, start): (f64, f64)) -> Opt
 }
 
 /// The chord of a design's only dyad.
-struct Chord {
+struct CrankChord {
     /// −1 if it begins at the pin.
     sign: f64,
     /// From the crank's pivot to the point on the ground.
@@ -96,7 +98,7 @@ struct Chord {
     rate: f64,
 }
 
-impl Chord {
+impl CrankChord {
     fn of(cx: &Context<'_>, op: &DyadOp, pin: &CrankPin) -> Self {
         let edge = cx.constants.edge_vector[pin.edge];
         let ground = if pin.is_start { op.end } else { op.start };
@@ -113,12 +115,12 @@ impl Chord {
         (arm - self.frame).scale(self.sign)
     }
 
-    /// Where the crank is along the frame.
+    /// The coordinate at which the crank is along the frame.
     fn along_frame(&self) -> f64 {
         self.rate * (angle_of(self.frame) - angle_of(self.arm))
     }
 
-    /// How far from there the crank turns until the chord has length `d`.
+    /// How far the crank turns from there until the chord has length `d`.
     fn turn_to(&self, d: f64) -> f64 {
         let [c2, f2] = [self.arm.norm2(), self.frame.norm2()];
         let cos = (c2 + f2 - d * d) / (2.0 * (c2 * f2).sqrt());
@@ -127,17 +129,17 @@ impl Chord {
     }
 }
 
-/// A leg beside the chord, with the other leg.
-struct Beside<'a> {
-    chord: &'a Chord,
+/// The triangle of the chord and both legs, seen from one leg.
+struct ChordTriangle<'a> {
+    chord: &'a CrankChord,
     own: &'a Leg,
     other: &'a Leg,
-    /// 1 if it is to the left of the chord, −1 if to the right.
+    /// 1 if the leg `own` is to the left of the chord, −1 if to the right.
     side: f64,
 }
 
-impl Beside<'_> {
-    /// The angle of the class; of the flat dyad where it does not close.
+impl ChordTriangle<'_> {
+    /// The angle of the leg's class; where the dyad does not close, that of the flat dyad.
     fn angle(&self, q: f64) -> f64 {
         let (a, b, k) = (self.own.norm, self.other.norm, self.chord.at(q));
         let d = k.norm();
@@ -146,8 +148,8 @@ impl Beside<'_> {
         (k * beside).angle() - angle_of(self.own.vector)
     }
 
-    /// Half the width of the gap around the crank's place on the line of the frame where the chord
-    /// is shortest, and of that where it is longest; 0 without a gap.
+    /// Half-widths of the gaps around the crank angles at which the chord is shortest and longest; 0
+    /// without a gap.
     fn gaps(&self) -> [f64; 2] {
         let (a, b) = (self.own.norm, self.other.norm);
         let (c, f) = (self.chord.arm.norm(), self.chord.frame.norm());
@@ -191,14 +193,14 @@ impl Beside<'_> {
             return None;
         }
         // A turn begins where the chord is longest.
-        let mut turning = Turning {
+        let mut turning = TurningAngle {
             rate: chord.rate,
             at_zero: angle_of(chord.arm) + away + beside,
             from: chord.along_frame() - PI,
             jumps: [0.0; 2],
         };
         let gaps = self.gaps();
-        // Across a gap the angle goes the shorter way.
+        // Across a gap the angle takes the shorter turn.
         let jump = |at: f64, half: f64| {
             if half == 0.0 {
                 return Some(0.0);

@@ -5,11 +5,11 @@ use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Form};
 use crate::plan::plan::{EdgeSlide, Plan, Step};
 
-/// How near (of the sum of all lengths) a dyad may come to flat at an extreme before it is looked at
-/// closely: far above rounding, and far below what a design meets by chance.
+/// A dyad that comes this near to flat at an extreme (relative to the sum of all lengths) is left to
+/// the tracer: far above rounding, and far below what a design meets by chance.
 const NEAR: f64 = 1.0e-9;
 
-/// Where such a dyad is attached: to a crank on the ground, and to the ground.
+/// The attachment of a dyad to the pin of a crank and to the ground.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CrankDyad {
     /// Index of the dyad.

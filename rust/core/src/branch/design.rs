@@ -39,7 +39,7 @@ pub(crate) struct Design<'a> {
     pub(super) q0: Vec<f64>,
     /// The branch from the drawing, if one serves all positions.
     pub branch: Branch,
-    /// Whether it does so with several drivers.
+    /// Whether the branch serves all positions of several drivers.
     pub(crate) serves_all: bool,
     /// Whether all steps have closed forms: then lanes close or not by the same bits as single
     /// positions. Groups iterate, and redundant links close within a tolerance.
@@ -86,7 +86,7 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Of all angles, only those of these classes will be asked for.
+    /// Limits tracing to the angles of these classes.
     pub(crate) fn trace_only(&mut self, classes: &[bool]) {
         if self.closed_forms {
             self.tracing_tape = Tape::for_dyads(self.mechanism.plan(), classes);
@@ -98,7 +98,7 @@ impl<'a> Design<'a> {
         self.bind_within(values, self.mechanism.slots.scale(values), f64::INFINITY);
     }
 
-    /// The same, given the scale, for driven slides that are nowhere longer than `driven_reach`, m.
+    /// The same with a known scale, for driven slides whose values never exceed `driven_reach`, m.
     pub(crate) fn bind_within(&mut self, values: &[f64], scale: f64, driven_reach: f64) {
         let mechanism = self.mechanism;
         self.interpolants.get_mut().clear();

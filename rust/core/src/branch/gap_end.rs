@@ -1,61 +1,61 @@
-//! The end of a gap between two knots, predicted from these.
+//! The end of a gap between two knots, predicted from samples at both.
 
 use super::cell_test::{Bits, DyadSamples, has};
 use super::grid::KNOTS;
 use crate::math::lanes::LANES;
 use crate::math::tolerance::KNOT_MAX_TURN;
 
-/// Half of the stretch that an end is confined to, as a part of a cell: the turn left there is a
-/// sixteenth of that over the cell.
+/// Half-width of the interval that confines an end, in cells: the turn left in it is a sixteenth of
+/// that over the cell.
 const STRETCH: f64 = 1.0 / 256.0;
-/// By which part of itself the slope at an end may differ from that of the polynomial between two
-/// knots: farther, it does not show all that happens between these.
+/// Greatest relative difference between the slope of a square at an end and that of the polynomial
+/// between the knots. A greater one shows that the polynomial misses something.
 const MAX_APART: f64 = 0.25;
-/// By which part of its change the square of a later dyad must stay away from zero.
+/// The square of a later dyad must stay away from zero by this fraction of its change.
 const MARGIN: f64 = 0.25;
 /// Steps of Newton's method on the polynomial between two knots.
 const STEPS: usize = 4;
 
-/// The knots of a look, and what they have shown.
+/// What a scan shows about the ends of gaps.
 #[derive(Clone, Copy)]
-pub(super) struct Shown<'l> {
+pub(super) struct ScanView<'l> {
     /// The first knot, the width of a cell, and the number of knots.
     pub from: f64,
     pub cell: f64,
     pub count: usize,
-    /// Cells with an end that nothing speaks against.
+    /// Cells with one end of a gap and no other doubt.
     pub cells: Bits,
     /// Knots that can be reached.
     pub reached: Bits,
     pub dyads: &'l [DyadSamples],
-    /// Angles and rates of the classes asked for.
+    /// Angles and rates of the requested classes.
     pub angles: &'l [[f64; KNOTS]],
     pub rates: &'l [[f64; KNOTS]],
 }
 
 /// The end of a gap between two knots.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct End {
-    /// The knot behind it.
+pub(super) struct GapEnd {
+    /// The knot after it.
     pub knot: usize,
     /// The dyad that is flat there.
     dyad: usize,
-    /// Whether the dyad closes before it, not after it.
+    /// Whether the gap starts here: the dyad closes before the end, not after it.
     pub is_start: bool,
-    /// Where it is, as a part of the cell, and the derivative of the square by that part.
+    /// Its position as a fraction of the cell, and the derivative of the square by that fraction.
     root: f64,
     slope: f64,
     pub is_confirmed: bool,
 }
 
-impl End {
+impl GapEnd {
     /// Predicts the end in the cell before a knot.
     #[inline(always)]
-    pub(super) fn predict(shown: &Shown<'_>, knot: usize) -> Option<Self> {
-        let dyad = shown.dyads.iter().position(|dyad| dyad.has_dead_point(knot))?;
-        let is_start = has(shown.dyads[dyad].closes, knot - 1);
-        let [[from, fall], [to, rise]] = [knot - 1, knot].map(|at| shown.dyads[dyad].at(at));
-        let [fall, rise] = [fall * shown.cell, rise * shown.cell];
+    pub(super) fn predict(scan: &ScanView<'_>, knot: usize) -> Option<Self> {
+        let dyad = scan.dyads.iter().position(|dyad| dyad.has_dead_point(knot))?;
+        let is_start = has(scan.dyads[dyad].closes, knot - 1);
+        let [[from, fall], [to, rise]] = [knot - 1, knot].map(|at| scan.dyads[dyad].at(at));
+        let [fall, rise] = [fall * scan.cell, rise * scan.cell];
         // Hermite's polynomial: from + t (fall + t (b + t c)).
         let c = fall + rise - 2.0 * (to - from);
         let b = (to - from) - fall - c;
@@ -68,68 +68,70 @@ impl End {
         (0.0 < root && root < 1.0).then_some(end)
     }
 
-    /// Positions before and after it, as parts of the cell.
+    /// Positions before and after it, as fractions of the cell.
     fn parts(&self) -> [f64; 2] {
         let root = self.root;
         [(root - STRETCH).max(0.5 * root), (root + STRETCH).min(0.5 * (1.0 + root))]
     }
 
-    /// The same as coordinates, of cells from `from` on.
+    /// The same as coordinates; the first cell begins at `from`.
     pub(super) fn beside(&self, (from, cell): (f64, f64)) -> [f64; 2] {
         let start = from + cell * (self.knot - 1) as f64;
         self.parts().map(|part| start + cell * part)
     }
 
-    /// The lanes of the positions that can be reached and that cannot, from the first on.
+    /// The lanes of the position inside the reachable range and of the one beyond it, if these two
+    /// positions begin at lane `first`.
     pub(super) fn lanes(&self, first: usize) -> [usize; 2] {
         if self.is_start { [first, first + 1] } else { [first + 1, first] }
     }
 
-    /// The knot beside it that can be reached.
+    /// The neighbouring knot that can be reached.
     pub(super) fn known(&self) -> usize {
         if self.is_start { self.knot - 1 } else { self.knot }
     }
 
-    /// How far it is from there, as a part of the cell.
+    /// Distance from that knot, as a fraction of the cell.
     fn distance(&self) -> f64 {
         if self.is_start { self.root } else { 1.0 - self.root }
     }
 
-    /// The root of the distance of the position that can be reached, as a part of that of the knot.
+    /// Square root of the inside position's distance from the end, relative to the knot's.
     fn part_of_root(&self) -> f64 {
-        let [inside, _] = self.lanes(0).map(|place| self.parts()[place]);
+        let [inside, _] = self.lanes(0).map(|side| self.parts()[side]);
         ((inside - self.root).abs() / self.distance()).sqrt()
     }
 
-    /// The derivative by this part, at the knot that can be reached, of what has rate `rate` there.
-    fn per_part(&self, shown: &Shown<'_>, rate: f64) -> f64 {
-        let width = 2.0 * self.distance() * shown.cell;
+    /// Converts a rate at the reachable knot into a derivative by that square root.
+    fn per_part(&self, scan: &ScanView<'_>, rate: f64) -> f64 {
+        let width = 2.0 * self.distance() * scan.cell;
         if self.is_start { -rate * width } else { rate * width }
     }
 
-    /// Whether an angle is followed to the end: from that knot to the position that can be reached it
-    /// turns as the root of the distance, and hardly on to that beyond. `rates`: at the knots.
+    /// Whether an angle can be unwrapped to the end: from the reachable knot to the inside position it
+    /// changes as the square root of the distance, and hardly at all to the position beyond. `steps`:
+    /// its changes from the knot to both; `rates`: at the knots.
     pub(super) fn is_followed(
         &self,
-        shown: &Shown<'_>,
+        scan: &ScanView<'_>,
         steps: [f64; 2],
         rates: &[f64; KNOTS],
     ) -> bool {
         let [to_end, beyond] = steps;
-        let expected = self.per_part(shown, rates[self.known()]) * (self.part_of_root() - 1.0);
-        // NaN is not followed.
+        let expected = self.per_part(scan, rates[self.known()]) * (self.part_of_root() - 1.0);
+        // NaN fails these comparisons.
         to_end.abs() <= 2.0 * KNOT_MAX_TURN
             && (to_end - expected).abs() <= KNOT_MAX_TURN
             && (beyond - to_end).abs() <= 0.5 * KNOT_MAX_TURN
     }
 
-    /// Whether the positions beside it, the first of them at a lane, show it where it was predicted, and
-    /// that no later dyad opens before it.
+    /// Whether the two positions beside it, from lane `first` on, confirm the end where it was predicted
+    /// and show that no later dyad opens before it.
     pub(super) fn is_as_predicted(
         &self,
         squares: &[[[f64; LANES]; 2]],
         open: u32,
-        shown: &Shown<'_>,
+        scan: &ScanView<'_>,
         first: usize,
     ) -> bool {
         let [inside, outside] = self.lanes(first);
@@ -137,16 +139,16 @@ impl End {
         for (index, [squares, rates]) in squares.iter().enumerate().skip(self.dyad) {
             let [square, rate] = [squares[inside], rates[inside]];
             if index == self.dyad {
-                let apart = (rate * shown.cell - self.slope).abs();
+                let apart = (rate * scan.cell - self.slope).abs();
                 let is_there = square > 0.0 && squares[outside] < 0.0;
                 if !(is_there && apart <= MAX_APART * self.slope.abs()) {
                     return false;
                 }
                 continue;
             }
-            let [at_knot, rate_at_knot] = shown.dyads[index].at(known);
+            let [at_knot, rate_at_knot] = scan.dyads[index].at(known);
             let y = self.part_of_root();
-            let slopes = [rate_at_knot, y * rate].map(|rate| self.per_part(shown, rate));
+            let slopes = [rate_at_knot, y * rate].map(|rate| self.per_part(scan, rate));
             if !stays_away([at_knot, slopes[0]], y, [square, slopes[1]]) {
                 return false;
             }
@@ -155,9 +157,9 @@ impl End {
     }
 }
 
-/// Whether the square of a later dyad keeps its sign between a knot and the end: it varies as the
-/// root y of the distance from there, which is 1 at the knot. Given the square with its derivative by
-/// y at the knot and at another `y`.
+/// Whether the square of a later dyad keeps its sign between a knot and the end. It varies smoothly
+/// with y, the square root of the distance from the end (1 at the knot). Given are the square and its
+/// derivative by y, at the knot and at another `y`.
 fn stays_away([at_knot, slope]: [f64; 2], y: f64, [at_y, slope_at_y]: [f64; 2]) -> bool {
     let back = y - 1.0;
     let curvature = (at_y - at_knot - slope * back) / (back * back);
@@ -169,9 +171,9 @@ fn stays_away([at_knot, slope]: [f64; 2], y: f64, [at_y, slope_at_y]: [f64; 2]) 
     let sign = at_knot.signum();
     let least = squares.iter().fold(f64::INFINITY, |least, s| least.min(sign * s));
     let most = squares.iter().fold(0.0, |most: f64, s| most.max(sign * s));
-    // The polynomial of third degree with both derivatives leaves the parabola by 4/27 of this.
+    // The cubic through both derivatives leaves the parabola by 4/27 of this at most.
     let apart = (slope_at_y - (slope + 2.0 * curvature * back)).abs();
-    // NaN stays nowhere.
+    // NaN fails this.
     squares.iter().all(|square| square.is_finite()) && least > MARGIN * (most - least) + apart
 }
 
@@ -179,7 +181,7 @@ fn stays_away([at_knot, slope]: [f64; 2], y: f64, [at_y, slope_at_y]: [f64; 2]) 
 mod tests {
     use super::*;
 
-    /// What is known of a parabola in y.
+    /// [`stays_away`] for a parabola in y.
     fn known([end, slope, curvature]: [f64; 3], y: f64) -> bool {
         let at = |y: f64| [end + y * (slope + y * curvature), slope + 2.0 * y * curvature];
         stays_away(at(1.0), y, at(y))
@@ -194,7 +196,7 @@ mod tests {
             assert!(!known([1.0, -4.2, 4.0], y));
             assert!(!known([0.01, 1.0, 0.0], y));
         }
-        // A peak between that a parabola does not show.
+        // A peak in between that a parabola does not show.
         assert!(!stays_away([-1.0, 0.0], 0.1, [-1.0, 9.0]));
         assert!(!stays_away([1.0, f64::NAN], 0.1, [1.0, 0.0]));
     }

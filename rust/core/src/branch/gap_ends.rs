@@ -1,53 +1,53 @@
-//! The ends of the gaps of a turn, found together: the roots of the dyads' discriminants are
-//! predicted from the knots beside them, and positions on either side confirm them.
+//! Finds the ends of all gaps of a turn together: predicts the roots of the dyads' discriminants from
+//! the neighbouring knots, and confirms each by a position on either side.
 //!
-//! Beside a dead point angles vary as the square root of the distance, so that even knots would have
-//! to be very close to follow them. What is not confirmed here is left to closer looks.
+//! Beside a dead point angles vary as the square root of the distance, so evenly spaced knots would
+//! have to be very close to follow them. Ends that are not confirmed here are left to closer scans.
 
 use std::f64::consts::PI;
 
 use super::cell_test::Bits;
-use super::gap_end::{End, Shown};
+use super::gap_end::{GapEnd, ScanView};
 use super::uniform::UniformTracer;
 use crate::math::angle::unwrap_to;
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
-/// Ends looked for at once; a turn seldom has more.
+/// Most ends searched for; a turn seldom has more.
 const MAX_ENDS: usize = LANES / 2;
-/// How far (rad) an angle may step across a gap whose ends are not looked at closely: not nearly half
-/// a turn.
+/// Greatest step (rad) of an angle across a gap that these predictions may decide: well below half a
+/// turn, beyond which the step would be ambiguous.
 pub(super) const MAX_STEP: f64 = PI - 0.5;
 
-/// The ends found, with what the positions beside them show.
+/// Predicted ends, with samples at the positions before and after each.
 #[derive(Debug, Default)]
 pub(super) struct GapEnds {
-    ends: Vec<End>,
-    /// Of every dyad, the square and its rate before every end and after it.
+    ends: Vec<GapEnd>,
+    /// For every dyad, the squares and their rates at these positions.
     squares: Vec<[[f64; LANES]; 2]>,
-    /// The same of the angles asked for.
+    /// For every requested class, the angles at these positions.
     angles: Vec<[f64; LANES]>,
-    /// Positions that do not close, by their bits.
+    /// A bit for each position that does not close.
     open: u32,
 }
 
 /// A position beside an end.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Beside {
+pub(super) struct EndPosition {
     pub at: f64,
     pub reached: bool,
-    /// Its place in [`GapEnds::angle`].
+    /// Its lane, for [`GapEnds::angle`].
     pub lane: usize,
 }
 
 impl GapEnds {
-    /// Forgets all.
+    /// Removes all ends.
     pub(super) fn clear(&mut self) {
         self.ends.clear();
     }
 
-    /// Whether none was found.
+    /// Whether there are no ends.
     pub(super) fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
@@ -56,27 +56,27 @@ impl GapEnds {
         self.ends.iter().position(|end| end.is_confirmed && end.knot == knot)
     }
 
-    /// The positions beside the end in the cell before a knot, if it was found.
-    pub(super) fn beside(&self, shown: (f64, f64), knot: usize) -> Option<[Beside; 2]> {
+    /// The positions beside the end in the cell before a knot, if that end is confirmed.
+    pub(super) fn beside(&self, scan: (f64, f64), knot: usize) -> Option<[EndPosition; 2]> {
         let index = self.index(knot)?;
         let end = &self.ends[index];
-        let [before, after] = end.beside(shown);
+        let [before, after] = end.beside(scan);
         Some([
-            Beside { at: before, reached: end.is_start, lane: 2 * index },
-            Beside { at: after, reached: !end.is_start, lane: 2 * index + 1 },
+            EndPosition { at: before, reached: end.is_start, lane: 2 * index },
+            EndPosition { at: after, reached: !end.is_start, lane: 2 * index + 1 },
         ])
     }
 
-    /// The ends, each with the angle of a class before it, from where the mechanism closes, and beyond.
-    /// All must have been found.
-    pub(super) fn with_angles(&self, class: usize) -> impl Iterator<Item = (&End, [f64; 2])> {
+    /// All ends, each with the angles of a class at its inside position and beyond. All must be
+    /// confirmed.
+    pub(super) fn with_angles(&self, class: usize) -> impl Iterator<Item = (&GapEnd, [f64; 2])> {
         self.ends.iter().enumerate().map(move |(index, end)| {
             (end, end.lanes(2 * index).map(|lane| self.angles[class][lane]))
         })
     }
 
-    /// The angle of a class there.
-    pub(super) fn angle(&self, class: usize, beside: &Beside) -> f64 {
+    /// The angle of a class at a position beside an end.
+    pub(super) fn angle(&self, class: usize, beside: &EndPosition) -> f64 {
         self.angles[class][beside.lane]
     }
 
@@ -87,21 +87,21 @@ impl GapEnds {
         cx: &Context<'_>,
         knots: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
-        shown: &Shown<'_>,
+        scan: &ScanView<'_>,
     ) {
         self.ends.clear();
-        let mut left = shown.cells;
+        let mut left = scan.cells;
         while left != 0 && self.ends.len() < MAX_ENDS {
             let knot = left.trailing_zeros() as usize;
             left &= left - 1;
-            self.ends.extend(End::predict(shown, knot));
+            self.ends.extend(GapEnd::predict(scan, knot));
         }
         if self.ends.is_empty() {
             return;
         }
-        self.solve::<L, G>(cx, knots, shown);
+        self.solve::<L, G>(cx, knots, scan);
         for (index, end) in self.ends.iter_mut().enumerate() {
-            end.is_confirmed = end.is_as_predicted(&self.squares, self.open, shown, 2 * index);
+            end.is_confirmed = end.is_as_predicted(&self.squares, self.open, scan, 2 * index);
         }
         self.angles.resize(classes.len(), [0.0; LANES]);
         for (angles, &class) in self.angles.iter_mut().zip(classes) {
@@ -113,11 +113,11 @@ impl GapEnds {
             }
         }
         for index in 0..self.ends.len() {
-            self.ends[index].is_confirmed &= self.turns_little(shown, index);
+            self.ends[index].is_confirmed &= self.turns_little(scan, index);
         }
     }
 
-    /// The cells whose ends were found.
+    /// The cells with a confirmed end.
     pub(super) fn cells(&self) -> Bits {
         let found = self.ends.iter().filter(|end| end.is_confirmed);
         found.fold(0, |cells, end| cells | 1 << end.knot)
@@ -129,15 +129,15 @@ impl GapEnds {
         &mut self,
         cx: &Context<'_>,
         knots: &mut UniformTracer<L::Register, G>,
-        shown: &Shown<'_>,
+        scan: &ScanView<'_>,
     ) {
-        let mut at = [shown.from; LANES];
+        let mut at = [scan.from; LANES];
         for (end, at) in self.ends.iter().zip(at.chunks_exact_mut(2)) {
-            at.copy_from_slice(&end.beside((shown.from, shown.cell)));
+            at.copy_from_slice(&end.beside((scan.from, scan.cell)));
         }
         knots.set_at(&at);
         knots.solve_carefully::<L>(cx);
-        self.squares.resize(shown.dyads.len(), [[0.0; LANES]; 2]);
+        self.squares.resize(scan.dyads.len(), [[0.0; LANES]; 2]);
         let of_dyads = cx.plan.dyads().zip(&cx.tape.dyads).zip(&mut self.squares);
         for ((dyad, &op), [squares, rates]) in of_dyads {
             for group in 0..LANES / L::Register::LANES {
@@ -154,15 +154,15 @@ impl GapEnds {
         }
     }
 
-    /// Whether no angle turns far from the knot that can be reached up to the end, nor at it.
-    fn turns_little(&self, shown: &Shown<'_>, index: usize) -> bool {
+    /// Whether all angles can be unwrapped from the reachable knot to an end.
+    fn turns_little(&self, scan: &ScanView<'_>, index: usize) -> bool {
         let end = &self.ends[index];
         let [inside, outside] = end.lanes(2 * index);
-        self.angles.iter().zip(shown.angles.iter().zip(shown.rates)).all(|(beside, (at, rate))| {
+        self.angles.iter().zip(scan.angles.iter().zip(scan.rates)).all(|(beside, (at, rate))| {
             let near = at[end.known()];
             let [to_end, beyond] =
                 [inside, outside].map(|lane| unwrap_to(beside[lane], near) - near);
-            end.is_followed(shown, [to_end, beyond], rate)
+            end.is_followed(scan, [to_end, beyond], rate)
         })
     }
 }

@@ -1,5 +1,5 @@
-//! Where the knots of a branch are set side by side: over a turn of a driven angle, or over the
-//! stretch that is asked for of a driven slide.
+//! Evenly spaced knots that are solved in lanes: over a turn of a driven angle, or over the requested
+//! range of a driven slide.
 
 use std::f64::consts::TAU;
 
@@ -13,20 +13,20 @@ const _: () = assert!(KNOTS <= BLOCK, "the knots of a turn are solved at once");
 /// Width of a cell.
 pub(crate) const CELL: f64 = TAU / CELLS_PER_TURN as f64;
 
-/// The greatest width of a cell along a slide, in units of the scale: about that of a turn's, rad.
+/// Greatest width of a cell along a slide, in units of the scale: about [`CELL`] in rad.
 const MAX_CELL: f64 = 0.2;
 
-/// Even knots.
+/// Evenly spaced knots.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Grid {
-    /// The first knot, and the width of a cell; negative where knots lead down.
+    /// The first knot, and the width of a cell (negative for a grid that runs downward).
     pub from: f64,
     pub cell: f64,
     /// Number of knots.
     pub count: usize,
     /// The knot at the drawing's coordinate.
     pub home: usize,
-    /// Whether they go once round.
+    /// Whether they cover one turn of the driver.
     pub is_turn: bool,
 }
 
@@ -39,10 +39,10 @@ impl Grid {
         Self { from: q0, cell: CELL, count: KNOTS, home: 0, is_turn: true }
     }
 
-    /// A stretch that contains the drawing's coordinate; `None` if it is empty or too long for these
-    /// knots.
+    /// Knots over a range that contains the drawing's coordinate; `None` if the range is empty or too
+    /// long for them.
     pub(super) fn stretch(q0: f64, [low, high]: [f64; 2]) -> Option<Self> {
-        // The drawing's may need a part of a cell beyond both ends.
+        // Two knots are spare, because the grid is shifted to have one at the drawing's coordinate.
         let cell = (high - low) / (KNOTS - 2) as f64;
         if !(0.0 < cell && cell <= MAX_CELL) {
             return None;
@@ -51,8 +51,8 @@ impl Grid {
         Some(Self { from: q0 - home as f64 * cell, cell, count: KNOTS, home, is_turn: false })
     }
 
-    /// The knots of the tracer from the drawing's coordinate to an end, whichever that is, and a few
-    /// beyond it; none if it is empty, `None` if it is too long.
+    /// The tracer's own knots from the drawing's coordinate to `end`, filled up to whole registers: no
+    /// knots if both coincide, `None` if they are too far apart.
     pub(super) fn ray(q0: f64, end: f64) -> Option<Self> {
         let cells = (end - q0).abs() * CELLS_PER_UNIT;
         let counts = (0..=KNOTS).step_by(LANES);
@@ -61,7 +61,7 @@ impl Grid {
         Some(Self { from: q0, cell, count, home: 0, is_turn: false })
     }
 
-    /// A knot.
+    /// The coordinate of a knot.
     pub(super) fn at(&self, knot: usize) -> f64 {
         self.from + self.cell * knot as f64
     }

@@ -38,10 +38,10 @@ pub(crate) struct Knot {
     pub angles: Vec<f64>,
     /// Rate of every class along the path, without sign.
     pub rates: Vec<f64>,
-    /// Spread of every dyad with a sign, and its rate along the path.
-    pub spread: Vec<(f64, f64)>,
-    /// For every dyad of two guides: on which side of parallel these are. Between the sides its
-    /// point passes through infinity.
+    /// Discriminant of every dyad with a sign, and its rate along the path.
+    pub discriminants: Vec<(f64, f64)>,
+    /// For every dyad of two guides, the sign of the angle between these. Where it changes the guides
+    /// are parallel, and the dyad's point passes through infinity.
     pub guide_sides: Vec<bool>,
     /// If not reached: the step that does not close, and its gap.
     pub open_step: Option<(usize, f64)>,
@@ -60,7 +60,7 @@ impl Knot {
     /// Whether a dyad is flat here, or its outer joints coincide.
     pub(crate) fn is_flat(&self) -> bool {
         let loose = self.open_step.is_some_and(|(_, gap)| gap == 0.0);
-        loose || self.spread.iter().any(|(_, rate)| rate.is_nan())
+        loose || self.discriminants.iter().any(|(_, rate)| rate.is_nan())
     }
 }
 
@@ -80,12 +80,12 @@ pub(crate) struct ChangePoint {
     pub sign: usize,
 }
 
-/// A cell is searched if the spread at both ends is less than this many times its fall over the
-/// cell. With a change point in the cell the ratio is at most 1, as long as the spread is about
+/// A cell is searched if the discriminant at both ends is less than this many times its fall over the
+/// cell. With a change point in the cell the ratio is at most 1, as long as the discriminant is about
 /// straight.
 const MAX_FALLS: f64 = 4.0;
 
-/// Whether a spread may vanish between two knots, given its value and rate at both (`cell`: the
+/// Whether a discriminant may vanish between two knots, given its value and rate at both (`cell`: the
 /// step, negative if backward).
 #[inline(always)]
 pub(crate) fn may_vanish<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell: R) -> R::Mask {
@@ -97,8 +97,8 @@ pub(crate) fn may_vanish<R: Real>((from, fall): (R, R), (to, rise): (R, R), cell
     R::ZERO.lt(fall).and(R::ZERO.lt(rise)).and(same_side).and(fast(from, fall)).and(fast(to, rise))
 }
 
-/// How many times its fall between two knots the square of a discriminant must be away from zero:
-/// touching zero in between it would be at most half of it.
+/// A square stays positive in a cell if at an end it exceeds this many times its fall at that rate. A
+/// square that touches zero in the cell is at most half its fall.
 const MAX_SQUARE_FALLS: f64 = 2.0;
 
 /// Whether a square that is positive at two knots may touch zero between them: it falls at one and

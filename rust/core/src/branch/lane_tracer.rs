@@ -1,19 +1,18 @@
-//! Traces the branch of a driven angle, or of a driven slide, by knots solved side by side, whether or
-//! not the design reaches them all: shows that its signs are constant, and unwraps angles across its
-//! gaps.
+//! Traces the branch of one driver by knots solved in lanes, also across gaps: shows that the signs
+//! are constant, and unwraps the angles.
 //!
-//! The knots of a turn or of a stretch are judged cell by cell. A cell where something may happen is divided by
-//! knots of its own, and these cells again. A design that may have a change point, or angles that
-//! cannot be followed in this way, are left to [`super::tracer`].
+//! A scan classifies the cells between its knots. A cell that may hide something gets a closer scan of
+//! its own, and so on. Designs that may have a change point, or angles that cannot be unwrapped in
+//! this way, are left to [`super::tracer`].
 
 use std::f64::consts::TAU;
 
 use super::branch::Branch;
 use super::cell_test::has;
-use super::gap_end::Shown;
+use super::gap_end::ScanView;
 use super::gap_ends::{GapEnds, MAX_STEP};
 use super::grid::KNOTS;
-use super::look::Look;
+use super::scan::Scan;
 use super::uniform::UniformTracer;
 use crate::math::angle::{unwrap_to, whole_turns};
 use crate::math::lanes::Real;
@@ -21,42 +20,43 @@ use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
-/// Knots of a closer look: half of those of a turn.
+/// Knots of a closer scan: half of those of a turn.
 const CLOSER_KNOTS: usize = KNOTS / 2;
-/// Cells between these.
+/// Cells of a closer scan.
 const CELLS: f64 = (CLOSER_KNOTS - 1) as f64;
 /// Levels of looks, each [`CELLS`] times as close as the one before: down to the 50 000th part of a
 /// cell.
 const LEVELS: usize = 5;
-/// Those at which dead points are looked at: down to the 3 000th part of a cell. Angles at the knot
-/// beyond, where the dyad is computed flat, are those at the dead point to about as much.
+/// Levels at which dead points are scanned: down to the 3 000th part of a cell. Angles at the knot
+/// beyond, where the dyad is computed as flat, are those at the dead point to about this accuracy.
 const DEAD_POINT_LEVELS: usize = 3;
 /// Looks at one design.
-const MAX_LOOKS: usize = 256;
+const MAX_SCANS: usize = 256;
 /// Levels at which islands are searched for: down to the 200th part of a cell.
 const ISLAND_LEVELS: usize = 2;
 
-/// Work space, kept from one design to the next.
+/// Work space, reused for all designs.
 #[derive(Debug, Default)]
 pub(crate) struct LaneTracer {
-    looks: [Look; LEVELS],
-    /// Unwrapped angles of the classes asked for at the last knot.
+    scans: [Scan; LEVELS],
+    /// Unwrapped angles of the requested classes at the last knot.
     last: Vec<f64>,
-    /// The same where the first position can be reached; empty before.
+    /// The same at the first position that can be reached; empty before it.
     first: Vec<f64>,
-    /// Angles at the last knot, not unwrapped, and at the next.
+    /// Principal angles at the last knot.
     principal: Vec<f64>,
+    /// Principal angles at the next knot.
     next: Vec<f64>,
     was_reached: bool,
     pub(super) ends: GapEnds,
-    /// Whether an angle steps by about half a turn across a gap with one of these.
+    /// Whether an angle steps by about half a turn across a gap with one of `ends`.
     is_ambiguous: bool,
 }
 
 impl LaneTracer {
-    /// Traces the turn, or the stretch, whose knots have been solved into `branch`, with the angles of `classes`;
-    /// false if the design is not one of constant signs and smooth angles. `start`: the drawing's
-    /// angles; `settled`: dyads whose signs are known to be constant.
+    /// Traces the solved knots into `branch`, with the angles of `classes`; false if signs may change or
+    /// an angle cannot be unwrapped. `start`: the drawing's angles; `settled`: dyads whose signs are
+    /// known to be constant.
     #[inline(always)]
     pub(crate) fn trace<L: Level, const G: usize>(
         &mut self,
@@ -80,11 +80,11 @@ impl LaneTracer {
                 return traced;
             }
             self.ends.clear();
-            self.looks[0].next = 1;
+            self.scans[0].next = 1;
         }
     }
 
-    /// Takes what the knots of the turn show; false if one of them is singular.
+    /// Scans the solved knots; false if one of them is singular.
     #[inline(always)]
     pub(super) fn take_turn<R: Real, const G: usize>(
         &mut self,
@@ -94,10 +94,10 @@ impl LaneTracer {
         settled: &[bool],
     ) -> bool {
         let grid = knots.grid();
-        self.looks[0].take(cx, knots, classes, settled, (grid.from, grid.cell))
+        self.scans[0].take(cx, knots, classes, settled, (grid.from, grid.cell))
     }
 
-    /// Finds the ends of its gaps.
+    /// Finds the ends of the gaps between them.
     #[inline(always)]
     pub(super) fn find_ends<L: Level, const G: usize>(
         &mut self,
@@ -105,26 +105,26 @@ impl LaneTracer {
         knots: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
     ) {
-        self.ends.find::<L, G>(cx, knots, classes, &self.looks[0].shown());
+        self.ends.find::<L, G>(cx, knots, classes, &self.scans[0].view());
     }
 
-    /// What the knots of the turn show of the ends of gaps.
-    pub(super) fn turn(&self) -> Shown<'_> {
-        self.looks[0].shown()
+    /// What the first scan shows about the ends of gaps.
+    pub(super) fn turn_view(&self) -> ScanView<'_> {
+        self.scans[0].view()
     }
 
-    /// Whether a sign may change between two knots of the turn.
+    /// Whether a sign may change between two knots of the first scan.
     pub(super) fn has_uncertain_cells(&self) -> bool {
-        let look = &self.looks[0];
-        look.uncertain | look.curved | look.may_hide_island != 0
+        let scan = &self.scans[0];
+        scan.uncertain | scan.curved | scan.may_hide_island != 0
     }
 
-    /// Whether every end of a gap has been found.
+    /// Whether every dead point has a confirmed end.
     pub(super) fn has_found_all_ends(&self) -> bool {
-        self.ends.cells() == self.looks[0].dead_point
+        self.ends.cells() == self.scans[0].dead_point
     }
 
-    /// Traces the turn by the knots of the first look, and closer ones.
+    /// Traces the knots of the first scan, with closer scans where they are needed.
     #[inline(always)]
     fn follow_knots<L: Level, const G: usize>(
         &mut self,
@@ -146,18 +146,18 @@ impl LaneTracer {
         let (mut level, mut count) = (0, 0);
         loop {
             if classes.is_empty() {
-                self.looks[level].skip_quiet_cells();
+                self.scans[level].skip_quiet_cells();
             }
-            let knot = self.looks[level].next;
-            if knot == self.looks[level].count {
+            let knot = self.scans[level].next;
+            if knot == self.scans[level].count {
                 if level == 0 {
                     break;
                 }
                 level -= 1;
-                self.looks[level].next += 1;
+                self.scans[level].next += 1;
                 continue;
             }
-            let within = (self.looks[level].from, self.looks[level].cell);
+            let within = (self.scans[level].from, self.scans[level].cell);
             let ends = if level == 0 { self.ends.beside(within, knot) } else { None };
             if let Some(beside) = ends {
                 for beside in beside {
@@ -170,17 +170,17 @@ impl LaneTracer {
             let looked = if ends.is_some() {
                 Some(false)
             } else {
-                self.needs_closer_look(level, knot, !classes.is_empty())
+                self.needs_closer_scan(level, knot, !classes.is_empty())
             };
             let Some(closer) = looked else {
                 return false;
             };
             if closer && level + 1 < LEVELS {
-                let look = &self.looks[level];
-                let (from, width) = (look.from + look.cell * (knot - 1) as f64, look.cell);
+                let scan = &self.scans[level];
+                let (from, width) = (scan.from + scan.cell * (knot - 1) as f64, scan.cell);
                 knots.set_between((from, width));
-                if !classes.is_empty() && has(look.dead_point, knot) {
-                    // Some of these knots are beyond it.
+                if !classes.is_empty() && has(scan.dead_point, knot) {
+                    // Some of these knots are beyond the dead point.
                     knots.solve_carefully::<L>(cx);
                 } else {
                     knots.solve::<L>(cx, !classes.is_empty());
@@ -188,8 +188,8 @@ impl LaneTracer {
                 level += 1;
                 count += 1;
                 let within = (from, width / CELLS);
-                let taken = self.looks[level].take(cx, knots, classes, settled, within);
-                if !taken || count > MAX_LOOKS {
+                let taken = self.scans[level].take(cx, knots, classes, settled, within);
+                if !taken || count > MAX_SCANS {
                     return false;
                 }
                 continue;
@@ -197,7 +197,7 @@ impl LaneTracer {
             if !classes.is_empty() {
                 self.push(level, knot, classes, branch);
             }
-            self.looks[level].next += 1;
+            self.scans[level].next += 1;
         }
         if !knots.grid().is_turn {
             return true;
@@ -213,50 +213,50 @@ impl LaneTracer {
         true
     }
 
-    /// Whether the cell before a knot needs a closer look; `None` if none would be close enough.
+    /// Whether the cell before a knot needs a closer scan; `None` if none would be close enough.
     #[inline(always)]
-    fn needs_closer_look(&self, level: usize, knot: usize, angles: bool) -> Option<bool> {
-        let look = &self.looks[level];
+    fn needs_closer_scan(&self, level: usize, knot: usize, angles: bool) -> Option<bool> {
+        let scan = &self.scans[level];
         let last = level + 1 == LEVELS;
-        if has(look.uncertain, knot) {
+        if has(scan.uncertain, knot) {
             return (!last).then_some(true);
         }
-        if has(look.curved, knot) && !last {
+        if has(scan.curved, knot) && !last {
             return Some(true);
         }
-        if has(look.dead_point, knot) {
+        if has(scan.dead_point, knot) {
             return Some(if angles {
-                level < DEAD_POINT_LEVELS || !look.is_definite(knot)
+                level < DEAD_POINT_LEVELS || !scan.is_definite(knot)
             } else {
-                !look.stays_away(knot)
+                !scan.stays_away(knot)
             });
         }
-        if has(look.may_hide_island, knot) && level < ISLAND_LEVELS {
+        if has(scan.may_hide_island, knot) && level < ISLAND_LEVELS {
             return Some(true);
         }
-        if !(angles && has(look.reached, knot) && has(look.reached, knot - 1)) {
+        if !(angles && has(scan.reached, knot) && has(scan.reached, knot - 1)) {
             return Some(false);
         }
         let mut fast = false;
-        for (index, (angles, rates)) in look.angles.iter().zip(&look.rates).enumerate() {
+        for (index, (angles, rates)) in scan.angles.iter().zip(&scan.rates).enumerate() {
             let turned = unwrap_to(angles[knot], self.last[index]) - self.last[index];
             if last && turned.abs() > KNOT_MAX_TURN {
                 return None;
             }
             let rate = rates[knot].abs().max(rates[knot - 1].abs());
-            fast |= turned.abs() > KNOT_MAX_TURN || rate * look.cell.abs() > KNOT_MAX_TURN;
+            fast |= turned.abs() > KNOT_MAX_TURN || rate * scan.cell.abs() > KNOT_MAX_TURN;
         }
         Some(fast)
     }
 
-    /// Adds a knot of a look to the branch.
+    /// Adds a knot of a scan to the branch.
     #[inline(always)]
     fn push(&mut self, level: usize, knot: usize, classes: &[usize], branch: &mut Branch) {
-        let look = &self.looks[level];
+        let scan = &self.scans[level];
         self.next.clear();
-        self.next.extend(look.angles.iter().map(|angles| angles[knot]));
-        let at = look.from + look.cell * knot as f64;
-        self.push_next((at, has(look.reached, knot)), classes, branch);
+        self.next.extend(scan.angles.iter().map(|angles| angles[knot]));
+        let at = scan.from + scan.cell * knot as f64;
+        self.push_next((at, has(scan.reached, knot)), classes, branch);
     }
 
     /// Adds a knot with the next angles to the branch.
@@ -274,7 +274,7 @@ impl LaneTracer {
             let next = self.next[index];
             let last = &mut self.last[index];
             if !is_first && !was_reached && reached {
-                // Through the dead point between both knots.
+                // By way of the angle at the dead point between both knots.
                 let before = *last;
                 follow(last, self.principal[index]);
                 self.is_ambiguous |= !self.ends.is_empty() && (*last - before).abs() > MAX_STEP;
@@ -292,7 +292,7 @@ impl LaneTracer {
     }
 }
 
-/// Follows an angle to its next value, if that is definite.
+/// Unwraps an angle to its next value, if that is defined.
 #[inline(always)]
 fn follow(last: &mut f64, next: f64) {
     if next.is_finite() {
@@ -301,7 +301,7 @@ fn follow(last: &mut f64, next: f64) {
 }
 
 impl<R: Real, const G: usize> UniformTracer<R, G> {
-    /// Sets [`CLOSER_KNOTS`] between `from` and a cell's width beyond it.
+    /// Sets [`CLOSER_KNOTS`] evenly from `from` to `from + width`.
     #[inline(always)]
     fn set_between(&mut self, (from, width): (f64, f64)) {
         self.state.groups = CLOSER_KNOTS / R::LANES;

@@ -1,12 +1,13 @@
-//! One position of a design by itself: with the signs of its branch there, and smooth through change
+//! A single position of a design, with the signs of its branch there, and smooth through change
 //! points.
 
 use std::borrow::Cow;
 
-use super::branch::{Branch, BranchLocation};
+use super::branch::Branch;
 use super::change_interpolant::ChangeInterpolant;
 use super::design::Design;
 use super::knot::{ChangePoint, InitialGuess};
+use super::location::BranchLocation;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
@@ -54,7 +55,7 @@ impl Design<'_> {
         }
     }
 
-    /// Solves again a position that was not found or came out beyond a fold.
+    /// Solves a position again that did not converge or came out beyond a fold.
     #[cold]
     fn resolve_from_knot(&self, state: &mut State, q: &[f64], (branch, at): (&Branch, f64)) {
         let cx = self.context(&self.tracing_derivatives);
@@ -143,7 +144,7 @@ impl Design<'_> {
     pub(crate) fn reference_angles(&self, point: &BranchPoint<'_>, classes: usize) -> Vec<f64> {
         let location = point.branch.locate(point.at);
         if point.branch.in_untraced_island(&location, 0) {
-            // An island that the tracer has not seen.
+            // An island between two knots.
             let cx = self.context(&self.tracing_derivatives);
             let own = point.branch.trace_island(
                 &cx,
@@ -183,9 +184,9 @@ impl Design<'_> {
                 (!lost).then_some(trial)
             };
             // Values must not depend on the order requested.
-            let judge = DerivativeTables::new(1, ChangeInterpolant::JUDGED_ORDER);
+            let judging = DerivativeTables::new(1, ChangeInterpolant::JUDGED_ORDER);
             let interpolant =
-                ChangeInterpolant::fit(self.change_window, |distance| solve(&judge, distance));
+                ChangeInterpolant::fit(self.change_window, |distance| solve(&judging, distance));
             let interpolant = interpolant.and_then(|interpolant| {
                 interpolant.refit(self.change_window, |at| solve(self.derivatives, at))
             });

@@ -1,8 +1,9 @@
 //! The groups' unknowns along a branch: first guesses of the iteration.
 
-use super::branch::{Branch, BranchLocation};
+use super::branch::Branch;
 use super::hermite::small_rotation;
 use super::knot::{InitialGuess, Knot, Taylor2};
+use super::location::BranchLocation;
 use super::tracer::BranchTracer;
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::math::vector::Vector;

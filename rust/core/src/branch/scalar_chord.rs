@@ -1,4 +1,4 @@
-//! With several drivers: which dyads can pass change points on a path through the coordinates.
+//! With several drivers: which dyads can meet change points on a path through the coordinates.
 //!
 //! A dyad has a change point where the length of its chord has an extreme at which it is flat. If
 //! one end of the chord moves over an area as seen from every body that is known before the dyad,
@@ -14,8 +14,8 @@ use crate::plan::plan::{Plan, Step};
 use crate::state::state::State;
 use crate::state::status::Status;
 
-/// How far from the drawing the chords are looked at (rad, or of the size): there by chance nothing
-/// is special.
+/// Offsets from the drawing (rad, or units of the scale) at which chords are examined: the drawing
+/// itself may be special, arbitrary offsets hardly are.
 const OFFSETS: [f64; 3] = [0.0, 0.0437, -0.0713];
 /// Area (of the size², per product of both coordinates) below which the end of a chord moves along
 /// a curve: far above rounding.
@@ -35,7 +35,7 @@ pub(crate) fn may_change(mechanism: &Mechanism) -> Vec<bool> {
     let q0 = design.scaled(mechanism.q0());
     let cx = design.context(&derivatives);
     let mut state = design.state(&derivatives);
-    // For every sign and link the greatest area.
+    // The greatest area for every sign and link.
     let mut areas = vec![vec![0.0_f64; plan.rotation.len()]; plan.signs()];
     for offset in OFFSETS {
         let moved = |(driver, &q): (usize, &f64)| q + offset / (1.0 + driver as f64 / 3.0);

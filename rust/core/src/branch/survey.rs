@@ -1,7 +1,7 @@
-//! Designs with gaps that are plain, seen without following their angles knot by knot.
+//! Survey of a design with gaps: shows that it is plain without unwrapping its angles knot by knot.
 
 use super::cell_test::has;
-use super::gap_end::Shown;
+use super::gap_end::ScanView;
 use super::gap_ends::{GapEnds, MAX_STEP};
 use super::lane_tracer::LaneTracer;
 use super::uniform::{UniformTracer, reference_of};
@@ -11,12 +11,11 @@ use crate::state::kernel::Level;
 use crate::state::state::Context;
 
 /// The least and the greatest angle.
-type Range = [f64; 2];
+type AngleRange = [f64; 2];
 
 impl LaneTracer {
-    /// Whether a design with gaps is plain: no sign may change between two of the knots that have been
-    /// solved, all gaps end where they should, and no angle asked for turns fast or far. Sets the
-    /// reference of each class.
+    /// Whether a design with gaps is plain: no sign may change between the solved knots, the ends of all
+    /// gaps are confirmed, and no requested angle turns fast or far. Sets the reference of each class.
     #[inline(always)]
     pub(crate) fn survey<L: Level, const G: usize>(
         &mut self,
@@ -34,7 +33,7 @@ impl LaneTracer {
             return false;
         }
         for (index, &class) in classes.iter().enumerate() {
-            let range = self.ends.range(&self.turn(), index, start[class]);
+            let range = self.ends.range(&self.turn_view(), index, start[class]);
             let Some(reference) = range.and_then(reference_of) else { return false };
             references[class] = reference;
         }
@@ -43,21 +42,19 @@ impl LaneTracer {
 }
 
 impl GapEnds {
-    /// The range of the angle of a class over the knots that can be reached and the ends of gaps, if
-    /// its link turns slowly and stays within half a turn of where it is first; that is the nearest to
-    /// `start`.
-    fn range(&self, shown: &Shown<'_>, class: usize, start: f64) -> Option<Range> {
-        let (near, range) = self.across(shown, class, start)?;
-        over_knots(shown, class, near, range)
+    /// The range of a class's angle over the reachable knots and the ends of gaps, if its link turns
+    /// slowly and stays within half a turn of its first angle, which is unwrapped to `start`.
+    fn range(&self, scan: &ScanView<'_>, class: usize, start: f64) -> Option<AngleRange> {
+        let (near, range) = self.across(scan, class, start)?;
+        over_knots(scan, class, near, range)
     }
 
-    /// Where the angle is first, and its range over the ends of gaps.
+    /// The first angle, and the range over the ends of gaps.
     #[inline(always)]
-    fn across(&self, shown: &Shown<'_>, class: usize, start: f64) -> Option<(f64, Range)> {
-        let (angles, rates) = (&shown.angles[class], &shown.rates[class]);
-        // Angles where the mechanism no longer closes, in order; the first gap may begin before the
-        // first knot.
-        let begins_open = !has(shown.reached, 0);
+    fn across(&self, scan: &ScanView<'_>, class: usize, start: f64) -> Option<(f64, AngleRange)> {
+        let (angles, rates) = (&scan.angles[class], &scan.rates[class]);
+        // The angle just outside the last end passed. A gap may already be open at the first knot.
+        let begins_open = !has(scan.reached, 0);
         let mut outside = start;
         let mut near = if begins_open { None } else { Some(unwrap_to(angles[0], start)) };
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
@@ -68,7 +65,7 @@ impl GapEnds {
             let known = unwrap_to(angles[end.known()], near);
             let steps = [inside - known, beyond - known];
             let steps_far = !end.is_start && (beyond - outside).abs() > MAX_STEP;
-            if steps_far || !end.is_followed(shown, steps, rates) {
+            if steps_far || !end.is_followed(scan, steps, rates) {
                 return None;
             }
             range = [range[0].min(inside), range[1].max(inside)];
@@ -81,19 +78,24 @@ impl GapEnds {
     }
 }
 
-/// The same with the knots that can be reached.
+/// Extends the range over the reachable knots.
 #[inline(always)]
-fn over_knots(shown: &Shown<'_>, class: usize, near: f64, mut range: Range) -> Option<Range> {
-    let (angles, rates) = (&shown.angles[class], &shown.rates[class]);
+fn over_knots(
+    scan: &ScanView<'_>,
+    class: usize,
+    near: f64,
+    mut range: AngleRange,
+) -> Option<AngleRange> {
+    let (angles, rates) = (&scan.angles[class], &scan.rates[class]);
     let mut last = near;
     let mut is_slow = true;
-    for knot in 0..shown.count {
-        if has(shown.reached, knot) {
+    for knot in 0..scan.count {
+        if has(scan.reached, knot) {
             let angle = unwrap_to(angles[knot], near);
-            let followed = knot > 0 && has(shown.reached, knot - 1);
+            let followed = knot > 0 && has(scan.reached, knot - 1);
             is_slow &= !followed || (angle - last).abs() <= KNOT_MAX_TURN;
-            let beside = followed || knot + 1 < shown.count && has(shown.reached, knot + 1);
-            is_slow &= !beside || (rates[knot] * shown.cell).abs() <= KNOT_MAX_TURN;
+            let beside = followed || knot + 1 < scan.count && has(scan.reached, knot + 1);
+            is_slow &= !beside || (rates[knot] * scan.cell).abs() <= KNOT_MAX_TURN;
             range = [range[0].min(angle), range[1].max(angle)];
             last = angle;
         }

@@ -16,7 +16,7 @@ use crate::state::state::Context;
 
 impl Design<'_> {
     /// Traces the branch without solving a position, if all dyads are on cranks and the ground.
-    /// With `references`, the design gets these in place of angles at knots.
+    /// If `references` are given, sets them instead of angles at knots.
     #[inline(always)]
     pub(crate) fn trace_in_closed_form(
         &mut self,
@@ -71,21 +71,21 @@ impl Design<'_> {
         self.closed_forms && serves_all && branch.is_plain() && branch.has_constant_signs()
     }
 
-    /// Makes the branch one of positions without angles, with the drawing's signs everywhere.
+    /// Makes the branch one without angles, with the drawing's signs everywhere.
     pub(crate) fn set_constant_signs(&mut self) {
         self.branch.set_constant_signs(self.mechanism.class_angle.len(), &self.signs);
         self.serves_all = self.q0.len() > 1;
     }
 
-    /// The context of knots.
+    /// The context for solving knots.
     fn tracing_context(&self) -> Context<'_> {
         Context { tape: &self.tracing_tape, ..self.context(&self.tracing_derivatives) }
     }
 
     /// Traces the branch by knots in lanes, with the angles of `classes`, where
-    /// [`Self::trace_in_closed_form`] does not. With `references`, a plain design gets these in
-    /// place of angles at knots (see [`UniformTracer::survey`]). `range`: of a driven slide's values
-    /// (m), over which it is traced.
+    /// [`Self::trace_in_closed_form`] cannot. If `references` are given and the design is plain, sets
+    /// them instead of angles at knots (see [`UniformTracer::survey`]). `range`: values of a driven
+    /// slide (m) to trace over.
     #[inline(always)]
     pub(crate) fn trace_in_lanes<L: Level, const G: usize>(
         &mut self,
@@ -144,8 +144,8 @@ impl Design<'_> {
             let traced = turns_fully && uniform.trace(&cx, classes, start, branch)
                 || self.closed_forms
                     && tracer.trace::<L, G>(&cx, uniform, classes, start, settled, branch);
-            // What is behind a gap depends on the islands that knots show on the way: with a slide that
-            // is left to the tracer, whose knots do not depend on the positions asked for.
+            // Beyond a gap, angles depend on which islands the knots hit. A slide is then left to the
+            // tracer, whose knots do not depend on the requested positions.
             if !traced || follows_slide && !branch.ends_once() {
                 return Traced::No;
             }
@@ -154,7 +154,7 @@ impl Design<'_> {
         Traced::Whole
     }
 
-    /// Where its knots are set side by side; `range`: of a driven slide's values, m.
+    /// The grid of the knots; `range`: values of a driven slide, m.
     fn grid(&self, range: [f64; 2]) -> Option<Grid> {
         match self.q0[..] {
             [q0] if self.has_one_rotary_driver() => Some(Grid::turn(q0)),
@@ -163,13 +163,13 @@ impl Design<'_> {
         }
     }
 
-    /// The knots along a driven slide from the drawing's value, up and down.
+    /// The knots along a driven slide from the drawing's value, upward and downward.
     fn rays(&self, range: [f64; 2]) -> Option<[Grid; 2]> {
         let [low, high] = self.with_drawing(range);
         Some([Grid::ray(self.q0[0], high)?, Grid::ray(self.q0[0], low)?])
     }
 
-    /// A range of a driven slide's values (m), widened to that of the drawing, scaled.
+    /// A range of a driven slide's values (m), scaled and widened to contain the drawing's.
     fn with_drawing(&self, range: [f64; 2]) -> [f64; 2] {
         let [low, high] = range.map(|q| q * self.units.coordinate[0]);
         [low.min(self.q0[0]), high.max(self.q0[0])]
@@ -243,8 +243,8 @@ impl Design<'_> {
         };
     }
 
-    /// The signs at the drawing that lead straight to the signs given at `q` (scaled); traced
-    /// backward.
+    /// The signs at the drawing that lead straight to the given signs at `q` (scaled), found by
+    /// tracing backward.
     pub(crate) fn signs_at_drawing(&self, signs: &[f64], q: &[f64]) -> Vec<i8> {
         let cx = Context { signs, ..self.context(&self.tracing_derivatives) };
         let angles = &self.mechanism.class_angle;

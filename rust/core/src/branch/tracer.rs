@@ -27,8 +27,8 @@ const MAX_GAP_RATE: f64 = 8.0;
 const ISLAND_HALVINGS: u32 = 7;
 /// The same if different dyads do not close at the two ends.
 const MIXED_GAP_HALVINGS: u32 = 4;
-/// Knots beyond which cells are no longer halved: if angles are all rounding (a link of 1e-17 of
-/// the size), no cell would ever be fine enough.
+/// With so many knots cells are no longer halved: if angles are nothing but rounding (a link of 1e-17
+/// of the size), no cell would ever be fine enough.
 const MAX_KNOTS: usize = 100_000;
 /// Part of a cell by which a knot is moved off a flat dyad.
 const NUDGE: f64 = 0.0625;
@@ -123,12 +123,12 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         signs
     }
 
-    /// Solves at a parameter; whether that can be reached.
+    /// Solves at a parameter; returns whether it can be reached.
     pub(crate) fn visit(&mut self, at: f64) -> bool {
         self.solve(at) == usize::MAX
     }
 
-    /// Solves at a parameter; the number of steps solved, `usize::MAX` for all.
+    /// Solves at a parameter; returns the number of steps solved, `usize::MAX` for all.
     pub(crate) fn solve(&mut self, at: f64) -> usize {
         let signs = self.signs_at(at);
         (self.point)(at, &mut self.q);
@@ -160,9 +160,9 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         let solved = self.solve(at);
         let reached = solved == usize::MAX;
         // Dyads before the step that does not close are solved all the same.
-        let spread = self
+        let discriminants = self
             .dyads()
-            .map(|(step, dyad)| if step < solved { self.spread(dyad) } else { (0.0, 0.0) })
+            .map(|(step, dyad)| if step < solved { self.discriminant(dyad) } else { (0.0, 0.0) })
             .collect();
         if !reached {
             let rates = vec![0.0; from.len()];
@@ -177,7 +177,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
                 reached,
                 angles,
                 rates,
-                spread,
+                discriminants,
                 guide_sides,
                 open_step,
                 solved,
@@ -206,7 +206,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             reached,
             angles,
             rates,
-            spread,
+            discriminants,
             guide_sides,
             open_step: None,
             solved,
@@ -292,8 +292,8 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         })
     }
 
-    /// Spread of a dyad at the position just solved, and its rate along the path.
-    pub(crate) fn spread(&self, dyad: &Dyad) -> (f64, f64) {
+    /// Discriminant of a dyad at the position just solved, and its rate along the path.
+    pub(crate) fn discriminant(&self, dyad: &Dyad) -> (f64, f64) {
         let at = |driver: usize| self.state.discriminant(0, &self.cx, dyad, driver + 1);
         (at(0).0, self.rate_along(|driver| at(driver).1))
     }
@@ -396,7 +396,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         })
     }
 
-    /// Whether the last knot, some turns on, is the first again.
+    /// Whether the last knot, some turns on, repeats the first.
     pub(crate) fn has_returned(&self) -> bool {
         let [Some(first), Some(last)] = [self.knots.first(), self.knots.last()] else {
             return false;
@@ -433,7 +433,9 @@ fn must_refine(a: &Knot, b: &Knot, depth: u32) -> bool {
         && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > KNOT_MAX_TURN);
     let through_infinity = depth < EDGE_HALVINGS && a.guide_sides != b.guide_sides;
     // Beside a near miss of a change point a link may turn round between the knots.
-    let missed = || a.spread.iter().zip(&b.spread).any(|(&x, &y)| may_vanish(x, y, b.at - a.at));
+    let missed = || {
+        a.discriminants.iter().zip(&b.discriminants).any(|(&x, &y)| may_vanish(x, y, b.at - a.at))
+    };
     turned || fast || through_infinity || missed()
 }
 

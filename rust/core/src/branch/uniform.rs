@@ -1,6 +1,6 @@
-//! The uniform branch: the branch of a driven angle on an even grid, eight knots at a time. It
-//! needs a full turn without dead points, change points and links that turn fast; any other branch
-//! is left to [`BranchTracer`](super::tracer::BranchTracer). Both use the same knots.
+//! The uniform branch: the branch of a driven angle on evenly spaced knots, solved in lanes. It needs
+//! a full turn without dead points, change points and links that turn fast; any other branch is left
+//! to [`BranchTracer`](super::tracer::BranchTracer). Both use the same knots.
 //!
 //! With groups above class II, a design near the drawing moves much like the drawing. So the
 //! iteration starts at all knots at once from the drawing's unknowns. Its results must pass the
@@ -23,19 +23,19 @@ use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Form, Unknown};
 use crate::plan::plan::Plan;
-use crate::state::dyad::sample::Sample;
+use crate::state::dyad::sample::DyadSample;
 use crate::state::kernel::Level;
 use crate::state::state::{Context, State};
 
-/// What is known of a branch that was traced by knots in lanes.
+/// How far a branch was traced in closed form or by knots in lanes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Traced {
     /// The design needs the tracer.
     No,
-    /// It is plain: its signs are the same everywhere, and for each angle asked for there is a
+    /// The design is plain: its signs are the same everywhere, and each requested angle has a
     /// reference. Angles at knots are not known.
     Surveyed,
-    /// All that was asked for.
+    /// All signs and requested angles are known.
     Whole,
 }
 
@@ -128,9 +128,9 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         self.solve::<L>(cx, angles);
     }
 
-    /// Solves the knots that are set. Where `angles` are asked for, they are solved carefully if some
-    /// of them may be flat or are beyond a dead point: angles there are those of the flat dyad. What
-    /// dyads show of their signs follows from their chords, whether or not they close.
+    /// Solves the knots that are set. If `angles` are requested and some knot may be flat or beyond a
+    /// dead point, solves all carefully: angles there are those of the flat dyad. Samples of dyads need
+    /// no care, because they follow from the chords, whether or not the dyads close.
     #[inline(always)]
     pub(crate) fn solve<L: Level<Register = R>>(&mut self, cx: &Context<'_>, angles: bool) {
         self.is_careful = !cx.tape.is_bounded;
@@ -144,7 +144,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
     }
 
-    /// Solves the knots again, carefully, if some of them may be flat.
+    /// Solves the knots again, carefully, if some may be flat.
     #[inline(always)]
     pub(crate) fn take_care_of_doubts<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
         if !self.is_careful && self.state.is_doubtful() {
@@ -253,7 +253,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         let mut lines = 0;
         let mut suspect = self.not_closed(group);
         for (index, dyad) in cx.plan.dyads().enumerate() {
-            let Sample { square, rate, side } =
+            let DyadSample { square, rate, side } =
                 state.sample(group, cx, dyad, &cx.tape.ops[cx.tape.dyads[index]]);
             match dyad.sign {
                 Some(sign) => {
@@ -280,10 +280,9 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         !suspect.any()
     }
 
-    /// Whether the design is plain, to be seen without following its angles knot by knot: every knot
-    /// can be reached, no sign may change between two, and no angle asked for turns fast or far.
-    /// `None` if it is not; false if only an angle stands against it. Sets the reference of
-    /// each class.
+    /// Shows whether the design is plain without unwrapping its angles knot by knot: every knot can be
+    /// reached, no sign may change between two, and no requested angle turns fast or far. `None` if it
+    /// is not plain; false if only an angle fails. Sets the reference of each class.
     #[inline(always)]
     pub(crate) fn survey(
         &mut self,
@@ -307,8 +306,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         Some(true)
     }
 
-    /// The least and greatest angle of a class at the knots, if its link turns slowly and stays
-    /// within half a turn of where it is at the drawing's coordinate; that is the nearest to `start`.
+    /// The least and greatest angle of a class at the knots, if its link turns slowly and stays within
+    /// half a turn of its angle at the drawing's coordinate, which is unwrapped to `start`.
     #[inline(always)]
     fn range(&self, class: usize, start: f64) -> Option<[f64; 2]> {
         let (units, rates) =
@@ -369,7 +368,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     }
 }
 
-/// The reference of all angles of a range at the knots, and between these; `None` if it is too wide.
+/// A reference for all angles whose values at the knots are in a range; `None` if it is too wide.
 pub(crate) fn reference_of([least, most]: [f64; 2]) -> Option<Reference> {
     // Between two knots an angle may leave the range by one step.
     let margin = 2.0 * KNOT_MAX_TURN;

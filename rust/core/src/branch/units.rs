@@ -6,7 +6,7 @@ use crate::plan::mechanism::Mechanism;
 /// Factors between the design's own unit of length and the metre: powers of two.
 #[derive(Debug, Default)]
 pub(crate) struct Units {
-    /// The unit of the design they are for, m.
+    /// The unit of length that they belong to, m.
     scale: f64,
     /// Factor of every coordinate, into the design's unit.
     pub coordinate: Vec<f64>,
@@ -27,15 +27,15 @@ impl Units {
             return;
         }
         self.scale = scale;
-        let per = 1.0 / scale;
+        let inverse_scale = 1.0 / scale;
         let slides = |d: usize| mechanism.plan().driven_slide(d).is_some();
         self.coordinate.clear();
         self.coordinate
-            .extend((0..mechanism.q0().len()).map(|d| if slides(d) { per } else { 1.0 }));
+            .extend((0..mechanism.q0().len()).map(|d| if slides(d) { inverse_scale } else { 1.0 }));
         self.angle.clear();
         self.length.clear();
         for power in &derivatives.powers {
-            // Multiplied one by one: a length's third analogue stays in range where the cube of the
+            // One factor at a time: a length's third analogue stays in range where the cube of the
             // unit does not.
             let (mut angle, mut length) = (1.0, scale);
             for (&power, &unit) in power.iter().zip(&self.coordinate) {

@@ -169,8 +169,8 @@ pub enum StructureError {
     #[error("link {link:?} lists joint {joint:?} twice")]
     DoubledJoint { link: String, joint: String },
     /// An unknown name.
-    #[error("{place} names the {kind} {name:?}, which does not exist")]
-    Unknown { kind: Named, name: String, place: String, hint: Option<String> },
+    #[error("{item} names the {kind} {name:?}, which does not exist")]
+    Unknown { kind: Named, name: String, item: String, hint: Option<String> },
     /// A coordinate or angle is NaN or infinite.
     #[error("{what} of {kind} {name:?} is {}: a finite number is needed", number(*value))]
     NotFinite { kind: Named, name: String, what: &'static str, value: f64 },
@@ -190,8 +190,8 @@ pub enum StructureError {
     #[error("there is no link \"ground\"")]
     NoGround,
     /// A slide or driver relates a link to itself.
-    #[error("{place} relates link {link:?} to itself")]
-    SameLink { place: String, link: String },
+    #[error("{item} relates link {link:?} to itself")]
+    SameLink { item: String, link: String },
     /// The named origin is not a joint of the link that carries the guide.
     #[error(
         "slide {slide:?} has origin {joint:?}, which is not a joint of link {link:?} that carries the guide"
@@ -255,9 +255,9 @@ pub enum StructureError {
         quoted_list(links)
     )]
     OverConstrained { excess: usize, links: Vec<String> },
-    /// A dyad is drawn flat.
+    /// A dyad is drawn with its links collinear.
     #[error(
-        "dyad {name:?} ({dyad}) is drawn flat (sine {} between its legs): the drawing does not say on which side {name:?} is",
+        "dyad {name:?} ({dyad}) is drawn with its links collinear (sine {} between its legs): the drawing does not show on which side {name:?} is",
         rounded(*sine, 2)
     )]
     FlatDyad { dyad: String, inner: Named, name: String, sine: f64 },

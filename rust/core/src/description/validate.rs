@@ -156,7 +156,7 @@ fn resolve(
     index.get(name).copied().ok_or_else(|| StructureError::Unknown {
         kind,
         name: name.into(),
-        place: context(),
+        item: context(),
         hint: mistaken.or_else(|| suggest(name, index.keys().copied())),
     })
 }
@@ -200,7 +200,7 @@ fn resolve_slides(
         let link = resolve(link_index, Named::Link, &s.link, joint_index, context)?;
         let on = resolve(link_index, Named::Link, &s.on, joint_index, context)?;
         if link == on {
-            return Err(StructureError::SameLink { place: context(), link: s.link.clone() });
+            return Err(StructureError::SameLink { item: context(), link: s.link.clone() });
         }
         let origin = match &s.origin {
             None => None,
@@ -243,7 +243,7 @@ fn resolve_drivers(
                     return Err(StructureError::Unknown {
                         kind: Named::Link,
                         name: name.clone(),
-                        place: "driver".into(),
+                        item: "driver".into(),
                         hint: joint_index
                             .contains_key(name.as_str())
                             .then(|| mistaken_kind(name, Named::Link, Named::Joint))
@@ -259,7 +259,7 @@ fn resolve_drivers(
                 let a = resolve(&link_index, Named::Link, link, &joint_index, context)?;
                 let b = resolve(&link_index, Named::Link, relative_to, &joint_index, context)?;
                 if a == b {
-                    return Err(StructureError::SameLink { place: context(), link: link.clone() });
+                    return Err(StructureError::SameLink { item: context(), link: link.clone() });
                 }
                 Driver::Angle { link: a, relative_to: b }
             }

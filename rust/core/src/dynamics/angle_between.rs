@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::kinematics::{Point, Pose};
+use super::kinematics::{Point, SolvedPose};
 use crate::math::trig::atan2;
 use crate::math::vector::Vector;
 
@@ -25,7 +25,7 @@ pub struct Angle {
 }
 
 impl Angle {
-    pub(crate) fn at(&self, pose: &Pose<'_>) -> f64 {
+    pub(crate) fn at(&self, pose: &SolvedPose<'_>) -> f64 {
         let [a, b] = self.lines.map(|line| match line {
             Line::Through(from, to) => pose.point(to, 0) - pose.point(from, 0),
             Line::Along(link, angle) => {

@@ -22,12 +22,12 @@ pub enum Point {
 }
 
 /// A solved position.
-pub(crate) struct Pose<'p> {
+pub(crate) struct SolvedPose<'p> {
     position: Position<'p>,
     derivatives: &'p DerivativeTables,
 }
 
-impl<'p> Pose<'p> {
+impl<'p> SolvedPose<'p> {
     pub(crate) fn new(position: Position<'p>, derivatives: &'p DerivativeTables) -> Self {
         Self { position, derivatives }
     }

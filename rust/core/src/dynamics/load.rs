@@ -2,7 +2,7 @@
 //! its product with the derivatives of the point or angle it acts on (I. M. Matsyuk &
 //! E. M. Shlyakhov, equation 1; Uicker, Pennock & Shigley 2017, chapter 12).
 
-use super::kinematics::{Point, Pose};
+use super::kinematics::{Point, SolvedPose};
 use super::reduced::Reduced;
 use super::value::{Numbers, Value};
 use crate::math::vector::Vector;
@@ -74,7 +74,7 @@ pub enum Load {
 
 /// Unit vector from one end to the other, and the distance. The vector is NaN at zero distance;
 /// only a spring without tension there can ignore that.
-fn direction_and_length(pose: &Pose<'_>, ends: [Point; 2]) -> (Vector, f64) {
+fn direction_and_length(pose: &SolvedPose<'_>, ends: [Point; 2]) -> (Vector, f64) {
     let span = pose.point(ends[1], 0) - pose.point(ends[0], 0);
     let length = libm::hypot(span.x, span.y);
     (span.scale(1.0 / length), length)
@@ -82,7 +82,7 @@ fn direction_and_length(pose: &Pose<'_>, ends: [Point; 2]) -> (Vector, f64) {
 
 impl Load {
     /// Adds the moments and the potential energy of a spring.
-    pub(crate) fn add_conservative(&self, pose: &Pose<'_>, out: &mut Reduced) {
+    pub(crate) fn add_conservative(&self, pose: &SolvedPose<'_>, out: &mut Reduced) {
         match self {
             Self::Spring { ends, stiffness, length, preload } => {
                 let (unit, distance) = direction_and_length(pose, *ends);
@@ -111,12 +111,12 @@ impl Load {
     /// Adds the moments of any other load at the given speeds.
     pub(crate) fn add_applied(
         &self,
-        pose: &Pose<'_>,
+        pose: &SolvedPose<'_>,
         speed: &[f64],
         numbers: Numbers<'_>,
         out: &mut Reduced,
     ) {
-        let first = Pose::first_order;
+        let first = SolvedPose::first_order;
         match self {
             Self::Force { at, force: [x, y], axes, .. } => {
                 let frame = axes.map_or(Vector::ONE, |link| {
@@ -161,12 +161,13 @@ fn damp(damping: f64, rate: impl Fn(usize) -> f64, speed: &[f64], out: &mut Redu
 }
 
 /// Derivative by a driver of a link's angle relative to another link.
-fn relative_rate(pose: &Pose<'_>, link: usize, on: usize, driver: usize) -> f64 {
-    pose.angle(link, Pose::first_order(driver)) - pose.angle(on, Pose::first_order(driver))
+fn relative_rate(pose: &SolvedPose<'_>, link: usize, on: usize, driver: usize) -> f64 {
+    pose.angle(link, SolvedPose::first_order(driver))
+        - pose.angle(on, SolvedPose::first_order(driver))
 }
 
 /// Derivative by a driver of the distance between two points.
-fn elongation_rate(pose: &Pose<'_>, ends: [Point; 2], unit: Vector, driver: usize) -> f64 {
-    let k = Pose::first_order(driver);
+fn elongation_rate(pose: &SolvedPose<'_>, ends: [Point; 2], unit: Vector, driver: usize) -> f64 {
+    let k = SolvedPose::first_order(driver);
     unit.dot(pose.point(ends[1], k) - pose.point(ends[0], k))
 }

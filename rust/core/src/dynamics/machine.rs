@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::body::Body;
-use super::kinematics::Pose;
+use super::kinematics::SolvedPose;
 use super::load::Load;
 use super::motor::Motor;
 use super::reduced::Reduced;
@@ -82,7 +82,7 @@ impl Machine {
                 rows.failure.get_or_insert_with(|| (row, evaluator.failure(rejection, q)));
                 continue;
             }
-            let pose = Pose::new(evaluator.position(), &derivatives);
+            let pose = SolvedPose::new(evaluator.position(), &derivatives);
             tables.clear();
             tables.extend(self.tables.iter().map(|table| [table.at(q[0]), 0.0]));
             numbers.clear();
@@ -114,7 +114,7 @@ impl Machine {
     }
 
     /// Inertia, weights and springs at a position; replaces those in `out`.
-    pub(crate) fn add_configuration(&self, pose: &Pose<'_>, out: &mut Reduced) {
+    pub(crate) fn add_configuration(&self, pose: &SolvedPose<'_>, out: &mut Reduced) {
         out.clear();
         let n = out.conservative.len();
         for motor in &self.motors {
@@ -132,7 +132,7 @@ impl Machine {
     /// All other loads at the same position and the given speeds; replaces those in `out`.
     pub(crate) fn add_speed_loads(
         &self,
-        pose: &Pose<'_>,
+        pose: &SolvedPose<'_>,
         speed: &[f64],
         numbers: Numbers<'_>,
         out: &mut Reduced,

@@ -1,7 +1,7 @@
 //! A machine referred to its drivers at one position.
 
 use super::body::Body;
-use super::kinematics::Pose;
+use super::kinematics::SolvedPose;
 use crate::math::vector::Vector;
 
 /// Inertia, forces and energy of a machine, referred to its drivers.
@@ -77,10 +77,10 @@ impl Reduced {
 
     /// Adds a body: Σ m ∂S·∂S + I ∂Θ ∂Θ (I. M. Matsyuk & E. M. Shlyakhov, equation 2), its
     /// derivatives from second analogues, and its weight.
-    pub(crate) fn add_body(&mut self, pose: &Pose<'_>, body: &Body, gravity: Vector) {
+    pub(crate) fn add_body(&mut self, pose: &SolvedPose<'_>, body: &Body, gravity: Vector) {
         let n = self.conservative.len();
         let first = |a: usize| {
-            let k = Pose::first_order(a);
+            let k = SolvedPose::first_order(a);
             (pose.point(body.at, k), pose.angle(body.link, k))
         };
         let second = |a: usize, c: usize| {

@@ -21,7 +21,7 @@ pub(crate) fn unwrap_to<R: Real>(angle: R, near: R) -> R {
     angle + R::splat(TAU) * turns_between(angle, near)
 }
 
-/// What the whole turns of all angles of a link follow from.
+/// How to unwrap all angles of a link without tracing them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Reference {
     /// All are principal values.
@@ -29,27 +29,27 @@ pub(crate) enum Reference {
     /// All are less than half a turn from this angle.
     Near(f64),
     /// All are less than half a turn from an angle that turns with the driver.
-    Turning(Turning),
+    Turning(TurningAngle),
 }
 
-/// Greatest driver coordinate (rad) at which [`Turning`] is certain: its rounding is below 1e-3 rad.
-/// Beyond, whole turns must be taken off exactly.
+/// Greatest driver coordinate (rad) at which [`TurningAngle`] is safe: its rounding is below 1e-3 rad.
+/// Beyond it, whole turns must be subtracted exactly.
 pub(crate) const MAX_TURNED: f64 = (1_u64 << 40) as f64;
 
-/// An angle that turns with the driver, but jumps twice a turn.
+/// An angle that turns with the driver and jumps twice a turn, at gaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Turning {
+pub(crate) struct TurningAngle {
     /// 1, or −1 if it turns against the driver.
     pub(crate) rate: f64,
     /// The angle where the driver is at 0, without jumps.
     pub(crate) at_zero: f64,
-    /// Where a turn of the driver begins.
+    /// The driver coordinate at which its turns begin.
     pub(crate) from: f64,
-    /// The jump in the middle of the turn, and that of the whole turn.
+    /// The jump in the middle of a turn, and the sum of both jumps.
     pub(crate) jumps: [f64; 2],
 }
 
-impl Turning {
+impl TurningAngle {
     #[inline(always)]
     pub(crate) fn at<R: Real>(&self, q: R) -> R {
         let on = q - R::splat(self.from);
@@ -62,11 +62,11 @@ impl Turning {
 }
 
 impl Reference {
-    /// A principal value with its whole turns, where the driver is at `q`.
+    /// Unwraps a principal value at driver coordinate `q`.
     #[inline(always)]
     pub(crate) fn lift<R: Real>(self, angle: R, q: R) -> R {
         match self {
-            // As if no turn were added: −0 becomes 0.
+            // As if zero turns were added: −0 becomes 0.
             Self::Principal => angle + R::ZERO,
             Self::Near(near) => {
                 // A principal value gets one of two numbers of turns.
@@ -115,6 +115,33 @@ mod tests {
     fn half_a_turn_counts_as_none() {
         for (turns, whole) in [(0.5, 0.0), (0.500_001, 0.0), (0.51, 1.0), (1.2, 1.0), (2.0, 2.0)] {
             assert_eq!([turns * TAU, -turns * TAU].map(whole_turns), [whole, -whole], "{turns}");
+        }
+    }
+
+    /// Removing whole turns leaves the angle, to the rounding of the sum itself.
+    #[test]
+    fn reducing_turns_restores_the_angle() {
+        for turns in [1.0, 2.0, 64.0, 1000.0, 4_194_303.0, 4_194_304.0, 1e9] {
+            for part in [0.001, 0.735_422_665_253_286_5, 3.0, 6.2] {
+                for turns in [turns, -turns] {
+                    let angle = part + TAU * turns;
+                    // 2π as a double, and its error.
+                    let lost = (angle - TAU * turns) - part;
+                    let wanted = part + lost - turns * 2.449_293_598_294_706_4e-16;
+                    let rounding = 2.0 * f64::EPSILON * angle.abs().max(TAU);
+                    let found = reduce_turns(angle, turns);
+                    assert!((found - wanted).abs() <= rounding, "{turns} {part}: {found} {wanted}");
+                }
+            }
+        }
+    }
+
+    /// Also backward: a small angle less −1 turn is the sum, rounded once or twice.
+    #[test]
+    fn small_angles_keep_their_digits() {
+        for angle in [-0.735_422_665_253_286_5, -1e-9, 0.1, 3.0] {
+            let found = reduce_turns(angle, -1.0);
+            assert!((found - (angle + TAU)).abs() <= 2.0 * f64::EPSILON * TAU, "{angle}: {found}");
         }
     }
 }

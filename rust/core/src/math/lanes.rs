@@ -1,8 +1,8 @@
 //! The number types of the solver: one number, or several at once.
 //!
 //! [`Real`] is a plain `f64`, two side by side, or several in a register. Each operation is the IEEE
-//! 754 one in each lane separately (no fused multiplication, no library function but exact ones). A lane
-//! therefore has the same bits as the scalar, on every machine and whatever the other lanes hold.
+//! 754 one in each lane separately (no fused multiplication, no library function unless it is exact).
+//! So a lane has the same bits as the scalar, on every machine and whatever the other lanes hold.
 
 use std::fmt::Debug;
 use std::mem::MaybeUninit;
@@ -21,7 +21,7 @@ pub trait Mask: Copy + Debug + Send + 'static {
     fn all(self) -> bool;
     /// The value of one lane.
     fn lane(self, lane: usize) -> bool;
-    /// One bit per lane, that of the first lane the last.
+    /// One bit per lane, the lowest for the first lane.
     fn bits(self) -> u32;
     /// Lane-wise and.
     #[must_use]
@@ -94,7 +94,8 @@ pub trait Real:
     fn bit(self, bit: u32) -> Self::Mask;
     /// `yes` where the mask is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// The numbers of both in turn: those of the first lanes, then those of the last.
+    /// The numbers of both, alternating: a register for the first half of the lanes, then one for the
+    /// second.
     #[inline(always)]
     #[must_use]
     fn zip(self, other: Self) -> [Self; 2] {
@@ -113,16 +114,16 @@ pub trait Real:
             out[lane] = MaybeUninit::new(self.lane(lane));
         }
     }
-    /// The same past the caches, if the slice starts where whole lines of them can be written. Nobody
-    /// may read the numbers, or write there again, before [`fence`](Self::fence).
+    /// The same past the caches, if the slice is aligned for that. Nobody may read or overwrite these
+    /// numbers before [`fence`](Self::fence).
     #[inline(always)]
     fn stream(self, out: &mut [MaybeUninit<f64>]) {
         self.write(out);
     }
-    /// Ends the writing past the caches.
+    /// Completes all writes past the caches.
     #[inline(always)]
     fn fence() {}
-    /// Asks for memory that will soon be written.
+    /// Prefetches memory that will soon be written.
     #[inline(always)]
     fn prefetch(_numbers: &[MaybeUninit<f64>]) {}
 }

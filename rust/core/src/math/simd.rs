@@ -1,4 +1,4 @@
-//! Vector instruction sets: those the machine has, and the one to use.
+//! Vector instruction sets: which ones the machine has, and which one to use.
 
 use std::sync::LazyLock;
 

@@ -1,29 +1,29 @@
-//! What a kernel's loop takes of a column at once: one register, or two side by side, whose
-//! operations need not wait for each other.
+//! The registers of a column that a kernel's loop takes at once: one, or two whose operations need not
+//! wait for each other.
 
 use super::lanes::{Mask, Real};
 use super::pair::{Pair, PairMask};
 use super::vector::Vector;
 
-/// One register `R` of a column, or several.
+/// One register `R`, or several consecutive ones.
 pub(crate) trait Stride<R: Real>: Real {
-    /// How many.
+    /// Number of registers.
     const REGISTERS: usize;
-    /// Those from `first` on.
+    /// Loads the registers of a column from index `first` on.
     fn load(column: &[R], first: usize) -> Self;
-    /// The same of vectors.
+    /// Loads registers of a column of vectors from index `first` on.
     fn load_vectors(column: &[Vector<R>], first: usize) -> Vector<Self>;
-    /// The same of masks.
+    /// Loads the masks of registers from index `first` on.
     fn load_masks(masks: &[R::Mask], first: usize) -> Self::Mask;
-    /// Stores them from `first` on.
+    /// Stores the registers in a column from index `first` on.
     fn store(self, column: &mut [R], first: usize);
-    /// The same for vectors.
+    /// Stores registers of vectors in a column from index `first` on.
     fn store_vectors(vectors: Vector<Self>, column: &mut [Vector<R>], first: usize);
-    /// The first of them.
+    /// The first register.
     fn first(self) -> R;
-    /// The same of a mask.
+    /// The mask of the first register.
     fn first_mask(mask: Self::Mask) -> R::Mask;
-    /// Adds lanes to masks.
+    /// Adds the lanes of `mask` to the masks of registers from index `first` on.
     fn add_to(mask: Self::Mask, masks: &mut [R::Mask], first: usize);
 }
 

@@ -83,13 +83,13 @@ pub const NEAR_SINGULAR_CONDITION: f64 = 8388.608;
 pub const SINGULAR_CONDITION: f64 = 16_777_216.0;
 
 /// Step, as a fraction of a cell of the branch, between the six points that decide on a change
-/// point: large enough for a well-conditioned spread, small enough for a polynomial of degree six
+/// point: large enough for a well-conditioned discriminant, small enough for a polynomial of degree six
 /// (error of the order of its sixth power).
 pub const CHANGE_STEP: f64 = 1.0 / 128.0;
 
-/// Squared spread, per unit of the upstream condition, below which the spread counts as zero: six
-/// values, each accurate to a few u, with weights up to 15/10.
-pub const CHANGE_SPREAD: f64 = 64.0 * UNIT_ROUNDOFF;
+/// Squared discriminant, per unit of the upstream condition, below which the discriminant counts as
+/// zero: six values, each accurate to a few u, with weights up to 15/10.
+pub const CHANGE_DISCRIMINANT: f64 = 64.0 * UNIT_ROUNDOFF;
 
 /// Limit of the upstream condition counted there: the product of the conditions overestimates
 /// chains that are singular together.

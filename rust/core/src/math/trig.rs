@@ -4,7 +4,7 @@
 //! every machine; the system's library promises neither. Errors are in ulp, the unit in the last
 //! place of the exact value rounded to a double. The bounds have a small margin above the worst
 //! error found in some 10^8 samples, most of them near the worst arguments;
-//! `tests/python/test_trig.py` checks them against 50 digits.
+//! `tests/python/package/test_trig.py` checks them against 50 digits.
 //!
 //! The polynomials are minimax in the relative error of the function (Remez exchange at 60 digits,
 //! with mpmath). The coefficients were rounded to doubles one by one from the lowest, and the

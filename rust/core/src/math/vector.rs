@@ -43,7 +43,7 @@ impl<R: Real> Vector<R> {
         Self { x, y }
     }
 
-    /// A vector turned by this rotation: fewer operations if it is along x, as those of binary links.
+    /// A vector turned by this rotation, with fewer operations if it is along x (as every binary link).
     #[inline(always)]
     #[must_use]
     pub(crate) fn turn(self, vector: Vector) -> Self {

@@ -127,7 +127,7 @@ impl Plan {
         for dyad in self.dyads() {
             for (i, unknown) in dyad.unknowns.into_iter().enumerate() {
                 let Unknown::Class(class) = unknown else { continue };
-                // Where a guide turns, the place of the other leg has the rotation itself.
+                // A turning guide stores the rotation itself in the slot of the other leg.
                 on_leg[class] = match dyad.form {
                     Form::TurningGuide => dyad.turning_guide().map(|_| 2 * dyad.index + 1),
                     _ => dyad.leg[i].then_some(2 * dyad.index + i),

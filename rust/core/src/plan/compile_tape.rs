@@ -10,14 +10,14 @@ pub(crate) struct Needs<'a> {
     pub points: &'a [bool],
     /// Rotations.
     pub classes: &'a [bool],
-    /// Whether dyads are sampled: the points that they connect are kept, and a dyad that nothing
-    /// uses is not solved.
+    /// Whether dyads are sampled: the points that they connect are kept, and unused dyads are not
+    /// solved.
     pub samples: bool,
 }
 
-/// What later operations use.
+/// Results that later operations use.
 struct Uses {
-    /// Where the tape is run carefully, and where it is run bare.
+    /// Points used on the careful path and on the bare path.
     points: Vec<bool>,
     points_bare: Vec<bool>,
     orientations: Vec<bool>,
@@ -27,7 +27,7 @@ struct Uses {
 }
 
 impl Tape {
-    /// All of a plan.
+    /// The whole plan.
     pub(crate) fn whole(plan: &Plan) -> Self {
         let (points, classes) = (vec![true; plan.points], vec![true; plan.classes]);
         Self::new(plan, Needs { points: &points, classes: &classes, samples: true })
@@ -39,7 +39,7 @@ impl Tape {
         Self::new(plan, Needs { points: &points, classes, samples: true })
     }
 
-    /// What a request needs of a plan. All dyads are needed: whether they close decides the status.
+    /// The part of a plan that a request needs. All dyads are part of it: they decide the status.
     pub(crate) fn new(plan: &Plan, needs: Needs<'_>) -> Self {
         let all = !plan.has_closed_forms() || needs.points.iter().all(|&needed| needed);
         // Discriminants of dyads without a kernel read orientations.
@@ -121,7 +121,7 @@ impl Tape {
     }
 }
 
-/// Adds to every dyad those before it on which it depends, but for those on which these depend.
+/// Sets the dyads that every dyad directly depends on.
 fn add_upstream(plan: &Plan, ops: &mut [Op]) {
     let mut of_point: Vec<Vec<usize>> = vec![Vec::new(); plan.points];
     let mut of_class: Vec<Option<usize>> = vec![None; plan.classes];
@@ -163,7 +163,7 @@ fn add_upstream(plan: &Plan, ops: &mut [Op]) {
                 last(&mut dyads, &before);
                 of_point[place.to] = dyads;
             }
-            // No bound is computed then.
+            // Such tapes run without bounds.
             Op::Dyad { .. } | Op::Group { .. } | Op::Redundant { .. } => return,
         }
     }
@@ -192,7 +192,7 @@ fn is_bounded(plan: &Plan) -> bool {
     true
 }
 
-/// Whether an edge stands still.
+/// Whether an edge is fixed.
 fn stands(plan: &Plan, edge: usize) -> bool {
     let edge = &plan.edges[edge];
     edge.class == 0 && !plan.orientations[edge.orientation].driven
@@ -248,8 +248,8 @@ impl Op {
 }
 
 impl Op {
-    /// Whether the columns of a dyad's start and end are read where the tape is run bare: not those
-    /// of a crank's pin, or of the ground.
+    /// Whether the bare path reads the columns of the dyad's start and end; it does not read those of a
+    /// crank's pin or of the ground.
     fn columns(&self) -> [bool; 2] {
         match self {
             Self::TwoLegs(op) | Self::StandingGuide(op) => match (op.pin, op.on_ground) {
@@ -264,7 +264,7 @@ impl Op {
 }
 
 impl CrankPin {
-    /// The pin, if a dyad connects one with a point of the ground.
+    /// The crank's pin, if the dyad connects one to the ground.
     fn of(plan: &Plan, dyad: &Dyad) -> Option<Self> {
         let is_start = plan.fixed[dyad.end];
         let (pin, ground) = if is_start { (dyad.start, dyad.end) } else { (dyad.end, dyad.start) };
@@ -291,7 +291,7 @@ impl Dyad {
         }
     }
 
-    /// Whether all its terms but legs stand still, with no slide but its unknowns.
+    /// Whether all its terms but the legs are fixed, and it has no slides but its unknowns.
     pub(crate) fn has_standing_terms(&self, plan: &Plan) -> bool {
         self.others.iter().all(|term| {
             stands(plan, term.edge)
@@ -299,7 +299,7 @@ impl Dyad {
         })
     }
 
-    /// The guide's term, if nothing but a leg and a guide on a known link that moves is in the loop.
+    /// The guide's term, if the loop is a leg and a guide on a moving link that is already solved.
     pub(crate) fn moving_guide(&self, plan: &Plan) -> Option<&LoopTerm> {
         match &self.others[..] {
             [term] if self.form == Form::CircleAndLine => {
@@ -310,7 +310,7 @@ impl Dyad {
         }
     }
 
-    /// The guide's term, if nothing but a leg and a guide that turns with it is in the loop.
+    /// The guide's term, if the loop is a leg and a guide that turns with it.
     pub(crate) fn turning_guide(&self) -> Option<&LoopTerm> {
         match &self.others[..] {
             [term] if self.leg[0] && term.slides == Some(1) && term.turns == Some(0) => Some(term),

@@ -38,9 +38,9 @@ pub(crate) struct DesignConstants {
     pub legs: Vec<[Leg; 2]>,
     /// Other constants of every dyad.
     pub dyads: Vec<DyadConstants>,
-    /// How far from the origin each point can be, at most; of points along a slide, without it.
+    /// Greatest distance of each point from the origin; for points along a slide, without the slide.
     pub reach: Vec<f64>,
-    /// Of every edge that turns with a leg, but is not one: the edge divided by the leg.
+    /// For every edge that turns with a leg but is not one: the edge divided by the leg.
     pub on_leg: Vec<Vector>,
     /// Spans and bars of the groups of binary links.
     pub spans: LoopVectors,
@@ -190,8 +190,7 @@ impl DesignConstants {
         constants
     }
 
-    /// Recomputes the constants for the dimensions of another design of the same plan, and its
-    /// scale.
+    /// Recomputes the constants for another design of the same plan, given its dimensions and scale.
     /// `driven_reach`: the greatest value of a driven slide, m.
     pub(crate) fn bind(
         &mut self,
@@ -254,7 +253,7 @@ impl DesignConstants {
         self.pair_size = if longest > 0.0 { (2.0 * longest).min(1.0) } else { 1.0 };
     }
 
-    /// Makes room; what stays 0 is never written.
+    /// Resizes the arrays. Entries that stay 0 are never written.
     fn resize(&mut self, plan: &Plan, slots: &DimensionMap) {
         let edges = plan.edges.len();
         for vectors in [&mut self.edge_vector, &mut self.guide, &mut self.on_leg] {

@@ -14,12 +14,12 @@ pub(crate) struct Sides<R = f64> {
     pub difference2: R,
     /// a² − b²
     pub split: R,
-    /// By how much the square of the chord may exceed the first and fall below the second, if the
-    /// triangle is to count as flat.
+    /// By how much the square of the chord may exceed `sum2` and fall below `difference2` for the
+    /// triangle still to count as flat.
     pub tolerances: [R; 2],
     /// 1 / (4 a² b²)
     pub per_sine2: R,
-    /// Where ((a + b)² − d²)(d² − (a − b)²) is less, legs and chord d do not close within these
+    /// Lower bound of ((a + b)² − d²)(d² − (a − b)²) for legs and a chord d that close within these
     /// tolerances.
     pub open_area2: R,
 }
@@ -28,8 +28,8 @@ impl<R: Real> Sides<R> {
     #[inline(always)]
     pub(crate) fn of(a: &Leg<R>, b: &Leg<R>) -> Self {
         let (sum, difference) = (a.norm + b.norm, a.norm - b.norm);
-        // The chord of a flat triangle is as long as the sum, or as the difference: there its
-        // square differs by twice itself times the difference in length.
+        // The chord of a flat triangle is as long as the sum or the difference of the legs. A small
+        // relative error of the chord doubles in its square.
         let within = R::splat(2.0 * FLAT_CLOSURE);
         let per_sine2 = R::splat(0.25) * (a.inv_norm2 * b.inv_norm2);
         // Within the tolerances, (sum² − d²)(d² − difference²) is at least minus the greater one
@@ -66,17 +66,17 @@ impl Sides {
 /// Constants of one dyad.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct DyadConstants {
-    /// Of two legs.
+    /// Sides of the triangle of two legs.
     pub sides: Sides,
-    /// The parts of its loop that stand still.
+    /// The fixed part of its loop.
     pub offset: Vector,
-    /// Directions of its guides; of a guide that turns, in the frame of its class.
+    /// Directions of its guides; that of a guide that turns is in the frame of its class.
     pub guides: [Vector; 2],
-    /// How far its chord and legs reach, or farther.
+    /// Upper bound of the lengths of its chord and legs.
     pub reach: f64,
-    /// How far from the origin its inner joint can be, at most.
+    /// Greatest distance of its inner joint from the origin.
     pub inner_reach: f64,
-    /// Its arm² (see `DyadSolution::arm2`) is nowhere greater than the inverse of this.
+    /// Inverse of an upper bound of the squared arm in its condition.
     pub inverse_arm2: f64,
     /// [`Sides::per_sine2`] times that.
     pub bounding_per_sine2: f64,

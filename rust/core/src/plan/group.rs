@@ -72,7 +72,7 @@ pub(crate) struct ColumnTerm {
     pub backward: bool,
 }
 
-/// A group without a closed form.
+/// A group above class II, which has no closed form.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Group {
     /// The unknowns of the iteration.

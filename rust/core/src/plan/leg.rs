@@ -59,7 +59,7 @@ pub(crate) struct Leg<R = f64> {
     pub inv_norm2: R,
     /// 1/vector, as complex numbers.
     pub inverse: Vector<R>,
-    /// Whether it is known to be along x, as that of every binary link.
+    /// Whether it is known to be along x, as the leg of a binary link always is.
     pub along_x: bool,
 }
 

@@ -78,7 +78,7 @@ impl Lengths {
     }
 }
 
-/// One instruction, unlike `max`, which treats NaN on both sides.
+/// A single instruction, unlike `f64::max`, which handles NaN on either side.
 fn greater(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
@@ -94,7 +94,7 @@ pub(super) fn power_of_two(x: f64) -> f64 {
     f64::from_bits(exponent << 52)
 }
 
-/// 1 divided by such a power of two.
+/// Inverse of a power of two, exact in the range of [`power_of_two`].
 pub(super) fn inverse_power(power: f64) -> f64 {
     f64::from_bits((2046 << 52) - power.to_bits())
 }

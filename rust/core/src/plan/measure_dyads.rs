@@ -1,4 +1,4 @@
-//! Measures the dyads of a design: their constants, and how far their points can be.
+//! Computes the constants of a design's dyads, and how far from the origin their points can be.
 
 use super::constants::DesignConstants;
 use super::dyad_constants::{DyadConstants, Sides};
@@ -7,7 +7,7 @@ use super::tape::{Op, PlaceKind, Tape};
 use crate::math::vector::Vector;
 
 impl DesignConstants {
-    /// How far from the origin the tip of a leg can be, by the lengths of its dyad.
+    /// How far from the origin the tip of a leg can be, given the lengths of its dyad.
     fn inner_reach(&self, leg: usize) -> f64 {
         self.dyads.get(leg / 2).map_or(f64::INFINITY, |dyad| dyad.inner_reach)
     }

@@ -32,7 +32,8 @@ pub struct Mechanism {
     pub(crate) slots: DimensionMap,
     /// Angle of every class in the drawing.
     pub(crate) class_angle: Vec<f64>,
-    /// Whole turns between each link's angle in the drawing and that of its class plus offsets.
+    /// Whole turns between each link's angle in the drawing and the sum of its class's angle and
+    /// offsets.
     pub(crate) whole_turns: Vec<f64>,
     pub(crate) number: PlanNumber,
 }
@@ -232,7 +233,7 @@ fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureErr
             return Err(StructureError::Unknown {
                 kind: Named::Dyad,
                 name: name.clone(),
-                place: "assembly".into(),
+                item: "assembly".into(),
                 hint: suggest(name, plan.dyad_names.iter().map(String::as_str)),
             });
         }

@@ -1,20 +1,20 @@
-//! The tape: the plan's steps as the solver runs them, with indices in place of lists, and without
-//! the steps that a request does not need.
+//! The tape: the plan's steps as the solver runs them, with all indices resolved and without the steps
+//! that a request does not need.
 
 use crate::math::lanes::Real;
 
-/// What is run at every position, in order.
+/// The operations to run at every position, in order.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Tape {
     pub ops: Vec<Op>,
     /// The operation of every dyad.
     pub dyads: Vec<usize>,
-    /// Points of the ground that the operations use where they are run bare.
+    /// Ground points that the bare path uses.
     pub fixed: Vec<usize>,
-    /// Orientations with driven parts, whose phases some operation uses.
+    /// Driven orientations whose phases some operation uses.
     pub driven: Vec<usize>,
-    /// Whether all dyads have kernels and depend on points of bounded coordinates alone: then a
-    /// product of sines bounds the condition.
+    /// Whether all dyads have kernels and depend only on points with bounded coordinates. Then a
+    /// product of sines bounds the condition, and the bare path may be used.
     pub is_bounded: bool,
 }
 
@@ -23,13 +23,13 @@ pub(crate) struct Tape {
 pub(crate) enum Op {
     /// A dyad of two legs (RRR).
     TwoLegs(DyadOp),
-    /// A dyad of a leg and a slide along a guide that stands still (RRP).
+    /// A dyad of a leg and a slide along a fixed guide (RRP).
     StandingGuide(DyadOp),
-    /// A dyad of a leg and a slide along a guide on a known link that moves (RRP).
+    /// A dyad of a leg and a slide along a guide on a moving link that is already solved (RRP).
     MovingGuide(DyadOp),
     /// A dyad with a guide that turns (RPR).
     TurningGuide(DyadOp),
-    /// A dyad of two slides along guides that stand still (PRP, RPP).
+    /// A dyad of two slides along fixed guides (PRP, RPP).
     StandingGuides(DyadOp),
     /// Any other dyad.
     Dyad { step: usize },
@@ -57,22 +57,22 @@ pub(crate) struct DyadOp {
     pub turns: [bool; 2],
     /// The orientations that turn with the unknowns, with their classes.
     pub orientations: Vec<(usize, usize)>,
-    /// The last dyads on which its points depend.
+    /// The dyads that its points directly depend on.
     pub upstream: Vec<usize>,
     /// Whether the jet of each leg is used.
     pub keeps: [bool; 2],
-    /// Whether anything uses it.
+    /// Whether any operation uses it.
     pub is_used: bool,
-    /// If one of its points is a crank's pin and the other belongs to the ground: that pin.
+    /// The crank's pin, if it connects one to the ground.
     pub pin: Option<CrankPin>,
     /// Whether start and end belong to the ground.
     pub on_ground: [bool; 2],
-    /// The orientation of its guide, if that is on a known link that moves.
+    /// The orientation of its guide, if the guide is on a moving link.
     pub carrier: Option<usize>,
 }
 
 impl DyadOp {
-    /// The bound of the dyad's condition: its own, with that of all it depends on.
+    /// The bound of the dyad's condition, from its own and that of everything it depends on.
     #[inline(always)]
     pub(crate) fn bound_with<R: Real>(&self, upstream: R, own: R) -> R {
         if self.upstream.is_empty() { own } else { upstream * own }
@@ -111,11 +111,11 @@ pub(crate) struct PlaceOp {
     pub kind: PlaceKind,
     /// Whether it is placed from a point of the ground, whose jet is constant.
     pub from_ground: bool,
-    /// Whether anything uses the point where the tape is run bare.
+    /// Whether any operation of the bare path uses the point.
     pub is_used: bool,
 }
 
-/// How the vector of an edge is found.
+/// How the vector of an edge is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PlaceKind {
     /// It is a leg; `negative`: from its tip to its root.

@@ -1,30 +1,30 @@
-//! Work space that one call leaves to later ones: making it takes longer than solving one design.
+//! Work spaces kept from one call to the next: making one takes longer than solving one design.
 
 use std::any::Any;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The most that is kept, of all mechanisms together; each thread of a call takes its own.
+/// Most work spaces kept, for all mechanisms together. Each thread of a call takes one.
 const MAX_KEPT: usize = 8;
 
-/// Work spaces of any type, with the plans that they fit. The oldest goes first.
+/// Kept work spaces of any type, each with the number of its plan. The oldest comes first.
 static KEPT: Mutex<Vec<(u64, Box<dyn Any + Send>)>> = Mutex::new(Vec::new());
 
-/// Number of a plan, by which work space made for it is found again. Copies of a plan share it;
-/// equality ignores it.
+/// Number of a plan, by which its work spaces are found. Copies of a plan share it; equality ignores
+/// it.
 #[derive(Debug, Clone)]
 pub(crate) struct PlanNumber(u64);
 
 impl PlanNumber {
-    /// The next number.
+    /// A number that no other plan has.
     pub(crate) fn next() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
 
-    /// Takes work space that fits, if some is kept.
+    /// Takes a kept work space that fits, if there is one.
     pub(crate) fn take<T: Any + Send>(&self, fits: impl Fn(&T) -> bool) -> Option<Box<T>> {
-        // Never waits: in a forked process the lock may be held by a thread that is gone.
+        // Must not wait: in a forked process the lock may be held by a thread that no longer exists.
         let mut kept = KEPT.try_lock().ok()?;
         let fits = |(plan, space): &(u64, Box<dyn Any + Send>)| {
             *plan == self.0 && space.downcast_ref().is_some_and(&fits)
@@ -33,7 +33,7 @@ impl PlanNumber {
         kept.remove(index).1.downcast().ok()
     }
 
-    /// Keeps work space, if need be in place of the oldest.
+    /// Keeps a work space, in place of the oldest if there are [`MAX_KEPT`].
     pub(crate) fn keep<T: Any + Send>(&self, space: Box<T>) {
         let oldest = {
             let Ok(mut kept) = KEPT.try_lock() else { return };
@@ -41,7 +41,7 @@ impl PlanNumber {
             kept.push((self.0, space));
             oldest
         };
-        // Freed without the lock.
+        // Free it after releasing the lock.
         drop(oldest);
     }
 }
@@ -56,11 +56,11 @@ impl PartialEq for PlanNumber {
 mod tests {
     use super::*;
 
-    /// A type of its own, since other tests keep work space at the same time.
+    /// A type of its own, because other tests keep work spaces at the same time.
     #[derive(Debug, PartialEq)]
     struct Space(usize);
 
-    /// What others keep meanwhile may drive work space out, but nothing else is ever found.
+    /// Other tests may push this work space out, but a wrong one is never found.
     #[test]
     fn what_is_kept_is_found_once_and_for_its_plan_alone() {
         let (one, other) = (PlanNumber::next(), PlanNumber::next());

@@ -1,4 +1,4 @@
-//! How far one position, or several at once, can be trusted: whether it closes, and its condition.
+//! Whether one position, or several at once, close, and how far rounding limits their accuracy.
 
 use crate::math::lanes::{Mask, Real};
 use crate::plan::plan::Plan;
@@ -19,10 +19,9 @@ pub(crate) struct Conditions<R: Real = f64, const G: usize = 1> {
     pub(crate) upstream: Vec<[R; G]>,
     /// The greatest condition in the position.
     pub(crate) greatest: [R; G],
-    /// For each dyad: the inverse of its condition is nowhere less (where the tape is not run
-    /// carefully).
+    /// A lower bound of the inverse of each dyad's condition (on the bare path only).
     pub(crate) bounds: Vec<[R; G]>,
-    /// The same for all that the present dyad depends on.
+    /// The same for everything that the present dyad depends on.
     pub(crate) bound: [R; G],
     /// By how much each dyad closes (relative to the scale), negative where it does not.
     pub(crate) margin: Vec<[R; G]>,

@@ -1,16 +1,16 @@
 //! One compiled copy of the solver for each level, that is for each set of vector instructions. All
-//! give the same bits, since each operation is rounded separately.
+//! give the same bits, because every operation is rounded separately.
 
 use super::state::{Context, State};
 use crate::math::lanes::Real;
 use crate::math::pair::Pair;
 #[cfg(target_arch = "x86_64")]
-use crate::math::registers::{F64x2, F64x4, F64x8};
+use crate::math::registers::{avx2::F64x4, avx512::F64x8, sse2::F64x2};
 use crate::math::stride::Stride;
 use crate::plan::group::Group;
 use crate::plan::tape::{DyadOp, PlaceOp};
 
-/// Positions solved at once: their columns fit the first-level cache. A turn in steps of 5° is one
+/// Positions in a block: their columns fit the first-level cache, and a turn in steps of 5° is one
 /// block.
 pub(crate) const BLOCK: usize = 80;
 
@@ -21,7 +21,7 @@ pub(crate) const BLOCK: usize = 80;
 pub(crate) trait Level: Sized {
     /// Its register.
     type Register: Real;
-    /// What the bare dyads with many instructions a position take at once.
+    /// How many registers the longer bare kernels take at once.
     type Stride: Stride<Self::Register>;
     /// See [`State::run`].
     fn solve<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>);
@@ -72,7 +72,7 @@ pub(crate) trait Level: Sized {
     );
 }
 
-/// A function of a level that is compiled by itself. `$features`: what its instructions need.
+/// A separately compiled function of a level. `$features`: the target features of its instructions.
 macro_rules! compiled {
     (
         $register:ty; $name:ident [$($size:ident)?]
@@ -91,7 +91,7 @@ macro_rules! compiled {
         ($state:ident, $($argument:ident: $type:ty),+) $body:expr
     ) => {
         #[inline(always)]
-        #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+        #[allow(unsafe_code, reason = "only levels that the processor has are used")]
         fn $name<$(const $size: usize,)? const G: usize>(
             $state: &mut State<$register, G>,
             $($argument: $type),+
@@ -153,7 +153,7 @@ macro_rules! level {
 
 // One number: for single positions.
 level!(alone, Alone, f64, f64);
-// What every processor has: two numbers, which the compiler puts into one register if it can.
+// Two numbers on any processor; the compiler puts them into one register if it can.
 level!(portable, Portable, super::Pair<f64>, super::Pair<f64>);
 #[cfg(target_arch = "x86_64")]
 level!(baseline, Baseline, super::Pair<super::F64x2>, super::Pair<super::F64x2>, "sse2");

@@ -156,7 +156,7 @@ impl<R: Real, const G: usize> State<R, G> {
 #[derive(Clone, Copy)]
 struct Base<'a, R, const G: usize> {
     column: &'a [[Vector<R>; G]],
-    /// Of the ground: it needs no column.
+    /// A point of the ground, which needs no column.
     ground: Option<Vector<R>>,
 }
 

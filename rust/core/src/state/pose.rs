@@ -1,4 +1,4 @@
-//! The pose of one position, or of several at once: where everything is, with its analogues.
+//! The pose of one position, or of several at once: points, orientations and slides, with analogues.
 
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;

@@ -24,9 +24,9 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     pub(crate) len: usize,
     /// Number of lane groups in use.
     pub(crate) groups: usize,
-    /// Where everything is.
+    /// Poses of all links, with analogues.
     pub(crate) pose: Pose<R, G>,
-    /// How far that can be trusted.
+    /// Closure and condition.
     pub(crate) conditions: Conditions<R, G>,
     pub(crate) work: Workspace<R, G>,
     /// Status of a single position (with several lanes see `needs_scalar`).
@@ -46,7 +46,7 @@ pub(crate) struct Context<'a> {
     pub derivatives: &'a DerivativeTables,
     /// Assembly signs, +1 or −1, for single positions.
     pub signs: &'a [f64],
-    /// What is to be run.
+    /// The operations to run.
     pub tape: &'a Tape,
 }
 
@@ -65,8 +65,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Sets, in the lane groups in use, what is constant over all positions of a design and used where
-    /// the tape is run bare.
+    /// Sets, in the lane groups in use, what the bare path needs and all positions of a design share.
     #[inline(always)]
     pub(crate) fn prepare_bare(&mut self, cx: &Context<'_>) {
         let groups = self.groups.min(G);
@@ -89,7 +88,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Sets what is constant over all positions of a design; call it before the first of them.
+    /// Sets what all positions of a design share; call it before the first of them.
     #[inline(always)]
     pub(crate) fn prepare(
         &mut self,
@@ -111,7 +110,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
         }
         if R::LANES == 1 {
-            // An interpolated state has rounding in what stands still.
+            // After interpolation even fixed orientations carry rounding.
             self.pose.class[0] = [Vector::ONE; G];
             self.pose.theta[..len].fill([R::ZERO; G]);
             let jets = self.pose.orient.chunks_exact_mut(len);

@@ -54,14 +54,14 @@ impl Fault {
     }
 }
 
-/// How a position failed, as the solver leaves it: enough to name the reason without solving again.
+/// Why the solver rejected a position, in enough detail to explain it without solving again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Rejection {
     /// The position, or its analogues, could not be computed.
     Failed { status: Status, fault: Option<Fault> },
-    /// A dead point is beside it; `step`: the dyad that folds there, if it is known.
+    /// Next to a dead point; `step`: the dyad that folds there, if known.
     DeadPoint { step: Option<usize> },
-    /// Beside a near miss of a change point, where the motion turns too sharply to be integrated.
+    /// Next to a near miss of a change point, where the motion turns too sharply to be integrated.
     NearMiss { step: usize },
 }
 

@@ -1,4 +1,4 @@
-//! Runs the tape: all that a request needs of some positions.
+//! Runs the tape: the operations that a request needs, on one position or a block.
 
 use super::conditions::Conditions;
 use super::kernel::Level;
@@ -11,12 +11,13 @@ use crate::math::vector::Vector;
 use crate::plan::plan::{Orientation, Step};
 use crate::plan::tape::{DyadOp, Op, Tape};
 
-/// Least of [`State::bounds`] at which no dyad is nearly flat, with a margin for its own rounding.
+/// No dyad is nearly flat while all [`Conditions::bounds`] are at least this (with a margin for their
+/// rounding).
 const LEAST_BOUND: f64 = (1.0 + 1.0e-6) / (NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION);
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Computes positions at their `q`, `unit` and `signs`, with conditions, margins, and what a
-    /// failed position is.
+    /// Careful path: computes positions at their `q`, `unit` and `signs`, with conditions, margins and
+    /// the reason of a failure.
     #[inline(always)]
     pub(crate) fn run<L: Level<Register = R>>(&mut self, cx: &Context<'_>, tape: &Tape) {
         self.start_careful();
@@ -60,10 +61,10 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Computes positions of a tape that [`is_bounded`](Tape::is_bounded), for one driver; of what
-    /// is beside them only [`State::open`] and [`State::bounds`]. Positions that are
-    /// [`doubtful`](Self::doubtful) must be computed again by [`run`](Self::run); all others have
-    /// the same bits.
+    /// Bare path, for one driver and a tape that [`is_bounded`](Tape::is_bounded): computes positions
+    /// with no more about them than [`Conditions::open`] and [`Conditions::bounds`]. If
+    /// [`is_doubtful`](Self::is_doubtful), they must be computed again by [`run`](Self::run);
+    /// otherwise they have the same bits.
     #[inline(always)]
     pub(crate) fn run_bare<L: Level<Register = R>>(&mut self, cx: &Context<'_>, tape: &Tape) {
         self.conditions.open = [R::Mask::NONE; G];
@@ -110,7 +111,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Sets the bound of all that a dyad depends on, if there is anything.
+    /// Sets the bound of everything that a dyad depends on, if it depends on anything.
     #[inline(always)]
     fn start_bound(&mut self, op: &DyadOp) {
         if op.upstream.is_empty() {
@@ -126,7 +127,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Whether in some lane some dyad may be nearly flat, or open without being known to be.
+    /// Whether in some lane a dyad may be nearly flat, or open without being marked as such.
     #[inline(always)]
     pub(crate) fn is_doubtful(&self) -> bool {
         let groups = self.groups.min(G);
@@ -139,7 +140,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         for bounds in bounds {
             for g in 0..groups {
-                // NaN is doubtful.
+                // NaN must count as doubtful.
                 let far = R::splat(LEAST_BOUND).le(bounds[g]);
                 doubtful = doubtful.or(far.or(open[g]).not());
             }
@@ -147,7 +148,7 @@ impl<R: Real, const G: usize> State<R, G> {
         doubtful.any()
     }
 
-    /// Whether in some lane some dyad does not close.
+    /// Whether in some lane a dyad does not close.
     #[inline(always)]
     pub(crate) fn has_open(&self) -> bool {
         let mut some = R::Mask::NONE;

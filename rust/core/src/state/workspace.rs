@@ -1,4 +1,4 @@
-//! What the iteration for groups above class II computes in, and what it leaves to the branch.
+//! Work space of the iteration for groups above class II, with the results that the branch checks.
 
 use super::group::workspace::GroupWorkspace;
 use crate::math::derivatives::DerivativeTables;
@@ -18,7 +18,7 @@ pub(crate) struct Workspace<R: Real = f64, const G: usize = 1> {
     pub(crate) inv_length: Vec<[R; G]>,
     /// Whether the caller wants the rotation of each class; used for bars that no step needs.
     pub(crate) angle_wanted: Vec<bool>,
-    /// Of groups of binary links.
+    /// Work space of the kernel for groups of binary links.
     pub(crate) loops: GroupWorkspace<R>,
     /// Determinant of every group's matrix at the solution (with analogues only).
     pub(crate) determinants: Vec<[R; G]>,

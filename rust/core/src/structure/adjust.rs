@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use super::closure::{Closure, LeftOut, rotations};
 use super::least_norm::least_norm;
 use super::skeleton::Skeleton;
-use super::system::{Pose, System};
+use super::system::{SkeletonPose, System};
 use crate::description::Linkage;
 use crate::description::error::StructureError;
 use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
@@ -62,7 +62,7 @@ pub(crate) fn adjust(
     closure: &Closure,
     cancel: Option<&AtomicBool>,
 ) -> Result<Adjusted, StructureError> {
-    let Some(initial) = Conditions::of(linkage, closure, cancel)? else {
+    let Some(initial) = FitConditions::of(linkage, closure, cancel)? else {
         return Ok(Adjusted::AsDrawn);
     };
     if initial.misfit() <= EXACT {
@@ -76,7 +76,7 @@ pub(crate) fn adjust(
         if max_change(linkage, &next) > REDUNDANT_CLOSURE * size {
             return Ok(too_far);
         }
-        match Conditions::of(&next, closure, cancel)? {
+        match FitConditions::of(&next, closure, cancel)? {
             Some(after) if after.misfit() < 0.5 * conditions.misfit() => {
                 (best, conditions) = (next, after);
             }
@@ -101,7 +101,7 @@ fn max_change(one: &Linkage, other: &Linkage) -> f64 {
 
 /// Linear conditions on a change of the drawing for its redundant links to fit: a row for each
 /// pose and self-stress.
-struct Conditions {
+struct FitConditions {
     size: f64,
     /// Names of the links and slides in a self-stress.
     links: Vec<String>,
@@ -112,7 +112,7 @@ struct Conditions {
     misfits: DVector<f64>,
 }
 
-impl Conditions {
+impl FitConditions {
     /// `None` if nothing is redundant, or if it does not nearly fit along the motion.
     fn of(
         linkage: &Linkage,
@@ -198,7 +198,7 @@ impl Conditions {
 fn poses_along_motion(
     skeleton: &Skeleton<'_>,
     system: &System,
-) -> Result<Vec<Pose>, StructureError> {
+) -> Result<Vec<SkeletonPose>, StructureError> {
     let start = skeleton.tolerant_rank(system, skeleton.drawing())?;
     let (mut found, mut stops_fitting) = (Vec::new(), false);
     let directions = if start.mobility == 1 { 1 } else { DIRECTIONS };

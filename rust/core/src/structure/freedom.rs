@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use super::rank;
 use super::rank::Rank;
 use super::skeleton::Skeleton;
-use super::system::{Pose, System, Unknown};
+use super::system::{ClosureUnknown, SkeletonPose, System};
 use crate::description::error::Interrupted;
 use crate::math::tolerance::{
     NEARLY_DEPENDENT, NEARLY_REDUNDANT, RANK, REGULAR_CLOSURE, TRUNCATED,
@@ -26,7 +26,7 @@ impl Skeleton<'_> {
     /// # Errors
     ///
     /// [`Interrupted`].
-    pub(crate) fn rank(&self, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
+    pub(crate) fn rank(&self, system: &System, pose: &SkeletonPose) -> Result<Rank, Interrupted> {
         self.rank_above(RANK, system, pose)
     }
 
@@ -35,7 +35,11 @@ impl Skeleton<'_> {
     /// # Errors
     ///
     /// [`Interrupted`].
-    pub(crate) fn tolerant_rank(&self, system: &System, pose: &Pose) -> Result<Rank, Interrupted> {
+    pub(crate) fn tolerant_rank(
+        &self,
+        system: &System,
+        pose: &SkeletonPose,
+    ) -> Result<Rank, Interrupted> {
         self.rank_above(NEARLY_DEPENDENT, system, pose)
     }
 
@@ -43,7 +47,7 @@ impl Skeleton<'_> {
         &self,
         threshold: f64,
         system: &System,
-        pose: &Pose,
+        pose: &SkeletonPose,
     ) -> Result<Rank, Interrupted> {
         self.check_cancelled()?;
         let (jacobian, unknowns) = (self.jacobian(system, pose), system.unknowns.len());
@@ -65,13 +69,13 @@ impl Skeleton<'_> {
     pub(crate) fn displaced_poses(
         &self,
         system: &System,
-    ) -> Result<Vec<(Pose, Rank)>, Interrupted> {
+    ) -> Result<Vec<(SkeletonPose, Rank)>, Interrupted> {
         let initial = self.rank(system, self.drawing())?;
         if initial.mobility == 0 {
             return Ok(Vec::new());
         }
         let mut random = 0x9E37_79B9_7F4A_7C15_u64;
-        let mut poses: Vec<(Pose, Rank)> = Vec::new();
+        let mut poses: Vec<(SkeletonPose, Rank)> = Vec::new();
         // Several directions, because several branches of motion meet in a singular drawing.
         for _ in 0..8 {
             for amplitude in [0.1, 0.03, -0.1, -0.03, 0.01, 0.003] {
@@ -95,9 +99,9 @@ impl Skeleton<'_> {
     fn project(
         &self,
         system: &System,
-        from: &Pose,
+        from: &SkeletonPose,
         step: &DVector<f64>,
-    ) -> Result<Option<Pose>, Interrupted> {
+    ) -> Result<Option<SkeletonPose>, Interrupted> {
         let mut pose = from.after_step(step, system);
         let mut total = step.clone();
         for _ in 0..30 {
@@ -124,9 +128,9 @@ impl Skeleton<'_> {
     pub(crate) fn project_tolerant(
         &self,
         system: &System,
-        from: &Pose,
+        from: &SkeletonPose,
         step: &DVector<f64>,
-    ) -> Result<Option<(Pose, f64)>, Interrupted> {
+    ) -> Result<Option<(SkeletonPose, f64)>, Interrupted> {
         let mut pose = from.after_step(step, system);
         let mut total = step.clone();
         let mut previous = f64::INFINITY;
@@ -156,7 +160,7 @@ impl Skeleton<'_> {
     fn gauss_newton_step(
         &self,
         system: &System,
-        pose: &Pose,
+        pose: &SkeletonPose,
         residual: &DVector<f64>,
         threshold: f64,
     ) -> Result<DVector<f64>, Interrupted> {
@@ -170,7 +174,7 @@ impl Skeleton<'_> {
     /// Links that any of the motions (columns over the unknowns) moves.
     #[must_use]
     pub(crate) fn moving_links(&self, system: &System, motions: &DMatrix<f64>) -> Vec<usize> {
-        let moves = |selected: &dyn Fn(Unknown) -> bool| {
+        let moves = |selected: &dyn Fn(ClosureUnknown) -> bool| {
             let rows = system.unknowns.iter().enumerate().filter(|(_, u)| selected(**u));
             rows.map(|(row, _)| motions.row(row).amax()).fold(0.0, f64::max)
                 > 1e-6 * motions.amax().max(f64::MIN_POSITIVE)
@@ -180,9 +184,9 @@ impl Skeleton<'_> {
             .filter(|&l| {
                 let (class, point) = (system.class_of[l], self.closure.reference[l]);
                 moves(&|u| match u {
-                    Unknown::Class(c) => c == class,
-                    Unknown::Point { point: p, .. } => p == point,
-                    Unknown::Slide(_) => false,
+                    ClosureUnknown::Class(c) => c == class,
+                    ClosureUnknown::Point { point: p, .. } => p == point,
+                    ClosureUnknown::Slide(_) => false,
                 })
             })
             .collect()

@@ -23,7 +23,7 @@ use std::sync::atomic::AtomicBool;
 use self::closure::rotations;
 use self::rank::Rank;
 use self::skeleton::Skeleton;
-use self::system::{Pose, System};
+use self::system::{SkeletonPose, System};
 use crate::description::error::{DriverFault, Overconstraint, StructureError};
 use crate::description::{Driver, Linkage};
 
@@ -81,12 +81,17 @@ impl Structure {
         let skeleton = Skeleton::new(linkage, closure, &free, classes, cancel);
         let system = System::new(linkage, closure, &none_left_out, &free, false);
         let at_drawing = skeleton.rank(&system, skeleton.drawing())?;
-        let drives =
-            |pose: &Pose| match locked_rank(linkage, closure, &skeleton, pose, &none_left_out) {
-                Ok(rank) => Ok(rank.mobility == 0),
-                Err(StructureError::Interrupted) => Err(StructureError::Interrupted),
-                Err(_) => Ok(false),
-            };
+        let drives = |pose: &SkeletonPose| match locked_rank(
+            linkage,
+            closure,
+            &skeleton,
+            pose,
+            &none_left_out,
+        ) {
+            Ok(rank) => Ok(rank.mobility == 0),
+            Err(StructureError::Interrupted) => Err(StructureError::Interrupted),
+            Err(_) => Ok(false),
+        };
         // Take the drawing if all its equations are independent and the drivers control its motion;
         // otherwise a displaced pose, preferably on a branch along which they do.
         let drawing = (skeleton.drawing().clone(), at_drawing.clone());
@@ -223,7 +228,7 @@ fn free_links(
     linkage: &Linkage,
     closure: &Closure,
     skeleton: &Skeleton<'_>,
-    pose: &Pose,
+    pose: &SkeletonPose,
 ) -> Result<Vec<String>, StructureError> {
     let none_left_out = LeftOut::default();
     let (rotation, _) = rotations(linkage, &none_left_out, true)?;
@@ -240,7 +245,7 @@ fn locked_rank(
     linkage: &Linkage,
     closure: &Closure,
     skeleton: &Skeleton<'_>,
-    pose: &Pose,
+    pose: &SkeletonPose,
     redundant: &LeftOut,
 ) -> Result<Rank, StructureError> {
     let (rotation, _) = rotations(linkage, redundant, true)?;
@@ -253,7 +258,7 @@ fn check_drivers(
     linkage: &Linkage,
     closure: &Closure,
     skeleton: &Skeleton<'_>,
-    pose: &Pose,
+    pose: &SkeletonPose,
     redundant: &LeftOut,
 ) -> Result<(), StructureError> {
     let rank_with = |drivers: &[Driver]| -> Result<Rank, StructureError> {

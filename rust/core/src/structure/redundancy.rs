@@ -3,7 +3,7 @@
 use super::closure::{Closure, LeftOut, rotations};
 use super::rank::Rank;
 use super::skeleton::Skeleton;
-use super::system::{Pose, System};
+use super::system::{SkeletonPose, System};
 use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
 
@@ -19,7 +19,7 @@ pub(crate) fn find_redundant(
     linkage: &Linkage,
     closure: &Closure,
     skeleton: &Skeleton<'_>,
-    pose: &Pose,
+    pose: &SkeletonPose,
     full: &Rank,
     start: LeftOut,
 ) -> Result<(LeftOut, usize), StructureError> {

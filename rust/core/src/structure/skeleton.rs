@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::closure::{Closure, Rotation, Span};
 use super::elimination::SparseRows;
-use super::system::{Pose, System};
+use super::system::{SkeletonPose, System};
 use crate::description::Linkage;
 use crate::math::trig::sin_cos;
 use crate::math::vector::Vector;
@@ -22,7 +22,7 @@ pub(crate) struct Skeleton<'a> {
     vector: Vec<[f64; 2]>,
     /// Guide directions in the drawing; zero for edges without a guide.
     direction: Vec<[f64; 2]>,
-    drawing: Pose,
+    drawing: SkeletonPose,
     /// Unit of all lengths here, m.
     size: f64,
     /// Stops the work once true.
@@ -64,14 +64,17 @@ impl<'a> Skeleton<'a> {
                 Span::Joint { .. } => [0.0; 2],
             })
             .collect();
-        let drawing =
-            Pose { points, turn: vec![0.0; classes], slide: vec![0.0; linkage.slides.len()] };
+        let drawing = SkeletonPose {
+            points,
+            turn: vec![0.0; classes],
+            slide: vec![0.0; linkage.slides.len()],
+        };
         Self { linkage, closure, free, vector, direction, drawing, size, cancel }
     }
 
     /// The drawing itself.
     #[must_use]
-    pub(crate) fn drawing(&self) -> &Pose {
+    pub(crate) fn drawing(&self) -> &SkeletonPose {
         &self.drawing
     }
 
@@ -82,12 +85,12 @@ impl<'a> Skeleton<'a> {
     }
 
     /// Rotation of an edge's link since the drawing, as a unit vector.
-    fn edge_rotation(&self, pose: &Pose, e: usize) -> Vector {
+    fn edge_rotation(&self, pose: &SkeletonPose, e: usize) -> Vector {
         Vector::at_angle(pose.turn[self.free[self.closure.edges[e].link].class])
     }
 
     /// Edge vector and guide direction in a pose.
-    fn edge_vectors(&self, pose: &Pose, e: usize) -> ([f64; 2], [f64; 2]) {
+    fn edge_vectors(&self, pose: &SkeletonPose, e: usize) -> ([f64; 2], [f64; 2]) {
         let edge = &self.closure.edges[e];
         let turn = self.edge_rotation(pose, e);
         let (sin, cos) = (turn.y, turn.x);
@@ -100,7 +103,7 @@ impl<'a> Skeleton<'a> {
 
     /// Residual of each equation of a system in a pose.
     #[must_use]
-    pub(crate) fn residual(&self, system: &System, pose: &Pose) -> DVector<f64> {
+    pub(crate) fn residual(&self, system: &System, pose: &SkeletonPose) -> DVector<f64> {
         let mut rows = Vec::with_capacity(system.rows());
         for &e in &system.edges {
             let edge = &self.closure.edges[e];
@@ -113,7 +116,7 @@ impl<'a> Skeleton<'a> {
     }
 
     /// Jacobian of the closure equations: the entries of each row in the order of columns.
-    pub(super) fn jacobian(&self, system: &System, pose: &Pose) -> SparseRows {
+    pub(super) fn jacobian(&self, system: &System, pose: &SkeletonPose) -> SparseRows {
         let mut rows = Vec::with_capacity(system.rows());
         for &e in &system.edges {
             let edge = &self.closure.edges[e];
@@ -141,7 +144,7 @@ impl<'a> Skeleton<'a> {
     pub(crate) fn drawing_gradient(
         &self,
         system: &System,
-        pose: &Pose,
+        pose: &SkeletonPose,
         weights: &DVector<f64>,
     ) -> Vec<f64> {
         let joints = self.linkage.joints.len();

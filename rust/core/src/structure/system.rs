@@ -8,21 +8,21 @@ use crate::description::{Driver, Linkage};
 /// A displaced linkage: points, and rotations of the free classes and displacements
 /// of the slides since the drawing. Lengths are relative to the size.
 #[derive(Debug, Clone)]
-pub(crate) struct Pose {
+pub(crate) struct SkeletonPose {
     pub(super) points: Vec<[f64; 2]>,
     pub(super) turn: Vec<f64>,
     pub(super) slide: Vec<f64>,
 }
 
-impl Pose {
+impl SkeletonPose {
     /// The pose after a step in the unknowns of a system.
     pub(super) fn after_step(&self, step: &DVector<f64>, system: &System) -> Self {
         let mut next = self.clone();
         for (unknown, delta) in system.unknowns.iter().zip(step.iter()) {
             match *unknown {
-                Unknown::Point { point, axis } => next.points[point][axis] += delta,
-                Unknown::Class(class) => next.turn[class] += delta,
-                Unknown::Slide(slide) => next.slide[slide] += delta,
+                ClosureUnknown::Point { point, axis } => next.points[point][axis] += delta,
+                ClosureUnknown::Class(class) => next.turn[class] += delta,
+                ClosureUnknown::Slide(slide) => next.slide[slide] += delta,
             }
         }
         next
@@ -31,7 +31,7 @@ impl Pose {
 
 /// One unknown of the closure equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Unknown {
+pub(crate) enum ClosureUnknown {
     /// x (0) or y (1) of a point.
     Point { point: usize, axis: usize },
     /// Rotation of a class.
@@ -46,7 +46,7 @@ pub(crate) struct System {
     /// Kept edges, two rows each.
     pub edges: Vec<usize>,
     /// Columns.
-    pub unknowns: Vec<Unknown>,
+    pub unknowns: Vec<ClosureUnknown>,
     /// Class of every link in this system.
     pub(super) class_of: Vec<usize>,
     /// Column of each point (its x), class and slide that is unknown.
@@ -79,17 +79,17 @@ impl System {
         }
         let mut unknowns = Vec::new();
         for point in (0..closure.points).filter(|&p| point_used[p] && !closure.fixed[p]) {
-            unknowns.extend([0, 1].map(|axis| Unknown::Point { point, axis }));
+            unknowns.extend([0, 1].map(|axis| ClosureUnknown::Point { point, axis }));
         }
         let class_of: Vec<usize> = rotation.iter().map(|r| r.class).collect();
         let mut classes: Vec<usize> = links.iter().map(|&l| class_of[l]).collect();
         classes.sort_unstable();
         classes.dedup();
-        unknowns.extend(classes.into_iter().filter(|&c| c != 0).map(Unknown::Class));
+        unknowns.extend(classes.into_iter().filter(|&c| c != 0).map(ClosureUnknown::Class));
         let driven = |slide| locked && linkage.drivers.contains(&Driver::Slide(slide));
         for &e in &edges {
             if let Some(slide) = closure.edges[e].slide().filter(|&s| !driven(s)) {
-                unknowns.push(Unknown::Slide(slide));
+                unknowns.push(ClosureUnknown::Slide(slide));
             }
         }
         let mut column_of_point = vec![None; closure.points];
@@ -97,10 +97,10 @@ impl System {
         let mut column_of_slide = vec![None; linkage.slides.len()];
         for (column, unknown) in unknowns.iter().enumerate() {
             match *unknown {
-                Unknown::Point { point, axis: 0 } => column_of_point[point] = Some(column),
-                Unknown::Point { .. } => {}
-                Unknown::Class(class) => column_of_class[class] = Some(column),
-                Unknown::Slide(slide) => column_of_slide[slide] = Some(column),
+                ClosureUnknown::Point { point, axis: 0 } => column_of_point[point] = Some(column),
+                ClosureUnknown::Point { .. } => {}
+                ClosureUnknown::Class(class) => column_of_class[class] = Some(column),
+                ClosureUnknown::Slide(slide) => column_of_slide[slide] = Some(column),
             }
         }
         Self { edges, unknowns, class_of, column_of_point, column_of_class, column_of_slide }

@@ -39,10 +39,7 @@ impl Coordinate {
 
     /// Its numbers, if it is the only need.
     pub(super) fn values<'a>(&self, positions: &Positions<'a>) -> impl Iterator<Item = f64> + 'a {
-        let stride = match self.need.quantity {
-            Quantity::Joint(_) | Quantity::Place(_) => 2,
-            Quantity::Slide(_) | Quantity::Angle(_) => 1,
-        };
+        let stride = self.need.width();
         let first = self.component.min(stride - 1);
         let all = positions.values.first().copied().unwrap_or(&[]);
         all.iter().skip(first).step_by(stride).copied()

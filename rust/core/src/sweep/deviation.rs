@@ -1,15 +1,13 @@
 //! How straight, or how round, the best part of a path is.
 
+use super::course::Course;
 use super::metric::{Metric, Need, Positions};
+use super::moments::{Moments, RunningSums, SIDE_BY_SIDE};
 use crate::batch::outputs::Quantity;
 use crate::math::vector::Vector;
 
-/// Distances by running sums differ from others by no more than this part of the size of the path: a
-/// stretch that is a thousandth of it has moments to nine digits, and a direction to as many.
-const RUNNING_SUMS: f64 = 1.0e-6;
-
-/// Points that are summed or compared at once.
-const SIDE_BY_SIDE: usize = 4;
+/// Products of a part and a number of positions that should be whole are below that by less.
+const WHOLE: f64 = 1.0e-9;
 
 /// What the path is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,16 +21,15 @@ pub enum Shape {
 
 /// The greatest distance of a joint's path from a line or circle, over the consecutive positions
 /// where it is least, m.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
     /// Index of the joint.
     pub joint: usize,
     /// What its path is compared with.
     pub shape: Shape,
-    /// Number of consecutive positions.
-    pub count: usize,
-    /// Whether the first position follows the last.
-    pub is_closed: bool,
+    /// The part of the positions that are consecutive: more than 0, at most 1. Where the motion
+    /// [returns](Positions::returns) they pass from the last to the first.
+    pub part: f64,
     /// Whether it is divided by the length along the line, or by the radius.
     pub is_relative: bool,
 }
@@ -45,11 +42,11 @@ impl Metric for Deviation {
     fn of(&self, positions: &Positions<'_>) -> f64 {
         let all = positions.values.first().copied().unwrap_or(&[]);
         let points = all.as_chunks::<2>().0;
-        let count = self.count;
-        if count == 0 || points.len() < count {
+        let count = self.count(points.len(), positions.returns);
+        if count < self.least_count() {
             return f64::NAN;
         }
-        let starts = if self.is_closed { points.len() } else { points.len() - count + 1 };
+        let starts = if positions.returns { points.len() } else { points.len() - count + 1 };
         let mut path: Vec<Vector> = points.iter().map(|&[x, y]| Vector::new(x, y)).collect();
         path.extend_from_within(..starts + count - 1 - points.len());
         // Three points show where the best stretch is likely to be, and which are worse.
@@ -72,9 +69,44 @@ impl Metric for Deviation {
         }
         if least == f64::INFINITY { f64::NAN } else { least }
     }
+
+    fn asks_return(&self) -> bool {
+        true
+    }
+
+    fn check(&self, course: &Course<'_>) -> Result<(), String> {
+        if !(self.part > 0.0 && self.part <= 1.0) {
+            return Err(format!("part is {}: more than 0 and at most 1 is needed", self.part));
+        }
+        let (all, least) = (course.count(), self.least_count());
+        let count = self.count(all, course.turn.is_some());
+        if count >= least {
+            return Ok(());
+        }
+        let part = self.part;
+        Err(format!(
+            "part={part} of {all} positions are {count}: too few, {least} are needed at least"
+        ))
+    }
 }
 
 impl Deviation {
+    /// Number of consecutive positions, of all.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to a length")]
+    fn count(&self, all: usize, returns: bool) -> usize {
+        let steps = if returns { all } else { all.saturating_sub(1) };
+        let count = (self.part * steps as f64 + WHOLE).floor() as usize + 1;
+        count.min(all)
+    }
+
+    /// One more than lie on any line or circle.
+    fn least_count(&self) -> usize {
+        match self.shape {
+            Shape::Line => 3,
+            Shape::Circle => 4,
+        }
+    }
+
     /// The greatest distance of a stretch; infinite if it is not below `least`.
     fn greatest(&self, stretch: &[Vector], least: f64) -> f64 {
         let moments = Moments::of(stretch);
@@ -100,60 +132,33 @@ impl Deviation {
         farthest(stretch, least * length, |point| axis.cross(point - middle)) / length
     }
 
-    /// The same from the circle of least squares.
+    /// The same from the circle of least squares; that of points on a line is infinitely large.
     fn off_circle(&self, stretch: &[Vector], moments: Moments, least: f64) -> f64 {
         let Moments { middle, squares: [xx, xy, yy] } = moments;
+        let determinant = xx * yy - xy * xy;
+        if determinant == 0.0 {
+            let from_line = Self { is_relative: false, ..*self };
+            let scale = if self.is_relative { 0.0 / (xx + yy) } else { 1.0 };
+            return scale * from_line.off_line(stretch, moments, f64::INFINITY);
+        }
         let mut cubic = Vector::ZERO;
         for &point in stretch {
             let from_middle = point - middle;
             cubic += from_middle.scale(from_middle.norm2());
         }
         let centre = Vector::new(yy * cubic.x - xy * cubic.y, xx * cubic.y - xy * cubic.x)
-            .scale(0.5 / (xx * yy - xy * xy));
-        let radius = (centre.norm2() + (xx + yy) / stretch.len() as f64).sqrt();
+            .scale(0.5 / determinant);
+        let mean_square = (xx + yy) / stretch.len() as f64;
+        let radius = (centre.norm2() + mean_square).sqrt();
         let length = if self.is_relative { radius } else { 1.0 };
-        let distance = |point: Vector| (point - middle - centre).norm() - radius;
-        farthest(stretch, least * length, distance) / length
-    }
-}
-
-/// The mean of some points, and the sums of squares and products about it: xx, xy, yy.
-#[derive(Clone, Copy)]
-struct Moments {
-    middle: Vector,
-    squares: [f64; 3],
-}
-
-impl Moments {
-    fn of(stretch: &[Vector]) -> Self {
-        // About a point among them, squares are hardly greater than about the mean.
-        let origin = stretch[stretch.len() / 2];
-        let sums = sums(stretch, |point| {
-            let Vector { x, y } = point - origin;
-            [x, y, x * x, x * y, y * y]
-        });
-        Self::about(origin, sums, stretch.len())
-    }
-
-    /// From sums of coordinates, squares and products about a point.
-    fn about(origin: Vector, [x, y, xx, xy, yy]: [f64; 5], count: usize) -> Self {
-        let from_origin = Vector::new(x, y).scale(1.0 / count as f64);
-        let Vector { x: mean_x, y: mean_y } = from_origin;
-        let squares = [xx - x * mean_x, xy - x * mean_y, yy - y * mean_y];
-        Self { middle: origin + from_origin, squares }
-    }
-
-    /// The direction of the line of least squares, that of the greater moment: tan 2α = 2 xy/(xx − yy).
-    fn axis(&self) -> Vector {
-        let [xx, xy, yy] = self.squares;
-        let half = 0.5 * (xx - yy);
-        let radius = (half * half + xy * xy).sqrt();
-        let axis = if half > 0.0 {
-            Vector::new(radius + half, xy)
-        } else {
-            Vector::new(xy, radius - half)
+        // |p − c| − r = (|p|² − 2 p·c − (r² − |c|²))/(|p − c| + r): the difference itself loses the
+        // distance where the radius is large.
+        let distance = |point: Vector| {
+            let from_middle = point - middle;
+            let power = from_middle.norm2() - 2.0 * from_middle.dot(centre) - mean_square;
+            power / ((from_middle - centre).norm() + radius)
         };
-        if axis == Vector::ZERO { Vector::ONE } else { axis.scale(1.0 / axis.norm()) }
+        farthest(stretch, least * length, distance) / length
     }
 }
 
@@ -176,39 +181,6 @@ fn off_line_of_sums(stretch: &[Vector], moments: Moments) -> f64 {
     few[0].max(few[1]).max(few[2])
 }
 
-/// Running sums of coordinates, squares and products about the first point of a path.
-struct RunningSums {
-    origin: Vector,
-    sums: Vec<[f64; 5]>,
-    /// How far a distance by these may be off.
-    rounding: f64,
-}
-
-impl RunningSums {
-    fn of(path: &[Vector]) -> Self {
-        let origin = path.first().copied().unwrap_or(Vector::ZERO);
-        let mut sum = [0.0; 5];
-        let mut size = 0.0;
-        let mut sums = Vec::with_capacity(path.len() + 1);
-        sums.push(sum);
-        for &point in path {
-            let Vector { x, y } = point - origin;
-            for (sum, term) in sum.iter_mut().zip([x, y, x * x, x * y, y * y]) {
-                *sum += term;
-            }
-            sums.push(sum);
-            size = if x.abs() + y.abs() > size { x.abs() + y.abs() } else { size };
-        }
-        Self { origin, sums, rounding: RUNNING_SUMS * size }
-    }
-
-    fn moments(&self, start: usize, count: usize) -> Moments {
-        let (from, to) = (&self.sums[start], &self.sums[start + count]);
-        let sums = std::array::from_fn(|k| to[k] - from[k]);
-        Moments::about(self.origin, sums, count)
-    }
-}
-
 /// The diagonal of the box around some points: no stretch is longer.
 fn diagonal(points: &[[f64; 2]]) -> f64 {
     let mut ends = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
@@ -217,25 +189,6 @@ fn diagonal(points: &[[f64; 2]]) -> f64 {
         ends[1] = [ends[1][0].max(x), ends[1][1].max(y)];
     }
     Vector::new(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]).norm()
-}
-
-/// Sums over all points, [`SIDE_BY_SIDE`] at once: one addition need not wait for the last.
-fn sums<const N: usize>(points: &[Vector], terms: impl Fn(Vector) -> [f64; N]) -> [f64; N] {
-    let mut some = [[0.0; SIDE_BY_SIDE]; N];
-    let (whole, rest) = points.as_chunks::<SIDE_BY_SIDE>();
-    for points in whole {
-        for (lane, &point) in points.iter().enumerate() {
-            for (some, term) in some.iter_mut().zip(terms(point)) {
-                some[lane] += term;
-            }
-        }
-    }
-    for (lane, &point) in rest.iter().enumerate() {
-        for (some, term) in some.iter_mut().zip(terms(point)) {
-            some[lane] += term;
-        }
-    }
-    some.map(|lanes| lanes.iter().sum())
 }
 
 /// The greatest size of a distance; infinite if one is found that is not below a limit.

@@ -1,6 +1,7 @@
 //! How far a coordinate goes: its extremes, where they are, and what is between them.
 
 use super::coordinate::Coordinate;
+use super::course::Course;
 use super::metric::{Growth, Metric, Need, Positions};
 
 /// The greatest value less the least.
@@ -75,7 +76,7 @@ impl Metric for Extreme {
     }
 }
 
-/// The driver's coordinate where an extreme is; of several equal ones the first.
+/// The driver's coordinate where an extreme is; of several equal ones the first. For one driver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PlaceOf(pub Extreme);
 
@@ -87,5 +88,9 @@ impl Metric for PlaceOf {
     fn of(&self, positions: &Positions<'_>) -> f64 {
         let found = self.0.find(positions).and_then(|(index, _)| positions.q.get(index));
         found.copied().unwrap_or(f64::NAN)
+    }
+
+    fn check(&self, course: &Course<'_>) -> Result<(), String> {
+        course.check_one_driver("the place of an extreme")
     }
 }

@@ -75,7 +75,7 @@ impl Metric for LeastTransmission {
                 let others = points(start).iter().zip(points(end));
                 self.least(ends.zip(others).map(|(u, v)| [along(u.into()), along(v.into())]))
             }
-            _ => self.least((0..positions.q.len()).map(|at| {
+            _ => self.least((0..positions.count()).map(|at| {
                 let own = positions.dimensions;
                 [first.direction(a, own, at), second.direction(b, own, at)]
             })),

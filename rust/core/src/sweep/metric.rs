@@ -1,5 +1,6 @@
 //! What a metric is: one number of a motion.
 
+use super::course::Course;
 use crate::batch::outputs::Quantity;
 
 /// A quantity, and which of its derivatives by the driver: 0 is the value.
@@ -11,16 +12,40 @@ pub struct Need {
     pub order: usize,
 }
 
+impl Need {
+    /// Numbers per position, of a value or with one driver.
+    pub(super) fn width(self) -> usize {
+        match self.quantity {
+            Quantity::Joint(_) | Quantity::Place(_) => 2,
+            Quantity::Slide(_) | Quantity::Angle(_) => 1,
+        }
+    }
+}
+
 /// The positions of one design.
 #[derive(Debug, Clone, Copy)]
 pub struct Positions<'a> {
-    /// The driver's coordinate at each, rad or m.
+    /// The coordinates, rad or m: of each position those of all drivers.
     pub q: &'a [f64],
+    /// Number of drivers.
+    pub drivers: usize,
     /// The design's dimensions, in the order of [`Mechanism::dimensions`](crate::Mechanism::dimensions).
     pub dimensions: &'a [f64],
     /// What the metric [needs](Metric::needs), in that order: position after position, of a point x and
     /// y.
     pub values: &'a [&'a [f64]],
+    /// Whether what the metric needs is at the end of the turn as it was at its start, so that the
+    /// first position follows the last: after a change point, and in higher classes, it may take two
+    /// turns. Only known to metrics that [ask](Metric::asks_return).
+    pub returns: bool,
+}
+
+impl Positions<'_> {
+    /// Number of positions.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.q.len() / self.drivers.max(1)
+    }
 }
 
 /// How a metric's value changes as positions are added.
@@ -34,7 +59,46 @@ pub enum Growth {
     Either,
 }
 
+impl Growth {
+    /// That of the negative.
+    #[must_use]
+    pub fn reversed(self) -> Self {
+        match self {
+            Self::Falls => Self::Rises,
+            Self::Rises => Self::Falls,
+            Self::Either => Self::Either,
+        }
+    }
+}
+
 /// One number of a motion.
+///
+/// ```
+/// use assur::sweep::{Coordinate, Metric, Need, Positions, Sweep};
+/// use assur::{Control, FourBar, FourBarMode, Mechanism};
+///
+/// /// How often a coordinate passes through zero.
+/// struct Zeros(Coordinate);
+///
+/// impl Metric for Zeros {
+///     fn needs(&self) -> Vec<Need> {
+///         vec![self.0.need]
+///     }
+///
+///     fn of(&self, positions: &Positions<'_>) -> f64 {
+///         let values = positions.values[0];
+///         values.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count() as f64
+///     }
+/// }
+///
+/// let four_bar = Mechanism::new(&FourBar::description(FourBarMode::Open))?;
+/// let q: Vec<f64> = (0..72).map(|k| f64::from(k) * std::f64::consts::TAU / 72.0).collect();
+/// // The rocker stands still, for a moment, at both ends of its swing.
+/// let zeros = Zeros(Coordinate::link(four_bar.link("rocker")?).derivative(1));
+/// let sweep = Sweep { metrics: &[&zeros], ..Sweep::of(&four_bar, four_bar.drawing(), &q) };
+/// assert_eq!(four_bar.measure(&sweep, &Control::default())?.values, [[2.0]]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Metric: Sync {
     /// What it reads.
     fn needs(&self) -> Vec<Need>;
@@ -46,9 +110,57 @@ pub trait Metric: Sync {
     fn growth(&self) -> Growth {
         Growth::Either
     }
+
+    /// The number of a design that does not move over all positions.
+    fn of_failed(&self) -> f64 {
+        f64::NAN
+    }
+
+    /// Whether it asks if the motion [returns](Positions::returns): two more positions are solved.
+    fn asks_return(&self) -> bool {
+        false
+    }
+
+    /// Checks that it has a meaning for a mechanism with so many drivers at such coordinates.
+    ///
+    /// # Errors
+    ///
+    /// Why it has none. Unless a metric says otherwise, derivatives are for one driver.
+    fn check(&self, course: &Course<'_>) -> Result<(), String> {
+        if course.drivers > 1 && self.needs().iter().any(|need| need.order > 0) {
+            return Err(format!("derivatives need one driver, here are {}", course.drivers));
+        }
+        Ok(())
+    }
 }
 
-/// The number 1 for every design that moves over all positions.
+impl<M: Metric + ?Sized + Send> Metric for Box<M> {
+    fn needs(&self) -> Vec<Need> {
+        self.as_ref().needs()
+    }
+
+    fn of(&self, positions: &Positions<'_>) -> f64 {
+        self.as_ref().of(positions)
+    }
+
+    fn growth(&self) -> Growth {
+        self.as_ref().growth()
+    }
+
+    fn of_failed(&self) -> f64 {
+        self.as_ref().of_failed()
+    }
+
+    fn asks_return(&self) -> bool {
+        self.as_ref().asks_return()
+    }
+
+    fn check(&self, course: &Course<'_>) -> Result<(), String> {
+        self.as_ref().check(course)
+    }
+}
+
+/// The number 1 for every design that moves over all positions, and 0 for every other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Moves;
 
@@ -59,6 +171,10 @@ impl Metric for Moves {
 
     fn of(&self, _: &Positions<'_>) -> f64 {
         1.0
+    }
+
+    fn of_failed(&self) -> f64 {
+        0.0
     }
 }
 

@@ -30,23 +30,31 @@
 //!
 //! [`Mechanism::measure`]: crate::Mechanism::measure
 
+mod combination;
 mod coordinate;
+mod course;
 mod deviation;
 mod extremes;
+mod judge;
 mod least_transmission;
 mod means;
 mod measure;
 mod metric;
+mod moments;
 mod parts;
+mod request;
 pub(crate) mod scratch;
+mod threads;
 mod time_ratio;
 
+pub use combination::{Combination, Operand, Operation};
 pub use coordinate::Coordinate;
+pub use course::Course;
 pub use deviation::{Deviation, Shape};
 pub use extremes::{Extreme, PlaceOf, Span};
 pub use least_transmission::{LeastTransmission, Line};
 pub use means::{Mean, RootMeanSquare};
-pub use measure::{Measured, Sweep};
 pub use metric::{Condition, Growth, Metric, Moves, Need, Positions, Relation};
 pub use parts::Part;
+pub use request::{Measured, Sweep};
 pub use time_ratio::TimeRatio;

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::coordinate::Coordinate;
-use super::extremes::Extreme;
+use super::course::Course;
+use super::extremes::{Extreme, PlaceOf};
 use super::metric::{Metric, Need, Positions};
 
 /// The time of the slower stroke between the extremes of a coordinate, as a part of that of the
@@ -18,10 +19,27 @@ impl Metric for TimeRatio {
     }
 
     fn of(&self, positions: &Positions<'_>) -> f64 {
-        let place = |extreme: Extreme| super::extremes::PlaceOf(extreme).of(positions);
+        if !positions.returns {
+            return f64::NAN;
+        }
+        let place = |extreme: Extreme| PlaceOf(extreme).of(positions);
         let turned = place(Extreme::Greatest(self.0)) - place(Extreme::Least(self.0));
         let one = turned.abs() - TAU * (turned.abs() / TAU).floor();
         let other = TAU - one;
         if one > 0.0 { one.max(other) / one.min(other) } else { f64::NAN }
+    }
+
+    fn asks_return(&self) -> bool {
+        true
+    }
+
+    fn check(&self, course: &Course<'_>) -> Result<(), String> {
+        course.check_one_driver("the time ratio")?;
+        match course.turn {
+            Some(_) => Ok(()),
+            None => Err("q must go over one turn in even steps, without its end: \
+                         np.linspace(0, 2 * np.pi, n, endpoint=False)"
+                .into()),
+        }
     }
 }

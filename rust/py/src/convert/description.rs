@@ -5,8 +5,8 @@ use pyo3::Borrowed;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-/// `assur.Slide`.
-#[derive(FromPyObject)]
+/// `assur.Slide`; for Python the dictionary of its fields.
+#[derive(FromPyObject, IntoPyObject)]
 pub(crate) struct Slide {
     link: String,
     on: String,
@@ -18,6 +18,11 @@ impl Slide {
     pub(crate) fn named(self, name: String) -> SlideDescription {
         let Self { link, on, angle, origin } = self;
         SlideDescription { name, link, on, angle, origin }
+    }
+
+    pub(crate) fn with_name(description: SlideDescription) -> (String, Self) {
+        let SlideDescription { name, link, on, angle, origin } = description;
+        (name, Self { link, on, angle, origin })
     }
 }
 

@@ -40,7 +40,7 @@ struct Crossing<'py> {
     function: Bound<'py, PyAny>,
 }
 
-/// The event of an object; a function is added to the list.
+/// Reads an event; its function, if it has one, is added to the list.
 pub(crate) fn event(
     mechanism: Option<&Mechanism>,
     object: &Bound<'_, PyAny>,

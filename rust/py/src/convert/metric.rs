@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use assur::sweep::{
-    Condition, Coordinate, Deviation, Extreme, LeastTransmission, Line, Mean, Metric, Moves, Part,
-    PlaceOf, Relation, RootMeanSquare, Shape, Span, TimeRatio,
+    Combination, Condition, Coordinate, Deviation, Extreme, LeastTransmission, Line, Mean, Metric,
+    Moves, Operand, Operation, Part, PlaceOf, Relation, RootMeanSquare, Shape, Span, TimeRatio,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -35,16 +35,21 @@ impl<'py> FromPyObject<'_, 'py> for MetricSpec {
                 Box::new(LeastTransmission { lines, complement: spec.get_item(3)?.extract()? })
             }
             "deviation" => {
-                let (joint, shape, count, is_closed, is_relative): (_, String, _, _, _) =
+                let (joint, shape, part, is_relative): (_, String, _, _) =
                     spec.get_item(1)?.extract()?;
                 let shape = if shape == "line" { Shape::Line } else { Shape::Circle };
-                Box::new(Deviation { joint, shape, count, is_closed, is_relative })
+                Box::new(Deviation { joint, shape, part, is_relative })
             }
             "part" => {
                 let (from, to, of_turn): (f64, f64, bool) = spec.get_item(1)?.extract()?;
                 let MetricSpec(metric) = spec.get_item(2)?.extract()?;
                 let period = of_turn.then_some(TAU);
                 Box::new(Part { metric, from, to, period })
+            }
+            "combination" => {
+                let operation = operation(&spec.get_item(1)?.extract::<String>()?);
+                let [left, right] = [operand(&spec.get_item(2)?)?, operand(&spec.get_item(3)?)?];
+                Box::new(Combination { operation, left, right })
             }
             _ => return Err(PyValueError::new_err(format!("{kind:?} is no metric"))),
         };
@@ -71,6 +76,24 @@ fn line(spec: &Bound<'_, PyAny>) -> PyResult<Line> {
     } else {
         Ok(Line::Guide(spec.get_item(1)?.extract()?, spec.get_item(2)?.extract()?))
     }
+}
+
+fn operation(sign: &str) -> Operation {
+    match sign {
+        "+" => Operation::Add,
+        "-" => Operation::Subtract,
+        "*" => Operation::Multiply,
+        _ => Operation::Divide,
+    }
+}
+
+/// A number or a metric.
+fn operand(spec: &Bound<'_, PyAny>) -> PyResult<Operand> {
+    if let Ok(number) = spec.extract() {
+        return Ok(Operand::Number(number));
+    }
+    let MetricSpec(metric) = spec.extract()?;
+    Ok(Operand::Metric(metric))
 }
 
 /// A condition: metric, relation and limit.

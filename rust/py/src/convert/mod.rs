@@ -27,9 +27,9 @@ impl Classes {
         object.is_instance(class.cast::<PyType>()?)
     }
 
-    /// The error for an object of none of the classes.
+    /// The error for an object of another class.
     fn unknown(self, object: &Bound<'_, PyAny>) -> PyErr {
         let class = object.get_type();
-        error::input(&format!("{class} is none of the classes of {}", self.0), None)
+        error::input(&format!("{class} is not a class of {}", self.0), None)
     }
 }

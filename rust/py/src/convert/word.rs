@@ -1,4 +1,4 @@
-//! Words that stand for one of several cases.
+//! Enums given by a word.
 
 use assur::Named;
 use assur::dynamics::{EndCondition, Mean};
@@ -8,14 +8,14 @@ use pyo3::prelude::*;
 
 use crate::error;
 
-/// Cases with a word for each.
+/// An enum with a word for each variant.
 pub(crate) trait Words: Copy + 'static {
-    /// What the word says, for the message.
+    /// What the word chooses, for the message.
     const WHAT: &'static str;
     const KNOWN: &'static [(&'static str, Self)];
 }
 
-/// A case, read from its word. Raises `InputError` if the word is unknown.
+/// A variant, read from its word. Raises `InputError` if the word is unknown.
 pub(crate) struct Word<T>(pub(crate) T);
 
 impl<'a, 'py, T: Words> FromPyObject<'a, 'py> for Word<T> {

@@ -5,19 +5,17 @@ mod stop_reason;
 
 use std::time::Instant;
 
-use assur::dynamics::{Callbacks, EventRecord, Sample, Samples, StopReason};
+use assur::dynamics::{Callbacks, Sample, Samples};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyTuple, PyType};
 
-use self::state::RunState;
+use self::state::{EventState, RunState};
 use self::stop_reason::StopReasonState;
 use crate::detach::{self, SIGNAL_INTERVAL, catch_panic};
 use crate::error;
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
-/// Index of the event, time, coordinates, speeds.
-type EventFields = (usize, f64, Vec<f64>, Vec<f64>);
 
 /// Python functions of (t, q, speed), and checks for signals.
 pub(crate) struct PythonCallbacks {
@@ -33,7 +31,7 @@ impl PythonCallbacks {
         Self { loads, events, last_check: Instant::now(), signal: None }
     }
 
-    /// Whether the work needs the GIL throughout.
+    /// Whether there are functions to call, so that the work must hold the GIL.
     pub(crate) fn need_gil(&self) -> bool {
         !(self.loads.is_empty() && self.events.is_empty())
     }
@@ -180,25 +178,14 @@ impl Run {
 
     /// Events of the run.
     #[getter]
-    fn events(&self) -> Vec<EventFields> {
-        let of = |one: &EventRecord| (one.event, one.t, one.q.clone(), one.speed.clone());
-        self.0.events.iter().map(of).collect()
+    fn events(&self) -> Vec<EventState> {
+        self.0.events.iter().cloned().map(EventState::from).collect()
     }
 
-    /// The near miss of a change point at which the run ended: dyad, misfit of its lengths (m),
-    /// coordinate.
+    /// Why the run ended.
     #[getter]
-    fn near_change_point(&self) -> Option<(String, f64, f64)> {
-        match &self.0.stop_reason {
-            StopReason::NearChangePoint { dyad, miss, q } => Some((dyad.clone(), *miss, *q)),
-            _ => None,
-        }
-    }
-
-    /// End of the run: kind, index of the event, table or motor, reason.
-    #[getter]
-    fn ending(&self) -> (String, usize, String) {
-        StopReasonState::from(self.0.stop_reason.clone()).described()
+    fn ending(&self) -> StopReasonState {
+        self.0.stop_reason.clone().into()
     }
 
     /// Statistics of the integration.

@@ -41,7 +41,7 @@ struct SamplesState<'py> {
 
 #[derive(FromPyObject, IntoPyObject)]
 #[pyo3(from_item_all)]
-struct EventState {
+pub(crate) struct EventState {
     event: usize,
     t: f64,
     q: Vec<f64>,

@@ -1,68 +1,87 @@
-//! Why a run ended, for copies and pickles.
+//! Why a run ended, for Python, copies and pickles.
 
 use assur::dynamics::StopReason;
 use pyo3::prelude::*;
 
 use crate::error;
 
-/// The kind; an index, a name or text and numbers if it has them.
-#[derive(FromPyObject, IntoPyObject, Default)]
+/// The kind of an end, and what belongs to it; the rest is `None`.
+#[derive(FromPyObject, IntoPyObject, Debug, Clone, PartialEq, Default)]
 #[pyo3(from_item_all)]
 pub(crate) struct StopReasonState {
     kind: String,
-    index: usize,
-    name: String,
-    numbers: Vec<f64>,
+    /// Index of the event.
+    event: Option<usize>,
+    /// Index of the table over the coordinate.
+    table: Option<usize>,
+    /// Index of the motor whose table ends.
+    motor: Option<usize>,
+    /// Whether the equation is stiff where the steps ran out.
+    stiff: Option<bool>,
+    /// Why the branch is lost.
+    why: Option<String>,
+    near_change_point: Option<NearChangePoint>,
+}
+
+/// A near miss of a change point: the dyad, by how much its lengths miss (m), and the coordinate.
+#[derive(FromPyObject, IntoPyObject, Debug, Clone, PartialEq)]
+#[pyo3(from_item_all)]
+pub(crate) struct NearChangePoint {
+    dyad: String,
+    miss: f64,
+    q: f64,
 }
 
 impl From<StopReason> for StopReasonState {
     fn from(reason: StopReason) -> Self {
-        let plain = |kind: &str| Self { kind: kind.into(), ..Self::default() };
-        let indexed = |kind: &str, index: usize| Self { index, ..plain(kind) };
+        let of = |kind: &str| Self { kind: kind.into(), ..Self::default() };
         match reason {
-            StopReason::Reached => plain("reached"),
-            StopReason::Event(event) => indexed("event", event),
-            StopReason::Rest => plain("rest"),
-            StopReason::DeadPoint => plain("dead point"),
-            StopReason::Lost(why) => Self { name: why, ..plain("lost") },
+            StopReason::Reached => of("reached"),
+            StopReason::Event(event) => Self { event: Some(event), ..of("event") },
+            StopReason::Rest => of("rest"),
+            StopReason::DeadPoint => of("dead point"),
+            StopReason::Lost(why) => Self { why: Some(why), ..of("lost") },
             StopReason::NearChangePoint { dyad, miss, q } => {
-                Self { name: dyad, numbers: vec![miss, q], ..plain("near_change_point") }
+                let near_change_point = Some(NearChangePoint { dyad, miss, q });
+                Self { near_change_point, ..of("near_change_point") }
             }
-            StopReason::TableEnds(table) => indexed("table ends", table),
-            StopReason::MotorTableEnds(motor) => indexed("motor table ends", motor),
-            StopReason::StepLimit(stiff) => indexed("step limit", usize::from(stiff)),
-            StopReason::TimeLimit => plain("time limit"),
-            StopReason::Cancelled => plain("cancelled"),
-            _ => plain("stalled"),
+            StopReason::TableEnds(table) => Self { table: Some(table), ..of("table ends") },
+            StopReason::MotorTableEnds(motor) => {
+                Self { motor: Some(motor), ..of("motor table ends") }
+            }
+            StopReason::StepLimit(stiff) => Self { stiff: Some(stiff), ..of("step limit") },
+            StopReason::TimeLimit => of("time limit"),
+            StopReason::Cancelled => of("cancelled"),
+            _ => of("stalled"),
         }
     }
 }
 
 impl StopReasonState {
-    /// Kind, index, and name or text.
-    pub(crate) fn described(self) -> (String, usize, String) {
-        (self.kind, self.index, self.name)
+    /// The reason. Raises `InputError` for anything that is not the state of one.
+    pub(crate) fn reason(self) -> PyResult<StopReason> {
+        let known = self.known().filter(|reason| Self::from(reason.clone()) == self);
+        known.ok_or_else(|| error::input(&format!("{:?} is not an end of a run", self.kind), None))
     }
 
-    /// The reason. Raises `InputError` for an unknown kind.
-    pub(crate) fn reason(self) -> PyResult<StopReason> {
-        let Self { kind, index, name, numbers } = self;
-        Ok(match (kind.as_str(), &numbers[..]) {
-            ("reached", []) => StopReason::Reached,
-            ("event", []) => StopReason::Event(index),
-            ("rest", []) => StopReason::Rest,
-            ("dead point", []) => StopReason::DeadPoint,
-            ("lost", []) => StopReason::Lost(name),
-            ("near_change_point", &[miss, q]) => {
-                StopReason::NearChangePoint { dyad: name, miss, q }
+    fn known(&self) -> Option<StopReason> {
+        Some(match self.kind.as_str() {
+            "reached" => StopReason::Reached,
+            "event" => StopReason::Event(self.event?),
+            "rest" => StopReason::Rest,
+            "dead point" => StopReason::DeadPoint,
+            "lost" => StopReason::Lost(self.why.clone()?),
+            "near_change_point" => {
+                let NearChangePoint { dyad, miss, q } = self.near_change_point.clone()?;
+                StopReason::NearChangePoint { dyad, miss, q }
             }
-            ("table ends", []) => StopReason::TableEnds(index),
-            ("motor table ends", []) => StopReason::MotorTableEnds(index),
-            ("stalled", []) => StopReason::Stalled,
-            ("step limit", []) => StopReason::StepLimit(index != 0),
-            ("time limit", []) => StopReason::TimeLimit,
-            ("cancelled", []) => StopReason::Cancelled,
-            _ => return Err(error::input(&format!("{kind:?} is not an end of a run"), None)),
+            "table ends" => StopReason::TableEnds(self.table?),
+            "motor table ends" => StopReason::MotorTableEnds(self.motor?),
+            "stalled" => StopReason::Stalled,
+            "step limit" => StopReason::StepLimit(self.stiff?),
+            "time limit" => StopReason::TimeLimit,
+            "cancelled" => StopReason::Cancelled,
+            _ => return None,
         })
     }
 }

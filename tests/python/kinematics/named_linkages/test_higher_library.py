@@ -32,7 +32,7 @@ CLASSES = {
     "loom": (4, 3),
     "pentagon": (5, 3),
 }
-# How far each is followed both ways from the drawing, rad or m; a fold may come before.
+# How far each is followed in both directions from the drawing, rad or m; a fold may come before.
 FAR = {"platform_on_cylinders": 0.4, "platform_on_cranks": 0.6}
 PLACES = (0.13, 0.31, 0.5, 0.77, 1.0)
 
@@ -70,7 +70,7 @@ def test_agrees_with_the_oracle(name: str) -> None:
         turns = turns or whole_turns(motion, i, solution)
         gap = agreement.compare(d, motion, (i,), solution, 3, turns)
         check_law(d, q, solution, gap)
-    # Where the oracle meets a fold, the way ends.
+    # Where the oracle meets a fold, the branch ends.
     assert (motion.status[len(qs) :] == Status.LOST).all()
 
 
@@ -123,13 +123,13 @@ def test_past_a_dead_point_by_another_driver_and_back() -> None:
     rocker = by_crank.link("right").value[: last + 1]
     # By the rocker from the drawing: to the dead point, and as far again beyond it.
     other = m.with_driver("right")
-    way = np.linspace(rocker[0], 2.0 * rocker[last] - rocker[0], 401)
-    by_rocker = other.solve(way, on_error="nan")
+    path = np.linspace(rocker[0], 2.0 * rocker[last] - rocker[0], 401)
+    by_rocker = other.solve(path, on_error="nan")
     given = by_rocker.status <= Status.NEAR_SINGULAR
     crank = by_rocker.link("crank").value
     top = int(np.nanargmax(np.where(given, crank, np.nan)))
     assert abs(crank[top] - dead) < 2e-3
-    # Up to there both tell the same positions.
+    # Up to there both give the same positions.
     monotone = np.diff(rocker) * np.sign(rocker[last] - rocker[0]) > 0
     assert monotone.all()
     for i in range(0, top - 3, 20):
@@ -153,7 +153,7 @@ def test_past_a_dead_point_by_another_driver_and_back() -> None:
         gap = np.abs(moved.joint("D").value[i] - by_rocker.joint("D").value[near]).max()
         assert gap < step
     # And back over the dead point along the rocker, to the drawing.
-    again = back.with_driver("right").solve(way[beyond::-1])
+    again = back.with_driver("right").solve(path[beyond::-1])
     np.testing.assert_allclose(
         again.joint("D").value, by_rocker.joint("D").value[beyond::-1], atol=1e-10
     )

@@ -72,7 +72,7 @@ def lever_angle(r: float, d: float) -> Float:
 
 
 def time_ratio(mechanism: assur.Mechanism) -> float:
-    """Crank angle of the ram's way out over that of its way back, to a sample of 0.5°."""
+    """Crank angle of the ram's forward stroke over that of its return, to a sample of 0.5°."""
     out = mechanism.solve((TURN[1:] + TURN[:-1]) / 2, order=1).slide("bed").d1 > 0
     return float(np.sum(out) / np.sum(~out))
 

@@ -5,8 +5,8 @@
 //! the dead point at a finite speed, grows like s). So ṡ = −b/2. Over the last 1e-4 or so of s, b
 //! is taken as linear, with the slope from the acceleration; only its quadratic term is neglected.
 
-use super::options::Variable;
 use super::sample::Sample;
+use super::variable::Variable;
 
 /// The motion from the last integrated sample to the dead point: speed = s (b + slope (s − root)),
 /// s the square root of the remaining coordinate.

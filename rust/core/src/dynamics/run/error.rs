@@ -4,6 +4,7 @@ use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
 
 use crate::description::error::{Hint, coordinate_text, number};
+use crate::dynamics::run::variable::Variable;
 use crate::dynamics::tables::error::short;
 use crate::dynamics::tables::table::Table;
 use crate::ode::error::Error as IntegratorError;
@@ -34,12 +35,12 @@ pub enum RunError<E> {
     NoInitialPosition(Failure),
     /// Accelerations become infinite or NaN.
     #[error(
-        "the motion is not finite at {along} = {}: a load, a speed or a mass is too great there, or a damper or spring has length zero",
-        number(*at)
+        "the motion is not finite at {} = {}: a load, a speed or a mass is too great there, or a damper or spring has length zero",
+        along.symbol(), number(*at)
     )]
     NotFinite {
-        /// "t" or "q".
-        along: &'static str,
+        /// What `at` is.
+        along: Variable,
         /// Time, s, or coordinate.
         at: f64,
     },
@@ -47,7 +48,7 @@ pub enum RunError<E> {
     #[error("{0}")]
     Options(String),
     /// A list of the wrong length.
-    #[error("{given} {what} are given: {needed} are needed")]
+    #[error("wrong number of {what}: {given} given, {needed} needed")]
     WrongCount {
         /// What the list contains.
         what: &'static str,
@@ -97,12 +98,8 @@ impl<E: std::fmt::Display> Hint for RunError<E> {
 }
 
 impl<E: std::fmt::Display> RunError<E> {
-    /// The error of an integration along "t" or "q" from a value of it.
-    pub(crate) fn of_integrator(
-        error: IntegratorError<Self>,
-        along: &'static str,
-        from: f64,
-    ) -> Self {
+    /// The error of an integration along the time or the coordinate from a value of it.
+    pub(crate) fn of_integrator(error: IntegratorError<Self>, along: Variable, from: f64) -> Self {
         match error {
             IntegratorError::System(error) => error,
             IntegratorError::NotFinite { t, .. } => Self::NotFinite { along, at: t },

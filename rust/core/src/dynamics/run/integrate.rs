@@ -5,12 +5,13 @@ use super::dead_point::Tail;
 use super::equation::Equation;
 use super::error::{RunError, check_counts};
 use super::model::{MechanismModel, ReducedModel, TabulatedMachine};
-use super::options::{EventKind, RunOptions, Variable};
+use super::options::{EventKind, RunOptions};
 use super::sample::Samples;
 use super::system::{Ended, RunSystem};
 use super::table_cursor::SAME_KNOT_RTOL;
 use super::tolerances::tolerances;
 use super::trajectory::{EventRecord, Run, StopReason, sample_at};
+use super::variable::Variable;
 use crate::description::error::Hint;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::tables::table::Table;
@@ -121,7 +122,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     let start = RunSystem::<S, O>::initial_state(options);
     let solution = integrator
         .run(&mut system, from, &start, to, &ode_options)
-        .map_err(|error| RunError::of_integrator(error, options.along.symbol(), from))?;
+        .map_err(|error| RunError::of_integrator(error, options.along, from))?;
     Ok(assemble_run(system, options, from, solution, clipped))
 }
 

@@ -13,3 +13,4 @@ pub(crate) mod system;
 pub(crate) mod table_cursor;
 pub(crate) mod tolerances;
 pub(crate) mod trajectory;
+pub(crate) mod variable;

@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use crate::dynamics::angle_between::Angle;
-use crate::dynamics::kinematics::Pose;
+use crate::dynamics::kinematics::SolvedPose;
 use crate::dynamics::machine::{Machine, ReducedTable};
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
@@ -148,7 +148,7 @@ impl ReducedModel for MechanismModel<'_> {
             self.check_singularity(q)?;
         }
         self.machine
-            .add_configuration(&Pose::new(self.evaluator.position(), self.derivatives), out);
+            .add_configuration(&SolvedPose::new(self.evaluator.position(), self.derivatives), out);
         Ok(())
     }
 
@@ -161,13 +161,13 @@ impl ReducedModel for MechanismModel<'_> {
     }
 
     fn apply_loads(&mut self, speed: &[f64], numbers: Numbers<'_>, out: &mut Reduced) {
-        let pose = Pose::new(self.evaluator.position(), self.derivatives);
+        let pose = SolvedPose::new(self.evaluator.position(), self.derivatives);
         self.machine.add_speed_loads(&pose, speed, numbers, out);
     }
 
     fn angle(&mut self, q: &[f64], angle: &Angle) -> f64 {
         match self.evaluator.solve(q) {
-            Ok(()) => angle.at(&Pose::new(self.evaluator.position(), self.derivatives)),
+            Ok(()) => angle.at(&SolvedPose::new(self.evaluator.position(), self.derivatives)),
             Err(_) => f64::NAN,
         }
     }

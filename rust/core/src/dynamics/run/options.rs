@@ -3,29 +3,11 @@
 use std::time::Instant;
 
 use super::error::{RunError, check_counts};
+use super::variable::Variable;
 use crate::dynamics::angle_between::Angle;
 use crate::dynamics::motor::Motor;
 use crate::ode::options::Method;
 use crate::ode::system::Crossing;
-
-/// Independent variable of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Variable {
-    /// The time.
-    Time,
-    /// The coordinate of a single driver.
-    Coordinate,
-}
-
-impl Variable {
-    /// Its symbol in messages.
-    pub(crate) fn symbol(self) -> &'static str {
-        match self {
-            Self::Time => "t",
-            Self::Coordinate => "q",
-        }
-    }
-}
 
 /// What an event looks for.
 #[derive(Debug, Clone, Copy, PartialEq)]

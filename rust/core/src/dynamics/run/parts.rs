@@ -3,9 +3,9 @@
 use thiserror::Error;
 
 use super::dead_point::Tail;
-use super::options::Variable;
 use super::sample::Samples;
 use super::trajectory::{EventRecord, Run, StopReason};
+use super::variable::Variable;
 use crate::ode::pair::dense::{DenseOutput, LEAST_ROWS};
 use crate::ode::solution::Statistics;
 

@@ -1,6 +1,6 @@
 //! Samples of a motion.
 
-use super::options::Variable;
+use super::variable::Variable;
 /// A motion at one time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sample {

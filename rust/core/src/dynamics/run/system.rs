@@ -6,7 +6,8 @@ use super::callbacks::Callbacks;
 use super::equation::{Equation, just_inside};
 use super::error::RunError;
 use super::model::ReducedModel;
-use super::options::{EventKind, EventSpec, RunOptions, Variable};
+use super::options::{EventKind, EventSpec, RunOptions};
+use super::variable::Variable;
 use crate::ode::system::{Action, Crossing, Fault, System};
 use crate::state::status::Rejection;
 

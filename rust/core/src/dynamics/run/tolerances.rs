@@ -3,8 +3,9 @@
 use super::callbacks::Callbacks;
 use super::error::RunError;
 use super::model::ReducedModel;
-use super::options::{RunOptions, Variable};
+use super::options::RunOptions;
 use super::system::RunSystem;
+use super::variable::Variable;
 use crate::ode::system::Fault;
 
 /// Relative and absolute tolerances of the state.

@@ -1,8 +1,8 @@
 //! The result of a run.
 
 use super::dead_point::Tail;
-use super::options::Variable;
 use super::sample::{Sample, Samples};
+use super::variable::Variable;
 use crate::ode::pair::dense::DenseOutput;
 use crate::ode::solution::Statistics;
 

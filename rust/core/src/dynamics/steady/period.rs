@@ -11,7 +11,7 @@ use crate::dynamics::run::callbacks::Callbacks;
 use crate::dynamics::run::equation::Equation;
 use crate::dynamics::run::error::RunError;
 use crate::dynamics::run::model::ReducedModel;
-use crate::dynamics::run::options::Variable;
+use crate::dynamics::run::variable::Variable;
 use crate::ode::integrator::Integrator;
 use crate::ode::options::{Options, Output};
 use crate::ode::solution::{End, Solution};
@@ -185,7 +185,7 @@ pub(crate) fn period<S: ReducedModel, O: Callbacks>(
     let solved = integrator.run(&mut system, from, &y0, from + options.span, &ode_options);
     let (table_ended, depends_on_speed) = (system.table_ended, system.depends_on_speed);
     let Solution { t: q, y, end, .. } = solved.map_err(|error| {
-        SteadyError::Run(RunError::of_integrator(error, Variable::Coordinate.symbol(), from))
+        SteadyError::Run(RunError::of_integrator(error, Variable::Coordinate, from))
     })?;
     match end {
         End::Reached => {}

@@ -7,8 +7,9 @@ use crate::dynamics::run::callbacks::Callbacks;
 use crate::dynamics::run::equation::Equation;
 use crate::dynamics::run::integrate::{breaks_of, run};
 use crate::dynamics::run::model::ReducedModel;
-use crate::dynamics::run::options::{EventKind, EventSpec, RunOptions, Variable};
+use crate::dynamics::run::options::{EventKind, EventSpec, RunOptions};
 use crate::dynamics::run::trajectory::{Run, StopReason};
+use crate::dynamics::run::variable::Variable;
 use crate::ode::integrator::Integrator;
 use crate::ode::system::Crossing;
 

@@ -31,20 +31,20 @@ impl Bracket {
 /// Narrows a bracket of the maximum of a function that rises and then falls (J. Kiefer, Sequential
 /// minimax search for a maximum, Proc. AMS 4 (1953)): one evaluation a step, after two at first.
 ///
-/// Returns the bracket as soon as it is `enough`, or after 40 steps.
+/// Returns the bracket as soon as `is_narrow` accepts it, or after 40 steps.
 ///
 /// # Errors
 ///
 /// Those of `f`.
 pub(crate) fn golden_section<E>(
     [mut a, mut b]: [f64; 2],
-    enough: impl Fn(&Bracket) -> bool,
+    is_narrow: impl Fn(&Bracket) -> bool,
     mut f: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<Bracket, E> {
     let (left, right) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
     let (mut c, mut d) = ((left, f(left)?), (right, f(right)?));
     for _ in 0..MAX_STEPS {
-        if enough(&Bracket { ends: [a, b], inner: [c, d] }) {
+        if is_narrow(&Bracket { ends: [a, b], inner: [c, d] }) {
             break;
         }
         if c.1 > d.1 {

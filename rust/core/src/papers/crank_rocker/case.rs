@@ -1,5 +1,12 @@
 //! A run's case and its result.
 
+use std::fmt::Display;
+
+use strum::{IntoStaticStr, VariantNames};
+use thiserror::Error;
+
+use crate::description::error::{Hint, number, rounded};
+
 /// Side on which C jams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
@@ -7,6 +14,17 @@ pub enum Side {
     Outer,
     /// γ₂₃ near 0: D slides outward.
     Inner,
+}
+
+impl Side {
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Outer => "outer",
+            Self::Inner => "inner",
+        }
+    }
 }
 
 /// Kind of an event.
@@ -59,14 +77,48 @@ pub struct Row {
 }
 
 /// Why a run cannot start or go on.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Refused<E> {
-    /// Blocked at the start: the side and the transmission angle, rad.
-    Blocked(Side, f64),
-    /// The coupler does not reach the rocker at the start: BD, m.
-    OutOfReach(f64),
+#[derive(Debug, Clone, PartialEq, Error, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "snake_case")]
+pub enum JammingError<E> {
+    /// Blocked at the start.
+    #[error(
+        "the start at phi0 = {} is blocked ({}): its transmission angle {} rad is not above gamma_min",
+        number(*phi0), side.name(), rounded(*gamma, 6)
+    )]
+    Blocked {
+        /// The side that jams.
+        side: Side,
+        /// The transmission angle, rad.
+        gamma: f64,
+        /// Crank angle at the start, rad.
+        phi0: f64,
+    },
+    /// The coupler does not reach the rocker at the start.
+    #[error(
+        "the coupler does not reach the rocker at the start, phi0 = {}: BD is {} m, not in {} … {} m",
+        number(*phi0), rounded(*distance, 9), number(range[0]), number(range[1])
+    )]
+    OutOfReach {
+        /// BD, m.
+        distance: f64,
+        /// Least and greatest BD of coupler and rocker, m.
+        range: [f64; 2],
+        /// Crank angle at the start, rad.
+        phi0: f64,
+    },
     /// An error of the ground's function.
+    #[error("{0}")]
     Ground(E),
+}
+
+impl<E: Display> Hint for JammingError<E> {
+    fn hint(&self) -> Option<String> {
+        match self {
+            Self::Blocked { .. } => Some("begin outside the blocked zone".into()),
+            Self::OutOfReach { .. } => Some("begin elsewhere, or with another ground".into()),
+            Self::Ground(_) => None,
+        }
+    }
 }
 
 /// A run to compute.

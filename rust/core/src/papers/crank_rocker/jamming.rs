@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 use libm::{acos, hypot};
 
-use super::case::{Case, Refused, Row, Side};
+use super::case::{Case, JammingError, Row, Side};
 use super::motion::{Assembly, position};
 use crate::math::trig::sin_cos;
 
@@ -38,18 +38,18 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> JammingLinkage<F> {
     }
 
     /// Prescribed distance AD.
-    pub(super) fn ground(&mut self, t: f64) -> Result<f64, Refused<E>> {
+    pub(super) fn ground(&mut self, t: f64) -> Result<f64, JammingError<E>> {
         if let Some((at, value)) = self.cached
             && at.to_bits() == t.to_bits()
         {
             return Ok(value);
         }
-        let value = (self.ground)(t).map_err(Refused::Ground)?;
+        let value = (self.ground)(t).map_err(JammingError::Ground)?;
         self.cached = Some((t, value));
         Ok(value)
     }
 
-    fn ground_speed(&mut self, t: f64) -> Result<f64, Refused<E>> {
+    fn ground_speed(&mut self, t: f64) -> Result<f64, JammingError<E>> {
         let h = GROUND_STEP * SAMPLE_STEP / self.case.speed.abs();
         let low = (t - h).max(0.0);
         Ok((self.ground(t + h)? - self.ground(low)?) / (t + h - low))
@@ -69,7 +69,7 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> JammingLinkage<F> {
     }
 
     /// BD of the crank-rocker, with D at its position.
-    fn pin_distance(&mut self, t: f64) -> Result<f64, Refused<E>> {
+    fn pin_distance(&mut self, t: f64) -> Result<f64, JammingError<E>> {
         let l4 = self.ground(t)?;
         let (sine, cosine) = sin_cos(self.phi(t));
         let l1 = self.case.lengths[0];
@@ -85,7 +85,7 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> JammingLinkage<F> {
     }
 
     /// How far BD is beyond the nearer jam distance, and the side.
-    pub(super) fn jam_excess(&mut self, t: f64) -> Result<(f64, Side), Refused<E>> {
+    pub(super) fn jam_excess(&mut self, t: f64) -> Result<(f64, Side), JammingError<E>> {
         let s = self.pin_distance(t)?;
         let (outer, inner) =
             (s - self.jam_distance(Side::Outer), self.jam_distance(Side::Inner) - s);
@@ -101,7 +101,7 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> JammingLinkage<F> {
 
     /// Displacement of D from its position, positive while it slides; −∞ where the rod is too
     /// short.
-    fn displacement(&mut self, t: f64, side: Side) -> Result<f64, Refused<E>> {
+    fn displacement(&mut self, t: f64, side: Side) -> Result<f64, JammingError<E>> {
         let (sine, _) = sin_cos(self.phi(t));
         if (self.case.lengths[0] * sine).abs() > self.jam_distance(side) {
             return Ok(f64::NEG_INFINITY);
@@ -111,7 +111,7 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> JammingLinkage<F> {
     }
 
     /// Event function: positive where the mode has ended.
-    pub(super) fn mode_end(&mut self, t: f64, mode: Mode) -> Result<f64, Refused<E>> {
+    pub(super) fn mode_end(&mut self, t: f64, mode: Mode) -> Result<f64, JammingError<E>> {
         match mode {
             None => Ok(self.jam_excess(t)?.0),
             Some(side) => Ok(-self.displacement(t, side)?),
@@ -119,7 +119,7 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> JammingLinkage<F> {
     }
 
     /// Velocities of D, and of rocker or rod: each as a crank-rocker and as a slider-crank.
-    pub(super) fn speeds(&mut self, t: f64, side: Side) -> Result<[[f64; 2]; 2], Refused<E>> {
+    pub(super) fn speeds(&mut self, t: f64, side: Side) -> Result<[[f64; 2]; 2], JammingError<E>> {
         let (phi, l4, moving) = (self.phi(t), self.ground(t)?, self.ground_speed(t)?);
         let (sine, cosine) = sin_cos(phi);
         let ([l1, l2, l3], speed) = (self.case.lengths, self.case.speed);
@@ -135,13 +135,14 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> JammingLinkage<F> {
     }
 
     /// Why the mechanism cannot start.
-    pub(super) fn start_error(&mut self, side: Side) -> Result<Refused<E>, Refused<E>> {
+    pub(super) fn start_error(&mut self, side: Side) -> Result<JammingError<E>, JammingError<E>> {
         let s = self.pin_distance(0.0)?;
         let [_, l2, l3] = self.case.lengths;
-        if !((l2 - l3).abs() <= s && s <= l2 + l3) {
-            return Ok(Refused::OutOfReach(s));
+        let (range, phi0) = ([(l2 - l3).abs(), l2 + l3], self.case.phi0);
+        if !(range[0] <= s && s <= range[1]) {
+            return Ok(JammingError::OutOfReach { distance: s, range, phi0 });
         }
-        Ok(Refused::Blocked(side, self.gamma(s)))
+        Ok(JammingError::Blocked { side, gamma: self.gamma(s), phi0 })
     }
 
     /// Whether the rod just reaches the line of centres.
@@ -151,7 +152,7 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> JammingLinkage<F> {
     }
 
     /// The position at a time.
-    pub(super) fn row(&mut self, t: f64, mode: Mode) -> Result<Row, Refused<E>> {
+    pub(super) fn row(&mut self, t: f64, mode: Mode) -> Result<Row, JammingError<E>> {
         let l4 = match mode {
             Some(side) => self.sliding_ground(t, side),
             None => self.ground(t)?,

@@ -31,7 +31,7 @@ pub(crate) mod motion;
 pub(crate) mod run;
 pub(crate) mod zone;
 
-pub use case::{Case, Event, Kind, Refused, Row, Side};
+pub use case::{Case, Event, JammingError, Kind, Row, Side};
 pub use motion::{Assembly, Lengths, Position, Rates, position};
 pub use run::run;
 pub use zone::{

@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use super::case::{Case, Event, Kind, Refused, Row, Side};
+use super::case::{Case, Event, JammingError, Kind, Row, Side};
 use super::jamming::{JammingLinkage, Mode, SAMPLE_STEP};
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
 use crate::math::root::golden_section::{Bracket, golden_section};
@@ -20,11 +20,11 @@ const SLOPE_STEP: f64 = 1.0e-6;
 ///
 /// # Errors
 ///
-/// [`Refused`].
+/// [`JammingError`].
 pub fn run<E>(
     case: &Case,
     ground: impl FnMut(f64) -> Result<f64, E>,
-) -> Result<(Vec<Row>, Vec<Event>), Refused<E>> {
+) -> Result<(Vec<Row>, Vec<Event>), JammingError<E>> {
     let linkage = JammingLinkage::new(*case, ground);
     let mut simulation = Simulation { linkage, rows: Vec::new(), events: Vec::new() };
     simulation.run()?;
@@ -38,7 +38,7 @@ struct Simulation<F> {
 }
 
 impl<E, F: FnMut(f64) -> Result<f64, E>> Simulation<F> {
-    fn run(&mut self) -> Result<(), Refused<E>> {
+    fn run(&mut self) -> Result<(), JammingError<E>> {
         let (excess, side) = self.linkage.jam_excess(0.0)?;
         if excess.is_nan() || excess >= 0.0 {
             return Err(self.linkage.start_error(side)?);
@@ -75,7 +75,12 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> Simulation<F> {
     }
 
     /// First time in an interval at which the mode ends.
-    fn next_event(&mut self, low: f64, high: f64, mode: Mode) -> Result<Option<f64>, Refused<E>> {
+    fn next_event(
+        &mut self,
+        low: f64,
+        high: f64,
+        mode: Mode,
+    ) -> Result<Option<f64>, JammingError<E>> {
         let after_event =
             self.events.last().is_some_and(|event| event.t.to_bits() == low.to_bits());
         let start = if after_event { low + EVENT_OFFSET * (high - low) } else { low };
@@ -107,14 +112,14 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> Simulation<F> {
 
     /// A time at which an event function that rises and falls is positive, or its maximum (golden
     /// section).
-    fn peak(&mut self, low: f64, high: f64, mode: Mode) -> Result<f64, Refused<E>> {
+    fn peak(&mut self, low: f64, high: f64, mode: Mode) -> Result<f64, JammingError<E>> {
         let has_ended = |bracket: &Bracket| bracket.inner.iter().any(|point| point.1 > 0.0);
         let bracket = golden_section([low, high], has_ended, |t| self.linkage.mode_end(t, mode))?;
         Ok(bracket.best().0)
     }
 
     /// Applies an event to the mode and records it. Returns whether the run ends.
-    fn apply_event(&mut self, t: f64, mode: &mut Mode) -> Result<bool, Refused<E>> {
+    fn apply_event(&mut self, t: f64, mode: &mut Mode) -> Result<bool, JammingError<E>> {
         let Some(side) = *mode else {
             let side = self.linkage.jam_excess(t)?.1;
             let speeds = self.linkage.speeds(t, side)?;
@@ -138,7 +143,7 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> Simulation<F> {
         t: f64,
         side: Side,
         [ground_speed, rod_speed]: [[f64; 2]; 2],
-    ) -> Result<(), Refused<E>> {
+    ) -> Result<(), JammingError<E>> {
         let ground = self.linkage.ground(t)?;
         let l4 = if kind == Kind::Jam { ground } else { self.linkage.sliding_ground(t, side) };
         let phi1 = self.linkage.phi(t);
@@ -146,7 +151,7 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> Simulation<F> {
         Ok(())
     }
 
-    fn record_row(&mut self, t: f64, mode: Mode) -> Result<(), Refused<E>> {
+    fn record_row(&mut self, t: f64, mode: Mode) -> Result<(), JammingError<E>> {
         let row = self.linkage.row(t, mode)?;
         self.rows.push(row);
         Ok(())

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::exact::stroke;
 use super::jet::Jet;
-use super::series::{Series, SlowSeries};
+use super::series::{Series, SeriesError};
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
 use crate::math::root::golden_section::{Bracket, golden_section};
 use crate::math::trig::atan2;
@@ -37,8 +37,8 @@ pub fn greatest_speed(k: f64) -> Greatest {
 ///
 /// # Errors
 ///
-/// [`SlowSeries`] by its type; one term per coefficient never fails.
-pub fn greatest_speed_by_series(k: f64) -> Result<Greatest, SlowSeries> {
+/// [`SeriesError`] by its type; one term per coefficient never fails.
+pub fn greatest_speed_by_series(k: f64) -> Result<Greatest, SeriesError> {
     // Written as 2 / (k + √(k² + 8)) to avoid cancellation.
     let at = libm::acos(2.0 / (k + (k * k + 8.0).sqrt()));
     Ok(Greatest { at, value: Series::new(k, 2, Some(1))?.stroke(at).0[1] })

@@ -32,4 +32,4 @@ pub use exact::{rod_angle, rod_point, stroke};
 pub use fraction::stroke_by_fraction;
 pub use greatest::{Greatest, greatest_acceleration, greatest_speed, greatest_speed_by_series};
 pub use jet::Jet;
-pub use series::{Series, SlowSeries};
+pub use series::{Series, SeriesError};

@@ -1,7 +1,11 @@
 //! The stroke as a cosine series whose coefficients are themselves series.
 
+use strum::{IntoStaticStr, VariantNames};
+use thiserror::Error;
+
 use super::double_double::DoubleDouble;
 use super::jet::Jet;
+use crate::description::error::Hint;
 use crate::math::trig::sin_cos;
 
 /// Limit of terms of one coefficient: k − 1 = 1e-6 needs some ten million.
@@ -9,12 +13,22 @@ const MAX_TERMS: usize = 100_000_000;
 /// Fraction of a sum that does not change its 53 bits: 1/64 of half a unit in the last place.
 const NEGLIGIBLE: f64 = f64::EPSILON / 256.0;
 
-/// The series of a coefficient would need too many terms: k is too near 1.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("k is {k}: so near 1 the coefficients' series do not end; give terms, or a longer rod")]
-pub struct SlowSeries {
-    /// Rod per crank.
-    pub k: f64,
+/// Why a series gives no number.
+#[derive(Debug, Clone, Copy, PartialEq, Error, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "snake_case")]
+pub enum SeriesError {
+    /// A coefficient would need too many terms: the rod is hardly longer than the crank.
+    #[error("k is {k}: so near 1 the coefficients' series do not end")]
+    DoesNotEnd {
+        /// Rod per crank.
+        k: f64,
+    },
+}
+
+impl Hint for SeriesError {
+    fn hint(&self) -> Option<String> {
+        Some("give terms, or a longer rod".into())
+    }
 }
 
 /// Coefficients A0, A1, A2, A4, A6 … (2021, equations 11 and 12).
@@ -34,12 +48,12 @@ impl Series {
     ///
     /// # Errors
     ///
-    /// [`SlowSeries`], if k is too near 1 and `terms` is `None`.
-    pub fn new(k: f64, harmonics: usize, terms: Option<usize>) -> Result<Self, SlowSeries> {
+    /// [`SeriesError`], if k is too near 1 and `terms` is `None`.
+    pub fn new(k: f64, harmonics: usize, terms: Option<usize>) -> Result<Self, SeriesError> {
         // Even A0 would not converge: its last term, x^m / (2π m²) with x^m above e^-16, is some 30
         // times too large.
         if terms.is_none() && (k * k - 1.0) * (MAX_TERMS as f64) < 16.0 {
-            return Err(SlowSeries { k });
+            return Err(SeriesError::DoesNotEnd { k });
         }
         let mut coefficients =
             vec![(DoubleDouble::from(1.0) + coefficient_sum(k, 0, terms)?).high()];
@@ -83,7 +97,7 @@ impl Series {
 ///
 /// Computed in double-double throughout: term m has accumulated some 5 m roundings, and there may
 /// be millions of terms. All are positive, so at least 75 of the 106 bits remain.
-fn coefficient_sum(k: f64, n: usize, terms: Option<usize>) -> Result<DoubleDouble, SlowSeries> {
+fn coefficient_sum(k: f64, n: usize, terms: Option<usize>) -> Result<DoubleDouble, SeriesError> {
     let over_k = DoubleDouble::from(1.0) / k;
     let x = over_k * over_k;
     let shift = n as f64;
@@ -112,7 +126,7 @@ fn coefficient_sum(k: f64, n: usize, terms: Option<usize>) -> Result<DoubleDoubl
             return Ok(sum);
         }
     }
-    if terms.is_none() { Err(SlowSeries { k }) } else { Ok(sum) }
+    if terms.is_none() { Err(SeriesError::DoesNotEnd { k }) } else { Ok(sum) }
 }
 
 #[cfg(test)]
@@ -180,7 +194,10 @@ mod tests {
 
     #[test]
     fn extreme_rods_end_at_once() {
-        assert_eq!(Series::new(1.0 + 1e-12, 2, None), Err(SlowSeries { k: 1.0 + 1e-12 }));
+        assert_eq!(
+            Series::new(1.0 + 1e-12, 2, None),
+            Err(SeriesError::DoesNotEnd { k: 1.0 + 1e-12 })
+        );
         let long = Series::new(1e305, 4, None).expect("a long rod");
         assert_eq!(long.coefficients(), [1.0, -1.0, -0.25 / 1e305, 0.0]);
     }

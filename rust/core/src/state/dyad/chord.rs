@@ -1,5 +1,5 @@
-//! The chord of a dyad, from its start to its end, where the tape is run bare: between any two
-//! points, or from or to the pin of a crank or a point of the ground, whose jets need no memory.
+//! The chord of a dyad, from its start to its end, on the bare path: between any two points, or with
+//! a crank's pin or a ground point at one end, whose jets are computed instead of stored.
 
 use crate::math::lanes::Real;
 use crate::math::stride::Stride;
@@ -16,7 +16,7 @@ pub(super) const FROM_GROUND: Ends = 3;
 pub(super) const TO_GROUND: Ends = 4;
 
 /// The ends of a dyad's chord.
-pub(super) struct Chord<'a, R: Real, const G: usize> {
+pub(super) struct DyadChord<'a, R: Real, const G: usize> {
     start: &'a [[Vector<R>; G]],
     end: &'a [[Vector<R>; G]],
     units: &'a [Vector<R>],
@@ -26,11 +26,11 @@ pub(super) struct Chord<'a, R: Real, const G: usize> {
     pub ground: Vector,
 }
 
-/// The vector from a crank's pivot to its pin; not used between points.
+/// The vector from a crank's pivot to its pin; zero if the chord has no pin.
 #[derive(Clone, Copy)]
-pub(super) struct Arm<W>(Vector<W>);
+pub(super) struct CrankArm<W>(Vector<W>);
 
-impl<W: Real> Arm<W> {
+impl<W: Real> CrankArm<W> {
     pub(super) const NONE: Self = Self(Vector::ZERO);
 }
 
@@ -46,7 +46,7 @@ pub(super) fn ends_of(op: &DyadOp) -> Ends {
     }
 }
 
-impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
+impl<'a, R: Real, const G: usize> DyadChord<'a, R, G> {
     /// The chord of `op`, with jets of `len` entries.
     #[inline(always)]
     pub(super) fn new(
@@ -73,13 +73,13 @@ impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
         }
     }
 
-    /// What [`Chord::at`] needs for positions from register `g` on.
+    /// What [`DyadChord::at`] needs for positions from register `g` on.
     #[inline(always)]
-    pub(super) fn arm<W: Stride<R>, const ENDS: Ends>(&self, g: usize) -> Arm<W> {
+    pub(super) fn arm<W: Stride<R>, const ENDS: Ends>(&self, g: usize) -> CrankArm<W> {
         if ENDS != FROM_PIN && ENDS != TO_PIN {
-            return Arm::NONE;
+            return CrankArm::NONE;
         }
-        Arm(self.unit(g).turn(self.arm))
+        CrankArm(self.unit(g).turn(self.arm))
     }
 
     /// The rotation of the crank.
@@ -98,14 +98,14 @@ impl<'a, R: Real, const G: usize> Chord<'a, R, G> {
         vector
     }
 
-    /// Entry `k` of the chord's jet, by one driver: operation by operation as if the pin had been
-    /// placed.
+    /// Entry `k` of the chord's jet, by one driver. The operations are those that would place the pin,
+    /// so the bits are the same.
     #[inline(always)]
     pub(super) fn at<W: Stride<R>, const ENDS: Ends>(
         &self,
         k: usize,
         g: usize,
-        Arm(entry): Arm<W>,
+        CrankArm(entry): CrankArm<W>,
     ) -> Vector<W> {
         let ground = if k == 0 { Vector::splat(self.ground) } else { Vector::ZERO };
         match ENDS {

@@ -1,4 +1,4 @@
-//! What a dyad's closing means for the position: its condition and status.
+//! Condition and status of a position, from how a dyad closes.
 
 use super::intersections::Closing;
 use crate::math::lanes::{Mask, Real};
@@ -32,8 +32,8 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Records how a dyad (of step `index`) closes; `upstream2`: the squared condition of all that it
-    /// depends on.
+    /// Records how a dyad (step `index`) closes; `upstream2`: the squared condition of everything that
+    /// it depends on.
     #[inline(always)]
     pub(crate) fn record_closing(
         &mut self,
@@ -77,7 +77,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// A dyad without a kernel (step `index`).
+    /// Solves a dyad without a kernel (step `index`).
     #[inline(always)]
     pub(crate) fn general_dyad(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad, index: usize) {
         let mut upstream2 =
@@ -101,8 +101,8 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Square of the arm at which the rounding of the joints that a dyad depends on counts: half of
-    /// their greatest coordinate (the bounds have a margin for the rest).
+    /// Square of the arm to which the rounding of a dyad's outer joints corresponds: half of their
+    /// greatest coordinate (the bounds have a margin for the rest).
     #[inline(always)]
     fn rounding_arm2(&self, g: usize, dyad: &Dyad) -> R {
         R::splat(0.25)
@@ -110,7 +110,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 .max(self.conditions.coordinate_scale2[dyad.end][g])
     }
 
-    /// Sets the orientations that turn with a dyad.
+    /// Updates the orientations that turn with a dyad's unknowns.
     #[inline(always)]
     pub(crate) fn turn_orientations(&mut self, cx: &Context<'_>, op: &DyadOp) {
         for &(orientation, class) in &op.orientations {

@@ -1,5 +1,5 @@
-//! What detects and passes change points: the discriminant of a dyad, distances between states, and
-//! interpolation of states.
+//! Tools to detect change points and pass through them: the discriminant of a dyad, distances between
+//! states, and interpolation of states.
 
 use crate::math::lanes::Real;
 use crate::math::tolerance::CHANGE_MISFIT;

@@ -1,8 +1,8 @@
 //! Closed forms of dyads: one vector equation with two unknowns, with one square root and at most
 //! one division.
 //!
-//! Positions at which a dyad may be flat or open are computed with `CAREFUL`: it adds what is to be
-//! known about them, and the values of a flat dyad. All others have the same bits without it.
+//! `CAREFUL` adds margin, gap and exact masks, and gives the values of the flat dyad where a dyad is
+//! flat or open. All other positions have the same bits without it.
 
 use crate::math::lanes::{Mask, Real};
 use crate::math::stride::Stride;
@@ -15,8 +15,8 @@ use crate::state::status::FLAT2;
 /// Whether a dyad closes, and how far it is from flat.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Closing<R: Real> {
-    /// Lanes where it does not close. Without `CAREFUL` some such lanes may be missing; in these
-    /// `sine2` is not positive, or NaN.
+    /// Lanes where it does not close. Without `CAREFUL` some may be missing; their `sine2` is NaN or not
+    /// positive.
     pub open: R::Mask,
     /// Lanes where it is flat: the two solutions coincide to rounding.
     pub flat: R::Mask,
@@ -25,9 +25,9 @@ pub(crate) struct Closing<R: Real> {
     pub sine2: R,
     /// By how much it closes, relative to the scale; negative where it does not (`CAREFUL`).
     pub margin: R,
-    /// How much is missing where it does not, infinite if that is not a length (`CAREFUL`).
+    /// The length that is missing where it does not close; infinite if no length would do (`CAREFUL`).
     pub gap: R,
-    /// For each unknown, what the square of its arm is multiplied with; 0 for a slide.
+    /// For each unknown, the factor of its squared arm in the condition; 0 for a slide.
     pub per_arm2: [R; 2],
 }
 
@@ -41,7 +41,7 @@ impl<R: Real> Closing<R> {
         per_arm2: [R::ZERO; 2],
     };
 
-    /// Of the positions in the first register, of several.
+    /// The part that belongs to the first register.
     #[inline(always)]
     pub(super) fn first<F: Real>(&self) -> Closing<F>
     where
@@ -57,7 +57,7 @@ impl<R: Real> Closing<R> {
         }
     }
 
-    /// Of two slides with these values, along lines with this determinant.
+    /// How two slides with these values close, along lines with this determinant.
     #[inline(always)]
     pub(crate) fn of_lines(s: R, t: R, determinant: R) -> Self {
         let open = s.finite().and(t.finite()).not();
@@ -165,7 +165,7 @@ pub(crate) struct CircleAndLine<R: Real> {
 
 impl<R: Real> CircleAndLine<R> {
     /// `sign` > 0: the slide is ahead of the foot of the perpendicular from the circle's centre.
-    /// `reach`: |k| is nowhere greater.
+    /// `reach`: an upper bound of |k|.
     #[inline(always)]
     pub(crate) fn solve<const CAREFUL: bool>(a: &Leg<R>, k: Vector<R>, sign: R, reach: R) -> Self {
         let across = k.y;
@@ -201,7 +201,7 @@ impl<R: Real> CircleAndLine<R> {
 /// `a u + s b = k` for a unit vector u and a slide s along the unit vector b, or `(a + s b) u = k`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Guided<R: Real> {
-    /// Of a guide with a known direction: the leg `a u`. Of one that turns: u.
+    /// The leg `a u`; for a guide that turns, u alone.
     pub turned: Vector<R>,
     pub slide: R,
     /// 1 / determinant of the closure matrix.
@@ -237,7 +237,7 @@ impl<R: Real> Guided<R> {
         let (along, across) = (b.dot(a), b.cross(a));
         let d2 = k.norm2();
         let inner = d2 - across * across;
-        // As with two legs, of which the shorter has no length.
+        // The tolerance of two legs with the shorter one of length 0.
         let within = R::splat(-2.0 * FLAT_CLOSURE) * (a.size().max(across.abs()) * across.abs());
         let mut open = inner.lt(within);
         let mut chord2 = inner;

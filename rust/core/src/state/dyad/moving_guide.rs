@@ -1,4 +1,4 @@
-//! The dyad of a leg and a slide along a guide on a known link that moves (RRP).
+//! The dyad of a leg and a slide along a guide on a moving link that is already solved (RRP).
 
 use super::intersections::{Closing, Guided};
 use super::turning_leg::entry;
@@ -13,7 +13,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn moving_guide(&mut self, cx: &Context<'_>, op: &DyadOp) {
         if R::LANES > 1 || cx.derivatives.drivers > 1 {
-            // Lanes rarely need care: one copy for all orders is enough.
+            // Lanes seldom take the careful path: one copy for all orders is enough.
             self.moving_of_length::<true>(cx, op, self.len, &|k: usize| {
                 (&cx.derivatives.rotation[k][..], &cx.derivatives.mixed[k][..])
             });
@@ -22,7 +22,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The same for one driver and jets of a constant length, without care.
+    /// The same on the bare path: one driver, and jets of a constant length.
     #[inline(always)]
     pub(crate) fn bare_moving_guide<const LEN: usize>(&mut self, cx: &Context<'_>, op: &DyadOp) {
         self.moving_of_length::<false>(cx, op, LEN, &one_driver);

@@ -1,4 +1,4 @@
-//! What a dyad shows at a knot of a branch: how far it is from flat, and how fast that changes.
+//! Sample of a dyad at a knot of a branch: how far it is from flat, and how fast that changes.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -8,21 +8,21 @@ use crate::state::state::{Context, State};
 
 /// See [`State::sample`].
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sample<R> {
+pub(crate) struct DyadSample<R> {
     /// Square of the discriminant; negative where the dyad does not close. It follows from the
     /// chord alone, and a dead point is a simple root of it.
     pub square: R,
-    /// Its derivative by the driver; of a dyad without a kernel unknown (NaN) where it does not
-    /// close.
+    /// Its derivative by the driver. Of a dyad without a kernel it is unknown (NaN) where the dyad does
+    /// not close.
     pub rate: R,
-    /// Determinant of the directions of two guides; of any other dyad 1.
+    /// Determinant of the directions of two guides; 1 for any other dyad.
     pub side: R,
 }
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Samples a dyad at a position with first analogues of its points.
     #[inline(always)]
-    pub(crate) fn sample(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, op: &Op) -> Sample<R> {
+    pub(crate) fn sample(&self, g: usize, cx: &Context<'_>, dyad: &Dyad, op: &Op) -> DyadSample<R> {
         match op {
             Op::TwoLegs(op) => self.sample_two_legs(g, cx, op),
             Op::StandingGuide(op) => self.sample_standing_guide(g, cx, op),
@@ -30,7 +30,7 @@ impl<R: Real, const G: usize> State<R, G> {
             Op::TurningGuide(op) => self.sample_turning_guide(g, cx, op),
             Op::StandingGuides(op) => {
                 let [a, b] = cx.constants.dyads[op.dyad].guides;
-                Sample { square: R::ONE, rate: R::ZERO, side: R::splat(a.cross(b)) }
+                DyadSample { square: R::ONE, rate: R::ZERO, side: R::splat(a.cross(b)) }
             }
             _ => self.sample_solved(g, cx, dyad),
         }
@@ -38,14 +38,14 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// The same for a dyad without a kernel, solved carefully.
     #[inline(always)]
-    fn sample_solved(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> Sample<R> {
+    fn sample_solved(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> DyadSample<R> {
         let margin = self.conditions.margin[dyad.index][g];
         let closes = R::ZERO.lt(margin);
         if dyad.sign.is_some() {
             let (value, rate) = self.discriminant(g, cx, dyad, 1);
             let square = R::select(closes, value * value, margin);
             let rate = R::splat(2.0) * (value * rate);
-            return Sample {
+            return DyadSample {
                 square,
                 rate: R::select(closes, rate, R::splat(f64::NAN)),
                 side: R::ONE,
@@ -53,7 +53,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         let two_lines = dyad.form == Form::TwoLines;
         let side = if two_lines { self.determinant(g, cx, dyad) } else { R::ONE };
-        Sample { square: R::select(closes, R::ONE, margin), rate: R::ZERO, side }
+        DyadSample { square: R::select(closes, R::ONE, margin), rate: R::ZERO, side }
     }
 
     /// Value and first analogue of the vector from the start of a dyad to its end.
@@ -68,25 +68,25 @@ impl<R: Real, const G: usize> State<R, G> {
 
     /// The sine of the angle between the legs, from its cosine.
     #[inline(always)]
-    fn sample_two_legs(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> Sample<R> {
+    fn sample_two_legs(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> DyadSample<R> {
         let [a, b] = &cx.constants.legs[op.dyad];
         let per = a.inv_norm() * b.inv_norm();
         let [k, dk] = self.chord(g, op);
         let cos = (R::splat(a.norm2 + b.norm2) - k.norm2()) * R::splat(0.5 * per);
         let rate = (cos * k.dot(dk)) * R::splat(2.0 * per);
-        Sample { square: (R::ONE - cos) * (R::ONE + cos), rate, side: R::ONE }
+        DyadSample { square: (R::ONE - cos) * (R::ONE + cos), rate, side: R::ONE }
     }
 
     /// The cosine of the angle between leg and guide, from its sine.
     #[inline(always)]
-    fn sample_standing_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> Sample<R> {
+    fn sample_standing_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> DyadSample<R> {
         let own = &cx.constants.dyads[op.dyad];
         let per = R::splat(cx.constants.legs[op.dyad][0].inv_norm());
         let guide = Vector::splat(own.guides[1]);
         let [k, dk] = self.chord(g, op);
         let sin = guide.cross(k - Vector::splat(own.offset)) * per;
         let rate = R::splat(-2.0) * (sin * (guide.cross(dk) * per));
-        Sample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE }
+        DyadSample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE }
     }
 
     /// Value and first analogue of the guide's direction, and of the chord to where it starts.
@@ -100,22 +100,22 @@ impl<R: Real, const G: usize> State<R, G> {
         [[turned[0] * along, k - turned[0] * offset], [turned[1] * along, dk - turned[1] * offset]]
     }
 
-    /// As with a guide that stands still.
+    /// As with a fixed guide.
     #[inline(always)]
-    fn sample_moving_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> Sample<R> {
+    fn sample_moving_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> DyadSample<R> {
         let per = R::splat(cx.constants.legs[op.dyad][0].inv_norm());
         let [[guide, k], [turning, dk]] = self.moving_guide_chord(g, cx, op);
         let sin = guide.cross(k) * per;
         let rate = R::splat(-2.0) * (sin * ((turning.cross(k) + guide.cross(dk)) * per));
-        Sample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE }
+        DyadSample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE }
     }
 
     /// The part of the chord along the guide.
     #[inline(always)]
-    fn sample_turning_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> Sample<R> {
+    fn sample_turning_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> DyadSample<R> {
         let across = across_guide(cx, op);
         let [k, dk] = self.chord(g, op);
-        Sample {
+        DyadSample {
             square: k.norm2() - R::splat(across * across),
             rate: R::splat(2.0) * k.dot(dk),
             side: R::ONE,

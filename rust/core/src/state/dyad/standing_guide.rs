@@ -1,4 +1,4 @@
-//! The dyad of a leg and a slide along a guide that stands still (RRP).
+//! The dyad of a leg and a slide along a fixed guide (RRP).
 
 use super::chord::{Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
 use super::guide_chord::GuideChord;
@@ -10,8 +10,8 @@ use crate::math::vector::Vector;
 use crate::plan::tape::DyadOp;
 use crate::state::state::{Context, State};
 
-/// What all entries of the jets of leg and slide have in common, in the frame of the guide: x along
-/// it, y across it.
+/// Terms shared by all entries of the jets of leg and slide, in the frame of the guide: x along it, y
+/// across it.
 #[derive(Clone, Copy)]
 struct LegOnGuide<R: Real> {
     leg: Vector<R>,
@@ -20,8 +20,8 @@ struct LegOnGuide<R: Real> {
 }
 
 impl<R: Real> LegOnGuide<R> {
-    /// An entry of the angle and of the slide, from that of the chord: what is across the guide is
-    /// the leg's alone. `rest`: what the leg has without the angle's own entry; none in the first.
+    /// An entry of the angle and of the slide, from that of the chord. Across the guide only the leg
+    /// contributes. `rest`: the leg's entry without the angle's own term; `None` for the first.
     #[inline(always)]
     fn rates(&self, chord: Vector<R>, rest: Option<Vector<R>>) -> [R; 2] {
         let rest = if let Some(leg) = rest { chord - leg } else { chord };
@@ -43,7 +43,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The same for one driver and jets of a constant length, without care, and only what is used.
+    /// The same on the bare path: one driver, jets of a constant length, only what the tape uses.
     #[inline(always)]
     pub(crate) fn bare_standing_guide<W: Stride<R>, const LEN: usize>(
         &mut self,
@@ -129,7 +129,7 @@ impl<R: Real, const G: usize> State<R, G> {
         self.turn_orientations(cx, op);
     }
 
-    /// The same carefully, for any number of drivers.
+    /// The careful path for any number of drivers.
     #[inline(always)]
     fn guide_by_drivers(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let len = self.len;

@@ -1,4 +1,4 @@
-//! The dyad of two slides along guides that stand still (PRP, RPP).
+//! The dyad of two slides along fixed guides (PRP, RPP).
 
 use super::intersections::Closing;
 use crate::math::lanes::Real;
@@ -7,7 +7,8 @@ use crate::plan::tape::DyadOp;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Solves the dyad for its slides and their analogues (Cramer): all are linear in the chord.
+    /// Solves the dyad for its slides and their analogues by Cramer's rule: all are linear in the
+    /// chord.
     #[inline(always)]
     pub(crate) fn standing_guides<const CAREFUL: bool>(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let len = self.len;

@@ -12,7 +12,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn turning_guide(&mut self, cx: &Context<'_>, op: &DyadOp) {
         if R::LANES > 1 || cx.derivatives.drivers > 1 {
-            // Lanes rarely need care: one copy for all orders is enough.
+            // Lanes seldom take the careful path: one copy for all orders is enough.
             self.turning_of_length::<true>(cx, op, self.len, &|k: usize| {
                 (&cx.derivatives.rotation[k][..], &cx.derivatives.mixed[k][..])
             });
@@ -26,13 +26,13 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The same for one driver and jets of a constant length, without care.
+    /// The same on the bare path: one driver, and jets of a constant length.
     #[inline(always)]
     pub(crate) fn bare_turning_guide<const LEN: usize>(&mut self, cx: &Context<'_>, op: &DyadOp) {
         self.turning_of_length::<false>(cx, op, LEN, &one_driver);
     }
 
-    /// The rotation's jet is kept where the second leg of other dyads is.
+    /// The rotation's jet takes the slot of the second leg, which this dyad does not have.
     #[inline(always)]
     fn turning_of_length<'t, const CAREFUL: bool>(
         &mut self,

@@ -1,6 +1,6 @@
-//! The dyad of two legs (RRR): most dyads are of this kind.
+//! The dyad of two legs (RRR), the most frequent one.
 
-use super::chord::{Chord, Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
+use super::chord::{DyadChord, Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
 use super::intersections::{Closing, TwoCircles};
 use super::turning_leg::{entry, second_rest, third_rest};
 use crate::math::lanes::Real;
@@ -9,7 +9,7 @@ use crate::math::vector::Vector;
 use crate::plan::tape::DyadOp;
 use crate::state::state::{Context, State};
 
-/// What all entries of the jets of both legs have in common.
+/// Terms shared by all entries of the jets of both legs.
 #[derive(Clone, Copy)]
 struct Legs<R: Real> {
     a: Vector<R>,
@@ -19,8 +19,8 @@ struct Legs<R: Real> {
 }
 
 impl<R: Real> Legs<R> {
-    /// An entry of both angles, from that of the chord. `rests`: what the legs have without the
-    /// angles' own entries; none in the first.
+    /// An entry of both angles, from that of the chord. `rests`: the legs' entries without the angles'
+    /// own terms; `None` for the first.
     #[inline(always)]
     fn rates(&self, chord: Vector<R>, rests: Option<[Vector<R>; 2]>) -> [R; 2] {
         let rest = if let Some([a, b]) = rests { (chord - a) - b } else { chord };
@@ -39,7 +39,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The same for one driver and jets of a constant length, without care, and only what is used.
+    /// The same on the bare path: one driver, jets of a constant length, only what the tape uses.
     #[inline(always)]
     pub(crate) fn bare_two_legs<W: Stride<R>, const LEN: usize>(
         &mut self,
@@ -63,7 +63,7 @@ impl<R: Real, const G: usize> State<R, G> {
         len: usize,
     ) {
         let jet = |i: usize| i * len..i * len + len;
-        let chord = Chord::new(cx, op, &self.pose.points, &self.pose.unit, len);
+        let chord = DyadChord::new(cx, op, &self.pose.points, &self.pose.unit, len);
         let (Ok([a_jet, b_jet]), Ok([u, v]), Ok([a_turn, b_turn])) = (
             self.pose.legs.get_disjoint_mut([2 * op.dyad, 2 * op.dyad + 1].map(jet)),
             self.pose.theta.get_disjoint_mut(op.unknowns.map(jet)),
@@ -140,7 +140,7 @@ impl<R: Real, const G: usize> State<R, G> {
         self.turn_orientations(cx, op);
     }
 
-    /// The same carefully, for any number of drivers.
+    /// The careful path for any number of drivers.
     #[inline(always)]
     fn legs_by_drivers(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let len = self.len;

@@ -1,7 +1,7 @@
 //! Kernel for groups of rigid links and turning pairs (see [`crate::plan::binary_links`]).
 //!
-//! It has the equations, the iteration and the stopping rule of every group (see `newton`), for one
-//! driver. It solves one lane group after another, so that all data stay in a small work space.
+//! Equations, iteration and stopping rule are those of every group (see `newton`), for one driver. It
+//! solves one lane group after another, so that all data stay in a small work space.
 
 use super::newton::NewtonState;
 use super::turn::turned;

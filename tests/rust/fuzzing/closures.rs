@@ -2,7 +2,7 @@
 
 use assur::{Axis, Dimension, Driver, Mechanism, Motion, Series};
 
-/// Row of a motion that holds every joint, link, place and slide of a mechanism.
+/// Row of a motion that holds every joint, link, reference point and slide of a mechanism.
 pub struct Row<'a> {
     pub mechanism: &'a Mechanism,
     pub dimensions: &'a [f64],
@@ -40,7 +40,7 @@ impl Row<'_> {
     pub fn size(&self, q: &[f64]) -> f64 {
         let linkage = self.mechanism.linkage();
         let points = (0..linkage.joints.len()).map(|j| self.joint(j));
-        let places = (0..linkage.links.len()).map(|l| self.place(l));
+        let places = (0..linkage.links.len()).map(|l| self.reference_point(l));
         let lengths = self.mechanism.dimensions().iter().zip(self.dimensions);
         let lengths = lengths.filter(|((_, d), _)| d.is_length()).map(|(_, &x)| x);
         let values = (0..linkage.slides.len()).map(|s| self.motion.slides[s].value(self.index));
@@ -58,7 +58,7 @@ impl Row<'_> {
     /// not below half the longest dimension of a link.
     pub fn reach(&self) -> f64 {
         let linkage = self.mechanism.linkage();
-        let places = (0..linkage.links.len()).map(|l| self.place(l));
+        let places = (0..linkage.links.len()).map(|l| self.reference_point(l));
         let from = self.joint_or_place();
         let far = places.map(|p| distance(p, from));
         let far = far.chain((0..linkage.joints.len()).map(|j| distance(self.joint(j), from)));
@@ -74,14 +74,18 @@ impl Row<'_> {
     }
 
     fn joint_or_place(&self) -> Point {
-        if self.mechanism.linkage().joints.is_empty() { self.place(0) } else { self.joint(0) }
+        if self.mechanism.linkage().joints.is_empty() {
+            self.reference_point(0)
+        } else {
+            self.joint(0)
+        }
     }
 
     fn joint(&self, joint: usize) -> Point {
         self.motion.joints[joint].point(self.index)
     }
 
-    fn place(&self, link: usize) -> Point {
+    fn reference_point(&self, link: usize) -> Point {
         self.motion.places[link].point(self.index)
     }
 
@@ -90,8 +94,8 @@ impl Row<'_> {
     }
 
     fn dimension(&self, wanted: Dimension) -> f64 {
-        let place = self.mechanism.dimensions().iter().position(|(_, d)| d == wanted);
-        place.map_or(0.0, |place| self.dimensions[place])
+        let index = self.mechanism.dimensions().iter().position(|(_, d)| d == wanted);
+        index.map_or(0.0, |index| self.dimensions[index])
     }
 
     fn point(&self, x: Dimension, y: Dimension) -> Point {
@@ -107,22 +111,22 @@ impl Row<'_> {
         if self.is_ground(link) {
             return local;
         }
-        plus(self.place(link), turned(local, self.angle(link)))
+        plus(self.reference_point(link), turned(local, self.angle(link)))
     }
 
     fn joints_of(&self, link: usize) -> Vec<f64> {
-        let local = |place: usize, joint: usize| {
+        let local = |order: usize, joint: usize| {
             if self.is_ground(link) {
                 self.point(Dimension::GroundX { joint }, Dimension::GroundY { joint })
-            } else if place < 2 {
-                [if place == 0 { 0.0 } else { self.dimension(Dimension::Length { link }) }, 0.0]
+            } else if order < 2 {
+                [if order == 0 { 0.0 } else { self.dimension(Dimension::Length { link }) }, 0.0]
             } else {
                 self.point(Dimension::JointX { link, joint }, Dimension::JointY { link, joint })
             }
         };
         let joints = self.mechanism.linkage().links[link].joints.iter().enumerate();
-        let misfit = |(place, &joint): (usize, &usize)| {
-            distance(self.carried(link, local(place, joint)), self.joint(joint))
+        let misfit = |(order, &joint): (usize, &usize)| {
+            distance(self.carried(link, local(order, joint)), self.joint(joint))
         };
         joints.map(misfit).collect()
     }
@@ -148,7 +152,7 @@ impl Row<'_> {
         let value = self.motion.slides[slide].value(self.index);
         let offset = self.dimension(Dimension::SlideOffset { slide });
         let point = plus(origin, turned([value, offset], along));
-        [distance(point, self.place(s.link)), self.turned_by(turn)]
+        [distance(point, self.reference_point(s.link)), self.turned_by(turn)]
     }
 
     fn driver(&self, driver: Driver, q: f64) -> f64 {

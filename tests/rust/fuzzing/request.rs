@@ -14,7 +14,7 @@ const MOST_OF_SEVERAL: u8 = 4;
 /// Turns from the drawing, at most, likewise.
 const MOST_TURNS: f64 = 4.0;
 
-/// A question in bytes, before there is a mechanism. All fields have fixed places.
+/// A request in bytes, before there is a mechanism. All fields have fixed positions.
 pub struct Question {
     /// One more than there are orders.
     pub order: usize,
@@ -74,14 +74,14 @@ impl Question {
 
     /// The drawing's signs, some of them turned over.
     pub fn signs(&self, mechanism: &Mechanism) -> Vec<i8> {
-        let flip = |(place, &sign): (usize, &i8)| match self.flipped >> (place % 16) & 1 {
+        let flip = |(index, &sign): (usize, &i8)| match self.flipped >> (index % 16) & 1 {
             1 => -sign,
             _ => sign,
         };
         mechanism.signs().iter().enumerate().map(flip).collect()
     }
 
-    /// A grid, with odd coordinates in some places; all designs one after another.
+    /// A grid, with odd coordinates at some positions; all designs one after another.
     pub fn coordinates(&self, mechanism: &Mechanism) -> Vec<f64> {
         let linkage = mechanism.linkage();
         let several = mechanism.q0().len() > 1;
@@ -104,8 +104,8 @@ impl Question {
         }
         if !all.is_empty() {
             for (index, what) in self.odd {
-                let place = usize::from(index) % all.len();
-                all[place] = odd(all[place], what, all[0], several);
+                let at = usize::from(index) % all.len();
+                all[at] = odd(all[at], what, all[0], several);
             }
         }
         all

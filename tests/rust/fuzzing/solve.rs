@@ -199,7 +199,7 @@ impl Case<'_> {
             Ok(found) => found,
             Err(error) => return check_sentence(&error.to_string()),
         };
-        for (place, signs) in found.iter().enumerate() {
+        for (index, signs) in found.iter().enumerate() {
             let diagnosis = self.mechanism.diagnose(&position.dimensions, position.q, signs);
             let diagnosis = &diagnosis.expect("an assembly of this mechanism")[0];
             let status = diagnosis.status as u8;
@@ -207,7 +207,7 @@ impl Case<'_> {
             // Of a flat dyad both assemblies are one, and a redundant link may fit both by its
             // tolerance.
             let is_one = status == LAST_WITH_POSITION || self.has_redundant_parts();
-            let again = !is_one && found[..place].contains(signs);
+            let again = !is_one && found[..index].contains(signs);
             assert!(!again, "{signs:?} twice: {diagnosis}");
         }
     }

@@ -67,7 +67,7 @@ const PARTS: [Part; 24] = [
 const MOST_PARTS: usize = 5;
 const ENOUGH_LINKS: usize = 12;
 
-/// Reads a linkage. The choices come first and have fixed places, so that a mutation of one
+/// Reads a linkage. The choices come first and have fixed positions, so that a mutation of one
 /// leaves the others; the rest is a tape of numbers.
 pub fn linkage(u: &mut Unstructured<'_>) -> Result<Description> {
     let driven = *u.choose(&DRIVERS)?;
@@ -139,8 +139,8 @@ impl Builder<'_> {
         let own: Vec<usize> = (0..count).map(|_| self.link(&[])).collect();
         let pins = if closed { count } else { count - 1 };
         for pin in 0..pins {
-            let place = self.near();
-            self.joint(place, &[own[pin], own[(pin + 1) % count]]);
+            let point = self.near();
+            self.joint(point, &[own[pin], own[(pin + 1) % count]]);
         }
         let mut left = 3 * count - 2 * pins;
         let mut holder = self.among(&own);
@@ -156,8 +156,8 @@ impl Builder<'_> {
                 self.slide(holder, base, angle);
                 left -= 2;
             } else {
-                let place = self.near();
-                let end = self.joint(place, &[holder]);
+                let point = self.near();
+                let end = self.joint(point, &[holder]);
                 if pair < 0.5 {
                     let (block, angle) = (self.link(&[end]), self.angle());
                     self.slide(block, base, angle);

@@ -1,39 +1,41 @@
-//! One look at a turn or at a cell of it: knots solved side by side, and what they show.
+//! A scan: evenly spaced knots solved in lanes over the whole grid or over one cell, to see what may
+//! happen between them.
 
-use super::cell_test::{Bits, DyadSamples, Knots};
-use super::gap_end::Shown;
+use super::cell_test::{Bits, DyadSamples, ScanGrid};
+use super::gap_end::ScanView;
 use super::grid::KNOTS;
 use super::uniform::UniformTracer;
 use crate::math::lanes::{Mask, Real};
 use crate::plan::dyad::Dyad;
 use crate::state::state::Context;
 
-/// What one look showed.
+/// Samples at the knots of a scan, and the classification of its cells.
 #[derive(Debug, Default)]
-pub(super) struct Look {
+pub(super) struct Scan {
     /// The first knot, and the width of a cell.
     pub from: f64,
     pub cell: f64,
     /// Number of knots.
     pub count: usize,
-    /// The next cell to be judged: that before this knot.
+    /// The knot at the end of the next cell to trace.
     pub next: usize,
     pub dyads: Vec<DyadSamples>,
-    /// Cells in which a sign may change …
+    /// Cells in which a sign may change.
     pub uncertain: Bits,
+    /// Cells whose discriminants vary too fast for two knots.
     pub curved: Bits,
-    /// … and that end at a dead point of some dyad that matters.
+    /// Cells with a dead point that matters for the requested angles or for a sign.
     pub dead_point: Bits,
-    /// … and those that may hide an island.
     pub may_hide_island: Bits,
+    /// Knots that can be reached.
     pub reached: Bits,
-    /// Angle and rate of the classes asked for, at every knot.
+    /// Angle and rate of the requested classes at every knot.
     pub angles: Vec<[f64; KNOTS]>,
     pub rates: Vec<[f64; KNOTS]>,
 }
 
-impl Look {
-    /// Takes what the knots just solved show; false if one of them is singular.
+impl Scan {
+    /// Scans the knots just solved; false if one of them is singular.
     #[inline(always)]
     pub(super) fn take<R: Real, const G: usize>(
         &mut self,
@@ -55,11 +57,11 @@ impl Look {
             self.reached |= state.conditions.open[group].not().bits() << (group * R::LANES);
         }
         let islands = !classes.is_empty();
-        // Without angles, dyads matter for signs that may change, and up to the last of these.
+        // Without angles only signs that may change matter, and the dyads before the last of them.
         let unsettled = |dyad: &Dyad| dyad.sign.is_some() && !settled[dyad.index];
         let last = cx.plan.dyads().filter(|dyad| unsettled(dyad)).last();
         let last = last.map_or(0, |dyad| dyad.index);
-        let look = Knots { groups, cell, islands };
+        let grid = ScanGrid { groups, cell, islands };
         let mut known = Bits::MAX;
         [self.uncertain, self.curved, self.dead_point, self.may_hide_island] = [0; 4];
         for (index, dyad) in cx.plan.dyads().enumerate() {
@@ -71,7 +73,7 @@ impl Look {
             }
             let own = &mut self.dyads[index];
             let settled = settled[index];
-            let Some(cells) = own.judge(state, cx, dyad, look, (known, settled)) else {
+            let Some(cells) = own.classify(state, cx, dyad, grid, (known, settled)) else {
                 return false;
             };
             known = own.closes;
@@ -86,7 +88,7 @@ impl Look {
         self.rates.resize(classes.len(), [0.0; KNOTS]);
         for (index, &class) in classes.iter().enumerate() {
             for group in 0..groups {
-                // Beyond a dead point a rotation's length is not 1.
+                // Beyond a dead point a rotation's length is not 1, so `unit_angle` would be wrong.
                 let angle = state.pose.class[class][group].angle();
                 let rate = state.pose.theta[state.len * class + 1][group];
                 for lane in 0..R::LANES {
@@ -98,12 +100,12 @@ impl Look {
         true
     }
 
-    /// What its knots show of the ends of gaps.
-    pub(super) fn shown(&self) -> Shown<'_> {
+    /// What the scan shows about the ends of gaps.
+    pub(super) fn view(&self) -> ScanView<'_> {
         let against = self.uncertain | self.curved | self.may_hide_island;
-        // Where another dyad is open on both sides, it may close between them.
+        // Another dyad that is open at both knots may close between them.
         let at_one_end = self.reached ^ (self.reached << 1);
-        Shown {
+        ScanView {
             from: self.from,
             cell: self.cell,
             count: self.count,
@@ -115,7 +117,7 @@ impl Look {
         }
     }
 
-    /// Goes to the next cell in which something may happen to a sign.
+    /// Skips cells in which no sign can change.
     #[inline(always)]
     pub(super) fn skip_quiet_cells(&mut self) {
         if self.next < self.count {
@@ -124,8 +126,8 @@ impl Look {
         }
     }
 
-    /// Whether all angles are known at both ends of the cell before a knot: beyond a dead point a
-    /// dyad behind it may have no definite position.
+    /// Whether all angles are defined at both ends of the cell before a knot: beyond a dead point a
+    /// later dyad may have no position.
     pub(super) fn is_definite(&self, knot: usize) -> bool {
         self.angles.iter().all(|angles| angles[knot].is_finite() && angles[knot - 1].is_finite())
     }

@@ -1,0 +1,177 @@
+"""Measures designs: one number each of a metric, block by block."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur._arrays import short
+from assur._validate import checked_name, real_array
+from assur.errors import InputError
+from assur.kinematics.solve import checked_assembly
+from assur.sweeps.encode import encoded
+from assur.sweeps.engine import results
+from assur.sweeps.measures import Measures
+from assur.sweeps.terms import Condition, Function, Leaf, Metric
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from assur.kinematics.mechanism import Mechanism
+    from assur.sweeps.designs import Designs
+    from assur.sweeps.progress import Report
+
+Float: TypeAlias = npt.NDArray[np.float64]
+# Of some designs: values by name, statuses, which are kept.
+Block: TypeAlias = tuple[dict[str, Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_]]
+
+# Positions of a block, between two reports of progress: some ten milliseconds. Positions whose
+# motions a function in Python sees at once: as many as the caches hold.
+POSITIONS_OF_BLOCK = 2_097_152
+POSITIONS_OF_FUNCTIONS = 262_144
+
+
+def blocks(count: int, positions: int) -> Iterator[slice]:
+    """Blocks of designs with so many positions each."""
+    size = max(1, POSITIONS_OF_BLOCK // max(1, positions))
+    for first in range(0, count, size):
+        yield slice(first, min(first + size, count))
+
+
+class Measuring:
+    """What is measured of designs of one mechanism; it can be sent to other processes."""
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        q: npt.ArrayLike,
+        metrics: Any,
+        where: Any,
+        assembly: Mapping[str, int] | None,
+        threads: int | None,
+    ) -> None:
+        if not isinstance(metrics, Mapping):
+            message = f"metrics is {short(metrics)}: a mapping of names to metrics is needed"
+            raise InputError(message)
+        self.metrics = {
+            checked_name(name, "metrics"): _metric(name, m) for name, m in metrics.items()
+        }
+        conditions = _conditions(where)
+        self.assembly = assembly
+        self.threads = threads
+        self.signs = checked_assembly(mechanism, assembly)
+        self.q = _coordinates(mechanism, q)
+        everything = [*self.metrics.values(), *(c.metric for c in conditions)]
+        leaves = list(dict.fromkeys(leaf for metric in everything for leaf in metric.leaves()))
+        self.leaves = [leaf for leaf in leaves if isinstance(leaf, Leaf)]
+        self.functions = [leaf for leaf in leaves if isinstance(leaf, Function)]
+        # The core drops designs by all conditions without functions, the others are asked after it.
+        self.late = [
+            c for c in conditions if any(isinstance(m, Function) for m in c.metric.leaves())
+        ]
+        early = [c for c in conditions if c not in self.late]
+        asked: list[Metric] = list(dict.fromkeys([*self.leaves, *(c.metric for c in early)]))
+        self.encoded = [encoded(metric, mechanism, self.q.reshape(-1)) for metric in asked]
+        self.early = [(asked.index(c.metric), c.relation, c.limit) for c in early]
+
+    def run(self, designs: Designs, report: Report, engine: Any = None) -> Measures:
+        """Measure all designs."""
+        count, shape = designs.count, designs.shape
+        values = {name: np.full(count, np.nan) for name in self.metrics}
+        status = np.zeros(count, dtype=np.uint8)
+        kept = np.zeros(count, dtype=np.bool_)
+        parts = list(blocks(count, len(self.q)))
+        # Here one block after another takes the same memory.
+        size = designs.size * max((part.stop - part.start for part in parts), default=0)
+        memory = np.empty(size) if engine is None else None
+        tasks = ((part, designs.some(part, memory)) for part in parts)
+        for part, (found, status[part], kept[part]) in results(engine, self.measure, tasks):
+            for name, value in found.items():
+                values[name][part] = value
+            report(part.stop)
+        indices = np.flatnonzero(kept)
+        for array in (*values.values(), status, indices):
+            array.flags.writeable = False
+        arrays = {name: array.reshape(shape) for name, array in values.items()}
+        return Measures(arrays, status.reshape(shape), indices, designs)
+
+    def measure(self, some: Mechanism) -> Block:
+        """Measure a batch (n,)."""
+        found, status, kept = some._core.measure(
+            some._values.reshape(-1),
+            self.q.reshape(-1),
+            self.signs,
+            self.encoded,
+            self.early,
+            self.threads,
+        )
+        of: dict[Leaf | Function, Float] = dict(zip(self.leaves, found, strict=False))
+        if self.functions:
+            indices = np.flatnonzero(kept)
+            for function in self.functions:
+                of[function] = self._called(function, some, indices)
+        values = {name: metric.value(of.__getitem__) for name, metric in self.metrics.items()}
+        for condition in self.late:
+            misses = kept & ~condition.holds(condition.metric.value(of.__getitem__))
+            kept &= ~misses
+            values = {name: np.where(misses, np.nan, value) for name, value in values.items()}
+        return values, status, kept
+
+    def _called(self, function: Function, some: Mechanism, indices: npt.NDArray[np.intp]) -> Float:
+        """Call a function with the motions of some designs."""
+        found = np.full(some.shape[0], np.nan)
+        size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q))
+        for first in range(0, len(indices), size):
+            few = indices[first : first + size]
+            batch = some._make(some._description, some._values[:, few], some._core)
+            motion = batch.solve(
+                self.q, function.order, function.outputs, self.assembly, "nan", self.threads
+            )
+            numbers = real_array(function.function(motion), f"the values of {function!r}")
+            if numbers.shape != few.shape:
+                message = f"{function!r} returned shape {numbers.shape} for designs {few.shape}"
+                raise InputError(message)
+            found[few] = numbers
+        return found
+
+
+def _metric(name: str, metric: Any) -> Metric:
+    if not isinstance(metric, Metric):
+        message = f"metrics[{name!r}] is {short(metric)}: one of assur.metric is needed"
+        raise InputError(message)
+    return metric
+
+
+def _conditions(where: Any) -> list[Condition]:
+    if isinstance(where, Condition):
+        message = f"where={where!r}: a list of conditions is needed, where=[{where!r}]"
+        raise InputError(message)
+    try:
+        conditions = [] if where is None else list(where)
+    except TypeError as error:
+        message = f"where is {short(where)}: a list of conditions is needed"
+        raise InputError(message) from error
+    for condition in conditions:
+        if not isinstance(condition, Condition):
+            message = f"where: {short(condition)} is no condition, as metric > limit is"
+            raise InputError(message)
+    return conditions
+
+
+def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> Float:
+    array = real_array(q, "q")
+    drivers = mechanism._driver_count
+    if array.ndim != (1 if drivers == 1 else 2) or (drivers > 1 and array.shape[-1] != drivers):
+        shape = "(N,)" if drivers == 1 else f"(N, {drivers})"
+        message = f"q has shape {array.shape}: metrics need {shape}, the same for all designs"
+        raise InputError(message)
+    if len(array) == 0:
+        message = "q is empty: metrics need a position at least"
+        raise InputError(message)
+    if not np.isfinite(array).all():
+        message = "q: a coordinate is not finite: no design could move over all of q"
+        raise InputError(message)
+    return array

@@ -1,0 +1,180 @@
+"""Motions of many designs, block by block into the arrays of one motion."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from assur.description.words import Status
+from assur.kinematics import solve as solver
+from assur.kinematics.held import Held
+from assur.kinematics.motion import Motion
+from assur.kinematics.request import Buffers, Results
+from assur.sweeps.engine import results
+from assur.sweeps.measuring import blocks
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from assur.kinematics.mechanism import Mechanism
+    from assur.sweeps.designs import Designs
+    from assur.sweeps.progress import Report
+
+Number = TypeVar("Number", bound=np.generic)
+Float: TypeAlias = npt.NDArray[np.float64]
+# A batch (n,) and its coordinates.
+Task: TypeAlias = tuple["Mechanism", Float]
+# Arrays as the core writes them, and statuses.
+Arrays: TypeAlias = tuple[list[Float], npt.NDArray[np.uint8]]
+
+
+@dataclass
+class Solving:
+    """How motions are solved; it can be sent to other processes."""
+
+    order: int
+    outputs: Iterable[str] | None
+    assembly: Mapping[str, int] | None
+    threads: int | None
+
+    def solve(self, task: Task, out: Motion | None = None) -> Motion:
+        """Solve a batch."""
+        some, q = task
+        return some.solve(q, self.order, self.outputs, self.assembly, "nan", self.threads, out)
+
+    def arrays(self, task: Task) -> Arrays:
+        """Solve a batch and return its arrays alone."""
+        return _arrays(self.solve(task))
+
+    def moves(self, task: Task) -> npt.NDArray[np.bool_]:
+        """Whether each design of a batch moves over all of its positions."""
+        some, q = task
+        status = some.solve(q, 0, (), self.assembly, "nan", self.threads).status
+        moves = (status < Status.UNREACHABLE).reshape(some.shape[0], -1)
+        every: npt.NDArray[np.bool_] = np.logical_and.reduce(moves, axis=-1)
+        return every
+
+
+class Course:
+    """The coordinates of some designs: the same for all, or of each its own."""
+
+    def __init__(self, every: Mechanism, q: npt.ArrayLike) -> None:
+        array, positions, self.is_own = solver._coordinates(every, q)
+        array.flags.writeable = False
+        self.whole = array
+        axes = len(every.shape)
+        count = math.prod(every.shape)
+        self.q = array.reshape(count, *array.shape[axes:]) if self.is_own else array
+        self.positions = math.prod(positions)
+
+    def of(self, which: slice | npt.NDArray[np.intp]) -> Float:
+        """Those of some designs."""
+        return self.q[which] if self.is_own else self.q
+
+    def tasks(self, designs: Designs) -> Iterator[tuple[slice, Task]]:
+        """Blocks of designs with their coordinates."""
+        for block in blocks(designs.count, self.positions):
+            yield block, (designs.some(block), self.of(block))
+
+
+def moving(
+    designs: Designs, course: Course, solving: Solving, report: Report, engine: Any
+) -> npt.NDArray[np.intp]:
+    """Return the indices of the designs that move over all of q; report those that do not."""
+    moves = np.zeros(designs.count, dtype=np.bool_)
+    for block, moves[block] in results(engine, solving.moves, course.tasks(designs)):
+        report(block.stop - int(np.count_nonzero(moves[: block.stop])))
+    kept = np.flatnonzero(moves)
+    kept.flags.writeable = False
+    return kept
+
+
+def in_blocks(
+    designs: Designs,
+    every: Mechanism,
+    course: Course,
+    solving: Solving,
+    out: Motion | None,
+    report: Report,
+    engine: Any,
+) -> Motion:
+    """Solve designs block by block; there is one at least, and their shape is not ()."""
+    tasks = course.tasks(designs)
+    # The first block shows what there is to write, and that the arguments are right.
+    block, task = next(tasks)
+    first = solving.solve(task)
+    motion = _whole(first, every, course, out)
+    columns, status = _arrays(motion)
+
+    def rows(of: slice) -> Arrays:
+        own = [_rows(column, of, designs.count) for column in columns]
+        return own, _rows(status, of, designs.count)
+
+    def store(of: slice, found: Arrays) -> None:
+        own_columns, own_status = rows(of)
+        own_status[:] = found[1]
+        for own, column in zip(own_columns, found[0], strict=True):
+            own[:] = column
+        report(of.stop)
+
+    buffers = motion._stored.buffers
+    assert buffers is not None
+    # What is interrupted cannot be read.
+    buffers.complete = False
+    store(block, _arrays(first))
+    if engine is None:
+        wanted = first._held_indices()
+        for of, (some, own_q) in tasks:
+            request = replace(first._request, mechanism=some, q=own_q)
+            request.arrays(*wanted, buffers=Buffers(*rows(of)))
+            report(of.stop)
+    else:
+        for of, found in results(engine, solving.arrays, tasks):
+            store(of, found)
+    buffers.complete = True
+    return motion
+
+
+def _whole(first: Motion, every: Mechanism, course: Course, out: Motion | None) -> Motion:
+    """Return a motion of all designs as that of the first ones is, with arrays to be written."""
+    request = replace(first._request, mechanism=every, q=course.whole)
+    wanted = first._held_indices()
+    if out is None:
+        columns, status = _arrays(first)
+        designs, count = first.shape[0], math.prod(every.shape)
+        columns = [np.empty(len(column) // designs * count) for column in columns]
+        buffers = Buffers(columns, np.empty(len(status) // designs * count, dtype=np.uint8))
+    else:
+        buffers = solver._buffers(out, request, wanted)
+    flat = dict(zip(first._stored.joints._flat, buffers.columns, strict=True))  # type: ignore[attr-defined]
+
+    def held(kind: str, indices: dict[str, int], tail: tuple[int, ...]) -> Held:
+        shape = (*request.shape, *tail)
+        return Held(kind, indices, flat, shape, first._drivers, first.order)
+
+    of = ("joint", "link", "slide")
+    tails: tuple[tuple[int, ...], ...] = ((2,), (), ())
+    joints, links, slides = map(held, of, wanted, tails)
+    status = buffers.status.reshape(request.shape)
+    status.flags.writeable = False
+    whole = Results(joints=joints, links=links, slides=slides, buffers=buffers)
+    if out is None:
+        return Motion(request, whole, status)
+    out._replace_with(request, whole, status)
+    return out
+
+
+def _rows(column: npt.NDArray[Number], block: slice, count: int) -> npt.NDArray[Number]:
+    """Return what a column, or the statuses, holds of a block of designs."""
+    size = len(column) // count
+    return column[block.start * size : block.stop * size]
+
+
+def _arrays(motion: Motion) -> Arrays:
+    buffers = motion._stored.buffers
+    assert buffers is not None
+    return buffers.columns, buffers.status

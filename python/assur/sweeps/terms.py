@@ -1,0 +1,194 @@
+"""What metrics are made of: those of the core, functions in Python, combinations and conditions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur._validate import real_number
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from assur.kinematics.motion import Motion
+
+Float: TypeAlias = npt.NDArray[np.float64]
+Part: TypeAlias = tuple[float, float] | None
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A metric compared with a limit: ``where=`` drops designs for which it is false."""
+
+    metric: Metric
+    relation: str
+    limit: float
+
+    def __repr__(self) -> str:
+        return f"{self.metric!r} {self.relation} {self.limit!r}"
+
+    def __bool__(self) -> bool:
+        message = (
+            f"{self!r} is a condition, which has no value by itself: pass it in where=[...], "
+            "two of them for a range"
+        )
+        raise InputError(message)
+
+    def holds(self, values: Float) -> npt.NDArray[np.bool_]:
+        """Whether values meet it; NaN does not."""
+        compare = {
+            "<": np.less,
+            "<=": np.less_equal,
+            ">": np.greater,
+            ">=": np.greater_equal,
+        }[self.relation]
+        met: npt.NDArray[np.bool_] = compare(values, self.limit)
+        return met
+
+
+class Metric:
+    """One number of a motion; metrics add, subtract, multiply, divide and compare."""
+
+    # An array on the left would make an array of metrics.
+    __array_ufunc__ = None
+
+    def leaves(self) -> Iterator[Leaf | Function]:
+        """The metrics that it is made of."""
+        raise NotImplementedError
+
+    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
+        """Its values, given those of its leaves."""
+        raise NotImplementedError
+
+    def __add__(self, other: object) -> Metric:
+        return _combined("+", self, other)
+
+    def __radd__(self, other: object) -> Metric:
+        return _combined("+", other, self)
+
+    def __sub__(self, other: object) -> Metric:
+        return _combined("-", self, other)
+
+    def __rsub__(self, other: object) -> Metric:
+        return _combined("-", other, self)
+
+    def __mul__(self, other: object) -> Metric:
+        return _combined("*", self, other)
+
+    def __rmul__(self, other: object) -> Metric:
+        return _combined("*", other, self)
+
+    def __truediv__(self, other: object) -> Metric:
+        return _combined("/", self, other)
+
+    def __rtruediv__(self, other: object) -> Metric:
+        return _combined("/", other, self)
+
+    def __neg__(self) -> Metric:
+        return _combined("*", -1.0, self)
+
+    def __lt__(self, limit: object) -> Condition:
+        return _compared(self, "<", limit)
+
+    def __le__(self, limit: object) -> Condition:
+        return _compared(self, "<=", limit)
+
+    def __gt__(self, limit: object) -> Condition:
+        return _compared(self, ">", limit)
+
+    def __ge__(self, limit: object) -> Condition:
+        return _compared(self, ">=", limit)
+
+
+def _compared(metric: Metric, relation: str, limit: object) -> Condition:
+    # The difference of two numbers is above zero where one is above the other, also when rounded.
+    if isinstance(limit, Metric):
+        return Condition(metric - limit, relation, 0.0)
+    return Condition(metric, relation, real_number(limit, "the limit of a condition"))
+
+
+@dataclass(frozen=True, repr=False)
+class Combination(Metric):
+    """Two metrics, or a metric and a number."""
+
+    sign: str
+    left: Metric | float
+    right: Metric | float
+
+    def leaves(self) -> Iterator[Leaf | Function]:
+        """Those of both sides."""
+        for side in (self.left, self.right):
+            if isinstance(side, Metric):
+                yield from side.leaves()
+
+    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
+        """The values of both sides, combined."""
+        left, right = (
+            side.value(of) if isinstance(side, Metric) else side for side in (self.left, self.right)
+        )
+        combine = {"+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide}[self.sign]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            values: Float = combine(left, right)
+        return values
+
+    def __repr__(self) -> str:
+        return f"({self.left!r} {self.sign} {self.right!r})"
+
+
+def _combined(sign: str, left: object, right: object) -> Combination:
+    sides = [
+        side if isinstance(side, Metric) else real_number(side, "a number beside a metric")
+        for side in (left, right)
+    ]
+    return Combination(sign, *sides)
+
+
+@dataclass(frozen=True, repr=False)
+class Leaf(Metric):
+    """A metric of the core."""
+
+    kind: str
+    of: str | None = None
+    order: int = 0
+    options: tuple[Any, ...] = ()
+    over: Part = None
+
+    def leaves(self) -> Iterator[Leaf | Function]:
+        """Itself."""
+        yield self
+
+    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
+        """Its values."""
+        return of(self)
+
+    def __repr__(self) -> str:
+        name = {"moves": "full_rotation"}.get(self.kind, self.kind)
+        words = [] if self.of is None else [repr(self.of)]
+        words += [f"order={self.order}"] if self.order else []
+        words += [repr(option) for option in self.options if option is not None]
+        words += [f"over={self.over!r}"] if self.over else []
+        return f"{name}({', '.join(words)})"
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Function(Metric):
+    """A function of motions, in Python: equal to itself alone, for it may have no hash."""
+
+    function: Callable[[Motion], npt.ArrayLike]
+    outputs: tuple[str, ...] | None
+    order: int
+
+    def leaves(self) -> Iterator[Leaf | Function]:
+        """Itself."""
+        yield self
+
+    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
+        """Its values."""
+        return of(self)
+
+    def __repr__(self) -> str:
+        return f"function({getattr(self.function, '__name__', self.function)!s})"

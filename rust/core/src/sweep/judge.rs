@@ -1,0 +1,155 @@
+//! What becomes of a design, and its metrics, given its positions.
+
+use super::course::Course;
+use super::metric::{Metric, Positions};
+use super::request::Sweep;
+use super::scratch::ScratchRows;
+use crate::batch::designs::DesignRow;
+use crate::batch::outputs::Column;
+use crate::batch::request::{Request, Shape};
+use crate::batch::schedule::Control;
+use crate::batch::writer::Writer;
+use crate::math::derivatives::DerivativeTables;
+use crate::math::lanes::LANES;
+use crate::plan::mechanism::Mechanism;
+use crate::state::status::Status;
+
+/// Positions that are solved first, spread over all: most designs that do not move over all of these,
+/// or miss a condition, are known by them.
+const PROBES: usize = LANES;
+/// Positions from which that is worth it.
+const MANY_POSITIONS: usize = 4 * PROBES;
+
+/// What a motion is at the end of a turn and at its start is the same to this part of its size. Near
+/// a change point positions are known to 1.5e-8, the root of the rounding; assemblies that differ do
+/// so by far more.
+const SAME: f64 = 1.0e-6;
+
+/// Code from which a position has failed.
+const FIRST_FAILURE: u8 = Status::Unreachable as u8;
+
+/// The positions that are solved first.
+pub(super) struct Probes {
+    pub places: Vec<usize>,
+    pub q: Vec<f64>,
+}
+
+impl Probes {
+    pub(super) fn new(course: &Course<'_>) -> Self {
+        let are_many = course.drivers == 1 && course.count() >= MANY_POSITIONS;
+        let count = if are_many { PROBES } else { 0 };
+        let places: Vec<usize> = (0..count).map(|k| k * course.count() / PROBES).collect();
+        let q = places.iter().map(|&place| course.q[place]).collect();
+        Self { places, q }
+    }
+}
+
+/// What all chunks of a batch share.
+pub(super) struct Batch<'b> {
+    pub mechanism: &'b Mechanism,
+    pub sweep: &'b Sweep<'b>,
+    pub request: &'b Request<'b>,
+    pub derivatives: &'b DerivativeTables,
+    pub writer: &'b Writer<'b>,
+    pub columns: &'b [Column],
+    pub sources: &'b [Vec<usize>],
+    pub probes: &'b Probes,
+    pub course: &'b Course<'b>,
+    /// All coordinates that are solved: after those of the course may follow two of the next turn.
+    pub q: &'b [f64],
+    pub shape: &'b Shape,
+    pub control: &'b Control<'b>,
+}
+
+/// What becomes of a design.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// It moves, with the worst status of its positions.
+    Moves(u8),
+    /// A position has failed, with this status.
+    Fails(u8),
+    /// It misses a condition.
+    Misses,
+}
+
+impl Batch<'_> {
+    /// What becomes of a design, given its positions at `q`, all or the probes alone; and its metrics,
+    /// of all.
+    pub(super) fn judge(
+        &self,
+        rows: &ScratchRows<'_>,
+        (row, q): (DesignRow<'_>, &[f64]),
+        are_probes: bool,
+        found: &mut [f64],
+    ) -> Outcome {
+        let status = &rows.status()[..q.len() / self.shape.drivers];
+        let worst = status.iter().fold(0, |worst, &code| worst.max(code));
+        if worst >= FIRST_FAILURE {
+            // The probes come first, whether or not they were solved before.
+            let places: &[usize] = if are_probes { &[] } else { &self.probes.places };
+            let mut all = places.iter().map(|&place| &status[place]).chain(status);
+            let failed = all.find(|&&code| code >= FIRST_FAILURE);
+            return Outcome::Fails(failed.copied().unwrap_or(worst));
+        }
+        let metrics = self.sweep.metrics;
+        found.fill(f64::NAN);
+        for condition in self.sweep.conditions {
+            let metric = metrics[condition.metric];
+            if !are_probes || condition.stays_false(metric.growth()) {
+                let value = self.value(rows, (row, q), condition.metric, worst);
+                found[condition.metric] = value;
+                // A part of the positions may have no probe.
+                if !(condition.holds(value) || are_probes && value.is_nan()) {
+                    return Outcome::Misses;
+                }
+            }
+        }
+        if !are_probes {
+            let asked = |metric: usize| self.sweep.conditions.iter().any(|c| c.metric == metric);
+            for metric in (0..metrics.len()).filter(|&metric| !asked(metric)) {
+                found[metric] = self.value(rows, (row, q), metric, worst);
+            }
+        }
+        Outcome::Moves(worst)
+    }
+
+    /// A metric of the positions at `q`, the first of the rows, whose worst status is given. At singular
+    /// ones there are no derivatives.
+    fn value(
+        &self,
+        rows: &ScratchRows<'_>,
+        (row, q): (DesignRow<'_>, &[f64]),
+        metric: usize,
+        worst: u8,
+    ) -> f64 {
+        let is_derivative = |&column: &usize| self.columns[column].order > 0;
+        if worst >= Status::Singular as u8 && self.sources[metric].iter().any(is_derivative) {
+            return f64::NAN;
+        }
+        let drivers = self.shape.drivers;
+        let count = q.len() / drivers;
+        let column = |&index: &usize| &rows.column(index)[..count * self.columns[index].width];
+        let values: Vec<&[f64]> = self.sources[metric].iter().map(column).collect();
+        let metric = (self.sweep.metrics[metric], &self.sources[metric][..]);
+        let returns = q.len() == self.course.q.len() && self.returns(rows, metric);
+        let dimensions = row.dimensions;
+        metric.0.of(&Positions { q, drivers, dimensions, values: &values, returns })
+    }
+
+    /// Whether what a metric reads is the same after a turn, at two positions.
+    fn returns(&self, rows: &ScratchRows<'_>, (metric, sources): (&dyn Metric, &[usize])) -> bool {
+        let (count, next) = (self.course.count(), 2);
+        let is_solved = self.q.len() > self.course.q.len();
+        is_solved
+            && metric.asks_return()
+            && sources.iter().all(|&index| {
+                let width = self.columns[index].width;
+                let values = rows.column(index);
+                let (turn, after) = values.split_at(count * width);
+                let size = turn.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+                // NaN is not the same.
+                let mut pairs = turn.iter().zip(after).take(next * width);
+                pairs.all(|(first, again)| (again - first).abs() <= SAME * size)
+            })
+    }
+}

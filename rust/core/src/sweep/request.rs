@@ -1,0 +1,40 @@
+//! What to measure, and what is found.
+
+use super::metric::{Condition, Metric};
+use crate::plan::mechanism::Mechanism;
+
+/// What to measure.
+#[derive(Clone, Copy)]
+pub struct Sweep<'a> {
+    /// Dimensions: the first of every design, then the second of every design, and so on.
+    pub dimensions: &'a [f64],
+    /// Coordinates of all designs, rad or m.
+    pub q: &'a [f64],
+    /// Assembly signs, +1 or −1 for every dyad with two solutions.
+    pub signs: &'a [i8],
+    /// The metrics.
+    pub metrics: &'a [&'a dyn Metric],
+    /// What designs must meet, in the order in which it is asked.
+    pub conditions: &'a [Condition],
+}
+
+/// The metrics of a batch.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Measured {
+    /// For every metric, its value of every design. Those that do not move have its
+    /// [number of these](Metric::of_failed), mostly NaN, and those that miss a condition NaN.
+    pub values: Vec<Vec<f64>>,
+    /// For every design a [`Status`](crate::Status) code: that of a position that cannot be solved, if one was found,
+    /// or the worst. A design that misses a condition has 0: it is not solved further.
+    pub status: Vec<u8>,
+    /// Whether it moves over all positions and meets all conditions.
+    pub kept: Vec<bool>,
+}
+
+impl<'a> Sweep<'a> {
+    /// Designs of a mechanism in the assembly of its drawing, without metrics.
+    #[must_use]
+    pub fn of(mechanism: &'a Mechanism, dimensions: &'a [f64], q: &'a [f64]) -> Self {
+        Self { dimensions, q, signs: mechanism.signs(), metrics: &[], conditions: &[] }
+    }
+}

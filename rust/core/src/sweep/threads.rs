@@ -1,0 +1,140 @@
+//! The work of each thread: one design after another, first at the probes.
+
+use std::mem::MaybeUninit;
+
+use super::judge::{Batch, Outcome};
+use super::scratch::{Scratch, ScratchRows};
+use crate::batch::designs::{DesignRow, Designs};
+use crate::batch::dispatch::{Entry, ForLevel};
+use crate::batch::schedule::{Chunk, Chunks};
+use crate::batch::worker::Worker;
+use crate::batch::writer::RowSlices;
+use crate::description::error::SolveError;
+use crate::math::lanes::Real;
+use crate::state::status::Status;
+
+/// Designs after which it is decided whether probes are worth their time, and the least part of them
+/// that these must drop.
+const TRIAL: usize = 64;
+const LEAST_PART_DROPPED: usize = 8;
+
+/// Measures all chunks.
+pub(super) struct Measure<'b, 'r> {
+    pub batch: &'b Batch<'b>,
+    pub chunks: Chunks<'r>,
+}
+
+/// What one thread works with.
+struct Own<'b, R: Real, const G: usize> {
+    solver: Solver<'b, R, G>,
+    designs: Designs,
+    scratch: Scratch,
+}
+
+/// Solves designs, first at the probes.
+struct Solver<'b, R: Real, const G: usize> {
+    worker: Worker<'b, R, G>,
+    /// Holds the work space of probes.
+    probe: Worker<'b, R, G>,
+    /// Designs probed, and those dropped by that.
+    probed: usize,
+    dropped: usize,
+}
+
+impl ForLevel for Measure<'_, '_> {
+    type Output = Result<(), SolveError>;
+
+    fn run<L: Entry, const G: usize>(self) -> Self::Output {
+        let batch = self.batch;
+        let Batch { mechanism, request, derivatives, writer, columns, control, .. } = *batch;
+        let one = || Worker::new(mechanism, request, derivatives, writer, columns, control);
+        let worker = || Own::<'_, L::Register, G> {
+            solver: Solver { worker: one(), probe: one(), probed: 0, dropped: 0 },
+            designs: Designs::default(),
+            scratch: Scratch::new(columns, batch.shape.positions),
+        };
+        let work = |own: &mut Own<'_, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
+            batch.measure_chunk::<L, G>(own, chunk, rows);
+        };
+        control.run(self.chunks, worker, work, |own| {
+            own.solver.worker.finish();
+            own.solver.probe.finish();
+        })
+    }
+}
+
+impl<R: Real, const G: usize> Solver<'_, R, G> {
+    /// Solves and judges a design.
+    fn solve<L: Entry<Register = R>>(
+        &mut self,
+        batch: &Batch<'_>,
+        (row, design): (DesignRow<'_>, usize),
+        rows: &mut ScratchRows<'_>,
+        found: &mut [f64],
+    ) -> Outcome {
+        let (all, q, probes) = (batch.q, batch.course.q, &batch.probes.q[..]);
+        if !self.worker.bind(row, &mut rows.job(all, design)) {
+            return batch.judge(rows, (row, q), false, found);
+        }
+        let is_trial = self.probed < TRIAL || !batch.sweep.conditions.is_empty();
+        let is_worth = is_trial || self.dropped * LEAST_PART_DROPPED >= self.probed;
+        if is_worth && !probes.is_empty() {
+            self.worker.swap_space(&mut self.probe);
+            L::run(&mut self.worker, &mut rows.job(probes, design));
+            self.worker.swap_space(&mut self.probe);
+            let outcome = batch.judge(rows, (row, probes), true, found);
+            let is_dropped = !matches!(outcome, Outcome::Moves(_));
+            self.probed += 1;
+            self.dropped += usize::from(is_dropped);
+            if is_dropped {
+                return outcome;
+            }
+        }
+        L::run(&mut self.worker, &mut rows.job(all, design));
+        batch.judge(rows, (row, q), false, found)
+    }
+}
+
+impl Batch<'_> {
+    /// Measures the designs of a chunk; `results` holds one row a design.
+    fn measure_chunk<L: Entry, const G: usize>(
+        &self,
+        own: &mut Own<'_, L::Register, G>,
+        chunk: &Chunk,
+        mut results: RowSlices<'_>,
+    ) {
+        let Own { solver, designs, scratch } = own;
+        let all = self.shape.designs;
+        designs.read(self.mechanism, self.sweep.dimensions, all, chunk.designs.clone());
+        let mut rows = scratch.rows();
+        let mut found = vec![f64::NAN; self.sweep.metrics.len()];
+        for (place, design) in chunk.designs.clone().enumerate() {
+            if self.control.is_cancelled() {
+                return;
+            }
+            let row = designs.row(place);
+            let outcome = solver.solve::<L>(self, (row, design), &mut rows, &mut found);
+            let (status, is_kept) = match outcome {
+                Outcome::Moves(status) => (status, true),
+                Outcome::Fails(status) => (status, false),
+                Outcome::Misses => (Status::Ok as u8, false),
+            };
+            match outcome {
+                Outcome::Moves(_) => {}
+                Outcome::Fails(_) => {
+                    for (value, metric) in found.iter_mut().zip(self.sweep.metrics) {
+                        *value = metric.of_failed();
+                    }
+                }
+                Outcome::Misses => found.fill(f64::NAN),
+            }
+            found.push(f64::from(u8::from(is_kept)));
+            for (column, &value) in results.columns.iter_mut().zip(&found) {
+                column[place] = MaybeUninit::new(value);
+            }
+            found.pop();
+            results.status[place] = MaybeUninit::new(status);
+        }
+        L::Register::fence();
+    }
+}
