@@ -21,11 +21,11 @@ use crate::convert::motor::motors;
 use crate::convert::value::{Values, table};
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
-use crate::{error, error_map};
 use crate::mechanism::Mechanism;
 use crate::parallel_map::parallel_map;
 use crate::reactions::{self, Inputs, ReactionKey};
 use crate::run::{PythonCallbacks, Run};
+use crate::{error, error_map};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -236,8 +236,7 @@ impl Machine {
             return Err(error::input("a machine of a table has no joints", None));
         };
         let mechanism = &mechanism.get().inner;
-        let inputs =
-            Inputs { dimensions, q, per_design, speed, acceleration, function_values };
+        let inputs = Inputs { dimensions, q, per_design, speed, acceleration, function_values };
         reactions::reactions(py, mechanism, machine, &inputs, &reactions, threads, &report)
     }
 

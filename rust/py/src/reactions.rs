@@ -101,12 +101,8 @@ pub(crate) fn reactions<'py>(
     let arrays = Mutex::new(Some(arrays));
     let log = FailureLog::default();
     let solved = detach::run(py, rows < FEW_POSITIONS, |cancel| {
-        let control = Control {
-            threads,
-            cancel: Some(cancel),
-            failures: Some(&log),
-            ..Control::default()
-        };
+        let control =
+            Control { threads, cancel: Some(cancel), failures: Some(&log), ..Control::default() };
         let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
         arrays.map_or(Err(SolveError::Interrupted), |arrays| {
             machine.reactions(mechanism, &request, arrays, &control)

@@ -27,7 +27,7 @@ pub(crate) struct Sensitivity {
 
 impl Sensitivity {
     pub(crate) fn new(plan: &Plan, derivatives: &DerivativeTables) -> Self {
-                Self {
+        Self {
             steps: plan.steps.iter().map(Closures::of_step).collect(),
             units: vec![Vector::ZERO; plan.orientations.len() * derivatives.len()],
             rates: State::new(plan, derivatives),

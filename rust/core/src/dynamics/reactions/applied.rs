@@ -84,8 +84,8 @@ impl<R: Real> Scene<R> {
             Load::Spring { ends, stiffness, length, preload } => {
                 let [first, second] = ends.map(|end| self.place(plan, end));
                 let (unit, distance) = polar(second.at - first.at);
-                let tension = R::splat(*stiffness) * (distance - R::splat(*length))
-                    + R::splat(*preload);
+                let tension =
+                    R::splat(*stiffness) * (distance - R::splat(*length)) + R::splat(*preload);
                 // A spring without tension has no direction at zero length.
                 let rests = tension.le(R::ZERO).and(R::ZERO.le(tension));
                 let pull = unit.scale(tension);
@@ -103,8 +103,8 @@ impl<R: Real> Scene<R> {
                 self.pull(plan, *ends, [first.at, second.at], pull);
             }
             Load::TorsionSpring { link, on, stiffness, angle, preload } => {
-                let twist = self.angle(plan, *link).at - self.angle(plan, *on).at
-                    - R::splat(*angle);
+                let twist =
+                    self.angle(plan, *link).at - self.angle(plan, *on).at - R::splat(*angle);
                 let torque = -(R::splat(*stiffness) * twist + R::splat(*preload));
                 self.moment_on(plan, *link, torque);
                 self.moment_on(plan, *on, -torque);

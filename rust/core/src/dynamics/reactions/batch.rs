@@ -17,7 +17,7 @@ use crate::batch::writer::{RowSlices, Writer};
 use crate::description::error::SolveError;
 use crate::dynamics::machine::Machine;
 use crate::math::derivatives::DerivativeTables;
-use crate::math::lanes::Real;
+use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
@@ -108,8 +108,7 @@ impl Machine {
             shape: &shape,
             control,
         };
-        let chunks =
-            Chunks::new(arrays, &results, [shape.designs, shape.positions], shape.drivers);
+        let chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], shape.drivers);
         dispatch::at_level(control.simd, React { batch: &batch, chunks })
     }
 }
@@ -248,9 +247,17 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
             let rows = Rows { first, last: count - 1 };
             self.scene.read(plan, sources, &self.guides, &self.solved, rows);
             self.scene.apply(plan, machine, self.values, rows);
+            self.scene.start(plan);
             self.scene.carry_loads(plan);
             self.scene.pass_moments(plan);
-            self.write(first, R::LANES.min(count - first));
+            let lanes = R::LANES.min(count - first);
+            self.write(first, lanes);
+            for &stress in &plan.self_stresses {
+                self.scene.stress(plan, stress);
+                self.scene.carry_loads(plan);
+                self.scene.pass_moments(plan);
+                self.drop_stressed(first, lanes);
+            }
         }
         for (row, &status) in self.status.iter().enumerate() {
             self.results.status[self.first + row] = MaybeUninit::new(status);
@@ -262,27 +269,33 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
 }
 
 impl<R: Real> Evaluate<'_, '_, R> {
+    /// The value of a reaction in all lanes.
+    #[inline(always)]
+    fn value(&self, index: usize) -> Vector<R> {
+        let (reaction, joint) = (self.batch.asked.reactions[index], &self.batch.joints[index]);
+        let scene = &*self.scene;
+        let one = |value: R| Vector::new(value, R::ZERO);
+        let normal = |slide: usize| {
+            let edge = self.batch.plan.edges.iter().position(|e| e.slide == Some(slide));
+            edge.map_or(R::ZERO, |e| -scene.guides[slide].cross(scene.edge_force[e]))
+        };
+        match reaction {
+            Reaction::Joint { .. } => joint.of(scene),
+            Reaction::Normal(slide) => one(normal(slide)),
+            Reaction::Moment(slide) => one(scene.slide_moment[slide]),
+            Reaction::Along(slide) => {
+                one(scene.slides[slide] + scene.slide_moment[slide] / normal(slide))
+            }
+            Reaction::Driver(driver) => one(scene.driver[driver]),
+            Reaction::ShakingForce => scene.shaking_force,
+            Reaction::ShakingMoment => one(scene.shaking_moment),
+        }
+    }
+
     #[inline(always)]
     fn write(&mut self, first: usize, lanes: usize) {
-        let reactions = self.batch.asked.reactions;
-        for (index, (&reaction, joint)) in reactions.iter().zip(&self.batch.joints).enumerate() {
-            let scene = &*self.scene;
-            let one = |value: R| Vector::new(value, R::ZERO);
-            let normal = |slide: usize| {
-                let edge = self.batch.plan.edges.iter().position(|e| e.slide == Some(slide));
-                edge.map_or(R::ZERO, |e| -scene.guides[slide].cross(scene.edge_force[e]))
-            };
-            let value = match reaction {
-                Reaction::Joint { .. } => joint.of(scene),
-                Reaction::Normal(slide) => one(normal(slide)),
-                Reaction::Moment(slide) => one(scene.slide_moment[slide]),
-                Reaction::Along(slide) => {
-                    one(scene.slides[slide] + scene.slide_moment[slide] / normal(slide))
-                }
-                Reaction::Driver(driver) => one(scene.driver[driver]),
-                Reaction::ShakingForce => scene.shaking_force,
-                Reaction::ShakingMoment => one(scene.shaking_moment),
-            };
+        for (index, reaction) in self.batch.asked.reactions.iter().enumerate() {
+            let value = self.value(index);
             let width = reaction.width();
             let out = &mut self.results.columns[index][(self.first + first) * width..];
             for lane in 0..lanes {
@@ -291,6 +304,43 @@ impl<R: Real> Evaluate<'_, '_, R> {
                     out[lane * width + 1] = MaybeUninit::new(value.y.lane(lane));
                 }
             }
+        }
+    }
+
+    /// Leaves out what a self-stress changes: it cannot be known.
+    #[inline(always)]
+    fn drop_stressed(&mut self, first: usize, lanes: usize) {
+        let size = self.batch.mechanism.linkage().size();
+        for (index, &reaction) in self.batch.asked.reactions.iter().enumerate() {
+            let unit = match reaction {
+                Reaction::ShakingForce | Reaction::ShakingMoment => continue,
+                Reaction::Moment(_) => size,
+                Reaction::Along(slide) => {
+                    // Known with the normal force and the moment.
+                    let edge = self.batch.plan.edges.iter().position(|e| e.slide == Some(slide));
+                    let force = edge.map_or(Vector::ZERO, |e| self.scene.edge_force[e]);
+                    let moment = self.scene.slide_moment[slide];
+                    let stressed = Scene::is_stressed(force.size(), R::ONE)
+                        .or(Scene::is_stressed(moment, R::splat(size)));
+                    self.drop_lanes(index, [first, lanes], stressed);
+                    continue;
+                }
+                Reaction::Driver(driver) if self.batch.plan.driven_links[driver].is_some() => size,
+                _ => 1.0,
+            };
+            // A force is known as a whole, or not at all: its axes are the drawing's.
+            let stressed = Scene::is_stressed(self.value(index).size(), R::splat(unit));
+            self.drop_lanes(index, [first, lanes], stressed);
+        }
+    }
+
+    #[inline(always)]
+    fn drop_lanes(&mut self, index: usize, [first, lanes]: [usize; 2], stressed: R::Mask) {
+        for lane in (0..lanes).filter(|&lane| stressed.lane(lane)) {
+            let width = self.batch.asked.reactions[index].width();
+            let row = self.first + first + lane;
+            self.results.columns[index][row * width..(row + 1) * width]
+                .fill(MaybeUninit::new(f64::NAN));
         }
     }
 

@@ -1,5 +1,6 @@
 //! What the reactions of a machine need of its mechanism, compiled once.
 
+use super::redundant::{self, SelfStress};
 use crate::batch::outputs::{Outputs, Quantity};
 use crate::description::Driver;
 use crate::description::frame::Axis;
@@ -19,6 +20,10 @@ pub(crate) enum Transposed {
     Carry { edge: usize, backward: bool },
     /// The loads on the unknowns of closed paths give the forces that close these.
     Close { closures: Closures, unknowns: Vec<LoadedUnknown> },
+    /// The moment on a redundant link becomes a couple of forces at two joints.
+    TurnByJoints { link: usize, edges: [Option<usize>; 2], points: [usize; 2] },
+    /// The moment on a redundant link passes to the other link of a slide.
+    TurnBySlide { link: usize, slide: usize },
 }
 
 /// What an unknown of a group moves.
@@ -86,6 +91,8 @@ pub(crate) struct ForcePlan {
     /// The two links of every slide: sliding, carrying.
     pub slide_links: Vec<[usize; 2]>,
     pub steps: Vec<Transposed>,
+    /// States of stress without loads, of redundant links and slides.
+    pub self_stresses: Vec<SelfStress>,
     pub moments: Vec<MomentStep>,
     /// Whether accelerations, and velocities, are needed.
     pub has_inertia: bool,
@@ -99,7 +106,7 @@ pub(crate) struct ForcePlan {
 }
 
 impl ForcePlan {
-    /// Compiles a machine without redundant links.
+    /// Compiles a machine.
     pub(crate) fn new(mechanism: &Mechanism, machine: &Machine) -> Self {
         let (plan, linkage) = (mechanism.plan(), mechanism.linkage());
         let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
@@ -147,6 +154,7 @@ impl ForcePlan {
             needs_direction: vec![false; linkage.links.len()],
             slide_links: plan.slide_links.clone(),
             steps: transposed_steps(plan),
+            self_stresses: redundant::self_stresses(mechanism),
             moments: moment_steps(mechanism),
             has_inertia,
             has_speeds,
@@ -262,17 +270,18 @@ impl ForcePlan {
 fn transposed_steps(plan: &Plan) -> Vec<Transposed> {
     let transposed = |step: &Step| match step {
         // What ends there is a coupler point: loads act on links, so it has none.
-        &Step::Place { edge, backward } => {
-            plan.edges[edge].paired.then_some(Transposed::Carry { edge, backward })
-        }
-        Step::Dyad(_) | Step::Group(_) => {
-            let closures = Closures::of_step(step)?;
-            let unknowns = closures.unknowns.iter().map(|&u| loaded_unknown(plan, u)).collect();
-            Some(Transposed::Close { closures, unknowns })
-        }
-        Step::Redundant(_) => None,
+        &Step::Place { edge, .. } if !plan.edges[edge].paired => Vec::new(),
+        &Step::Place { edge, backward } => vec![Transposed::Carry { edge, backward }],
+        Step::Dyad(_) | Step::Group(_) => Closures::of_step(step)
+            .map(|closures| {
+                let unknowns = closures.unknowns.iter().map(|&u| loaded_unknown(plan, u)).collect();
+                Transposed::Close { closures, unknowns }
+            })
+            .into_iter()
+            .collect(),
+        Step::Redundant(redundant) => redundant::transposed(redundant),
     };
-    plan.steps.iter().rev().filter_map(transposed).collect()
+    plan.steps.iter().rev().flat_map(transposed).collect()
 }
 
 fn loaded_unknown(plan: &Plan, unknown: Unknown) -> LoadedUnknown {
@@ -290,8 +299,11 @@ fn loaded_unknown(plan: &Plan, unknown: Unknown) -> LoadedUnknown {
 fn moment_steps(mechanism: &Mechanism) -> Vec<MomentStep> {
     let (plan, linkage) = (mechanism.plan(), mechanism.linkage());
     let mut pairs: Vec<([usize; 2], MomentPair)> = Vec::new();
+    let left_out = &mechanism.structure().redundant;
     for (slide, &links) in plan.slide_links.iter().enumerate() {
-        pairs.push((links, MomentPair::Slide(slide)));
+        if !left_out.has_slide(linkage, slide) {
+            pairs.push((links, MomentPair::Slide(slide)));
+        }
     }
     for (index, driver) in linkage.drivers.iter().enumerate() {
         if let &Driver::Angle { link, relative_to } = driver {

@@ -12,5 +12,6 @@ pub(crate) mod columns;
 pub(crate) mod force_plan;
 pub(crate) mod moments;
 pub(crate) mod pair_forces;
+pub(crate) mod redundant;
 pub(crate) mod scene;
 pub(crate) mod transposed;

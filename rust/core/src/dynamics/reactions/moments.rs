@@ -15,7 +15,7 @@ impl<R: Real> Scene<R> {
             match step.through {
                 MomentPair::Slide(slide) => {
                     let is_sliding = plan.slide_links[slide][0] == step.link;
-                    self.slide_moment[slide] = if is_sliding { on_link } else { -on_link };
+                    self.slide_moment[slide] += if is_sliding { on_link } else { -on_link };
                 }
                 MomentPair::Driver(driver) => {
                     let is_driven = plan.driven_links[driver] == Some(step.link);

@@ -56,7 +56,12 @@ pub(crate) enum JointForce {
 
 impl JointForce {
     /// Of a link at a joint.
-    pub(crate) fn new(plan: &ForcePlan, links_at: &[Vec<usize>], joint: usize, link: usize) -> Self {
+    pub(crate) fn new(
+        plan: &ForcePlan,
+        links_at: &[Vec<usize>],
+        joint: usize,
+        link: usize,
+    ) -> Self {
         if links_at[joint].len() < 2 || !links_at[joint].contains(&link) {
             return Self::Free;
         }

@@ -9,20 +9,30 @@ use crate::plan::dyad::Unknown;
 use crate::state::closures::{ClosedPath, Closures};
 
 impl<R: Real> Scene<R> {
-    /// Finds the force in every edge from the loads on the links.
+    /// Starts with the loads on the links.
     #[inline(always)]
-    pub(crate) fn carry_loads(&mut self, plan: &ForcePlan) {
+    pub(super) fn start(&mut self, plan: &ForcePlan) {
         self.point_load.fill(Vector::ZERO);
         self.edge_force.fill(Vector::ZERO);
         self.sliding.fill(R::ZERO);
+        self.slide_moment.fill(R::ZERO);
         for (link, &reference) in plan.reference.iter().enumerate() {
             self.point_load[reference] += self.link_force[link];
             self.moment[link] = self.link_moment[link];
         }
+    }
+
+    /// Finds the force in every edge.
+    #[inline(always)]
+    pub(crate) fn carry_loads(&mut self, plan: &ForcePlan) {
         for step in &plan.steps {
             match step {
                 &Transposed::Carry { edge, backward } => self.carry(plan, edge, backward),
                 Transposed::Close { closures, unknowns } => self.close(plan, closures, unknowns),
+                &Transposed::TurnByJoints { link, edges, points } => {
+                    self.turn_by_joints(link, edges, points);
+                }
+                &Transposed::TurnBySlide { link, slide } => self.turn_by_slide(plan, link, slide),
             }
         }
     }
@@ -46,7 +56,7 @@ impl<R: Real> Scene<R> {
 
     /// Adds a force at the end of an edge to its link and its slide.
     #[inline(always)]
-    fn load_edge(&mut self, plan: &ForcePlan, edge: usize, force: Vector<R>) {
+    pub(super) fn load_edge(&mut self, plan: &ForcePlan, edge: usize, force: Vector<R>) {
         self.edge_force[edge] += force;
         let link = plan.edges[edge].link;
         if link != plan.ground {
@@ -97,10 +107,7 @@ impl<R: Real> Scene<R> {
             let (a, b) = (self.column(plan, path, first), self.column(plan, path, second));
             let inverse = R::ONE / a.cross(b);
             let (p, q) = (self.right[0], self.right[1]);
-            let force = Vector::new(
-                (p * b.y - q * a.y) * inverse,
-                (q * a.x - p * b.x) * inverse,
-            );
+            let force = Vector::new((p * b.y - q * a.y) * inverse, (q * a.x - p * b.x) * inverse);
             self.load_path(plan, path, force);
             return;
         }
