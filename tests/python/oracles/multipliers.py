@@ -68,6 +68,9 @@ class Reactions:
         self.moving = [link for link in m.links if link != GROUND]
         self.column = {link: 3 * k for k, link in enumerate(self.moving)}
         self.rows: list[Row] = []
+        self.links_at = {
+            joint: [link for link, own in m.links.items() if joint in own] for joint in m.joints
+        }
         self.pin_rows: dict[str, list[tuple[str, int]]] = {}  # other link and its first row
         self.slide_rows: dict[str, int] = {}  # turning, then across
         self.pair_rows()
@@ -96,7 +99,7 @@ class Reactions:
         places, m = self.places, self.machine.mechanism
         assert m is not None
         for joint, place in places.joints.items():
-            first, *others = [link for link, own in m.links.items() if joint in own]
+            first, *others = self.links_at[joint]
             self.pin_rows[joint] = []
             for other in others:
                 self.pin_rows[joint].append((other, len(self.rows)))
@@ -124,7 +127,7 @@ class Reactions:
         rates, spin, reference = self.velocity, self.spin, places.reference
         out: list[Any] = []
         for joint, place in places.joints.items():
-            first, *others = [link for link, own in m.links.items() if joint in own]
+            first, *others = self.links_at[joint]
             for other in others:
                 gap = spin[first] ** 2 * (place - reference[first])
                 gap = gap - spin[other] ** 2 * (place - reference[other])
