@@ -10,6 +10,7 @@ Moments count by the mechanism's size.  What is compared, of every position:
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -29,8 +30,8 @@ class Worst:
     shares: dict[str, tuple[float, str]] = field(default_factory=dict)
 
     def note(self, kind: str, error: float, unit: float, whose: str) -> None:
-        share = error / unit
-        if not share <= self.shares.get(kind, (0.0, ""))[0]:  # NaN is worse than all
+        share = error / unit if error == error else math.inf  # NaN is worse than all
+        if share > self.shares.get(kind, (0.0, ""))[0]:
             self.shares[kind] = (share, whose)
 
     def __str__(self) -> str:
@@ -38,16 +39,15 @@ class Worst:
 
     @property
     def greatest(self) -> float:
-        return max((v for v, _ in self.shares.values()), default=0.0, key=lambda v: (v != v, v))
+        return max((v for v, _ in self.shares.values()), default=0.0)
 
 
 class Compared:
     """One machine's reactions at all positions of its case, beside the oracle."""
 
-    def __init__(self, case: Case, worst: Worst) -> None:
+    def __init__(self, case: Case, worst: Worst, found: Any, effort: Any) -> None:
         self.case, self.worst, machine = case, worst, case.machine
-        self.found: Any = machine.reactions(case.q, case.speed, case.acceleration)  # type: ignore[attr-defined]
-        self.effort = np.asarray(machine.effort(case.q, case.speed, case.acceleration))  # type: ignore[attr-defined]
+        self.found, self.effort = found, np.asarray(effort)
         condition = case.mechanism.solve(case.q).condition
         for k in range(len(case.q)):
             self.known = Reactions(machine, *case.position(k))

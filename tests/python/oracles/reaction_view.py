@@ -17,18 +17,21 @@ class Slide:
 
     def __init__(self, normal: Any, moment: Any, value: Any) -> None:
         self.normal, self.moment = normal, moment
-        self.along = value + moment / normal
+        with np.errstate(divide="ignore", invalid="ignore"):  # no force: nowhere on the guide
+            self.along = value + moment / normal
 
 
 class View:
-    """At any number of positions (N,) of one driver, or at one."""
+    """At any number of positions, (N,) or with n drivers (N, n); or at one."""
 
     def __init__(self, machine: Machine, q: Any, speed: Any = 0.0, acceleration: Any = 0.0) -> None:
+        m = machine.mechanism
+        assert m is not None
         given = np.broadcast_arrays(*(np.asarray(v, np.float64) for v in (q, speed, acceleration)))
-        self.shape = given[0].shape
-        self.all = [
-            Reactions(machine, *one) for one in zip(*(g.ravel() for g in given), strict=True)
-        ]
+        self.drivers = int(np.size(m.q0))
+        self.shape = given[0].shape if self.drivers == 1 else given[0].shape[:-1]
+        rows = zip(*(g.reshape(-1, self.drivers) for g in given), strict=True)
+        self.all = [Reactions(machine, a if self.drivers > 1 else a[0], b, c) for a, b, c in rows]
 
     def shaped(self, values: Any) -> Any:
         values = np.array(values)
@@ -49,7 +52,9 @@ class View:
 
     @property
     def driver(self) -> Any:
-        return self.shaped([r.driver() for r in self.all])
+        one = self.drivers == 1
+        every = [[r.driver(k) for k in range(self.drivers)] for r in self.all]
+        return self.shaped([row[0] if one else row for row in every])
 
     @property
     def shaking_force(self) -> Any:
