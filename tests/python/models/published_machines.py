@@ -49,7 +49,7 @@ def digits(what: tuple[str, ...], value: Any) -> Printed:
 
 
 def marghitu() -> list[Published]:
-    """D. B. Marghitu, Mechanisms and Robots Analysis with MATLAB, 2009, section 4.6 (R-RRT).
+    """D. B. Marghitu, Mechanisms and Robots Analysis with MATLAB, 2009, p. 144 (R-RRT).
 
     Crank and rod of 1 m and 1 kg, slider of 1 kg, 45°, n = 30/π rpm, g = 10, 100 N on the slider:
     F12 = −¼ (400 + 7√2) i + 5/4 (84 + √2) j, the force of the crank on the rod.
@@ -67,7 +67,7 @@ def marghitu() -> list[Published]:
     root = math.sqrt(2.0)
     force = (-(400.0 + 7.0 * root) / 4.0, 5.0 * (84.0 + root) / 4.0)
     return [
-        Published("Marghitu 4.6", machine, math.pi / 4, 1.0, [digits(("joint", "A", "rod"), force)])
+        Published("Marghitu R-RRT", machine, math.pi / 4, 1.0, [digits(("joint", "A", "rod"), force)])
     ]
 
 

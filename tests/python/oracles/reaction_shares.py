@@ -22,6 +22,9 @@ from multipliers import Reactions, unit_roundoff
 if TYPE_CHECKING:
     from reaction_machines import Case
 
+# Beyond this share the float64 oracle's own error counts: the one of 50 digits is asked.
+OWN = 4.0
+
 
 @dataclass
 class Worst:
@@ -37,6 +40,10 @@ class Worst:
     def __str__(self) -> str:
         return "; ".join(f"{k} {v:.2f} u κ ({whose})" for k, (v, whose) in self.shares.items())
 
+    def add(self, other: Worst) -> None:
+        for kind, (share, whose) in other.shares.items():
+            self.note(kind, share, 1.0, whose)
+
     @property
     def greatest(self) -> float:
         return max((v for v, _ in self.shares.values()), default=0.0)
@@ -46,14 +53,18 @@ class Compared:
     """One machine's reactions at all positions of its case, beside the oracle."""
 
     def __init__(self, case: Case, worst: Worst, found: Any, effort: Any) -> None:
-        self.case, self.worst, machine = case, worst, case.machine
-        self.found, self.effort = found, np.asarray(effort)
+        self.case, self.found, self.effort = case, found, np.asarray(effort)
         condition = case.mechanism.solve(case.q).condition
         for k in range(len(case.q)):
-            self.known = Reactions(machine, *case.position(k))
-            self.force = unit_roundoff() * float(condition[k]) * self.known.largest()
-            self.torque = self.force * self.known.places.size
-            self.position(k)
+            for exact in (False, True):
+                self.known = Reactions(case.machine, *case.position(k), exact=exact)
+                self.force = unit_roundoff() * float(condition[k]) * self.known.largest()
+                self.torque = self.force * self.known.places.size
+                self.worst = Worst()
+                self.position(k)
+                if self.worst.greatest < OWN:
+                    break
+            worst.add(self.worst)
 
     def note(self, kind: str, error: Any, whose: str, turns: bool = False) -> None:
         unit = self.torque if turns else self.force
