@@ -67,7 +67,9 @@ def marghitu() -> list[Published]:
     root = math.sqrt(2.0)
     force = (-(400.0 + 7.0 * root) / 4.0, 5.0 * (84.0 + root) / 4.0)
     return [
-        Published("Marghitu R-RRT", machine, math.pi / 4, 1.0, [digits(("joint", "A", "rod"), force)])
+        Published(
+            "Marghitu R-RRT", machine, math.pi / 4, 1.0, [digits(("joint", "A", "rod"), force)]
+        )
     ]
 
 
