@@ -77,7 +77,8 @@ class Reactions:
         self.status = status
 
     def __repr__(self) -> str:
-        joints, slides = len(_pins(self._mechanism)), len(self._mechanism.slides)
+        pins = [links for links in _links_at(self._mechanism).values() if len(links) > 1]
+        joints, slides = len(pins), len(self._mechanism.slides)
         return f"<assur.Reactions of {joints} joints, {slides} slides, shape {self.status.shape}>"
 
     @property
@@ -111,22 +112,21 @@ class Reactions:
         -------
         ndarray
             N, along the drawing's axes, (..., 2). The forces on all links of a joint add up to
-            zero.
+            zero; a joint of one link has none.
 
         Raises
         ------
         InputError
-            A joint or link that does not exist, a link without this joint, or a joint of one link.
+            A joint or link that does not exist, or a link without this joint.
         """
         core = self._mechanism._core
         joint, link = core.require("joint", name), core.require("link", on)
-        links = _pins(self._mechanism).get(name)
-        if links is None:
-            message = f'joint "{name}" has one link only: no other link acts on it there'
-            raise InputError(message, joint=name)
+        links = _links_at(self._mechanism)[name]
         if on not in links:
             message = f'link "{on}" has no joint "{name}", which is one of {", ".join(links)}'
             raise InputError(message, joint=name, link=on)
+        if len(links) == 1:
+            return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
         if on != links[-1]:
             return self._found["joint", joint, link]
         indices = [core.require("link", other) for other in links[:-1]]
@@ -154,19 +154,18 @@ class Reactions:
         return SlideReaction(*parts)
 
 
-def _pins(mechanism: Mechanism) -> dict[str, list[str]]:
-    """Return the links of every joint that connects some, in the order of the description."""
-    links = {
+def _links_at(mechanism: Mechanism) -> dict[str, list[str]]:
+    """Return the links of every joint, in the order of the description."""
+    return {
         joint: [link for link, joints in mechanism.links.items() if joint in joints]
         for joint in mechanism.joints
     }
-    return {joint: found for joint, found in links.items() if len(found) > 1}
 
 
 def _keys(mechanism: Mechanism) -> list[Key]:
     core = mechanism._core
     keys: list[Key] = []
-    for joint, links in _pins(mechanism).items():
+    for joint, links in _links_at(mechanism).items():
         index = core.require("joint", joint)
         # What the last link takes follows from the others.
         keys += [("joint", index, core.require("link", link)) for link in links[:-1]]
@@ -261,24 +260,20 @@ def effort(
     n = machine._drivers
     x, v, a, shape = broadcast_motion(machine, q, speed, acceleration)
     full = shape if n == 1 else (*shape, n)
-    # Of a single position several speeds may be asked for.
-    inertia, rates, moment, _ = machine._reduce(x, v, on_error)
+    # A motor's rotor belongs to the drive.
+    bare = machine
+    if machine.motor is not None and machine.mechanism is not None:
+        bare = type(machine)(machine.mechanism, machine.bodies, machine.loads)
+    inertia, rates, moment, _ = bare._reduce(x, v, on_error)
     speeds = np.broadcast_to(v, full).reshape(*shape, n)
     accelerations = np.broadcast_to(a, full).reshape(*shape, n)
     out = -moment
     for i in range(n):
         for j in range(n):
-            mass = inertia[..., i, j] - (_rotor(machine, i) if i == j else 0.0)
-            out[..., i] += mass * accelerations[..., j]
+            out[..., i] += inertia[..., i, j] * accelerations[..., j]
             for k in range(n):
                 # Lagrange's equations: Σ (∂Mᵢⱼ/∂k − ½ ∂Mⱼₖ/∂i) q̇ⱼ q̇ₖ.
                 rate = rates[..., k, i, j] - 0.5 * rates[..., i, j, k]
                 out[..., i] += rate * speeds[..., j] * speeds[..., k]
     return out[..., 0][()] if n == 1 else out
 
-
-def _rotor(machine: MachineModel, driver: int) -> float:
-    """Return the inertia of a driver's motor, referred to the driver."""
-    motors = machine.motor if isinstance(machine.motor, tuple) else (machine.motor,) * 1
-    motor = motors[driver] if driver < len(motors) else None
-    return 0.0 if motor is None else float(motor.rotor_inertia * motor.ratio**2)
