@@ -8,6 +8,7 @@ import numpy as np
 
 from assur._arrays import real_array, short
 from assur._validate import checked_threads, one_of
+from assur.description.words import Status
 from assur.dynamics.reduce import with_designs
 from assur.dynamics.values import function_values
 from assur.errors import InputError
@@ -62,6 +63,8 @@ class Reactions:
         Inertia forces of all bodies, N, and their moment about the drawing's origin, N·m.
     status : ndarray of uint8
         `assur.Status` of every position.
+    undetermined : tuple of str
+        Reactions that redundant links leave undetermined.
     """
 
     def __init__(
@@ -98,6 +101,29 @@ class Reactions:
         """Moment of the inertia forces about the drawing's origin, N·m."""
         return self._found["shaking moment", 0, 0][()]
 
+    @property
+    def undetermined(self) -> tuple[str, ...]:
+        """Reactions of redundant links that no balance determines, at some position; they are NaN."""
+        solved = self.status <= Status.NEAR_SINGULAR
+        joints, links = list(self._mechanism.joints), list(self._mechanism.links)
+        slides = list(self._mechanism.slides)
+        names = []
+        for (kind, index, on), values in self._found.items():
+            if kind in ("along", "shaking force", "shaking moment"):
+                continue
+            missing = np.isnan(values)
+            if kind == "joint":
+                missing = missing.any(axis=-1)
+            if not (missing & solved).any():
+                continue
+            if kind == "joint":
+                names.append(f'joint "{joints[index]}" on "{links[on]}"')
+            elif kind == "driver":
+                names.append(f"driver {index}")
+            else:
+                names.append(f'{kind} of slide "{slides[index]}"')
+        return tuple(names)
+
     def joint(self, name: str, on: str) -> Float:
         """Return the force on a link from all other links at a joint.
 
@@ -127,7 +153,7 @@ class Reactions:
             raise InputError(message, joint=name, link=on)
         if len(links) == 1:
             return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
-        if on != links[-1]:
+        if ("joint", joint, link) in self._found:
             return self._found["joint", joint, link]
         indices = [core.require("link", other) for other in links[:-1]]
         total = self._found["joint", joint, indices[0]]
@@ -164,11 +190,13 @@ def _links_at(mechanism: Mechanism) -> dict[str, list[str]]:
 
 def _keys(mechanism: Mechanism) -> list[Key]:
     core = mechanism._core
+    is_redundant = any(core.redundant)
     keys: list[Key] = []
     for joint, links in _links_at(mechanism).items():
         index = core.require("joint", joint)
-        # What the last link takes follows from the others.
-        keys += [("joint", index, core.require("link", link)) for link in links[:-1]]
+        # What the last link takes follows from the others, unless these are undetermined.
+        asked = links if is_redundant and len(links) > 1 else links[:-1]
+        keys += [("joint", index, core.require("link", link)) for link in asked]
     for slide in range(len(mechanism.slides)):
         keys += [(kind, slide, 0) for kind in ("normal", "moment", "along")]
     keys += [("driver", driver, 0) for driver in range(int(np.size(mechanism.q0)))]
