@@ -289,6 +289,18 @@ class Machine:
         threads: int | None,
         report: list[int],
     ) -> tuple[_Float, _Float, _Float, _Float, npt.NDArray[np.uint8], Any]: ...
+    def reactions(
+        self,
+        dimensions: _Float,
+        q: _Float,
+        per_design: bool,
+        speed: _Float,
+        acceleration: _Float,
+        function_values: _Float,
+        reactions: list[tuple[str, int, int]],
+        threads: int | None,
+        report: list[int],
+    ) -> tuple[list[_Float], npt.NDArray[np.uint8], Any]: ...
     def run(
         self,
         dimensions: list[float],

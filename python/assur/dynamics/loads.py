@@ -91,11 +91,15 @@ class Force:
         N; each a number, a `Table` over q, or a function of (t, q, speed).
     axes : str, optional
         The link whose frame gives the directions of fx and fy; the drawing's axes by default.
+    on : str, optional
+        At a joint of several links the one that takes the force; by default the first of them in
+        the description. It matters for joint forces only.
     """
 
     at: PointLike
     force: tuple[Value, Value]
     axes: str | None = None
+    on: str | None = None
 
     def __post_init__(self) -> None:
         force: Any = self.force
@@ -110,6 +114,7 @@ class Force:
             at=_checked_point(self.at, "Force at"),
             force=tuple(checked_value(value) for value in force),
             axes=None if self.axes is None else _link(self.axes, "Force axes"),
+            on=None if self.on is None else _link(self.on, "Force on"),
         )
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from assur.dynamics import integrate, size_flywheel
+from assur.dynamics import integrate, reactions, size_flywheel
 from assur.dynamics.model import MachineModel
 
 if TYPE_CHECKING:
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur.dynamics.model import OnError
+    from assur.dynamics.reactions import Reactions
     from assur.dynamics.run import Run
     from assur.dynamics.steady import SteadyState
     from assur.events import Event
@@ -62,6 +63,105 @@ class Machine(MachineModel):
     >>> machine.reduced_moment(np.pi / 2).round(6)
     np.float64(100.0)
     """
+
+    def reactions(
+        self,
+        q: npt.ArrayLike,
+        speed: npt.ArrayLike = 0.0,
+        acceleration: npt.ArrayLike = 0.0,
+        *,
+        threads: int | None = None,
+        on_error: OnError = "raise",
+    ) -> Reactions:
+        """Return the forces in all pairs, and the torque or force of the drive (kinetostatics).
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, rad or m: a number, (N,) or, for a batch of shape S, S + (N,); for n
+            drivers (..., n).
+        speed, acceleration : array_like
+            Of the drivers, rad/s and rad/s² (slides: m/s and m/s²), broadcast to q. Zero by
+            default: statics.
+        threads : int, optional
+            Largest number of threads; all cores by default.
+        on_error : {"raise", "nan"}
+            Where there is no position or no analogue: raise an error, or return NaN.
+
+        Returns
+        -------
+        Reactions
+            Forces in joints and slides, driver, shaking force and moment.
+
+        Raises
+        ------
+        PositionError
+            No position at some q (`on_error="nan"` gives NaN there).
+        InputError
+            Shapes that do not fit, numbers that are not finite.
+
+        Notes
+        -----
+        Every Assur group is statically determinate: its pair forces follow from its loads by the
+        transposed matrix of its position, the last group first (I. I. Artobolevsky, *Theory of
+        Mechanisms and Machines* (1988), chapter 13). Functions of time among the loads are called
+        with t = 0. The torque of the machine's motor is not a load; the driver replaces it.
+
+        Examples
+        --------
+        The gas force on a piston at 60°, without masses:
+
+        >>> import assur
+        >>> import numpy as np
+        >>> engine = assur.Machine(
+        ...     assur.SliderCrank(crank=0.1, rod=0.35),
+        ...     loads=[assur.Force("B", (-800.0, 0.0), on="piston")],
+        ... )
+        >>> found = engine.reactions(np.radians(60))
+        >>> found.driver.round(6), found.slide("bore").normal.round(4)
+        (np.float64(-79.497111), np.float64(204.3018))
+        >>> found.joint("B", on="piston").round(4)
+        array([ 800.    , -204.3018])
+        """
+        return reactions.reactions(self, q, speed, acceleration, threads, on_error)
+
+    def effort(
+        self,
+        q: npt.ArrayLike,
+        speed: npt.ArrayLike = 0.0,
+        acceleration: npt.ArrayLike = 0.0,
+        *,
+        on_error: OnError = "raise",
+    ) -> Any:
+        """Return the torque or force of the drive, by virtual power alone.
+
+        Parameters
+        ----------
+        q, speed, acceleration : array_like
+            See `reactions`.
+        on_error : {"raise", "nan"}
+            See `reactions`.
+
+        Returns
+        -------
+        ndarray
+            N·m (driven slide: N), S + (N,); with n drivers (..., n). Equal to
+            `reactions(...).driver`.
+
+        Notes
+        -----
+        Lagrange's equations of the reduced machine: J q̈ + ½ J′ q̇² − M. The rotor of the machine's
+        motor is not in it.
+
+        Examples
+        --------
+        >>> import assur
+        >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
+        >>> machine = assur.Machine(press, {"piston": assur.Body(mass=20.0)})
+        >>> machine.effort([0.5, 1.5], speed=10.0).round(4)
+        array([  8.2683, -0.9264])
+        """
+        return reactions.effort(self, q, speed, acceleration, on_error)
 
     def flywheel(
         self,

@@ -33,7 +33,7 @@ def reduce(
         message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
         raise InputError(message)
     positions = x.shape if n == 1 else x.shape[:-1]
-    shape = _with_designs(positions, designs)
+    shape = with_designs(positions, designs)
     full = shape if n == 1 else (*shape, n)
     try:
         x, v = np.broadcast_to(x, full), np.broadcast_to(v, full)
@@ -104,7 +104,7 @@ def _beyond_table(q: float, knots: list[float]) -> InputError:
     return InputError(message, kind="table_ends", hint=hint, q=q, value=q)
 
 
-def _with_designs(positions: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
+def with_designs(positions: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
     """Return the shape of the result: q is a number, (N,) or S + (N,)."""
     if not designs:
         return positions

@@ -14,6 +14,7 @@ mod memory;
 mod metrics;
 mod named;
 mod parallel_map;
+mod reactions;
 mod run;
 mod slider_crank;
 mod sweep;

@@ -1,5 +1,6 @@
 //! Machines for Python: reduced inertias and moments, runs and steady states.
 
+use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 use assur::dynamics::{
@@ -20,10 +21,11 @@ use crate::convert::motor::motors;
 use crate::convert::value::{Values, table};
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
-use crate::error_map;
 use crate::mechanism::Mechanism;
 use crate::parallel_map::parallel_map;
+use crate::reactions::{self, Inputs, ReactionKey};
 use crate::run::{PythonCallbacks, Run};
+use crate::{error, error_map};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -212,6 +214,30 @@ impl Machine {
         let failure =
             first.map(|first| error_map::first_failure(&first, &report, positions).into_value(py));
         Ok(arrays(py, &all, failure))
+    }
+
+    /// Reactions of designs at positions, `reactions` those that are asked for; the other arguments
+    /// are those of `reduce`.
+    #[allow(clippy::too_many_arguments, reason = "flat arrays")]
+    fn reactions<'py>(
+        &self,
+        py: Python<'py>,
+        dimensions: Flat<'py>,
+        q: Flat<'py>,
+        per_design: bool,
+        speed: Flat<'py>,
+        acceleration: Flat<'py>,
+        function_values: Flat<'py>,
+        reactions: Vec<ReactionKey>,
+        threads: Option<NonZeroUsize>,
+        report: Vec<usize>,
+    ) -> PyResult<reactions::Found<'py>> {
+        let Inner::Mechanism(mechanism, machine) = &self.inner else {
+            return Err(error::input("a machine of a table has no joints", None));
+        };
+        let mechanism = &mechanism.get().inner;
+        let inputs = Inputs { dimensions, q, per_design, speed, acceleration, function_values };
+        reactions::reactions(py, mechanism, machine, &inputs, &reactions, threads, &report)
     }
 
     /// Integrates a run over time or, with `along_q`, over the coordinate.

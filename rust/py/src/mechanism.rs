@@ -401,7 +401,7 @@ fn in_use(error: numpy::BorrowError) -> PyErr {
 }
 
 /// The memory of an array borrowed for writing.
-fn as_uninitialized<'a, T: numpy::Element>(
+pub(crate) fn as_uninitialized<'a, T: numpy::Element>(
     array: &'a mut PyReadwriteArray1<'_, T>,
 ) -> PyResult<&'a mut [MaybeUninit<T>]> {
     let data: *mut T = array.data();

@@ -1,6 +1,7 @@
 //! Chooses the compiled copy of the worker, by the processor and the caller's limit.
 
 use super::worker::{Job, Worker};
+use crate::math::lanes::Real;
 use crate::math::simd::Simd;
 use crate::state::kernel::portable::Portable;
 use crate::state::kernel::{BLOCK, Level};
@@ -10,6 +11,12 @@ pub(crate) trait ForLevel {
     type Output;
     /// Runs it with blocks of `G` registers, which hold [`BLOCK`] positions.
     fn run<L: Entry, const G: usize>(self) -> Self::Output;
+}
+
+/// Work on positions side by side that knows nothing of the solver.
+pub(crate) trait Task<R: Real> {
+    /// Does it.
+    fn run(&mut self);
 }
 
 /// A level with the worker's compiled copy.
@@ -22,6 +29,8 @@ pub(crate) trait Entry: Level {
         job: &Job<'_, '_>,
         plain: bool,
     ) -> bool;
+    /// Does a task with the level's instructions.
+    fn call(task: &mut impl Task<Self::Register>);
 }
 
 /// Runs the work at the requested level, or at the best one that the processor has.
@@ -49,6 +58,10 @@ impl Entry for Portable {
         plain: bool,
     ) -> bool {
         worker.trace::<Self>(job, plain)
+    }
+    #[inline(never)]
+    fn call(task: &mut impl Task<Self::Register>) {
+        task.run();
     }
 }
 
@@ -92,6 +105,18 @@ macro_rules! entry {
                 }
                 // SAFETY: `at_level` chooses this only if `Simd::best` found these instructions.
                 unsafe { with(worker, job, plain) }
+            }
+            #[inline(always)]
+            #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+            fn call(task: &mut impl Task<Self::Register>) {
+                use crate::state::kernel::$module::$level;
+                #[inline(never)]
+                #[target_feature(enable = $features)]
+                fn with(task: &mut impl Task<<$level as Level>::Register>) {
+                    task.run();
+                }
+                // SAFETY: `at_level` chooses this only if `Simd::best` found these instructions.
+                unsafe { with(task) }
             }
         }
     };

@@ -18,6 +18,8 @@ pub enum Load {
         force: [Value; 2],
         /// The link whose axes they are along; `None`: the frame's.
         axes: Option<usize>,
+        /// The link that takes it, of those at a joint; `None`: the first of them.
+        on: Option<usize>,
     },
     /// A torque on a link; its reaction acts on another link (or the frame).
     Torque {
@@ -116,7 +118,7 @@ impl Load {
     ) {
         let first = SolvedPose::first_order;
         match self {
-            Self::Force { at, force: [x, y], axes } => {
+            Self::Force { at, force: [x, y], axes, .. } => {
                 let frame = axes.map_or(Vector::ONE, |link| {
                     let frame = |at| pose.point(Point::Link { link, at }, 0);
                     frame([1.0, 0.0]) - frame([0.0; 2])

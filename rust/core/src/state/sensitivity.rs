@@ -7,52 +7,13 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::closures::{Closures, signed};
 use super::state::{Context, State};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::vector::Vector;
 use crate::plan::constants_rate::ConstantsRate;
-use crate::plan::dyad::{Dyad, Unknown};
-use crate::plan::group::Group;
+use crate::plan::dyad::Unknown;
 use crate::plan::plan::{EdgeSlide, Plan, Step};
-
-/// A closed path: `P_plus − P_minus + Σ ±edges = 0`.
-#[derive(Debug)]
-struct ClosedPath {
-    plus: usize,
-    minus: usize,
-    /// Edges, each with its sign.
-    edges: Vec<(usize, f64)>,
-}
-
-/// The closed paths of a step (two equations each) and as many unknowns as equations.
-#[derive(Debug)]
-struct Closures {
-    unknowns: Vec<Unknown>,
-    paths: Vec<ClosedPath>,
-}
-
-fn signed(backward: bool) -> f64 {
-    if backward { -1.0 } else { 1.0 }
-}
-
-impl Closures {
-    fn of_dyad(dyad: &Dyad) -> Self {
-        let edges = dyad.path.iter().map(|term| (term.edge, signed(term.backward))).collect();
-        let path = ClosedPath { plus: dyad.start, minus: dyad.end, edges };
-        Self { unknowns: dyad.unknowns.to_vec(), paths: vec![path] }
-    }
-
-    fn of_group(group: &Group) -> Self {
-        let edge = |i: usize| group.edges[i].edge;
-        let paths = group.loops.iter().map(|l| {
-            let path =
-                l.path.iter().map(|path_edge| (edge(path_edge.edge), signed(path_edge.backward)));
-            let edges = path.chain([(edge(l.edge), -1.0)]).collect();
-            ClosedPath { plus: l.end, minus: l.start, edges }
-        });
-        Self { unknowns: group.all_unknowns().collect(), paths: paths.collect() }
-    }
-}
 
 /// Work space: the closures of every step, and the derivatives by a dimension in the form of a
 /// state.
@@ -66,13 +27,8 @@ pub(crate) struct Sensitivity {
 
 impl Sensitivity {
     pub(crate) fn new(plan: &Plan, derivatives: &DerivativeTables) -> Self {
-        let closures = |step: &Step| match step {
-            Step::Dyad(dyad) => Some(Closures::of_dyad(dyad)),
-            Step::Group(group) => Some(Closures::of_group(group)),
-            Step::Place { .. } | Step::Redundant(_) => None,
-        };
         Self {
-            steps: plan.steps.iter().map(closures).collect(),
+            steps: plan.steps.iter().map(Closures::of_step).collect(),
             units: vec![Vector::ZERO; plan.orientations.len() * derivatives.len()],
             rates: State::new(plan, derivatives),
         }

@@ -43,7 +43,7 @@ mod metric;
 mod moments;
 mod parts;
 mod request;
-mod scratch;
+pub(crate) mod scratch;
 mod threads;
 mod time_ratio;
 

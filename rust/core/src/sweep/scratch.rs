@@ -7,22 +7,22 @@ use crate::batch::writer::RowSlices;
 
 /// Columns for the positions of one design.
 #[derive(Debug, Default)]
-pub(super) struct Scratch {
+pub(crate) struct Scratch {
     values: Vec<Vec<f64>>,
     status: Vec<u8>,
 }
 
 /// The rows of a scratch, to be written and read in turn.
-pub(super) struct ScratchRows<'a>(RowSlices<'a>);
+pub(crate) struct ScratchRows<'a>(RowSlices<'a>);
 
 impl Scratch {
-    pub(super) fn new(columns: &[Column], positions: usize) -> Self {
+    pub(crate) fn new(columns: &[Column], positions: usize) -> Self {
         let values =
             columns.iter().map(|column| vec![f64::NAN; positions * column.width]).collect();
         Self { values, status: vec![0; positions] }
     }
 
-    pub(super) fn rows(&mut self) -> ScratchRows<'_> {
+    pub(crate) fn rows(&mut self) -> ScratchRows<'_> {
         #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
         // SAFETY: a worker stores only initialised numbers.
         unsafe {
@@ -37,11 +37,11 @@ impl Scratch {
 
 impl<'a> ScratchRows<'a> {
     /// The job of solving a design at `q`, the same for all designs, into the first rows.
-    pub(super) fn job<'j>(&'j mut self, q: &'j [f64], design: usize) -> Job<'j, 'a> {
+    pub(crate) fn job<'j>(&'j mut self, q: &'j [f64], design: usize) -> Job<'j, 'a> {
         Job { q, rows: &mut self.0, first: 0, index: 0, design, shared: Some(0) }
     }
 
-    pub(super) fn column(&self, index: usize) -> &[f64] {
+    pub(crate) fn column(&self, index: usize) -> &[f64] {
         #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
         // SAFETY: the numbers were initialised when the scratch was made.
         unsafe {
@@ -49,7 +49,7 @@ impl<'a> ScratchRows<'a> {
         }
     }
 
-    pub(super) fn status(&self) -> &[u8] {
+    pub(crate) fn status(&self) -> &[u8] {
         #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
         // SAFETY: as above.
         unsafe {

@@ -21,6 +21,7 @@ struct Force<'py> {
     at: PointLike,
     force: [Bound<'py, PyAny>; 2],
     axes: Option<String>,
+    on: Option<String>,
 }
 
 #[derive(FromPyObject)]
@@ -87,10 +88,11 @@ fn load(mechanism: &Mechanism, object: &Bound<'_, PyAny>, values: &mut Values) -
         Ok::<_, PyErr>([first.resolve(mechanism)?, second.resolve(mechanism)?])
     };
     if is("Force")? {
-        let Force { at, force: [x, y], axes } = object.extract()?;
+        let Force { at, force: [x, y], axes, on } = object.extract()?;
         let force = [values.read(&x)?, values.read(&y)?];
         let axes = axes.as_deref().map(link).transpose()?;
-        Ok(Load::Force { at: at.resolve(mechanism)?, force, axes })
+        let on = on.as_deref().map(link).transpose()?;
+        Ok(Load::Force { at: at.resolve(mechanism)?, force, axes, on })
     } else if is("Torque")? {
         let Torque { link: name, torque, on } = object.extract()?;
         let torque = values.read(&torque)?;

@@ -1,0 +1,307 @@
+"""Reactions of machines: forces in pairs, efforts of drivers, shaking forces."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from assur._arrays import real_array, short
+from assur._validate import checked_threads, one_of
+from assur.description.words import Status
+from assur.dynamics.reduce import with_designs
+from assur.dynamics.values import function_values
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.dynamics.model import MachineModel, OnError
+    from assur.kinematics.mechanism import Mechanism
+
+__all__ = ["Reactions", "SlideReaction"]
+
+# As the core names a reaction: kind, and the indices of what it belongs to.
+Key = tuple[str, int, int]
+
+
+class SlideReaction(NamedTuple):
+    """What a guide does to the link that slides on it.
+
+    Attributes
+    ----------
+    normal : ndarray
+        Force along the guide turned by +90°, N.
+    moment : ndarray
+        Moment about the sliding point (the link's first joint), N·m.
+    along : ndarray
+        Where on the guide the normal force alone has this moment: the slide's value plus
+        moment / normal, m.
+    """
+
+    normal: Any
+    moment: Any
+    along: Any
+
+
+class Reactions:
+    """Forces in the pairs of a machine, by `Machine.reactions`.
+
+    All arrays have the shape S + (N,), S the shape of the designs; forces have a last axis (x, y)
+    along the drawing's axes.
+
+    Attributes
+    ----------
+    q, speed, acceleration : ndarray
+        The motion of the drivers, broadcast.
+    driver : ndarray
+        Torque of the drive, counter-clockwise on the driven link, N·m; of a driven slide its force
+        along the guide on the sliding link, N. With n drivers (..., n). A motor's rotor is not in
+        it.
+    shaking_force, shaking_moment : ndarray
+        Inertia forces of all bodies, N, and their moment about the drawing's origin, N·m.
+    status : ndarray of uint8
+        `assur.Status` of every position.
+    undetermined : tuple of str
+        Reactions that redundant links leave undetermined.
+    """
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        motion: tuple[Float, Float, Float],
+        found: dict[Key, Float],
+        status: npt.NDArray[np.uint8],
+    ) -> None:
+        self._mechanism = mechanism
+        self.q, self.speed, self.acceleration = motion
+        self._found = found
+        self.status = status
+
+    def __repr__(self) -> str:
+        pins = [links for links in _links_at(self._mechanism).values() if len(links) > 1]
+        joints, slides = len(pins), len(self._mechanism.slides)
+        return f"<assur.Reactions of {joints} joints, {slides} slides, shape {self.status.shape}>"
+
+    @property
+    def driver(self) -> Any:
+        """Torque or force of the drive."""
+        count = int(np.size(self._mechanism.q0))
+        each = [self._found["driver", index, 0] for index in range(count)]
+        return each[0][()] if count == 1 else np.stack(each, axis=-1)
+
+    @property
+    def shaking_force(self) -> Any:
+        """Inertia forces of all bodies, N."""
+        return self._found["shaking force", 0, 0]
+
+    @property
+    def shaking_moment(self) -> Any:
+        """Moment of the inertia forces about the drawing's origin, N·m."""
+        return self._found["shaking moment", 0, 0][()]
+
+    @property
+    def undetermined(self) -> tuple[str, ...]:
+        """Reactions of redundant links that no balance determines, at some position; they are NaN."""
+        solved = self.status <= Status.NEAR_SINGULAR
+        joints, links = list(self._mechanism.joints), list(self._mechanism.links)
+        slides = list(self._mechanism.slides)
+        names = []
+        for (kind, index, on), values in self._found.items():
+            if kind in ("along", "shaking force", "shaking moment"):
+                continue
+            missing = np.isnan(values)
+            if kind == "joint":
+                missing = missing.any(axis=-1)
+            if not (missing & solved).any():
+                continue
+            if kind == "joint":
+                names.append(f'joint "{joints[index]}" on "{links[on]}"')
+            elif kind == "driver":
+                names.append(f"driver {index}")
+            else:
+                names.append(f'{kind} of slide "{slides[index]}"')
+        return tuple(names)
+
+    def joint(self, name: str, on: str) -> Float:
+        """Return the force on a link from all other links at a joint.
+
+        Parameters
+        ----------
+        name : str
+            The joint.
+        on : str
+            The link; one that has the joint.
+
+        Returns
+        -------
+        ndarray
+            N, along the drawing's axes, (..., 2). The forces on all links of a joint add up to
+            zero; a joint of one link has none.
+
+        Raises
+        ------
+        InputError
+            A joint or link that does not exist, or a link without this joint.
+        """
+        core = self._mechanism._core
+        joint, link = core.require("joint", name), core.require("link", on)
+        links = _links_at(self._mechanism)[name]
+        if on not in links:
+            message = f'link "{on}" has no joint "{name}", which is one of {", ".join(links)}'
+            raise InputError(message, joint=name, link=on)
+        if len(links) == 1:
+            return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
+        if ("joint", joint, link) in self._found:
+            return self._found["joint", joint, link]
+        indices = [core.require("link", other) for other in links[:-1]]
+        total = self._found["joint", joint, indices[0]]
+        for index in indices[1:]:
+            total = total + self._found["joint", joint, index]
+        return -total
+
+    def slide(self, name: str) -> SlideReaction:
+        """Return what a guide does to the link that slides on it.
+
+        Parameters
+        ----------
+        name : str
+            The slide.
+
+        Returns
+        -------
+        SlideReaction
+            Normal force and moment about the sliding point on the sliding link, and where on the
+            guide their resultant acts.
+        """
+        index = self._mechanism._core.require("slide", name)
+        parts = (self._found[kind, index, 0][()] for kind in ("normal", "moment", "along"))
+        return SlideReaction(*parts)
+
+
+def _links_at(mechanism: Mechanism) -> dict[str, list[str]]:
+    """Return the links of every joint, in the order of the description."""
+    return {
+        joint: [link for link, joints in mechanism.links.items() if joint in joints]
+        for joint in mechanism.joints
+    }
+
+
+def _keys(mechanism: Mechanism) -> list[Key]:
+    core = mechanism._core
+    is_redundant = any(core.redundant)
+    keys: list[Key] = []
+    for joint, links in _links_at(mechanism).items():
+        index = core.require("joint", joint)
+        # What the last link takes follows from the others, unless these are undetermined.
+        asked = links if is_redundant and len(links) > 1 else links[:-1]
+        keys += [("joint", index, core.require("link", link)) for link in asked]
+    for slide in range(len(mechanism.slides)):
+        keys += [(kind, slide, 0) for kind in ("normal", "moment", "along")]
+    keys += [("driver", driver, 0) for driver in range(int(np.size(mechanism.q0)))]
+    return [*keys, ("shaking force", 0, 0), ("shaking moment", 0, 0)]
+
+
+def reactions(
+    machine: MachineModel,
+    q: npt.ArrayLike,
+    speed: npt.ArrayLike,
+    acceleration: npt.ArrayLike,
+    threads: int | None,
+    on_error: OnError,
+) -> Reactions:
+    """Return the reactions of a machine; see `Machine.reactions`."""
+    mechanism = machine.mechanism
+    if mechanism is None:
+        message = "a machine of a table has no joints: reactions need a mechanism"
+        raise InputError(message)
+    one_of(on_error, ("raise", "nan"), "on_error")
+    drivers, designs = machine._drivers, machine.shape
+    x, v, a, shape = broadcast_motion(machine, q, speed, acceleration)
+    per_design = bool(designs) and x.ndim > (1 if drivers == 1 else 2)
+    full = shape if drivers == 1 else (*shape, drivers)
+    speeds, accelerations = (
+        np.ascontiguousarray(np.broadcast_to(one, full)).ravel() for one in (v, a)
+    )
+    coordinates = np.ascontiguousarray(np.broadcast_to(x, full) if per_design else x).ravel()
+    everywhere = np.ascontiguousarray(np.broadcast_to(x, full)).ravel()
+    given = function_values(
+        machine._core.load_functions, everywhere.reshape(-1, drivers), speeds.reshape(-1, drivers)
+    )
+    keys = _keys(mechanism)
+    arrays, status, failure = machine._core.reactions(
+        mechanism._values.reshape(-1),
+        coordinates,
+        per_design,
+        speeds,
+        accelerations,
+        given,
+        keys,
+        checked_threads(threads),
+        list(designs),
+    )
+    if on_error == "raise" and failure is not None:
+        raise failure
+    found: dict[Key, Float] = {}
+    for key, array in zip(keys, arrays, strict=True):
+        two = key[0] in ("joint", "shaking force")
+        array.flags.writeable = False
+        found[key] = array.reshape((*shape, 2) if two else shape)
+    motion = tuple(np.broadcast_to(one, full) for one in (x, v, a))
+    return Reactions(mechanism, motion, found, status.reshape(shape))  # type: ignore[arg-type]
+
+
+def broadcast_motion(
+    machine: MachineModel, q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike
+) -> tuple[Float, Float, Float, tuple[int, ...]]:
+    """Return coordinates, speeds, accelerations, and the shape of the positions of all designs."""
+    n, designs = machine._drivers, machine.shape
+    x = real_array(q, "q")
+    v, a = real_array(speed, "speed"), real_array(acceleration, "acceleration")
+    if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
+        message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
+        raise InputError(message)
+    for name, values, given in (("speed", v, speed), ("acceleration", a, acceleration)):
+        if not np.isfinite(values).all():
+            message = f"{name} is {short(given)}: finite numbers are needed"
+            raise InputError(message)
+    shape = with_designs(x.shape if n == 1 else x.shape[:-1], designs)
+    full = shape if n == 1 else (*shape, n)
+    for name, values in (("speed", v), ("acceleration", a)):
+        try:
+            np.broadcast_to(values, full)
+        except ValueError as error:
+            message = f"{name} has the shape {values.shape}, q {x.shape}: they do not fit"
+            raise InputError(message) from error
+    return x, v, a, shape
+
+
+def effort(
+    machine: MachineModel,
+    q: npt.ArrayLike,
+    speed: npt.ArrayLike,
+    acceleration: npt.ArrayLike,
+    on_error: OnError,
+) -> Any:
+    """Return the effort of the drivers by virtual power; see `Machine.effort`."""
+    n = machine._drivers
+    x, v, a, shape = broadcast_motion(machine, q, speed, acceleration)
+    full = shape if n == 1 else (*shape, n)
+    # A motor's rotor belongs to the drive.
+    bare = machine
+    if machine.motor is not None and machine.mechanism is not None:
+        bare = type(machine)(machine.mechanism, machine.bodies, machine.loads)
+    inertia, rates, moment, _ = bare._reduce(x, v, on_error)
+    speeds = np.broadcast_to(v, full).reshape(*shape, n)
+    accelerations = np.broadcast_to(a, full).reshape(*shape, n)
+    out = -moment
+    for i in range(n):
+        for j in range(n):
+            out[..., i] += inertia[..., i, j] * accelerations[..., j]
+            for k in range(n):
+                # Lagrange's equations: Σ (∂Mᵢⱼ/∂k − ½ ∂Mⱼₖ/∂i) q̇ⱼ q̇ₖ.
+                rate = rates[..., k, i, j] - 0.5 * rates[..., i, j, k]
+                out[..., i] += rate * speeds[..., j] * speeds[..., k]
+    return out[..., 0][()] if n == 1 else out
+

@@ -1,0 +1,201 @@
+//! Loads and inertia forces of all links.
+
+use super::columns::Rows;
+use super::force_plan::ForcePlan;
+use super::scene::{Moving, Scene};
+use crate::dynamics::kinematics::Point;
+use crate::dynamics::load::Load;
+use crate::dynamics::machine::Machine;
+use crate::dynamics::value::Value;
+use crate::math::lanes::{Mask, Real};
+use crate::math::vector::Vector;
+use crate::structure::closure::point_of_joint;
+
+/// The values of tables and callbacks at positions.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Values<'a> {
+    /// Of every table, at every position.
+    pub tables: &'a [Vec<f64>],
+    /// Of the callbacks, `callbacks` numbers a position.
+    pub external: &'a [f64],
+    pub callbacks: usize,
+}
+
+impl Values<'_> {
+    #[inline(always)]
+    fn read<R: Real>(self, value: Value, rows: Rows) -> R {
+        match value {
+            Value::Number(number) => R::splat(number),
+            Value::Table(index) => rows.read(&self.tables[index], 1, 0),
+            Value::External(index) => rows.read(self.external, self.callbacks, index),
+        }
+    }
+}
+
+impl<R: Real> Scene<R> {
+    /// Sums the loads and inertia forces on every link.
+    #[inline(always)]
+    pub(crate) fn apply(
+        &mut self,
+        plan: &ForcePlan,
+        machine: &Machine,
+        values: Values<'_>,
+        rows: Rows,
+    ) {
+        self.link_force.fill(Vector::ZERO);
+        self.link_moment.fill(R::ZERO);
+        self.shaking_force = Vector::ZERO;
+        self.shaking_moment = R::ZERO;
+        let gravity = Vector::new(R::splat(machine.gravity[0]), R::splat(machine.gravity[1]));
+        for body in &machine.bodies {
+            let mass = R::splat(body.mass);
+            let at = self.place(plan, body.at);
+            let weight = gravity.scale(mass);
+            if !plan.has_inertia || body.link == plan.ground {
+                self.force_on(plan, body.link, at.at, weight);
+                continue;
+            }
+            let inertia_force = -at.acceleration.scale(mass);
+            let couple = -self.angles[body.link].acceleration * R::splat(body.inertia);
+            self.force_on(plan, body.link, at.at, weight + inertia_force);
+            self.moment_on(plan, body.link, couple);
+            self.shaking_force += inertia_force;
+            self.shaking_moment += at.at.cross(inertia_force) + couple;
+        }
+        for load in &machine.loads {
+            self.apply_load(plan, load, values, rows);
+        }
+    }
+
+    #[inline(always)]
+    fn apply_load(&mut self, plan: &ForcePlan, load: &Load, values: Values<'_>, rows: Rows) {
+        match load {
+            Load::Force { at, force: [x, y], axes, on } => {
+                let force = Vector::new(values.read(*x, rows), values.read(*y, rows));
+                let force = axes.map_or(force, |link| self.directions[link] * force);
+                let place = self.place(plan, *at).at;
+                self.force_on(plan, on.unwrap_or_else(|| taker(plan, *at)), place, force);
+            }
+            Load::Torque { link, on, torque } => {
+                let torque = values.read(*torque, rows);
+                self.moment_on(plan, *link, torque);
+                self.moment_on(plan, *on, -torque);
+            }
+            Load::Spring { ends, stiffness, length, preload } => {
+                let [first, second] = ends.map(|end| self.place(plan, end));
+                let (unit, distance) = polar(second.at - first.at);
+                let tension =
+                    R::splat(*stiffness) * (distance - R::splat(*length)) + R::splat(*preload);
+                // A spring without tension has no direction at zero length.
+                let rests = tension.le(R::ZERO).and(R::ZERO.le(tension));
+                let pull = unit.scale(tension);
+                let pull = Vector::new(
+                    R::select(rests, R::ZERO, pull.x),
+                    R::select(rests, R::ZERO, pull.y),
+                );
+                self.pull(plan, *ends, [first.at, second.at], pull);
+            }
+            Load::Damper { ends, damping } => {
+                let [first, second] = ends.map(|end| self.place(plan, end));
+                let (unit, _) = polar(second.at - first.at);
+                let rate = unit.dot(second.velocity - first.velocity);
+                let pull = unit.scale(rate * R::splat(*damping));
+                self.pull(plan, *ends, [first.at, second.at], pull);
+            }
+            Load::TorsionSpring { link, on, stiffness, angle, preload } => {
+                let twist =
+                    self.angle(plan, *link).at - self.angle(plan, *on).at - R::splat(*angle);
+                let torque = -(R::splat(*stiffness) * twist + R::splat(*preload));
+                self.moment_on(plan, *link, torque);
+                self.moment_on(plan, *on, -torque);
+            }
+            Load::TorsionDamper { link, on, damping } => {
+                let rate = self.angle(plan, *link).velocity - self.angle(plan, *on).velocity;
+                let torque = -(rate * R::splat(*damping));
+                self.moment_on(plan, *link, torque);
+                self.moment_on(plan, *on, -torque);
+            }
+        }
+    }
+
+    /// Pulls two points together.
+    #[inline(always)]
+    fn pull(
+        &mut self,
+        plan: &ForcePlan,
+        ends: [Point; 2],
+        places: [Vector<R>; 2],
+        force: Vector<R>,
+    ) {
+        self.force_on(plan, taker(plan, ends[0]), places[0], force);
+        self.force_on(plan, taker(plan, ends[1]), places[1], -force);
+    }
+
+    #[inline(always)]
+    fn force_on(&mut self, plan: &ForcePlan, link: usize, place: Vector<R>, force: Vector<R>) {
+        if link == plan.ground {
+            return;
+        }
+        let arm = place - self.points[plan.reference[link]].at;
+        self.link_force[link] += force;
+        self.link_moment[link] += arm.cross(force);
+    }
+
+    #[inline(always)]
+    fn moment_on(&mut self, plan: &ForcePlan, link: usize, moment: R) {
+        if link != plan.ground {
+            self.link_moment[link] += moment;
+        }
+    }
+
+    #[inline(always)]
+    fn angle(&self, plan: &ForcePlan, link: usize) -> Moving<R> {
+        if link == plan.ground {
+            return Moving { at: R::ZERO, velocity: R::ZERO, acceleration: R::ZERO };
+        }
+        self.angles[link]
+    }
+
+    /// Motion of a point of a link: `a = a_ref + (i ε − ω²) r`.
+    #[inline(always)]
+    fn place(&self, plan: &ForcePlan, point: Point) -> Moving<Vector<R>> {
+        match point {
+            Point::Joint(joint) => self.points[point_of_joint(joint)],
+            Point::Link { link, at: [x, y] } if link == plan.ground => Moving {
+                at: Vector::new(R::splat(x), R::splat(y)),
+                velocity: Vector::ZERO,
+                acceleration: Vector::ZERO,
+            },
+            Point::Link { link, at: [x, y] } => {
+                let reference = self.points[plan.reference[link]];
+                if x == 0.0 && y == 0.0 {
+                    return reference;
+                }
+                let arm = self.directions[link] * Vector::splat(Vector::new(x, y));
+                let angle = self.angles[link];
+                let turning = arm.left();
+                Moving {
+                    at: reference.at + arm,
+                    velocity: reference.velocity + turning.scale(angle.velocity),
+                    acceleration: reference.acceleration + turning.scale(angle.acceleration)
+                        - arm.scale(angle.velocity * angle.velocity),
+                }
+            }
+        }
+    }
+}
+
+/// The link that takes a load on a point, unless the load names another.
+fn taker(plan: &ForcePlan, point: Point) -> usize {
+    match point {
+        Point::Joint(joint) => plan.taker[joint],
+        Point::Link { link, .. } => link,
+    }
+}
+
+/// Direction and length.
+#[inline(always)]
+fn polar<R: Real>(span: Vector<R>) -> (Vector<R>, R) {
+    let length = span.norm();
+    (span.scale(R::ONE / length), length)
+}

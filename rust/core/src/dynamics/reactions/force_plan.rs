@@ -1,0 +1,343 @@
+//! What the reactions of a machine need of its mechanism, compiled once.
+
+use super::redundant::{self, SelfStress};
+use crate::batch::outputs::{Outputs, Quantity};
+use crate::description::Driver;
+use crate::description::frame::Axis;
+use crate::dynamics::kinematics::Point;
+use crate::dynamics::load::Load;
+use crate::dynamics::machine::Machine;
+use crate::plan::dyad::Unknown;
+use crate::plan::mechanism::Mechanism;
+use crate::plan::plan::{Plan, Step};
+use crate::state::closures::Closures;
+use crate::structure::closure::{GROUND_POINT, point_of_joint};
+
+/// A step of the solution, transposed.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Transposed {
+    /// The load on a point passes along an edge to the point that places it.
+    Carry { edge: usize, backward: bool },
+    /// The loads on the unknowns of closed paths give the forces that close these.
+    Close { closures: Closures, unknowns: Vec<LoadedUnknown> },
+    /// The moment on a redundant link becomes a couple of forces at two joints.
+    TurnByJoints { link: usize, edges: [Option<usize>; 2], points: [usize; 2] },
+    /// The moment on a redundant link passes to the other link of a slide.
+    TurnBySlide { link: usize, slide: usize },
+}
+
+/// What an unknown of a group moves.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum LoadedUnknown {
+    /// Links that turn together.
+    Links(Vec<usize>),
+    /// What slides along a guide.
+    Slide(usize),
+}
+
+/// An edge of the closure, as forces see it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ForceEdge {
+    pub from: usize,
+    pub to: usize,
+    pub link: usize,
+    /// Class of the link's rotation.
+    pub class: usize,
+    /// The slide along it.
+    pub slide: Option<usize>,
+}
+
+/// The link of a class that passes the moment on it to another, by a slide or a driver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct MomentStep {
+    pub link: usize,
+    pub to: usize,
+    pub through: MomentPair,
+}
+
+/// A pair between two links that turn together, or with a driven angle between them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum MomentPair {
+    Slide(usize),
+    Driver(usize),
+}
+
+/// How the direction of a link's x axis is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Direction {
+    Ground,
+    /// From its first joint to its second.
+    Joints([usize; 2]),
+    /// Its angle.
+    Angle,
+}
+
+/// The compiled reactions of a machine.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ForcePlan {
+    pub drivers: usize,
+    /// What must be solved of every position, and to which order.
+    pub outputs: Outputs,
+    pub order: usize,
+    /// Points of the closure: the quantity that holds each.
+    pub points: Vec<Option<Quantity>>,
+    pub edges: Vec<ForceEdge>,
+    /// Reference point of every link.
+    pub reference: Vec<usize>,
+    pub ground: usize,
+    pub direction: Vec<Direction>,
+    /// Whether a link's direction is needed.
+    pub needs_direction: Vec<bool>,
+    /// The two links of every slide: sliding, carrying.
+    pub slide_links: Vec<[usize; 2]>,
+    pub steps: Vec<Transposed>,
+    /// States of stress without loads, of redundant links and slides.
+    pub self_stresses: Vec<SelfStress>,
+    pub moments: Vec<MomentStep>,
+    /// Whether accelerations, and velocities, are needed.
+    pub has_inertia: bool,
+    pub has_speeds: bool,
+    /// For every joint the link that takes a load on it: the first that has it.
+    pub taker: Vec<usize>,
+    /// The driven link of every driver that is an angle.
+    pub driven_links: Vec<Option<usize>>,
+    /// The driver that is a slide.
+    pub slide_drivers: Vec<Option<usize>>,
+}
+
+impl ForcePlan {
+    /// Compiles a machine.
+    pub(crate) fn new(mechanism: &Mechanism, machine: &Machine) -> Self {
+        let (plan, linkage) = (mechanism.plan(), mechanism.linkage());
+        let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
+        let has_speeds = machine
+            .loads
+            .iter()
+            .any(|load| matches!(load, Load::Damper { .. } | Load::TorsionDamper { .. }));
+        let edges: Vec<ForceEdge> = plan
+            .edges
+            .iter()
+            .map(|edge| ForceEdge {
+                from: edge.edge.from,
+                to: edge.edge.to,
+                link: edge.edge.link,
+                class: edge.class,
+                slide: edge.edge.slide(),
+            })
+            .collect();
+        let taker = (0..linkage.joints.len())
+            .map(|joint| linkage.links_at(joint).next().unwrap_or(linkage.ground))
+            .collect();
+        let direction = (0..linkage.links.len())
+            .map(|link| match linkage.axis(link) {
+                Axis::Ground => Direction::Ground,
+                Axis::Joints => {
+                    let joints = &linkage.links[link].joints;
+                    Direction::Joints([point_of_joint(joints[0]), point_of_joint(joints[1])])
+                }
+                Axis::Slide(_) | Axis::Free => Direction::Angle,
+            })
+            .collect();
+        let mut compiled = Self {
+            drivers: plan.drivers.len(),
+            outputs: Outputs::default(),
+            order: match (has_inertia, has_speeds) {
+                (true, _) => 2,
+                (false, true) => 1,
+                (false, false) => 0,
+            },
+            points: vec![None; plan.points],
+            edges,
+            reference: plan.reference.clone(),
+            ground: plan.ground,
+            direction,
+            needs_direction: vec![false; linkage.links.len()],
+            slide_links: plan.slide_links.clone(),
+            steps: transposed_steps(plan),
+            self_stresses: redundant::self_stresses(mechanism),
+            moments: moment_steps(mechanism),
+            has_inertia,
+            has_speeds,
+            taker,
+            driven_links: linkage.drivers.iter().map(driven_link).collect(),
+            slide_drivers: (0..linkage.slides.len())
+                .map(|s| linkage.drivers.iter().position(|&d| d == Driver::Slide(s)))
+                .collect(),
+        };
+        compiled.find_needs(mechanism, machine);
+        compiled
+    }
+
+    /// Finds the quantities that reactions and loads read.
+    fn find_needs(&mut self, mechanism: &Mechanism, machine: &Machine) {
+        let linkage = mechanism.linkage();
+        for (joint, _) in linkage.joints.iter().enumerate() {
+            if linkage.links_at(joint).nth(1).is_some() {
+                self.need_point(point_of_joint(joint));
+            }
+        }
+        let ground = self.ground;
+        for link in (0..linkage.links.len()).filter(|&link| link != ground) {
+            self.need_point(self.reference[link]);
+        }
+        for edge in 0..self.edges.len() {
+            let ForceEdge { from, to, link, slide, .. } = self.edges[edge];
+            if let Some(slide) = slide {
+                self.need_point(to);
+                if link != self.ground {
+                    self.need_point(from);
+                    self.need_direction(self.slide_links[slide][1]);
+                }
+            }
+        }
+        for body in &machine.bodies {
+            self.need_mechanical_point(body.at);
+            if body.inertia != 0.0 {
+                self.need_angle(body.link);
+            }
+        }
+        for load in &machine.loads {
+            match load {
+                Load::Force { at, axes, .. } => {
+                    self.need_mechanical_point(*at);
+                    if let Some(link) = axes {
+                        self.need_direction(*link);
+                    }
+                }
+                Load::Spring { ends, .. } | Load::Damper { ends, .. } => {
+                    ends.iter().for_each(|&end| self.need_mechanical_point(end));
+                }
+                Load::TorsionSpring { link, on, .. } | Load::TorsionDamper { link, on, .. } => {
+                    self.need_angle(*link);
+                    self.need_angle(*on);
+                }
+                Load::Torque { .. } => {}
+            }
+        }
+        // The value of a slide tells where on its guide the resultant acts.
+        self.outputs.slides = (0..linkage.slides.len()).collect();
+    }
+
+    fn need_mechanical_point(&mut self, point: Point) {
+        match point {
+            Point::Joint(joint) => self.need_point(point_of_joint(joint)),
+            Point::Link { link, .. } if link == self.ground => {}
+            Point::Link { link, at } => {
+                self.need_point(self.reference[link]);
+                if at != [0.0; 2] {
+                    self.need_direction(link);
+                    if self.order > 0 {
+                        self.need_angle(link);
+                    }
+                }
+            }
+        }
+    }
+
+    fn need_point(&mut self, point: usize) {
+        if point == GROUND_POINT || self.points[point].is_some() {
+            return;
+        }
+        let joints = self.taker.len();
+        let quantity = if point <= joints {
+            self.outputs.joints.push(point - 1);
+            Quantity::Joint(point - 1)
+        } else {
+            let link = self.reference.iter().position(|&r| r == point).unwrap_or(self.ground);
+            self.outputs.places.push(link);
+            Quantity::Place(link)
+        };
+        self.points[point] = Some(quantity);
+    }
+
+    fn need_direction(&mut self, link: usize) {
+        self.needs_direction[link] = true;
+        match self.direction[link] {
+            Direction::Ground => {}
+            Direction::Joints(points) => points.iter().for_each(|&point| self.need_point(point)),
+            Direction::Angle => self.need_angle(link),
+        }
+    }
+
+    fn need_angle(&mut self, link: usize) {
+        if link != self.ground && !self.outputs.links.contains(&link) {
+            self.outputs.links.push(link);
+        }
+    }
+}
+
+/// The steps of a plan in reverse, each transposed.
+fn transposed_steps(plan: &Plan) -> Vec<Transposed> {
+    let transposed = |step: &Step| match step {
+        // What ends there is a coupler point: loads act on links, so it has none.
+        &Step::Place { edge, .. } if !plan.edges[edge].paired => Vec::new(),
+        &Step::Place { edge, backward } => vec![Transposed::Carry { edge, backward }],
+        Step::Dyad(_) | Step::Group(_) => Closures::of_step(step)
+            .map(|closures| {
+                let unknowns = closures.unknowns.iter().map(|&u| loaded_unknown(plan, u)).collect();
+                Transposed::Close { closures, unknowns }
+            })
+            .into_iter()
+            .collect(),
+        Step::Redundant(redundant) => redundant::transposed(redundant),
+    };
+    plan.steps.iter().rev().flat_map(transposed).collect()
+}
+
+fn loaded_unknown(plan: &Plan, unknown: Unknown) -> LoadedUnknown {
+    match unknown {
+        Unknown::Class(class) => {
+            let links = 0..plan.rotation.len();
+            LoadedUnknown::Links(links.filter(|&l| plan.rotation[l].class == class).collect())
+        }
+        Unknown::Slide(slide) => LoadedUnknown::Slide(slide),
+    }
+}
+
+/// In which order the links of every class pass their moments on: those farthest from the first
+/// link of the class (from the ground) begin.
+fn moment_steps(mechanism: &Mechanism) -> Vec<MomentStep> {
+    let (plan, linkage) = (mechanism.plan(), mechanism.linkage());
+    let mut pairs: Vec<([usize; 2], MomentPair)> = Vec::new();
+    let left_out = &mechanism.structure().redundant;
+    for (slide, &links) in plan.slide_links.iter().enumerate() {
+        if !left_out.has_slide(linkage, slide) {
+            pairs.push((links, MomentPair::Slide(slide)));
+        }
+    }
+    for (index, driver) in linkage.drivers.iter().enumerate() {
+        if let &Driver::Angle { link, relative_to } = driver {
+            pairs.push(([link, relative_to], MomentPair::Driver(index)));
+        }
+    }
+    let mut reached = vec![false; linkage.links.len()];
+    let mut steps = Vec::new();
+    for root in std::iter::once(linkage.ground).chain(0..linkage.links.len()) {
+        if std::mem::replace(&mut reached[root], true) {
+            continue;
+        }
+        let mut queue = std::collections::VecDeque::from([root]);
+        while let Some(here) = queue.pop_front() {
+            for &([a, b], through) in &pairs {
+                let next = match here {
+                    h if h == a => b,
+                    h if h == b => a,
+                    _ => continue,
+                };
+                if !std::mem::replace(&mut reached[next], true) {
+                    steps.push(MomentStep { link: next, to: here, through });
+                    queue.push_back(next);
+                }
+            }
+        }
+    }
+    steps.reverse();
+    steps
+}
+
+fn driven_link(driver: &Driver) -> Option<usize> {
+    match *driver {
+        Driver::Angle { link, .. } => Some(link),
+        Driver::Slide(_) => None,
+    }
+}

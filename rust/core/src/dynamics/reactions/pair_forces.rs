@@ -1,0 +1,140 @@
+//! The reactions that a caller asks for, from the forces in the edges.
+
+use super::force_plan::ForcePlan;
+use super::scene::Scene;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
+use crate::structure::closure::point_of_joint;
+
+/// A reaction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reaction {
+    /// Force on a link from all other links at a joint, N: x and y.
+    Joint {
+        /// The joint.
+        joint: usize,
+        /// The link.
+        on: usize,
+    },
+    /// Force on the sliding link along the guide turned by +90°, N.
+    Normal(usize),
+    /// Moment on the sliding link about its sliding point, N·m.
+    Moment(usize),
+    /// Where on the guide the normal force alone would have that moment: value + moment/normal, m.
+    Along(usize),
+    /// Torque (N·m) or force (N) of a driver.
+    Driver(usize),
+    /// Inertia forces of all bodies, N: x and y.
+    ShakingForce,
+    /// Their moment about the origin of the drawing, N·m.
+    ShakingMoment,
+}
+
+impl Reaction {
+    /// Numbers per position.
+    #[must_use]
+    pub fn width(self) -> usize {
+        match self {
+            Self::Joint { .. } | Self::ShakingForce => 2,
+            _ => 1,
+        }
+    }
+}
+
+/// How a joint force follows from the forces in edges.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum JointForce {
+    /// The force at the end of an edge, less what slides that start there bring to the link itself.
+    Edge { edge: usize, guides: Vec<usize> },
+    /// The force at the link's reference point balances all others on it.
+    Balance { link: usize, joints: Vec<JointForce>, slides: Vec<(usize, f64)> },
+    /// What the other links there do not take.
+    Rest(Vec<JointForce>),
+    /// No other link is there.
+    Free,
+}
+
+impl JointForce {
+    /// Of a link at a joint.
+    pub(crate) fn new(
+        plan: &ForcePlan,
+        links_at: &[Vec<usize>],
+        joint: usize,
+        link: usize,
+    ) -> Self {
+        if links_at[joint].len() < 2 || !links_at[joint].contains(&link) {
+            return Self::Free;
+        }
+        if link == plan.ground {
+            let others = links_at[joint].iter().filter(|&&other| other != link);
+            return Self::Rest(
+                others.map(|&other| Self::new(plan, links_at, joint, other)).collect(),
+            );
+        }
+        let point = point_of_joint(joint);
+        let is_guide_from = |&edge: &usize| {
+            let edge = &plan.edges[edge];
+            edge.slide.is_some() && edge.link == link && edge.from == point
+        };
+        let own = plan
+            .edges
+            .iter()
+            .position(|edge| edge.slide.is_none() && edge.link == link && edge.to == point);
+        if let Some(edge) = own {
+            let guides = (0..plan.edges.len()).filter(is_guide_from).collect();
+            return Self::Edge { edge, guides };
+        }
+        let other_joints = (0..links_at.len())
+            .filter(|&other| other != joint && links_at[other].contains(&link))
+            .map(|other| Self::new(plan, links_at, other, link))
+            .collect();
+        let slides = plan
+            .edges
+            .iter()
+            .enumerate()
+            .filter_map(|(edge, e)| {
+                let [sliding, carrying] = plan.slide_links[e.slide?];
+                match link {
+                    l if l == carrying => Some((edge, 1.0)),
+                    l if l == sliding => Some((edge, -1.0)),
+                    _ => None,
+                }
+            })
+            .collect();
+        Self::Balance { link, joints: other_joints, slides }
+    }
+
+    #[inline(always)]
+    pub(crate) fn of<R: Real>(&self, scene: &Scene<R>) -> Vector<R> {
+        match self {
+            Self::Edge { .. } | Self::Free => self.of_edge(scene),
+            Self::Balance { .. } => self.balance(scene),
+            Self::Rest(others) => others.iter().fold(Vector::ZERO, |sum, other| {
+                let force = match other {
+                    Self::Balance { .. } => other.balance(scene),
+                    _ => other.of_edge(scene),
+                };
+                sum - force
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn of_edge<R: Real>(&self, scene: &Scene<R>) -> Vector<R> {
+        let Self::Edge { edge, guides } = self else { return Vector::ZERO };
+        guides.iter().fold(scene.edge_force[*edge], |sum, &guide| sum - scene.edge_force[guide])
+    }
+
+    #[inline(always)]
+    fn balance<R: Real>(&self, scene: &Scene<R>) -> Vector<R> {
+        let Self::Balance { link, joints, slides } = self else { return Vector::ZERO };
+        let mut sum = scene.link_force[*link];
+        for joint in joints {
+            sum += joint.of_edge(scene);
+        }
+        for &(edge, sign) in slides {
+            sum += scene.edge_force[edge].scale(R::splat(sign));
+        }
+        -sum
+    }
+}

@@ -1,0 +1,117 @@
+//! Reactions of a machine for Python.
+
+use std::num::NonZeroUsize;
+use std::sync::Mutex;
+
+use assur::dynamics::{Machine, Reaction, ReactionRequest};
+use assur::{Arrays, Control, Coordinates, FailureLog, Mechanism, SolveError};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use pyo3::Borrowed;
+use pyo3::exceptions::PyBaseException;
+use pyo3::prelude::*;
+
+use crate::mechanism::as_uninitialized;
+use crate::memory::Memory;
+use crate::{detach, error_map};
+
+type Flat<'py> = PyReadonlyArray1<'py, f64>;
+/// One array for each reaction, the statuses, and the exception of the first position that failed.
+pub(crate) type Found<'py> =
+    (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>, Option<Py<PyBaseException>>);
+
+/// Positions up to which a call need not check for signals.
+const FEW_POSITIONS: usize = 20_000;
+
+/// A reaction as Python names it: its kind, and the indices of what it belongs to.
+pub(crate) struct ReactionKey(Reaction);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for ReactionKey {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let (kind, index, on): (String, usize, usize) = object.extract()?;
+        let reaction = match kind.as_str() {
+            "joint" => Reaction::Joint { joint: index, on },
+            "normal" => Reaction::Normal(index),
+            "moment" => Reaction::Moment(index),
+            "along" => Reaction::Along(index),
+            "driver" => Reaction::Driver(index),
+            "shaking force" => Reaction::ShakingForce,
+            "shaking moment" => Reaction::ShakingMoment,
+            _ => {
+                let message = format!("there is no reaction {kind:?}");
+                return Err(crate::error::input(&message, None));
+            }
+        };
+        Ok(Self(reaction))
+    }
+}
+
+/// The arrays that describe the motion: dimensions, coordinates, speeds, accelerations, values of
+/// the loads' functions.
+pub(crate) struct Inputs<'py> {
+    pub dimensions: Flat<'py>,
+    pub q: Flat<'py>,
+    pub per_design: bool,
+    pub speed: Flat<'py>,
+    pub acceleration: Flat<'py>,
+    pub function_values: Flat<'py>,
+}
+
+/// See `assur.Machine.reactions`.
+pub(crate) fn reactions<'py>(
+    py: Python<'py>,
+    mechanism: &Mechanism,
+    machine: &Machine,
+    inputs: &Inputs<'py>,
+    keys: &[ReactionKey],
+    threads: Option<NonZeroUsize>,
+    report: &[usize],
+) -> PyResult<Found<'py>> {
+    // All are the package's own arrays, which nobody changes meanwhile.
+    let q = inputs.q.as_slice()?;
+    let reactions: Vec<Reaction> = keys.iter().map(|key| key.0).collect();
+    let request = ReactionRequest {
+        dimensions: inputs.dimensions.as_slice()?,
+        coordinates: if inputs.per_design {
+            Coordinates::PerDesign(q)
+        } else {
+            Coordinates::Shared(q)
+        },
+        signs: mechanism.signs(),
+        speed: inputs.speed.as_slice()?,
+        acceleration: inputs.acceleration.as_slice()?,
+        external: inputs.function_values.as_slice()?,
+        reactions: &reactions,
+    };
+    let drivers = mechanism.q0().len();
+    let rows = request.speed.len() / drivers.max(1);
+    let mut memory = Memory::for_a_call();
+    let status = memory.array::<u8>(py, rows, 1)?;
+    let values = reactions
+        .iter()
+        .map(|reaction| memory.array::<f64>(py, rows, reaction.width()))
+        .collect::<PyResult<Vec<_>>>()?;
+    let mut borrowed: Vec<_> = values.iter().map(|array| array.readwrite()).collect();
+    let mut borrowed_status = status.readwrite();
+    let arrays = Arrays {
+        columns: borrowed.iter_mut().map(as_uninitialized).collect::<PyResult<_>>()?,
+        status: as_uninitialized(&mut borrowed_status)?,
+    };
+    let arrays = Mutex::new(Some(arrays));
+    let log = FailureLog::default();
+    let solved = detach::run(py, rows < FEW_POSITIONS, |cancel| {
+        let control =
+            Control { threads, cancel: Some(cancel), failures: Some(&log), ..Control::default() };
+        let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
+        arrays.map_or(Err(SolveError::Interrupted), |arrays| {
+            machine.reactions(mechanism, &request, arrays, &control)
+        })
+    });
+    drop(arrays);
+    solved?.map_err(error_map::solve)?;
+    drop((borrowed, borrowed_status));
+    let failure =
+        log.first().map(|first| error_map::first_failure(&first, report, rows).into_value(py));
+    Ok((values, status, failure))
+}
