@@ -103,7 +103,7 @@ class Reactions:
 
     @property
     def undetermined(self) -> tuple[str, ...]:
-        """Reactions of redundant links that no balance determines, at some position; they are NaN."""
+        """Reactions that no balance determines at some position, of redundant links; they are NaN."""
         solved = self.status <= Status.NEAR_SINGULAR
         joints, links = list(self._mechanism.joints), list(self._mechanism.links)
         slides = list(self._mechanism.slides)
@@ -111,10 +111,8 @@ class Reactions:
         for (kind, index, on), values in self._found.items():
             if kind in ("along", "shaking force", "shaking moment"):
                 continue
-            missing = np.isnan(values)
-            if kind == "joint":
-                missing = missing.any(axis=-1)
-            if not (missing & solved).any():
+            missing = np.isnan(values[..., 0] if kind == "joint" else values)
+            if not np.any(missing & solved):
                 continue
             if kind == "joint":
                 names.append(f'joint "{joints[index]}" on "{links[on]}"')
@@ -269,12 +267,17 @@ def broadcast_motion(
     shape = with_designs(x.shape if n == 1 else x.shape[:-1], designs)
     full = shape if n == 1 else (*shape, n)
     for name, values in (("speed", v), ("acceleration", a)):
-        try:
-            np.broadcast_to(values, full)
-        except ValueError as error:
+        if not _broadcasts(values, full):
             message = f"{name} has the shape {values.shape}, q {x.shape}: they do not fit"
-            raise InputError(message) from error
+            raise InputError(message)
     return x, v, a, shape
+
+
+def _broadcasts(values: Float, shape: tuple[int, ...]) -> bool:
+    try:
+        return np.broadcast_shapes(values.shape, shape) == shape
+    except ValueError:
+        return False
 
 
 def effort(
@@ -304,4 +307,3 @@ def effort(
                 rate = rates[..., k, i, j] - 0.5 * rates[..., i, j, k]
                 out[..., i] += rate * speeds[..., j] * speeds[..., k]
     return out[..., 0][()] if n == 1 else out
-

@@ -92,7 +92,7 @@ pub(crate) fn reactions<'py>(
         .iter()
         .map(|reaction| memory.array::<f64>(py, rows, reaction.width()))
         .collect::<PyResult<Vec<_>>>()?;
-    let mut borrowed: Vec<_> = values.iter().map(|array| array.readwrite()).collect();
+    let mut borrowed: Vec<_> = values.iter().map(PyArrayMethods::readwrite).collect();
     let mut borrowed_status = status.readwrite();
     let arrays = Arrays {
         columns: borrowed.iter_mut().map(as_uninitialized).collect::<PyResult<_>>()?,

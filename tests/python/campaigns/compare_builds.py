@@ -116,7 +116,7 @@ class Comparison:
             some = (good & (turned != 0.0)).reshape(designs, -1)
             for design in np.flatnonzero(some.any(axis=1)):
                 self.turns.append(f"{name}, design {design}: {link} {some[design].sum()} positions")
-                self.judge(name, design, self.turns)
+                self.judge(name, int(design), self.turns)
 
     def judge(self, name: str, design: int, found: list[str]) -> None:
         """Adds to the last difference which build goes the shorter way across all gaps."""
@@ -159,8 +159,8 @@ def text(result: Comparison) -> str:
 
 def main() -> int:
     if sys.argv[1] == "--dump":
-        out, first, last, higher = sys.argv[2:]
-        found = dict(solved(int(first), int(last), higher == "True"))
+        out, start, stop, kind = sys.argv[2:]
+        found = dict(solved(int(start), int(stop), kind == "True"))
         Path(out).write_bytes(pickle.dumps({name: tuple(s) for name, s in found.items()}))
         return 0
     parser = argparse.ArgumentParser(description=__doc__)

@@ -94,9 +94,9 @@ def test_a_motor_is_not_a_load() -> None:
     driven = assur.Machine(
         bare.mechanism, bare.bodies, bare.loads, assur.ConstantTorque(50.0, 3.0, 0.4)
     )
-    one, other = bare.reactions(Q, 9.0, 2.0), driven.reactions(Q, 9.0, 2.0)  # type: ignore[attr-defined]
+    one, other = bare.reactions(Q, 9.0, 2.0), driven.reactions(Q, 9.0, 2.0)
     np.testing.assert_array_equal(one.driver, other.driver)
-    np.testing.assert_array_equal(bare.effort(Q, 9.0, 2.0), driven.effort(Q, 9.0, 2.0))  # type: ignore[attr-defined]
+    np.testing.assert_array_equal(bare.effort(Q, 9.0, 2.0), driven.effort(Q, 9.0, 2.0))
 
 
 @pytest.mark.parametrize(

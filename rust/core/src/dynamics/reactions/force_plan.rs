@@ -1,39 +1,14 @@
 //! What the reactions of a machine need of its mechanism, compiled once.
 
-use super::redundant::{self, SelfStress};
+use super::steps::{SelfStress, Transposed, self_stresses, transposed_steps};
 use crate::batch::outputs::{Outputs, Quantity};
 use crate::description::Driver;
 use crate::description::frame::Axis;
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::load::Load;
 use crate::dynamics::machine::Machine;
-use crate::plan::dyad::Unknown;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::plan::{Plan, Step};
-use crate::state::closures::Closures;
 use crate::structure::closure::{GROUND_POINT, point_of_joint};
-
-/// A step of the solution, transposed.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Transposed {
-    /// The load on a point passes along an edge to the point that places it.
-    Carry { edge: usize, backward: bool },
-    /// The loads on the unknowns of closed paths give the forces that close these.
-    Close { closures: Closures, unknowns: Vec<LoadedUnknown> },
-    /// The moment on a redundant link becomes a couple of forces at two joints.
-    TurnByJoints { link: usize, edges: [Option<usize>; 2], points: [usize; 2] },
-    /// The moment on a redundant link passes to the other link of a slide.
-    TurnBySlide { link: usize, slide: usize },
-}
-
-/// What an unknown of a group moves.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum LoadedUnknown {
-    /// Links that turn together.
-    Links(Vec<usize>),
-    /// What slides along a guide.
-    Slide(usize),
-}
 
 /// An edge of the closure, as forces see it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -154,7 +129,7 @@ impl ForcePlan {
             needs_direction: vec![false; linkage.links.len()],
             slide_links: plan.slide_links.clone(),
             steps: transposed_steps(plan),
-            self_stresses: redundant::self_stresses(mechanism),
+            self_stresses: self_stresses(mechanism),
             moments: moment_steps(mechanism),
             has_inertia,
             has_speeds,
@@ -205,7 +180,9 @@ impl ForcePlan {
                     }
                 }
                 Load::Spring { ends, .. } | Load::Damper { ends, .. } => {
-                    ends.iter().for_each(|&end| self.need_mechanical_point(end));
+                    for &end in ends {
+                        self.need_mechanical_point(end);
+                    }
                 }
                 Load::TorsionSpring { link, on, .. } | Load::TorsionDamper { link, on, .. } => {
                     self.need_angle(*link);
@@ -254,7 +231,11 @@ impl ForcePlan {
         self.needs_direction[link] = true;
         match self.direction[link] {
             Direction::Ground => {}
-            Direction::Joints(points) => points.iter().for_each(|&point| self.need_point(point)),
+            Direction::Joints(points) => {
+                for point in points {
+                    self.need_point(point);
+                }
+            }
             Direction::Angle => self.need_angle(link),
         }
     }
@@ -263,34 +244,6 @@ impl ForcePlan {
         if link != self.ground && !self.outputs.links.contains(&link) {
             self.outputs.links.push(link);
         }
-    }
-}
-
-/// The steps of a plan in reverse, each transposed.
-fn transposed_steps(plan: &Plan) -> Vec<Transposed> {
-    let transposed = |step: &Step| match step {
-        // What ends there is a coupler point: loads act on links, so it has none.
-        &Step::Place { edge, .. } if !plan.edges[edge].paired => Vec::new(),
-        &Step::Place { edge, backward } => vec![Transposed::Carry { edge, backward }],
-        Step::Dyad(_) | Step::Group(_) => Closures::of_step(step)
-            .map(|closures| {
-                let unknowns = closures.unknowns.iter().map(|&u| loaded_unknown(plan, u)).collect();
-                Transposed::Close { closures, unknowns }
-            })
-            .into_iter()
-            .collect(),
-        Step::Redundant(redundant) => redundant::transposed(redundant),
-    };
-    plan.steps.iter().rev().flat_map(transposed).collect()
-}
-
-fn loaded_unknown(plan: &Plan, unknown: Unknown) -> LoadedUnknown {
-    match unknown {
-        Unknown::Class(class) => {
-            let links = 0..plan.rotation.len();
-            LoadedUnknown::Links(links.filter(|&l| plan.rotation[l].class == class).collect())
-        }
-        Unknown::Slide(slide) => LoadedUnknown::Slide(slide),
     }
 }
 

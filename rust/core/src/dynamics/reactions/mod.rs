@@ -14,4 +14,5 @@ pub(crate) mod moments;
 pub(crate) mod pair_forces;
 pub(crate) mod redundant;
 pub(crate) mod scene;
+pub(crate) mod steps;
 pub(crate) mod transposed;

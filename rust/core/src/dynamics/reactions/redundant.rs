@@ -6,79 +6,15 @@
 //! (M. Wojtyra, "Joint reaction forces in multibody systems with redundant constraints", Multibody
 //! System Dynamics 14 (2005) 23-46).
 
-use super::force_plan::{ForcePlan, Transposed};
+use super::force_plan::ForcePlan;
 use super::scene::Scene;
+use super::steps::SelfStress;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::mechanism::Mechanism;
-use crate::plan::plan::{AngleFrom, EdgeSlide, Plan, RedundantLink};
-
-/// A state of stress without loads.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum SelfStress {
-    /// A force at the end of an edge along an axis.
-    Component { edge: usize, axis: usize },
-    /// A force at the end of an edge along the line between two points.
-    Along { edge: usize, points: [usize; 2] },
-    /// A force at the end of a guide's edge, across the guide.
-    Across { edge: usize },
-    /// A moment between the links of a slide.
-    Moment { slide: usize },
-}
 
 /// A part of a self-stress that is smaller than this is rounding: unit stresses in linkages whose
 /// condition is below a million.
 const VANISHES: f64 = 1e-9;
-
-/// The transposed steps of a redundant link or slide: it turns with what holds its angle, and hangs
-/// on what places it.
-pub(super) fn transposed(redundant: &RedundantLink) -> Vec<Transposed> {
-    let carried = redundant.places.iter().rev();
-    let mut steps: Vec<_> =
-        carried.map(|&(edge, backward)| Transposed::Carry { edge, backward }).collect();
-    match redundant.angle_from {
-        Some(AngleFrom::Joints { link, first, second, points }) => {
-            steps.push(Transposed::TurnByJoints { link, edges: [first, second], points });
-        }
-        Some(AngleFrom::Slide { link, slide }) => {
-            steps.push(Transposed::TurnBySlide { link, slide });
-        }
-        None => {}
-    }
-    steps
-}
-
-/// The self-stresses of a mechanism: one for each closure equation that is only checked.
-pub(super) fn self_stresses(mechanism: &Mechanism) -> Vec<SelfStress> {
-    let plan = mechanism.plan();
-    plan.redundant_links().flat_map(|redundant| of_part(plan, redundant)).collect()
-}
-
-fn of_part(plan: &Plan, redundant: &RedundantLink) -> Vec<SelfStress> {
-    let mut found = Vec::new();
-    let (mut turned_by, mut held_by) = (None, None);
-    match redundant.angle_from {
-        Some(AngleFrom::Joints { second, points, .. }) => turned_by = second.map(|e| (e, points)),
-        Some(AngleFrom::Slide { slide, .. }) => held_by = Some(slide),
-        None => {}
-    }
-    for &edge in &redundant.checks {
-        match (plan.edges[edge].along, turned_by) {
-            (EdgeSlide::Nothing, Some((turning, points))) if turning == edge => {
-                found.push(SelfStress::Along { edge, points });
-            }
-            (EdgeSlide::Nothing, _) => {
-                found.extend([0, 1].map(|axis| SelfStress::Component { edge, axis }));
-            }
-            _ => found.push(SelfStress::Across { edge }),
-        }
-    }
-    let checked = redundant.parallel.iter().map(|&(slide, _)| slide);
-    found.extend(
-        checked.filter(|&slide| held_by != Some(slide)).map(|slide| SelfStress::Moment { slide }),
-    );
-    found
-}
 
 impl<R: Real> Scene<R> {
     /// Passes the moment on a link on as a couple of forces at two joints.

@@ -1,7 +1,8 @@
 //! The transposed solution: loads pass from the last group to the drivers.
 
-use super::force_plan::{ForcePlan, LoadedUnknown, Transposed};
+use super::force_plan::ForcePlan;
 use super::scene::Scene;
+use super::steps::{LoadedUnknown, Transposed};
 use crate::math::inverse::invert;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
