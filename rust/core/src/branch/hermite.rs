@@ -51,24 +51,32 @@ pub(crate) fn coefficients<R: Real>(a: [R; 3], b: [R; 3], h: f64) -> [R; 6] {
     let d0 = end - (value + R::splat(h) * (rate + R::splat(0.5 * h) * second));
     let d1 = R::splat(h) * (end_rate - rate - R::splat(h) * second);
     let d2 = R::splat(h * h) * (end_second - second);
-    let combine = |[x, y, z]: [f64; 3], factor: f64| {
-        (R::splat(x) * d0 + R::splat(y) * d1 + R::splat(z) * d2) * R::splat(factor)
-    };
+    let differences = [d0, d1, d2];
     let all = [
         value,
         rate,
         half * second,
-        combine([10.0, -4.0, 0.5], inv_h3),
-        combine([-15.0, 7.0, -1.0], inv_h3 * inv_h),
-        combine([6.0, -3.0, 0.5], inv_h3 * inv_h * inv_h),
+        combine(differences, [10.0, -4.0, 0.5], inv_h3),
+        combine(differences, [-15.0, 7.0, -1.0], inv_h3 * inv_h),
+        combine(differences, [6.0, -3.0, 0.5], inv_h3 * inv_h * inv_h),
     ];
     let mut finite = R::Mask::NONE.not();
     for c in all {
         finite = finite.and(c.finite());
     }
     let [c0, c1, c2, rest @ ..] = all;
-    let [c3, c4, c5] = rest.map(|c| R::select(finite, c, R::ZERO));
+    let [mut c3, mut c4, mut c5] = rest;
+    for c in [&mut c3, &mut c4, &mut c5] {
+        *c = R::select(finite, *c, R::ZERO);
+    }
     [c0, c1, c2, c3, c4, c5]
+}
+
+/// A weighted sum of differences times a factor. (A closure would not be compiled with the vector
+/// instructions of its level.)
+#[inline(always)]
+fn combine<R: Real>([d0, d1, d2]: [R; 3], [x, y, z]: [f64; 3], factor: f64) -> R {
+    (R::splat(x) * d0 + R::splat(y) * d1 + R::splat(z) * d2) * R::splat(factor)
 }
 
 /// A unit vector at an angle of less than a quarter turn. Its direction is good to 1e-9 at π/4

@@ -506,7 +506,9 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                 }
                 for lane in 0..R::LANES {
                     let cell = &mut branch.cells[(group * R::LANES + lane) * count + index];
-                    cell.coefficients = polynomial.map(|c| c.lane(lane));
+                    for (out, c) in cell.coefficients.iter_mut().zip(polynomial) {
+                        *out = c.lane(lane);
+                    }
                     cell.unit = Vector::new(unit.x.lane(lane), unit.y.lane(lane));
                     if !has_next(lane) {
                         let [c0, c1, c2, ..] = cell.coefficients;

@@ -72,7 +72,10 @@ impl<R: Real> Scene<R> {
         match load {
             Load::Force { at, force: [x, y], axes, on } => {
                 let force = Vector::new(values.read(*x, rows), values.read(*y, rows));
-                let force = axes.map_or(force, |link| self.directions[link] * force);
+                let force = match axes {
+                    Some(link) => self.directions[*link] * force,
+                    None => force,
+                };
                 let place = self.place(plan, *at).at;
                 self.force_on(plan, on.unwrap_or_else(|| taker(plan, *at)), place, force);
             }
@@ -82,7 +85,7 @@ impl<R: Real> Scene<R> {
                 self.moment_on(plan, *on, -torque);
             }
             Load::Spring { ends, stiffness, length, preload } => {
-                let [first, second] = ends.map(|end| self.place(plan, end));
+                let (first, second) = (self.place(plan, ends[0]), self.place(plan, ends[1]));
                 let (unit, distance) = polar(second.at - first.at);
                 let tension =
                     R::splat(*stiffness) * (distance - R::splat(*length)) + R::splat(*preload);
@@ -96,7 +99,7 @@ impl<R: Real> Scene<R> {
                 self.pull(plan, *ends, [first.at, second.at], pull);
             }
             Load::Damper { ends, damping } => {
-                let [first, second] = ends.map(|end| self.place(plan, end));
+                let (first, second) = (self.place(plan, ends[0]), self.place(plan, ends[1]));
                 let (unit, _) = polar(second.at - first.at);
                 let rate = unit.dot(second.velocity - first.velocity);
                 let pull = unit.scale(rate * R::splat(*damping));

@@ -269,22 +269,24 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
 }
 
 impl<R: Real> Evaluate<'_, '_, R> {
+    /// Force of a guide on what slides there.
+    #[inline(always)]
+    fn normal(&self, slide: usize) -> R {
+        let Some(edge) = self.batch.plan.guide_edges[slide] else { return R::ZERO };
+        -self.scene.guides[slide].cross(self.scene.edge_force[edge])
+    }
+
     /// The value of a reaction in all lanes.
     #[inline(always)]
     fn value(&self, index: usize) -> Vector<R> {
         let (reaction, joint) = (self.batch.asked.reactions[index], &self.batch.joints[index]);
         let scene = &*self.scene;
-        let one = |value: R| Vector::new(value, R::ZERO);
-        let normal = |slide: usize| {
-            let edge = self.batch.plan.edges.iter().position(|e| e.slide == Some(slide));
-            edge.map_or(R::ZERO, |e| -scene.guides[slide].cross(scene.edge_force[e]))
-        };
         match reaction {
             Reaction::Joint { .. } => joint.of(scene),
-            Reaction::Normal(slide) => one(normal(slide)),
+            Reaction::Normal(slide) => one(self.normal(slide)),
             Reaction::Moment(slide) => one(scene.slide_moment[slide]),
             Reaction::Along(slide) => {
-                one(scene.slides[slide] + scene.slide_moment[slide] / normal(slide))
+                one(scene.slides[slide] + scene.slide_moment[slide] / self.normal(slide))
             }
             Reaction::Driver(driver) => one(scene.driver[driver]),
             Reaction::ShakingForce => scene.shaking_force,
@@ -317,10 +319,8 @@ impl<R: Real> Evaluate<'_, '_, R> {
                 Reaction::Moment(_) => size,
                 Reaction::Along(slide) => {
                     // Known with the normal force and the moment.
-                    let edge = self.batch.plan.edges.iter().position(|e| e.slide == Some(slide));
-                    let force = edge.map_or(Vector::ZERO, |e| self.scene.edge_force[e]);
                     let moment = self.scene.slide_moment[slide];
-                    let stressed = Scene::is_stressed(force.size(), R::ONE)
+                    let stressed = Scene::is_stressed(self.normal(slide), R::ONE)
                         .or(Scene::is_stressed(moment, R::splat(size)));
                     self.drop_lanes(index, [first, lanes], stressed);
                     continue;
@@ -350,4 +350,9 @@ impl<R: Real> Evaluate<'_, '_, R> {
             column[row * width..(row + 1) * width].fill(MaybeUninit::new(f64::NAN));
         }
     }
+}
+
+#[inline(always)]
+fn one<R: Real>(value: R) -> Vector<R> {
+    Vector::new(value, R::ZERO)
 }

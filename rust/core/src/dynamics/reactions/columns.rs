@@ -72,12 +72,12 @@ impl<R: Real> Scene<R> {
         solved: &Solved<'_>,
         rows: Rows,
     ) {
-        let component = |column: usize, width: usize, component: usize| {
-            read_component(plan, solved, rows, column, [width, component])
-        };
         for (point, source) in self.points.iter_mut().zip(&sources.points) {
             let &Some(column) = source else { continue };
-            let (x, y) = (component(column, 2, 0), component(column, 2, 1));
+            let (x, y) = (
+                read_component(plan, solved, rows, column, [2, 0]),
+                read_component(plan, solved, rows, column, [2, 1]),
+            );
             *point = Moving {
                 at: Vector::new(x.at, y.at),
                 velocity: Vector::new(x.velocity, y.velocity),
@@ -86,7 +86,7 @@ impl<R: Real> Scene<R> {
         }
         for (angle, source) in self.angles.iter_mut().zip(&sources.angles) {
             let &Some(column) = source else { continue };
-            *angle = component(column, 1, 0);
+            *angle = read_component(plan, solved, rows, column, [1, 0]);
         }
         for (slide, source) in self.slides.iter_mut().zip(&sources.slides) {
             let &Some(column) = source else { continue };
@@ -127,10 +127,9 @@ fn read_component<R: Real>(
     if plan.order == 0 {
         return Moving { at, velocity, acceleration };
     }
-    let speed = |driver: usize| rows.read::<R>(solved.speed, n, driver);
     for a in 0..n {
         let d1 = rows.read::<R>(solved.columns[column + 1], width * n, component * n + a);
-        velocity += d1 * speed(a);
+        velocity += d1 * rows.read(solved.speed, n, a);
         if plan.order > 1 {
             acceleration += d1 * rows.read(solved.acceleration, n, a);
         }
@@ -140,7 +139,8 @@ fn read_component<R: Real>(
             for b in 0..n {
                 let entry = (component * n + a) * n + b;
                 let d2 = rows.read::<R>(solved.columns[column + 2], width * n * n, entry);
-                acceleration += d2 * speed(a) * speed(b);
+                let speeds = rows.read::<R>(solved.speed, n, a) * rows.read(solved.speed, n, b);
+                acceleration += d2 * speeds;
             }
         }
     }

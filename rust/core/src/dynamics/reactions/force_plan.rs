@@ -78,6 +78,8 @@ pub(crate) struct ForcePlan {
     pub driven_links: Vec<Option<usize>>,
     /// The driver that is a slide.
     pub slide_drivers: Vec<Option<usize>>,
+    /// The edge along every slide.
+    pub guide_edges: Vec<Option<usize>>,
 }
 
 impl ForcePlan {
@@ -113,7 +115,11 @@ impl ForcePlan {
                 Axis::Slide(_) | Axis::Free => Direction::Angle,
             })
             .collect();
+        let guide_edges = (0..linkage.slides.len())
+            .map(|slide| edges.iter().position(|edge: &ForceEdge| edge.slide == Some(slide)))
+            .collect();
         let mut compiled = Self {
+            guide_edges,
             drivers: plan.drivers.len(),
             outputs: Outputs::default(),
             order: match (has_inertia, has_speeds) {

@@ -109,20 +109,28 @@ impl JointForce {
         match self {
             Self::Edge { .. } | Self::Free => self.of_edge(scene),
             Self::Balance { .. } => self.balance(scene),
-            Self::Rest(others) => others.iter().fold(Vector::ZERO, |sum, other| {
-                let force = match other {
-                    Self::Balance { .. } => other.balance(scene),
-                    _ => other.of_edge(scene),
-                };
-                sum - force
-            }),
+            Self::Rest(others) => {
+                let mut rest = Vector::ZERO;
+                for other in others {
+                    let force = match other {
+                        Self::Balance { .. } => other.balance(scene),
+                        _ => other.of_edge(scene),
+                    };
+                    rest = rest - force;
+                }
+                rest
+            }
         }
     }
 
     #[inline(always)]
     fn of_edge<R: Real>(&self, scene: &Scene<R>) -> Vector<R> {
         let Self::Edge { edge, guides } = self else { return Vector::ZERO };
-        guides.iter().fold(scene.edge_force[*edge], |sum, &guide| sum - scene.edge_force[guide])
+        let mut sum = scene.edge_force[*edge];
+        for &guide in guides {
+            sum = sum - scene.edge_force[guide];
+        }
+        sum
     }
 
     #[inline(always)]

@@ -97,7 +97,11 @@ impl<R: Real> Scene<R> {
         for unknown in unknowns {
             let load = match unknown {
                 LoadedUnknown::Links(links) => {
-                    links.iter().fold(R::ZERO, |sum, &link| sum + self.moment[link])
+                    let mut sum = R::ZERO;
+                    for &link in links {
+                        sum += self.moment[link];
+                    }
+                    sum
                 }
                 &LoadedUnknown::Slide(slide) => self.sliding[slide],
             };
@@ -123,16 +127,19 @@ impl<R: Real> Scene<R> {
         }
         invert(&mut self.matrix[..2 * n * n], n);
         for (index, path) in closures.paths.iter().enumerate() {
-            let component = |row: usize| {
-                let mut sum = R::ZERO;
-                for (column, &right) in self.right.iter().enumerate() {
-                    sum += self.matrix[row * 2 * n + n + column][0] * right;
-                }
-                sum
-            };
-            let force = Vector::new(component(2 * index), component(2 * index + 1));
+            let force = Vector::new(self.solved(n, 2 * index), self.solved(n, 2 * index + 1));
             self.load_path(plan, path, force);
         }
+    }
+
+    /// A row of the inverse times the right-hand side.
+    #[inline(always)]
+    fn solved(&self, n: usize, row: usize) -> R {
+        let mut sum = R::ZERO;
+        for column in 0..n {
+            sum += self.matrix[row * 2 * n + n + column][0] * self.right[column];
+        }
+        sum
     }
 
     /// Lets the force that closes a path act on its edges and on what carries it.

@@ -38,8 +38,12 @@ impl<R: Real, const G: usize> State<R, G> {
         ) else {
             return;
         };
-        let inv_norms = links.bars.each_ref().map(|bar| R::splat(bar.inv_norm()));
-        let max_arm2 = classes.map(|class| R::splat(cx.constants.max_arm2[class]));
+        // Loops: a closure of `map` would not be compiled with the level's instructions.
+        let (mut inv_norms, mut max_arm2) = ([R::ZERO; N], [R::ZERO; N]);
+        for i in 0..N {
+            inv_norms[i] = R::splat(links.bars[i].inv_norm());
+            max_arm2[i] = R::splat(cx.constants.max_arm2[classes[i]]);
+        }
         let mut wanted = [false; N];
         for i in 0..N {
             wanted[i] = self.work.angle_wanted[bar_classes[i]] || !loops[i].orientations.is_empty();
@@ -266,17 +270,15 @@ type VectorJet<R> = [Vector<R>; ENTRIES];
 impl<R: Real, const N: usize> Jets<R, N> {
     #[inline(always)]
     fn new(equations: &BinaryEquations<'_, R, N>) -> Self {
-        let jet = |value: Vector<R>| {
-            let mut jet = [Vector::ZERO; ENTRIES];
-            jet[0] = value;
-            jet
-        };
-        Self {
-            spans: equations.spans.map(|spans| spans.map(jet)),
-            chords: equations.chords.map(jet),
-            rates: [[R::ZERO; ENTRIES]; N],
-            bar_rates: [[R::ZERO; ENTRIES]; N],
+        let zero = [Vector::ZERO; ENTRIES];
+        let (mut spans, mut chords) = ([[zero; N]; N], [zero; N]);
+        for l in 0..N {
+            chords[l][0] = equations.chords[l];
+            for unknown in 0..N {
+                spans[l][unknown][0] = equations.spans[l][unknown];
+            }
         }
+        Self { spans, chords, rates: [[R::ZERO; ENTRIES]; N], bar_rates: [[R::ZERO; ENTRIES]; N] }
     }
 
     /// Analogues of order `K` of the unknowns and of the wanted bars. Every order has the same matrix;
