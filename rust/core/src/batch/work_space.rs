@@ -33,6 +33,8 @@ pub(super) struct WorkSpace<R: Real, const G: usize> {
     pub(super) locations_even: bool,
     /// What the request needs.
     pub(super) tape: Tape,
+    /// What tracing needs for it; a worker's design has it meanwhile. None with groups.
+    pub(super) tracing_tape: Option<Tape>,
     /// Of each class asked for, if the design is plain.
     pub(super) references: Vec<Reference>,
     /// Made for the first design that needs it.
@@ -80,6 +82,7 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
             locations: Vec::new(),
             locations_even: false,
             tape: Tape::new(plan, needs),
+            tracing_tape: plan.has_closed_forms().then(|| Tape::for_dyads(plan, &writer.asked)),
             references: vec![Reference::Principal; plan.classes],
             uniform: None,
         }

@@ -74,12 +74,15 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         control: &Control<'a>,
     ) -> Self {
         let mut design = Design::new(mechanism, request.signs, derivatives);
-        if control.care == Care::Needed {
-            design.trace_only(&writer.asked);
+        let mut space = WorkSpace::take(mechanism, derivatives, writer, columns);
+        if control.care == Care::Needed
+            && let Some(tape) = space.tracing_tape.take()
+        {
+            design.trace_by(tape);
         }
         let plan = mechanism.plan();
         Self {
-            space: WorkSpace::take(mechanism, derivatives, writer, columns),
+            space,
             by: request.by.map(|index| (index, Sensitivity::new(plan, derivatives))),
             design,
             writer,
@@ -99,8 +102,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     }
 
     /// Leaves the work space to later calls.
-    pub(crate) fn finish(self) {
-        self.space.keep(self.design.mechanism);
+    pub(crate) fn finish(mut self) {
+        let mechanism = self.design.mechanism;
+        self.space.tracing_tape = self.design.into_tracing_tape().or(self.space.tracing_tape);
+        self.space.keep(mechanism);
     }
 
     /// Whether the caller has cancelled the work.
