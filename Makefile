@@ -88,7 +88,7 @@ wheel: rust-tools $(RUN_STAMP)
 
 bench: rust-tools $(EXTENSION) $(DEV_STAMP)
 	@$(PY) -m pip install --quiet --group bench
-	cargo bench $(LOCKED)
+	cargo bench $(LOCKED) --features test-hooks
 	$(PY) -m pytest benches/python
 	ASSUR_SIMD=baseline $(PY) -m pytest benches/python -k assur
 

@@ -1,7 +1,13 @@
-//! A deliberate panic, to test how the library handles one. Only with the feature `test-hooks`,
-//! which no release has.
+//! What tests and benches reach into: a deliberate panic, to test how the library handles one, and
+//! the compilation of a tape by itself. Only with the feature `test-hooks`, which no release has.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::outputs::Outputs;
+use crate::plan::compile_tape::Needs;
+use crate::plan::mechanism::Mechanism;
+use crate::plan::tape::Tape;
+use crate::structure::closure::point_of_joint;
 
 /// Chunks left until the panic; 0: no panic.
 static CHUNKS: AtomicUsize = AtomicUsize::new(0);
@@ -15,4 +21,17 @@ pub(crate) fn before_chunk() {
     let less = |left: usize| left.checked_sub(1);
     let before = CHUNKS.fetch_update(Ordering::SeqCst, Ordering::SeqCst, less);
     assert!(before != Ok(1), "a panic on purpose");
+}
+
+/// Compiles the tape of a request for these joints and links; the number of its operations.
+pub fn compile_tape(mechanism: &Mechanism, outputs: &Outputs) -> usize {
+    let plan = mechanism.plan();
+    let (mut points, mut classes) = (vec![false; plan.points], vec![false; plan.classes]);
+    for &joint in &outputs.joints {
+        points[point_of_joint(joint)] = true;
+    }
+    for &link in &outputs.links {
+        classes[plan.rotation[link].class] = true;
+    }
+    Tape::new(plan, Needs { points: &points, classes: &classes, samples: false }).ops.len()
 }
