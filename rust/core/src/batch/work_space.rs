@@ -78,7 +78,7 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
             one: State::new(plan, derivatives),
             many,
             lifted: vec![[R::ZERO; G]; plan.classes],
-            coordinates: Coordinates::new(plan),
+            coordinates: Coordinates::new(plan, derivatives.len()),
             locations: Vec::new(),
             locations_even: false,
             tape: Tape::new(plan, needs),

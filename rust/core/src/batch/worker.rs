@@ -194,12 +194,13 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             self.locate();
         }
         job.rows.status[job.first..job.first + count].fill(MaybeUninit::new(Status::Ok as u8));
-        for row in (0..count).step_by(G * R::LANES) {
+        let size = self.space.coordinates.block * R::LANES;
+        for row in (0..count).step_by(size) {
             if self.is_cancelled() {
                 return;
             }
-            let block = (count - row).min(G * R::LANES);
-            if self.space.coordinates.by_position(row / (G * R::LANES)) {
+            let block = (count - row).min(size);
+            if self.space.coordinates.by_position(row / size) {
                 self.solve_by_position(job, row, block);
                 continue;
             }

@@ -110,10 +110,10 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Sets the bound of all that a dyad depends on, if there is anything.
+    /// Sets the bound of all that a dyad depends on, 1 if that is nothing.
     #[inline(always)]
     fn start_bound(&mut self, op: &DyadOp) {
-        if op.upstream.is_empty() {
+        if !op.may_have_upstream() {
             return;
         }
         let groups = self.groups.min(G);
@@ -126,17 +126,25 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Whether in some lane some dyad may be nearly flat, or open without being known to be.
+    /// Whether in some lane a coordinate is not finite, or some dyad may be nearly flat, or open without
+    /// being known to be.
     #[inline(always)]
     pub(crate) fn is_doubtful(&self) -> bool {
+        let mut doubtful = R::Mask::NONE;
+        for q in &self.pose.q {
+            for g in 0..self.groups.min(G) {
+                doubtful = doubtful.or(q[g].finite().or(self.conditions.open[g]).not());
+            }
+        }
+        doubtful.any() || self.has_doubtful_dyads()
+    }
+
+    /// The same where all coordinates are finite.
+    #[inline(always)]
+    pub(crate) fn has_doubtful_dyads(&self) -> bool {
         let groups = self.groups.min(G);
         let Conditions { bounds, open, .. } = &self.conditions;
         let mut doubtful = R::Mask::NONE;
-        for q in &self.pose.q {
-            for g in 0..groups {
-                doubtful = doubtful.or(q[g].finite().or(open[g]).not());
-            }
-        }
         for bounds in bounds {
             for g in 0..groups {
                 // NaN is doubtful.
