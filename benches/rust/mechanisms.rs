@@ -63,12 +63,12 @@ pub fn five_bar() -> Mechanism {
         .joint("D", [2.9, 0.8])
         .joint("E", [3.0, 0.0])
         .link("ground", ["A", "E"])
-        .link("left crank", ["A", "B"])
-        .link("left rod", ["B", "C"])
-        .link("right rod", ["D", "C"])
-        .link("right crank", ["E", "D"])
-        .driver("left crank")
-        .driver("right crank");
+        .link("left_crank", ["A", "B"])
+        .link("left_rod", ["B", "C"])
+        .link("right_rod", ["D", "C"])
+        .link("right_crank", ["E", "D"])
+        .driver("left_crank")
+        .driver("right_crank");
     Mechanism::new(&five_bar).expect("a mechanism")
 }
 
@@ -82,8 +82,8 @@ pub fn chain(dyads: u32) -> Mechanism {
         chain = chain
             .joint(&format!("B{i}"), [x, 3.0])
             .joint(&format!("G{i}"), [x, 0.0])
-            .link(&format!("rod {i}"), [&*format!("B{}", i - 1), &*format!("B{i}")])
-            .link(&format!("rocker {i}"), [&*format!("G{i}"), &*format!("B{i}")]);
+            .link(&format!("rod{i}"), [&*format!("B{}", i - 1), &*format!("B{i}")])
+            .link(&format!("rocker{i}"), [&*format!("G{i}"), &*format!("B{i}")]);
     }
     let chain = chain
         .link("ground", ground.iter().map(String::as_str))
