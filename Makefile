@@ -88,7 +88,7 @@ wheel: rust-tools $(RUN_STAMP)
 
 bench: rust-tools $(EXTENSION)
 	@$(PY) -m pip install --quiet --group bench
-	cargo bench $(LOCKED)
+	cargo bench $(LOCKED) --features test-hooks
 	$(PY) benches/python/run.py --write
 
 CAMPAIGN := PYTHONPATH=tests/python/models:tests/python/oracles $(PY) tests/python/campaigns/campaign.py

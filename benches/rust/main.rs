@@ -152,12 +152,60 @@ fn short() -> Criterion {
     Criterion::default().sample_size(20).warm_up_time(warm_up).measurement_time(measured)
 }
 
+/// A joint of a five-bar with two drivers, at pairs of angles of a net, to the second analogue.
+fn several_drivers(c: &mut Criterion) {
+    let mechanism = mechanisms::five_bar();
+    let swing = |i: u32, start: f64| start + 0.6 * f64::from(i) / 60.0;
+    let [left, right] = [mechanism.q0()[0], mechanism.q0()[1]];
+    let q: Vec<f64> =
+        (0..POSITIONS * 10).flat_map(|i| [swing(i % 60, left), swing(i / 60, right)]).collect();
+    let joint = mechanism.joint("C").expect("a joint");
+    let outputs = Outputs { joints: vec![joint], ..Outputs::default() };
+    let mut group = c.benchmark_group("several drivers");
+    group.throughput(Throughput::Elements(u64::from(POSITIONS * 10)));
+    for order in [0, 2] {
+        let request = Request {
+            dimensions: mechanism.drawing(),
+            coordinates: Coordinates::Shared(&q),
+            signs: mechanism.signs(),
+            order,
+            outputs: &outputs,
+            by: None,
+        };
+        let mut buffers = Buffers::new(&request.columns(&mechanism), q.len() / 2);
+        let control = Control { threads: NonZeroUsize::new(1), ..Control::default() };
+        group.bench_function(BenchmarkId::new("joint", order), |b| {
+            b.iter(|| {
+                fill(&mechanism, black_box(&request), buffers.arrays(), &control).expect("solved");
+            });
+        });
+        assert!(mechanism.solve(&request).expect("solved").status.iter().all(|&s| s == 0));
+    }
+    group.finish();
+}
+
+/// What a request costs before its first position, ten dyads: with the feature `test-hooks`.
+#[cfg(feature = "test-hooks")]
+fn compile_tape(c: &mut Criterion) {
+    let mechanism = mechanisms::chain(10);
+    let last = mechanism.joint("B10").expect("a joint");
+    let outputs = Outputs { joints: vec![last], ..Outputs::default() };
+    c.bench_function("compile tape/10 dyads", |b| {
+        b.iter(|| assur::test_hooks::compile_tape(black_box(&mechanism), &outputs));
+    });
+}
+
+#[cfg(not(feature = "test-hooks"))]
+fn compile_tape(_: &mut Criterion) {}
+
 criterion_group!(
     benches,
     beside_by_hand::beside_by_hand,
     many_designs,
     one_design,
-    special_kernels::special_kernels
+    special_kernels::special_kernels,
+    several_drivers,
+    compile_tape
 );
 criterion_group! { name = parts; config = short(); targets = kernels::kernels, metrics::metrics }
 criterion_main!(benches, parts);

@@ -56,6 +56,44 @@ pub fn engine() -> Mechanism {
     Mechanism::new(&SliderCrank::description()).expect("a mechanism")
 }
 
+/// Two cranks, both driven, and two links between their pins.
+pub fn five_bar() -> Mechanism {
+    let five_bar = Description::new()
+        .joint("A", [0.0, 0.0])
+        .joint("B", [0.3, 0.9])
+        .joint("C", [1.6, 2.2])
+        .joint("D", [2.9, 0.8])
+        .joint("E", [3.0, 0.0])
+        .link("ground", ["A", "E"])
+        .link("left_crank", ["A", "B"])
+        .link("left_rod", ["B", "C"])
+        .link("right_rod", ["D", "C"])
+        .link("right_crank", ["E", "D"])
+        .driver("left_crank")
+        .driver("right_crank");
+    Mechanism::new(&five_bar).expect("a mechanism")
+}
+
+/// A crank and as many dyads of two legs, each on the one before and the ground.
+pub fn chain(dyads: u32) -> Mechanism {
+    let mut chain = Description::new().joint("A", [0.0, 0.0]).joint("B0", [0.0, 1.0]);
+    let mut ground = vec!["A".to_string()];
+    for i in 1..=dyads {
+        let x = 3.0 * f64::from(i);
+        ground.push(format!("G{i}"));
+        chain = chain
+            .joint(&format!("B{i}"), [x, 3.0])
+            .joint(&format!("G{i}"), [x, 0.0])
+            .link(&format!("rod{i}"), [&*format!("B{}", i - 1), &*format!("B{i}")])
+            .link(&format!("rocker{i}"), [&*format!("G{i}"), &*format!("B{i}")]);
+    }
+    let chain = chain
+        .link("ground", ground.iter().map(String::as_str))
+        .link("crank", ["A", "B0"])
+        .driver("crank");
+    Mechanism::new(&chain).expect("a mechanism")
+}
+
 pub fn all() -> [(&'static str, Mechanism); 3] {
     [("four_bar", four_bar()), ("engine", engine()), ("jansen", jansen())]
 }

@@ -7,6 +7,12 @@ use crate::math::vector::Vector;
 use crate::plan::plan::Plan;
 use crate::state::state::State;
 
+/// Coordinates of points, with their derivatives, of which [`BLOCK`](crate::state::kernel::BLOCK)
+/// positions fit in a first-level cache.
+const MAX_NUMBERS: usize = 40;
+/// Positions of a block where there are more.
+const LARGE_BLOCK: usize = 80;
+
 /// The coordinates of a job's positions.
 pub(super) struct CoordinateRegisters<R, const G: usize> {
     blocks: Vec<CoordinateBlock<R, G>>,
@@ -18,6 +24,10 @@ pub(super) struct CoordinateRegisters<R, const G: usize> {
     is_angle: Vec<bool>,
     /// Whether a coordinate is too large for [`Reference::Turning`](crate::math::angle::Reference).
     pub(super) is_far: bool,
+    /// Whether all of them are finite.
+    pub(super) are_finite: bool,
+    /// Registers of a block, at most `G`.
+    pub(super) block: usize,
 }
 
 /// Coordinates with their unit vectors, as [`State`] has them.
@@ -36,10 +46,21 @@ impl<R: Real, const G: usize> CoordinateBlock<R, G> {
 }
 
 impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
-    pub(super) fn new(plan: &Plan) -> Self {
+    /// `len`: entries of a jet.
+    pub(super) fn new(plan: &Plan, len: usize) -> Self {
         let drivers = 0..plan.drivers.len();
         let is_angle = drivers.map(|driver| plan.driven_slide(driver).is_none()).collect();
-        Self { blocks: Vec::new(), registers: 0, shared: None, is_angle, is_far: false }
+        let is_large = 2 * plan.points * len > MAX_NUMBERS;
+        let block = if is_large { (LARGE_BLOCK / R::LANES).min(G) } else { G };
+        Self {
+            blocks: Vec::new(),
+            registers: 0,
+            shared: None,
+            is_angle,
+            is_far: false,
+            are_finite: false,
+            block,
+        }
     }
 
     /// Forgets which shared coordinates are loaded.
@@ -58,21 +79,25 @@ impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
         }
         self.shared = shared;
         self.is_far = q.iter().any(|q| q.abs() > MAX_TURNED);
+        let units = design.units.coordinate.iter().cycle();
+        self.are_finite = q.iter().zip(units).all(|(q, unit)| (q * unit).is_finite());
         let drivers = self.is_angle.len();
         let positions = q.len() / drivers;
         self.registers = positions.div_ceil(R::LANES);
-        let needed = positions.div_ceil(G * R::LANES);
+        let needed = positions.div_ceil(self.block * R::LANES);
         if self.blocks.len() < needed {
             self.blocks.resize_with(needed, || CoordinateBlock::new(drivers));
         }
-        for (block, some) in self.blocks.iter_mut().zip(q.chunks(G * R::LANES * drivers)) {
+        for (block, some) in self.blocks.iter_mut().zip(q.chunks(self.block * R::LANES * drivers)) {
             let positions = some.len() / drivers;
             for (driver, &is_angle) in self.is_angle.iter().enumerate() {
                 let scale = design.units.coordinate[driver];
                 // Lanes past the last position repeat it.
                 let at = |lane: usize| some[lane.min(positions - 1) * drivers + driver] * scale;
                 let columns = block.q[driver].iter_mut().zip(&mut block.unit[driver]);
-                for (g, (q, unit)) in columns.enumerate() {
+                // A kernel may take two registers at once.
+                let used = positions.div_ceil(R::LANES) + 1;
+                for (g, (q, unit)) in columns.enumerate().take(used) {
                     let first = g * R::LANES;
                     *q = if drivers == 1 && first + R::LANES <= positions {
                         let some = &some[first..][..R::LANES];
@@ -107,12 +132,12 @@ impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
     /// One register of a driver's coordinates.
     #[inline(always)]
     pub(super) fn q(&self, driver: usize, register: usize) -> R {
-        self.blocks[register / G].q[driver][register % G]
+        self.blocks[register / self.block].q[driver][register % self.block]
     }
 
     /// The unit vectors at these coordinates.
     #[inline(always)]
     pub(super) fn unit(&self, driver: usize, register: usize) -> Vector<R> {
-        self.blocks[register / G].unit[driver][register % G]
+        self.blocks[register / self.block].unit[driver][register % self.block]
     }
 }

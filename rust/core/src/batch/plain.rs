@@ -51,7 +51,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         count: usize,
         located: bool,
     ) -> bool {
-        let block = row / (G * R::LANES);
+        let block = row / (self.space.coordinates.block * R::LANES);
         self.space.coordinates.swap(block, &mut self.space.many);
         let solved = self.solve_loaded::<L>(job, row, count, located);
         self.space.coordinates.swap(block, &mut self.space.many);
@@ -74,7 +74,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         // The memory arrives while the positions are computed.
         job.rows.prefetch::<R>(self.columns, range);
         L::bare(&mut self.space.many, &cx);
-        if self.space.many.is_doubtful() {
+        let state = &self.space.many;
+        let is_finite = self.space.coordinates.are_finite;
+        if if is_finite { state.has_doubtful_dyads() } else { state.is_doubtful() } {
             return false;
         }
         let some_open = self.space.many.has_open();

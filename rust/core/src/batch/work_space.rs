@@ -34,6 +34,8 @@ pub(super) struct WorkSpace<R: Real, const G: usize> {
     pub(super) locations_even: bool,
     /// The operations that the request needs.
     pub(super) tape: Tape,
+    /// The tape that traces its designs; a worker's design holds it during a call. None with groups.
+    pub(super) tracing_tape: Option<Tape>,
     /// Turn reference of each requested class, for plain designs.
     pub(super) references: Vec<Reference>,
     /// Made for the first design that needs it.
@@ -77,10 +79,11 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
             one: State::new(plan, derivatives),
             many,
             lifted: vec![[R::ZERO; G]; plan.classes],
-            coordinates: CoordinateRegisters::new(plan),
+            coordinates: CoordinateRegisters::new(plan, derivatives.len()),
             locations: Vec::new(),
             locations_even: false,
             tape: Tape::new(plan, needs),
+            tracing_tape: plan.has_closed_forms().then(|| Tape::for_dyads(plan, &writer.wanted)),
             references: vec![Reference::Principal; plan.classes],
             uniform: None,
         }

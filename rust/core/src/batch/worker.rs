@@ -74,12 +74,15 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         control: &Control<'a>,
     ) -> Self {
         let mut design = Design::new(mechanism, request.signs, derivatives);
-        if control.care == Care::Needed {
-            design.trace_only(&writer.wanted);
+        let mut space = WorkSpace::take(mechanism, derivatives, writer, columns);
+        if control.care == Care::Needed
+            && let Some(tape) = space.tracing_tape.take()
+        {
+            design.trace_by(tape);
         }
         let plan = mechanism.plan();
         Self {
-            space: WorkSpace::take(mechanism, derivatives, writer, columns),
+            space,
             by: request.by.map(|index| (index, Sensitivity::new(plan, derivatives))),
             design,
             writer,
@@ -100,8 +103,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     }
 
     /// Keeps the work space for later calls.
-    pub(crate) fn finish(self) {
-        self.space.keep(self.design.mechanism);
+    pub(crate) fn finish(mut self) {
+        let mechanism = self.design.mechanism;
+        self.space.tracing_tape = self.design.into_tracing_tape().or(self.space.tracing_tape);
+        self.space.keep(mechanism);
     }
 
     /// Whether the caller has cancelled the work.
@@ -190,12 +195,13 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             self.locate();
         }
         job.rows.status[job.first..job.first + count].fill(MaybeUninit::new(Status::Ok as u8));
-        for row in (0..count).step_by(G * R::LANES) {
+        let size = self.space.coordinates.block * R::LANES;
+        for row in (0..count).step_by(size) {
             if self.is_cancelled() {
                 return;
             }
-            let block = (count - row).min(G * R::LANES);
-            if self.space.coordinates.by_position(row / (G * R::LANES)) {
+            let block = (count - row).min(size);
+            if self.space.coordinates.by_position(row / size) {
                 self.solve_by_position(job, row, block);
                 continue;
             }

@@ -1,5 +1,6 @@
 //! One design ready to be solved: its constants, its unit of length, its branch from the drawing.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 
 use super::branch::Branch;
@@ -28,8 +29,8 @@ pub(crate) struct Design<'a> {
     pub derivatives: &'a DerivativeTables,
     /// Tables for tracing: of first order, or second with groups above class II.
     pub(super) tracing_derivatives: DerivativeTables,
-    /// The tape for tracing, which needs no points but those of dyads.
-    pub(super) tracing_tape: Tape,
+    /// The tape for tracing.
+    pub(super) tracing_tape: Cow<'a, Tape>,
     /// Dimensions of the present design.
     pub(super) values: Vec<f64>,
     /// Unknowns of the groups at the drawing's coordinate; or the part of the path from the
@@ -73,7 +74,7 @@ impl<'a> Design<'a> {
             units: Units::default(),
             derivatives,
             tracing_derivatives: DerivativeTables::new(mechanism.q0().len(), order),
-            tracing_tape: Tape::for_dyads(mechanism.plan(), &vec![true; mechanism.plan().classes]),
+            tracing_tape: Cow::Borrowed(&mechanism.plan().tracing_tape),
             values: Vec::new(),
             initial_unknowns: Ok(Vec::new()),
             signs: signs.iter().map(|&s| f64::from(s)).collect(),
@@ -90,10 +91,16 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Limits tracing to the angles of these classes.
-    pub(crate) fn trace_only(&mut self, classes: &[bool]) {
-        if self.closed_forms {
-            self.tracing_tape = Tape::for_dyads(self.mechanism.plan(), classes);
+    /// Traces by a tape that has the requested angles only.
+    pub(crate) fn trace_by(&mut self, tape: Tape) {
+        self.tracing_tape = Cow::Owned(tape);
+    }
+
+    /// That tape, which another design may use.
+    pub(crate) fn into_tracing_tape(self) -> Option<Tape> {
+        match self.tracing_tape {
+            Cow::Owned(tape) => Some(tape),
+            Cow::Borrowed(_) => None,
         }
     }
 

@@ -95,6 +95,7 @@ impl Plan {
             leg_edges: LegEdges::default(),
             is_general: false,
             tape: Tape::default(),
+            tracing_tape: Tape::default(),
         };
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
         let placed = add_steps(&mut plan, linkage, structure, &kept)?;
@@ -106,6 +107,7 @@ impl Plan {
         plan.leg_edges = LegEdges::of(plan.dyads());
         plan.may_change = vec![true; plan.signs()];
         plan.tape = Tape::whole(&plan);
+        plan.tracing_tape = Tape::for_dyads(&plan, &vec![true; plan.classes]);
         Ok(plan)
     }
 

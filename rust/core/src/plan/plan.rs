@@ -162,6 +162,9 @@ pub(crate) struct Plan {
     pub is_general: bool,
     /// All steps as they are run.
     pub tape: Tape,
+    /// What tracing runs where nothing is known of the angles asked for: it needs no points but
+    /// those of dyads.
+    pub tracing_tape: Tape,
 }
 
 impl Plan {

@@ -1,8 +1,6 @@
 //! The tape: the plan's steps as the solver runs them, with all indices resolved and without the steps
 //! that a request does not need.
 
-use crate::math::lanes::Real;
-
 /// The operations to run at every position, in order.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Tape {
@@ -72,10 +70,10 @@ pub(crate) struct DyadOp {
 }
 
 impl DyadOp {
-    /// The bound of the dyad's condition, from its own and that of everything it depends on.
+    /// Whether the dyad may depend on others before it: not between a crank's pin and the ground.
     #[inline(always)]
-    pub(crate) fn bound_with<R: Real>(&self, upstream: R, own: R) -> R {
-        if self.upstream.is_empty() { own } else { upstream * own }
+    pub(crate) fn may_have_upstream(&self) -> bool {
+        self.pin.is_none() || self.carrier.is_some()
     }
 }
 

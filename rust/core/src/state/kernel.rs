@@ -10,9 +10,9 @@ use crate::math::stride::Stride;
 use crate::plan::group::Group;
 use crate::plan::tape::{DyadOp, PlaceOp};
 
-/// Positions in a block: their columns fit the first-level cache, and a turn in steps of 5° is one
-/// block.
-pub(crate) const BLOCK: usize = 80;
+/// Most positions in a block: their columns fit the first-level cache, and a turn in steps of 5° is
+/// one block.
+pub(crate) const BLOCK: usize = 144;
 
 /// The solver of positions compiled for one level.
 ///

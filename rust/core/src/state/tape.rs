@@ -111,10 +111,10 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Sets the bound of everything that a dyad depends on, if it depends on anything.
+    /// Sets the bound of everything that a dyad depends on, 1 if it depends on nothing.
     #[inline(always)]
     fn start_bound(&mut self, op: &DyadOp) {
-        if op.upstream.is_empty() {
+        if !op.may_have_upstream() {
             return;
         }
         let groups = self.groups.min(G);
@@ -127,17 +127,25 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Whether in some lane a dyad may be nearly flat, or open without being marked as such.
+    /// Whether in some lane a coordinate is not finite, or a dyad may be nearly flat, or open without
+    /// being marked as such.
     #[inline(always)]
     pub(crate) fn is_doubtful(&self) -> bool {
+        let mut doubtful = R::Mask::NONE;
+        for q in &self.pose.q {
+            for g in 0..self.groups.min(G) {
+                doubtful = doubtful.or(q[g].finite().or(self.conditions.open[g]).not());
+            }
+        }
+        doubtful.any() || self.has_doubtful_dyads()
+    }
+
+    /// The same where all coordinates are finite.
+    #[inline(always)]
+    pub(crate) fn has_doubtful_dyads(&self) -> bool {
         let groups = self.groups.min(G);
         let Conditions { bounds, open, .. } = &self.conditions;
         let mut doubtful = R::Mask::NONE;
-        for q in &self.pose.q {
-            for g in 0..groups {
-                doubtful = doubtful.or(q[g].finite().or(open[g]).not());
-            }
-        }
         for bounds in bounds {
             for g in 0..groups {
                 // NaN must count as doubtful.

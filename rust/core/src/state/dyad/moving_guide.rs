@@ -60,7 +60,8 @@ impl<R: Real, const G: usize> State<R, G> {
             } else {
                 self.conditions.open[g] = self.conditions.open[g].or(solved.closing.open);
                 let own = solved.closing.sine2 * inverse_arm2;
-                bounds[g] = op.bound_with(self.conditions.bound[g], own);
+                bounds[g] =
+                    if op.may_have_upstream() { self.conditions.bound[g] * own } else { own };
             }
             let (a0, inverse) = (solved.turned, solved.inverse_determinant);
             leg[0][g] = a0;

@@ -90,8 +90,11 @@ impl<R: Real, const G: usize> State<R, G> {
                 closings[g] = solved.closing.first();
             } else {
                 W::add_to(solved.closing.open, &mut self.conditions.open, g);
-                let upstream = W::load(&self.conditions.bound, g);
-                op.bound_with(upstream, solved.closing.sine2 * inverse_arm2).store(bounds, g);
+                let mut bound = solved.closing.sine2 * inverse_arm2;
+                if ENDS != TO_PIN {
+                    bound = W::load(&self.conditions.bound, g) * bound;
+                }
+                bound.store(bounds, g);
             }
             if turns {
                 W::store_vectors(solved.leg.turn(to_turn), turn, g);

@@ -38,7 +38,8 @@ impl<R: Real, const G: usize> State<R, G> {
             if CAREFUL {
                 closings[g] = Closing::of_lines(s[0][g], t[0][g], R::splat(determinant));
             } else {
-                bounds[g] = op.bound_with(self.conditions.bound[g], sine2);
+                bounds[g] =
+                    if op.may_have_upstream() { self.conditions.bound[g] * sine2 } else { sine2 };
             }
         }
         if CAREFUL {

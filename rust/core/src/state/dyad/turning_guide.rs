@@ -67,7 +67,8 @@ impl<R: Real, const G: usize> State<R, G> {
                 // The arm is relative to the distance.
                 let distance2 = R::ONE.min(chord.norm2() * inverse_arm2);
                 let own = solved.closing.sine2 * distance2;
-                bounds[g] = op.bound_with(self.conditions.bound[g], own);
+                bounds[g] =
+                    if op.may_have_upstream() { self.conditions.bound[g] * own } else { own };
             }
             let (unit, inverse) = (solved.turned, solved.inverse_determinant);
             turn[0][g] = unit;
