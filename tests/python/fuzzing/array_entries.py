@@ -45,6 +45,10 @@ STEADY = OF_TABLE.steady_state(9.0, mean="period")
 WHEEL = flywheel.evaluate(PHI * (TURN / 6.0), MOMENT, INERTIA, 20.0, speed0=9.0)
 
 
+def reactions(q: Any, speed: Any, acceleration: Any) -> Any:
+    return MACHINE.reactions(q, speed, acceleration).joint("C", on="rocker")
+
+
 @dataclass(frozen=True)
 class Entry:
     """A function of one array, and arrays that it takes."""
@@ -131,6 +135,8 @@ ENTRIES: dict[str, Entry] = {
     **each_of("MachineModel.reduced_inertia", MACHINE.reduced_inertia, q=0.0),
     **each_of("MachineModel.reduced_moment", MACHINE.reduced_moment, q=0.0, speed=1.0),
     **each_of("MachineModel.potential", MACHINE.potential, q=0.0),
+    **each_of("Machine.reactions", reactions, q=0.0, speed=1.0, acceleration=2.0),
+    **each_of("Machine.effort", MACHINE.effort, q=0.0, speed=1.0, acceleration=2.0),
     **each_of("Machine.flywheel", OF_TABLE.flywheel, fluctuation=0.125, mean_speed=4.0),
     **each_of("Machine.run", MACHINE.run, t_end=0.5, q0=1.0, speed0=2.0, breaks=0.0, rtol=1e-6),
     "Machine.run.atol": Entry(

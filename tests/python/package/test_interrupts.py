@@ -198,7 +198,7 @@ def _solve_designs(m: assur.Mechanism) -> Callable[[], object]:
     return lambda: m.solve([0.3], on_error="nan")
 
 
-def _measure(m: assur.Mechanism, positions: int = 4) -> Callable[[], object]:
+def _measure(m: assur.Mechanism, positions: int = 8) -> Callable[[], object]:
     asked = {"off": assur.metric.deviation("8"), "swing": assur.metric.span("l48", order=1)}
     q = np.linspace(0.3, 0.4, positions)
     return lambda: assur.sweep(m, {}, q, metrics=asked)
