@@ -19,6 +19,8 @@ from assur import crank_rocker, flywheel, slider_crank
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    import numpy.typing as npt
+
 TURN = 2.0 * math.pi
 MODULES = (assur, flywheel, slider_crank, crank_rocker, assur.events)
 
@@ -45,7 +47,7 @@ STEADY = OF_TABLE.steady_state(9.0, mean="period")
 WHEEL = flywheel.evaluate(PHI * (TURN / 6.0), MOMENT, INERTIA, 20.0, speed0=9.0)
 
 
-def reactions(q: Any, speed: Any, acceleration: Any) -> Any:
+def reactions(q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> Any:
     return MACHINE.reactions(q, speed, acceleration).joint("C", on="rocker")
 
 
