@@ -75,6 +75,7 @@ pub fn five_bar() -> Mechanism {
 }
 
 /// A crank and as many dyads of two legs, each on the one before and the ground.
+#[cfg(feature = "test-hooks")]
 pub fn chain(dyads: u32) -> Mechanism {
     let mut chain = Description::new().joint("A", [0.0, 0.0]).joint("B0", [0.0, 1.0]);
     let mut ground = vec!["A".to_string()];

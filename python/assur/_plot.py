@@ -66,7 +66,7 @@ def path_picture(motion: Motion, joint: str, ax: Any) -> Any:
 def _draw(motion: Motion, index: tuple[int, ...], ax: Any) -> Any:
     """Draw one position: links, slides, joints, ground."""
     mechanism = motion.mechanism
-    at = {name: motion.joint(name).value[index] for name in mechanism.joints}
+    at = {name: motion.joint(name).value[index] for name in mechanism._joint_names}
     size = _size(list(at.values()))
     for name, slide in mechanism.slides.items():
         _guide(motion, index, name, slide.on, size, ax)

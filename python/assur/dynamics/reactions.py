@@ -103,9 +103,9 @@ class Reactions:
 
     @property
     def undetermined(self) -> tuple[str, ...]:
-        """Reactions that no balance determines at some position, of redundant links; they are NaN."""
+        """Reactions of redundant links that no balance determines somewhere: they are NaN there."""
         solved = self.status <= Status.NEAR_SINGULAR
-        joints, links = list(self._mechanism.joints), list(self._mechanism.links)
+        joints, links = self._mechanism._joint_names, list(self._mechanism.links)
         slides = list(self._mechanism.slides)
         names = []
         for (kind, index, on), values in self._found.items():
@@ -182,7 +182,7 @@ def _links_at(mechanism: Mechanism) -> dict[str, list[str]]:
     """Return the links of every joint, in the order of the description."""
     return {
         joint: [link for link, joints in mechanism.links.items() if joint in joints]
-        for joint in mechanism.joints
+        for joint in mechanism._joint_names
     }
 
 

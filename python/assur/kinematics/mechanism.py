@@ -199,6 +199,11 @@ class Mechanism:
         return self._joints
 
     @property
+    def _joint_names(self) -> tuple[str, ...]:
+        """Names of the joints: unlike `joints`, without solving a design."""
+        return tuple(name for name, _, _ in self._description.joints)
+
+    @property
     def links(self) -> Mapping[str, tuple[str, ...]]:
         """Joints of each link."""
         return MappingProxyType(dict(self._description.links))

@@ -57,7 +57,7 @@ def _coordinate(mechanism: Mechanism, name: str, order: int) -> tuple[str, int, 
             message = f'coordinate {name!r}: "{joint}.x" or "{joint}.y" is needed'
             raise InputError(message)
         return "joint", mechanism._core.require("joint", joint), "xy".index(axis), order
-    if name in mechanism.joints:
+    if name in mechanism._joint_names:
         message = f'coordinate {name!r} is a joint: "{name}.x" or "{name}.y" is needed'
         raise InputError(message, joint=name)
     kind = "slide" if name in mechanism.slides else "link"

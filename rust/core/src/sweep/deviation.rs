@@ -60,6 +60,9 @@ impl Metric for Deviation {
         let mut least = self.greatest(&path[likely..likely + count], f64::INFINITY);
         let sums = RunningSums::of(&path);
         for ((start, stretch), &bound) in path.windows(count).enumerate().zip(&bounds) {
+            if positions.is_cancelled() {
+                return f64::NAN;
+            }
             let few_points = || off_line_of_sums(stretch, sums.moments(start, count)) / size;
             let is_line = self.shape == Shape::Line;
             if bound < least && !(is_line && few_points() > least + sums.rounding / size) {

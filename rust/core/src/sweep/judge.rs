@@ -133,7 +133,8 @@ impl Batch<'_> {
         let metric = (self.sweep.metrics[metric], &self.sources[metric][..]);
         let returns = q.len() == self.course.q.len() && self.returns(rows, metric);
         let dimensions = row.dimensions;
-        metric.0.of(&Positions { q, drivers, dimensions, values: &values, returns })
+        let cancel = self.control.cancel;
+        metric.0.of(&Positions { q, drivers, dimensions, values: &values, returns, cancel })
     }
 
     /// Whether what a metric reads is the same after a turn, at two positions.

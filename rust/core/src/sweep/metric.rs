@@ -1,6 +1,8 @@
 //! What a metric is: one number of a motion.
 
 use super::course::Course;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crate::batch::outputs::Quantity;
 
 /// A quantity, and which of its derivatives by the driver: 0 is the value.
@@ -38,9 +40,18 @@ pub struct Positions<'a> {
     /// first position follows the last: after a change point, and in higher classes, it may take two
     /// turns. Only known to metrics that [ask](Metric::asks_return).
     pub returns: bool,
+    /// See [`Self::is_cancelled`].
+    pub(super) cancel: Option<&'a AtomicBool>,
 }
 
 impl Positions<'_> {
+    /// Whether the caller has cancelled the work: then any number will do. A metric that takes long
+    /// for many positions asks now and then.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+
     /// Number of positions.
     #[must_use]
     pub fn count(&self) -> usize {
