@@ -73,5 +73,5 @@ def _line(mechanism: Mechanism, line: transmission.Line) -> tuple[Any, ...]:
 
 
 def _is_angle(mechanism: Mechanism) -> bool:
-    driver = mechanism._description[3]
+    driver = mechanism._description.drivers
     return not any(name in mechanism.slides for name in driver if isinstance(name, str))

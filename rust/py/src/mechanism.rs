@@ -300,7 +300,7 @@ impl Mechanism {
         q: PyReadonlyArray1<'py, f64>,
         signs: Vec<i8>,
         metrics: Vec<MetricSpec>,
-        conditions: Vec<(usize, String, f64)>,
+        conditions: Vec<(usize, Word<assur::sweep::Relation>, f64)>,
         threads: Option<NonZeroUsize>,
     ) -> PyResult<Found<'py>> {
         sweep::measure(py, &self.inner, (dimensions, q), &signs, &metrics, conditions, threads)

@@ -2,12 +2,13 @@
 
 use std::num::NonZeroUsize;
 
-use assur::sweep::{Measured, Metric, Sweep};
+use assur::sweep::{Measured, Metric, Relation, Sweep};
 use assur::{Control, Mechanism};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::convert::metric::{MetricSpec, condition};
+use crate::convert::word::Word;
 use crate::{detach, error_map};
 
 /// Values of each metric, statuses, and which designs are kept.
@@ -21,7 +22,7 @@ pub(crate) fn measure<'py>(
     (dimensions, q): (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>),
     signs: &[i8],
     metrics: &[MetricSpec],
-    conditions: Vec<(usize, String, f64)>,
+    conditions: Vec<(usize, Word<Relation>, f64)>,
     threads: Option<NonZeroUsize>,
 ) -> PyResult<Found<'py>> {
     let (dimensions, q) = (dimensions.as_slice()?, q.as_slice()?);

@@ -4,10 +4,12 @@ use std::f64::consts::TAU;
 
 use assur::sweep::{
     Combination, Condition, Coordinate, Deviation, Extreme, LeastTransmission, Line, Mean, Metric,
-    Moves, Operand, Operation, Part, PlaceOf, Relation, RootMeanSquare, Shape, Span, TimeRatio,
+    Moves, Operand, Part, PlaceOf, Relation, RootMeanSquare, Shape, Span, TimeRatio,
 };
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+
+use super::word::Word;
+use crate::error;
 
 type Own = Box<dyn Metric + Send>;
 
@@ -35,9 +37,9 @@ impl<'py> FromPyObject<'_, 'py> for MetricSpec {
                 Box::new(LeastTransmission { lines, complement: spec.get_item(3)?.extract()? })
             }
             "deviation" => {
-                let (joint, shape, part, is_relative): (_, String, _, _) =
+                let (joint, shape, part, is_relative): (_, Word<Shape>, _, _) =
                     spec.get_item(1)?.extract()?;
-                let shape = if shape == "line" { Shape::Line } else { Shape::Circle };
+                let shape = shape.0;
                 Box::new(Deviation { joint, shape, part, is_relative })
             }
             "part" => {
@@ -47,11 +49,11 @@ impl<'py> FromPyObject<'_, 'py> for MetricSpec {
                 Box::new(Part { metric, from, to, period })
             }
             "combination" => {
-                let operation = operation(&spec.get_item(1)?.extract::<String>()?);
+                let Word(operation) = spec.get_item(1)?.extract()?;
                 let [left, right] = [operand(&spec.get_item(2)?)?, operand(&spec.get_item(3)?)?];
                 Box::new(Combination { operation, left, right })
             }
-            _ => return Err(PyValueError::new_err(format!("{kind:?} is no metric"))),
+            _ => return Err(unknown("metric", &kind)),
         };
         Ok(Self(metric))
     }
@@ -63,7 +65,8 @@ fn coordinate(spec: &Bound<'_, PyAny>) -> PyResult<Coordinate> {
     let value = match what.as_str() {
         "joint" => Coordinate::joint(index, component),
         "link" => Coordinate::link(index),
-        _ => Coordinate::slide(index),
+        "slide" => Coordinate::slide(index),
+        _ => return Err(unknown("coordinate", &what)),
     };
     Ok(value.derivative(order))
 }
@@ -71,20 +74,15 @@ fn coordinate(spec: &Bound<'_, PyAny>) -> PyResult<Coordinate> {
 /// Two joints; or a link, and the dimension that is the guide's angle.
 fn line(spec: &Bound<'_, PyAny>) -> PyResult<Line> {
     let kind: String = spec.get_item(0)?.extract()?;
-    if kind == "joints" {
-        Ok(Line::Joints([spec.get_item(1)?.extract()?, spec.get_item(2)?.extract()?]))
-    } else {
-        Ok(Line::Guide(spec.get_item(1)?.extract()?, spec.get_item(2)?.extract()?))
+    match kind.as_str() {
+        "joints" => Ok(Line::Joints([spec.get_item(1)?.extract()?, spec.get_item(2)?.extract()?])),
+        "guide" => Ok(Line::Guide(spec.get_item(1)?.extract()?, spec.get_item(2)?.extract()?)),
+        _ => Err(unknown("line", &kind)),
     }
 }
 
-fn operation(sign: &str) -> Operation {
-    match sign {
-        "+" => Operation::Add,
-        "-" => Operation::Subtract,
-        "*" => Operation::Multiply,
-        _ => Operation::Divide,
-    }
+fn unknown(what: &str, kind: &str) -> PyErr {
+    error::input(&format!("{kind:?} is not a kind of {what}"), None)
 }
 
 /// A number or a metric.
@@ -97,12 +95,6 @@ fn operand(spec: &Bound<'_, PyAny>) -> PyResult<Operand> {
 }
 
 /// A condition: metric, relation and limit.
-pub(crate) fn condition((metric, relation, limit): (usize, String, f64)) -> Condition {
-    let relation = match relation.as_str() {
-        "<" => Relation::Less,
-        "<=" => Relation::AtMost,
-        ">" => Relation::Greater,
-        _ => Relation::AtLeast,
-    };
-    Condition { metric, relation, limit }
+pub(crate) fn condition((metric, relation, limit): (usize, Word<Relation>, f64)) -> Condition {
+    Condition { metric, relation: relation.0, limit }
 }

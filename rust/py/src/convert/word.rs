@@ -3,6 +3,7 @@
 use assur::Named;
 use assur::dynamics::{EndCondition, Mean};
 use assur::ode::{Crossing, Method};
+use assur::sweep::{Operation, Relation, Shape};
 use pyo3::Borrowed;
 use pyo3::prelude::*;
 
@@ -67,4 +68,22 @@ impl Words for Named {
     const WHAT: &'static str = "kind";
     const KNOWN: &'static [(&'static str, Self)] =
         &[("joint", Self::Joint), ("link", Self::Link), ("slide", Self::Slide)];
+}
+
+impl Words for Relation {
+    const WHAT: &'static str = "relation";
+    const KNOWN: &'static [(&'static str, Self)] =
+        &[("<", Self::Less), ("<=", Self::AtMost), (">", Self::Greater), (">=", Self::AtLeast)];
+}
+
+impl Words for Shape {
+    const WHAT: &'static str = "shape";
+    const KNOWN: &'static [(&'static str, Self)] =
+        &[("line", Self::Line), ("circle", Self::Circle)];
+}
+
+impl Words for Operation {
+    const WHAT: &'static str = "operation";
+    const KNOWN: &'static [(&'static str, Self)] =
+        &[("+", Self::Add), ("-", Self::Subtract), ("*", Self::Multiply), ("/", Self::Divide)];
 }
