@@ -57,7 +57,13 @@ impl Rows {
     /// The number `offset` of each position's `width` numbers.
     #[inline(always)]
     pub(crate) fn read<R: Real>(self, values: &[f64], width: usize, offset: usize) -> R {
-        R::from_lanes(|lane| values[(self.first + lane).min(self.last) * width + offset])
+        let first = self.first * width;
+        // Widths that the compiler knows are read by few instructions.
+        match (values.get(first..first + R::LANES * width), width) {
+            (Some(all), 1) => R::from_lanes(|lane| all[lane]),
+            (Some(all), 2) => R::from_lanes(|lane| all[2 * lane + offset]),
+            _ => R::from_lanes(|lane| values[(self.first + lane).min(self.last) * width + offset]),
+        }
     }
 }
 
