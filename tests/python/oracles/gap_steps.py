@@ -27,9 +27,12 @@ KNOWN = 2e-3
 NARROW = math.radians(0.1)
 # Links whose steps agree so well, rad, turn together, or with the driver between them.
 TOGETHER = 1e-6
-# Bits of a cell's part that one call bisects, and positions of a gap that is looked at closely.
+# Bits of a cell's part that one call bisects.
 BITS = 4
+# Positions of a gap that is looked at closely: so many, and no farther apart, rad. The branch may
+# find islands that are much narrower than NARROW, and steps from one to the next.
 CLOSE = 4001
+APART = 1e-5
 
 
 class Gap(NamedTuple):
@@ -124,7 +127,8 @@ def too_far(m: assur.Mechanism, gap: Gap) -> Iterator[str]:
     if not wrong.any():
         return
     # A closer look: the sample may have missed islands, and the branch narrow ones.
-    inside = np.linspace(gap.before, gap.behind, CLOSE)
+    count = max(CLOSE, math.ceil(abs(gap.behind - gap.before) / APART) + 1)
+    inside = np.linspace(gap.before, gap.behind, count)
     pieces = stretches(m, inside)
     wide = np.abs(np.diff(pieces[1:-1], axis=1)[:, 0]) > NARROW
     for some in (pieces, pieces[[0, *(np.flatnonzero(wide) + 1), -1]]):
