@@ -55,24 +55,30 @@ fn options_that_do_not_fit_are_named() {
     assert!(tabulated.reduce(&[0.0]).moment[0].is_nan());
     let said = |error: String, what: &str| assert!(error.contains(what), "{error}");
     let run = tabulated.run(&task(&[0.0], &[1.0], 1.0), NoCallbacks);
-    said(run.expect_err("one table").to_string(), "1 tables of inertia and moment are given: 2");
+    said(
+        run.expect_err("one table").to_string(),
+        "wrong number of tables of inertia and moment: 1 given, 2 needed",
+    );
     let steady = tabulated.steady(&search(TAU, Some(1.0)), None, NoCallbacks);
-    said(steady.expect_err("one table").to_string(), "2 are needed");
+    said(steady.expect_err("one table").to_string(), "1 given, 2 needed");
     let mechanism = Mechanism::new(&crank_rocker()).expect("a mechanism");
     let machine = Machine::default();
     let own = mechanism.drawing();
     let run = |task: &RunOptions<'_>, own: &[f64]| {
         machine.run(&mechanism, own, task, NoCallbacks).expect_err("too few").to_string()
     };
-    said(run(&task(&[0.0], &[1.0], 1.0), &own[1..]), "dimensions are given");
-    said(run(&task(&[0.0, 1.0], &[1.0], 1.0), own), "2 coordinates are given: 1 are needed");
-    said(run(&task(&[0.0], &[], 1.0), own), "0 speeds are given: 1 are needed");
+    said(run(&task(&[0.0], &[1.0], 1.0), &own[1..]), "wrong number of dimensions");
+    said(
+        run(&task(&[0.0, 1.0], &[1.0], 1.0), own),
+        "wrong number of coordinates: 2 given, 1 needed",
+    );
+    said(run(&task(&[0.0], &[], 1.0), own), "wrong number of speeds: 0 given, 1 needed");
     let kind = EventKind::Speed { driver: 1, value: 0.0 };
     let watches = [EventSpec { kind, crossing: Crossing::Either, stops: true }];
     let watched = RunOptions { events: &watches, ..task(&[0.0], &[1.0], 1.0) };
-    said(run(&watched, own), "1 drivers are given: 2 are needed");
+    said(run(&watched, own), "wrong number of drivers: 1 given, 2 needed");
     let steady = machine.steady(&mechanism, &own[1..], &search(TAU, Some(1.0)), None, NoCallbacks);
-    said(steady.expect_err("too few").to_string(), "dimensions are given");
+    said(steady.expect_err("too few").to_string(), "wrong number of dimensions");
 }
 
 #[test]

@@ -87,10 +87,7 @@ impl ForcePlan {
     pub(crate) fn new(mechanism: &Mechanism, machine: &Machine) -> Self {
         let (plan, linkage) = (mechanism.plan(), mechanism.linkage());
         let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
-        let has_speeds = machine
-            .loads
-            .iter()
-            .any(|load| matches!(load, Load::Damper { .. } | Load::TorsionDamper { .. }));
+        let has_speeds = machine.loads.iter().any(depends_on_speed);
         let edges: Vec<ForceEdge> = plan
             .edges
             .iter()
@@ -298,5 +295,16 @@ fn driven_link(driver: &Driver) -> Option<usize> {
     match *driver {
         Driver::Angle { link, .. } => Some(link),
         Driver::Slide(_) => None,
+    }
+}
+
+/// Whether a load reads velocities of points or links.
+fn depends_on_speed(load: &Load) -> bool {
+    match load {
+        Load::Damper { .. } | Load::TorsionDamper { .. } => true,
+        Load::Force { .. }
+        | Load::Torque { .. }
+        | Load::Spring { .. }
+        | Load::TorsionSpring { .. } => false,
     }
 }
