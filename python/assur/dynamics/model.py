@@ -75,7 +75,7 @@ class MachineModel:
         )
         self._core = _core.Machine(
             mechanism._core,
-            loads=[checked_load(load) for load in self.loads],
+            loads=[parts.load(mechanism, checked_load(load)) for load in self.loads],
             bodies=[parts.body(mechanism, link, body) for link, body in self.bodies.items()],
             motors=parts.motors(self.motor, self._drivers),
         )

@@ -9,7 +9,7 @@ import numpy as np
 
 from assur._arrays import Float, real_array, short
 from assur._validate import checked_name, require_rows
-from assur.dynamics.loads import Body
+from assur.dynamics.loads import Body, Force, Load
 from assur.dynamics.motors import checked_motor
 from assur.errors import InputError
 
@@ -55,6 +55,22 @@ def body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Body]:
         message = f"bodies[{link!r}]: joint {at!r} is not one of its joints {', '.join(joints)}"
         raise InputError(message, joint=at, link=link)
     return link, body
+
+
+def load(mechanism: Mechanism, load: Load) -> Load:
+    """Return a load, if the link that takes it has the point where it acts."""
+    if not isinstance(load, Force) or load.on is None or load.on not in mechanism.links:
+        return load
+    at, on = load.at, load.on
+    if isinstance(at, str) and at in mechanism._joint_names and at not in mechanism.links[on]:
+        message = f'Force on: link "{on}" has no joint "{at}": name a link that has it'
+        raise InputError(message, joint=at, link=on)
+    if isinstance(at, tuple) and at[0] != on:
+        message = (
+            f'Force on: its point is on link "{at[0]}", which takes it, not "{on}": leave on out'
+        )
+        raise InputError(message, link=on)
+    return load
 
 
 def columns(phi: Any, moment: Any, inertia: Any) -> tuple[Float, dict[str, Float]]:

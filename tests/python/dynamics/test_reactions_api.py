@@ -141,3 +141,13 @@ def test_unreachable_positions() -> None:
     assert np.isfinite(found.driver[0])
     assert np.isnan(found.driver[1])
     assert np.isnan(found.joint("C", on="rocker")[1]).all()
+
+
+@pytest.mark.parametrize(
+    ("at", "on", "joint"),
+    [("B", "crank", "B"), ("B", "ground", "B"), (("rod", (0.1, 0.0)), "piston", None)],
+)
+def test_a_force_is_taken_by_a_link_that_has_its_point(at: Any, on: str, joint: str | None) -> None:
+    with pytest.raises(assur.InputError) as caught:
+        assur.Machine(assur.SliderCrank(0.1, 0.35), loads=[assur.Force(at, (1.0, 0.0), on=on)])
+    assert (caught.value.link, caught.value.joint) == (on, joint)
