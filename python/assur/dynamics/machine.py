@@ -97,6 +97,8 @@ class Machine(MachineModel):
         ------
         PositionError
             No position at some q (`on_error="nan"` gives NaN there).
+        MotionError
+            A load or an inertia force that is not finite.
         InputError
             Shapes that do not fit, numbers that are not finite.
 

@@ -11,7 +11,7 @@ from assur._validate import checked_threads, one_of
 from assur.description.words import Status
 from assur.dynamics.reduce import with_designs
 from assur.dynamics.values import function_values
-from assur.errors import InputError
+from assur.errors import InputError, MotionError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -241,6 +241,8 @@ def reactions(
     )
     if on_error == "raise" and failure is not None:
         raise failure
+    if on_error == "raise":
+        _require_finite(arrays[keys.index(("driver", 0, 0))], status, everywhere, drivers)
     found: dict[Key, Float] = {}
     for key, array in zip(keys, arrays, strict=True):
         two = key[0] in ("joint", "shaking force")
@@ -248,6 +250,20 @@ def reactions(
         found[key] = array.reshape((*shape, 2) if two else shape)
     motion = tuple(np.broadcast_to(one, full) for one in (x, v, a))
     return Reactions(mechanism, motion, found, status.reshape(shape))  # type: ignore[arg-type]
+
+
+def _require_finite(driver: Float, status: npt.NDArray[np.uint8], q: Float, drivers: int) -> None:
+    """Raise MotionError where a load or an inertia force is not finite, though the position is."""
+    beyond = np.flatnonzero(~np.isfinite(driver) & (status <= Status.NEAR_SINGULAR))
+    if beyond.size:
+        at = q.reshape(-1, drivers)[beyond[0]].tolist()
+        shown = ", ".join(f"{number:.15g}" for number in at)
+        message = (
+            f"the reactions are not finite at q = {shown}: a load, a speed or a mass is too great "
+            "there, a table ends, or a damper or spring has length zero (on_error='nan' keeps the "
+            "others)"
+        )
+        raise MotionError(message, kind="not_finite", q=at[0] if drivers == 1 else tuple(at))
 
 
 def broadcast_motion(

@@ -151,3 +151,14 @@ def test_a_force_is_taken_by_a_link_that_has_its_point(at: Any, on: str, joint: 
     with pytest.raises(assur.InputError) as caught:
         assur.Machine(assur.SliderCrank(0.1, 0.35), loads=[assur.Force(at, (1.0, 0.0), on=on)])
     assert (caught.value.link, caught.value.joint) == (on, joint)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_a_load_that_is_not_finite_is_named(value: float) -> None:
+    """Once it gave NaN with the status OK, errors or not."""
+    load = assur.Force("B", (lambda *_: value, 0.0), on="piston")
+    machine = assur.Machine(assur.SliderCrank(0.1, 0.35), loads=[load])
+    with pytest.raises(assur.MotionError) as caught:
+        machine.reactions([1.0, 2.0])
+    assert (caught.value.kind, caught.value.q) == ("not_finite", 1.0)
+    assert not np.isfinite(machine.reactions(1.0, on_error="nan").driver)
