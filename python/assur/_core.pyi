@@ -9,11 +9,13 @@ from assur.description.words import Drive, Slide
 from assur.dynamics.loads import Body, Load
 from assur.dynamics.machine import Method
 from assur.dynamics.motors import Motor
+from assur.dynamics.reactions import Key
 from assur.dynamics.values import Function
 from assur.events import AngleLimit, Crossing, Position, Rest, Speed
 from assur.flywheel import Mean, Spline
 from assur.flywheel.sizing import Task
 from assur.kinematics.request import Buffers
+from assur.sweeps.specs import Spec
 
 __all__ = [
     "Flywheels",
@@ -195,11 +197,11 @@ class Mechanism:
         dimensions: _Float,
         q: _Float,
         signs: list[int],
-        metrics: list[tuple[Any, ...]],
+        metrics: list[Spec],
         conditions: list[tuple[int, str, float]],
         threads: int | None,
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_]]: ...
-    def refusal_of_metric(self, q: _Float, metric: tuple[Any, ...]) -> str | None: ...
+    def refusal_of_metric(self, q: _Float, metric: Spec) -> str | None: ...
     def diagnostics(
         self,
         dimensions: _Float,
@@ -297,7 +299,7 @@ class Machine:
         speed: _Float,
         acceleration: _Float,
         function_values: _Float,
-        reactions: list[tuple[str, int, int]],
+        reactions: list[Key],
         threads: int | None,
         report: list[int],
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], Any]: ...

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -22,8 +23,14 @@ if TYPE_CHECKING:
 
 __all__ = ["Reactions", "SlideReaction"]
 
-# As the core names a reaction: kind, and the indices of what it belongs to.
-Key = tuple[str, int, int]
+
+@dataclass(frozen=True)
+class Key:
+    """A reaction: its kind, and the indices of the joint or slide and of the link."""
+
+    kind: str
+    index: int = 0
+    on: int = 0
 
 
 class SlideReaction(NamedTuple):
@@ -88,18 +95,18 @@ class Reactions:
     def driver(self) -> Any:
         """Torque or force of the drive."""
         count = int(np.size(self._mechanism.q0))
-        each = [self._found["driver", index, 0] for index in range(count)]
+        each = [self._found[Key("driver", index)] for index in range(count)]
         return each[0][()] if count == 1 else np.stack(each, axis=-1)
 
     @property
     def shaking_force(self) -> Any:
         """Inertia forces of all bodies, N."""
-        return self._found["shaking force", 0, 0]
+        return self._found[Key("shaking force")]
 
     @property
     def shaking_moment(self) -> Any:
         """Moment of the inertia forces about the drawing's origin, N·m."""
-        return self._found["shaking moment", 0, 0][()]
+        return self._found[Key("shaking moment")][()]
 
     @property
     def undetermined(self) -> tuple[str, ...]:
@@ -108,7 +115,8 @@ class Reactions:
         joints, links = self._mechanism._joint_names, list(self._mechanism.links)
         slides = list(self._mechanism.slides)
         names = []
-        for (kind, index, on), values in self._found.items():
+        for key, values in self._found.items():
+            kind, index, on = key.kind, key.index, key.on
             if kind in ("along", "shaking force", "shaking moment"):
                 continue
             missing = np.isnan(values[..., 0] if kind == "joint" else values)
@@ -151,12 +159,12 @@ class Reactions:
             raise InputError(message, joint=name, link=on)
         if len(links) == 1:
             return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
-        if ("joint", joint, link) in self._found:
-            return self._found["joint", joint, link]
+        if Key("joint", joint, link) in self._found:
+            return self._found[Key("joint", joint, link)]
         indices = [core.require("link", other) for other in links[:-1]]
-        total = self._found["joint", joint, indices[0]]
+        total = self._found[Key("joint", joint, indices[0])]
         for index in indices[1:]:
-            total = total + self._found["joint", joint, index]
+            total = total + self._found[Key("joint", joint, index)]
         return -total
 
     def slide(self, name: str) -> SlideReaction:
@@ -174,7 +182,7 @@ class Reactions:
             guide their resultant acts.
         """
         index = self._mechanism._core.require("slide", name)
-        parts = (self._found[kind, index, 0][()] for kind in ("normal", "moment", "along"))
+        parts = (self._found[Key(kind, index)][()] for kind in ("normal", "moment", "along"))
         return SlideReaction(*parts)
 
 
@@ -194,11 +202,11 @@ def _keys(mechanism: Mechanism) -> list[Key]:
         index = core.require("joint", joint)
         # What the last link takes follows from the others, unless these are undetermined.
         asked = links if is_redundant and len(links) > 1 else links[:-1]
-        keys += [("joint", index, core.require("link", link)) for link in asked]
+        keys += [Key("joint", index, core.require("link", link)) for link in asked]
     for slide in range(len(mechanism.slides)):
-        keys += [(kind, slide, 0) for kind in ("normal", "moment", "along")]
-    keys += [("driver", driver, 0) for driver in range(int(np.size(mechanism.q0)))]
-    return [*keys, ("shaking force", 0, 0), ("shaking moment", 0, 0)]
+        keys += [Key(kind, slide) for kind in ("normal", "moment", "along")]
+    keys += [Key("driver", driver) for driver in range(int(np.size(mechanism.q0)))]
+    return [*keys, Key("shaking force"), Key("shaking moment")]
 
 
 def reactions(
@@ -242,10 +250,10 @@ def reactions(
     if on_error == "raise" and failure is not None:
         raise failure
     if on_error == "raise":
-        _require_finite(arrays[keys.index(("driver", 0, 0))], status, everywhere, drivers)
+        _require_finite(arrays[keys.index(Key("driver"))], status, everywhere, drivers)
     found: dict[Key, Float] = {}
     for key, array in zip(keys, arrays, strict=True):
-        two = key[0] in ("joint", "shaking force")
+        two = key.kind in ("joint", "shaking force")
         array.flags.writeable = False
         found[key] = array.reshape((*shape, 2) if two else shape)
     motion = tuple(np.broadcast_to(one, full) for one in (x, v, a))

@@ -105,7 +105,7 @@ class SolveRequest:
         """Solve for a link's reference point, the origin of its frame."""
         index = self.mechanism._core.require("link", link)
         found, _, _ = self._solve(([], [], [index], []))
-        return self._named("place", {link: index}, found, (*self.shape, 2))[link]
+        return self._named("origin", {link: index}, found, (*self.shape, 2))[link]
 
     def flat(self) -> tuple[Float, Float, bool]:
         """Return flat dimensions and coordinates, and whether each design has its own."""

@@ -1,14 +1,15 @@
-"""Metrics as the core takes them: names become indices."""
+"""Metrics as the core reads them: names become indices."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from assur.errors import InputError
 from assur.kinematics import transmission
+from assur.sweeps import specs
 from assur.sweeps.terms import Combination, Leaf, Metric
 
 if TYPE_CHECKING:
@@ -17,19 +18,18 @@ if TYPE_CHECKING:
 Float: TypeAlias = npt.NDArray[np.float64]
 
 
-def encoded(metric: Metric | float, mechanism: Mechanism, q: Float) -> Any:
-    """Return a metric without functions for the core, and check that it has a meaning at q (flat).
-
-    Numbers beside metrics stay as they are.
-    """
+def encoded(metric: Metric, mechanism: Mechanism, q: Float) -> specs.Spec:
+    """Return a metric without functions for the core; check that it has a meaning at q (flat)."""
     if isinstance(metric, Combination):
-        sides = (encoded(side, mechanism, q) for side in (metric.left, metric.right))
-        return ("combination", metric.sign, *sides)
-    if not isinstance(metric, Leaf):
-        return metric
+        left, right = (
+            encoded(side, mechanism, q) if isinstance(side, Metric) else side
+            for side in (metric.left, metric.right)
+        )
+        return specs.Combination(metric.sign, left, right)
+    assert isinstance(metric, Leaf)
     spec = _leaf(metric, mechanism)
     if metric.over is not None:
-        spec = ("part", (*metric.over, _is_angle(mechanism)), spec)
+        spec = specs.Part(spec, *metric.over, is_of_turn=_is_angle(mechanism))
     refusal = mechanism._core.refusal_of_metric(q, spec)
     if refusal is not None:
         message = f"{metric!r}: {refusal}"
@@ -37,39 +37,41 @@ def encoded(metric: Metric | float, mechanism: Mechanism, q: Float) -> Any:
     return spec
 
 
-def _leaf(leaf: Leaf, mechanism: Mechanism) -> tuple[Any, ...]:
+def _leaf(leaf: Leaf, mechanism: Mechanism) -> specs.Spec:
     if leaf.kind == "moves":
-        return ("moves",)
+        return specs.Moves()
     assert leaf.of is not None
     if leaf.kind == "least_transmission":
-        pair, complement = transmission.lines(mechanism, leaf.of, leaf.options[0])
-        return (leaf.kind, *(_line(mechanism, line) for line in pair), complement)
+        (first, second), complement = transmission.lines(mechanism, leaf.of, leaf.options[0])
+        return specs.LeastTransmission(
+            (_line(mechanism, first), _line(mechanism, second)), complement
+        )
     if leaf.kind == "deviation":
-        joint = mechanism._core.require("joint", leaf.of)
-        return (leaf.kind, (joint, *leaf.options))
-    return (leaf.kind, _coordinate(mechanism, leaf.of, leaf.order))
+        return specs.Deviation(mechanism._core.require("joint", leaf.of), *leaf.options)
+    return specs.Scalar(leaf.kind, _coordinate(mechanism, leaf.of, leaf.order))
 
 
-def _coordinate(mechanism: Mechanism, name: str, order: int) -> tuple[str, int, int, int]:
+def _coordinate(mechanism: Mechanism, name: str, order: int) -> specs.Coordinate:
     joint, dot, axis = name.rpartition(".")
     if dot:
         if axis not in ("x", "y"):
             message = f'coordinate {name!r}: "{joint}.x" or "{joint}.y" is needed'
             raise InputError(message)
-        return "joint", mechanism._core.require("joint", joint), "xy".index(axis), order
+        index = mechanism._core.require("joint", joint)
+        return specs.Coordinate("joint", index, "xy".index(axis), order)
     if name in mechanism._joint_names:
         message = f'coordinate {name!r} is a joint: "{name}.x" or "{name}.y" is needed'
         raise InputError(message, joint=name)
     kind = "slide" if name in mechanism.slides else "link"
-    return kind, mechanism._core.require(kind, name), 0, order
+    return specs.Coordinate(kind, mechanism._core.require(kind, name), 0, order)
 
 
-def _line(mechanism: Mechanism, line: transmission.Line) -> tuple[Any, ...]:
+def _line(mechanism: Mechanism, line: transmission.Line) -> specs.Line:
     if isinstance(line, transmission.JointLine):
-        return ("joints", *(mechanism._core.require("joint", joint) for joint in line))
+        return specs.JointLine(*(mechanism._core.require("joint", joint) for joint in line))
     names, angle = mechanism._core.dimension_names, f"{line.slide}.angle"
     index = names.index(angle) if angle in names else None
-    return ("guide", mechanism._core.require("link", line.link), index)
+    return specs.GuideLine(mechanism._core.require("link", line.link), index)
 
 
 def _is_angle(mechanism: Mechanism) -> bool:

@@ -23,7 +23,7 @@ use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
 use crate::mechanism::Mechanism;
 use crate::parallel_map::parallel_map;
-use crate::reactions::{self, Inputs, ReactionKey};
+use crate::reactions::{self, Inputs, Key};
 use crate::run::{PythonCallbacks, Run};
 use crate::{error, error_map};
 
@@ -228,7 +228,7 @@ impl Machine {
         speed: Flat<'py>,
         acceleration: Flat<'py>,
         function_values: Flat<'py>,
-        reactions: Vec<ReactionKey>,
+        reactions: Vec<Key>,
         threads: Option<NonZeroUsize>,
         report: Vec<usize>,
     ) -> PyResult<reactions::Found<'py>> {

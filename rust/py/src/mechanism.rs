@@ -207,8 +207,8 @@ impl Mechanism {
     ) -> PyResult<Solution<'py>> {
         // Both are the package's own arrays, which never change.
         let (dimensions, q) = (dimensions.as_slice()?, q.as_slice()?);
-        let [joints, links, places, slides] = outputs;
-        let outputs = Outputs { joints, links, places, slides };
+        let [joints, links, origins, slides] = outputs;
+        let outputs = Outputs { joints, links, origins, slides };
         let coordinates =
             if per_design { Coordinates::PerDesign(q) } else { Coordinates::Shared(q) };
         let request = Request {
@@ -280,7 +280,7 @@ impl Mechanism {
             let (kind, index) = match column.quantity {
                 Quantity::Joint(index) => ("joint", index),
                 Quantity::Angle(index) => ("link", index),
-                Quantity::Place(index) => ("place", index),
+                Quantity::Origin(index) => ("origin", index),
                 Quantity::Slide(index) => ("slide", index),
             };
             dict.set_item((kind, index, column.order), values)?;

@@ -6,10 +6,10 @@ use std::sync::Mutex;
 use assur::dynamics::{Machine, Reaction, ReactionRequest};
 use assur::{Arrays, Control, Coordinates, FailureLog, Mechanism, SolveError};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
-use pyo3::Borrowed;
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 
+use crate::convert::word::{Word, Words};
 use crate::mechanism::as_uninitialized;
 use crate::memory::Memory;
 use crate::{detach, error_map};
@@ -22,28 +22,50 @@ pub(crate) type Found<'py> =
 /// Positions up to which a call need not check for signals.
 const FEW_POSITIONS: usize = 20_000;
 
-/// A reaction as Python names it: its kind, and the indices of what it belongs to.
-pub(crate) struct ReactionKey(Reaction);
+/// What a reaction is of.
+#[derive(Clone, Copy)]
+enum Kind {
+    Joint,
+    Normal,
+    Moment,
+    Along,
+    Driver,
+    ShakingForce,
+    ShakingMoment,
+}
 
-impl<'a, 'py> FromPyObject<'a, 'py> for ReactionKey {
-    type Error = PyErr;
+impl Words for Kind {
+    const WHAT: &'static str = "reaction";
+    const KNOWN: &'static [(&'static str, Self)] = &[
+        ("joint", Self::Joint),
+        ("normal", Self::Normal),
+        ("moment", Self::Moment),
+        ("along", Self::Along),
+        ("driver", Self::Driver),
+        ("shaking force", Self::ShakingForce),
+        ("shaking moment", Self::ShakingMoment),
+    ];
+}
 
-    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        let (kind, index, on): (String, usize, usize) = object.extract()?;
-        let reaction = match kind.as_str() {
-            "joint" => Reaction::Joint { joint: index, on },
-            "normal" => Reaction::Normal(index),
-            "moment" => Reaction::Moment(index),
-            "along" => Reaction::Along(index),
-            "driver" => Reaction::Driver(index),
-            "shaking force" => Reaction::ShakingForce,
-            "shaking moment" => Reaction::ShakingMoment,
-            _ => {
-                let message = format!("there is no reaction {kind:?}");
-                return Err(crate::error::input(&message, None));
-            }
-        };
-        Ok(Self(reaction))
+/// A reaction as Python names it: `assur.dynamics.reactions.Key`.
+#[derive(FromPyObject)]
+pub(crate) struct Key {
+    kind: Word<Kind>,
+    index: usize,
+    on: usize,
+}
+
+impl Key {
+    fn reaction(&self) -> Reaction {
+        match self.kind.0 {
+            Kind::Joint => Reaction::Joint { joint: self.index, on: self.on },
+            Kind::Normal => Reaction::Normal(self.index),
+            Kind::Moment => Reaction::Moment(self.index),
+            Kind::Along => Reaction::Along(self.index),
+            Kind::Driver => Reaction::Driver(self.index),
+            Kind::ShakingForce => Reaction::ShakingForce,
+            Kind::ShakingMoment => Reaction::ShakingMoment,
+        }
     }
 }
 
@@ -64,13 +86,13 @@ pub(crate) fn reactions<'py>(
     mechanism: &Mechanism,
     machine: &Machine,
     inputs: &Inputs<'py>,
-    keys: &[ReactionKey],
+    keys: &[Key],
     threads: Option<NonZeroUsize>,
     report: &[usize],
 ) -> PyResult<Found<'py>> {
     // All are the package's own arrays, which nobody changes meanwhile.
     let q = inputs.q.as_slice()?;
-    let reactions: Vec<Reaction> = keys.iter().map(|key| key.0).collect();
+    let reactions: Vec<Reaction> = keys.iter().map(Key::reaction).collect();
     let request = ReactionRequest {
         dimensions: inputs.dimensions.as_slice()?,
         coordinates: if inputs.per_design {

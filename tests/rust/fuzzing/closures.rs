@@ -86,7 +86,7 @@ impl Row<'_> {
     }
 
     fn reference_point(&self, link: usize) -> Point {
-        self.motion.places[link].point(self.index)
+        self.motion.origins[link].point(self.index)
     }
 
     fn angle(&self, link: usize) -> f64 {

@@ -120,7 +120,7 @@ impl Question {
         Outputs {
             joints: some(linkage.joints.len(), self.kept[0]),
             links: some(linkage.links.len(), self.kept[1]),
-            places: some(linkage.links.len(), self.kept[1] ^ self.kept[2]),
+            origins: some(linkage.links.len(), self.kept[1] ^ self.kept[2]),
             slides: some(linkage.slides.len(), self.kept[2]),
         }
     }

@@ -161,7 +161,7 @@ impl Case<'_> {
     /// All numbers of a row with their orders.
     fn numbers(motion: &Motion, row: usize) -> Vec<(usize, f64)> {
         let rows = motion.status.len();
-        let tracks = [&motion.joints, &motion.places, &motion.slides, &motion.links];
+        let tracks = [&motion.joints, &motion.origins, &motion.slides, &motion.links];
         let of_track = |track: &Series| {
             let of_order = |(order, values): (usize, &Vec<f64>)| {
                 let width = values.len() / rows;
@@ -216,7 +216,7 @@ impl Case<'_> {
     /// values do not depend on what else is asked for.
     fn check_closed(&self, motion: &Motion) {
         let all = Outputs {
-            places: (0..self.mechanism.linkage().links.len()).collect(),
+            origins: (0..self.mechanism.linkage().links.len()).collect(),
             ..Outputs::all(self.mechanism)
         };
         let whole = self.mechanism.solve(&Request { order: 0, outputs: &all, ..self.request() });

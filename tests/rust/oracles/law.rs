@@ -82,7 +82,7 @@ impl Comparison<'_> {
             let (body, u) = oracle.joints[t.index];
             parts.push(self.track(t, order, true, 2, |c, k| at.point(body, u, k)[c]));
         }
-        for t in &motion.places {
+        for t in &motion.origins {
             let body = &at.bodies[t.index];
             if t.index != oracle.ground {
                 parts.push(self.track(t, order, true, 2, |c, k| [body.x[k], body.y[k]][c]));

@@ -12,7 +12,7 @@ pub struct Outputs {
     /// Links: their angles.
     pub links: Vec<usize>,
     /// Links: the positions of their reference points.
-    pub places: Vec<usize>,
+    pub origins: Vec<usize>,
     /// Slides: their values.
     pub slides: Vec<usize>,
 }
@@ -25,7 +25,7 @@ impl Outputs {
         Self {
             joints: (0..linkage.joints.len()).collect(),
             links: (0..linkage.links.len()).collect(),
-            places: Vec::new(),
+            origins: Vec::new(),
             slides: (0..linkage.slides.len()).collect(),
         }
     }
@@ -37,7 +37,7 @@ pub enum Quantity {
     /// Position of a joint, m.
     Joint(usize),
     /// Position of a link's reference point (its first joint), m.
-    Place(usize),
+    Origin(usize),
     /// Value of a slide, m.
     Slide(usize),
     /// Angle of a link, rad.
@@ -59,10 +59,10 @@ pub struct Column {
 /// The arrays that a request fills, in order.
 pub(crate) fn columns(outputs: &Outputs, drivers: usize, order: usize) -> Vec<Column> {
     let joints = outputs.joints.iter().map(|&i| (Quantity::Joint(i), 2));
-    let places = outputs.places.iter().map(|&i| (Quantity::Place(i), 2));
+    let origins = outputs.origins.iter().map(|&i| (Quantity::Origin(i), 2));
     let slides = outputs.slides.iter().map(|&i| (Quantity::Slide(i), 1));
     let angles = outputs.links.iter().map(|&i| (Quantity::Angle(i), 1));
-    let all = joints.chain(places).chain(slides).chain(angles);
+    let all = joints.chain(origins).chain(slides).chain(angles);
     all.flat_map(|(quantity, components)| {
         (0..=order).map(move |order| {
             let entries = (0..order).fold(1, |n, _| n * drivers);

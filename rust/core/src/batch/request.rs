@@ -67,7 +67,7 @@ pub struct Motion {
     /// Angles of links, rad.
     pub links: Vec<Series>,
     /// Positions of the links' reference points (first joint), m.
-    pub places: Vec<Series>,
+    pub origins: Vec<Series>,
     /// Values of slides, m.
     pub slides: Vec<Series>,
     /// One [`crate::state::status::Status`] code per position.

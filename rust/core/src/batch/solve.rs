@@ -67,7 +67,7 @@ pub(crate) fn solve(
     for (column, values) in columns.iter().zip(values) {
         let (list, index) = match column.quantity {
             Quantity::Joint(index) => (&mut motion.joints, index),
-            Quantity::Place(index) => (&mut motion.places, index),
+            Quantity::Origin(index) => (&mut motion.origins, index),
             Quantity::Slide(index) => (&mut motion.slides, index),
             Quantity::Angle(index) => (&mut motion.links, index),
         };

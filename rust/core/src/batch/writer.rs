@@ -106,7 +106,7 @@ impl<'a> Writer<'a> {
             for (component, &k) in tensor.iter().enumerate() {
                 let (list, source, driven) = match column.quantity {
                     Quantity::Joint(joint) => (&mut points, point_of_joint(joint), 0),
-                    Quantity::Place(link) => (&mut points, plan.reference[link], 0),
+                    Quantity::Origin(link) => (&mut points, plan.reference[link], 0),
                     Quantity::Slide(slide) => (&mut slides, slide, 0),
                     Quantity::Angle(link) if k == 0 => (&mut angles, link, 0),
                     Quantity::Angle(link) => {

@@ -106,7 +106,7 @@ fn needed(metrics: &[&dyn Metric]) -> (Outputs, usize) {
     for need in metrics.iter().flat_map(|metric| metric.needs()) {
         let (list, index) = match need.quantity {
             Quantity::Joint(index) => (&mut outputs.joints, index),
-            Quantity::Place(index) => (&mut outputs.places, index),
+            Quantity::Origin(index) => (&mut outputs.origins, index),
             Quantity::Slide(index) => (&mut outputs.slides, index),
             Quantity::Angle(index) => (&mut outputs.links, index),
         };

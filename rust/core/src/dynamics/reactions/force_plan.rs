@@ -224,8 +224,8 @@ impl ForcePlan {
             Quantity::Joint(point - 1)
         } else {
             let link = self.reference.iter().position(|&r| r == point).unwrap_or(self.ground);
-            self.outputs.places.push(link);
-            Quantity::Place(link)
+            self.outputs.origins.push(link);
+            Quantity::Origin(link)
         };
         self.points[point] = Some(quantity);
     }

@@ -40,7 +40,7 @@ pub struct RunParts {
 
 /// Parts whose lengths do not fit.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{given} {what} are given: {needed} are needed")]
+#[error("wrong number of {what}: {given} given, {needed} needed")]
 pub struct PartsError {
     what: &'static str,
     needed: usize,
