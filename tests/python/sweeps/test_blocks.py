@@ -209,3 +209,24 @@ def test_no_engine() -> None:
     for engine in ("dask", object(), 4):
         with pytest.raises(assur.InputError, match=r"submit\(function, ...\) is needed"):
             assur.sweep(batch(), {}, Q, engine=engine)  # type: ignore[call-overload]
+
+
+def test_many_positions_of_a_design() -> None:
+    """They are solved piece by piece; the last pieces are not whole."""
+    m = assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"coupler.length": [3.0, 2.9]})
+    q = np.linspace(0.0, 2 * np.pi, 200_001, endpoint=False)
+    asked = {
+        "span": metric.span("rocker", order=2),
+        "angle": metric.least_transmission("C"),
+        "at": metric.place_of_greatest("C.x"),
+        "ratio": metric.time_ratio("rocker"),
+    }
+    found = assur.sweep(m, {}, q, metrics=asked)
+    motion = m.solve(q)
+    assert (found["span"] == np.ptp(motion.link("rocker").d2, axis=1)).all()
+    np.testing.assert_allclose(found["angle"], motion.transmission_angle("C").min(axis=1), 1e-14)
+    assert (found["at"] == q[motion.joint("C").value[..., 0].argmax(axis=1)]).all()
+    angle = motion.link("rocker").value
+    ahead = np.abs(angle.argmax(axis=1) - angle.argmin(axis=1)) / len(q)
+    slow = np.maximum(ahead, 1 - ahead)
+    np.testing.assert_allclose(found["ratio"], slow / (1 - slow), rtol=1e-9)

@@ -41,6 +41,11 @@ impl<'a> ScratchRows<'a> {
         Job { q, rows: &mut self.0, first: 0, index: 0, design, shared: Some(0) }
     }
 
+    /// The job of solving a design at some of these coordinates, from a row on.
+    pub(super) fn part<'j>(&'j mut self, q: &'j [f64], first: usize, design: usize) -> Job<'j, 'a> {
+        Job { first, shared: Some(first), ..self.job(q, design) }
+    }
+
     pub(crate) fn column(&self, index: usize) -> &[f64] {
         #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
         // SAFETY: the numbers were initialised when the scratch was made.

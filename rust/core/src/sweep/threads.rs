@@ -18,6 +18,9 @@ use crate::state::status::Status;
 const TRIAL: usize = 64;
 const LEAST_PART_DROPPED: usize = 8;
 
+/// Positions of a design that are solved at once: more would be loaded before a signal is heard.
+const POSITIONS: usize = 65_536;
+
 /// Measures all chunks.
 pub(super) struct Measure<'b, 'r> {
     pub batch: &'b Batch<'b>,
@@ -90,7 +93,13 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
                 return outcome;
             }
         }
-        L::run(&mut self.worker, &mut rows.job(all, design));
+        let drivers = batch.shape.drivers;
+        for (part, q) in all.chunks(POSITIONS * drivers).enumerate() {
+            if batch.control.is_cancelled() {
+                break;
+            }
+            L::run(&mut self.worker, &mut rows.part(q, part * POSITIONS, design));
+        }
         batch.judge(rows, (row, q), false, found)
     }
 }
