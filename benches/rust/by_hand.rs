@@ -2,60 +2,13 @@
 //! the core could be if it knew the mechanism. Value and two analogues of two outputs, as in the
 //! sweeps beside it.
 
+use assur::trig::unit_angle;
+
 /// One column a derivative, of two outputs.
 pub type Rows<'r> = [&'r mut [f64]; 6];
 
 /// What both mechanisms are given: cosines and sines of the driver.
 pub type Turn<'t> = (&'t [f64], &'t [f64]);
-
-/// Coefficients of the arc sine up to sin 22.5°, odd powers from the third.
-const ARC_SINE: [f64; 10] = [
-    0.166_666_666_666_666_67,
-    0.075,
-    0.044_642_857_142_857_144,
-    0.030_381_944_444_444_444,
-    0.022_372_159_090_909_09,
-    0.017_352_764_423_076_923,
-    0.013_964_843_75,
-    0.011_551_800_896_139_706,
-    0.009_761_609_529_194_078,
-    0.008_390_335_809_616_815,
-];
-
-/// Angle of a unit vector: the arc sine of the least of its coordinates and their difference / √2.
-#[inline(always)]
-fn angle(x: f64, y: f64) -> f64 {
-    const SIN_22_5: f64 = 0.382_683_432_365_089_8;
-    use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4, PI};
-    let (a, b) = (x.abs(), y.abs());
-    let (along_x, along_y) = (b <= SIN_22_5, a <= SIN_22_5);
-    let between = (b - a) * FRAC_1_SQRT_2;
-    let sine = if along_x {
-        b
-    } else if along_y {
-        a
-    } else {
-        between
-    };
-    let z = sine * sine;
-    let (z2, c) = (z * z, &ARC_SINE);
-    let z4 = z2 * z2;
-    let pair = |i: usize| c[i] + c[i + 1] * z;
-    let sum = (pair(0) + pair(2) * z2) + ((pair(4) + pair(6) * z2) + pair(8) * z4) * z4;
-    let arc = sine + sine * z * sum;
-    let left = x < 0.0;
-    let diagonal = if left { FRAC_PI_4 + FRAC_PI_2 } else { FRAC_PI_4 };
-    let flat = if left { PI } else { 0.0 };
-    let base = if along_x {
-        flat
-    } else if along_y {
-        FRAC_PI_2
-    } else {
-        diagonal
-    };
-    let turned = if along_y == left { base + arc } else { base - arc };
-    turned.copysign(y)
-}
 
 /// Angles of coupler and rocker of a four-bar with these lengths (crank, coupler, rocker, ground).
 #[inline(always)]
@@ -86,9 +39,9 @@ fn four_bar_loop([crank, a, b, ground]: [f64; 4], (cos, sin): Turn<'_>, rows: &m
         v1[i] = v;
         u2[i] = (cx * rx + cy * ry) * per;
         v2[i] = -((ax * rx + ay * ry) * per);
-        u0[i] = angle(ax * per_a, ay * per_a);
+        u0[i] = unit_angle(ax * per_a, ay * per_a);
         // From the rocker's pivot to the coupler.
-        v0[i] = angle(-cx * per_b, -cy * per_b);
+        v0[i] = unit_angle(-cx * per_b, -cy * per_b);
     }
 }
 
@@ -110,7 +63,7 @@ fn slider_crank_loop([crank, rod, offset]: [f64; 3], (cos, sin): Turn<'_>, rows:
         s0[i] = bx + x;
         s1[i] = -by - y * u;
         s2[i] = -bx - y * w - x * (u * u);
-        u0[i] = angle(x * per_rod, y * per_rod);
+        u0[i] = unit_angle(x * per_rod, y * per_rod);
         u1[i] = u;
         u2[i] = w;
     }

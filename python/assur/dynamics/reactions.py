@@ -262,7 +262,8 @@ def reactions(
 
 def _require_finite(driver: Float, status: npt.NDArray[np.uint8], q: Float, drivers: int) -> None:
     """Raise MotionError where a load or an inertia force is not finite, though the position is."""
-    beyond = np.flatnonzero(~np.isfinite(driver) & (status <= Status.NEAR_SINGULAR))
+    finite = np.isfinite(driver).reshape(len(status), -1).all(axis=1)
+    beyond = np.flatnonzero(~finite & (status <= Status.NEAR_SINGULAR))
     if beyond.size:
         at = q.reshape(-1, drivers)[beyond[0]].tolist()
         shown = ", ".join(f"{number:.15g}" for number in at)
@@ -323,11 +324,15 @@ def effort(
     speeds = np.broadcast_to(v, full).reshape(*shape, n)
     accelerations = np.broadcast_to(a, full).reshape(*shape, n)
     out = -moment
-    for i in range(n):
-        for j in range(n):
-            out[..., i] += inertia[..., i, j] * accelerations[..., j]
-            for k in range(n):
-                # Lagrange's equations: Σ (∂Mᵢⱼ/∂k − ½ ∂Mⱼₖ/∂i) q̇ⱼ q̇ₖ.
-                rate = rates[..., k, i, j] - 0.5 * rates[..., i, j, k]
-                out[..., i] += rate * speeds[..., j] * speeds[..., k]
+    with np.errstate(over="ignore", invalid="ignore"):
+        for i in range(n):
+            for j in range(n):
+                out[..., i] += inertia[..., i, j] * accelerations[..., j]
+                for k in range(n):
+                    # Lagrange's equations: Σ (∂Mᵢⱼ/∂k − ½ ∂Mⱼₖ/∂i) q̇ⱼ q̇ₖ.
+                    rate = rates[..., k, i, j] - 0.5 * rates[..., i, j, k]
+                    out[..., i] += rate * speeds[..., j] * speeds[..., k]
+    if on_error == "raise":
+        solved = np.full(out.size // n, Status.OK, dtype=np.uint8)
+        _require_finite(out, solved, np.broadcast_to(x, full), n)
     return out[..., 0][()] if n == 1 else out

@@ -55,7 +55,7 @@ def reduce(
         _require_within_table(machine, flat, status)
     inertia, rates, moment, potential = arrays
     if speed is not None and on_error == "raise":
-        missing = np.flatnonzero(np.isnan(moment).reshape(-1, n).any(axis=1) & (status < 2))
+        missing = np.flatnonzero(~np.isfinite(moment).reshape(-1, n).any(axis=1) & (status < 2))
         if missing.size:
             row = int(missing[0])
             given = given.reshape(status.size, -1)[row]

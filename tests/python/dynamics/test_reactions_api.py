@@ -153,6 +153,27 @@ def test_a_force_is_taken_by_a_link_that_has_its_point(at: Any, on: str, joint: 
     assert (caught.value.link, caught.value.joint) == (on, joint)
 
 
+def test_moments_too_great_are_refused() -> None:
+    """1e308 N·m·s at 1e10 rad/s: once moment and effort were infinite without a word."""
+    crank = assur.SliderCrank(crank=0.1, rod=0.35)
+    machine = assur.Machine(crank, {"piston": Body(5.0)}, [assur.TorsionDamper("crank", 1e308)])
+    assert math.isfinite(machine.reduced_moment(1.0, 0.0))
+    for call in (machine.reduced_moment, machine.effort, machine.reactions):
+        with pytest.raises(assur.MotionError) as caught:
+            call(1.0, 1e10)
+        assert (caught.value.kind, caught.value.q) == ("not_finite", 1.0)
+
+
+@pytest.mark.filterwarnings("error")
+def test_an_effort_too_great_is_refused() -> None:
+    """Inertia forces at 1e200 rad/s, without loads."""
+    machine = assur.Machine(assur.SliderCrank(crank=0.1, rod=0.35), {"piston": Body(5.0)})
+    with pytest.raises(assur.MotionError) as caught:
+        machine.effort([0.5, 1.0], 1e200)
+    assert (caught.value.kind, caught.value.q) == ("not_finite", 0.5)
+    assert not np.isfinite(machine.effort(0.5, 1e200, on_error="nan"))
+
+
 @pytest.mark.parametrize("value", [math.nan, math.inf])
 def test_a_load_that_is_not_finite_is_named(value: float) -> None:
     """Once it gave NaN with the status OK, errors or not."""

@@ -167,6 +167,8 @@ class Dae:
             elif isinstance(load, assur.TorsionDamper):
                 row = self.turning(load.link, load.on)
                 total -= row * load.damping * (row @ v)
+            elif not isinstance(load, assur.Gravity):
+                raise TypeError(type(load).__name__)
         return total
 
     def value(self, value: Any, t: float, z: Any, v: Any) -> float:

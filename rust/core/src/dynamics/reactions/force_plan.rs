@@ -87,7 +87,7 @@ impl ForcePlan {
     pub(crate) fn new(mechanism: &Mechanism, machine: &Machine) -> Self {
         let (plan, linkage) = (mechanism.plan(), mechanism.linkage());
         let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
-        let has_speeds = machine.loads.iter().any(depends_on_speed);
+        let has_speeds = machine.loads.iter().any(reads_velocities);
         let edges: Vec<ForceEdge> = plan
             .edges
             .iter()
@@ -299,7 +299,7 @@ fn driven_link(driver: &Driver) -> Option<usize> {
 }
 
 /// Whether a load reads velocities of points or links.
-fn depends_on_speed(load: &Load) -> bool {
+fn reads_velocities(load: &Load) -> bool {
     match load {
         Load::Damper { .. } | Load::TorsionDamper { .. } => true,
         Load::Force { .. }
