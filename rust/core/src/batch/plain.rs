@@ -5,7 +5,7 @@ use std::mem::MaybeUninit;
 
 use super::worker::{Job, Worker, mask};
 use super::writer::RowRange;
-use crate::branch::uniform::reference_of;
+use crate::branch::lanes::uniform::reference_of;
 use crate::math::angle::unwrap_to;
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::state::kernel::Level;

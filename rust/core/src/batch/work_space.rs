@@ -3,8 +3,8 @@
 use super::coordinates::CoordinateRegisters;
 use super::outputs::Column;
 use super::writer::Writer;
+use crate::branch::lanes::uniform::UniformTracer;
 use crate::branch::location::BranchLocation;
-use crate::branch::uniform::UniformTracer;
 use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;

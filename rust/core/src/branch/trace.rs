@@ -3,9 +3,10 @@
 use super::branch::Branch;
 use super::crank_angles::find_references;
 use super::design::Design;
-use super::grid::Grid;
 use super::knot::InitialGuess;
-use super::uniform::{ReferenceBranch, Traced, UniformTracer};
+use super::lanes::grid::Grid;
+use super::lanes::reference_branch::ReferenceBranch;
+use super::lanes::uniform::{Traced, UniformTracer};
 use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;

@@ -3,17 +3,17 @@
 //!
 //! A scan classifies the cells between its knots. A cell that may hide something gets a closer scan of
 //! its own, and so on. Designs that may have a change point, or angles that cannot be unwrapped in
-//! this way, are left to [`super::tracer`].
+//! this way, are left to [`super::super::tracer`].
 
 use std::f64::consts::{PI, TAU};
 
-use super::branch::Branch;
 use super::cell_test::has;
 use super::gap_end::ScanView;
 use super::gap_ends::GapEnds;
 use super::grid::KNOTS;
 use super::scan::Scan;
 use super::uniform::UniformTracer;
+use crate::branch::branch::Branch;
 use crate::math::angle::{unwrap_to, whole_turns};
 use crate::math::lanes::Real;
 use crate::math::tolerance::{GAP_MAX_TURN, KNOT_MAX_TURN};
@@ -51,7 +51,7 @@ pub(crate) struct LaneTracer {
     /// Principal angles at the next knot.
     next: Vec<f64>,
     was_reached: bool,
-    pub(super) ends: GapEnds,
+    pub(in crate::branch) ends: GapEnds,
     /// Whether an angle steps by about half a turn across a gap with one of `ends`.
     is_ambiguous: bool,
     /// Whether it does so across any gap, so nearly that ends have to be known to rounding.
@@ -91,7 +91,7 @@ impl LaneTracer {
 
     /// Scans the solved knots; false if one of them is singular.
     #[inline(always)]
-    pub(super) fn take_turn<R: Real, const G: usize>(
+    pub(in crate::branch) fn take_turn<R: Real, const G: usize>(
         &mut self,
         cx: &Context<'_>,
         knots: &UniformTracer<R, G>,
@@ -104,7 +104,7 @@ impl LaneTracer {
 
     /// Finds the ends of the gaps between them.
     #[inline(always)]
-    pub(super) fn find_ends<L: Level, const G: usize>(
+    pub(in crate::branch) fn find_ends<L: Level, const G: usize>(
         &mut self,
         cx: &Context<'_>,
         knots: &mut UniformTracer<L::Register, G>,
@@ -114,18 +114,18 @@ impl LaneTracer {
     }
 
     /// What the first scan shows about the ends of gaps.
-    pub(super) fn turn_view(&self) -> ScanView<'_> {
+    pub(in crate::branch) fn turn_view(&self) -> ScanView<'_> {
         self.scans[0].view()
     }
 
     /// Whether a sign may change between two knots of the first scan.
-    pub(super) fn has_uncertain_cells(&self) -> bool {
+    pub(in crate::branch) fn has_uncertain_cells(&self) -> bool {
         let scan = &self.scans[0];
         scan.uncertain | scan.curved | scan.may_hide_island != 0
     }
 
     /// Whether every dead point has a confirmed end.
-    pub(super) fn has_found_all_ends(&self) -> bool {
+    pub(in crate::branch) fn has_found_all_ends(&self) -> bool {
         self.ends.cells() == self.scans[0].dead_point
     }
 

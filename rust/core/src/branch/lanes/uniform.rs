@@ -1,6 +1,6 @@
 //! The uniform branch: the branch of a driven angle on evenly spaced knots, solved in lanes. It needs
 //! a full turn without dead points, change points and links that turn fast; any other branch is left
-//! to [`BranchTracer`](super::tracer::BranchTracer). Both use the same knots.
+//! to [`BranchTracer`](super::super::tracer::BranchTracer). Both use the same knots.
 //!
 //! With groups above class II, a design near the drawing moves much like the drawing. So the
 //! iteration starts at all knots at once from the drawing's unknowns. Its results must pass the
@@ -10,18 +10,16 @@
 use std::cell::OnceCell;
 use std::f64::consts::{PI, TAU};
 
-use super::branch::{Branch, CELLS_PER_TURN};
-use super::grid::{CELL, Grid, KNOTS};
-use super::hermite::{HermiteCell, coefficients};
-use super::knot::{
-    MAX_FIRST_STEP, MAX_LATER_STEPS, SignInterval, closes, may_touch, prediction_failed,
-};
+use super::grid::{CELL, Grid, KNOTS, knots_at, previous};
+use super::reference_branch::ReferenceBranch;
+use crate::branch::branch::Branch;
+use crate::branch::knot::{SignInterval, may_touch};
 use crate::math::angle::{Reference, turns_between, unwrap_to, whole_turns};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
-use crate::plan::dyad::{Form, Unknown};
+use crate::plan::dyad::Form;
 use crate::plan::plan::Plan;
 use crate::state::dyad::sample::DyadSample;
 use crate::state::kernel::Level;
@@ -91,13 +89,13 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     }
 
     /// The knots that were solved last.
-    pub(super) fn grid(&self) -> Grid {
+    pub(in crate::branch) fn grid(&self) -> Grid {
         self.grid
     }
 
     /// Solves all knots of a grid.
     #[inline(always)]
-    pub(super) fn solve_knots<L: Level<Register = R>>(
+    pub(in crate::branch) fn solve_knots<L: Level<Register = R>>(
         &mut self,
         cx: &Context<'_>,
         grid: Grid,
@@ -151,7 +149,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
 
     /// Sets positions in place of the knots.
     #[inline(always)]
-    pub(super) fn set_at(&mut self, at: &[f64; LANES]) {
+    pub(in crate::branch) fn set_at(&mut self, at: &[f64; LANES]) {
         self.state.groups = LANES / R::LANES;
         for group in 0..self.state.groups.min(G) {
             self.set_group(group, |lane| at[lane]);
@@ -160,7 +158,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
 
     /// Sets a register of positions, given the coordinate at each.
     #[inline(always)]
-    pub(super) fn set_group(&mut self, group: usize, at: impl Fn(usize) -> f64) {
+    pub(in crate::branch) fn set_group(&mut self, group: usize, at: impl Fn(usize) -> f64) {
         let at = R::from_lanes(|lane| at(group * R::LANES + lane));
         self.state.pose.q[0][group] = at;
         if self.is_angle {
@@ -375,160 +373,4 @@ pub(crate) fn reference_of([least, most]: [f64; 2]) -> Option<Reference> {
         return Some(Reference::Principal);
     }
     (most - least <= TAU - 2.0 * margin).then_some(Reference::Near(0.5 * (least + most)))
-}
-
-/// A register of knots of a turn from `q0`, beginning with knot `first`.
-#[inline(always)]
-pub(crate) fn knots_at<R: Real>(q0: f64, first: usize) -> R {
-    R::from_lanes(|lane| {
-        let turns = ((first + lane) as f64) / f64::from(CELLS_PER_TURN);
-        q0 + TAU * turns
-    })
-}
-
-/// Each lane's predecessor; `last` is that of the first lane.
-#[inline(always)]
-pub(super) fn previous<R: Real>(last: f64, lanes: R) -> R {
-    R::from_lanes(|i| if i == 0 { last } else { lanes.lane(i - 1) })
-}
-
-/// Unknowns of groups at the knots of the drawing's branch.
-#[derive(Debug)]
-pub(crate) struct ReferenceBranch<R, const G: usize> {
-    /// Rotations; of slides the value (m) as x.
-    unknowns: Vec<[Vector<R>; G]>,
-    /// Whether each group's determinant is positive.
-    det_signs: Vec<bool>,
-}
-
-impl<R: Real, const G: usize> ReferenceBranch<R, G> {
-    /// From a branch of a design with this scale; `None` if it does not close after one turn from
-    /// `q0`.
-    pub(crate) fn new(plan: &Plan, branch: &Branch, q0: f64, scale: f64) -> Option<Self> {
-        if branch.period != Some(TAU) {
-            return None;
-        }
-        let list: Vec<Unknown> = plan.groups().flat_map(|g| g.unknowns.clone()).collect();
-        let at_knots = |(index, &unknown): (usize, &Unknown)| {
-            std::array::from_fn(|group| {
-                let at_lane = |lane: usize| {
-                    let location = branch.locate(knots_at::<f64>(q0, group * R::LANES + lane));
-                    match unknown {
-                        Unknown::Class(_) => branch.rotation(&location, index, list.len()),
-                        Unknown::Slide(_) => {
-                            Vector::new(branch.slide(&location, index, list.len()) * scale, 0.0)
-                        }
-                    }
-                };
-                let x = R::from_lanes(|lane| at_lane(lane).x);
-                Vector::new(x, R::from_lanes(|lane| at_lane(lane).y))
-            })
-        };
-        let unknowns = list.iter().enumerate().map(at_knots).collect();
-        Some(Self { unknowns, det_signs: branch.det_signs.clone() })
-    }
-}
-
-impl<R: Real, const G: usize> UniformTracer<R, G> {
-    /// Sets the groups' unknowns to those of the drawing, as first guess of the iteration.
-    #[inline(always)]
-    pub(crate) fn guess(&mut self, cx: &Context<'_>) {
-        let Some(Some(reference)) = self.reference.get() else { return };
-        let inverse_scale = R::splat(1.0 / cx.constants.scale);
-        let unknowns = cx.plan.groups().flat_map(|group| &group.unknowns);
-        for (&unknown, knots) in unknowns.zip(&reference.unknowns) {
-            match unknown {
-                Unknown::Class(class) => self.state.pose.class[class] = *knots,
-                Unknown::Slide(slide) => {
-                    let values = &mut self.state.pose.slides[slide * self.state.len];
-                    for (value, knot) in values.iter_mut().zip(knots) {
-                        *value = knot.x * inverse_scale;
-                    }
-                }
-            }
-        }
-    }
-
-    /// Builds the polynomials of the groups' unknowns; false if one may belong to another assembly
-    /// than the knot before, or than the drawing.
-    #[inline(always)]
-    pub(crate) fn build_cells(&mut self, cx: &Context<'_>, branch: &mut Branch) -> bool {
-        branch.cells.clear();
-        let Some(Some(reference)) = self.reference.get() else { return true };
-        let state = &self.state;
-        let is_near = |step: R, max: f64| step.lane(0) <= max;
-        if !(is_near(state.work.first_step[0], MAX_FIRST_STEP)
-            && is_near(state.work.later_steps[0], MAX_LATER_STEPS))
-        {
-            return false;
-        }
-        for (groups, &expected) in state.work.determinants.iter().zip(&reference.det_signs) {
-            if groups[..KNOTS / R::LANES]
-                .iter()
-                .any(|lanes| (0..R::LANES).any(|lane| (lanes.lane(lane) > 0.0) != expected))
-            {
-                return false;
-            }
-        }
-        let count = reference.unknowns.len();
-        let classes = self.last_angles.len();
-        let cell = HermiteCell { coefficients: [0.0; 6], unit: Vector::ONE };
-        branch.cells.resize(KNOTS * count, cell);
-        let unknowns = cx.plan.groups().flat_map(|group| &group.unknowns);
-        for (index, &unknown) in unknowns.enumerate() {
-            let (jet, mut values) = match unknown {
-                Unknown::Class(class) => (&state.pose.theta[class * state.len..], [R::ZERO; G]),
-                Unknown::Slide(slide) => {
-                    let jet = &state.pose.slides[slide * state.len..];
-                    (jet, jet[0])
-                }
-            };
-            if let Unknown::Class(class) = unknown {
-                for group in 0..(KNOTS / R::LANES).min(G) {
-                    values[group] = R::from_lanes(|lane| {
-                        branch.angles[(group * R::LANES + lane) * classes + class]
-                    });
-                }
-            }
-            let taylor = [&values, &jet[1], &jet[2]];
-            for group in 0..(KNOTS / R::LANES).min(G) {
-                let here = taylor.map(|knots| knots[group]);
-                let next = taylor.map(|knots| one_on(knots, group));
-                let has_next = |lane: usize| group * R::LANES + lane + 1 < KNOTS;
-                let failed = prediction_failed(&here, &next, CELL);
-                if (0..R::LANES).any(|lane| has_next(lane) && failed.lane(lane)) {
-                    return false;
-                }
-                let polynomial = coefficients(here, next, CELL);
-                let mut unit = Vector::ONE;
-                if let Unknown::Class(class) = unknown {
-                    unit = state.pose.class[class][group];
-                }
-                for lane in 0..R::LANES {
-                    let cell = &mut branch.cells[(group * R::LANES + lane) * count + index];
-                    for (out, c) in cell.coefficients.iter_mut().zip(polynomial) {
-                        *out = c.lane(lane);
-                    }
-                    cell.unit = Vector::new(unit.x.lane(lane), unit.y.lane(lane));
-                    if !has_next(lane) {
-                        let [c0, c1, c2, ..] = cell.coefficients;
-                        cell.coefficients = [c0, c1, c2, 0.0, 0.0, 0.0];
-                    }
-                }
-            }
-            let last = values[KNOTS / R::LANES - 1].lane(R::LANES - 1);
-            if !closes(unknown, values[0].lane(0), last) {
-                return false;
-            }
-        }
-        true
-    }
-}
-
-/// The knot after each of a register; 0 after the last of all.
-#[inline(always)]
-fn one_on<R: Real>(knots: &[R], group: usize) -> R {
-    let after = if (group + 1) * R::LANES < KNOTS { knots[group + 1].lane(0) } else { 0.0 };
-    let here = knots[group];
-    R::from_lanes(|lane| if lane + 1 < R::LANES { here.lane(lane + 1) } else { after })
 }

@@ -5,8 +5,8 @@
 //! vanish in it, or if a gap may begin or end there.
 
 use super::grid::KNOTS;
-use super::knot::may_touch;
-use super::uniform::previous;
+use super::grid::previous;
+use crate::branch::knot::may_touch;
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::plan::dyad::Dyad;
 use crate::state::dyad::sample::DyadSample;
@@ -32,13 +32,13 @@ const BEFORE: usize = 2;
 const SAMPLES: usize = BEFORE + KNOTS + 1 + LANES;
 
 /// One bit per knot. A cell has the bit of the knot at its end.
-pub(super) type Bits = u32;
+pub(in crate::branch) type Bits = u32;
 
 const _: () = assert!(KNOTS <= Bits::BITS as usize, "a bit for every knot");
 
 /// Whether the bit of a knot is set.
 #[inline(always)]
-pub(super) fn has(bits: Bits, knot: usize) -> bool {
+pub(in crate::branch) fn has(bits: Bits, knot: usize) -> bool {
     bits >> knot & 1 != 0
 }
 
@@ -57,7 +57,7 @@ fn at_both_ends(bits: Bits) -> Bits {
 
 /// Samples of one dyad at the knots of a scan.
 #[derive(Debug, Clone)]
-pub(super) struct DyadSamples {
+pub(in crate::branch) struct DyadSamples {
     /// See [`DyadSample::square`]. The first [`BEFORE`] entries and those after the last knot are
     /// padding that no knot sets.
     square: [f64; SAMPLES],
@@ -71,7 +71,7 @@ pub(super) struct DyadSamples {
 
 /// Classification of the cells of a scan.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct CellFlags {
+pub(in crate::branch) struct CellFlags {
     /// Where the discriminant may vanish, or an island may hide.
     pub uncertain: Bits,
     /// Where the discriminant varies too fast for two knots to show it.
@@ -84,7 +84,7 @@ pub(super) struct CellFlags {
 
 /// The knots of a scan.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ScanGrid {
+pub(in crate::branch) struct ScanGrid {
     /// Number of registers.
     pub groups: usize,
     /// Width of a cell.
@@ -94,14 +94,14 @@ pub(super) struct ScanGrid {
 }
 
 impl DyadSamples {
-    pub(super) const NONE: Self =
+    pub(in crate::branch) const NONE: Self =
         Self { square: [f64::NEG_INFINITY; SAMPLES], rate: [0.0; SAMPLES], known: 0, closes: 0 };
 
     /// Samples a dyad at the knots and classifies the cells. `known`: knots at which all dyads before
     /// it close; `settled`: its sign is known to be constant. `None` if it is flat at a knot, where
     /// samples do not show whether its sign changes.
     #[inline(always)]
-    pub(super) fn classify<R: Real, const G: usize>(
+    pub(in crate::branch) fn classify<R: Real, const G: usize>(
         &mut self,
         state: &State<R, G>,
         cx: &Context<'_>,
@@ -208,20 +208,20 @@ impl DyadSamples {
     }
 
     /// Whether the dyad has a dead point in the cell before a knot.
-    pub(super) fn has_dead_point(&self, knot: usize) -> bool {
+    pub(in crate::branch) fn has_dead_point(&self, knot: usize) -> bool {
         let [before, after] = [knot - 1, knot].map(|at| has(self.closes, at));
         has(self.known, knot - 1) && has(self.known, knot) && before != after
     }
 
     /// The square at a knot, and its rate.
-    pub(super) fn at(&self, knot: usize) -> [f64; 2] {
+    pub(in crate::branch) fn at(&self, knot: usize) -> [f64; 2] {
         [self.square[BEFORE + knot], self.rate[BEFORE + knot]]
     }
 
     /// The expected change of a later dyad's square from the last closed knot to this dyad's dead point
     /// in the cell before `knot`, relative to its change over the cell before that. The square varies
     /// as the square root of the distance from the dead point. `None` without a dead point.
-    pub(super) fn change_to_dead_point(&self, knot: usize) -> Option<f64> {
+    pub(in crate::branch) fn change_to_dead_point(&self, knot: usize) -> Option<f64> {
         if !self.has_dead_point(knot) {
             return None;
         }
@@ -236,7 +236,7 @@ impl DyadSamples {
     /// Whether the discriminant stays away from zero from the last knot before a dead point of an
     /// earlier dyad (in the cell before `knot`) up to that point; `change`: see
     /// [`Self::change_to_dead_point`].
-    pub(super) fn stays_away(&self, knot: usize, change: f64) -> bool {
+    pub(in crate::branch) fn stays_away(&self, knot: usize, change: f64) -> bool {
         let known = |at: usize| has(self.known, at);
         // The two knots before the dead point; the farther one may be outside this scan.
         let (near, far) = match (known(knot - 1), known(knot)) {

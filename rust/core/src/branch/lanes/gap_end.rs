@@ -18,7 +18,7 @@ const STEPS: usize = 4;
 
 /// What a scan shows about the ends of gaps.
 #[derive(Clone, Copy)]
-pub(super) struct ScanView<'l> {
+pub(in crate::branch) struct ScanView<'l> {
     /// The first knot, the width of a cell, and the number of knots.
     pub from: f64,
     pub cell: f64,
@@ -35,7 +35,7 @@ pub(super) struct ScanView<'l> {
 
 /// The end of a gap between two knots.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct GapEnd {
+pub(in crate::branch) struct GapEnd {
     /// The knot after it.
     pub knot: usize,
     /// The dyad that is flat there.
@@ -51,7 +51,7 @@ pub(super) struct GapEnd {
 impl GapEnd {
     /// Predicts the end in the cell before a knot.
     #[inline(always)]
-    pub(super) fn predict(scan: &ScanView<'_>, knot: usize) -> Option<Self> {
+    pub(in crate::branch) fn predict(scan: &ScanView<'_>, knot: usize) -> Option<Self> {
         let dyad = scan.dyads.iter().position(|dyad| dyad.has_dead_point(knot))?;
         let is_start = has(scan.dyads[dyad].closes, knot - 1);
         let [[from, fall], [to, rise]] = [knot - 1, knot].map(|at| scan.dyads[dyad].at(at));
@@ -75,19 +75,19 @@ impl GapEnd {
     }
 
     /// The same as coordinates; the first cell begins at `from`.
-    pub(super) fn beside(&self, (from, cell): (f64, f64)) -> [f64; 2] {
+    pub(in crate::branch) fn beside(&self, (from, cell): (f64, f64)) -> [f64; 2] {
         let start = from + cell * (self.knot - 1) as f64;
         self.parts().map(|part| start + cell * part)
     }
 
     /// The lanes of the position inside the reachable range and of the one beyond it, if these two
     /// positions begin at lane `first`.
-    pub(super) fn lanes(&self, first: usize) -> [usize; 2] {
+    pub(in crate::branch) fn lanes(&self, first: usize) -> [usize; 2] {
         if self.is_start { [first, first + 1] } else { [first + 1, first] }
     }
 
     /// The neighbouring knot that can be reached.
-    pub(super) fn known(&self) -> usize {
+    pub(in crate::branch) fn known(&self) -> usize {
         if self.is_start { self.knot - 1 } else { self.knot }
     }
 
@@ -111,7 +111,7 @@ impl GapEnd {
     /// Whether an angle can be unwrapped to the end: from the reachable knot to the inside position it
     /// changes as the square root of the distance, and hardly at all to the position beyond. `steps`:
     /// its changes from the knot to both; `rates`: at the knots.
-    pub(super) fn is_followed(
+    pub(in crate::branch) fn is_followed(
         &self,
         scan: &ScanView<'_>,
         steps: [f64; 2],
@@ -127,7 +127,7 @@ impl GapEnd {
 
     /// Whether the two positions beside it, from lane `first` on, confirm the end where it was predicted
     /// and show that no later dyad opens before it.
-    pub(super) fn is_as_predicted(
+    pub(in crate::branch) fn is_as_predicted(
         &self,
         squares: &[[[f64; LANES]; 2]],
         open: u32,

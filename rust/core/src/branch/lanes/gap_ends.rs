@@ -17,7 +17,7 @@ const MAX_ENDS: usize = LANES / 2;
 
 /// Predicted ends, with samples at the positions before and after each.
 #[derive(Debug, Default)]
-pub(super) struct GapEnds {
+pub(in crate::branch) struct GapEnds {
     ends: Vec<GapEnd>,
     /// For every dyad, the squares and their rates at these positions.
     squares: Vec<[[f64; LANES]; 2]>,
@@ -29,7 +29,7 @@ pub(super) struct GapEnds {
 
 /// A position beside an end.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct EndPosition {
+pub(in crate::branch) struct EndPosition {
     pub at: f64,
     pub reached: bool,
     /// Its lane, for [`GapEnds::angle`].
@@ -38,12 +38,12 @@ pub(super) struct EndPosition {
 
 impl GapEnds {
     /// Removes all ends.
-    pub(super) fn clear(&mut self) {
+    pub(in crate::branch) fn clear(&mut self) {
         self.ends.clear();
     }
 
     /// Whether there are no ends.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(in crate::branch) fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
@@ -52,7 +52,11 @@ impl GapEnds {
     }
 
     /// The positions beside the end in the cell before a knot, if that end is confirmed.
-    pub(super) fn beside(&self, scan: (f64, f64), knot: usize) -> Option<[EndPosition; 2]> {
+    pub(in crate::branch) fn beside(
+        &self,
+        scan: (f64, f64),
+        knot: usize,
+    ) -> Option<[EndPosition; 2]> {
         let index = self.index(knot)?;
         let end = &self.ends[index];
         let [before, after] = end.beside(scan);
@@ -64,20 +68,23 @@ impl GapEnds {
 
     /// All ends, each with the angles of a class at its inside position and beyond. All must be
     /// confirmed.
-    pub(super) fn with_angles(&self, class: usize) -> impl Iterator<Item = (&GapEnd, [f64; 2])> {
+    pub(in crate::branch) fn with_angles(
+        &self,
+        class: usize,
+    ) -> impl Iterator<Item = (&GapEnd, [f64; 2])> {
         self.ends.iter().enumerate().map(move |(index, end)| {
             (end, end.lanes(2 * index).map(|lane| self.angles[class][lane]))
         })
     }
 
     /// The angle of a class at a position beside an end.
-    pub(super) fn angle(&self, class: usize, beside: &EndPosition) -> f64 {
+    pub(in crate::branch) fn angle(&self, class: usize, beside: &EndPosition) -> f64 {
         self.angles[class][beside.lane]
     }
 
     /// Finds the ends in some cells.
     #[inline(always)]
-    pub(super) fn find<L: Level, const G: usize>(
+    pub(in crate::branch) fn find<L: Level, const G: usize>(
         &mut self,
         cx: &Context<'_>,
         knots: &mut UniformTracer<L::Register, G>,
@@ -113,7 +120,7 @@ impl GapEnds {
     }
 
     /// The cells with a confirmed end.
-    pub(super) fn cells(&self) -> Bits {
+    pub(in crate::branch) fn cells(&self) -> Bits {
         let found = self.ends.iter().filter(|end| end.is_confirmed);
         found.fold(0, |cells, end| cells | 1 << end.knot)
     }

@@ -3,8 +3,8 @@
 
 use std::f64::consts::TAU;
 
-use super::branch::{CELLS_PER_TURN, CELLS_PER_UNIT};
-use crate::math::lanes::LANES;
+use crate::branch::branch::{CELLS_PER_TURN, CELLS_PER_UNIT};
+use crate::math::lanes::{LANES, Real};
 use crate::state::kernel::BLOCK;
 
 /// Knots of a turn, including its end.
@@ -31,17 +31,17 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    pub(super) const NONE: Self =
+    pub(in crate::branch) const NONE: Self =
         Self { from: f64::NAN, cell: CELL, count: 0, home: 0, is_turn: true };
 
     /// A turn from the drawing's angle on.
-    pub(super) fn turn(q0: f64) -> Self {
+    pub(in crate::branch) fn turn(q0: f64) -> Self {
         Self { from: q0, cell: CELL, count: KNOTS, home: 0, is_turn: true }
     }
 
     /// Knots over a range that contains the drawing's coordinate; `None` if the range is empty or too
     /// long for them.
-    pub(super) fn stretch(q0: f64, [low, high]: [f64; 2]) -> Option<Self> {
+    pub(in crate::branch) fn stretch(q0: f64, [low, high]: [f64; 2]) -> Option<Self> {
         // Two knots are spare, because the grid is shifted to have one at the drawing's coordinate.
         let cell = (high - low) / (KNOTS - 2) as f64;
         if !(0.0 < cell && cell <= MAX_CELL) {
@@ -53,7 +53,7 @@ impl Grid {
 
     /// The tracer's own knots from the drawing's coordinate to `end`, filled up to whole registers: no
     /// knots if both coincide, `None` if they are too far apart.
-    pub(super) fn ray(q0: f64, end: f64) -> Option<Self> {
+    pub(in crate::branch) fn ray(q0: f64, end: f64) -> Option<Self> {
         let cells = (end - q0).abs() * CELLS_PER_UNIT;
         let counts = (0..=KNOTS).step_by(LANES);
         let count = counts.into_iter().find(|&count| cells <= count.saturating_sub(1) as f64)?;
@@ -62,9 +62,24 @@ impl Grid {
     }
 
     /// The coordinate of a knot.
-    pub(super) fn at(&self, knot: usize) -> f64 {
+    pub(in crate::branch) fn at(&self, knot: usize) -> f64 {
         self.from + self.cell * knot as f64
     }
+}
+
+/// A register of knots of a turn from `q0`, beginning with knot `first`.
+#[inline(always)]
+pub(crate) fn knots_at<R: Real>(q0: f64, first: usize) -> R {
+    R::from_lanes(|lane| {
+        let turns = ((first + lane) as f64) / f64::from(CELLS_PER_TURN);
+        q0 + TAU * turns
+    })
+}
+
+/// Each lane's predecessor; `last` is that of the first lane.
+#[inline(always)]
+pub(in crate::branch) fn previous<R: Real>(last: f64, lanes: R) -> R {
+    R::from_lanes(|i| if i == 0 { last } else { lanes.lane(i - 1) })
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use crate::state::state::Context;
 
 /// Samples at the knots of a scan, and the classification of its cells.
 #[derive(Debug, Default)]
-pub(super) struct Scan {
+pub(in crate::branch) struct Scan {
     /// The first knot, and the width of a cell.
     pub from: f64,
     pub cell: f64,
@@ -37,7 +37,7 @@ pub(super) struct Scan {
 impl Scan {
     /// Scans the knots just solved; false if one of them is singular.
     #[inline(always)]
-    pub(super) fn take<R: Real, const G: usize>(
+    pub(in crate::branch) fn take<R: Real, const G: usize>(
         &mut self,
         cx: &Context<'_>,
         knots: &UniformTracer<R, G>,
@@ -105,7 +105,7 @@ impl Scan {
     }
 
     /// What the scan shows about the ends of gaps.
-    pub(super) fn view(&self) -> ScanView<'_> {
+    pub(in crate::branch) fn view(&self) -> ScanView<'_> {
         let against = self.uncertain | self.curved | self.may_hide_island;
         // Another dyad that is open at both knots may close between them.
         let at_one_end = self.reached ^ (self.reached << 1);
@@ -123,7 +123,7 @@ impl Scan {
 
     /// Skips cells in which no sign can change.
     #[inline(always)]
-    pub(super) fn skip_quiet_cells(&mut self) {
+    pub(in crate::branch) fn skip_quiet_cells(&mut self) {
         if self.next < self.count {
             let left = (self.uncertain | self.curved | self.dead_point) >> self.next;
             self.next = (self.next + left.trailing_zeros() as usize).min(self.count);
@@ -132,13 +132,13 @@ impl Scan {
 
     /// Whether all angles are defined at both ends of the cell before a knot: beyond a dead point a
     /// later dyad may have no position.
-    pub(super) fn is_definite(&self, knot: usize) -> bool {
+    pub(in crate::branch) fn is_definite(&self, knot: usize) -> bool {
         self.angles.iter().all(|angles| angles[knot].is_finite() && angles[knot - 1].is_finite())
     }
 
     /// Whether all dyads that close beside the dead point in the cell before a knot stay away from
     /// flat up to it.
-    pub(super) fn stays_away(&self, knot: usize) -> bool {
+    pub(in crate::branch) fn stays_away(&self, knot: usize) -> bool {
         let change = self.dyads.iter().find_map(|dyad| dyad.change_to_dead_point(knot));
         change.is_none_or(|change| self.dyads.iter().all(|dyad| dyad.stays_away(knot, change)))
     }
