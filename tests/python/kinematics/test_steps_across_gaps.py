@@ -9,9 +9,11 @@ import pytest
 
 import assur
 import bits
+import campaign_cases
 import design_spaces
 import gap_steps
 import partial_requests
+from mechanism_data import arguments
 
 # Random mechanisms of every kind, each with a space of designs: 10, or 1000 in a campaign.
 COUNT = 1000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 10
@@ -49,6 +51,27 @@ def test_an_island_within_a_cell() -> None:
     q = design.q0 + np.linspace(0.0, 2 * np.pi, 4001)
     assert len(gap_steps.gaps(design, q)) == 4
     assert not list(gap_steps.far(design, q))
+
+
+@pytest.mark.parametrize(
+    ("kind", "seed", "link", "gap"),
+    [
+        ("changing", 865, "L7", -0.34),  # different dyads do not close on both sides of an island
+        ("changing", 5496, "L6", -1.2783),
+        ("random", 11789, "L7", 0.831),  # stretched before an island, folded behind it
+        ("random", 10395, "L5", 1.579),
+        ("random", 12255, "L6", -1.53),
+        ("changing", 3765, "L6", 2.74),  # an earlier dyad's point is far away before an island
+        ("random", 13786, "L6", 0.84),
+    ],
+)
+def test_islands_of_the_knot_by_knot_tracer(kind: str, seed: int, link: str, gap: float) -> None:
+    """The campaign of class II found them missed, up to 4° wide: angles beyond were a turn off."""
+    m = assur.Mechanism(**arguments(campaign_cases.MAKE[kind](seed).description))
+    q = np.linspace(gap - 1.3, gap + 1.3, 26001)
+    across = [g for g in gap_steps.gaps(m, q) if g.before < gap < g.behind]
+    assert len(across) == 1
+    assert gap_steps.is_nearest(across[0].steps)[list(m.links).index(link)]
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])

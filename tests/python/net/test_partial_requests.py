@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 # Random mechanisms of every kind: 40, or 1000 in a campaign.
 COUNT = 1000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 40
 PARTS = 10
-# A fault of the tracer that goes knot by knot: it misses an island of 0.415° between two gaps, and
-# three links are a turn off beyond. Knots side by side see it, and step the nearest way.
-MISSED_BY_KNOTS = ["seed 28, 0"]
 
 
 def asked(m: assur.Mechanism, q: Float, order: int, names: list[str]) -> Bits:
@@ -73,4 +70,4 @@ def test_knot_by_knot_gives_the_same_bits() -> None:
         own = dict(partial_requests.digests(COUNT))
         found = json.loads(knots.communicate()[0])
     assert own.keys() == found.keys()
-    assert [name for name in own if own[name] != found[name]] == MISSED_BY_KNOTS
+    assert not [name for name in own if own[name] != found[name]]

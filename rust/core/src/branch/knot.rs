@@ -40,11 +40,15 @@ pub(crate) struct Knot {
     pub rates: Vec<f64>,
     /// Discriminant of every dyad with a sign, and its rate along the path.
     pub discriminants: Vec<(f64, f64)>,
-    /// For every dyad of two guides, the sign of the angle between these. Where it changes the guides
+    /// For every dyad of two guides that was solved, the sign of the angle between these. Where it changes the guides
     /// are parallel, and the dyad's point passes through infinity.
     pub guide_sides: Vec<bool>,
     /// If not reached: the step that does not close, and its gap.
     pub open_step: Option<(usize, f64)>,
+    /// With one driver, the square of that dyad's discriminant (negative) and its rate along the path.
+    pub open_square: Option<(f64, f64)>,
+    /// Which way that dyad is flat ([`State::flat_side`](crate::state::state::State::flat_side)).
+    pub open_side: bool,
     /// Number of the plan's steps that were solved.
     pub solved: usize,
     /// Unknowns of the groups above class II, with which the next knot is predicted.

@@ -24,10 +24,10 @@ const EDGE_HALVINGS: u32 = 14;
 /// How fast (of the size, per unit of the path) the gap of a dyad that does not close may shrink.
 /// Between two knots with a greater gap no island is searched for.
 const MAX_GAP_RATE: f64 = 8.0;
+/// Nor if its square is below zero by so many times its rise over the cell.
+const MAX_FALLS: f64 = 4.0;
 /// Halvings in search of an island: down to a tenth of a degree.
 const ISLAND_HALVINGS: u32 = 7;
-/// The same if different dyads do not close at the two ends.
-const MIXED_GAP_HALVINGS: u32 = 4;
 /// With so many knots cells are no longer halved: if angles are nothing but rounding (a link of 1e-17
 /// of the size), no cell would ever be fine enough.
 const MAX_KNOTS: usize = 100_000;
@@ -171,7 +171,10 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
                 Some(Fault::NotClosed { step, gap }) => Some((step, gap)),
                 _ => None,
             };
-            let (angles, guide_sides) = (from.to_vec(), Vec::new());
+            let (angles, guide_sides) = (from.to_vec(), self.guide_sides(solved));
+            let open_dyad = self.dyads().find(|&(step, _)| step == solved).map(|(_, dyad)| dyad);
+            let open_square = open_dyad.and_then(|dyad| self.open_square(dyad));
+            let open_side = open_dyad.is_some_and(|dyad| self.state.flat_side(&self.cx, dyad));
             let (taylor, det_signs) = self.group_unknowns(at, solved);
             return Knot {
                 at,
@@ -181,6 +184,8 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
                 discriminants,
                 guide_sides,
                 open_step,
+                open_square,
+                open_side,
                 solved,
                 taylor,
                 det_signs,
@@ -198,9 +203,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         let rates = (0..from.len())
             .map(|c| self.rate_along(|d| self.state.pose.theta[c * len + 1 + d][0]).abs())
             .collect();
-        let lines = self.cx.plan.dyads().filter(|dyad| dyad.form == Form::TwoLines);
-        let guide_sides =
-            lines.map(|dyad| self.state.determinant(0, &self.cx, dyad) > 0.0).collect();
+        let guide_sides = self.guide_sides(solved);
         let (taylor, det_signs) = self.group_unknowns(at, solved);
         Knot {
             at,
@@ -210,10 +213,31 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             discriminants,
             guide_sides,
             open_step: None,
+            open_square: None,
+            open_side: false,
             solved,
             taylor,
             det_signs,
         }
+    }
+
+    /// See [`Knot::guide_sides`], of the first `solved` steps.
+    fn guide_sides(&self, solved: usize) -> Vec<bool> {
+        let steps = self.cx.plan.steps.iter().take(solved);
+        let lines = steps.filter_map(|step| match step {
+            Step::Dyad(dyad) if dyad.form == Form::TwoLines => Some(dyad),
+            _ => None,
+        });
+        lines.map(|dyad| self.state.determinant(0, &self.cx, dyad) > 0.0).collect()
+    }
+
+    /// Square of the discriminant of a dyad that does not close at the position just solved, and its rate
+    /// along the path; `None` with several drivers.
+    fn open_square(&self, dyad: &Dyad) -> Option<(f64, f64)> {
+        let &[rate] = self.rates else { return None };
+        let op = &self.cx.tape.ops[self.cx.tape.dyads[dyad.index]];
+        let sample = self.state.sample(0, &self.cx, dyad, op);
+        Some((sample.square, sample.rate * rate))
     }
 
     /// An unknown of a group at a parameter, predicted from the last knot.
@@ -487,10 +511,25 @@ fn must_refine(a: &Knot, b: &Knot, depth: u32) -> bool {
 
 /// Whether an island may lie between two knots that cannot be reached.
 fn may_hide_island(a: &Knot, b: &Knot, cell: f64, depth: u32) -> bool {
-    match (a.open_step, b.open_step) {
+    // Where different dyads do not close, the later one may move fast: its chord is not bounded by the
+    // driver's speed.
+    let may_close = match (a.open_step, b.open_step) {
         (Some((i, g)), Some((j, h))) if i == j => {
-            depth < ISLAND_HALVINGS && g + h < MAX_GAP_RATE * cell
+            a.open_side != b.open_side || g + h < MAX_GAP_RATE * cell || may_peak(a, b)
         }
-        _ => depth < MIXED_GAP_HALVINGS,
-    }
+        _ => true,
+    };
+    may_close && depth < ISLAND_HALVINGS
+}
+
+/// Whether the square of a dyad that closes at neither knot rises so fast that it might become positive
+/// between them.
+fn may_peak(a: &Knot, b: &Knot) -> bool {
+    let (Some((from, start)), Some((to, end))) = (a.open_square, b.open_square) else {
+        return false;
+    };
+    let cell = b.at - a.at;
+    let (rise, fall) = (start * cell, -end * cell);
+    // One tangent alone counts if it crosses zero: the other end may be beside a point at infinity.
+    -from < MAX_FALLS * rise && -to < MAX_FALLS * fall || -from < rise || -to < fall
 }
