@@ -74,6 +74,20 @@ def test_islands_of_the_knot_by_knot_tracer(kind: str, seed: int, link: str, gap
     assert gap_steps.is_nearest(across[0].steps)[list(m.links).index(link)]
 
 
+def test_closer_scans_of_a_short_range() -> None:
+    """They solve more knots than the range has: once those had signs of another call, and an angle
+    near the drawing was a turn off (2.324 + 2π).
+    """
+    m = assur.Mechanism(**arguments(campaign_cases.MAKE["random"](80129).description))
+    q = float(m.q0) + 0.0397799355633266
+    near = np.linspace(float(m.q0), q, 200)
+    wide = m.solve([q, q + 0.5], order=0, outputs=["L6"], on_error="nan").link("L6").value[0]
+    for asked in ([q], [q, q + 0.001], near):
+        angle = m.solve(asked, order=0, outputs=["L6"]).link("L6").value
+        assert wide in angle
+        assert abs(angle[0] - 2.4) < 0.1
+
+
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("turned", [0.0, np.pi])
 def test_half_a_turn_is_clockwise(side: float, turned: float) -> None:

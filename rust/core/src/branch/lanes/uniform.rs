@@ -116,8 +116,9 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                 self.set_group(group, |lane| grid.at(lane));
             }
         }
+        // Of as many registers as closer scans may take, which are more than those of a short grid.
         for (lanes, &sign) in self.state.pose.signs.iter_mut().zip(cx.signs) {
-            lanes[..self.state.groups.min(G)].fill(R::splat(sign));
+            lanes[..(KNOTS / R::LANES).min(G)].fill(R::splat(sign));
         }
         self.guess(cx);
         self.solve::<L>(cx, angles);
