@@ -262,7 +262,9 @@ def reactions(
 
 def _require_finite(driver: Float, status: npt.NDArray[np.uint8], q: Float, drivers: int) -> None:
     """Raise MotionError where a load or an inertia force is not finite, though the position is."""
-    finite = np.isfinite(driver).reshape(len(status), -1).all(axis=1)
+    finite = np.isfinite(driver.reshape(len(status), driver.size // max(1, len(status)))).all(
+        axis=1
+    )
     beyond = np.flatnonzero(~finite & (status <= Status.NEAR_SINGULAR))
     if beyond.size:
         at = q.reshape(-1, drivers)[beyond[0]].tolist()
