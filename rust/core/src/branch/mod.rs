@@ -16,6 +16,7 @@ pub(crate) mod lanes;
 pub(crate) mod location;
 pub(crate) mod position;
 pub(crate) mod predictor;
+mod refinement;
 pub(crate) mod scalar_chord;
 mod trace;
 pub(crate) mod tracer;

@@ -6,9 +6,10 @@ use std::f64::consts::TAU;
 
 use super::hermite::HermiteCell;
 use super::knot::{
-    ChangePoint, InitialGuess, Knot, SignInterval, Taylor2, closes, may_vanish, predict,
-    prediction_error, prediction_failed,
+    ChangePoint, InitialGuess, Knot, SignInterval, Taylor2, closes, predict, prediction_error,
+    prediction_failed,
 };
+use super::refinement::must_refine;
 use crate::math::angle::{unwrap_to, whole_turns};
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
 use crate::math::tolerance::{GAP_MAX_TURN, KNOT_MAX_HALVINGS, KNOT_MAX_TURN};
@@ -18,16 +19,6 @@ use crate::plan::plan::Step;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
-/// Halvings at an end of an interval that can be reached: the turn left there varies as the square
-/// root of the cell.
-const EDGE_HALVINGS: u32 = 14;
-/// How fast (of the size, per unit of the path) the gap of a dyad that does not close may shrink.
-/// Between two knots with a greater gap no island is searched for.
-const MAX_GAP_RATE: f64 = 8.0;
-/// Nor if its square is below zero by so many times its rise over the cell.
-const MAX_FALLS: f64 = 4.0;
-/// Halvings in search of an island: down to a tenth of a degree.
-const ISLAND_HALVINGS: u32 = 7;
 /// With so many knots cells are no longer halved: if angles are nothing but rounding (a link of 1e-17
 /// of the size), no cell would ever be fine enough.
 const MAX_KNOTS: usize = 100_000;
@@ -487,49 +478,4 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
 /// Angles, each next to another.
 fn unwrapped(angles: &[f64], near: &[f64]) -> Vec<f64> {
     angles.iter().zip(near).map(|(&angle, &near)| unwrap_to(angle, near)).collect()
-}
-
-fn must_refine(a: &Knot, b: &Knot, depth: u32) -> bool {
-    if a.reached != b.reached {
-        return depth < EDGE_HALVINGS;
-    }
-    let cell = (b.at - a.at).abs();
-    if !a.reached {
-        return may_hide_island(a, b, cell, depth);
-    }
-    let turned = a.angles.iter().zip(&b.angles).any(|(x, y)| (x - y).abs() > KNOT_MAX_TURN);
-    // Near a dead point rates grow without bound, but the angle does not.
-    let fast = depth < EDGE_HALVINGS
-        && a.rates.iter().chain(&b.rates).any(|rate| rate * cell > KNOT_MAX_TURN);
-    let through_infinity = depth < EDGE_HALVINGS && a.guide_sides != b.guide_sides;
-    // Beside a near miss of a change point a link may turn round between the knots.
-    let missed = || {
-        a.discriminants.iter().zip(&b.discriminants).any(|(&x, &y)| may_vanish(x, y, b.at - a.at))
-    };
-    turned || fast || through_infinity || missed()
-}
-
-/// Whether an island may lie between two knots that cannot be reached.
-fn may_hide_island(a: &Knot, b: &Knot, cell: f64, depth: u32) -> bool {
-    // Where different dyads do not close, the later one may move fast: its chord is not bounded by the
-    // driver's speed.
-    let may_close = match (a.open_step, b.open_step) {
-        (Some((i, g)), Some((j, h))) if i == j => {
-            a.open_side != b.open_side || g + h < MAX_GAP_RATE * cell || may_peak(a, b)
-        }
-        _ => true,
-    };
-    may_close && depth < ISLAND_HALVINGS
-}
-
-/// Whether the square of a dyad that closes at neither knot rises so fast that it might become positive
-/// between them.
-fn may_peak(a: &Knot, b: &Knot) -> bool {
-    let (Some((from, start)), Some((to, end))) = (a.open_square, b.open_square) else {
-        return false;
-    };
-    let cell = b.at - a.at;
-    let (rise, fall) = (start * cell, -end * cell);
-    // One tangent alone counts if it crosses zero: the other end may be beside a point at infinity.
-    -from < MAX_FALLS * rise && -to < MAX_FALLS * fall || -from < rise || -to < fall
 }
