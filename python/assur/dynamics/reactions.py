@@ -250,7 +250,8 @@ def reactions(
     if on_error == "raise" and failure is not None:
         raise failure
     if on_error == "raise":
-        _require_finite(arrays[keys.index(Key("driver"))], status, everywhere, drivers)
+        drives = [arrays[keys.index(Key("driver", driver))] for driver in range(drivers)]
+        _require_finite("reactions are", np.stack(drives, axis=-1), status, everywhere)
     found: dict[Key, Float] = {}
     for key, array in zip(keys, arrays, strict=True):
         two = key.kind in ("joint", "shaking force")
@@ -260,21 +261,22 @@ def reactions(
     return Reactions(mechanism, motion, found, status.reshape(shape))  # type: ignore[arg-type]
 
 
-def _require_finite(driver: Float, status: npt.NDArray[np.uint8], q: Float, drivers: int) -> None:
-    """Raise MotionError where a load or an inertia force is not finite, though the position is."""
-    finite = np.isfinite(driver.reshape(len(status), driver.size // max(1, len(status)))).all(
-        axis=1
-    )
+def _require_finite(what: str, drives: Float, status: npt.NDArray[np.uint8], q: Float) -> None:
+    """Raise MotionError where a load or an inertia force is not finite, though the position is.
+
+    `drives`: torques or forces of the drivers, (positions, drivers).
+    """
+    finite = np.isfinite(drives).all(axis=-1)
     beyond = np.flatnonzero(~finite & (status <= Status.NEAR_SINGULAR))
     if beyond.size:
-        at = q.reshape(-1, drivers)[beyond[0]].tolist()
+        at = q.reshape(drives.shape)[beyond[0]].tolist()
         shown = ", ".join(f"{number:.15g}" for number in at)
         message = (
-            f"the reactions are not finite at q = {shown}: a load, a speed or a mass is too great "
+            f"the {what} not finite at q = {shown}: a load, a speed or a mass is too great "
             "there, a table ends, or a damper or spring has length zero (on_error='nan' keeps the "
             "others)"
         )
-        raise MotionError(message, kind="not_finite", q=at[0] if drivers == 1 else tuple(at))
+        raise MotionError(message, kind="not_finite", q=at[0] if len(at) == 1 else tuple(at))
 
 
 def broadcast_motion(
@@ -336,5 +338,5 @@ def effort(
                     out[..., i] += rate * speeds[..., j] * speeds[..., k]
     if on_error == "raise":
         solved = np.full(out.size // n, Status.OK, dtype=np.uint8)
-        _require_finite(out, solved, np.broadcast_to(x, full), n)
+        _require_finite("effort is", out.reshape(-1, n), solved, np.broadcast_to(x, full))
     return out[..., 0][()] if n == 1 else out
