@@ -12,10 +12,6 @@ import assur
 from assur import Body, Force, Gravity
 from reaction_view import View
 
-pytestmark = pytest.mark.skipif(
-    not hasattr(assur.Machine, "reactions"), reason="Machine.reactions is not there yet"
-)
-
 Q = np.array([0.3, 1.1, 2.9, 4.0])
 
 

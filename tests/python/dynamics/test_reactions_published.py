@@ -14,8 +14,6 @@ from published_machines import Printed, Published, published
 from reaction_view import View
 
 PUBLISHED = {case.name: case for case in published()}
-NOT_YET = not hasattr(assur.Machine, "reactions")
-LATER = pytest.mark.skipif(NOT_YET, reason="Machine.reactions is not there yet")
 
 
 def library(machine: Any, *where: Any) -> Any:
@@ -23,7 +21,7 @@ def library(machine: Any, *where: Any) -> Any:
 
 
 Solver = Any
-both = pytest.mark.parametrize("solve", [View, pytest.param(library, marks=LATER)])
+both = pytest.mark.parametrize("solve", [View, library])
 
 
 @both
@@ -49,7 +47,6 @@ def asked(found: Any, printed: Printed) -> Any:
     return np.hypot(*force) if kind == "size" else force
 
 
-@LATER
 @pytest.mark.parametrize("name", PUBLISHED)
 def test_effort(name: str) -> None:
     """The drive by power alone."""

@@ -21,18 +21,7 @@ def library(machine: Any, *where: Any) -> Any:
     return machine.reactions(*where)
 
 
-both = pytest.mark.parametrize(
-    "solve",
-    [
-        View,
-        pytest.param(
-            library,
-            marks=pytest.mark.skipif(
-                not hasattr(assur.Machine, "reactions"), reason="Machine.reactions is not there yet"
-            ),
-        ),
-    ],
-)
+both = pytest.mark.parametrize("solve", [View, library])
 Solver = Any
 # Numbers are given to ten digits.
 LAST = 6e-10
