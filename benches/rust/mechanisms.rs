@@ -240,8 +240,7 @@ pub fn of_all_kernels() -> Vec<Mechanism> {
     .iter()
     .map(|description| Mechanism::new(description).expect("a mechanism"))
     .collect();
-    // Points of its links are placed by their rotations.
-    all.push(class_iv());
+    all.push(driven(with_traced_triad(crank()), &["O", "E", "F"]));
     all
 }
 
@@ -259,13 +258,21 @@ fn crank() -> Description {
 
 /// A plate on three legs, one of them on the crank (class III).
 fn with_triad(on: Description) -> Description {
+    with_legs(on).link("plate", ["B", "C", "D"])
+}
+
+/// The same with a point of the plate, which is placed by its rotation.
+fn with_traced_triad(on: Description) -> Description {
+    with_legs(on).joint("P", [1.5, 2.5]).link("plate", ["B", "C", "D", "P"])
+}
+
+fn with_legs(on: Description) -> Description {
     on.joint("B", [1.0, 2.0])
         .joint("C", [2.5, 1.5])
         .joint("D", [2.0, 3.0])
         .joint("E", [4.0, 0.0])
         .joint("F", [0.0, 4.0])
         .link("rod", ["A", "B"])
-        .link("plate", ["B", "C", "D"])
         .link("right", ["C", "E"])
         .link("left", ["D", "F"])
 }
