@@ -130,13 +130,13 @@ class Check(Findings):
         if not len(edges):
             return
         edges = checks.bisected(self.solve, edges)
+        far = checks.poles(self.solve, edges, size, self.higher)
         if not self.higher:
             # Angles of groups follow theirs, and end with them.
-            across = gap_steps.gaps_between(self.m, edges)
+            across = gap_steps.gaps_between(self.m, edges, far)
             self.report.counts["steps"] += len(across)
             wrong = (text for gap in across for text in gap_steps.too_far(self.m, gap))
             self.fail("step", *wrong)
-        far = checks.poles(self.solve, edges, size, self.higher)
         edges = edges[~far]
         self.report.counts["infinite"] += int(far.sum())
         self.report.counts["gaps"] += len(edges)

@@ -74,6 +74,41 @@ def test_islands_of_the_knot_by_knot_tracer(kind: str, seed: int, link: str, gap
     assert gap_steps.is_nearest(across[0].steps)[list(m.links).index(link)]
 
 
+def way(m: assur.Mechanism, reach: float) -> gap_steps.Array:
+    """Many positions from the drawing upward."""
+    return np.asarray(m.q0 + np.linspace(0.0, reach, 20_001))
+
+
+@pytest.mark.parametrize("seed", [2804, 4648, 5468, 18681, 40091, 49999, 76381])
+def test_islands_of_knots_in_lanes(seed: int) -> None:
+    """The campaign of class II found them missed, up to 8° wide: angles beyond were a turn off.
+
+    They lie in a cell after the end of a gap, between stretched and folded, or where the rate of a
+    discriminant is unknown.
+    """
+    m = assur.Mechanism(**arguments(campaign_cases.MAKE["random"](seed).description))
+    assert not list(gap_steps.far(m, way(m, 2 * np.pi)))
+
+
+@pytest.mark.parametrize(
+    ("seed", "reach"), [(12710, 6.28), (18695, 0.8), (47622, 6.28), (74077, 6.28)]
+)
+def test_links_that_turn_round_at_the_edge_of_a_gap(seed: int, reach: float) -> None:
+    """The outer joints of a dyad nearly coincide there: within 1e-5 rad it turns by half a turn."""
+    m = assur.Mechanism(**arguments(campaign_cases.MAKE["random"](seed).description))
+    assert not list(gap_steps.far(m, way(m, reach)))
+
+
+def test_an_island_of_a_slide_for_any_request() -> None:
+    """Knots in lanes depend on the requested positions, the tracer's do not: both must agree."""
+    m = assur.Mechanism(**arguments(campaign_cases.MAKE["random"](84809).description))
+    island = np.linspace(0.0224, 0.0695, 7)
+    alone = m.solve(island, order=0, outputs=list(m.links))
+    among = m.solve([-0.3, *island, 0.2], order=0, outputs=list(m.links), on_error="nan")
+    for name in m.links:
+        assert np.array_equal(alone.link(name).value, among.link(name).value[1:-1]), name
+
+
 def test_closer_scans_of_a_short_range() -> None:
     """They solve more knots than the range has: once those had signs of another call, and an angle
     near the drawing was a turn off (2.324 + 2π).

@@ -48,14 +48,24 @@ def is_nearest(steps: Array) -> NDArray[np.bool_]:
     return np.asarray(np.abs(steps) <= math.pi + ABOUT_HALF + KNOWN)
 
 
+def slides(m: assur.Mechanism) -> bool:
+    """Whether the driver is a slide."""
+    return isinstance(m.driver, str) and m.driver in m.slides
+
+
 def is_known(m: assur.Mechanism, gap: Gap) -> NDArray[np.bool_]:
     """Links that step no farther than they need, or turn with such a link, or from it by q."""
     near = is_nearest(gap.steps)
-    if isinstance(m.driver, str) and m.driver in m.slides:
-        return near
-    apart = np.abs(gap.steps[:, np.newaxis] - gap.steps)
-    driven = np.abs(apart - (gap.behind - gap.before)) < TOGETHER
-    return np.asarray(near | (driven & near).any(axis=1))
+    return np.asarray((together(m, gap.steps, gap.behind - gap.before) & near).any(axis=1))
+
+
+def together(m: assur.Mechanism, steps: Array, turn: Array | float) -> NDArray[np.bool_]:
+    """Which links step together, or with the driver between them: `steps` has links last."""
+    apart = np.abs(steps[..., np.newaxis] - steps[..., np.newaxis, :])
+    both = apart < TOGETHER
+    if not slides(m):
+        both |= np.abs(apart - np.abs(turn)[..., np.newaxis, np.newaxis]) < TOGETHER
+    return np.asarray(both)
 
 
 def reached(m: assur.Mechanism, q: Array) -> NDArray[np.bool_]:
@@ -96,29 +106,53 @@ def stretches(m: assur.Mechanism, q: Array) -> Array:
     return np.stack([first, last], axis=1)
 
 
-def gaps(m: assur.Mechanism, q: Array) -> list[Gap]:
-    """The gaps of a design, in the order of q, which is the way from its drawing."""
-    ends = stretches(m, q).reshape(-1)
-    steps = np.diff(angles(m, ends), axis=0)[1::2]
-    rows = zip(ends[1:-1:2], ends[2::2], steps, strict=True)
-    return [Gap(float(before), float(behind), own) for before, behind, own in rows]
-
-
-def gaps_between(m: assur.Mechanism, edges: Array) -> list[Gap]:
-    """The same of edges that are bisected: each a coordinate that can be reached, one that cannot.
-
-    A driven slide goes away from the drawing.
-    """
-    ordered = edges[np.argsort(edges.min(axis=1))]
-    ends = ordered[:, 0]
-    into = np.flatnonzero((ordered[:-1, 0] < ordered[:-1, 1]) & (ordered[1:, 0] > ordered[1:, 1]))
-    pairs = np.stack([ends[into], ends[into + 1]], axis=1)
-    if isinstance(m.driver, str) and m.driver in m.slides:
-        down = pairs[:, 1] < m.q0
-        pairs[down] = pairs[down, ::-1]
+def across(m: assur.Mechanism, pieces: Array) -> list[Gap]:
+    """The gaps between stretches that are not narrow, in the order of the way from the drawing."""
+    wide = pieces[np.abs(np.diff(pieces, axis=1)[:, 0]) > NARROW]
+    pairs = np.stack([wide[:-1, 1], wide[1:, 0]], axis=1)
     steps = np.diff(angles(m, pairs.reshape(-1)), axis=0)[::2]
     rows = zip(pairs, steps, strict=True)
     return [Gap(float(before), float(behind), own) for (before, behind), own in rows]
+
+
+def gaps(m: assur.Mechanism, q: Array) -> list[Gap]:
+    """The gaps of a design, in the order of q, which is the way from its drawing."""
+    return across(m, stretches(m, q))
+
+
+def gaps_between(m: assur.Mechanism, edges: Array, infinite: NDArray[np.bool_]) -> list[Gap]:
+    """The same of edges that are bisected: each a coordinate that can be reached, one that cannot.
+
+    A gap with an `infinite` edge is not among them: there an angle depends on the last bit of q.
+    """
+    ordered = edges[np.argsort(edges.min(axis=1))]
+    # Stretches at the ends of the sample go on.
+    ends = np.concatenate([[-np.inf], ordered[:, 0], [np.inf]])
+    begins = np.append(True, ordered[:, 0] > ordered[:, 1])
+    begin = np.flatnonzero(begins & ~np.append(begins[1:], False))
+    pieces = np.stack([ends[begin], ends[begin + 1]], axis=1)
+    ways = [pieces]
+    if slides(m):
+        # Both ways begin at the drawing.
+        up, down = pieces[pieces[:, 1] >= m.q0], pieces[pieces[:, 0] <= m.q0]
+        ways = [up, down[::-1, ::-1]]
+    poles = set(edges[infinite, 0].tolist())
+    found = (gap for way in ways for gap in across(m, way))
+    return [gap for gap in found if poles.isdisjoint((gap.before, gap.behind))]
+
+
+def may_follow(angles: Array, narrow: NDArray[np.bool_]) -> bool:
+    """Whether a link's angles at first, middle and last coordinate of stretches keep to the rule.
+
+    It steps to every stretch from the last one that the branch has found: all that are not narrow.
+    Of a narrow one that it has missed the middle is as near as can be (conventions.md).
+    """
+    found = {0}
+    for piece in range(1, len(angles)):
+        steps = {i: angles[piece] - angles[i, -1] for i in found}
+        missed = {i for i in found if narrow[piece] and is_nearest(steps[i][1])}
+        found = missed | ({piece} if any(is_nearest(step[0]) for step in steps.values()) else set())
+    return bool(found)
 
 
 def too_far(m: assur.Mechanism, gap: Gap) -> Iterator[str]:
@@ -128,14 +162,17 @@ def too_far(m: assur.Mechanism, gap: Gap) -> Iterator[str]:
         return
     # A closer look: the sample may have missed islands, and the branch narrow ones.
     count = max(CLOSE, math.ceil(abs(gap.behind - gap.before) / APART) + 1)
-    inside = np.linspace(gap.before, gap.behind, count)
-    pieces = stretches(m, inside)
-    wide = np.abs(np.diff(pieces[1:-1], axis=1)[:, 0]) > NARROW
-    for some in (pieces, pieces[[0, *(np.flatnonzero(wide) + 1), -1]]):
-        steps = np.diff(angles(m, some.reshape(-1)), axis=0)[1::2]
-        wrong &= ~is_nearest(steps).all(axis=0)
-    names = np.array(list(m.links))[wrong]
-    for name, step in zip(names, gap.steps[wrong], strict=True):
+    pieces = stretches(m, np.linspace(gap.before, gap.behind, count))
+    narrow = np.abs(np.diff(pieces, axis=1)[:, 0]) <= NARROW
+    narrow[[0, -1]] = False  # the ends of wider ones
+    places = np.stack([pieces[:, 0], pieces.mean(axis=1), pieces[:, 1]], axis=1)
+    own = angles(m, places.reshape(-1)).reshape(*places.shape, -1)
+    across = np.diff(pieces.reshape(-1))[1::2]
+    steps = np.diff(own[:, [0, 2]].reshape(-1, len(wrong)), axis=0)[1::2]
+    with_others = together(m, steps, across).all(axis=0)
+    follows = np.array([may_follow(own[:, :, link], narrow) for link in range(len(wrong))])
+    for link in np.flatnonzero(wrong & ~(with_others & follows).any(axis=1)):
+        name, step = list(m.links)[link], gap.steps[link]
         yield f"{name} steps by {step:.4f} at q = {gap.before!r} … {gap.behind!r}"
 
 

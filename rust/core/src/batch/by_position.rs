@@ -4,6 +4,7 @@ use std::mem::MaybeUninit;
 
 use super::worker::{Job, Worker};
 use super::writer::RowRange;
+use crate::branch::position::BranchPoint;
 use crate::math::angle::unwrap_to;
 use crate::math::lanes::Real;
 use crate::query::failure::Failure;
@@ -27,7 +28,13 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
     pub(super) fn solve_scalar(&mut self, job: &mut Job<'_, '_>, row: usize) {
         let drivers = self.design.mechanism.q0().len();
         let q = self.design.scaled(&job.q[row * drivers..][..drivers]);
-        let point = self.design.branch_to(&q);
+        let mut point = self.design.branch_to(&q);
+        if self.depends_on_request && point.as_ref().is_some_and(BranchPoint::is_in_untraced_island)
+        {
+            drop(point);
+            self.trace_again(job);
+            point = self.design.branch_to(&q);
+        }
         let state = &mut self.space.one;
         let analogues = self.design.solve(state, &q, point.as_ref());
         let at = job.first + row;
@@ -52,6 +59,19 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             job.rows.write_nan(self.columns, 1, at, 1);
         }
         job.rows.status[at] = MaybeUninit::new(state.status as u8);
+    }
+
+    /// Traces a driven slide knot by knot, because its knots in lanes have missed an island: which islands
+    /// they find depends on the requested positions, and angles beyond depend on that. Up to the first
+    /// gap both are the same.
+    #[cold]
+    #[inline(never)]
+    fn trace_again(&mut self, job: &Job<'_, '_>) {
+        self.design.trace_knot_by_knot(job.q);
+        self.depends_on_request = false;
+        self.is_smooth = self.design.is_smooth(job.q);
+        self.space.locations.clear();
+        self.locate();
     }
 
     /// Sensitivities to a dimension, one position after another.

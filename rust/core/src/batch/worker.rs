@@ -41,6 +41,8 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     care: Care,
     /// Whether the branch serves all positions of the job and has no change points.
     pub(super) is_smooth: bool,
+    /// Whether the branch of a driven slide was traced by knots that depend on the requested positions.
+    pub(super) depends_on_request: bool,
     /// The last job's offset into the shared coordinates, and its range of driven slides' values, m.
     driven_range: (Option<usize>, [f64; 2]),
     /// When true, work stops after the block in progress.
@@ -89,6 +91,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             columns,
             care: control.care,
             is_smooth: false,
+            depends_on_request: false,
             driven_range: (None, NOWHERE),
             cancel: control.cancel,
             failures: control.failures.map(FailureCounter::new),
@@ -220,9 +223,9 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 self.locate();
                 located = true;
             }
+            self.solve_block::<L>(job, row, block);
             doubts =
                 if bare && self.is_plain() { (doubts + 1).min(MAX_DOUBTS) } else { MAX_DOUBTS };
-            self.solve_block::<L>(job, row, block);
         }
     }
 
@@ -248,6 +251,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 traced = design.trace_in_lanes::<L, G>(uniform, classes, references, range);
             }
         }
+        let slides = self.design.mechanism.plan().driven_slide(0).is_some();
+        self.depends_on_request = slides && traced == Traced::Whole;
         if traced == Traced::No {
             match self.care {
                 Care::Always => self.design.trace(job.q),

@@ -14,10 +14,12 @@ use crate::plan::leg::Leg;
 use crate::plan::tape::{CrankPin, DyadOp, Op};
 use crate::state::state::Context;
 
-/// Greatest ratio of the shorter of crank and frame to the longer.
-const MAX_RATIO: f64 = 0.99;
-/// Two angles must differ from half a turn by at least this (turns); otherwise the tracer decides.
-const MIN_FROM_HALF: f64 = 0.01;
+/// Greatest ratio of the shorter of crank and frame to the longer: angles stay 0.014 rad away from half
+/// a turn.
+const MAX_RATIO: f64 = 0.9999;
+/// By how much (turns) an angle must differ from where the other way becomes the shorter; otherwise the
+/// tracer decides. At the end of a gap it is known to the square root of rounding.
+const MIN_FROM_HALF: f64 = 1.0e-5;
 
 /// Sets the references of `classes`; false if they must be found by tracing. `start`: the drawing's
 /// angles, at driver coordinate `q0`.
@@ -53,18 +55,21 @@ pub(super) fn find_references(
     true
 }
 
-/// The whole turns (rad) from `angle` to nearest `near`; `None` if they are about half a turn apart.
+/// The whole turns (rad) from `angle` to nearest `near`; `None` if either way is as short.
 fn turns(angle: f64, near: f64) -> Option<f64> {
-    let turns = (near - angle) * (1.0 / TAU);
-    let is_definite = (turns - turns.floor() - 0.5).abs() >= MIN_FROM_HALF;
-    is_definite.then(|| TAU * turns_between(angle, near))
+    let apart = TAU * MIN_FROM_HALF;
+    let [least, most] = [-apart, apart].map(|apart| turns_between(angle, near + apart));
+    (least == most).then_some(TAU * least)
 }
+
+/// Angles nearer than this to half a turn (rad) are not next to each other.
+const SAFE: f64 = 0.0625;
 
 /// `angle` unwrapped to the drawing's, `start`, if this also unwraps all angles within `half_width`
 /// of it.
 fn next_to(start: f64, angle: f64, half_width: f64) -> Option<f64> {
     let near = unwrap_to(angle, start);
-    ((near - start).abs() + half_width < PI - TAU * MIN_FROM_HALF).then_some(near)
+    ((near - start).abs() + half_width < PI - SAFE).then_some(near)
 }
 
 /// The angle of a vector, with a shortcut for the frequent case along x.

@@ -25,6 +25,13 @@ pub(crate) struct BranchPoint<'a> {
     pub at: f64,
 }
 
+impl BranchPoint<'_> {
+    /// Whether it lies on an island without a knot.
+    pub(crate) fn is_in_untraced_island(&self) -> bool {
+        self.branch.in_untraced_island(&self.branch.locate(self.at), 0)
+    }
+}
+
 /// Greatest distance (rad, or units of the scale) from the drawing to which several drivers are
 /// followed: 1000 turns. The time for a position grows with the distance.
 const MAX_DISTANCE: f64 = 1000.0 * std::f64::consts::TAU;

@@ -2,7 +2,7 @@
 //! and to count the turns of every angle.
 
 use std::convert::Infallible;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::hermite::HermiteCell;
 use super::knot::{
@@ -12,7 +12,7 @@ use super::knot::{
 use super::refinement::must_refine;
 use crate::math::angle::{unwrap_to, whole_turns};
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
-use crate::math::tolerance::{GAP_MAX_TURN, KNOT_MAX_HALVINGS, KNOT_MAX_TURN};
+use crate::math::tolerance::{KNOT_MAX_HALVINGS, KNOT_MAX_TURN};
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Dyad, Form, Unknown};
 use crate::plan::plan::Step;
@@ -42,6 +42,10 @@ const JUMP_HALVINGS: u32 = 4;
 const JUMP_RATIO: f64 = 1.0 / 64.0;
 /// … and the rounding beside two folds that meet: ∛u with a margin.
 const JUMP_ROUNDING: f64 = 1.0 / 65536.0;
+
+/// Largest turn (rad) across a gap that knots beside it show well enough: up to either edge an angle may
+/// turn by [`KNOT_MAX_TURN`].
+const MAX_KNOWN_STEP: f64 = PI - 2.0 * KNOT_MAX_TURN - 0.0625;
 
 /// Follows a branch along a path and sets its knots.
 pub(crate) struct BranchTracer<'a, 'b> {
@@ -165,7 +169,8 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             let (angles, guide_sides) = (from.to_vec(), self.guide_sides(solved));
             let open_dyad = self.dyads().find(|&(step, _)| step == solved).map(|(_, dyad)| dyad);
             let open_square = open_dyad.and_then(|dyad| self.open_square(dyad));
-            let open_side = open_dyad.is_some_and(|dyad| self.state.flat_side(&self.cx, dyad));
+            let open_side =
+                open_dyad.is_some_and(|dyad| self.state.flat_side(0, &self.cx, dyad) > 0.0);
             let (taylor, det_signs) = self.group_unknowns(at, solved);
             return Knot {
                 at,
@@ -343,6 +348,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             let prediction_failed = self.prediction_failed(&from, &knot);
             let coarse = depth < KNOT_MAX_HALVINGS
                 && (turns_fast || (!prediction_failed && must_refine(&from, &knot, depth)));
+            let coarse = coarse || depth < KNOT_MAX_HALVINGS && self.turns_at_edge(&from, &knot);
             let jumps =
                 depth >= JUMP_HALVINGS && !prediction_failed && !coarse && self.jumps(&from, &knot);
             let prediction_failed = prediction_failed || jumps;
@@ -388,11 +394,23 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         knot
     }
 
+    /// Whether some link turns far between the edge of the gap between two knots and the one that can be
+    /// reached. If the outer joints of a dyad nearly coincide at the edge, it may turn by half a turn
+    /// within any distance.
+    fn turns_at_edge(&mut self, from: &Knot, knot: &Knot) -> bool {
+        if from.reached == knot.reached || self.last_group.is_some() {
+            return false;
+        }
+        let [inside, outside] = if from.reached { [from, knot] } else { [knot, from] };
+        let edge = self.angles_at_edge([inside.at, outside.at], &inside.angles);
+        inside.angles.iter().zip(&edge).any(|(angle, edge)| (edge - angle).abs() > KNOT_MAX_TURN)
+    }
+
     /// Whether some angle differs by so much across a gap that the knots beside it may not show which
     /// way is the shorter. (Angles of groups are followed from knot to knot.)
     fn is_ambiguous(&self, before: &[f64], behind: &[f64]) -> bool {
         let mut steps = before.iter().zip(behind).map(|(a, b)| (b - a).abs());
-        self.last_group.is_none() && steps.any(|step| step > GAP_MAX_TURN)
+        self.last_group.is_none() && steps.any(|step| step > MAX_KNOWN_STEP)
     }
 
     /// The angles at the edge of a gap, given a parameter that can be reached and one that cannot.

@@ -7,6 +7,9 @@ use super::lanes::Real;
 /// Slightly less than half a turn, so that [`turns_between`] does not switch at exact half turns.
 const ABOUT_HALF: f64 = 0.5 - 1.0 / 1024.0;
 
+/// Distance (rad) from half a turn at which rounding, and the choice of the clockwise way, might decide.
+const TIE: f64 = 1.0 / 128.0;
+
 /// Number of whole turns to add to `angle` to come nearest to `near`. About half a turn away (a
 /// link that points to where a joint went through infinity) the sum is clockwise of `near`, whatever
 /// the rounding errors.
@@ -19,6 +22,13 @@ pub(crate) fn turns_between<R: Real>(angle: R, near: R) -> R {
 #[inline(always)]
 pub(crate) fn unwrap_to<R: Real>(angle: R, near: R) -> R {
     angle + R::splat(TAU) * turns_between(angle, near)
+}
+
+/// Whether the error `slack` of a step across a gap (rad) decides which way is the shorter.
+#[inline(always)]
+pub(crate) fn is_about_half(step: f64, slack: f64) -> bool {
+    let most = TAU * ABOUT_HALF;
+    step.abs() + (slack + TIE) > most
 }
 
 /// How to unwrap all angles of a link without tracing them.

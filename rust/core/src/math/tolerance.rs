@@ -129,9 +129,5 @@ pub const NEWTON_MAX_STEP: f64 = 0.5;
 /// a turn would already be ambiguous.
 pub const KNOT_MAX_TURN: f64 = std::f64::consts::FRAC_PI_4;
 
-/// Largest turn of a link across a gap whose ends are known roughly: not nearly half a turn, at which
-/// either way would be as short.
-pub const GAP_MAX_TURN: f64 = std::f64::consts::PI - 0.5;
-
 /// Limit of halvings of a cell of that branch: 2^-40 of a cell is below the spacing of q.
 pub const KNOT_MAX_HALVINGS: u32 = 40;

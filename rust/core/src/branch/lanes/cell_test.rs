@@ -67,6 +67,8 @@ pub(in crate::branch) struct DyadSamples {
     known: Bits,
     /// Knots at which it closes too.
     pub closes: Bits,
+    /// Knots at which [`DyadSample::flat`] is positive.
+    pub folded: Bits,
 }
 
 /// Classification of the cells of a scan.
@@ -94,8 +96,13 @@ pub(in crate::branch) struct ScanGrid {
 }
 
 impl DyadSamples {
-    pub(in crate::branch) const NONE: Self =
-        Self { square: [f64::NEG_INFINITY; SAMPLES], rate: [0.0; SAMPLES], known: 0, closes: 0 };
+    pub(in crate::branch) const NONE: Self = Self {
+        square: [f64::NEG_INFINITY; SAMPLES],
+        rate: [0.0; SAMPLES],
+        known: 0,
+        closes: 0,
+        folded: 0,
+    };
 
     /// Samples a dyad at the knots and classifies the cells. `known`: knots at which all dyads before
     /// it close; `settled`: its sign is known to be constant. `None` if it is flat at a knot, where
@@ -113,17 +120,20 @@ impl DyadSamples {
         let cell = R::splat(grid.cell);
         let half = R::splat(0.5 * grid.cell);
         let (mut closes, mut flat, mut vanishing, mut curved) = (0, 0, 0, 0);
-        let nothing = DyadSample { square: R::ZERO, rate: R::ZERO, side: R::ZERO };
+        self.folded = 0;
+        let nothing = DyadSample { square: R::ZERO, rate: R::ZERO, side: R::ZERO, flat: R::ONE };
         let mut last = nothing;
         for group in 0..grid.groups.min(G) {
             let first = group * R::LANES;
-            let DyadSample { square, rate, side } = state.sample(group, cx, dyad, op);
+            let sample = state.sample(group, cx, dyad, op);
+            let DyadSample { square, rate, side, flat: folded } = sample;
             for (all, own) in [(&mut self.square, square), (&mut self.rate, rate)] {
                 for (lane, stored) in all[BEFORE + first..][..R::LANES].iter_mut().enumerate() {
                     *stored = own.lane(lane);
                 }
             }
             closes |= R::ZERO.lt(square).bits() << first;
+            self.folded |= R::ZERO.lt(folded).bits() << first;
             flat |= R::splat(FLAT_SQUARE).lt(square.abs()).not().bits() << first;
             if settled {
                 continue;
@@ -138,7 +148,7 @@ impl DyadSamples {
             let same_side = R::ZERO.lt(side * side_before);
             vanishing |= touches.or(same_side.not()).bits() << first;
             curved |= straight.not().bits() << first;
-            last = DyadSample { square, rate, side };
+            last = sample;
         }
         let count = grid.groups * R::LANES;
         let own = Bits::MAX >> (Bits::BITS as usize - count);
@@ -157,7 +167,10 @@ impl DyadSamples {
             flags.uncertain = vanishing & inside;
         }
         if outside != 0 && (grid.islands || !settled) {
-            let may_close = self.may_close::<R>(count, grid.cell, settled) & outside;
+            // Between stretched and folded it closes.
+            let other_way = self.folded ^ self.folded << 1;
+            let may_close = self.may_close::<R>(count, grid.cell, settled);
+            let may_close = (may_close | other_way) & outside;
             if !settled {
                 flags.uncertain |= may_close;
             }
@@ -191,6 +204,8 @@ impl DyadSamples {
                 rise = R::select(rise.lt(start), start, rise);
                 fall = R::select(fall.lt(-end), -end, fall);
             }
+            // What is unknown may be anything.
+            let unknown = start.finite().and(end.finite()).not();
             let both = R::ZERO.lt(rise).and(R::ZERO.lt(fall));
             let mut may_close = both.and((-from).lt(falls * rise)).and((-to).lt(falls * fall));
             let at = (to - from - end) / (start - end);
@@ -201,6 +216,8 @@ impl DyadSamples {
             let below = (peak + R::splat(MAX_PEAKS) * (peak - top)).lt(R::ZERO);
             if settled {
                 may_close = may_close.and(is_peak.and(between).and(below).not());
+            } else {
+                may_close = may_close.or(unknown);
             }
             cells |= may_close.bits() << first;
         }

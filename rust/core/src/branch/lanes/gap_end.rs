@@ -91,7 +91,12 @@ impl GapEnd {
         if self.is_start { self.knot - 1 } else { self.knot }
     }
 
-    /// Distance from that knot, as a fraction of the cell.
+    /// The neighbouring knot that cannot.
+    fn far(&self) -> usize {
+        if self.is_start { self.knot } else { self.knot - 1 }
+    }
+
+    /// Distance from the reachable knot, as a fraction of the cell.
     fn distance(&self) -> f64 {
         if self.is_start { self.root } else { 1.0 - self.root }
     }
@@ -129,19 +134,22 @@ impl GapEnd {
     /// and show that no later dyad opens before it.
     pub(in crate::branch) fn is_as_predicted(
         &self,
-        squares: &[[[f64; LANES]; 2]],
+        samples: &[[[f64; LANES]; 3]],
         open: u32,
         scan: &ScanView<'_>,
         first: usize,
     ) -> bool {
         let [inside, outside] = self.lanes(first);
         let known = self.known();
-        for (index, [squares, rates]) in squares.iter().enumerate().skip(self.dyad) {
+        for (index, [squares, rates, flats]) in samples.iter().enumerate().skip(self.dyad) {
             let [square, rate] = [squares[inside], rates[inside]];
             if index == self.dyad {
-                let apart = (rate * scan.cell - self.slope).abs();
                 let is_there = square > 0.0 && squares[outside] < 0.0;
-                if !(is_there && apart <= MAX_APART * self.slope.abs()) {
+                // The same slope beyond: the gap is not about to end.
+                let apart = [rate, rates[outside]].map(|r| (r * scan.cell - self.slope).abs());
+                let is_steady = apart.iter().all(|apart| *apart <= MAX_APART * self.slope.abs());
+                let other_way = (flats[outside] > 0.0) != has(scan.dyads[index].folded, self.far());
+                if !(is_there && is_steady) || other_way {
                     return false;
                 }
                 continue;

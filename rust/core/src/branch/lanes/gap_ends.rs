@@ -19,8 +19,8 @@ const MAX_ENDS: usize = LANES / 2;
 #[derive(Debug, Default)]
 pub(in crate::branch) struct GapEnds {
     ends: Vec<GapEnd>,
-    /// For every dyad, the squares and their rates at these positions.
-    squares: Vec<[[f64; LANES]; 2]>,
+    /// For every dyad, its squares, their rates and [`DyadSample::flat`] at these positions.
+    samples: Vec<[[f64; LANES]; 3]>,
     /// For every requested class, the angles at these positions.
     angles: Vec<[f64; LANES]>,
     /// A bit for each position that does not close.
@@ -103,7 +103,7 @@ impl GapEnds {
         }
         self.solve::<L, G>(cx, knots, scan);
         for (index, end) in self.ends.iter_mut().enumerate() {
-            end.is_confirmed = end.is_as_predicted(&self.squares, self.open, scan, 2 * index);
+            end.is_confirmed = end.is_as_predicted(&self.samples, self.open, scan, 2 * index);
         }
         self.angles.resize(classes.len(), [0.0; LANES]);
         for (angles, &class) in self.angles.iter_mut().zip(classes) {
@@ -139,14 +139,15 @@ impl GapEnds {
         }
         knots.set_at(&at);
         knots.solve_carefully::<L>(cx);
-        self.squares.resize(scan.dyads.len(), [[0.0; LANES]; 2]);
-        let of_dyads = cx.plan.dyads().zip(&cx.tape.dyads).zip(&mut self.squares);
-        for ((dyad, &op), [squares, rates]) in of_dyads {
+        self.samples.resize(scan.dyads.len(), [[0.0; LANES]; 3]);
+        let of_dyads = cx.plan.dyads().zip(&cx.tape.dyads).zip(&mut self.samples);
+        for ((dyad, &op), [squares, rates, flats]) in of_dyads {
             for group in 0..LANES / L::Register::LANES {
                 let sample = knots.state.sample(group, cx, dyad, &cx.tape.ops[op]);
                 for lane in 0..L::Register::LANES {
                     squares[group * L::Register::LANES + lane] = sample.square.lane(lane);
                     rates[group * L::Register::LANES + lane] = sample.rate.lane(lane);
+                    flats[group * L::Register::LANES + lane] = sample.flat.lane(lane);
                 }
             }
         }

@@ -5,7 +5,7 @@
 //! its own, and so on. Designs that may have a change point, or angles that cannot be unwrapped in
 //! this way, are left to [`super::super::tracer`].
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use super::cell_test::has;
 use super::gap_end::ScanView;
@@ -14,9 +14,9 @@ use super::grid::KNOTS;
 use super::scan::Scan;
 use super::uniform::UniformTracer;
 use crate::branch::branch::Branch;
-use crate::math::angle::{unwrap_to, whole_turns};
+use crate::math::angle::{is_about_half, unwrap_to, whole_turns};
 use crate::math::lanes::Real;
-use crate::math::tolerance::{GAP_MAX_TURN, KNOT_MAX_TURN};
+use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
@@ -30,9 +30,8 @@ const LEVELS: usize = 5;
 /// Levels at which dead points are scanned: down to the 3 000th part of a cell. Angles at the knot
 /// beyond, where the dyad is computed as flat, are those at the dead point to about this accuracy.
 const DEAD_POINT_LEVELS: usize = 3;
-/// How far (rad) an angle may step across a gap whose ends are known from scans alone: not so nearly
-/// half a turn that their errors decide which way it goes.
-const MAX_KNOWN_STEP: f64 = PI - 0.0625;
+/// How far (rad) an angle may be from that at a dead point, if it is not defined beyond.
+const UNDEFINED: f64 = 0.03125;
 /// Most scans of one design.
 const MAX_SCANS: usize = 256;
 /// Levels at which islands are searched for: down to the 200th part of a cell.
@@ -52,9 +51,14 @@ pub(crate) struct LaneTracer {
     next: Vec<f64>,
     was_reached: bool,
     pub(in crate::branch) ends: GapEnds,
-    /// Whether an angle steps by about half a turn across a gap with one of `ends`.
-    is_ambiguous: bool,
-    /// Whether it does so across any gap, so nearly that ends have to be known to rounding.
+    /// How far each angle turns between the last knot that can be reached and the next.
+    into_gap: Vec<f64>,
+    /// The same at the first position that can be reached.
+    into_first: Vec<f64>,
+    /// Levels at which dead points are scanned.
+    dead_point_levels: usize,
+    /// Whether an angle steps so nearly by half a turn across a gap that what it turns between the knots
+    /// beside the gap's ends decides which way is the shorter.
     is_tie: bool,
 }
 
@@ -79,12 +83,19 @@ impl LaneTracer {
         if !classes.is_empty() {
             self.find_ends::<L, G>(cx, knots, classes);
         }
+        self.dead_point_levels = DEAD_POINT_LEVELS;
         loop {
             let traced = self.follow_knots::<L, G>(cx, knots, classes, start, settled, branch);
-            if !self.is_ambiguous {
-                return traced && !self.is_tie;
+            if !(traced && self.is_tie) {
+                return traced;
             }
-            self.ends.clear();
+            if !self.ends.is_empty() {
+                self.ends.clear();
+            } else if self.dead_point_levels < LEVELS {
+                self.dead_point_levels = LEVELS;
+            } else {
+                return false;
+            }
             self.scans[0].next = 1;
         }
     }
@@ -144,7 +155,10 @@ impl LaneTracer {
         self.last.clear();
         self.last.extend(classes.iter().map(|&class| start[class]));
         self.first.clear();
-        (self.is_ambiguous, self.is_tie) = (false, false);
+        self.into_first.clear();
+        self.into_gap.clear();
+        self.into_gap.resize(classes.len(), 0.0);
+        self.is_tie = false;
         if !classes.is_empty() {
             self.push(0, 0, classes, branch);
         }
@@ -210,7 +224,8 @@ impl LaneTracer {
         for (index, &class) in classes.iter().enumerate().take(self.first.len()) {
             let [a, b] = [self.first[index], self.last[index]];
             branch.gain[class] = TAU * whole_turns(b - a);
-            self.judge_step((a + branch.gain[class]) - b);
+            let slack = self.into_gap[index] + self.into_first[index];
+            self.is_tie |= is_about_half((a + branch.gain[class]) - b, slack);
         }
         if !classes.is_empty() {
             branch.period = Some(TAU);
@@ -231,7 +246,7 @@ impl LaneTracer {
         }
         if has(scan.dead_point, knot) {
             return Some(if angles {
-                level < DEAD_POINT_LEVELS || !scan.is_definite(knot)
+                level < self.dead_point_levels || !scan.is_definite(knot)
             } else {
                 !scan.stays_away(knot)
             });
@@ -252,13 +267,6 @@ impl LaneTracer {
             fast |= turned.abs() > KNOT_MAX_TURN || rate * scan.cell.abs() > KNOT_MAX_TURN;
         }
         Some(fast)
-    }
-
-    /// Whether a step across a gap leaves open which way is the shorter.
-    #[inline(always)]
-    fn judge_step(&mut self, step: f64) {
-        self.is_ambiguous |= !self.ends.is_empty() && step.abs() > GAP_MAX_TURN;
-        self.is_tie |= step.abs() > MAX_KNOWN_STEP;
     }
 
     /// Adds a knot of a scan to the branch.
@@ -288,10 +296,20 @@ impl LaneTracer {
             if !is_first && !was_reached && reached {
                 // Through the dead point between both knots.
                 follow(&mut last, self.principal[index]);
-                self.judge_step(last - self.last[index]);
+                let beyond = turn_between(self.principal[index], next);
+                self.is_tie |=
+                    is_about_half(last - self.last[index], self.into_gap[index] + beyond);
+                if !has_first {
+                    self.into_first.push(beyond);
+                }
+            } else if reached && !has_first {
+                self.into_first.push(0.0);
             }
             if reached && !has_first {
                 self.first.push(if is_first { unwrap_to(next, last) } else { last });
+            }
+            if was_reached && !reached {
+                self.into_gap[index] = turn_between(last, next);
             }
             if reached || was_reached {
                 follow(&mut last, next);
@@ -310,6 +328,12 @@ fn follow(last: &mut f64, next: f64) {
     if next.is_finite() {
         *last = unwrap_to(next, *last);
     }
+}
+
+/// How far an angle turns between two knots beside a dead point.
+#[inline(always)]
+fn turn_between(a: f64, b: f64) -> f64 {
+    if a.is_finite() && b.is_finite() { (unwrap_to(b, a) - a).abs() } else { UNDEFINED }
 }
 
 impl<R: Real, const G: usize> UniformTracer<R, G> {

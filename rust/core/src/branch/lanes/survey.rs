@@ -5,8 +5,8 @@ use super::gap_end::ScanView;
 use super::gap_ends::GapEnds;
 use super::lane_tracer::LaneTracer;
 use super::uniform::{UniformTracer, reference_of};
-use crate::math::angle::{Reference, unwrap_to};
-use crate::math::tolerance::{GAP_MAX_TURN, KNOT_MAX_TURN};
+use crate::math::angle::{Reference, is_about_half, unwrap_to};
+use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
@@ -55,7 +55,7 @@ impl GapEnds {
         let (angles, rates) = (&scan.angles[class], &scan.rates[class]);
         // The angle just outside the last end passed. A gap may already be open at the first knot.
         let begins_open = !has(scan.reached, 0);
-        let mut outside = start;
+        let (mut outside, mut slack) = (start, 0.0);
         let mut near = if begins_open { None } else { Some(unwrap_to(angles[0], start)) };
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         let mut first_outside = None;
@@ -64,16 +64,17 @@ impl GapEnds {
             let [inside, beyond] = beside.map(|angle| unwrap_to(angle, near));
             let known = unwrap_to(angles[end.known()], near);
             let steps = [inside - known, beyond - known];
-            let steps_far = !end.is_start && (beyond - outside).abs() > GAP_MAX_TURN;
+            let own = (beyond - inside).abs();
+            let steps_far = !end.is_start && is_about_half(beyond - outside, slack + own);
             if steps_far || !end.is_followed(scan, steps, rates) {
                 return None;
             }
             range = [range[0].min(inside), range[1].max(inside)];
-            outside = beyond;
-            first_outside.get_or_insert(beyond);
+            (outside, slack) = (beyond, own);
+            first_outside.get_or_insert((beyond, own));
         }
-        let wraps_far = begins_open
-            && first_outside.is_some_and(|first| (outside - first).abs() > GAP_MAX_TURN);
+        let wraps = |(first, own): (f64, f64)| is_about_half(outside - first, slack + own);
+        let wraps_far = begins_open && first_outside.is_some_and(wraps);
         if wraps_far { None } else { near.map(|near| (near, range)) }
     }
 }

@@ -249,7 +249,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         let mut lines = 0;
         let mut suspect = self.not_closed(group);
         for (index, dyad) in cx.plan.dyads().enumerate() {
-            let DyadSample { square, rate, side } =
+            let DyadSample { square, rate, side, .. } =
                 state.sample(group, cx, dyad, &cx.tape.ops[cx.tape.dyads[index]]);
             match dyad.sign {
                 Some(sign) => {

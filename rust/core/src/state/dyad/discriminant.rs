@@ -44,20 +44,21 @@ impl<R: Real, const G: usize> State<R, G> {
         let inv_size = R::ONE / size;
         (value * inv_size, rate * inv_size)
     }
+
+    /// Its sign tells which way a dyad that does not close is flat: with legs folded or stretched, on one
+    /// side of its guide or the other. Between two positions at which it differs the dyad closes
+    /// somewhere.
+    #[inline(always)]
+    pub(crate) fn flat_side(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> R {
+        let a = self.leg_vector(g, cx, dyad, 0, 0);
+        match dyad.form {
+            Form::TwoCircles => a.dot(self.leg_vector(g, cx, dyad, 1, 0)),
+            _ => self.slide_direction(g, cx, dyad, 1, 0).cross(a),
+        }
+    }
 }
 
 impl State {
-    /// Which way a dyad that does not close is flat: with legs stretched or folded, on one side of its
-    /// guide or the other. Between two positions at which it differs the dyad closes somewhere.
-    pub(crate) fn flat_side(&self, cx: &Context<'_>, dyad: &Dyad) -> bool {
-        let a = self.leg_vector(0, cx, dyad, 0, 0);
-        let cosine = match dyad.form {
-            Form::TwoCircles => a.dot(self.leg_vector(0, cx, dyad, 1, 0)),
-            _ => self.slide_direction(0, cx, dyad, 1, 0).cross(a),
-        };
-        cosine > 0.0
-    }
-
     /// Ratio of a dyad's greatest length or coordinate to its shortest leg: the factor from
     /// rounding to an error of the discriminant.
     pub(crate) fn length_ratio(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {

@@ -17,6 +17,8 @@ pub(crate) struct DyadSample<R> {
     pub rate: R,
     /// Determinant of the directions of two guides; 1 for any other dyad.
     pub side: R,
+    /// Its sign tells which way the dyad is flat where it does not close; see [`State::flat_side`].
+    pub flat: R,
 }
 
 impl<R: Real, const G: usize> State<R, G> {
@@ -30,7 +32,12 @@ impl<R: Real, const G: usize> State<R, G> {
             Op::TurningGuide(op) => self.sample_turning_guide(g, cx, op),
             Op::StandingGuides(op) => {
                 let [a, b] = cx.constants.dyads[op.dyad].guides;
-                DyadSample { square: R::ONE, rate: R::ZERO, side: R::splat(a.cross(b)) }
+                DyadSample {
+                    square: R::ONE,
+                    rate: R::ZERO,
+                    side: R::splat(a.cross(b)),
+                    flat: R::ONE,
+                }
             }
             _ => self.sample_solved(g, cx, dyad),
         }
@@ -49,11 +56,12 @@ impl<R: Real, const G: usize> State<R, G> {
                 square,
                 rate: R::select(closes, rate, R::splat(f64::NAN)),
                 side: R::ONE,
+                flat: self.flat_side(g, cx, dyad),
             };
         }
         let two_lines = dyad.form == Form::TwoLines;
         let side = if two_lines { self.determinant(g, cx, dyad) } else { R::ONE };
-        DyadSample { square: R::select(closes, R::ONE, margin), rate: R::ZERO, side }
+        DyadSample { square: R::select(closes, R::ONE, margin), rate: R::ZERO, side, flat: R::ONE }
     }
 
     /// Value and first analogue of the vector from the start of a dyad to its end.
@@ -74,7 +82,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let [k, dk] = self.chord(g, op);
         let cos = (R::splat(a.norm2 + b.norm2) - k.norm2()) * R::splat(0.5 * per);
         let rate = (cos * k.dot(dk)) * R::splat(2.0 * per);
-        DyadSample { square: (R::ONE - cos) * (R::ONE + cos), rate, side: R::ONE }
+        DyadSample { square: (R::ONE - cos) * (R::ONE + cos), rate, side: R::ONE, flat: cos }
     }
 
     /// The cosine of the angle between leg and guide, from its sine.
@@ -86,7 +94,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let [k, dk] = self.chord(g, op);
         let sin = guide.cross(k - Vector::splat(own.offset)) * per;
         let rate = R::splat(-2.0) * (sin * (guide.cross(dk) * per));
-        DyadSample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE }
+        DyadSample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE, flat: sin }
     }
 
     /// Value and first analogue of the guide's direction, and of the chord to where it starts.
@@ -107,7 +115,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let [[guide, k], [turning, dk]] = self.moving_guide_chord(g, cx, op);
         let sin = guide.cross(k) * per;
         let rate = R::splat(-2.0) * (sin * ((turning.cross(k) + guide.cross(dk)) * per));
-        DyadSample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE }
+        DyadSample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE, flat: sin }
     }
 
     /// The part of the chord along the guide.
@@ -119,6 +127,7 @@ impl<R: Real, const G: usize> State<R, G> {
             square: k.norm2() - R::splat(across * across),
             rate: R::splat(2.0) * k.dot(dk),
             side: R::ONE,
+            flat: R::ONE,
         }
     }
 }
