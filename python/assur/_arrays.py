@@ -36,6 +36,8 @@ def real_array(value: Any, what: str, copy: bool = True) -> Float:
 
     Raises InputError for masked entries, text, times, records and complex numbers.
     """
+    if type(value) is float:
+        return np.array(value)
     try:
         masked = _is_masked(value)
     except RecursionError as error:

@@ -14,7 +14,7 @@ from assur.dynamics.values import Function
 from assur.events import AngleLimit, Crossing, Position, Rest, Speed
 from assur.flywheel import Mean, Spline
 from assur.flywheel.sizing import Task
-from assur.kinematics.request import Buffers
+from assur.kinematics.held import Buffers
 from assur.sweeps.specs import Spec
 
 __all__ = [
@@ -191,7 +191,7 @@ class Mechanism:
         dimension: int | None,
         report: list[int] | None,
         known_signs: KnownSigns | None = None,
-    ) -> tuple[dict[tuple[str, int, int], _Float], npt.NDArray[np.uint8], Any]: ...
+    ) -> tuple[list[_Float], npt.NDArray[np.uint8], Any]: ...
     def measure(
         self,
         dimensions: _Float,

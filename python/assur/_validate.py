@@ -100,6 +100,8 @@ def whole_number(
 
 def checked_order(order: Any) -> int:
     """Return an order of analogues, 0 to 3."""
+    if type(order) is int and 0 <= order <= 3:
+        return order
     return whole_number(order, "order", 0, 3, needed="0, 1, 2 or 3")
 
 

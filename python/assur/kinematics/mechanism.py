@@ -78,6 +78,7 @@ class Mechanism:
         "_joints",
         "_known_signs",
         "_names",
+        "_signs",
         "_structure",
         "_values",
     )
@@ -89,6 +90,8 @@ class Mechanism:
     _values: Float
     _structure: Structure | None
     _joints: MappingProxyType[str, Any] | None
+    # Of all dyads, in the drawing; not to be modified.
+    _signs: list[int]
     # Indices of joints, links and slides by name.
     _names: tuple[dict[str, int], dict[str, int], dict[str, int]] | None
 
@@ -114,32 +117,46 @@ class Mechanism:
         )
         self._initialise(description, None)
 
-    def _initialise(
-        self, description: Description, values: Float | None, core: Core | None = None
-    ) -> None:
-        core = core or encode.core_of(description)
-        # Takes over the caller's array without a copy: a batch may be large.
-        given = core.drawing if values is None else values
-        array = np.asarray(given, dtype=np.float64, order="C")
-        array.flags.writeable = False
-        for name, value in (
-            ("_core", core),
-            ("_description", description),
-            ("_values", array),
-            ("_known_signs", KnownSigns(math.prod(array.shape[1:]))),
-            ("_structure", None),
-            ("_joints", None),
-            ("_names", None),
-        ):
+    def _initialise(self, description: Description, values: Float | None) -> None:
+        core = encode.core_of(description)
+        self._set(
+            _core=core,
+            _description=description,
+            _structure=None,
+            _joints=None,
+            _names=None,
+            _signs=[sign for _, sign in core.assembly],
+        )
+        self._set_values(np.array(core.drawing) if values is None else values)
+
+    def _set(self, **attributes: object) -> None:
+        for name, value in attributes.items():
             object.__setattr__(self, name, value)
 
+    def _set_values(self, values: Float) -> None:
+        # Takes over the caller's array without a copy: a batch may be large.
+        array = np.asarray(values, dtype=np.float64, order="C")
+        array.flags.writeable = False
+        self._set(_values=array, _known_signs=KnownSigns(math.prod(array.shape[1:])))
+
     @classmethod
-    def _make(
-        cls, description: Description, values: Float | None, core: Core | None = None
-    ) -> Mechanism:
+    def _make(cls, description: Description, values: Float | None) -> Mechanism:
         mechanism = object.__new__(Mechanism)
-        mechanism._initialise(description, values, core)
+        mechanism._initialise(description, values)
         return mechanism
+
+    def _with_values(self, values: Float) -> Mechanism:
+        """Return the mechanism with other values of its dimensions; the rest is shared."""
+        other = object.__new__(Mechanism)
+        other._share(self, values)
+        return other
+
+    def _share(self, other: Mechanism, values: Float) -> None:
+        """Become the other mechanism with other values of its dimensions."""
+        for name in ("_core", "_description", "_structure", "_names", "_signs"):
+            object.__setattr__(self, name, getattr(other, name))
+        self._set(_joints=None)
+        self._set_values(values)
 
     def __setattr__(self, name: str, value: object) -> None:
         message = f"Mechanism is immutable ({name!r}): use with_dimensions() or with_driver()"
@@ -350,7 +367,7 @@ class Mechanism:
             values[index] = replaced.get(index, old)
         if not shape:
             self._core.check_dimensions(values.tolist())
-        return self._make(self._description, values, self._core)
+        return self._with_values(values)
 
     def with_driver(
         self,
@@ -383,7 +400,7 @@ class Mechanism:
         entry = checked_index(index, self.shape, "design")
         values = np.array(np.moveaxis(self._values, 0, -1)[entry])
         self._core.check_dimensions(values.tolist())
-        return self._make(self._description, values, self._core)
+        return self._with_values(values)
 
     # -- moving -------------------------------------------------------------
 

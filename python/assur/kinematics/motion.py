@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from assur._arrays import Float
-    from assur.kinematics.request import Results, SolveRequest
+    from assur.kinematics.held import Results
+    from assur.kinematics.request import SolveRequest
 
 __all__ = ["Motion"]
 
@@ -82,7 +82,7 @@ class Motion:
 
     def __getstate__(self) -> dict[str, Any]:
         # A copy has no buffers: only the original may be overwritten.
-        return {**self.__dict__, "_stored": replace(self._results, buffers=None)}
+        return {**self.__dict__, "_stored": self._results.without_buffers(copy=False)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
@@ -98,7 +98,11 @@ class Motion:
         own = Motion.__new__(Motion)
         state = self.__getstate__()
         own.__setstate__(
-            {**state, "_stored": self._results.copied(), "_status": self.status.copy()}
+            {
+                **state,
+                "_stored": self._results.without_buffers(copy=True),
+                "_status": self.status.copy(),
+            }
         )
         return own
 

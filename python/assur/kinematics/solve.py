@@ -11,11 +11,12 @@ from assur._arrays import short
 from assur._validate import checked_order, checked_signs, checked_threads, one_of, real_array
 from assur.errors import InputError
 from assur.kinematics.motion import Motion
-from assur.kinematics.request import Buffers, SolveRequest
+from assur.kinematics.request import SolveRequest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from assur.kinematics.held import Buffers
     from assur.kinematics.mechanism import Mechanism
 
 Float: TypeAlias = npt.NDArray[np.float64]
@@ -38,15 +39,11 @@ def solve(
     order = checked_order(order)
     coordinates, positions, per_design = _coordinates(mechanism, q)
     coordinates.flags.writeable = False
+    own_signs = assembly is None
+    signs = mechanism._signs if own_signs else checked_assembly(mechanism, assembly)
+    threads = checked_threads(threads)
     request = SolveRequest(
-        mechanism=mechanism,
-        q=coordinates,
-        positions=positions,
-        per_design=per_design,
-        order=order,
-        signs=checked_assembly(mechanism, assembly),
-        own_signs=assembly is None,
-        threads=checked_threads(threads),
+        mechanism, coordinates, positions, per_design, order, signs, own_signs, threads
     )
     wanted = _outputs(mechanism, outputs)
     report = on_error == "raise"
@@ -107,6 +104,8 @@ def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[i
 
 def checked_assembly(mechanism: Mechanism, assembly: Mapping[str, int] | None) -> list[int]:
     """Return the signs of all dyads, of the drawing where the assembly says nothing."""
+    if assembly is None:
+        return mechanism._signs
     signs = dict(mechanism._core.assembly)
     for name, sign in checked_signs(assembly):
         if name not in signs:
@@ -128,13 +127,21 @@ def _outputs(mechanism: Mechanism, names: Iterable[str] | None) -> Names:
     except TypeError as error:
         message = f"outputs is {short(names)}: a list of names is needed"
         raise InputError(message) from error
+    chosen: Names = ({}, {}, {})
     for name in wanted:
-        if not isinstance(name, str) or not (name in joints or name in links or name in slides):
+        is_known = False
+        if isinstance(name, str):
+            if name in joints:
+                chosen[0][name] = joints[name]
+                is_known = True
+            if name in links:
+                chosen[1][name] = links[name]
+                is_known = True
+            if name in slides:
+                chosen[2][name] = slides[name]
+                is_known = True
+        if not is_known:
             known = ", ".join(repr(n) for n in (*joints, *links, *slides))
             message = f"outputs: nothing is called {name!r}; there are {known}"
             raise InputError(message)
-    return (
-        {n: joints[n] for n in wanted if n in joints},
-        {n: links[n] for n in wanted if n in links},
-        {n: slides[n] for n in wanted if n in slides},
-    )
+    return chosen

@@ -165,7 +165,7 @@ def _drawn(joints: Mapping[str, Sequence[float]]) -> Mechanism:
 
 
 def _copy_from(mechanism: Mechanism, made: Mechanism) -> None:
-    mechanism._initialise(made._description, made._values, made._core)
+    mechanism._share(made, made._values)
 
 
 def _require_names(given: Any, names: Iterable[str], what: str) -> None:

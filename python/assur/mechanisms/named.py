@@ -108,4 +108,4 @@ def _copy_from(mechanism: Mechanism, drawing: Any, dimensions: dict[str, npt.Arr
     # The drawing has fixed lengths, so that neither the assembly nor q0 depends on the dimensions
     # (or on other designs of a batch).
     sized = from_drawing(drawing).with_dimensions(dimensions)
-    mechanism._initialise(sized._description, sized._values, sized._core)
+    mechanism._share(sized, sized._values)

@@ -66,7 +66,7 @@ class Designs:
         values = memory[: size * count].reshape(size, count)
         for row, column in zip(values, self._columns, strict=True):
             row[:] = column[places] if np.ndim(column) else column
-        return self.mechanism._make(self.mechanism._description, values, self.mechanism._core)
+        return self.mechanism._with_values(values)
 
     @property
     def size(self) -> int:
@@ -78,7 +78,7 @@ class Designs:
         values = np.empty((len(self._columns), *self.shape))
         for index, column in enumerate(self._columns):
             values[index] = column
-        return self.mechanism._make(self.mechanism._description, values, self.mechanism._core)
+        return self.mechanism._with_values(values)
 
     def values(self, name: str) -> Float:
         """Return a dimension that the sweep changes, of all designs in C order."""

@@ -126,7 +126,7 @@ class Measuring:
         size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q))
         for first in range(0, len(indices), size):
             few = indices[first : first + size]
-            batch = some._make(some._description, some._values[:, few], some._core)
+            batch = some._with_values(some._values[:, few])
             motion = batch.solve(
                 self.q, function.order, function.outputs, self.assembly, "nan", self.threads
             )

@@ -11,9 +11,8 @@ import numpy.typing as npt
 
 from assur.description.words import Status
 from assur.kinematics import solve as solver
-from assur.kinematics.held import Held
+from assur.kinematics.held import Buffers, Results
 from assur.kinematics.motion import Motion
-from assur.kinematics.request import Buffers, Results
 from assur.sweeps.engine import results
 from assur.sweeps.measuring import blocks
 
@@ -150,18 +149,9 @@ def _whole(first: Motion, every: Mechanism, course: Course, out: Motion | None) 
         buffers = Buffers(columns, np.empty(len(status) // designs * count, dtype=np.uint8))
     else:
         buffers = solver._buffers(out, request, wanted)
-    flat = dict(zip(first._stored.joints._flat, buffers.columns, strict=True))  # type: ignore[attr-defined]
-
-    def held(kind: str, indices: dict[str, int], tail: tuple[int, ...]) -> Held:
-        shape = (*request.shape, *tail)
-        return Held(kind, indices, flat, shape, first._drivers, first.order)
-
-    of = ("joint", "link", "slide")
-    tails: tuple[tuple[int, ...], ...] = ((2,), (), ())
-    joints, links, slides = map(held, of, wanted, tails)
     status = buffers.status.reshape(request.shape)
     status.flags.writeable = False
-    whole = Results(joints=joints, links=links, slides=slides, buffers=buffers)
+    whole = Results(request.layout(*wanted), buffers)
     if out is None:
         return Motion(request, whole, status)
     out._replace_with(request, whole, status)
@@ -175,6 +165,6 @@ def _rows(column: npt.NDArray[Number], block: slice, count: int) -> npt.NDArray[
 
 
 def _arrays(motion: Motion) -> Arrays:
-    buffers = motion._stored.buffers
-    assert buffers is not None
-    return buffers.columns, buffers.status
+    stored = motion._stored
+    assert stored.buffers is not None
+    return stored.columns(), stored.buffers.status

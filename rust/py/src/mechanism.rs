@@ -6,13 +6,12 @@ use std::sync::Mutex;
 use std::sync::atomic::Ordering;
 
 use assur::{
-    Arrays, Control, Coordinates, Description, FailureLog, Named, Outputs, Quantity, Request,
+    Arrays, Column, Control, Coordinates, Description, FailureLog, Named, Outputs, Request,
     SolveError, Status, fill,
 };
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 use crate::convert::description::{Driver, Slide};
 use crate::convert::metric::MetricSpec;
@@ -30,13 +29,16 @@ const FEW_POSITIONS: usize = 100_000;
 const FEW_SIGNS: usize = 12;
 /// Links below which building a mechanism need not check for signals.
 const FEW_LINKS: usize = 64;
+/// Bytes below which a result is one array: making many takes longer than solving.
+const SMALL_RESULT: usize = 64 << 10;
 /// Number of positions that take as long as tracing one branch from the drawing.
 const POSITIONS_PER_BRANCH: usize = 1000;
 /// Positions to diagnose between two checks for cancellation; fewer with several drivers.
 const POSITIONS_PER_CHECK: usize = 8192;
 
-/// Arrays by kind ("joint", "link", "place", "slide"), index and order; statuses.
-type Solution<'py> = (Bound<'py, PyDict>, Bound<'py, PyArray1<u8>>, Option<Py<PyBaseException>>);
+/// An array for each column, or one for all of a small result; statuses; the first failure.
+type Solution<'py> =
+    (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>, Option<Py<PyBaseException>>);
 /// Residuals and conditions.
 type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
@@ -182,7 +184,7 @@ impl Mechanism {
 
     /// Solves designs at positions; see `assur.Mechanism.solve`. `outputs`: indices of joints,
     /// links (angles), links (reference points) and slides. `buffers`: the arrays of an earlier result
-    /// (`columns`, `status`) to overwrite; its `complete` is false meanwhile. `dimension`: the
+    /// (`arrays`, `status`) to overwrite; its `complete` is false meanwhile. `dimension`: the
     /// dimension to differentiate by. `report`: the shape of the designs, for the exception of the
     /// first position that failed. `known_signs`: valid for these dimensions and signs.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
@@ -225,12 +227,19 @@ impl Mechanism {
         let count = designs.saturating_mul(positions);
         let (values, status): (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>) =
             if let Some(buffers) = &buffers {
-                (buffers.getattr("columns")?.extract()?, buffers.getattr("status")?.extract()?)
+                (buffers.getattr("arrays")?.extract()?, buffers.getattr("status")?.extract()?)
             } else {
                 let mut memory = Memory::for_a_call();
                 let status = memory.array::<u8>(py, count, 1)?;
-                let new = columns.iter().map(|column| memory.array::<f64>(py, count, column.width));
-                (new.collect::<PyResult<_>>()?, status)
+                let mut array = |width| memory.array::<f64>(py, count, width);
+                let width = columns.iter().map(|column| column.width).sum::<usize>();
+                let bytes = count.saturating_mul(width).saturating_mul(size_of::<f64>());
+                let values = if bytes < SMALL_RESULT {
+                    vec![array(width)?]
+                } else {
+                    columns.iter().map(|column| array(column.width)).collect::<PyResult<_>>()?
+                };
+                (values, status)
             };
         // Two calls cannot write the same arrays at once.
         let mut borrowed = Vec::new();
@@ -239,7 +248,7 @@ impl Mechanism {
         }
         let mut borrowed_status = status.try_readwrite().map_err(in_use)?;
         let arrays = Arrays {
-            columns: borrowed.iter_mut().map(as_uninitialized).collect::<PyResult<_>>()?,
+            columns: split(&mut borrowed, &columns, count)?,
             status: as_uninitialized(&mut borrowed_status)?,
         };
         request.check_arrays(&self.inner, &arrays).map_err(error_map::solve)?;
@@ -275,20 +284,10 @@ impl Mechanism {
             buffers.setattr("complete", true)?;
         }
         drop((borrowed, borrowed_status));
-        let dict = PyDict::new(py);
-        for (column, values) in columns.iter().zip(values) {
-            let (kind, index) = match column.quantity {
-                Quantity::Joint(index) => ("joint", index),
-                Quantity::Angle(index) => ("link", index),
-                Quantity::Origin(index) => ("origin", index),
-                Quantity::Slide(index) => ("slide", index),
-            };
-            dict.set_item((kind, index, column.order), values)?;
-        }
         let failure = report
             .zip(log.first())
             .map(|(shape, first)| error_map::first_failure(&first, &shape, count).into_value(py));
-        Ok((dict, status, failure))
+        Ok((values, status, failure))
     }
 
     /// Metrics of designs; see `assur.sweep`. `conditions`: metric, relation and limit.
@@ -395,6 +394,26 @@ pub(crate) const STATUSES: [(&str, Status); 8] = [
     ("BAD_DIMENSION", Status::BadDimension),
     ("BAD_INPUT", Status::BadInput),
 ];
+
+/// The columns in arrays of their own, or one after another in one array.
+fn split<'a>(
+    arrays: &'a mut [PyReadwriteArray1<'_, f64>],
+    columns: &[Column],
+    count: usize,
+) -> PyResult<Vec<&'a mut [MaybeUninit<f64>]>> {
+    let [one] = arrays else {
+        return arrays.iter_mut().map(as_uninitialized).collect();
+    };
+    let mut rest = as_uninitialized(one)?;
+    let mut parts = Vec::with_capacity(columns.len());
+    for column in columns {
+        // What is too short is refused with the sizes of all.
+        let (part, left) = rest.split_at_mut((count * column.width).min(rest.len()));
+        parts.push(part);
+        rest = left;
+    }
+    Ok(parts)
+}
 
 fn in_use(error: numpy::BorrowError) -> PyErr {
     error::input(&format!("out: another call is writing to its arrays ({error})"), None)
