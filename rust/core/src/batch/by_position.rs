@@ -70,8 +70,8 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         self.design.trace_knot_by_knot(job.q);
         self.depends_on_request = false;
         self.is_smooth = self.design.is_smooth(job.q);
+        // They are located again before the next block.
         self.space.locations.clear();
-        self.locate();
     }
 
     /// Sensitivities to a dimension, one position after another.

@@ -203,6 +203,9 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             if self.is_cancelled() {
                 return;
             }
+            if located && self.space.locations.is_empty() {
+                self.locate();
+            }
             let block = (count - row).min(size);
             if self.space.coordinates.by_position(row / size) {
                 self.solve_by_position(job, row, block);

@@ -75,9 +75,10 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             for group in 0..(KNOTS / R::LANES).min(G) {
                 let here = taylor.map(|knots| knots[group]);
                 let next = taylor.map(|knots| one_on(knots, group));
-                let has_next = |lane: usize| group * R::LANES + lane + 1 < KNOTS;
-                let failed = prediction_failed(&here, &next, CELL);
-                if (0..R::LANES).any(|lane| has_next(lane) && failed.lane(lane)) {
+                // The last knot has no next one.
+                let own = (KNOTS - 1 - group * R::LANES).min(R::LANES);
+                let failed = prediction_failed(&here, &next, CELL).bits() & ((1 << own) - 1);
+                if failed != 0 {
                     return false;
                 }
                 let polynomial = coefficients(here, next, CELL);
@@ -91,7 +92,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                         *out = c.lane(lane);
                     }
                     cell.unit = Vector::new(unit.x.lane(lane), unit.y.lane(lane));
-                    if !has_next(lane) {
+                    if lane >= own {
                         let [c0, c1, c2, ..] = cell.coefficients;
                         cell.coefficients = [c0, c1, c2, 0.0, 0.0, 0.0];
                     }
