@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from assur.dynamics import integrate, reactions, size_flywheel
+from assur.dynamics.along import motion_of
 from assur.dynamics.model import MachineModel
 
 if TYPE_CHECKING:
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from assur.dynamics.along import MotionLike
     from assur.dynamics.model import OnError
     from assur.dynamics.reactions import Reactions
     from assur.dynamics.run import Run
@@ -66,10 +68,11 @@ class Machine(MachineModel):
 
     def reactions(
         self,
-        q: npt.ArrayLike,
+        q: MotionLike,
         speed: npt.ArrayLike = 0.0,
         acceleration: npt.ArrayLike = 0.0,
         *,
+        t: npt.ArrayLike = 0.0,
         threads: int | None = None,
         on_error: OnError = "raise",
     ) -> Reactions:
@@ -77,12 +80,15 @@ class Machine(MachineModel):
 
         Parameters
         ----------
-        q : array_like
+        q : array_like, Run, SteadyState or State
             Coordinates, rad or m: a number, (N,) or, for a batch of shape S, S + (N,); for n
-            drivers (..., n).
+            drivers (..., n). Or a motion with its times, speeds and accelerations: a run or
+            steady state at the ends of its steps, or what its `at` returns.
         speed, acceleration : array_like
             Of the drivers, rad/s and rad/s² (slides: m/s and m/s²), broadcast to q. Zero by
             default: statics.
+        t : array_like
+            Times for functions among the loads, s, broadcast to the positions.
         threads : int, optional
             Largest number of threads; all cores by default.
         on_error : {"raise", "nan"}
@@ -106,8 +112,8 @@ class Machine(MachineModel):
         -----
         Every Assur group is statically determinate: its pair forces follow from its loads by the
         transposed matrix of its position, the last group first (I. I. Artobolevsky, *Theory of
-        Mechanisms and Machines* (1988), chapter 13). Functions of time among the loads are called
-        with t = 0. The torque of the machine's motor is not a load; the driver replaces it.
+        Mechanisms and Machines* (1988), chapter 13). The torque of the machine's
+        motor is not a load; the driver replaces it.
 
         Examples
         --------
@@ -125,21 +131,23 @@ class Machine(MachineModel):
         >>> found.joint("B", on="piston").round(4)
         array([ 800.    , -204.3016])
         """
-        return reactions.reactions(self, q, speed, acceleration, threads, on_error)
+        motion = motion_of(q, speed, acceleration, t)
+        return reactions.reactions(self, motion, threads, on_error)
 
     def effort(
         self,
-        q: npt.ArrayLike,
+        q: MotionLike,
         speed: npt.ArrayLike = 0.0,
         acceleration: npt.ArrayLike = 0.0,
         *,
+        t: npt.ArrayLike = 0.0,
         on_error: OnError = "raise",
     ) -> Any:
         """Return the torque or force of the drive, by virtual power alone.
 
         Parameters
         ----------
-        q, speed, acceleration : array_like
+        q, speed, acceleration, t
             See `reactions`.
         on_error : {"raise", "nan"}
             See `reactions`.
@@ -163,7 +171,7 @@ class Machine(MachineModel):
         >>> machine.effort([0.5, 1.5], speed=10.0).round(4)
         array([11.9002, -3.753 ])
         """
-        return reactions.effort(self, q, speed, acceleration, on_error)
+        return reactions.effort(self, motion_of(q, speed, acceleration, t), on_error)
 
     def flywheel(
         self,

@@ -247,6 +247,10 @@ class MachineModel:
         return self._reduce(q, None, on_error)[3][()]
 
     def _reduce(
-        self, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
+        self,
+        q: npt.ArrayLike,
+        speed: npt.ArrayLike | None,
+        on_error: str,
+        t: npt.ArrayLike = 0.0,
     ) -> tuple[Float, Float, Float, Float]:
-        return reduce.reduce(self, q, speed, on_error)
+        return reduce.reduce(self, q, speed, on_error, t)

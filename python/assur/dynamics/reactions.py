@@ -10,6 +10,7 @@ import numpy as np
 from assur._arrays import real_array, short
 from assur._validate import checked_threads, one_of
 from assur.description.words import Status
+from assur.dynamics.along import times
 from assur.dynamics.reduce import with_designs
 from assur.dynamics.values import function_values
 from assur.errors import InputError, MotionError
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
+    from assur.dynamics.along import DrivenMotion
     from assur.dynamics.model import MachineModel, OnError
     from assur.kinematics.mechanism import Mechanism
 
@@ -211,9 +213,7 @@ def _keys(mechanism: Mechanism) -> list[Key]:
 
 def reactions(
     machine: MachineModel,
-    q: npt.ArrayLike,
-    speed: npt.ArrayLike,
-    acceleration: npt.ArrayLike,
+    motion: DrivenMotion,
     threads: int | None,
     on_error: OnError,
 ) -> Reactions:
@@ -224,7 +224,7 @@ def reactions(
         raise InputError(message)
     one_of(on_error, ("raise", "nan"), "on_error")
     drivers, designs = machine._drivers, machine.shape
-    x, v, a, shape = broadcast_motion(machine, q, speed, acceleration)
+    x, v, a, shape = broadcast_motion(machine, motion)
     per_design = bool(designs) and x.ndim > (1 if drivers == 1 else 2)
     full = shape if drivers == 1 else (*shape, drivers)
     speeds, accelerations = (
@@ -233,7 +233,10 @@ def reactions(
     coordinates = np.ascontiguousarray(np.broadcast_to(x, full) if per_design else x).ravel()
     everywhere = np.ascontiguousarray(np.broadcast_to(x, full)).ravel()
     given = function_values(
-        machine._core.load_functions, everywhere.reshape(-1, drivers), speeds.reshape(-1, drivers)
+        machine._core.load_functions,
+        everywhere.reshape(-1, drivers),
+        speeds.reshape(-1, drivers),
+        times(motion.t, shape).ravel(),
     )
     keys = _keys(mechanism)
     arrays, status, failure = machine._core.reactions(
@@ -257,8 +260,8 @@ def reactions(
         two = key.kind in ("joint", "shaking force")
         array.flags.writeable = False
         found[key] = array.reshape((*shape, 2) if two else shape)
-    motion = tuple(np.broadcast_to(one, full) for one in (x, v, a))
-    return Reactions(mechanism, motion, found, status.reshape(shape))  # type: ignore[arg-type]
+    drivers_motion = tuple(np.broadcast_to(one, full) for one in (x, v, a))
+    return Reactions(mechanism, drivers_motion, found, status.reshape(shape))  # type: ignore[arg-type]
 
 
 def _require_finite(what: str, drives: Float, status: npt.NDArray[np.uint8], q: Float) -> None:
@@ -280,10 +283,11 @@ def _require_finite(what: str, drives: Float, status: npt.NDArray[np.uint8], q: 
 
 
 def broadcast_motion(
-    machine: MachineModel, q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike
+    machine: MachineModel, motion: DrivenMotion
 ) -> tuple[Float, Float, Float, tuple[int, ...]]:
     """Return coordinates, speeds, accelerations, and the shape of the positions of all designs."""
     n, designs = machine._drivers, machine.shape
+    q, speed, acceleration, _ = motion
     x = real_array(q, "q")
     v, a = real_array(speed, "speed"), real_array(acceleration, "acceleration")
     if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
@@ -311,20 +315,18 @@ def _broadcasts(values: Float, shape: tuple[int, ...]) -> bool:
 
 def effort(
     machine: MachineModel,
-    q: npt.ArrayLike,
-    speed: npt.ArrayLike,
-    acceleration: npt.ArrayLike,
+    motion: DrivenMotion,
     on_error: OnError,
 ) -> Any:
     """Return the effort of the drivers by virtual power; see `Machine.effort`."""
     n = machine._drivers
-    x, v, a, shape = broadcast_motion(machine, q, speed, acceleration)
+    x, v, a, shape = broadcast_motion(machine, motion)
     full = shape if n == 1 else (*shape, n)
     # A motor's rotor belongs to the drive.
     bare = machine
     if machine.motor is not None and machine.mechanism is not None:
         bare = type(machine)(machine.mechanism, machine.bodies, machine.loads)
-    inertia, rates, moment, _ = bare._reduce(x, v, on_error)
+    inertia, rates, moment, _ = bare._reduce(x, v, on_error, times(motion.t, shape))
     speeds = np.broadcast_to(v, full).reshape(*shape, n)
     accelerations = np.broadcast_to(a, full).reshape(*shape, n)
     out = -moment

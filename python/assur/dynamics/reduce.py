@@ -20,7 +20,11 @@ if TYPE_CHECKING:
 
 
 def reduce(
-    machine: MachineModel, q: npt.ArrayLike, speed: npt.ArrayLike | None, on_error: str
+    machine: MachineModel,
+    q: npt.ArrayLike,
+    speed: npt.ArrayLike | None,
+    on_error: str,
+    t: npt.ArrayLike = 0.0,
 ) -> tuple[Float, Float, Float, Float]:
     """Return mass matrices, their derivatives, moments and potential energies.
 
@@ -44,7 +48,8 @@ def reduce(
     given = np.empty(0)
     if speed is not None:
         functions = machine._core.load_functions
-        given = function_values(functions, flat.reshape(-1, n), speeds.reshape(-1, n))
+        at = np.broadcast_to(np.asarray(t), shape).ravel()
+        given = function_values(functions, flat.reshape(-1, n), speeds.reshape(-1, n), at)
     values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
     *arrays, status, failure = machine._core.reduce(
         values.reshape(-1), flat, speeds, given, None, list(designs)

@@ -32,19 +32,19 @@ def checked_value(value: Any, what: str = "the value of a load") -> Value:
     return real_number(value, what)
 
 
-def function_values(functions: list[Function], q: Float, speed: Float) -> Float:
-    """Evaluate functions at rows of coordinates and speeds, at t = 0."""
+def function_values(functions: list[Function], q: Float, speed: Float, t: Float) -> Float:
+    """Evaluate functions at rows of coordinates and speeds, at times."""
     if not functions:
         return np.empty(0)
     one = q.shape[1] == 1
-    rows = zip(q.tolist(), speed.tolist(), strict=True)
-    pairs = ((a[0], b[0]) if one else (tuple(a), tuple(b)) for a, b in rows)
-    table = [[_called(f, a, b) for f in functions] for a, b in pairs]
+    rows = zip(t.tolist(), q.tolist(), speed.tolist(), strict=True)
+    all_given = ((at, a[0], b[0]) if one else (at, tuple(a), tuple(b)) for at, a, b in rows)
+    table = [[_called(f, *given) for f in functions] for given in all_given]
     return np.array(table, np.float64).ravel()
 
 
-def _called(function: Function, q: Any, speed: Any) -> float:
-    value: Any = function(0.0, q, speed)
+def _called(function: Function, t: float, q: Any, speed: Any) -> float:
+    value: Any = function(t, q, speed)
     if type(value) is float:
         # NaN is reported later, with the coordinate.
         return value

@@ -1,0 +1,52 @@
+"""What reactions and efforts accept as a motion: numbers, a run, a steady state, a state."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from assur._arrays import finite_array
+from assur.dynamics.run import Run, State
+from assur.dynamics.steady import SteadyState
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+
+# Coordinates, or a motion that has been computed.
+MotionLike: TypeAlias = "npt.ArrayLike | Run | SteadyState | State"
+
+
+class DrivenMotion(NamedTuple):
+    """Coordinates, speeds and accelerations of the drivers, and times."""
+
+    q: Any
+    speed: Any
+    acceleration: Any
+    t: Any
+
+
+def motion_of(q: Any, speed: Any, acceleration: Any, t: Any) -> DrivenMotion:
+    """Return the motion given by numbers, or that of a run at the ends of its steps."""
+    if not isinstance(q, Run | SteadyState | State):
+        return DrivenMotion(q, speed, acceleration, t)
+    what = type(q).__name__
+    for name, value in (("speed", speed), ("acceleration", acceleration), ("t", t)):
+        # A number that is the default cannot be told from it.
+        if not (isinstance(value, float) and value == 0.0):
+            message = f"{name} is given with a {what}, which has its own: leave it out"
+            raise InputError(message)
+    state = q.run if isinstance(q, SteadyState) else q
+    return DrivenMotion(state.q, state.speed, state.acceleration, state.t)
+
+
+def times(t: npt.ArrayLike, shape: tuple[int, ...]) -> Float:
+    """Return the times of all positions of all designs."""
+    array = finite_array(t, "t")
+    try:
+        return np.broadcast_to(array, shape)
+    except ValueError as error:
+        message = f"t has the shape {array.shape}, the positions {shape}: they do not fit"
+        raise InputError(message) from error
