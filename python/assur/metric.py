@@ -21,6 +21,14 @@ import numpy.typing as npt
 from assur._arrays import flag, short
 from assur._validate import checked_name, checked_order, one_of, real_number
 from assur.errors import InputError
+from assur.sweeps.machine_metrics import (
+    flywheel_inertia,
+    greatest_inertia,
+    peak_effort,
+    peak_reaction,
+    rms_effort,
+    rms_reaction,
+)
 from assur.sweeps.terms import Condition, Function, Leaf, Metric, Part
 
 if TYPE_CHECKING:
@@ -32,15 +40,21 @@ __all__ = [
     "Condition",
     "Metric",
     "deviation",
+    "flywheel_inertia",
     "full_rotation",
     "function",
     "greatest",
+    "greatest_inertia",
     "least",
     "least_transmission",
     "mean",
+    "peak_effort",
+    "peak_reaction",
     "place_of_greatest",
     "place_of_least",
     "rms",
+    "rms_effort",
+    "rms_reaction",
     "span",
     "time_ratio",
 ]

@@ -83,6 +83,10 @@ class MachineModel:
             for rows, periodic in self._core.tables:
                 warn_if_degrees(rows[-1] - rows[0], periodic)
 
+    def of(self, mechanism: Mechanism) -> Self:
+        """Return a machine with the same parts of other designs of its mechanism."""
+        return type(self)(mechanism, self.bodies, self.loads, self.motor)
+
     @classmethod
     def from_table(
         cls,

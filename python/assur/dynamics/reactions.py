@@ -154,15 +154,12 @@ class Reactions:
             A joint or link that does not exist, or a link without this joint.
         """
         core = self._mechanism._core
-        joint, link = core.require("joint", name), core.require("link", on)
-        links = _links_at(self._mechanism)[name]
-        if on not in links:
-            message = f'link "{on}" has no joint "{name}", which is one of {", ".join(links)}'
-            raise InputError(message, joint=name, link=on)
+        key = key_of_joint(self._mechanism, name, on)
+        links, joint = _links_at(self._mechanism)[name], key.index
         if len(links) == 1:
             return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
-        if Key("joint", joint, link) in self._found:
-            return self._found[Key("joint", joint, link)]
+        if key in self._found:
+            return self._found[key]
         indices = [core.require("link", other) for other in links[:-1]]
         total = self._found[Key("joint", joint, indices[0])]
         for index in indices[1:]:
@@ -196,6 +193,22 @@ def _links_at(mechanism: Mechanism) -> dict[str, list[str]]:
     }
 
 
+def key_of_joint(mechanism: Mechanism, name: str, on: str | None) -> Key:
+    """Return the force at a joint on a link; with `on=None` on one of two links, whichever."""
+    core = mechanism._core
+    joint, links = core.require("joint", name), _links_at(mechanism)[name]
+    if on is None:
+        if len(links) != 2:
+            message = f'joint "{name}" is one of {", ".join(links)}: say on which link, on='
+            raise InputError(message, joint=name)
+        on = links[0]
+    link = core.require("link", on)
+    if on not in links:
+        message = f'link "{on}" has no joint "{name}", which is one of {", ".join(links)}'
+        raise InputError(message, joint=name, link=on)
+    return Key("joint", joint, link)
+
+
 def _keys(mechanism: Mechanism) -> list[Key]:
     core = mechanism._core
     is_redundant = any(core.redundant)
@@ -216,8 +229,9 @@ def reactions(
     motion: DrivenMotion,
     threads: int | None,
     on_error: OnError,
+    keys: list[Key] | None = None,
 ) -> Reactions:
-    """Return the reactions of a machine; see `Machine.reactions`."""
+    """Return the reactions of a machine, or some of them; see `Machine.reactions`."""
     mechanism = machine.mechanism
     if mechanism is None:
         message = "a machine of a table has no joints: reactions need a mechanism"
@@ -238,7 +252,7 @@ def reactions(
         speeds.reshape(-1, drivers),
         times(motion.t, shape).ravel(),
     )
-    keys = _keys(mechanism)
+    keys = _keys(mechanism) if keys is None else keys
     arrays, status, failure = machine._core.reactions(
         mechanism._values.reshape(-1),
         coordinates,

@@ -15,14 +15,16 @@ from assur.kinematics.solve import checked_assembly
 from assur.sweeps.encode import encoded
 from assur.sweeps.engine import results
 from assur.sweeps.measures import Measures
-from assur.sweeps.terms import Condition, Function, Leaf, Metric
+from assur.sweeps.terms import Condition, Function, Leaf, Metric, OfMachine
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from assur.dynamics.machine import Machine
     from assur.kinematics.mechanism import Mechanism
     from assur.sweeps.designs import Designs
     from assur.sweeps.progress import Report
+    from assur.sweeps.terms import Single
 
 Float: TypeAlias = npt.NDArray[np.float64]
 # Of some designs: values by name, statuses, which are kept.
@@ -47,6 +49,7 @@ class Measuring:
     def __init__(
         self,
         mechanism: Mechanism,
+        machine: Machine | None,
         q: npt.ArrayLike,
         metrics: Any,
         where: Any,
@@ -67,10 +70,14 @@ class Measuring:
         everything = [*self.metrics.values(), *(c.metric for c in conditions)]
         leaves = list(dict.fromkeys(leaf for metric in everything for leaf in metric.leaves()))
         self.leaves = [leaf for leaf in leaves if isinstance(leaf, Leaf)]
-        self.functions = [leaf for leaf in leaves if isinstance(leaf, Function)]
+        self.functions = [leaf for leaf in leaves if not isinstance(leaf, Leaf)]
+        self.machine = machine
+        for leaf in self.functions:
+            if isinstance(leaf, OfMachine):
+                _check(leaf, machine, assembly)
         # The core drops designs by all conditions without functions, the others are asked after it.
         self.late = [
-            c for c in conditions if any(isinstance(m, Function) for m in c.metric.leaves())
+            c for c in conditions if any(not isinstance(m, Leaf) for m in c.metric.leaves())
         ]
         early = [c for c in conditions if c not in self.late]
         asked: list[Metric] = list(dict.fromkeys([*self.leaves, *(c.metric for c in early)]))
@@ -108,7 +115,7 @@ class Measuring:
             self.early,
             self.threads,
         )
-        of: dict[Leaf | Function, Float] = dict(zip(self.leaves, found, strict=False))
+        of: dict[Single, Float] = dict(zip(self.leaves, found, strict=False))
         if self.functions:
             indices = np.flatnonzero(kept)
             for function in self.functions:
@@ -120,22 +127,41 @@ class Measuring:
             values = {name: np.where(misses, np.nan, value) for name, value in values.items()}
         return values, status, kept
 
-    def _called(self, function: Function, some: Mechanism, indices: npt.NDArray[np.intp]) -> Float:
-        """Call a function with the motions of some designs."""
+    def _called(
+        self, function: Function | OfMachine, some: Mechanism, indices: npt.NDArray[np.intp]
+    ) -> Float:
+        """Call a function with the motions, or machines, of some designs."""
         found = np.full(some.shape[0], np.nan)
         size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q))
         for first in range(0, len(indices), size):
             few = indices[first : first + size]
             batch = some._with_values(some._values[:, few])
-            motion = batch.solve(
-                self.q, function.order, function.outputs, self.assembly, "nan", self.threads
-            )
-            numbers = real_array(function.function(motion), f"the values of {function!r}")
+            numbers = self._numbers(function, batch)
             if numbers.shape != few.shape:
                 message = f"{function!r} returned shape {numbers.shape} for designs {few.shape}"
                 raise InputError(message)
             found[few] = numbers
         return found
+
+    def _numbers(self, function: Function | OfMachine, batch: Mechanism) -> Float:
+        if isinstance(function, OfMachine):
+            assert self.machine is not None
+            return function.values(self.machine.of(batch), self.q, self.threads)
+        motion = batch.solve(
+            self.q, function.order, function.outputs, self.assembly, "nan", self.threads
+        )
+        return real_array(function.function(motion), f"the values of {function!r}")
+
+
+def _check(metric: OfMachine, machine: Machine | None, assembly: Mapping[str, int] | None) -> None:
+    """Raise InputError if there is no machine, or the metric has no meaning for it."""
+    if machine is None:
+        message = f"{metric!r} is of a machine: pass it, sweep(machine, ...)"
+        raise InputError(message)
+    if assembly is not None:
+        message = f"assembly is given: {metric!r} is of machines, which move as drawn"
+        raise InputError(message)
+    metric.check(machine)
 
 
 def _metric(name: str, metric: Any) -> Metric:

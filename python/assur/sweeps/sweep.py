@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 from assur._validate import checked_order, checked_threads, one_of
 from assur.description.words import Status
+from assur.dynamics.machine import Machine
 from assur.errors import InputError
 from assur.sweeps.designs import Designs
 from assur.sweeps.engine import checked_engine
@@ -47,7 +48,7 @@ def sweep(
 ) -> Motion: ...
 @overload
 def sweep(
-    mechanism: Mechanism,
+    mechanism: Mechanism | Machine,
     dimensions: Mapping[str, npt.ArrayLike],
     q: npt.ArrayLike,
     *,
@@ -59,7 +60,7 @@ def sweep(
     engine: Engine | None = ...,
 ) -> Measures: ...
 def sweep(
-    mechanism: Mechanism,
+    mechanism: Mechanism | Machine,
     dimensions: Mapping[str, npt.ArrayLike],
     q: npt.ArrayLike,
     outputs: Iterable[str] | None = None,
@@ -78,8 +79,8 @@ def sweep(
 
     Parameters
     ----------
-    mechanism : Mechanism
-        Of any class.
+    mechanism : Mechanism or Machine
+        Of any class; a machine for the metrics of forces, `assur.metric.peak_reaction`.
     dimensions : mapping of str to array_like
         Dimensions of the designs, m or rad, as for `Mechanism.with_dimensions`: arrays of
         one length pair, an `assur.Grid` makes every combination.
@@ -157,12 +158,16 @@ def sweep(
     >>> bool(0.0 < np.nanmin(found["off"]) < 0.02)
     True
     """
-    designs = Designs(mechanism, dimensions)
+    machine = mechanism if isinstance(mechanism, Machine) else None
+    designs = Designs(machine.mechanism if machine else mechanism, dimensions)
     one_of(on_error, ("nan", "raise", "drop"), "on_error")
     engine, threads = checked_engine(engine), checked_threads(threads)
     # Each worker of an engine is a core by itself.
     threads = 1 if threads is None and engine is not None else threads
     if metrics is None:
+        if machine is not None:
+            message = "a machine is for metrics=; motions need machine.mechanism"
+            raise InputError(message)
         if where is not None:
             message = "where= is for metrics=; on_error='drop' keeps the designs that move"
             raise InputError(message)
@@ -177,7 +182,7 @@ def sweep(
             "NaN and a status, and .kept has the indices of the others"
         )
         raise InputError(message)
-    measuring = Measuring(designs.mechanism, q, metrics, where, assembly, threads)
+    measuring = Measuring(designs.mechanism, machine, q, metrics, where, assembly, threads)
     with reporter(progress, designs.count) as report:
         return measuring.run(designs, report, engine)
 

@@ -14,6 +14,7 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from assur.dynamics.machine import Machine
     from assur.kinematics.motion import Motion
 
 Float: TypeAlias = npt.NDArray[np.float64]
@@ -56,11 +57,11 @@ class Metric:
     # An array on the left would make an array of metrics.
     __array_ufunc__ = None
 
-    def leaves(self) -> Iterator[Leaf | Function]:
+    def leaves(self) -> Iterator[Single]:
         """The metrics that it is made of."""
         raise NotImplementedError
 
-    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
+    def value(self, of: Callable[[Single], Float]) -> Float:
         """Its values, given those of its leaves."""
         raise NotImplementedError
 
@@ -119,13 +120,13 @@ class Combination(Metric):
     left: Metric | float
     right: Metric | float
 
-    def leaves(self) -> Iterator[Leaf | Function]:
+    def leaves(self) -> Iterator[Single]:
         """Those of both sides."""
         for side in (self.left, self.right):
             if isinstance(side, Metric):
                 yield from side.leaves()
 
-    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
+    def value(self, of: Callable[[Single], Float]) -> Float:
         """The values of both sides, combined."""
         left, right = (
             side.value(of) if isinstance(side, Metric) else side for side in (self.left, self.right)
@@ -157,11 +158,11 @@ class Leaf(Metric):
     options: tuple[Any, ...] = ()
     over: Part = None
 
-    def leaves(self) -> Iterator[Leaf | Function]:
+    def leaves(self) -> Iterator[Single]:
         """Itself."""
         yield self
 
-    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
+    def value(self, of: Callable[[Single], Float]) -> Float:
         """Its values."""
         return of(self)
 
@@ -182,13 +183,36 @@ class Function(Metric):
     outputs: tuple[str, ...] | None
     order: int
 
-    def leaves(self) -> Iterator[Leaf | Function]:
+    def leaves(self) -> Iterator[Single]:
         """Itself."""
         yield self
 
-    def value(self, of: Callable[[Leaf | Function], Float]) -> Float:
+    def value(self, of: Callable[[Single], Float]) -> Float:
         """Its values."""
         return of(self)
 
     def __repr__(self) -> str:
         return f"function({getattr(self.function, '__name__', self.function)!s})"
+
+
+class OfMachine(Metric):
+    """A metric of machines, in Python."""
+
+    def check(self, machine: Machine) -> None:
+        """Raise InputError if it has no meaning for a machine."""
+
+    def values(self, machine: Machine, q: Float, threads: int | None) -> Float:
+        """Its values for the designs (n,) of a machine, which all move over q."""
+        raise NotImplementedError
+
+    def leaves(self) -> Iterator[Single]:
+        """Itself."""
+        yield self
+
+    def value(self, of: Callable[[Single], Float]) -> Float:
+        """Its values."""
+        return of(self)
+
+
+# What metrics are combined of.
+Single: TypeAlias = Leaf | Function | OfMachine

@@ -1,0 +1,256 @@
+"""Metrics of machines: forces, efforts, inertia and flywheels of designs, one number each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from assur._arrays import finite_array
+from assur._validate import checked_name, one_of, real_number
+from assur.dynamics.along import motion_of
+from assur.dynamics.reactions import key_of_joint, reactions
+from assur.errors import InputError
+from assur.sweeps.terms import OfMachine
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur.dynamics.machine import Machine
+    from assur.flywheel import Mean
+    from assur.sweeps.terms import Float, Metric
+
+__all__ = [
+    "flywheel_inertia",
+    "greatest_inertia",
+    "peak_effort",
+    "peak_reaction",
+    "rms_effort",
+    "rms_reaction",
+]
+
+Measure = Literal["peak", "rms"]
+
+
+def _over_positions(measure: Measure, sizes: Float) -> Float:
+    """Reduce sizes (designs, positions)."""
+    with np.errstate(over="ignore"):
+        if measure == "peak":
+            return np.asarray(sizes.max(axis=-1))
+        return np.asarray(np.sqrt(np.square(sizes).mean(axis=-1)))
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class JointForce(OfMachine):
+    """The force in a joint."""
+
+    measure: Measure
+    joint: str
+    on: str | None
+    speed: Any
+    acceleration: Any
+
+    def check(self, machine: Machine) -> None:
+        """Raise InputError for a joint or link that the machine does not have."""
+        assert machine.mechanism is not None
+        key_of_joint(machine.mechanism, self.joint, self.on)
+
+    def values(self, machine: Machine, q: Float, threads: int | None) -> Float:
+        """Its values for the designs of a machine."""
+        motion = motion_of(q, self.speed, self.acceleration, 0.0)
+        assert machine.mechanism is not None
+        key = key_of_joint(machine.mechanism, self.joint, self.on)
+        force = reactions(machine, motion, threads, "nan", [key])._found[key]
+        return _over_positions(self.measure, np.sqrt(np.square(force).sum(axis=-1)))
+
+    def __repr__(self) -> str:
+        on = "" if self.on is None else f", on={self.on!r}"
+        return f"{self.measure}_reaction({self.joint!r}{on})"
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Effort(OfMachine):
+    """The torque or force of the drive."""
+
+    measure: Measure
+    speed: Any
+    acceleration: Any
+
+    def values(self, machine: Machine, q: Float, _threads: int | None) -> Float:
+        """Its values for the designs of a machine; with several drivers of the greatest."""
+        effort = np.abs(machine.effort(q, self.speed, self.acceleration, on_error="nan"))
+        if machine._drivers > 1:
+            effort = np.moveaxis(effort, -1, 0)
+            return np.asarray(_over_positions(self.measure, effort).max(axis=0))
+        return _over_positions(self.measure, effort)
+
+    def __repr__(self) -> str:
+        return f"{self.measure}_effort()"
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Inertia(OfMachine):
+    """The reduced inertia."""
+
+    def check(self, machine: Machine) -> None:
+        """Raise InputError with several drivers, which have a matrix."""
+        if machine._drivers > 1:
+            message = f"{self!r}: with {machine._drivers} drivers the inertia is a matrix"
+            raise InputError(message)
+
+    def values(self, machine: Machine, q: Float, _threads: int | None) -> Float:
+        """Its greatest values for the designs of a machine."""
+        return np.asarray(machine.reduced_inertia(q, on_error="nan").value.max(axis=-1))
+
+    def __repr__(self) -> str:
+        return "greatest_inertia()"
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class FlywheelInertia(OfMachine):
+    """The inertia of a flywheel."""
+
+    fluctuation: float
+    mean_speed: float | None
+    mean: Mean
+
+    def values(self, machine: Machine, _q: Float, _threads: int | None) -> Float:
+        """Its values for the designs of a machine."""
+        found = machine.flywheel(self.fluctuation, self.mean_speed, self.mean, on_error="nan")
+        return np.asarray(found.inertia)
+
+    def __repr__(self) -> str:
+        return f"flywheel_inertia({self.fluctuation!r})"
+
+
+def _motion(speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> tuple[Any, Any]:
+    given = (("speed", speed), ("acceleration", acceleration))
+    first, second = (finite_array(value, what)[()] for what, value in given)
+    return first, second
+
+
+def peak_reaction(
+    joint: str,
+    on: str | None = None,
+    speed: npt.ArrayLike = 0.0,
+    acceleration: npt.ArrayLike = 0.0,
+) -> Metric:
+    """The greatest force in a joint, N.
+
+    Parameters
+    ----------
+    joint : str
+        The joint.
+    on : str, optional
+        The link that the force acts on; needed where three or more links meet.
+    speed, acceleration : array_like
+        Of the drivers, rad/s and rad/s² (slides: m/s and m/s²), the same for all designs: a
+        number, or one for each driver or position. Zero: statics.
+
+    Returns
+    -------
+    Metric
+        N, for ``assur.sweep(machine, ...)``. NaN for a design in which a load is not finite, or
+        redundant links leave the force undetermined.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for a name that is unknown, and without a
+        machine.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> gas = assur.Force("B", (-800.0, 0.0), on="piston")
+    >>> engine = assur.Machine(assur.SliderCrank(0.1, 0.35), loads=[gas])
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> asked = {"A": assur.metric.peak_reaction("A")}
+    >>> assur.sweep(engine, {"rod.length": [0.3, 0.4]}, q, metrics=asked)["A"].round(1)
+    array([848.5, 826.2])
+    """
+    name = None if on is None else checked_name(on, "on")
+    return JointForce("peak", checked_name(joint, "joint"), name, *_motion(speed, acceleration))
+
+
+def rms_reaction(
+    joint: str,
+    on: str | None = None,
+    speed: npt.ArrayLike = 0.0,
+    acceleration: npt.ArrayLike = 0.0,
+) -> Metric:
+    """The root of the mean square of the force in a joint over the positions, N.
+
+    See `peak_reaction`.
+    """
+    name = None if on is None else checked_name(on, "on")
+    return JointForce("rms", checked_name(joint, "joint"), name, *_motion(speed, acceleration))
+
+
+def peak_effort(speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -> Metric:
+    """The greatest size of the torque or force of the drive, N·m or N.
+
+    With several drivers it is the greatest of all, whatever their units.
+
+    Parameters
+    ----------
+    speed, acceleration : array_like
+        See `peak_reaction`.
+
+    Returns
+    -------
+    Metric
+        For ``assur.sweep(machine, ...)``.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> gas = assur.Force("B", (-800.0, 0.0), on="piston")
+    >>> engine = assur.Machine(assur.SliderCrank(0.1, 0.35), loads=[gas])
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> asked = {"torque": assur.metric.peak_effort()}
+    >>> assur.sweep(engine, {"crank.length": [0.1, 0.12]}, q, metrics=asked)["torque"].round(2)
+    array([ 83.22, 101.45])
+    """
+    return Effort("peak", *_motion(speed, acceleration))
+
+
+def rms_effort(speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -> Metric:
+    """The root of the mean square of the torque or force of the drive, N·m or N.
+
+    See `peak_effort`.
+    """
+    return Effort("rms", *_motion(speed, acceleration))
+
+
+def greatest_inertia() -> Metric:
+    """The greatest reduced inertia, kg·m² (driven slide: kg), of a machine with one driver."""
+    return Inertia()
+
+
+def flywheel_inertia(
+    fluctuation: float, mean_speed: float | None = None, mean: Mean = "extremes"
+) -> Metric:
+    """The inertia of the flywheel that limits the speed fluctuation, kg·m².
+
+    The turn is solved at the flywheel's own positions, not at those of the sweep.
+
+    Parameters
+    ----------
+    fluctuation, mean_speed, mean
+        As for `Machine.flywheel`.
+
+    Returns
+    -------
+    Metric
+        For ``assur.sweep(machine, ...)``; NaN for a design without such a flywheel.
+
+    Raises
+    ------
+    InputError
+        Here for wrong arguments; by `assur.sweep` for what `Machine.flywheel` refuses.
+    """
+    one_of(mean, ("extremes", "period"), "mean")
+    speed = None if mean_speed is None else real_number(mean_speed, "mean_speed")
+    return FlywheelInertia(real_number(fluctuation, "fluctuation"), speed, mean)

@@ -1,0 +1,129 @@
+"""Metrics of machines: each design by itself, by `Machine.reactions` and its sisters."""
+
+from __future__ import annotations
+
+import pickle
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from typing import Any
+
+import numpy as np
+import pytest
+
+import assur
+from assur import Body, Force, Gravity, InputError, metric
+
+Q = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
+BODIES = {"coupler": Body(2.0, 0.05, (1.0, 0.3)), "rocker": Body(3.0, 0.1, (0.9, 0.0))}
+LOADS: list[Any] = [Gravity(), Force("C", (4.0, -7.0))]
+FOUR_BAR = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+MACHINE = assur.Machine(FOUR_BAR, BODIES, LOADS)
+# The last but one does not turn fully, the last has no such length.
+COUPLERS = np.array([2.8, 3.0, 3.3, 9.0, -1.0])
+MOTION: Any = {"speed": 6.0, "acceleration": 1.5}
+ASKED = {
+    "peak C": metric.peak_reaction("C", **MOTION),
+    "rms C": metric.rms_reaction("C", on="rocker", **MOTION),
+    "peak A": metric.peak_reaction("A", **MOTION),
+    "peak": metric.peak_effort(**MOTION),
+    "rms": metric.rms_effort(**MOTION),
+    "inertia": metric.greatest_inertia(),
+    "flywheel": metric.flywheel_inertia(0.02, 6.0),
+}
+
+
+PLACES = {"C": ("C", "rocker"), "A": ("A", "crank")}
+
+
+def one_by_one(coupler: float) -> dict[str, float]:
+    design = assur.FourBar(1.0, coupler, 2.5, 3.2)
+    machine = assur.Machine(design, BODIES, LOADS)
+    found = machine.reactions(Q, **MOTION)
+    sizes = {name: np.linalg.norm(found.joint(*at), axis=-1) for name, at in PLACES.items()}
+    return {
+        "peak C": sizes["C"].max(),
+        "rms C": np.sqrt((sizes["C"] ** 2).mean()),
+        "peak A": sizes["A"].max(),
+        "peak": np.abs(found.driver).max(),
+        "rms": np.sqrt((found.driver**2).mean()),
+        "inertia": machine.reduced_inertia(Q).value.max(),
+        "flywheel": machine.flywheel(0.02, 6.0).inertia,
+    }
+
+
+def test_designs_by_themselves() -> None:
+    found = assur.sweep(MACHINE, {"coupler.length": COUPLERS}, Q, metrics=ASKED)
+    assert found.kept.tolist() == [0, 1, 2]
+    for index, coupler in enumerate(COUPLERS[:3]):
+        for name, value in one_by_one(float(coupler)).items():
+            assert found[name][index] == pytest.approx(value, rel=1e-10), name
+    for name in ASKED:
+        assert np.isnan(found[name][3:]).all()
+
+
+def test_conditions_and_sums() -> None:
+    whole = assur.sweep(MACHINE, {"coupler.length": COUPLERS}, Q, metrics=ASKED)
+    limit = float(np.sort(whole["peak C"][:3])[1])
+    some = assur.sweep(
+        MACHINE,
+        {"coupler.length": COUPLERS},
+        Q,
+        metrics={"sum": metric.peak_effort(**MOTION) + 2.0 * metric.span("rocker")},
+        where=[metric.peak_reaction("C", **MOTION) <= limit],
+    )
+    kept = [i for i in range(3) if whole["peak C"][i] <= limit]
+    assert some.kept.tolist() == kept
+    span = assur.sweep(
+        FOUR_BAR, {"coupler.length": COUPLERS}, Q, metrics={"a": metric.span("rocker")}
+    )
+    assert np.array_equal(some["sum"][kept], (whole["peak"] + 2.0 * span["a"])[kept])
+
+
+def test_other_processes_find_the_same() -> None:
+    here = assur.sweep(MACHINE, {"coupler.length": COUPLERS}, Q, metrics=ASKED)
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+        there = assur.sweep(MACHINE, {"coupler.length": COUPLERS}, Q, metrics=ASKED, engine=pool)
+    for name in ASKED:
+        assert np.array_equal(here[name], there[name], equal_nan=True), name
+    assert repr(pickle.loads(pickle.dumps(ASKED["rms C"]))) == "rms_reaction('C', on='rocker')"
+
+
+def test_what_has_no_meaning_is_refused() -> None:
+    def sweep(over: Any, asked: Any, **options: Any) -> Any:
+        return assur.sweep(over, {}, Q, metrics={"a": asked}, **options)
+
+    with pytest.raises(InputError, match=r"peak_effort\(\) is of a machine"):
+        sweep(FOUR_BAR, metric.peak_effort())
+    with pytest.raises(InputError, match=r"motions need machine\.mechanism"):
+        assur.sweep(MACHINE, {}, Q)  # type: ignore[call-overload]
+    with pytest.raises(InputError, match="X"):
+        sweep(MACHINE, metric.peak_reaction("X"))
+    with pytest.raises(InputError, match='link "crank" has no joint "C"'):
+        sweep(MACHINE, metric.peak_reaction("C", on="crank"))
+    with pytest.raises(InputError, match="which move as drawn"):
+        sweep(MACHINE, metric.peak_effort(), assembly={"C": -1})
+    with pytest.raises(InputError, match="speed is nan"):
+        metric.peak_effort(np.nan)
+    with pytest.raises(InputError, match="joint"):
+        metric.peak_reaction(3)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="mean"):
+        metric.flywheel_inertia(0.1, 5.0, "median")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="on which link"):
+        sweep(three_at_a_pin(), metric.peak_reaction("P"))
+
+
+def three_at_a_pin() -> assur.Machine:
+    m = assur.Mechanism(
+        joints={"A": (0, 0), "B": (1, 0), "P": (3, 2), "D": (4.8, 0), "E": (3, -2)},
+        links={
+            "ground": ["A", "D", "E"],
+            "crank": ["A", "B"],
+            "rod": ["B", "P"],
+            "left": ["P", "D"],
+            "arm": ["P"],
+            "guide": ["E"],
+        },
+        slides={"s": assur.Slide("arm", "guide", np.pi / 2, "E")},
+        driver="crank",
+    )
+    return assur.Machine(m, loads=[Gravity()])
