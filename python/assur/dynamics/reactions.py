@@ -266,6 +266,7 @@ def reactions(
     )
     if on_error == "raise" and failure is not None:
         raise failure
+    _drop_infinite(keys, arrays, status.size)
     if on_error == "raise":
         drives = [arrays[keys.index(Key("driver", driver))] for driver in range(drivers)]
         _require_finite("reactions are", np.stack(drives, axis=-1), status, everywhere)
@@ -276,6 +277,20 @@ def reactions(
         found[key] = array.reshape((*shape, 2) if two else shape)
     drivers_motion = tuple(np.broadcast_to(one, full) for one in (x, v, a))
     return Reactions(mechanism, drivers_motion, found, status.reshape(shape))  # type: ignore[arg-type]
+
+
+def _drop_infinite(keys: list[Key], arrays: list[Float], positions: int) -> None:
+    """Make all reactions NaN at positions where one is infinite: an infinite load has none.
+
+    (The place of a guide's force is at infinity where the force is zero.)
+    """
+    infinite = np.zeros(positions, dtype=np.bool_)
+    for key, array in zip(keys, arrays, strict=True):
+        if key.kind != "along" and np.isinf(array).any():
+            infinite |= np.isinf(array.reshape(positions, -1)).any(axis=1)
+    if infinite.any():
+        for array in arrays:
+            array.reshape(positions, -1)[infinite] = np.nan
 
 
 def _require_finite(what: str, drives: Float, status: npt.NDArray[np.uint8], q: Float) -> None:
@@ -355,4 +370,5 @@ def effort(
     if on_error == "raise":
         solved = np.full(out.size // n, Status.OK, dtype=np.uint8)
         _require_finite("effort is", out.reshape(-1, n), solved, np.broadcast_to(x, full))
+    out[np.isinf(out)] = np.nan
     return out[..., 0][()] if n == 1 else out

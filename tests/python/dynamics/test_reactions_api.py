@@ -170,6 +170,21 @@ def test_an_effort_too_great_is_refused() -> None:
     assert not np.isfinite(machine.effort(0.5, 1e200, on_error="nan"))
 
 
+def test_an_infinite_load_leaves_nan_in_its_place() -> None:
+    press = assur.SliderCrank(crank=0.1, rod=0.35)
+    load = assur.Force("B", (lambda _t, q, _speed: math.inf if q > 1.0 else 1.0, 0.0))
+    machine = assur.Machine(press, {"piston": assur.Body(2.0)}, [load])
+    found = machine.reactions([0.5, 1.5, 0.7], 3.0, on_error="nan")
+    for array in (
+        found.driver,
+        found.joint("A", "rod")[:, 0],
+        found.slide("bore").along,
+        machine.effort([0.5, 1.5, 0.7], 3.0, on_error="nan"),
+    ):
+        assert np.isnan(array).tolist() == [False, True, False]
+    assert found.status.tolist() == [0, 0, 0]
+
+
 @pytest.mark.parametrize("value", [math.nan, math.inf])
 def test_a_load_that_is_not_finite_is_named(value: float) -> None:
     """Once it gave NaN with the status OK, errors or not."""
