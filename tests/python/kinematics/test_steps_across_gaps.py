@@ -53,6 +53,13 @@ def test_an_island_within_a_cell() -> None:
     assert not list(gap_steps.far(design, q))
 
 
+def test_a_gap_within_a_cell() -> None:
+    """An earlier dyad opens and closes again between two knots, and cuts an island off."""
+    batches = (batch for name, batch, _ in partial_requests.cases(678) if "changing" in name)
+    design = next(batches).design(2)
+    assert not list(gap_steps.far(design, way(design, 2 * np.pi)))
+
+
 @pytest.mark.parametrize(
     ("kind", "seed", "link", "gap"),
     [

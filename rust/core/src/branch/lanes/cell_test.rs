@@ -76,7 +76,7 @@ pub(in crate::branch) struct DyadSamples {
 pub(in crate::branch) struct CellFlags {
     /// Where the discriminant may vanish, or an island may hide.
     pub uncertain: Bits,
-    /// Where the discriminant varies too fast for two knots to show it.
+    /// Where the discriminant varies too fast for two knots to show it, or a gap may be hidden.
     pub curved: Bits,
     /// With a dead point.
     pub dead_point: Bits,
@@ -135,16 +135,22 @@ impl DyadSamples {
             closes |= R::ZERO.lt(square).bits() << first;
             self.folded |= R::ZERO.lt(folded).bits() << first;
             flat |= R::splat(FLAT_SQUARE).lt(square.abs()).not().bits() << first;
-            if settled {
+            if settled && !grid.islands {
                 continue;
             }
             let before = previous(last.square.lane(R::LANES - 1), square);
             let rate_before = previous(last.rate.lane(R::LANES - 1), rate);
+            let touches = may_touch((before, rate_before), (square, rate), cell);
+            if settled {
+                // Its sign is constant, but a gap within a cell may cut an island off.
+                curved |= touches.bits() << first;
+                last = sample;
+                continue;
+            }
             let side_before = previous(last.side.lane(R::LANES - 1), side);
             let curvature = (square - before) - half * (rate + rate_before);
             let least = square.min(before);
             let straight = curvature.abs().lt(R::splat(MAX_CURVATURE) * least);
-            let touches = may_touch((before, rate_before), (square, rate), cell);
             let same_side = R::ZERO.lt(side * side_before);
             vanishing |= touches.or(same_side.not()).bits() << first;
             curved |= straight.not().bits() << first;
@@ -162,8 +168,8 @@ impl DyadSamples {
         let outside = cells & at_both_ends(!closes);
         let mut flags =
             CellFlags { dead_point: cells & !inside & !outside, ..CellFlags::default() };
+        flags.curved = curved & inside;
         if !settled {
-            flags.curved = curved & inside;
             flags.uncertain = vanishing & inside;
         }
         if outside != 0 && (grid.islands || !settled) {
