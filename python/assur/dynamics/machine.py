@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from assur.dynamics import integrate, reactions, size_flywheel
+from assur.dynamics import counterweight, integrate, reactions, size_flywheel
 from assur.dynamics.model import MachineModel
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     import numpy.typing as npt
 
+    from assur.dynamics.counterweight import Counterweight
     from assur.dynamics.model import OnError
     from assur.dynamics.reactions import Reactions
     from assur.dynamics.run import Run
@@ -164,6 +165,36 @@ class Machine(MachineModel):
         array([11.9002, -3.753 ])
         """
         return reactions.effort(self, q, speed, acceleration, on_error)
+
+    def with_counterweights(self, weights: Iterable[Counterweight]) -> Machine:
+        """Return the machine with counterweights as point masses on its links.
+
+        Parameters
+        ----------
+        weights : iterable of Counterweight
+            Such as `assur.balance.four_bar` gives, each with a mass (`with_radius`, `with_mass`).
+
+        Returns
+        -------
+        Machine
+            Its bodies have the masses, centres and moments of inertia of links and weights
+            together.
+
+        Raises
+        ------
+        InputError
+            A weight without a mass, an unknown link or joint, a batch of designs, a machine of a
+            table.
+
+        Examples
+        --------
+        >>> import assur
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> weights = assur.balance.slider_crank(machine, fraction=0.5)
+        >>> machine.with_counterweights(w.with_radius(0.2) for w in weights).bodies["crank"].mass
+        5.0
+        """
+        return counterweight.with_counterweights(self, weights)
 
     def flywheel(
         self,
