@@ -58,6 +58,16 @@ def fitted(q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike) 
     return balance.fit(MACHINE, q, {"rocker": (-1.0, 0.5)}, speed, acceleration)
 
 
+def inside(q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> Any:
+    return MACHINE.internal_loads("coupler", q, speed, acceleration).moment
+
+
+def inside_rod(x: npt.ArrayLike) -> Any:
+    density = x, [2.0] * 4
+    rod = {"coupler": assur.Body(6.0, 4.5, (1.5, 0.0))}
+    return assur.Machine(FOUR_BAR, rod).internal_loads("coupler", 0.3, density=density)
+
+
 @dataclass(frozen=True)
 class Entry:
     """A function of one array, and arrays that it takes."""
@@ -145,6 +155,10 @@ ENTRIES: dict[str, Entry] = {
     **each_of("MachineModel.reduced_moment", MACHINE.reduced_moment, q=0.0, speed=1.0),
     **each_of("MachineModel.potential", MACHINE.potential, q=0.0),
     **each_of("Machine.reactions", reactions, q=0.0, speed=1.0, acceleration=2.0),
+    **each_of("Machine.internal_loads", inside, q=0.0, speed=1.0, acceleration=2.0),
+    "Machine.internal_loads.density": Entry(
+        lambda x: inside_rod(x).axial, (np.array([0.0, 1.0, 1.0, 3.0]),)
+    ),
     **each_of("Machine.effort", MACHINE.effort, q=0.0, speed=1.0, acceleration=2.0),
     **each_of("assur.balance.fit", fitted, q=0.5, speed=1.0, acceleration=2.0),
     **each_of("assur.balance.harmonics", partial(balance.harmonics, count=3), q=EVEN, values=EVEN),
