@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 DEPENDENT = 1e-13
 # A bounded variable is freed where its gradient exceeds this part of the right side.
 GRADIENT = 1e-14
-
 _Mask = npt.NDArray[np.bool_]
 
 
@@ -34,10 +33,12 @@ def bounded_least_squares(matrix: Float, right: Float, lower: Float, upper: Floa
         Bounds, (n,), lower < upper; may be infinite.
     """
     n = matrix.shape[1]
-    # Columns of the length 1 by powers of two, so that bounds stay exact.
-    scale = _powers(np.sqrt((matrix * matrix).sum(axis=0)))
-    low, high = lower * scale, upper * scale
-    a, b = _triangle(matrix / scale, right)
+    # Columns and the right side near 1 by powers of two, so that bounds stay exact.
+    columns, unit = _exponents(matrix), _exponents(right)
+    shift = columns - unit
+    with np.errstate(over="ignore", under="ignore"):
+        low, high = np.ldexp(lower, shift), np.ldexp(upper, shift)
+        a, b = _triangle(np.ldexp(matrix, -columns), np.ldexp(right, -unit))
     free = np.isinf(low) & np.isinf(high)
     x = np.where(np.abs(low) <= np.abs(high), low, high)
     x[free] = 0.0
@@ -53,7 +54,9 @@ def bounded_least_squares(matrix: Float, right: Float, lower: Float, upper: Floa
         gain[free | excluded] = -np.inf
         chosen = int(np.argmax(gain)) if n else 0
         if not n or gain[chosen] <= tolerance:
-            return np.clip(x / scale, lower, upper)
+            with np.errstate(over="ignore", under="ignore"):
+                found: Float = np.clip(np.ldexp(x, -shift), lower, upper)
+            return found
         tried = free.copy()
         tried[chosen] = True
         y, kept = _solve_free(a, b, x, tried, low, high)
@@ -132,8 +135,7 @@ def _factor(a: Float, b: Float) -> tuple[npt.NDArray[np.intp], int, Float, Float
     return order, rank, np.triu(r), c
 
 
-def _powers(lengths: Float) -> Float:
-    """Return powers of two near positive numbers; 1 for 0."""
-    _, exponents = np.frexp(np.where(lengths > 0.0, lengths, 1.0))
-    powers: Float = np.ldexp(1.0, exponents)
-    return powers
+def _exponents(columns: Float) -> npt.NDArray[np.int32]:
+    """Return the exponents of the greatest number of each column; 0 where all are 0."""
+    exponents: npt.NDArray[np.int32] = np.frexp(np.abs(columns).max(axis=0))[1]
+    return exponents

@@ -197,16 +197,13 @@ def _points(place: Any) -> list[Any]:
     """Return the points of a place; two numbers are one point."""
     if isinstance(place, str):
         return [place]
-    if isinstance(place, np.ndarray):
+    if isinstance(place, np.ndarray) and place.ndim:
         place = list(place)
     if not isinstance(place, list | tuple) or not place:
         message = f"{short(place)} is no place: a joint, (x, y), a list of them, or MomentBounds"
         raise InputError(message)
-    return (
-        [place]
-        if all(np.ndim(one) == 0 and not isinstance(one, str) for one in place)
-        else list(place)
-    )
+    several = any(isinstance(one, str | list | tuple) or np.shape(one) for one in place)
+    return list(place) if several else [place]
 
 
 def _coordinates(mechanism: Mechanism, link: str, point: Any) -> tuple[float, float]:

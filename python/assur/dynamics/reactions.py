@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import real_array, short
-from assur._validate import checked_threads, one_of
+from assur._validate import checked_name, checked_threads, one_of
 from assur.description.words import Status
+from assur.dynamics import bearing as bearings
 from assur.dynamics.reduce import with_designs
 from assur.dynamics.values import function_values
 from assur.errors import InputError, MotionError
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
+    from assur.dynamics.bearing import Bearing
     from assur.dynamics.model import MachineModel, OnError
     from assur.kinematics.mechanism import Mechanism
 
@@ -152,7 +154,8 @@ class Reactions:
             A joint or link that does not exist, or a link without this joint.
         """
         core = self._mechanism._core
-        joint, link = core.require("joint", name), core.require("link", on)
+        joint = core.require("joint", checked_name(name, "joint"))
+        link = core.require("link", checked_name(on, "on"))
         links = _links_at(self._mechanism)[name]
         if on not in links:
             message = f'link "{on}" has no joint "{name}", which is one of {", ".join(links)}'
@@ -166,6 +169,47 @@ class Reactions:
         for index in indices[1:]:
             total = total + self._found[Key("joint", joint, index)]
         return -total
+
+    def bearing(
+        self, name: str, on: str, *, frame: str | None = None, against: str | None = None
+    ) -> Bearing:
+        """Return the force on a link at a joint as polar data, in the frame of a link there.
+
+        Parameters
+        ----------
+        name : str
+            The joint.
+        on : str
+            The link on which the force acts; one of those at the joint.
+        frame : str, optional
+            The link in whose frame directions are given (x from its first joint toward its
+            second): one of those at the joint, or the ground; `on` by default.
+        against : str, optional
+            The link whose turning relative to `on` counts for `pv`; by default the other one.
+
+        Returns
+        -------
+        Bearing
+            Angle and size of the force, mean and extremes, pressure times velocity.
+
+        Raises
+        ------
+        InputError
+            A joint or link that does not exist, or is not at this joint; a joint of one link.
+
+        Examples
+        --------
+        >>> import assur
+        >>> import numpy as np
+        >>> linkage = assur.FourBar(0.05, 0.15, 0.12, 0.16)
+        >>> machine = assur.Machine(linkage, loads=[assur.Torque("rocker", -20.0)])
+        >>> pin = machine.reactions(np.linspace(0.0, 6.0, 7), speed=30.0).bearing("C", on="rocker")
+        >>> print(f"{pin.greatest.value:.1f} N at q = {pin.greatest.at}, mean {pin.mean:.1f} N")
+        229.9 N at q = 0.0, mean 189.8 N
+        >>> print(f"{pin.pv(diameter=0.02, width=0.015).max() / 1e6:.3f} MPa·m/s")
+        0.082 MPa·m/s
+        """
+        return bearings.bearing(self, name, on, frame, against)
 
     def slide(self, name: str) -> SlideReaction:
         """Return what a guide does to the link that slides on it.
@@ -181,7 +225,7 @@ class Reactions:
             Normal force and moment about the sliding point on the sliding link, and where on the
             guide their resultant acts.
         """
-        index = self._mechanism._core.require("slide", name)
+        index = self._mechanism._core.require("slide", checked_name(name, "slide"))
         parts = (self._found[Key(kind, index)][()] for kind in ("normal", "moment", "along"))
         return SlideReaction(*parts)
 

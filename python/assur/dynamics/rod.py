@@ -92,15 +92,16 @@ def straight_rod(
         message = f"link {link!r} is no rod: loads inside it need a moving link of two joints"
         raise InputError(message, link=link)
     ends = joints[:2] if along is None else along
-    if not isinstance(ends, tuple | list | str) or len(ends) != 2 or ends[0] == ends[1]:
+    if not isinstance(ends, tuple | list | str) or len(ends) != 2:
         message = f"along is {short(along)}: two joints of {link!r} are needed, {', '.join(joints)}"
         raise InputError(message, link=link)
     for joint in ends:
-        if joint not in joints:
+        if not isinstance(joint, str) or joint not in joints:
             message = (
                 f"along: {short(joint)} is not one of the joints of {link!r}, {', '.join(joints)}"
             )
             raise InputError(message, link=link)
+    # One joint twice too has no length.
     first, second = (joint_place(mechanism, link, joint) for joint in ends)
     span = second - first
     length = float(np.sqrt(span.real * span.real + span.imag * span.imag))

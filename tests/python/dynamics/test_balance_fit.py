@@ -52,6 +52,21 @@ def test_bounded_least_squares(seed: int) -> None:
     assert (slope[found > lower] >= -tiny).all()
 
 
+@pytest.mark.parametrize("size", [1e-310, 1e-160, 1.0, 1e160, 1e305])
+@pytest.mark.parametrize("right_size", [1e-310, 1e-160, 1.0, 1e160, 1e305])
+def test_sizes_of_any_order(size: float, right_size: float) -> None:
+    """Scaled by powers of two: no number overflows on the way."""
+    matrix = np.array([[3.0, 1.0], [1.0, -2.0], [0.5, 0.25]]) * size
+    right = np.array([1.0, 2.0, 3.0]) * right_size
+    ratio = 10.0 ** np.clip(np.log10(right_size) - np.log10(size), -300, 300)
+    bounds = np.array([-INF, 0.0]), np.array([INF, 0.1 * ratio])
+    found = bounded_least_squares(matrix, right, *bounds)
+    assert not np.isnan(found).any()
+    if 1e-300 < ratio < 1e300 and size > 1e-300 < right_size:
+        known = lsq_linear(matrix / size, right / right_size, (bounds[0], [INF, 0.1]), "bvls").x
+        np.testing.assert_allclose(found / ratio, known, rtol=1e-10, atol=1e-12)
+
+
 def four_bar() -> assur.Machine:
     bodies = {
         "crank": Body(0.5, 2e-4, (0.02, 0.006)),
