@@ -142,6 +142,12 @@ def fit(
     if not isinstance(given, Mapping) or not given:
         message = f"places is {short(given)}: a mapping of links to places is needed"
         raise InputError(message)
+    unplaced = [link for link in most if link not in given] if isinstance(most, Mapping) else []
+    if unplaced:
+        message = (
+            f"most has {short(unplaced[0])}, which has no place: {', '.join(map(repr, given))}"
+        )
+        raise InputError(message)
     weight = not_negative(moment_weight, "moment_weight")
     unknowns = [one for link in given for one in _unknowns(mechanism, link, given[link], most)]
     motion = q, speed, acceleration

@@ -189,7 +189,9 @@ def _pull(
         tension = load.stiffness * (length - load.length) + load.preload
     else:
         tension = load.damping * (unit * (far_speed - speed)).sum(axis=-1)
-    return place, tension[:, np.newaxis] * unit
+    # Without tension it has no direction at length zero.
+    tension = tension[:, np.newaxis]
+    return place, np.where(tension == 0.0, 0.0, tension * unit)
 
 
 def _place(at: Positions, link: str | None, point: PointLike) -> tuple[Float, Float]:

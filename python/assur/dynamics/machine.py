@@ -203,7 +203,8 @@ class Machine(MachineModel):
         Returns
         -------
         InternalLoads
-            The loads, their extremes along the rod, and their peak over the motion.
+            The loads, their extremes along the rod, and their peak over the motion. NaN where
+            redundant links leave a pin's force undetermined (`Reactions.undetermined`).
 
         Raises
         ------

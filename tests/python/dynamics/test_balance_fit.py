@@ -207,6 +207,8 @@ NAN = math.nan
         ({"crank": "B"}, {"moment_weight": INF}, "moment_weight"),
         ({"crank": "B"}, {"most": -1.0}, "most"),
         ({"crank": "B"}, {"most": {"crank": NAN}}, "most"),
+        ({"crank": "B"}, {"most": {"rocker": 1.0}}, "most has 'rocker'"),
+        ({"crank": "B"}, {"most": "much"}, "most"),
         ({"crank": "B"}, {"q": []}, "q has no"),
         ({"crank": "B"}, {"q": [NAN]}, "q"),
         ({"crank": "B"}, {"speed": [1.0, 2.0]}, "speed"),

@@ -284,6 +284,15 @@ def test_shapes() -> None:
     )
 
 
+def test_a_spring_at_rest_has_no_direction() -> None:
+    """Of length zero and without tension, as the core has it."""
+    spring = Spring(("rod", (0.2, 0.0)), "A", 300.0, 0.2)
+    found, bare = (one.internal_loads("rod", 1.0, 9.0) for one in (engine(spring), engine()))
+    np.testing.assert_allclose(found.axial, bare.axial, atol=1e-10)
+    short = engine(Spring("A", ("rod", (0.0, 0.0)), 300.0, 0.0))
+    np.testing.assert_array_equal(short.internal_loads("rod", 1.0, 9.0).axial, bare.axial)
+
+
 def test_peak_at_positions_only() -> None:
     """Speeds that differ, or coordinates in no order: nothing between is known."""
     machine, q = engine(), np.linspace(0.0, 3.0, 30)
