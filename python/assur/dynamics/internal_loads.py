@@ -10,6 +10,7 @@ from assur._arrays import in_range
 from assur._validate import one_of, whole_number
 from assur.dynamics.beam import QUANTITIES
 from assur.dynamics.options import one_design
+from assur.dynamics.peaks import MEASURES, Peak, find_peak
 from assur.dynamics.reactions import broadcast_motion
 from assur.dynamics.rod import straight_rod
 from assur.errors import InputError
@@ -25,12 +26,7 @@ if TYPE_CHECKING:
     from assur.dynamics.model import OnError
     from assur.dynamics.rod import Rod
 
-__all__ = ["InternalLoads", "LoadExtremes", "Peak"]
-
-# Positions tried at a time between two neighbours of the greatest one, and the last distance, in
-# parts of the step: a maximum is known to the square of that.
-TRIED = 9
-CLOSEST = 1e-8
+__all__ = ["InternalLoads", "LoadExtremes"]
 
 
 class LoadExtremes(NamedTuple):
@@ -48,24 +44,6 @@ class LoadExtremes(NamedTuple):
     least_x: Any
     greatest: Any
     greatest_x: Any
-
-
-class Peak(NamedTuple):
-    """The value of greatest size over all positions.
-
-    Attributes
-    ----------
-    value : float
-        With its sign, N or N·m.
-    x : float
-        Distance from the first joint, m.
-    q : float or ndarray
-        The driver's coordinate; with n drivers (n,).
-    """
-
-    value: float
-    x: float
-    q: Any
 
 
 class InternalLoads:
@@ -123,13 +101,15 @@ class InternalLoads:
         found = (part.reshape(self._shape)[()] for part in self._beam.extremes(quantity))
         return LoadExtremes(*found)
 
-    def peak(self, quantity: str) -> Peak:
-        """Return the value of greatest size over the link and all positions.
+    def peak(self, quantity: str, of: str = "size") -> Peak:
+        """Return the extreme of a quantity over the link and all positions.
 
         Parameters
         ----------
         quantity : {"axial", "shear", "moment"}
             Which one.
+        of : {"size", "greatest", "least"}
+            The value of greatest size, the greatest (of `axial` the tension), or the least one.
 
         Returns
         -------
@@ -144,47 +124,9 @@ class InternalLoads:
             No position with a value.
         """
         one_of(quantity, QUANTITIES, "quantity")
-        value, x = _largest(self._beam, quantity)
-        if np.isnan(value).all():
-            message = f"no position has a value of {quantity}"
-            raise InputError(message)
-        size = np.where(np.isnan(value), -1.0, np.abs(value))
-        at = int(np.argmax(size))
-        q = self._motion[0]
-        best = Peak(float(value[at]), float(x[at]), float(q[at, 0]) if q.shape[1] == 1 else q[at])
-        steps = np.diff(q[:, 0])
-        even = all((part == part[0]).all() for part in self._motion[1:])
-        ordered = (steps > 0.0).all() or (steps < 0.0).all()
-        if q.shape[1] > 1 or len(self._shape) != 1 or q.size < 2 or not (even and ordered):
-            return best
-        # Every peak of the row that could be the greatest is refined.
-        beside = np.concatenate([[-1.0], size, [-1.0]])
-        peaks = np.flatnonzero(
-            (size >= beside[:-2]) & (size >= beside[2:]) & (size > 0.8 * size[at])
-        )
-        # Not toward a position without a value, where loads may grow without a limit.
-        before = np.where(beside[peaks] < 0.0, peaks, peaks - 1)
-        after = np.where(beside[peaks + 2] < 0.0, peaks, peaks + 1)
-        low, high = q[before, 0], q[after, 0]
-        return max([best, *self._refined(quantity, low, high)], key=lambda one: abs(one.value))
-
-    def _refined(self, quantity: str, low: Float, high: Float) -> list[Peak]:
-        """Return the peaks between positions: the best of a few in between, again and again."""
-        first = np.abs(high - low)
-        rows = np.arange(low.size)
-        part = np.arange(TRIED + 2) / (TRIED + 1.0)
-        while True:
-            q = low[:, np.newaxis] + part * (high - low)[:, np.newaxis]
-            flat = q.reshape(-1, 1)
-            speed, acceleration = (np.full(flat.shape, one[0, 0]) for one in self._motion[1:])
-            beam = self._rod.solve(flat, speed, acceleration, "nan")
-            value, x = (found.reshape(q.shape) for found in _largest(beam, quantity))
-            size = np.where(np.isnan(value), -1.0, np.abs(value))
-            best = np.argmax(size, axis=1)
-            if (np.abs(high - low) <= CLOSEST * first).all():
-                known = zip(value[rows, best], x[rows, best], q[rows, best], strict=True)
-                return [Peak(float(a), float(b), float(c)) for a, b, c in known if not np.isnan(a)]
-            low, high = q[rows, np.maximum(best - 1, 0)], q[rows, np.minimum(best + 1, TRIED + 1)]
+        one_of(of, MEASURES, "of")
+        is_row = len(self._shape) == 1
+        return find_peak(self._rod, self._beam, self._motion, is_row, quantity, of)
 
 
 def internal_loads(
@@ -215,10 +157,3 @@ def internal_loads(
         beam = rod.solve(*motion, on_error)
         x = np.linspace(0.0, rod.length, n)
         return InternalLoads(rod, beam, x, motion, shape)
-
-
-def _largest(beam: Beam, quantity: str) -> tuple[Float, Float]:
-    """Return the value of greatest size at each position, with its sign, and where it is."""
-    least, least_x, greatest, greatest_x = beam.extremes(quantity)
-    up = np.abs(greatest) >= np.abs(least)
-    return np.where(up, greatest, least), np.where(up, greatest_x, least_x)
