@@ -144,6 +144,16 @@ def test_points_against_scipy(most: Any, moment_weight: float) -> None:
     assert np.linalg.norm(left) == pytest.approx(math.sqrt(2 * known.cost), rel=1e-9)
 
 
+@pytest.mark.parametrize("ratio", [1.5, 3.0, 10.0])
+def test_half_the_piston_is_the_best(ratio: float) -> None:
+    """Whatever the rod: one weight on the crank balances half of the reciprocating mass."""
+    machine = assur.Machine(assur.SliderCrank(0.2, 0.2 * ratio), {"piston": Body(3.0)})
+    (found,) = balance.fit(machine, TURN, {"crank": balance.MomentBounds()})
+    (known,) = balance.slider_crank(machine, fraction=0.5)
+    assert found.moment == pytest.approx(0.5 * 3.0 * 0.2, rel=1e-12)
+    assert (found.moment, abs(found.angle)) == pytest.approx((known.moment, known.angle))
+
+
 def test_moment_bounds_hold() -> None:
     bounds = balance.MomentBounds(x=(-0.02, 0.0), y=(0.001, INF))
     (found,) = balance.fit(four_bar(), TURN, {"rocker": bounds}, 20.0)

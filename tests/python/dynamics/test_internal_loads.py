@@ -316,7 +316,10 @@ def test_a_spring_at_rest_has_no_direction() -> None:
 def test_peak_at_positions_only() -> None:
     """Speeds that differ, or coordinates in no order: nothing between is known."""
     machine, q = engine(), np.linspace(0.0, 3.0, 30)
-    for where, speed in ((q, np.linspace(9.0, 9.0001, 30)), (q[::-1] * (-1.0) ** np.arange(30), 9.0)):
+    for where, speed in (
+        (q, np.linspace(9.0, 9.0001, 30)),
+        (q[::-1] * (-1.0) ** np.arange(30), 9.0),
+    ):
         peak = machine.internal_loads("rod", where, speed).peak("moment")
         assert peak.q in where
     assert engine().internal_loads("rod", 1.0, 3.0).peak("shear").q == 1.0
