@@ -74,7 +74,10 @@ class Rod(NamedTuple):
                 f"its length of {self.length:g} m: name its outer joints as along"
             )
             raise InputError(message, link=self.link, value=where)
-        return PointLoad(np.clip(x, 0.0, self.length), along, across, load.couple - y * along)
+        # A foot at an end but for rounding is at the end; its couple stays what it was.
+        at_end = np.where(x > self.length - tiny, self.length, x)
+        foot = np.where(x < tiny, 0.0, at_end)
+        return PointLoad(foot, along, across, load.couple - y * along + (x - foot) * across)
 
 
 def _gravity(machine: Machine) -> Float:

@@ -313,6 +313,20 @@ def test_a_spring_at_rest_has_no_direction() -> None:
     np.testing.assert_array_equal(short.internal_loads("rod", 1.0, 9.0).axial, bare.axial)
 
 
+@pytest.mark.parametrize("off", [0.0, 1e-16, -1e-16, 1e-11])
+def test_a_load_at_an_end_but_for_rounding(off: float) -> None:
+    """It acts beyond the far end: what is given there is what holds just before it."""
+    at_pin = engine(Force("B", (50.0, -700.0), on="rod")).internal_loads("rod", 1.0, 9.0, n=5)
+    beside = engine(Force(("rod", (0.35 - off, 0.1)), (50.0, -700.0)))
+    found = beside.internal_loads("rod", 1.0, 9.0, n=5)
+    # Moved off the pin it also turns the rod; of its end only the couple is left.
+    angle = float(beside.mechanism.solve(1.0).link("rod").value)  # type: ignore[union-attr]
+    along = 50.0 * math.cos(angle) - 700.0 * math.sin(angle)
+    assert found.moment[-1] == pytest.approx(-0.1 * along, rel=1e-9)
+    assert at_pin.moment[-1] == pytest.approx(0.0, abs=1e-12)
+    assert np.abs(found._beam.end).max() < 1e-11
+
+
 def test_peak_at_positions_only() -> None:
     """Speeds that differ, or coordinates in no order: nothing between is known."""
     machine, q = engine(), np.linspace(0.0, 3.0, 30)
