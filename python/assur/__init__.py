@@ -38,7 +38,7 @@ from assur.mechanisms.class_iv import ClassIV
 from assur.mechanisms.named import FourBar, SliderCrank
 
 if TYPE_CHECKING:
-    from assur import events, flywheel, metric
+    from assur import balance, events, flywheel, metric
     from assur.dynamics.loads import (
         Body,
         Damper,
@@ -98,6 +98,7 @@ __all__ = [
     "TorsionDamper",
     "TorsionSpring",
     "__version__",
+    "balance",
     "crank_rocker",
     "events",
     "flywheel",
@@ -110,7 +111,7 @@ __version__ = version()
 
 # Imported at first use: more than half of what `import assur` would take (PEP 562).
 _LATER = {
-    "assur": ("events", "flywheel", "metric"),
+    "assur": ("balance", "events", "flywheel", "metric"),
     "assur.dynamics.loads": (
         "Body",
         "Damper",

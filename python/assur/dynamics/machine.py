@@ -5,16 +5,19 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from assur.dynamics import integrate, reactions, size_flywheel
+from assur.dynamics import counterweight, integrate, reactions, size_flywheel
+from assur.dynamics import internal_loads as inside
 from assur.dynamics.along import motion_of
 from assur.dynamics.model import MachineModel
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     import numpy.typing as npt
 
     from assur.dynamics.along import MotionLike
+    from assur.dynamics.counterweight import Counterweight
+    from assur.dynamics.internal_loads import InternalLoads
     from assur.dynamics.model import OnError
     from assur.dynamics.reactions import Reactions
     from assur.dynamics.run import Run
@@ -172,6 +175,108 @@ class Machine(MachineModel):
         array([11.9002, -3.753 ])
         """
         return reactions.effort(self, motion_of(q, speed, acceleration, t), on_error)
+
+    def internal_loads(
+        self,
+        link: str,
+        q: npt.ArrayLike,
+        speed: npt.ArrayLike = 0.0,
+        acceleration: npt.ArrayLike = 0.0,
+        *,
+        along: Sequence[str] | None = None,
+        density: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+        n: int = 101,
+        on_error: OnError = "raise",
+    ) -> InternalLoads:
+        """Return normal force, shear and bending moment inside a link.
+
+        Parameters
+        ----------
+        link : str
+            A moving link of two joints or more, a straight rod between two of them.
+        q, speed, acceleration : array_like
+            The motion, as in `reactions`; of one design.
+        along : (str, str), optional
+            The joints at the ends of the rod; the link's first two by default.
+        density : (x, kg/m), optional
+            Mass per length at distances from the first of these joints, (K,) each, linear between
+            them; the first distance is 0, the last the rod's length, and one given twice makes a
+            step. By default the mass of the link's body, uniform. The body must be what this mass
+            makes it: its centre, and its moment of inertia as of a thin rod.
+        n : int
+            Places along the rod at which the loads are given, ends included.
+        on_error : {"raise", "nan"}
+            See `reactions`.
+
+        Returns
+        -------
+        InternalLoads
+            The loads, their extremes along the rod, and their peak over the motion. NaN where
+            redundant links leave a pin's force undetermined (`Reactions.undetermined`).
+
+        Raises
+        ------
+        PositionError, MotionError
+            See `reactions`.
+        InputError
+            A link that is not a rod, joints that it does not have, a body that does not fit the
+            density, a load on the link without a place (torques and torsion springs), a load
+            beyond the rod's ends; a batch of designs, a machine of a table.
+
+        Notes
+        -----
+        Cut at x from the first joint, e along the rod and n to its left: the part beyond acts with
+        N e + V n and M on the part before it, N′ = μ (a − g)·e, V′ = μ (a − g)·n, M′ = −V. All
+        that acts on the link is taken where it acts: pins, slides, weight, forces, springs, the
+        torque of the drive at the pin that the driven link shares with the other. What acts beside
+        the line acts at its foot through a rigid arm without mass, with a couple.
+
+        Examples
+        --------
+        The rod of an engine at 300 rad/s:
+
+        >>> import assur
+        >>> import numpy as np
+        >>> bodies = {"rod": assur.Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))}
+        >>> engine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies)
+        >>> inside = engine.internal_loads("rod", np.linspace(0.0, np.pi, 37), speed=300.0)
+        >>> peak = inside.peak("moment")
+        >>> print(f"{peak.value:.4f} N·m at {peak.x:.4f} m, {np.degrees(peak.q):.3f}°")
+        -253.0759 N·m at 0.1517 m, 61.356°
+        """
+        return inside.internal_loads(
+            self, link, q, speed, acceleration, along, density, n, on_error
+        )
+
+    def with_counterweights(self, weights: Iterable[Counterweight]) -> Machine:
+        """Return the machine with counterweights as point masses on its links.
+
+        Parameters
+        ----------
+        weights : iterable of Counterweight
+            Such as `assur.balance.four_bar` gives, each with a mass (`with_radius`, `with_mass`).
+
+        Returns
+        -------
+        Machine
+            Its bodies have the masses, centres and moments of inertia of links and weights
+            together.
+
+        Raises
+        ------
+        InputError
+            A weight without a mass, an unknown link or joint, a batch of designs, a machine of a
+            table.
+
+        Examples
+        --------
+        >>> import assur
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> weights = assur.balance.slider_crank(machine, fraction=0.5)
+        >>> machine.with_counterweights(w.with_radius(0.2) for w in weights).bodies["crank"].mass
+        5.0
+        """
+        return counterweight.with_counterweights(self, weights)
 
     def flywheel(
         self,

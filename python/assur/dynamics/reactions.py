@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import real_array, short
-from assur._validate import checked_threads, one_of
+from assur._validate import checked_name, checked_threads, one_of
 from assur.description.words import Status
+from assur.dynamics import bearing as bearings
 from assur.dynamics.along import times
 from assur.dynamics.reduce import with_designs
 from assur.dynamics.values import function_values
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur.dynamics.along import DrivenMotion
+    from assur.dynamics.bearing import Bearing
     from assur.dynamics.model import MachineModel, OnError
     from assur.kinematics.mechanism import Mechanism
 
@@ -154,7 +156,7 @@ class Reactions:
             A joint or link that does not exist, or a link without this joint.
         """
         core = self._mechanism._core
-        key = key_of_joint(self._mechanism, name, on)
+        key = key_of_joint(self._mechanism, checked_name(name, "joint"), checked_name(on, "on"))
         links, joint = _links_at(self._mechanism)[name], key.index
         if len(links) == 1:
             return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
@@ -165,6 +167,47 @@ class Reactions:
         for index in indices[1:]:
             total = total + self._found[Key("joint", joint, index)]
         return -total
+
+    def bearing(
+        self, name: str, on: str, *, frame: str | None = None, against: str | None = None
+    ) -> Bearing:
+        """Return the force on a link at a joint as polar data, in the frame of a link there.
+
+        Parameters
+        ----------
+        name : str
+            The joint.
+        on : str
+            The link on which the force acts; one of those at the joint.
+        frame : str, optional
+            The link in whose frame directions are given (x from its first joint toward its
+            second): one of those at the joint, or the ground; `on` by default.
+        against : str, optional
+            The link whose turning relative to `on` counts for `pv`; by default the other one.
+
+        Returns
+        -------
+        Bearing
+            Angle and size of the force, mean and extremes, pressure times velocity.
+
+        Raises
+        ------
+        InputError
+            A joint or link that does not exist, or is not at this joint; a joint of one link.
+
+        Examples
+        --------
+        >>> import assur
+        >>> import numpy as np
+        >>> linkage = assur.FourBar(0.05, 0.15, 0.12, 0.16)
+        >>> machine = assur.Machine(linkage, loads=[assur.Torque("rocker", -20.0)])
+        >>> pin = machine.reactions(np.linspace(0.0, 6.0, 7), speed=30.0).bearing("C", on="rocker")
+        >>> print(f"{pin.greatest.value:.1f} N at q = {pin.greatest.at}, mean {pin.mean:.1f} N")
+        229.9 N at q = 0.0, mean 189.8 N
+        >>> print(f"{pin.pv(diameter=0.02, width=0.015).max() / 1e6:.3f} MPa·m/s")
+        0.082 MPa·m/s
+        """
+        return bearings.bearing(self, name, on, frame, against)
 
     def slide(self, name: str) -> SlideReaction:
         """Return what a guide does to the link that slides on it.
@@ -180,7 +223,7 @@ class Reactions:
             Normal force and moment about the sliding point on the sliding link, and where on the
             guide their resultant acts.
         """
-        index = self._mechanism._core.require("slide", name)
+        index = self._mechanism._core.require("slide", checked_name(name, "slide"))
         parts = (self._found[Key(kind, index)][()] for kind in ("normal", "moment", "along"))
         return SlideReaction(*parts)
 

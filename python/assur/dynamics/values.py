@@ -7,11 +7,12 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from assur import _core
 from assur._arrays import Float, real_array, real_number, short
 from assur.dynamics.table import Table
 from assur.errors import InputError
 
-__all__ = ["Function", "Value", "checked_value", "function_values"]
+__all__ = ["Function", "Value", "checked_value", "function_values", "values_at"]
 
 # Called with floats (t, q, speed); with several drivers q and speed are tuples.
 Function: TypeAlias = Callable[[float, Any, Any], float]
@@ -57,3 +58,22 @@ def _called(function: Function, t: float, q: Any, speed: Any) -> float:
         message = f"the load {name}(t, q, speed) gave {short(value)} at q = {q}: a number is needed"
         raise InputError(message)
     return float(array)
+
+
+def values_at(value: Value, q: Float, speed: Float) -> Float:
+    """Evaluate a value of a load at rows of coordinates and speeds, at t = 0.
+
+    NaN where a table ends.
+    """
+    rows = q.shape[0]
+    if isinstance(value, Table):
+        # The core interpolates: a machine whose reduced moment is the table.
+        table = _core.Machine.from_table(
+            value.q, value.value, np.zeros(value.q.size), value.spline, value.periodic, None
+        )
+        first = np.ascontiguousarray(q[:, 0])
+        empty = np.empty(0)
+        return table.reduce(empty, first, np.zeros(rows), empty, None, [])[2].reshape(rows)
+    if callable(value):
+        return function_values([value], q, speed, np.zeros(rows))
+    return np.full(rows, value)

@@ -9,12 +9,13 @@ import inspect
 import math
 import types
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 import assur
-from assur import crank_rocker, flywheel, slider_crank
+from assur import balance, crank_rocker, flywheel, slider_crank
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 TURN = 2.0 * math.pi
-MODULES = (assur, flywheel, slider_crank, crank_rocker, assur.events)
+MODULES = (assur, balance, flywheel, slider_crank, crank_rocker, assur.events)
 
 PHI = np.arange(7.0)
 MOMENT = np.array([0.0, 40.0, 20.0, -30.0, 10.0, -50.0, 0.0])
@@ -44,11 +45,27 @@ OF_TABLE = assur.Machine.from_table(PHI * (TURN / 6.0), MOMENT, INERTIA, spline=
 RUN = MACHINE.run(4.0, 0.5, 5.0, rtol=1e-6)
 ALONG = MACHINE.run(q_end=8.0, q0=0.5, speed0=5.0, rtol=1e-6)
 STEADY = OF_TABLE.steady_state(9.0, mean="period")
+EVEN = np.arange(8.0) * (TURN / 8.0)
+FORCE = np.stack([np.arange(8.0), np.arange(8.0)[::-1]], axis=-1)
 WHEEL = flywheel.evaluate(PHI * (TURN / 6.0), MOMENT, INERTIA, 20.0, speed0=9.0)
 
 
 def reactions(q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> Any:
     return MACHINE.reactions(q, speed, acceleration).joint("C", on="rocker")
+
+
+def fitted(q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> Any:
+    return balance.fit(MACHINE, q, {"rocker": (-1.0, 0.5)}, speed, acceleration)
+
+
+def inside(q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> Any:
+    return MACHINE.internal_loads("coupler", q, speed, acceleration).moment
+
+
+def inside_rod(x: npt.ArrayLike) -> Any:
+    density = x, [2.0] * 4
+    rod = {"coupler": assur.Body(6.0, 4.5, (1.5, 0.0))}
+    return assur.Machine(FOUR_BAR, rod).internal_loads("coupler", 0.3, density=density)
 
 
 @dataclass(frozen=True)
@@ -138,7 +155,19 @@ ENTRIES: dict[str, Entry] = {
     **each_of("MachineModel.reduced_moment", MACHINE.reduced_moment, q=0.0, speed=1.0),
     **each_of("MachineModel.potential", MACHINE.potential, q=0.0),
     **each_of("Machine.reactions", reactions, q=0.0, speed=1.0, acceleration=2.0),
+    **each_of("Machine.internal_loads", inside, q=0.0, speed=1.0, acceleration=2.0),
+    "Machine.internal_loads.density": Entry(
+        lambda x: inside_rod(x).axial, (np.array([0.0, 1.0, 1.0, 3.0]),)
+    ),
     **each_of("Machine.effort", MACHINE.effort, q=0.0, speed=1.0, acceleration=2.0),
+    **each_of("assur.balance.fit", fitted, q=0.5, speed=1.0, acceleration=2.0),
+    **each_of("assur.balance.harmonics", partial(balance.harmonics, count=3), q=EVEN, values=EVEN),
+    **each_of(
+        "assur.balance.rotating_parts",
+        partial(balance.rotating_parts, count=3),
+        q=EVEN,
+        force=FORCE,
+    ),
     **each_of("Machine.flywheel", OF_TABLE.flywheel, fluctuation=0.125, mean_speed=4.0),
     **each_of("Machine.run", MACHINE.run, t_end=0.5, q0=1.0, speed0=2.0, breaks=0.0, rtol=1e-6),
     "Machine.run.atol": Entry(

@@ -14,7 +14,7 @@ import assur
 from assur import crank_rocker, slider_crank
 from assur.dynamics import size_flywheel
 from fuzz_kinematics import assemblies, change, construct, describe, move
-from fuzz_machines import reduce, run, steady, wheel
+from fuzz_machines import balanced, harmonics, inside, reduce, run, steady, wheel
 from fuzz_values import Choices
 
 if TYPE_CHECKING:
@@ -74,6 +74,9 @@ ENTRIES: tuple[Callable[[Choices], object], ...] = (
     steady,
     wheel,
     papers,
+    balanced,
+    harmonics,
+    inside,
 )
 
 

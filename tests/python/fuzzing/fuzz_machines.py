@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from assur import events, flywheel
+from assur import balance, events, flywheel
 from fuzz_kinematics import mechanisms
 
 if TYPE_CHECKING:
@@ -99,6 +99,77 @@ def reduce(c: Choices) -> object:
         lambda: c.call(machine.flywheel, fluctuation=lambda: 0.1, mean_speed=c.positive),
         lambda: machine.design(c.argument(c.small)),
     )
+
+
+def balanced(c: Choices) -> object:
+    machine = _machine(c)
+    links = list(machine.mechanism.links) if machine.mechanism else ["crank"]
+
+    def bounds() -> Any:
+        return c.call(balance.MomentBounds, x=lambda: (-c.positive(), c.number()))
+
+    def places() -> Any:
+        def point() -> tuple[float, float]:
+            return c.number(), c.number()
+
+        return {c.among(links): c.either(point, bounds, lambda: [point(), point()], c.odd)}
+
+    weights = c.either(
+        lambda: c.call(
+            balance.fit,
+            machine=lambda: machine,
+            q=c.numbers,
+            places=places,
+            speed=c.number,
+            most=c.positive,
+            moment_weight=c.positive,
+        ),
+        lambda: balance.four_bar(machine),
+        lambda: c.call(
+            balance.slider_crank,
+            machine=lambda: machine,
+            fraction=c.positive,
+            rod_radius=c.positive,
+        ),
+        lambda: [c.call(balance.Counterweight, link=lambda: c.among(links), moment=c.positive)],
+    )
+    radius = c.argument(c.positive)
+    return machine.with_counterweights([one.with_radius(radius) for one in weights])
+
+
+def harmonics(c: Choices) -> object:
+    count = 1 + c.byte() % 20
+    q = c.number() + np.arange(count) * (2.0 * np.pi / count)
+    values = np.array([c.number() for _ in range(count)])
+    found = c.call(balance.harmonics, q=lambda: q, values=lambda: values, count=c.small)
+    return found.phase, c.call(
+        balance.rotating_parts, q=lambda: q, force=lambda: np.stack([values, values], -1)
+    )
+
+
+def inside(c: Choices) -> object:
+    machine = _machine(c)
+    links = list(machine.mechanism.links) if machine.mechanism else ["crank"]
+    joints = list(machine.mechanism.joints) if machine.mechanism else ["A"]
+    motion: dict[str, Any] = {"q": c.numbers, "speed": c.number, "acceleration": c.number}
+
+    def rods() -> object:
+        found = c.call(
+            machine.internal_loads,
+            link=lambda: c.among(links),
+            **motion,
+            along=lambda: c.among((None, (c.among(joints), c.among(joints)))),
+            n=lambda: 3,
+            on_error=lambda: c.among(("raise", "nan")),
+        )
+        return found.peak(c.among(("axial", "shear", "moment")))
+
+    def pins() -> object:
+        found = c.call(machine.reactions, **motion, on_error=lambda: "nan")
+        pin = c.call(found.bearing, name=lambda: c.among(joints), on=lambda: c.among(links))
+        return pin.greatest, pin.mean, c.call(pin.pv, diameter=c.positive, width=c.positive)
+
+    return c.either(rods, pins)
 
 
 def run(c: Choices) -> object:

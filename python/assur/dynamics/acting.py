@@ -1,0 +1,228 @@
+"""What acts on a link, and where: pairs, drivers and loads."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from assur import _trig
+from assur.description.words import Drive
+from assur.dynamics.loads import (
+    Damper,
+    Force,
+    Gravity,
+    Spring,
+    Torque,
+    TorsionDamper,
+    TorsionSpring,
+)
+from assur.dynamics.values import values_at
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from assur._arrays import Float
+    from assur.dynamics.loads import PointLike
+    from assur.dynamics.machine import Machine
+    from assur.dynamics.reactions import Reactions
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
+
+
+class Positions(NamedTuple):
+    """A machine's motion and reactions at P positions: speeds and coordinates (P, n)."""
+
+    machine: Machine
+    motion: Motion
+    found: Reactions
+    q: Float
+    speed: Float
+
+
+class Acting(NamedTuple):
+    """A force at a point of a link, and a couple, at P positions.
+
+    Attributes
+    ----------
+    what : str
+        What acts, for messages.
+    place : ndarray
+        (P, 2), m, in the drawing's axes.
+    force : ndarray
+        (P, 2), N.
+    couple : ndarray
+        (P,), N·m.
+    joint : str or None
+        The joint where it acts.
+    """
+
+    what: str
+    place: Float
+    force: Float
+    couple: Float
+    joint: str | None
+
+
+def acting_on(at: Positions, link: str) -> Iterator[Acting]:
+    """Yield all that acts on a link but its weight and inertia."""
+    yield from _pins(at, link)
+    yield from _slides(at, link)
+    yield from _drivers(at, link)
+    yield from _loads(at, link)
+
+
+def _mechanism(at: Positions) -> Mechanism:
+    return at.motion.mechanism
+
+
+def _nothing(at: Positions) -> Float:
+    return np.zeros(at.q.shape[0])
+
+
+def _pins(at: Positions, link: str) -> Iterator[Acting]:
+    for joint in _mechanism(at).links[link]:
+        force = at.found.joint(joint, on=link)
+        place = at.motion.joint(joint).value
+        yield Acting(f"joint {joint!r}", place, force, _nothing(at), joint)
+
+
+def _slides(at: Positions, link: str) -> Iterator[Acting]:
+    mechanism = _mechanism(at)
+    drivers = mechanism._description.drivers
+    for name, slide in mechanism.slides.items():
+        if link not in (slide.link, slide.on):
+            continue
+        along = _guide(at, name)
+        across = np.stack([-along[:, 1], along[:, 0]], axis=-1)
+        pair = at.found.slide(name)
+        force, moment = pair.normal[:, np.newaxis] * across, pair.moment
+        if name in drivers:
+            force = force + _effort(at, drivers.index(name))[:, np.newaxis] * along
+        sliding = mechanism.links[slide.link]
+        place = _place(at, slide.link, sliding[0] if sliding else (slide.link, (0.0, 0.0)))[0]
+        sign = 1.0 if link == slide.link else -1.0
+        joint = sliding[0] if sliding and link == slide.link else None
+        yield Acting(f"slide {name!r}", place, sign * force, sign * moment, joint)
+
+
+def _drivers(at: Positions, link: str) -> Iterator[Acting]:
+    """Yield the torques of driven angles, which act where their two links meet."""
+    mechanism = _mechanism(at)
+    for index, driver in enumerate(mechanism._description.drivers):
+        if driver in mechanism.slides:
+            continue
+        drive = driver if isinstance(driver, Drive) else Drive(driver)
+        if link not in (drive.link, drive.relative_to):
+            continue
+        other = mechanism.links[drive.relative_to]
+        shared = [joint for joint in mechanism.links[drive.link] if joint in other]
+        if not shared:
+            message = (
+                f"the drive of {drive.link!r} acts on {link!r} with a torque, but the link shares "
+                f"no joint with {drive.relative_to!r}: where it acts is unknown"
+            )
+            raise InputError(message, link=link)
+        sign = 1.0 if link == drive.link else -1.0
+        place = at.motion.joint(shared[0]).value
+        torque = sign * _effort(at, index)
+        yield Acting("the drive", place, np.zeros(place.shape), torque, shared[0])
+
+
+def _loads(at: Positions, link: str) -> Iterator[Acting]:
+    for load in at.machine.loads:
+        if isinstance(load, Gravity):
+            continue
+        what = f"a {type(load).__name__}"
+        if isinstance(load, Torque | TorsionSpring | TorsionDamper):
+            if link in (load.link, load.on):
+                message = (
+                    f"{what} acts on {link!r}, at no place that is known: loads inside the link "
+                    "depend on it; replace it by two forces"
+                )
+                raise InputError(message, link=link)
+        elif isinstance(load, Force):
+            if (load.on or _taker(at, load.at)) == link:
+                place, _ = _place(at, link, load.at)
+                force = _force(at, load)
+                yield Acting(what, place, force, _nothing(at), _joint(load.at))
+        else:
+            ends = load.first, load.second
+            for end, other in (ends, ends[::-1]):
+                taker = _taker(at, end)
+                if taker == link:
+                    place, force = _pull(at, load, end, other)
+                    yield Acting(what, place, force, _nothing(at), _joint(end))
+
+
+def _joint(point: PointLike) -> str | None:
+    return point if isinstance(point, str) else None
+
+
+def _taker(at: Positions, point: PointLike) -> str:
+    """Return the link that takes a load: at a joint the first one of the description."""
+    if not isinstance(point, str):
+        return point[0]
+    links = _mechanism(at).links.items()
+    return next(link for link, joints in links if point in joints)
+
+
+def _force(at: Positions, load: Force) -> Float:
+    x, y = (values_at(value, at.q, at.speed) for value in load.force)
+    if load.axes is None:
+        return np.stack([x, y], axis=-1)
+    sine, cosine = _trig.sin_cos(at.motion.link(load.axes).value)
+    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+
+
+def _pull(
+    at: Positions, load: Spring | Damper, end: PointLike, other: PointLike
+) -> tuple[Float, Float]:
+    """Return where a spring or damper pulls at its end, and how."""
+    (place, speed), (far, far_speed) = (_place(at, None, one) for one in (end, other))
+    span = far - place
+    length = np.sqrt((span * span).sum(axis=-1))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        unit = span / length[:, np.newaxis]
+    if isinstance(load, Spring):
+        tension = load.stiffness * (length - load.length) + load.preload
+    else:
+        tension = load.damping * (unit * (far_speed - speed)).sum(axis=-1)
+    # Without tension it has no direction at length zero.
+    tension = tension[:, np.newaxis]
+    return place, np.where(tension == 0.0, 0.0, tension * unit)
+
+
+def _place(at: Positions, link: str | None, point: PointLike) -> tuple[Float, Float]:
+    """Return a point's place and velocity, (P, 2) each."""
+    mechanism, speeds = _mechanism(at), at.speed if at.speed.shape[1] > 1 else at.speed[:, 0]
+    if isinstance(point, str):
+        joint = at.motion.joint(point)
+        return joint.value, joint.velocity(speeds)
+    link, (x, y) = point
+    if link == "ground":
+        fixed = np.broadcast_to(np.array([x, y]), (at.q.shape[0], 2))
+        return fixed, np.zeros(fixed.shape)
+    joints = mechanism.links[link]
+    origin = at.motion.joint(joints[0]) if joints else at.motion._reference_point(link)
+    angle = at.motion.link(link)
+    sine, cosine = _trig.sin_cos(angle.value)
+    arm = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+    turned = np.stack([-arm[:, 1], arm[:, 0]], axis=-1)
+    velocity = origin.velocity(speeds) + angle.velocity(speeds)[:, np.newaxis] * turned
+    return origin.value + arm, velocity
+
+
+def _guide(at: Positions, name: str) -> Float:
+    """Return the direction of a guide, (P, 2)."""
+    mechanism = _mechanism(at)
+    own = mechanism.dimensions.get(f"{name}.angle", 0.0)
+    sine, cosine = _trig.sin_cos(at.motion.link(mechanism.slides[name].on).value + own)
+    return np.stack([cosine, sine], axis=-1)
+
+
+def _effort(at: Positions, index: int) -> Float:
+    effort = np.asarray(at.found.driver)
+    every: Float = effort.reshape(at.q.shape)[:, index]
+    return every

@@ -1,0 +1,160 @@
+"""Normal force, shear and bending moment inside a link over a motion."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from assur._arrays import in_range
+from assur._validate import one_of, whole_number
+from assur.dynamics.along import DrivenMotion
+from assur.dynamics.beam import QUANTITIES
+from assur.dynamics.options import one_design
+from assur.dynamics.peaks import MEASURES, Peak, find_peak
+from assur.dynamics.reactions import broadcast_motion
+from assur.dynamics.rod import straight_rod
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.dynamics.beam import Beam
+    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import OnError
+    from assur.dynamics.rod import Rod
+
+__all__ = ["InternalLoads", "LoadExtremes"]
+
+
+class LoadExtremes(NamedTuple):
+    """The least and greatest value along a link at each position, and where on it.
+
+    Attributes
+    ----------
+    least, greatest : ndarray
+        N or N·m, (N,).
+    least_x, greatest_x : ndarray
+        Distance from the first joint, m, (N,).
+    """
+
+    least: Any
+    least_x: Any
+    greatest: Any
+    greatest_x: Any
+
+
+class InternalLoads:
+    """What the parts of a link do to each other, by `Machine.internal_loads`.
+
+    Attributes
+    ----------
+    x : ndarray
+        Places along the link from its first joint, m, (n,).
+    axial : ndarray
+        Normal force, N, (N, n): tension is positive.
+    shear : ndarray
+        N, (N, n): along the normal to the left of the line, on the part toward the first joint.
+    moment : ndarray
+        Bending moment on that part, N·m, (N, n), counter-clockwise; its slope is −shear. At a place
+        where a load acts, all three are those just beyond it (at the end just before it).
+    q : ndarray
+        Coordinates of the positions.
+    """
+
+    def __init__(
+        self,
+        rod: Rod,
+        beam: Beam,
+        x: Float,
+        motion: tuple[Float, Float, Float],
+        shape: tuple[int, ...],
+    ) -> None:
+        self._rod, self._beam, self._motion, self._shape = rod, beam, motion, shape
+        self.x = x
+        drivers = motion[0].shape[1]
+        self.q = motion[0].reshape(shape if drivers == 1 else (*shape, drivers))
+        self.axial, self.shear, self.moment = (
+            beam.at(name, x).reshape(*shape, x.size) for name in QUANTITIES
+        )
+
+    def __repr__(self) -> str:
+        first, second = self._rod.along
+        return f"<assur.InternalLoads of {self._rod.link} along {first}-{second}, {self._shape}>"
+
+    def extremes(self, quantity: str) -> LoadExtremes:
+        """Return the least and greatest value along the link at each position.
+
+        Parameters
+        ----------
+        quantity : {"axial", "shear", "moment"}
+            Which one.
+
+        Returns
+        -------
+        LoadExtremes
+            Exact: not of the places `x`, but where the slope vanishes, or at a load.
+        """
+        one_of(quantity, QUANTITIES, "quantity")
+        found = (part.reshape(self._shape)[()] for part in self._beam.extremes(quantity))
+        return LoadExtremes(*found)
+
+    def peak(self, quantity: str, of: str = "size") -> Peak:
+        """Return the extreme of a quantity over the link and all positions.
+
+        Parameters
+        ----------
+        quantity : {"axial", "shear", "moment"}
+            Which one.
+        of : {"size", "greatest", "least"}
+            The value of greatest size, the greatest (of `axial` the tension), or the least one.
+
+        Returns
+        -------
+        Peak
+            With one driver, one row of ascending or descending coordinates and one speed and
+            acceleration for all, refined between the positions; else at one of them. NaN counts
+            for nothing.
+
+        Raises
+        ------
+        InputError
+            No position with a value.
+        """
+        one_of(quantity, QUANTITIES, "quantity")
+        one_of(of, MEASURES, "of")
+        is_row = len(self._shape) == 1
+        return find_peak(self._rod, self._beam, self._motion, is_row, quantity, of)
+
+
+def internal_loads(
+    machine: Machine,
+    link: str,
+    q: npt.ArrayLike,
+    speed: npt.ArrayLike,
+    acceleration: npt.ArrayLike,
+    along: Sequence[str] | None,
+    density: Any,
+    n: int,
+    on_error: OnError,
+) -> InternalLoads:
+    """Return the loads inside a link; see `Machine.internal_loads`."""
+    if machine.mechanism is None:
+        message = "a machine of a table has no links: internal_loads needs a mechanism"
+        raise InputError(message)
+    one_design(machine, "internal_loads")
+    one_of(on_error, ("raise", "nan"), "on_error")
+    whole_number(n, "n", 2)
+    rod = straight_rod(machine, machine.mechanism, link, along, density)
+    *given, shape = broadcast_motion(machine, DrivenMotion(q, speed, acceleration, 0.0))
+    drivers = machine._drivers
+    full = shape if drivers == 1 else (*shape, drivers)
+    flat = [np.broadcast_to(part, full).reshape(-1, drivers) for part in given]
+    motion = flat[0], flat[1], flat[2]
+    with in_range(f"a load inside {link!r}"):
+        beam = rod.solve(*motion, on_error)
+        x = np.linspace(0.0, rod.length, n)
+        return InternalLoads(rod, beam, x, motion, shape)
