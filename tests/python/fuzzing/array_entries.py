@@ -50,8 +50,10 @@ FORCE = np.stack([np.arange(8.0), np.arange(8.0)[::-1]], axis=-1)
 WHEEL = flywheel.evaluate(PHI * (TURN / 6.0), MOMENT, INERTIA, 20.0, speed0=9.0)
 
 
-def reactions(q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> Any:
-    return MACHINE.reactions(q, speed, acceleration).joint("C", on="rocker")
+def reactions(
+    q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike, t: npt.ArrayLike
+) -> Any:
+    return MACHINE.reactions(q, speed, acceleration, t=t).joint("C", on="rocker")
 
 
 def fitted(q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> Any:
@@ -154,12 +156,12 @@ ENTRIES: dict[str, Entry] = {
     **each_of("MachineModel.reduced_inertia", MACHINE.reduced_inertia, q=0.0),
     **each_of("MachineModel.reduced_moment", MACHINE.reduced_moment, q=0.0, speed=1.0),
     **each_of("MachineModel.potential", MACHINE.potential, q=0.0),
-    **each_of("Machine.reactions", reactions, q=0.0, speed=1.0, acceleration=2.0),
+    **each_of("Machine.reactions", reactions, q=0.0, speed=1.0, acceleration=2.0, t=0.5),
     **each_of("Machine.internal_loads", inside, q=0.0, speed=1.0, acceleration=2.0),
     "Machine.internal_loads.density": Entry(
         lambda x: inside_rod(x).axial, (np.array([0.0, 1.0, 1.0, 3.0]),)
     ),
-    **each_of("Machine.effort", MACHINE.effort, q=0.0, speed=1.0, acceleration=2.0),
+    **each_of("Machine.effort", MACHINE.effort, q=0.0, speed=1.0, acceleration=2.0, t=0.5),
     **each_of("assur.balance.fit", fitted, q=0.5, speed=1.0, acceleration=2.0),
     **each_of("assur.balance.harmonics", partial(balance.harmonics, count=3), q=EVEN, values=EVEN),
     **each_of(
