@@ -129,7 +129,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         }
         let failed = some_open.then_some(&open);
         // Rows that are solved again would be fetched again.
-        let once = !again && !(some_open && self.failures.is_some());
+        let once = !(again || some_open && self.failures.is_some());
         let range = RowRange { first: at, count, once };
         self.writer.write(job.rows, range, with, state, &self.space.lifted, failed);
         let status = &mut job.rows.status[at..at + count];
