@@ -22,9 +22,6 @@ from multipliers import Reactions
 if TYPE_CHECKING:
     from assur import Machine
 
-LATER = pytest.mark.skipif(
-    not hasattr(assur.Machine, "equilibria"), reason="Machine.equilibria is not there yet"
-)
 STEPS = 240  # of the search over a turn
 
 
@@ -76,7 +73,6 @@ def test_the_oracle_on_a_pendulum() -> None:
             assert abs(frequency - 1.0) < 1e-9
 
 
-@LATER
 @pytest.mark.parametrize("make", [pendulum, held])
 def test_equilibria(make: Any) -> None:
     machine = make()
@@ -93,7 +89,6 @@ def test_equilibria(make: Any) -> None:
             assert abs(float(found.frequency[k]) - frequency) < 1e-8 * frequency
 
 
-@LATER
 def test_rest_needs_no_drive() -> None:
     machine: Any = held()
     for q in np.atleast_1d(machine.equilibria().q):
