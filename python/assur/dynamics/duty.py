@@ -215,6 +215,6 @@ def _require_finite(numbers: Float, effort: Float, on_error: OnError) -> None:
     if on_error == "raise" and not np.isfinite(numbers).all():
         message = (
             f"the work or power of efforts up to {np.abs(effort).max():.3g} is beyond the greatest "
-            "number: a load, a speed or a mass is too great"
+            "number: a load, a speed or a mass is too great, or a speed too near 0"
         )
         raise MotionError(message, kind="not_finite")

@@ -125,8 +125,10 @@ def _range(machine: MachineModel, between: Any) -> tuple[tuple[float, float], bo
         message = f"between is {short(between)}: two finite numbers (least, greatest) are needed"
         raise InputError(message)
     low, high = float(ends[0]), float(ends[1])
-    turns = 1 if is_slide else math.ceil((high - low) / math.tau)
+    turns = 1 if is_slide else max(1, math.ceil(min((high - low) / math.tau, 1e300)))
     if turns > MOST_TURNS:
-        message = f"between is {short(between)}, {turns} turns: at most {MOST_TURNS} are searched"
+        message = (
+            f"between is {short(between)}, {turns:.3g} turns: at most {MOST_TURNS} are searched"
+        )
         raise InputError(message)
     return (low, high), False, INTERVALS * turns

@@ -276,7 +276,7 @@ class Machine(MachineModel):
         TOMS 47 (2020)). Missed are pairs of roots between two samples (1/512 of a turn) of which
         values and slopes show nothing, and roots within 1e-6 of a dead point; three within 1e-7 rad
         count as one. Gaps, also those of tables, are left out; what the drawing's branch reaches
-        beyond them is searched.
+        beyond them is searched, if it is wider than 1/4096 of a turn.
 
         Examples
         --------

@@ -4,6 +4,7 @@
 //! from + to −, and small oscillations obey J q̈ = M′ q: ω = √(−M′/J) (J. P. Den Hartog, Mechanical
 //! Vibrations, 4th ed. 1956, 2.3, by energy).
 
+use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::kinematics::SolvedPose;
@@ -21,6 +22,9 @@ use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Evaluator, Queries};
 use crate::query::failure::Failure;
 
+/// Relative error of the analogues at which a position counts as a gap: beside a dead point, or where
+/// one group brings the next to a dead point, so that moments go through infinity.
+const NO_DIGITS: f64 = 1.0e-2;
 /// Within this part of a turn, rest at its two ends is the same: that of a moment that only touches
 /// zero is located no closer.
 const SAME_IN_A_TURN: f64 = 1.0e-7;
@@ -62,15 +66,15 @@ pub struct Equilibria {
     pub jumps: Vec<f64>,
     /// Whether the moment varies too quickly to be searched completely.
     pub is_incomplete: bool,
-    /// Why the first position of the range has no moment, if none has.
+    /// Why the first position of the range cannot be reached, if none can.
     pub failure: Option<Failure>,
     /// Whether no position of the range has a moment.
     pub is_empty: bool,
 }
 
 impl Machine {
-    /// Finds the positions of rest of a design. Dampers do not act at rest, and motors are off;
-    /// loads with callbacks have no moment. Ends early once `cancel` is true.
+    /// Finds the positions of rest of a design of one driver (of several: none). Dampers do not act at
+    /// rest, and motors are off; loads with callbacks have no moment. Ends early once `cancel` is true.
     #[must_use]
     pub fn equilibria(
         &self,
@@ -79,6 +83,9 @@ impl Machine {
         range: EquilibriumRange,
         cancel: &AtomicBool,
     ) -> Equilibria {
+        if mechanism.q0().len() != 1 {
+            return Equilibria { is_empty: true, ..Equilibria::default() };
+        }
         let derivatives = DerivativeTables::new(1, 2);
         let torsion = self.has_torsion();
         let mut evaluator =
@@ -89,11 +96,13 @@ impl Machine {
             .retain(|load| !matches!(load, Load::Damper { .. } | Load::TorsionDamper { .. }));
         let mut reduced = Reduced::new(1);
         let mut tables = Vec::new();
+        let is_reached = Cell::new(false);
         let mut sample = |q: f64| {
             if cancel.load(Ordering::Relaxed) {
                 return None;
             }
             evaluator.solve(&[q]).ok()?;
+            is_reached.set(true);
             let condition = evaluator.total_condition();
             let (scale, unit) = (evaluator.position().constants.scale, evaluator.unit(0));
             let pose = SolvedPose::new(evaluator.position(), &derivatives);
@@ -106,15 +115,19 @@ impl Machine {
             machine.add_speed_loads(&pose, &[0.0], numbers, &mut reduced);
             let reach = Reach { length: scale / unit, angle: 1.0 / unit };
             let found = machine.moment_slope(&pose, &tables, reach);
-            let noise = ANALOGUE_PER_CONDITION_SQUARED * condition * condition * found.size;
+            let error = ANALOGUE_PER_CONDITION_SQUARED * condition * condition;
+            if error > NO_DIGITS {
+                return None;
+            }
+            let noise = error * found.size;
             let sample = Sample { x: q, value: reduced.moment(0), slope: found.slope, noise };
             Some((sample, reduced.inertia[0]))
         };
         let knots = self.tables.iter().map(|table| table.knots_within(range.widened()));
         let nodes = range.nodes(knots.flatten());
         let roots = all_roots(&nodes, |q| sample(q).map(|pair| pair.0));
-        let mut found = Equilibria::of_roots(&roots, range, |q| sample(q));
-        if found.is_empty {
+        let mut found = Equilibria::of_roots(&roots, range, sample);
+        if !is_reached.get() {
             let q = [range.ends[0]];
             found.failure =
                 evaluator.solve(&q).err().map(|rejection| evaluator.failure(rejection, &q));
@@ -183,7 +196,7 @@ impl Equilibria {
         let ([low, high], slack) = (range.ends, range.slack());
         let is_within = |q: f64| q >= low - slack && q <= high + slack;
         let mut isolated: Vec<Equilibrium> = found
-            .roots
+            .isolated
             .iter()
             .filter(|root| is_within(root.at))
             .filter_map(|root| sample(root.at).map(|at| Equilibrium::new(root, at)))

@@ -14,6 +14,8 @@ use super::itp::itp;
 
 /// Halvings of a cell, after which its roots are a cluster: 4e-6 of the cell.
 const MAX_DEPTH: u32 = 18;
+/// Steps from node to node within a gap, in search of islands.
+const ISLAND_STEPS: u32 = 16;
 /// Halvings that locate the end of a gap: 1e-9 of a cell.
 const EDGE_HALVINGS: u32 = 30;
 /// Limit of evaluations for each node: a smooth function takes 2, and some 50 for a root.
@@ -25,8 +27,9 @@ const JUMP: f64 = 8.0;
 
 /// A gap narrower than this part of its cell is a point: its ends are located to less.
 const POINT: f64 = 1.0e-8;
-/// Beside a pole, and at the end of a gap, values change by about themselves over the distance to it.
-const POLE: f64 = 0.1;
+
+/// Beside a jump values are of the size of those at the nodes around it, up to this factor.
+const RISE: f64 = 100.0;
 
 /// A function at a point, with a bound of the rounding error of its value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,7 +51,7 @@ pub(crate) struct Root {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Roots {
     /// Isolated roots, ascending.
-    pub roots: Vec<Root>,
+    pub isolated: Vec<Root>,
     /// Intervals in which the function is zero to rounding.
     pub zero: Vec<[f64; 2]>,
     /// Where the function changes its sign without being zero.
@@ -60,19 +63,22 @@ pub(crate) struct Roots {
 }
 
 /// Finds the roots between ascending nodes of a function that has no value (`None`) in gaps. Those
-/// closer together than 4e-6 of a cell count as one root or none, by the signs around them.
+/// closer together than 4e-6 of a cell count as one root or none, by the signs around them. Islands
+/// in gaps are found if they are wider than 1/16 of a cell.
 pub(crate) fn all_roots(nodes: &[f64], f: impl FnMut(f64) -> Option<Sample>) -> Roots {
     let mut search = Search {
         f,
+        nodes: Vec::new(),
         left: nodes.len() * EVALUATIONS_PER_NODE,
         unresolved: Vec::new(),
         found: Roots::default(),
     };
-    let samples: Vec<Option<Sample>> = nodes.iter().map(|&x| search.at(x)).collect();
-    search.found.has_values = samples.iter().any(Option::is_some);
+    let samples = search.sample(nodes);
+    search.nodes = samples.iter().filter_map(|pair| pair.1).collect();
+    search.found.has_values = !search.nodes.is_empty();
     let mut before: Option<Sample> = None;
     let mut missing: Option<[f64; 2]> = None;
-    for (&x, &sample) in nodes.iter().zip(&samples) {
+    for &(x, sample) in &samples {
         let Some(here) = sample else {
             missing = Some([missing.map_or(x, |gap| gap[0]), x]);
             continue;
@@ -94,7 +100,7 @@ pub(crate) fn all_roots(nodes: &[f64], f: impl FnMut(f64) -> Option<Sample>) -> 
         search.resolve(cluster, 0.5 * widest);
     }
     let mut found = search.found;
-    found.roots.sort_by(|a, b| a.at.total_cmp(&b.at));
+    found.isolated.sort_by(|a, b| a.at.total_cmp(&b.at));
     found
 }
 
@@ -107,6 +113,8 @@ struct Unresolved {
 
 struct Search<F> {
     f: F,
+    /// The nodes that have values.
+    nodes: Vec<Sample>,
     /// Evaluations that are left.
     left: usize,
     unresolved: Vec<Unresolved>,
@@ -144,6 +152,24 @@ impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
         self.left = left;
         let is_finite = |s: &Sample| [s.value, s.slope, s.noise].iter().all(|n| n.is_finite());
         (self.f)(x).filter(is_finite)
+    }
+
+    /// The samples at the nodes and, within gaps, at points closer together: a gap may hide an island.
+    fn sample(&mut self, nodes: &[f64]) -> Vec<(f64, Option<Sample>)> {
+        let mut samples: Vec<(f64, Option<Sample>)> = Vec::with_capacity(nodes.len());
+        for &x in nodes {
+            let here = self.at(x);
+            if let Some(&(last, None)) = samples.last()
+                && here.is_none()
+            {
+                for step in 1..ISLAND_STEPS {
+                    let between = last + (x - last) * f64::from(step) / f64::from(ISLAND_STEPS);
+                    samples.push((between, self.at(between)));
+                }
+            }
+            samples.push((x, here));
+        }
+        samples
     }
 
     /// A cell with values at both ends.
@@ -207,13 +233,22 @@ impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
         {
             self.cell([end, b], depth);
         }
-        // One point without a value, and different signs beside it: a jump, or a pole.
+        // One point without a value, and different signs beside it.
         if let ([Some(a), Some(b)], [Some(first), Some(last)]) = (ends, values)
             && b.x - a.x <= POINT * (last.x - first.x)
             && a.sign() * b.sign() < 0.0
-            && [a, b].iter().all(|s| s.slope.abs() * (b.x - a.x) < POLE * s.value.abs())
         {
-            self.found.jumps.push(0.5 * (a.x + b.x));
+            self.jump(0.5 * (a.x + b.x), a.value.abs().max(b.value.abs()));
+        }
+    }
+
+    /// A change of sign at values of a size; where they rise far above those around, it is a pole.
+    fn jump(&mut self, x: f64, size: f64) {
+        let after = self.nodes.partition_point(|node| node.x < x);
+        let beside = [after.checked_sub(1), Some(after)].into_iter().flatten();
+        let nodes = beside.filter_map(|index| self.nodes.get(index));
+        if size <= RISE * nodes.map(|node| node.value.abs()).fold(0.0, f64::max) {
+            self.found.jumps.push(x);
         }
     }
 
@@ -235,7 +270,7 @@ impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
         }
         let nearest = self.nearest_to_zero(cluster, before);
         if nearest.sign() == 0.0 {
-            self.found.roots.push(Root { at: nearest.x, signs: [before, after] });
+            self.found.isolated.push(Root { at: nearest.x, signs: [before, after] });
         } else if nearest.sign() != before {
             self.bracket([a, nearest]);
             self.bracket([nearest, b]);
@@ -263,7 +298,7 @@ impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
         let value = |x: f64| self.at(x).map(|sample| sign * sample.value).ok_or(());
         let found = itp((a.x, sign * a.value), (b.x, sign * b.value), width, |v| v <= 0.0, value);
         let Some(root) = found.ok().and_then(|x| self.at(x)) else {
-            self.found.jumps.push(0.5 * (a.x + b.x));
+            self.jump(0.5 * (a.x + b.x), a.value.abs().min(b.value.abs()));
             return;
         };
         let change = root.slope.abs() * width;
@@ -272,9 +307,9 @@ impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
             return;
         }
         if root.value.abs() > JUMP * (root.noise + change) {
-            self.found.jumps.push(root.x);
+            self.jump(root.x, root.value.abs());
         } else {
-            self.found.roots.push(Root { at: root.x, signs: [sign, -sign] });
+            self.found.isolated.push(Root { at: root.x, signs: [sign, -sign] });
         }
     }
 }
@@ -299,7 +334,7 @@ mod tests {
     }
 
     fn places(found: &Roots) -> Vec<f64> {
-        found.roots.iter().map(|root| root.at).collect()
+        found.isolated.iter().map(|root| root.at).collect()
     }
 
     #[test]
@@ -311,7 +346,7 @@ mod tests {
             let wanted = [shift - PI / 3.0, shift, shift + PI / 3.0];
             assert_eq!(at.len(), 3);
             assert!(at.iter().zip(wanted).all(|(x, w)| (x - w).abs() < 1e-15), "{at:?}");
-            let signs: Vec<_> = found.roots.iter().map(|root| root.signs).collect();
+            let signs: Vec<_> = found.isolated.iter().map(|root| root.signs).collect();
             assert_eq!(signs, [[1.0, -1.0], [-1.0, 1.0], [1.0, -1.0]]);
         }
     }
@@ -330,16 +365,18 @@ mod tests {
             assert_eq!(places(&find([-1.0, 1.0], f)), Vec::<f64>::new());
         }
         let found = find([-1.0, 1.0], |x| Some([(x - 0.3) * (x - 0.3), 2.0 * (x - 0.3)]));
-        assert_eq!(found.roots.len(), 1);
-        assert!((found.roots[0].at - 0.3).abs() < 1e-15);
-        assert_eq!(found.roots[0].signs, [1.0, 1.0]);
+        assert_eq!(found.isolated.len(), 1);
+        assert!((found.isolated[0].at - 0.3).abs() < 1e-15);
+        assert_eq!(found.isolated[0].signs, [1.0, 1.0]);
     }
 
     #[test]
     fn triple_roots_and_three_close_ones() {
         let found = find([-1.0, 1.1], |x| Some([(x - 0.3).powi(3), 3.0 * (x - 0.3).powi(2)]));
-        assert_eq!(found.roots.len(), 1);
-        assert!((found.roots[0].at - 0.3).abs() < 1e-4 && found.roots[0].signs == [-1.0, 1.0]);
+        assert_eq!(found.isolated.len(), 1);
+        assert!(
+            (found.isolated[0].at - 0.3).abs() < 1e-4 && found.isolated[0].signs == [-1.0, 1.0]
+        );
         let f = |x: f64| Some([x * (x * x - 1e-6), 3.0 * x * x - 1e-6]);
         let at = places(&find([-1.0, 1.1], f));
         assert_eq!(at.len(), 3);
@@ -350,9 +387,12 @@ mod tests {
     fn gaps_and_poles_have_no_roots() {
         let inside = |x: f64| x.abs() <= 0.7 && (x - 0.11).abs() >= 1e-3;
         let f =
-            |x: f64| inside(x).then(|| [(x - 0.5) * (x + 0.6) * x, 3.0 * x * x + 0.2 * x - 0.3]);
+            |x: f64| inside(x).then_some([(x - 0.5) * (x + 0.6) * x, 3.0 * x * x + 0.2 * x - 0.3]);
         let at = places(&find([-1.0, 1.0], f));
         assert!(at.len() == 3 && (at[0] + 0.6).abs() < 1e-15, "{at:?}");
+        // An island between two nodes.
+        let island = |x: f64| ((x - 0.334).abs() < 0.003).then_some([x - 0.335, 1.0]);
+        assert_eq!(places(&find([-1.0, 1.0], island)), [0.335]);
         // A wide gap hides a change of sign: no root, no jump.
         let wide = |x: f64| ((x - 0.3).abs() > 0.01).then(|| [(x - 0.3).signum(), 0.0]);
         assert_eq!(find([-1.0, 1.0], wide), Roots { has_values: true, ..Roots::default() });
@@ -367,17 +407,17 @@ mod tests {
     fn jumps_and_intervals_of_zero_are_reported() {
         let jump = |x: f64| Some([if x < 0.3 { 1.0 } else { -1.0 }, 0.0]);
         let found = find([-1.0, 1.0], jump);
-        assert!(found.roots.is_empty() && (found.jumps[0] - 0.3).abs() < 1e-14);
+        assert!(found.isolated.is_empty() && (found.jumps[0] - 0.3).abs() < 1e-14);
         // At its very point it has no value; on a node and between nodes.
         for at in [0.0, 0.3] {
             let jump = |x: f64| (x != at).then(|| [(x - at).signum(), 0.0]);
             let found = find([-1.0, 1.0], jump);
-            assert!(found.roots.is_empty() && (found.jumps[0] - at).abs() < 1e-8, "{found:?}");
+            assert!(found.isolated.is_empty() && (found.jumps[0] - at).abs() < 1e-8, "{found:?}");
         }
         let zero =
             |x: f64| Some(if x < 0.3 { [1e-16 * (99.0 * x).sin(), 0.0] } else { [x - 0.3, 1.0] });
         let found = find([-1.0, 1.0], zero);
-        assert_eq!(found.roots, []);
+        assert_eq!(found.isolated, []);
         assert!(found.zero.len() == 1 && (found.zero[0][1] - 0.3).abs() < 1e-6, "{found:?}");
         assert_eq!(find([0.0, TAU], |_| Some([0.0, 0.0])).zero, [[0.0, TAU]]);
     }
