@@ -140,6 +140,22 @@ def test_a_speed_that_changes_weights_means_by_time() -> None:
     assert duty.work_out >= 0.0
 
 
+def test_the_drive_of_a_steady_state_is_its_motor() -> None:
+    """Found by shooting: its effort is the motor's torque, its energy the motor's work."""
+    bodies = {"crank": Body(inertia=0.5), "piston": Body(20.0)}
+    loads: list[Any] = [TorsionDamper("crank", 1.5), Gravity((0.0, -9.81))]
+    motor = assur.LinearMotor(stall=90.0, no_load=30.0)
+    machine = Machine(assur.SliderCrank(0.1, 0.4), bodies, loads, motor)
+    steady = machine.steady_state(q0=0.0)
+    state = steady.at(CLOSED)
+    duty = machine.duty(CLOSED, state.speed, state.acceleration)
+    near(duty.effort, 90.0 * (1.0 - state.speed / 30.0), 1e-7)
+    near(duty.energy, steady.motor_work, 1e-8)
+    near(duty.time, steady.period, 1e-8)
+    near(duty.mean_power, steady.power, 1e-8)
+    near([duty.work_in, duty.work_out], [duty.energy, 0.0], 1e-8)
+
+
 def test_a_spring_that_winds_up_is_not_periodic() -> None:
     """Its effort k q does not end as it began: the range is that of the positions."""
     machine = rotor(0.0, 0.2, TorsionSpring("rotor", 2.0))

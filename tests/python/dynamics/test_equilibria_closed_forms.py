@@ -390,3 +390,26 @@ def test_a_range_without_positions_names_the_dyad() -> None:
     machine = driven_slide()
     with pytest.raises(assur.PositionError, match="dyad"):
         machine.equilibria(between=(50.0, 60.0))
+
+
+def test_a_range_without_a_moment_is_refused() -> None:
+    table = assur.Table([5.0, 6.0], [1.0, 2.0], "linear", periodic=False)
+    machine = Machine(four_bar(), {"coupler": Body(1.0)}, [Torque("crank", table)])
+    with pytest.raises(assur.MotionError, match=r"no finite moment from q = 0 to 1: a table"):
+        machine.equilibria(between=(0.0, 1.0))
+    great = Machine(crank(), {"crank": Body(1e300, at="A")}, [Gravity((0.0, -1e10))])
+    with pytest.raises(assur.MotionError, match="too great"):
+        great.equilibria()
+
+
+@pytest.mark.parametrize("size", [1e-150, 1e-3, 1.0, 1e6, 1e150])
+def test_the_size_of_a_mechanism_does_not_matter(size: float) -> None:
+    machine = Machine(
+        assur.FourBar(size, 3.0 * size, 2.5 * size, 3.0 * size),
+        {"coupler": Body(1.0)},
+        [Gravity((0.3, -1.0))],
+    )
+    found = machine.equilibria()
+    near(found.q, np.arctan2([-1.0, 1.0], [0.3, -0.3]))
+    near(found.stiffness / size, [math.hypot(0.3, 1.0), -math.hypot(0.3, 1.0)])
+    near(found.frequency[0] * math.sqrt(size), math.sqrt(math.hypot(0.3, 1.0)))

@@ -21,6 +21,7 @@ use crate::math::tolerance::ANALOGUE_PER_CONDITION_SQUARED;
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Evaluator, Queries};
 use crate::query::failure::Failure;
+use crate::state::status::Status;
 
 /// Relative error of the analogues at which a position counts as a gap: beside a dead point, or where
 /// one group brings the next to a dead point, so that moments go through infinity.
@@ -102,6 +103,10 @@ impl Machine {
                 return None;
             }
             evaluator.solve(&[q]).ok()?;
+            // At the very end of a group's branch the state may be that of another position.
+            if evaluator.status() as u8 > Status::Singular as u8 {
+                return None;
+            }
             is_reached.set(true);
             let condition = evaluator.total_condition();
             let (scale, unit) = (evaluator.position().constants.scale, evaluator.unit(0));
