@@ -292,7 +292,7 @@ class Machine(MachineModel):
         >>> weight = assur.Body(mass=3.0, inertia=0.05, at="A")
         >>> rest = assur.Machine(swing, {"disc": weight}, [assur.Gravity()]).equilibria()
         >>> rest.q.round(6), rest.stable, rest.frequency.round(6)
-        (array([-1.570796,  1.570796]), array([ True, False]), array([5.88388...,      nan]))
+        (array([-1.570796,  1.570796]), array([ True, False]), array([5.884176,      nan]))
         """
         return equilibria.equilibria(self, between)
 
