@@ -303,6 +303,19 @@ class Machine:
         threads: int | None,
         report: list[int],
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], Any]: ...
+    def equilibria(
+        self, dimensions: _Float, ends: list[float], is_turn: bool, intervals: int
+    ) -> tuple[
+        _Float,
+        npt.NDArray[np.bool_],
+        _Float,
+        _Float,
+        list[list[float]],
+        list[float],
+        bool,
+        bool,
+        Any,
+    ]: ...
     def run(
         self,
         dimensions: list[float],

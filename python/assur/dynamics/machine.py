@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from assur.dynamics import counterweight, integrate, reactions, size_flywheel
+from assur.dynamics import counterweight, duty, equilibria, integrate, reactions, size_flywheel
 from assur.dynamics import internal_loads as inside
 from assur.dynamics.along import motion_of
 from assur.dynamics.model import MachineModel
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from assur.dynamics.along import MotionLike
     from assur.dynamics.counterweight import Counterweight
+    from assur.dynamics.duty import Duty
+    from assur.dynamics.equilibria import Equilibria
     from assur.dynamics.internal_loads import InternalLoads
     from assur.dynamics.model import OnError
     from assur.dynamics.reactions import Reactions
@@ -277,6 +279,135 @@ class Machine(MachineModel):
         5.0
         """
         return counterweight.with_counterweights(self, weights)
+
+    def duty(
+        self,
+        q: npt.ArrayLike,
+        speed: npt.ArrayLike,
+        acceleration: npt.ArrayLike = 0.0,
+        *,
+        on_error: OnError = "raise",
+    ) -> Duty:
+        """Return extremes, rms, power and energy of the drive's effort over a cycle.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates in the order of the motion, ascending or descending: (N,) or, for a batch of
+            shape S, S + (N,), N at least 2.
+        speed : array_like
+            Speed of the driver there, rad/s or m/s, broadcast to q; not 0, and in the direction in
+            which q goes.
+        acceleration : array_like
+            Its acceleration, broadcast to q; that of a constant speed by default.
+        on_error : {"raise", "nan"}
+            For a position that fails: raise an error, or return NaN for its design.
+
+        Returns
+        -------
+        Duty
+            The effort with its extremes, rms, power, energy and work in both directions.
+
+        Raises
+        ------
+        InputError
+            Several drivers, fewer than two positions, q that turns back, a speed that is 0 or
+            against q, shapes that do not fit, numbers that are not finite.
+        PositionError, MotionError
+            See `effort`.
+
+        Notes
+        -----
+        The effort between positions is the cubic through the four nearest; so are its square over
+        the speed, for the rms, and 1/speed, for the time. Means are over time. With steps h an
+        extreme is off by up to h⁴ |f⁗|/42 (in the first and last step of an open range h⁴ |f⁗|/24),
+        and by up to h |f′| where loads are not smooth. If the positions cover whole turns and the
+        effort ends as it began, the cubics go on across the ends; with even steps the energy is
+        then that of the trapezoidal rule, which for smooth periodic functions converges faster than
+        any power of h (L. N. Trefethen and J. A. C. Weideman, SIAM Review 56 (2014) 385). Even
+        steps may leave out the end of the turn, as `np.linspace(0, 2 * np.pi, n, endpoint=False)`
+        does: its position is added. Otherwise all numbers are over the range of the positions.
+
+        Examples
+        --------
+        A weight of 10 N on a crank of 0.5 m: what is lifted comes back.
+
+        >>> import assur
+        >>> import numpy as np
+        >>> swing = assur.Mechanism(
+        ...     joints={"O": (0, 0), "A": (0.5, 0)},
+        ...     links={"ground": ["O"], "crank": ["O", "A"]},
+        ...     driver="crank",
+        ... )
+        >>> machine = assur.Machine(swing, loads=[assur.Force("A", (0.0, -10.0))])
+        >>> duty = machine.duty(np.linspace(0, 2 * np.pi, 360, endpoint=False), speed=2.0)
+        >>> duty.greatest.value.round(6), duty.rms.round(6), duty.work_in.round(6)
+        (np.float64(5.0), np.float64(3.535534), np.float64(10.0))
+        >>> duty.greatest_power.value.round(6), abs(duty.energy) < 1e-12
+        (np.float64(10.0), np.True_)
+        """
+        return duty.duty(self, q, speed, acceleration, on_error)
+
+    def equilibria(self, between: npt.ArrayLike | None = None) -> Equilibria:
+        """Return the positions of rest under weights, springs and constant loads.
+
+        Parameters
+        ----------
+        between : (least, greatest), optional
+            The range of the coordinate to search, rad or m, ends included. By default the full turn
+            around the drawing's coordinate, q0 − π to q0 + π (of `from_table`, its rows). A driven
+            slide needs a range.
+
+        Returns
+        -------
+        Equilibria
+            Every q, whether it is stable, its natural frequency in rad/s and its stiffness; and
+            intervals of indifferent rest.
+
+        Raises
+        ------
+        InputError
+            Several drivers, a batch of designs, a load that is a function, a wrong range.
+        PositionError
+            No position in the whole range.
+        MotionError
+            No finite moment in the whole range, one that changes its sign in a jump (a spring whose
+            length goes through zero), or one that varies too quickly for a complete search.
+
+        Notes
+        -----
+        Rest is where `reduced_moment` is zero at speed 0. That is −dV/dq, with V the potential of
+        weights and springs (`potential`) and of constant forces and torques; tables over q count
+        too. Dampers exert nothing at rest. Motors are off: only their rotors count, in the
+        frequency. A motor's constant torque can be given as a `Torque`.
+
+        The moment is compared with the cubic through its exact values and slopes at the ends of
+        256 intervals of a turn (or of a slide's range), which end at the rows of tables too. An
+        interval is halved until the cubic shows, by more than its error in the middle, that it has
+        no root or one (J. M. Lane and R. F. Riesenfeld, *Bounds on a polynomial*, BIT 21 (1981)
+        112). Each root is then bracketed to rounding (I. F. D. Oliveira and R. H. C. Takahashi, ACM
+        TOMS 47 (2020)). Missed are pairs of roots between two samples (1/512 of a turn) of which
+        values and slopes show nothing, and roots within 1e-6 of a dead point; three within 1e-7 rad
+        count as one. Gaps, also those of tables, are left out; what the drawing's branch reaches
+        beyond them is searched, if it is wider than 1/4096 of a turn.
+
+        Examples
+        --------
+        A disc with a weight 0.2 m from its axis hangs still at the bottom; it swings around that as
+        √(m g r/J):
+
+        >>> import assur
+        >>> swing = assur.Mechanism(
+        ...     joints={"O": (0, 0), "A": (0.2, 0)},
+        ...     links={"ground": ["O"], "disc": ["O", "A"]},
+        ...     driver="disc",
+        ... )
+        >>> weight = assur.Body(mass=3.0, inertia=0.05, at="A")
+        >>> rest = assur.Machine(swing, {"disc": weight}, [assur.Gravity()]).equilibria()
+        >>> rest.q.round(6), rest.stable, rest.frequency.round(6)
+        (array([-1.570796,  1.570796]), array([ True, False]), array([5.884176,      nan]))
+        """
+        return equilibria.equilibria(self, between)
 
     def flywheel(
         self,

@@ -247,7 +247,42 @@ class MachineModel:
         return moment[..., 0][()] if self._drivers == 1 else moment
 
     def potential(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Any:
-        """Return the potential energy of weights and springs, J."""
+        """Return the potential energy of weights and springs.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, see `reduced_inertia`.
+        on_error : {"raise", "nan"}
+            See `reduced_inertia`.
+
+        Returns
+        -------
+        ndarray
+            J, of shape S + (N,). A weight has −m g·r, r from the drawing's origin; a spring
+            k e²/2 + preload · e, e its elongation (or twist) from the free length (or angle). Other
+            loads have none here, constant forces and torques included; so `reduced_moment` is
+            −dV/dq if there are only weights and springs.
+
+        Raises
+        ------
+        PositionError
+            See `reduced_inertia`.
+        InputError
+            Wrong arguments, or coordinates beyond a table.
+
+        See Also
+        --------
+        Machine.equilibria : positions of rest, where this is extreme (constant loads count too).
+
+        Examples
+        --------
+        >>> import assur
+        >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
+        >>> spring = assur.Spring("O", "B", stiffness=200.0, length=0.4)
+        >>> assur.Machine(press, loads=[spring]).potential([0.0, 3.141592653589793]).round(9)
+        array([1., 1.])
+        """
         return self._reduce(q, None, on_error)[3][()]
 
     def _reduce(

@@ -4,6 +4,7 @@
 mod convert;
 mod crank_rocker;
 mod detach;
+mod equilibria;
 mod error;
 mod error_map;
 mod flywheel;

@@ -4,8 +4,8 @@ use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 use assur::dynamics::{
-    EndCondition, Extreme, FluctuationTarget, Mean, ReducedTable, RunOptions, SteadyOptions,
-    TabulatedMachine, Variable,
+    EndCondition, EquilibriumRange, Extreme, FluctuationTarget, Mean, ReducedTable, RunOptions,
+    SteadyOptions, TabulatedMachine, Variable,
 };
 use assur::ode::Method;
 use assur::{FirstFailure, SolveError, Status};
@@ -25,7 +25,7 @@ use crate::mechanism::Mechanism;
 use crate::parallel_map::parallel_map;
 use crate::reactions::{self, Inputs, Key};
 use crate::run::{PythonCallbacks, Run};
-use crate::{error, error_map};
+use crate::{equilibria, error, error_map};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -238,6 +238,26 @@ impl Machine {
         let mechanism = &mechanism.get().inner;
         let inputs = Inputs { dimensions, q, per_design, speed, acceleration, function_values };
         reactions::reactions(py, mechanism, machine, &inputs, &reactions, threads, &report)
+    }
+
+    /// Positions of rest of one design.
+    fn equilibria<'py>(
+        &self,
+        py: Python<'py>,
+        dimensions: Flat<'py>,
+        ends: [f64; 2],
+        is_turn: bool,
+        intervals: u32,
+    ) -> PyResult<equilibria::Found<'py>> {
+        let range = EquilibriumRange { ends, is_turn, intervals };
+        let dimensions = dimensions.as_slice()?;
+        let found = detach::run(py, false, |cancel| match &self.inner {
+            Inner::Mechanism(mechanism, machine) => {
+                machine.equilibria(&mechanism.get().inner, dimensions, range, cancel)
+            }
+            Inner::Tables(tabulated) => tabulated.equilibria(range),
+        })?;
+        Ok(equilibria::arrays(py, &found))
     }
 
     /// Integrates a run over time or, with `along_q`, over the coordinate.

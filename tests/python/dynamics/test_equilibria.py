@@ -18,13 +18,11 @@ import assur
 from assur import Body, Force, Gravity, Spring, Torque, TorsionSpring
 from machines import four_bar, pendulum
 from multipliers import Reactions
+from reaction_machines import reaction_case
 
 if TYPE_CHECKING:
     from assur import Machine
 
-LATER = pytest.mark.skipif(
-    not hasattr(assur.Machine, "equilibria"), reason="Machine.equilibria is not there yet"
-)
 STEPS = 240  # of the search over a turn
 
 
@@ -76,7 +74,6 @@ def test_the_oracle_on_a_pendulum() -> None:
             assert abs(frequency - 1.0) < 1e-9
 
 
-@LATER
 @pytest.mark.parametrize("make", [pendulum, held])
 def test_equilibria(make: Any) -> None:
     machine = make()
@@ -93,9 +90,58 @@ def test_equilibria(make: Any) -> None:
             assert abs(float(found.frequency[k]) - frequency) < 1e-8 * frequency
 
 
-@LATER
 def test_rest_needs_no_drive() -> None:
     machine: Any = held()
     for q in np.atleast_1d(machine.equilibria().q):
         scale = abs(float(machine.effort(float(q) + 0.5, 0.0, 0.0))) + 1.0
         assert abs(float(machine.effort(float(q), 0.0, 0.0))) < 1e-11 * scale
+
+
+def constant(machine: Machine) -> Machine:
+    """The machine without the loads that are functions."""
+
+    def is_constant(load: Any) -> bool:
+        values = [*getattr(load, "force", ()), getattr(load, "torque", 0.0)]
+        return not any(callable(value) for value in values)
+
+    mechanism = machine.mechanism
+    assert mechanism is not None
+    return assur.Machine(mechanism, machine.bodies, [x for x in machine.loads if is_constant(x)])
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_random_machines_against_a_fine_grid(seed: int) -> None:
+    """All changes of sign between 4000 positions are found, and what is found changes its sign.
+
+    Random machines have gaps, islands, dead points, and groups where moments go to infinity.
+    """
+    case = reaction_case(seed)
+    if np.size(case.mechanism.q0) > 1:
+        pytest.skip("several drivers")
+    machine, q0 = constant(case.machine), float(case.mechanism.q0)
+    reach = 1.0 if case.mechanism.driver in case.mechanism.slides else math.pi
+    found = machine.equilibria(between=(q0 - reach, q0 + reach))
+    grid = np.linspace(q0 - reach, q0 + reach, 4001)
+
+    def moment(q: Any) -> Any:
+        return machine.reduced_moment(q, on_error="nan")
+
+    values = moment(grid)
+    for k in np.flatnonzero(values[:-1] * values[1:] < 0.0):
+        try:
+            q = float(brentq(moment, grid[k], grid[k + 1], xtol=1e-14))
+        except ValueError:  # a gap in between
+            continue
+        if abs(moment(q)) < 1e-3 * abs(values[k : k + 2]).min():
+            assert np.abs(found.q - q).min() < 1e-9
+    assert found.indifferent.size == 0
+    for q, stable in zip(found.q, found.stable, strict=True):
+        before, after = moment(q + np.array([-1e-9, 1e-9]))
+        assert (before > 0.0 > after) if stable else (before < 0.0 < after)
+    h = 1e-6
+    for q, stiffness in zip(found.q, found.stiffness, strict=True):
+        near = moment(q + h * np.array([-2, -1, 1, 2]))
+        slope = (near[0] - 8 * near[1] + 8 * near[2] - near[3]) / (12 * h)
+        if np.isfinite(near).all():  # beside a dead point the slope changes within 1e-6
+            bend = abs(near[0] + near[3] - near[1] - near[2]) / h
+            assert abs(slope + stiffness) < 1e-6 * abs(stiffness) + bend

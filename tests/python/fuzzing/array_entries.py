@@ -170,6 +170,10 @@ ENTRIES: dict[str, Entry] = {
         q=EVEN,
         force=FORCE,
     ),
+    **each_of("Machine.duty", MACHINE.duty, q=PHI, speed=1.0, acceleration=2.0),
+    "Machine.equilibria.between": Entry(
+        MACHINE.equilibria, (np.array([-1.0, 4.0]), np.array([0.0, 5.0]))
+    ),
     **each_of("Machine.flywheel", OF_TABLE.flywheel, fluctuation=0.125, mean_speed=4.0),
     **each_of("Machine.run", MACHINE.run, t_end=0.5, q0=1.0, speed0=2.0, breaks=0.0, rtol=1e-6),
     "Machine.run.atol": Entry(

@@ -177,7 +177,14 @@ def not_numbers(array: Any) -> dict[str, Any]:
 
 
 # What may be left out.
-OPTIONAL = ("Machine.run", "Run.at", "Machine.flywheel", "Machine.steady_state", "assur.flywheel")
+OPTIONAL = (
+    "Machine.run",
+    "Run.at",
+    "Machine.equilibria",
+    "Machine.flywheel",
+    "Machine.steady_state",
+    "assur.flywheel",
+)
 
 
 @pytest.mark.parametrize("name", list(ENTRIES))

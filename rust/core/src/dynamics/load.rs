@@ -74,7 +74,7 @@ pub enum Load {
 
 /// Unit vector from one end to the other, and the distance. The vector is NaN at zero distance;
 /// only a spring without tension there can ignore that.
-fn direction_and_length(pose: &SolvedPose<'_>, ends: [Point; 2]) -> (Vector, f64) {
+pub(super) fn direction_and_length(pose: &SolvedPose<'_>, ends: [Point; 2]) -> (Vector, f64) {
     let span = pose.point(ends[1], 0) - pose.point(ends[0], 0);
     let length = libm::hypot(span.x, span.y);
     (span.scale(1.0 / length), length)
@@ -119,10 +119,7 @@ impl Load {
         let first = SolvedPose::first_order;
         match self {
             Self::Force { at, force: [x, y], axes, .. } => {
-                let frame = axes.map_or(Vector::ONE, |link| {
-                    let frame = |at| pose.point(Point::Link { link, at }, 0);
-                    frame([1.0, 0.0]) - frame([0.0; 2])
-                });
+                let frame = axis_of(pose, *axes);
                 let force = Vector::new(x.at(numbers), y.at(numbers)) * frame;
                 for (driver, sum) in out.applied.iter_mut().enumerate() {
                     *sum += force.dot(pose.point(*at, first(driver)));
@@ -160,14 +157,27 @@ fn damp(damping: f64, rate: impl Fn(usize) -> f64, speed: &[f64], out: &mut Redu
     out.d_moment_d_speed += -damping * rate(0) * rate(0);
 }
 
+/// Unit vector along the x axis of a link, or of the frame.
+pub(super) fn axis_of(pose: &SolvedPose<'_>, link: Option<usize>) -> Vector {
+    link.map_or(Vector::ONE, |link| {
+        let place = |at| pose.point(Point::Link { link, at }, 0);
+        place([1.0, 0.0]) - place([0.0; 2])
+    })
+}
+
 /// Derivative by a driver of a link's angle relative to another link.
-fn relative_rate(pose: &SolvedPose<'_>, link: usize, on: usize, driver: usize) -> f64 {
+pub(super) fn relative_rate(pose: &SolvedPose<'_>, link: usize, on: usize, driver: usize) -> f64 {
     pose.angle(link, SolvedPose::first_order(driver))
         - pose.angle(on, SolvedPose::first_order(driver))
 }
 
 /// Derivative by a driver of the distance between two points.
-fn elongation_rate(pose: &SolvedPose<'_>, ends: [Point; 2], unit: Vector, driver: usize) -> f64 {
+pub(super) fn elongation_rate(
+    pose: &SolvedPose<'_>,
+    ends: [Point; 2],
+    unit: Vector,
+    driver: usize,
+) -> f64 {
     let k = SolvedPose::first_order(driver);
     unit.dot(pose.point(ends[1], k) - pose.point(ends[0], k))
 }

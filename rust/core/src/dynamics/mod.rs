@@ -19,6 +19,7 @@
 
 pub(crate) mod angle_between;
 pub(crate) mod body;
+pub(crate) mod equilibria;
 pub(crate) mod flywheel;
 pub(crate) mod kinematics;
 pub(crate) mod load;
@@ -28,11 +29,13 @@ pub(crate) mod reactions;
 pub(crate) mod reduced;
 pub(crate) mod run;
 pub(crate) mod steady;
+pub(crate) mod stiffness;
 pub(crate) mod tables;
 pub(crate) mod value;
 
 pub use angle_between::{Angle, Line};
 pub use body::Body;
+pub use equilibria::{Equilibria, Equilibrium, EquilibriumRange};
 pub use flywheel::cycle::{Cycle, Extreme};
 pub use flywheel::flywheel::{Flywheel, Mean};
 pub use kinematics::Point;

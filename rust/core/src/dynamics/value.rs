@@ -31,6 +31,15 @@ impl Value {
         }
     }
 
+    /// Value and derivative by the coordinate, without callbacks; `tables`: those of every table.
+    pub(crate) fn with_slope(self, tables: &[[f64; 2]]) -> [f64; 2] {
+        match self {
+            Self::Number(number) => [number, 0.0],
+            Self::Table(index) => tables.get(index).copied().unwrap_or([f64::NAN; 2]),
+            Self::External(_) => [f64::NAN; 2],
+        }
+    }
+
     /// Derivative by the driver's speed.
     pub(crate) fn d_speed(self, numbers: Numbers<'_>) -> f64 {
         match self {

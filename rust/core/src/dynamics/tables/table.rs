@@ -74,6 +74,11 @@ impl Table {
         [self.knots[0], self.knots[self.knots.len() - 1]]
     }
 
+    /// The greatest value of its rows, but for the last.
+    pub(crate) fn size(&self) -> f64 {
+        self.pieces.iter().map(|piece| piece[0].abs()).fold(0.0, f64::max)
+    }
+
     fn width(&self) -> f64 {
         let [first, last] = self.range();
         last - first

@@ -1,5 +1,6 @@
 //! Roots and extremes of functions of one variable: one file for each method of the literature.
 
+pub(crate) mod all_roots;
 pub(crate) mod bisection;
 pub(crate) mod double_root;
 pub(crate) mod golden_section;

@@ -1,0 +1,44 @@
+//! Positions of rest for Python.
+
+use assur::FirstFailure;
+use assur::dynamics::{Equilibria, Equilibrium};
+use numpy::PyArray1;
+use pyo3::exceptions::PyBaseException;
+use pyo3::prelude::*;
+
+use crate::error_map;
+
+/// Coordinates, whether stable, stiffnesses, frequencies; ends of indifferent intervals; jumps;
+/// whether the search was cut short, or found no moment; the exception of a range without positions.
+pub(crate) type Found<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<bool>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Vec<[f64; 2]>,
+    Vec<f64>,
+    bool,
+    bool,
+    Option<Py<PyBaseException>>,
+);
+
+pub(crate) fn arrays<'py>(py: Python<'py>, found: &Equilibria) -> Found<'py> {
+    let column = |of: fn(&Equilibrium) -> f64| {
+        PyArray1::from_vec(py, found.isolated.iter().map(of).collect())
+    };
+    let failure = found.failure.clone().map(|failure| {
+        let first = FirstFailure { row: 0, failure, count: 1 };
+        error_map::first_failure(&first, &[], 1).into_value(py)
+    });
+    (
+        column(|one| one.q),
+        PyArray1::from_vec(py, found.isolated.iter().map(|one| one.is_stable).collect()),
+        column(|one| one.stiffness),
+        column(|one| one.frequency),
+        found.indifferent.clone(),
+        found.jumps.clone(),
+        found.is_incomplete,
+        found.is_empty,
+        failure,
+    )
+}
