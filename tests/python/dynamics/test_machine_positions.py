@@ -8,6 +8,7 @@ import pytest
 import assur
 import bits
 import design_spaces
+from reaction_machines import reaction_case
 
 # Squares and their products are rounded, in another order: a few units in the last place.
 ROUNDED = 8 * 2.0**-53
@@ -35,3 +36,16 @@ def test_reduced_inertias_are_those_of_the_motion(name: str) -> None:
         expected = rate[..., np.newaxis] * rate[..., np.newaxis, :]
         assert np.array_equal(np.isnan(found), np.isnan(expected)), link
         np.testing.assert_allclose(found, expected, rtol=ROUNDED, atol=0, err_msg=link)
+
+
+@pytest.mark.parametrize("before", [1e-9, 1.275e-11, 2e-12])
+def test_a_position_lost_beside_a_fold_has_no_moment(before: float) -> None:
+    """It once had one, which depended on the positions asked for with it."""
+    m = reaction_case(108).mechanism
+    machine = assur.Machine(m, {"L4": assur.Body(1.0, 0.1)}, [assur.Gravity()])
+    q = 1.8877209835496425 - before
+    lost = m.solve(q, on_error="nan").status > assur.Status.NEAR_SINGULAR
+    for asked in ([q], [q, 1.5], [1.7, q]):
+        found = machine.reduced_moment(asked, on_error="nan")
+        assert np.isnan(found[asked.index(q)]) == lost
+        assert np.isnan(found).sum() == lost

@@ -249,6 +249,6 @@ impl Design<'_> {
             }
             return true;
         }
-        !matches!(state.status, Status::Singular | Status::Unreachable | Status::NotConverged)
+        matches!(state.status, Status::Ok | Status::NearSingular)
     }
 }
