@@ -206,7 +206,9 @@ def _points(place: Any) -> list[Any]:
     if isinstance(place, np.ndarray) and place.ndim:
         place = list(place)
     if not isinstance(place, list | tuple) or not place:
-        message = f"{short(place)} is no place: a joint, (x, y), a list of them, or MomentBounds"
+        message = (
+            f"{short(place)} is not a place: give a joint, (x, y), a list of them, or MomentBounds"
+        )
         raise InputError(message)
     several = any(isinstance(one, str | list | tuple) or np.shape(one) for one in place)
     return list(place) if several else [place]

@@ -137,7 +137,7 @@ def bearing(
     force = found.joint(name, on)
     links = [link for link, joints in found._mechanism.links.items() if name in joints]
     if len(links) == 1:
-        message = f"joint {name!r} is on link {on!r} alone: it is no bearing"
+        message = f"joint {name!r} is on link {on!r} alone: nothing bears on it"
         raise InputError(message, joint=name, link=on)
     others = [link for link in links if link != on]
     for what, link in (("frame", frame), ("against", against)):

@@ -274,7 +274,10 @@ def reactions(
     on_error: OnError,
     keys: list[Key] | None = None,
 ) -> Reactions:
-    """Return the reactions of a machine, or some of them; see `Machine.reactions`."""
+    """Return the reactions of a machine; see `Machine.reactions`.
+
+    Some of them, if `keys` are given, without errors.
+    """
     mechanism = machine.mechanism
     if mechanism is None:
         message = "a machine of a table has no joints: reactions need a mechanism"
@@ -318,8 +321,8 @@ def reactions(
         two = key.kind in ("joint", "shaking force")
         array.flags.writeable = False
         found[key] = array.reshape((*shape, 2) if two else shape)
-    drivers_motion = tuple(np.broadcast_to(one, full) for one in (x, v, a))
-    return Reactions(mechanism, drivers_motion, found, status.reshape(shape))  # type: ignore[arg-type]
+    everywhere_given = np.broadcast_to(x, full), np.broadcast_to(v, full), np.broadcast_to(a, full)
+    return Reactions(mechanism, everywhere_given, found, status.reshape(shape))
 
 
 def _drop_infinite(keys: list[Key], arrays: list[Float], positions: int) -> None:
@@ -327,13 +330,16 @@ def _drop_infinite(keys: list[Key], arrays: list[Float], positions: int) -> None
 
     (The place of a guide's force is at infinity where the force is zero.)
     """
+    rows = [array.reshape(positions, array.size // max(positions, 1)) for array in arrays]
     infinite = np.zeros(positions, dtype=np.bool_)
-    for key, array in zip(keys, arrays, strict=True):
-        if key.kind != "along" and np.isinf(array).any():
-            infinite |= np.isinf(array.reshape(positions, -1)).any(axis=1)
+    with np.errstate(over="ignore", invalid="ignore"):
+        for key, array in zip(keys, rows, strict=True):
+            # A sum reads an array once; a closer look is for those that are not finite throughout.
+            if key.kind != "along" and not np.isfinite(array.sum()):
+                infinite |= np.isinf(array).any(axis=1)
     if infinite.any():
-        for array in arrays:
-            array.reshape(positions, -1)[infinite] = np.nan
+        for array in rows:
+            array[infinite] = np.nan
 
 
 def _require_finite(what: str, drives: Float, status: npt.NDArray[np.uint8], q: Float) -> None:

@@ -92,7 +92,7 @@ def straight_rod(
     mechanism._core.require("link", checked_name(link, "link"))
     joints = mechanism.links[link]
     if link == "ground" or len(joints) < 2:
-        message = f"link {link!r} is no rod: loads inside it need a moving link of two joints"
+        message = f"link {link!r} is not a rod: loads inside it need a moving link of two joints"
         raise InputError(message, link=link)
     ends = joints[:2] if along is None else along
     if not isinstance(ends, tuple | list | str) or len(ends) != 2:

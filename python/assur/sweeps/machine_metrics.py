@@ -130,6 +130,11 @@ def _motion(speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> tuple[Any, Any
     return first, second
 
 
+def _joint_force(measure: Measure, joint: str, on: str | None, *motion: npt.ArrayLike) -> Metric:
+    name = None if on is None else checked_name(on, "on")
+    return JointForce(measure, checked_name(joint, "joint"), name, *_motion(*motion))
+
+
 def peak_reaction(
     joint: str,
     on: str | None = None,
@@ -170,8 +175,7 @@ def peak_reaction(
     >>> assur.sweep(engine, {"rod.length": [0.3, 0.4]}, q, metrics=asked)["A"].round(1)
     array([848.5, 826.2])
     """
-    name = None if on is None else checked_name(on, "on")
-    return JointForce("peak", checked_name(joint, "joint"), name, *_motion(speed, acceleration))
+    return _joint_force("peak", joint, on, speed, acceleration)
 
 
 def rms_reaction(
@@ -184,8 +188,7 @@ def rms_reaction(
 
     See `peak_reaction`.
     """
-    name = None if on is None else checked_name(on, "on")
-    return JointForce("rms", checked_name(joint, "joint"), name, *_motion(speed, acceleration))
+    return _joint_force("rms", joint, on, speed, acceleration)
 
 
 def peak_effort(speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -> Metric:

@@ -181,11 +181,13 @@ def test_published_residue_of_partial_balance() -> None:
 def test_weights_count_as_bodies() -> None:
     """The composite is what two bodies are: the same as forces of a machine with one body each."""
     machine = four_bar()
+    mechanism = machine.mechanism
+    assert mechanism is not None
     weight = balance.Counterweight("coupler", 0.3, 2.0, about="C", mass=1.7)
     both = machine.with_counterweights([weight, balance.Counterweight("rocker", 0.0, mass=0.0)])
-    coupler = machine.mechanism.dimensions["coupler.length"]  # type: ignore[union-attr]
+    coupler = mechanism.dimensions["coupler.length"]
     at = coupler + 0.3 / 1.7 * math.cos(2.0), 0.3 / 1.7 * math.sin(2.0)
-    alone = assur.Machine(machine.mechanism, {"coupler": Body(1.7, 0.0, at)})  # type: ignore[arg-type]
+    alone = assur.Machine(mechanism, {"coupler": Body(1.7, 0.0, at)})
     found = [one.reactions(TURN, 20.0, 5.0) for one in (both, machine, alone)]
     for name in ("shaking_force", "shaking_moment", "driver"):
         whole, first, second = (getattr(one, name) for one in found)
@@ -203,7 +205,7 @@ def test_machine_keeps_loads_and_motor() -> None:
 
 FOUR_BAR = four_bar()
 ENGINE = assur.Machine(assur.SliderCrank(0.1, 0.35), {"piston": Body(1.0)})
-BATCH = assur.Machine(FOUR_BAR.mechanism.with_dimensions({"crank.length": [0.04, 0.05]}))  # type: ignore[union-attr]
+BATCH = assur.Machine(assur.FourBar([0.04, 0.05], 0.15, 0.12, 0.16))
 TABLE = assur.Machine.from_table([0.0, 3.0, math.tau], [0.0, 1.0, 0.0], 1.0)
 NAN: Any = math.nan
 TWO = assur.Mechanism(

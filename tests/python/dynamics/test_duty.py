@@ -107,8 +107,9 @@ def test_the_mean_effort_is_the_net_work_of_the_loads() -> None:
 
 
 def test_numbers_change_with_the_fourth_power_of_the_step() -> None:
-    machine = press()
-    machine = Machine(machine.mechanism, machine.bodies, [Gravity()])  # type: ignore[arg-type]
+    mechanism = press().mechanism
+    assert mechanism is not None
+    machine = Machine(mechanism, press().bodies, [Gravity()])
     fine = machine.duty(np.linspace(0.3, 2.9, 6401), 12.0)
     errors = []
     for count in (101, 201, 401):
@@ -127,7 +128,9 @@ def test_numbers_change_with_the_fourth_power_of_the_step() -> None:
 
 def test_a_speed_that_changes_weights_means_by_time() -> None:
     """Speed s = ω (1 + cos q / 2): T = 2π/(ω √(1 − 1/4)); the damper takes c ∫ s dq."""
-    machine = Machine(rotor().mechanism, {}, [TorsionDamper("rotor", 0.7)])  # type: ignore[arg-type]
+    mechanism = rotor().mechanism
+    assert mechanism is not None
+    machine = Machine(mechanism, {}, [TorsionDamper("rotor", 0.7)])
     omega = 5.0
     speed = omega * (1 + 0.5 * np.cos(OPEN))
     duty = machine.duty(OPEN, speed, -0.5 * omega * np.sin(OPEN) * speed)

@@ -277,7 +277,8 @@ def test_pins_are_the_ends() -> None:
     machine = engine()
     q = np.array([0.4, 2.0])
     found, forces = machine.internal_loads("rod", q, 9.0), machine.reactions(q, 9.0)
-    angle = machine.mechanism.solve(q).link("rod").value  # type: ignore[union-attr]
+    assert machine.mechanism is not None
+    angle = machine.mechanism.solve(q).link("rod").value
     e = np.stack([np.cos(angle), np.sin(angle)], -1)
     for joint, end, sign in (("A", 0, -1.0), ("B", -1, 1.0)):
         force = forces.joint(joint, on="rod")
@@ -320,7 +321,8 @@ def test_a_load_at_an_end_but_for_rounding(off: float) -> None:
     beside = engine(Force(("rod", (0.35 - off, 0.1)), (50.0, -700.0)))
     found = beside.internal_loads("rod", 1.0, 9.0, n=5)
     # Moved off the pin it also turns the rod; of its end only the couple is left.
-    angle = float(beside.mechanism.solve(1.0).link("rod").value)  # type: ignore[union-attr]
+    assert beside.mechanism is not None
+    angle = float(beside.mechanism.solve(1.0).link("rod").value)
     along = 50.0 * math.cos(angle) - 700.0 * math.sin(angle)
     assert found.moment[-1] == pytest.approx(-0.1 * along, rel=1e-9)
     assert at_pin.moment[-1] == pytest.approx(0.0, abs=1e-12)
@@ -365,8 +367,8 @@ NAN = math.nan
     [
         (ENGINE, {"link": "rods"}, "rods"),
         (ENGINE, {"link": 3}, "not a string"),
-        (ENGINE, {"link": "ground"}, "'ground' is no rod"),
-        (ENGINE, {"link": "piston"}, "'piston' is no rod"),
+        (ENGINE, {"link": "ground"}, "'ground' is not a rod"),
+        (ENGINE, {"link": "piston"}, "'piston' is not a rod"),
         (ENGINE, {"along": ("A", "O")}, "'O' is not"),
         (ENGINE, {"along": ("A", "A")}, "along"),
         (ENGINE, {"along": "A"}, "along"),
