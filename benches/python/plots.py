@@ -109,7 +109,7 @@ def overview(rows: list[tuple[str, dict[str, float]]]) -> str:
     axes.xaxis.set_minor_locator(NullLocator())
     axes.set_xlabel("time, assur = 1 (left: quicker than assur)")
     axes.grid(axis="y", lw=0.3)
-    axes.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.4, 1.22), ncols=5)
+    axes.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.2, 1.22), ncols=5)
     return save(figure, "overview")
 
 

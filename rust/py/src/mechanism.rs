@@ -31,8 +31,10 @@ const FEW_SIGNS: usize = 12;
 const FEW_LINKS: usize = 64;
 /// Bytes below which a result is one array: making many takes longer than solving.
 const SMALL_RESULT: usize = 64 << 10;
-/// Number of positions that take as long as tracing one branch from the drawing.
+/// Number of positions that take as long as tracing one branch from the drawing; fewer without groups
+/// above class II, whose knots are solved in lanes.
 const POSITIONS_PER_BRANCH: usize = 1000;
+const POSITIONS_PER_BRANCH_OF_DYADS: usize = 100;
 /// Positions to diagnose between two checks for cancellation; fewer with several drivers.
 const POSITIONS_PER_CHECK: usize = 8192;
 
@@ -253,7 +255,11 @@ impl Mechanism {
         };
         request.check_arrays(&self.inner, &arrays).map_err(error_map::solve)?;
         let arrays = Mutex::new(Some(arrays));
-        let cost = count.saturating_add(designs.saturating_mul(POSITIONS_PER_BRANCH));
+        let per_branch = match self.inner.structure().class() {
+            0..=2 => POSITIONS_PER_BRANCH_OF_DYADS,
+            _ => POSITIONS_PER_BRANCH,
+        };
+        let cost = count.saturating_add(designs.saturating_mul(per_branch));
         let small = self.inner.q0().len() == 1 && cost < FEW_POSITIONS;
         if let Some(buffers) = &buffers {
             buffers.setattr("complete", false)?;
