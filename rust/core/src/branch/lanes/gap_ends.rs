@@ -37,16 +37,6 @@ pub(in crate::branch) struct EndPosition {
 }
 
 impl GapEnds {
-    /// Removes all ends.
-    pub(in crate::branch) fn clear(&mut self) {
-        self.ends.clear();
-    }
-
-    /// Whether there are no ends.
-    pub(in crate::branch) fn is_empty(&self) -> bool {
-        self.ends.is_empty()
-    }
-
     fn index(&self, knot: usize) -> Option<usize> {
         self.ends.iter().position(|end| end.is_confirmed && end.knot == knot)
     }

@@ -16,7 +16,6 @@ use super::uniform::UniformTracer;
 use crate::branch::branch::Branch;
 use crate::math::angle::{is_about_half, unwrap_to, whole_turns};
 use crate::math::lanes::Real;
-use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
@@ -50,7 +49,10 @@ pub(crate) struct LaneTracer {
     /// Principal angles at the next knot.
     next: Vec<f64>,
     was_reached: bool,
-    pub(in crate::branch) ends: GapEnds,
+    /// The ends of gaps between the knots of each scan.
+    ends: [GapEnds; LEVELS],
+    /// Whether these ends stand in for closer scans of dead points.
+    ends_serve: bool,
     /// How far each angle turns between the last knot that can be reached and the next.
     into_gap: Vec<f64>,
     /// The same at the first position that can be reached.
@@ -79,9 +81,9 @@ impl LaneTracer {
         if !self.take_turn(cx, knots, classes, settled) {
             return false;
         }
-        self.ends.clear();
-        if !classes.is_empty() {
-            self.find_ends::<L, G>(cx, knots, classes);
+        self.ends_serve = !classes.is_empty();
+        if self.ends_serve {
+            self.find_ends::<L, G>(cx, knots, classes, 0);
         }
         self.dead_point_levels = DEAD_POINT_LEVELS;
         loop {
@@ -89,8 +91,8 @@ impl LaneTracer {
             if !(traced && self.is_tie) {
                 return traced;
             }
-            if !self.ends.is_empty() {
-                self.ends.clear();
+            if self.ends_serve {
+                self.ends_serve = false;
             } else if self.dead_point_levels < LEVELS {
                 self.dead_point_levels = LEVELS;
             } else {
@@ -113,20 +115,21 @@ impl LaneTracer {
         self.scans[0].take(cx, knots, classes, settled, (grid.from, grid.cell))
     }
 
-    /// Finds the ends of the gaps between them.
+    /// Finds the ends of gaps between the knots of a scan.
     #[inline(always)]
     pub(in crate::branch) fn find_ends<L: Level, const G: usize>(
         &mut self,
         cx: &Context<'_>,
         knots: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
+        level: usize,
     ) {
-        self.ends.find::<L, G>(cx, knots, classes, &self.scans[0].view());
+        self.ends[level].find::<L, G>(cx, knots, classes, &self.scans[level].view());
     }
 
-    /// What the first scan shows about the ends of gaps.
-    pub(in crate::branch) fn turn_view(&self) -> ScanView<'_> {
-        self.scans[0].view()
+    /// The ends of gaps between the knots of the first scan, and what that shows about them.
+    pub(in crate::branch) fn turn_ends(&self) -> (&GapEnds, ScanView<'_>) {
+        (&self.ends[0], self.scans[0].view())
     }
 
     /// Whether a sign may change between two knots of the first scan.
@@ -137,7 +140,7 @@ impl LaneTracer {
 
     /// Whether every dead point has a confirmed end.
     pub(in crate::branch) fn has_found_all_ends(&self) -> bool {
-        self.ends.cells() == self.scans[0].dead_point
+        self.ends[0].cells() == self.scans[0].dead_point
     }
 
     /// Traces the knots of the first scan, with closer scans where they are needed.
@@ -166,6 +169,8 @@ impl LaneTracer {
         loop {
             if classes.is_empty() {
                 self.scans[level].skip_quiet_cells();
+            } else {
+                self.push_quiet_cells(level, classes, branch);
             }
             let knot = self.scans[level].next;
             if knot == self.scans[level].count {
@@ -177,11 +182,12 @@ impl LaneTracer {
                 continue;
             }
             let within = (self.scans[level].from, self.scans[level].cell);
-            let ends = if level == 0 { self.ends.beside(within, knot) } else { None };
+            let ends = if self.ends_serve { self.ends[level].beside(within, knot) } else { None };
             if let Some(beside) = ends {
                 for beside in beside {
                     self.next.clear();
-                    let angles = (0..classes.len()).map(|class| self.ends.angle(class, &beside));
+                    let angles =
+                        (0..classes.len()).map(|class| self.ends[level].angle(class, &beside));
                     self.next.extend(angles);
                     self.push_next((beside.at, beside.reached), classes, branch);
                 }
@@ -210,6 +216,9 @@ impl LaneTracer {
                 let taken = self.scans[level].take(cx, knots, classes, settled, within);
                 if !taken || count > MAX_SCANS {
                     return false;
+                }
+                if self.ends_serve {
+                    self.find_ends::<L, G>(cx, knots, classes, level);
                 }
                 continue;
             }
@@ -257,16 +266,37 @@ impl LaneTracer {
         if !(angles && has(scan.reached, knot) && has(scan.reached, knot - 1)) {
             return Some(false);
         }
-        let mut fast = false;
-        for (index, (angles, rates)) in scan.angles.iter().zip(&scan.rates).enumerate() {
-            let turned = unwrap_to(angles[knot], self.last[index]) - self.last[index];
-            if last && turned.abs() > KNOT_MAX_TURN {
-                return None;
-            }
-            let rate = rates[knot].abs().max(rates[knot - 1].abs());
-            fast |= turned.abs() > KNOT_MAX_TURN || rate * scan.cell.abs() > KNOT_MAX_TURN;
+        let fast = has(scan.fast, knot);
+        if fast && last {
+            return None;
         }
         Some(fast)
+    }
+
+    /// Adds the knots at the ends of the next cells in which nothing happens to the branch.
+    #[inline(always)]
+    fn push_quiet_cells(&mut self, level: usize, classes: &[usize], branch: &mut Branch) {
+        let scan = &mut self.scans[level];
+        let knots = scan.next..scan.end_of_quiet_cells(level < ISLAND_LEVELS);
+        if knots.is_empty() || self.was_reached != has(scan.reached, scan.next - 1) {
+            return;
+        }
+        scan.next = knots.end;
+        branch.at.extend(knots.clone().map(|knot| scan.from + scan.cell * knot as f64));
+        branch.reached.resize(branch.at.len(), self.was_reached);
+        let (width, row) = (branch.gain.len(), branch.angles.len());
+        branch.angles.resize(row + width * knots.len(), 0.0);
+        for (index, &class) in classes.iter().enumerate() {
+            let last = &mut self.last[index];
+            let unwrapped = branch.angles[row + class..].iter_mut().step_by(width);
+            for (unwrapped, &angle) in unwrapped.zip(&scan.angles[index][knots.clone()]) {
+                if self.was_reached {
+                    follow(last, angle);
+                }
+                *unwrapped = *last;
+            }
+            self.principal[index] = scan.angles[index][knots.end - 1];
+        }
     }
 
     /// Adds a knot of a scan to the branch.

@@ -3,9 +3,11 @@
 
 use super::cell_test::{Bits, DyadSamples, ScanGrid};
 use super::gap_end::ScanView;
-use super::grid::KNOTS;
+use super::grid::{KNOTS, previous};
 use super::uniform::UniformTracer;
+use crate::math::angle::unwrap_to;
 use crate::math::lanes::{Mask, Real};
+use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::plan::dyad::Dyad;
 use crate::state::state::Context;
 
@@ -27,6 +29,8 @@ pub(in crate::branch) struct Scan {
     /// Cells with a dead point that matters for the requested angles or for a sign.
     pub dead_point: Bits,
     pub may_hide_island: Bits,
+    /// Cells over which a requested angle turns fast.
+    pub fast: Bits,
     /// Knots that can be reached.
     pub reached: Bits,
     /// Angle and rate of the requested classes at every knot.
@@ -64,6 +68,7 @@ impl Scan {
         let grid = ScanGrid { groups, cell, islands };
         let mut known = Bits::MAX;
         [self.uncertain, self.curved, self.dead_point, self.may_hide_island] = [0; 4];
+        self.fast = 0;
         for (index, dyad) in cx.plan.dyads().enumerate() {
             if !islands && index > last {
                 break;
@@ -91,10 +96,18 @@ impl Scan {
         self.angles.resize(classes.len(), [0.0; KNOTS]);
         self.rates.resize(classes.len(), [0.0; KNOTS]);
         for (index, &class) in classes.iter().enumerate() {
+            let (mut last, limit) = (R::ZERO, R::splat(KNOT_MAX_TURN));
+            let mut rate_before = R::ZERO;
             for group in 0..groups {
                 // Beyond a dead point a rotation's length is not 1, so `unit_angle` would be wrong.
                 let angle = state.pose.class[class][group].angle();
                 let rate = state.pose.theta[state.len * class + 1][group];
+                let before = previous(last.lane(R::LANES - 1), angle);
+                let turned = unwrap_to(angle, before) - before;
+                let steep = rate.abs().max(previous(rate_before.lane(R::LANES - 1), rate).abs());
+                let is_fast = limit.lt(turned.abs()).or(limit.lt((steep * R::splat(cell)).abs()));
+                self.fast |= is_fast.bits() << (group * R::LANES);
+                (last, rate_before) = (angle, rate);
                 for lane in 0..R::LANES {
                     self.angles[index][group * R::LANES + lane] = angle.lane(lane);
                     self.rates[index][group * R::LANES + lane] = rate.lane(lane);
@@ -128,6 +141,18 @@ impl Scan {
             let left = (self.uncertain | self.curved | self.dead_point) >> self.next;
             self.next = (self.next + left.trailing_zeros() as usize).min(self.count);
         }
+    }
+
+    /// The knot at the end of the cells from [`Self::next`] on that need no closer look and lie within or
+    /// outside the reachable range.
+    pub(in crate::branch) fn end_of_quiet_cells(&self, with_islands: bool) -> usize {
+        if self.next >= self.count {
+            return self.next;
+        }
+        let changes = self.reached ^ (self.reached << 1);
+        let islands = if with_islands { self.may_hide_island } else { 0 };
+        let busy = self.uncertain | self.curved | self.dead_point | self.fast | changes | islands;
+        (self.next + (busy >> self.next).trailing_zeros() as usize).min(self.count)
     }
 
     /// Whether all angles are defined at both ends of the cell before a knot: beyond a dead point a

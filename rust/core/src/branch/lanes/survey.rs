@@ -28,12 +28,13 @@ impl LaneTracer {
         if !self.take_turn(cx, knots, classes, settled) || self.has_uncertain_cells() {
             return false;
         }
-        self.find_ends::<L, G>(cx, knots, classes);
+        self.find_ends::<L, G>(cx, knots, classes, 0);
         if !self.has_found_all_ends() {
             return false;
         }
+        let (ends, scan) = self.turn_ends();
         for (index, &class) in classes.iter().enumerate() {
-            let range = self.ends.range(&self.turn_view(), index, start[class]);
+            let range = ends.range(&scan, index, start[class]);
             let Some(reference) = range.and_then(reference_of) else { return false };
             references[class] = reference;
         }
