@@ -1,10 +1,16 @@
 """Hypothesis profiles: `fast` (the same cases every time), `slow` (HYPOTHESIS_PROFILE=slow)."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 settings.register_profile("fast", deadline=None, derandomize=True, max_examples=200)
 settings.register_profile(
@@ -26,6 +32,19 @@ def pytest_sessionstart() -> None:
     if wanted and not (found.is_relative_to(wanted) and "site-packages" in found.parts):
         message = f"{found} would be tested, not the package installed in {wanted}"
         raise pytest.UsageError(message)
+
+
+@pytest.fixture
+def threads_at_once() -> Iterator[None]:
+    """Threads start for small work too. Releases have no such hook: there one thread does it."""
+    from assur import _core
+
+    if hasattr(_core, "start_threads_at_once"):
+        _core.start_threads_at_once(True)
+        yield
+        _core.start_threads_at_once(False)
+    else:
+        yield
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

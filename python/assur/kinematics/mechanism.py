@@ -431,8 +431,8 @@ class Mechanism:
             For unreachable positions: raise an error for the first one, or return NaN,
             each with its own status code.
         threads : int, optional
-            Maximum number of threads; by default one per core, and one for small
-            work. Results do not depend on it.
+            Most threads; by default one per core. Small work is done by one, because it ends
+            before others have started. Results do not depend on it.
         out : Motion, optional
             A motion of the same shape, order and outputs. It and every array obtained
             from it are overwritten; avoids allocation.

@@ -58,7 +58,7 @@ mod _core {
     };
     #[pymodule_export]
     #[cfg(feature = "test-hooks")]
-    use super::test_hooks::panic_in_chunk;
+    use super::test_hooks::{panic_in_chunk, start_threads_at_once};
     #[pymodule_export]
     use super::trig::{asin, atan2, sin_cos, unit_angle};
     use super::{Bound, PyModule, PyResult, detach, pyfunction};

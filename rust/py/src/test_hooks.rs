@@ -1,4 +1,4 @@
-//! A deliberate panic, for tests only.
+//! A deliberate panic, and threads for small work too, for tests only.
 
 use assur::test_hooks;
 use pyo3::prelude::*;
@@ -7,4 +7,10 @@ use pyo3::prelude::*;
 #[pyfunction]
 pub(crate) fn panic_in_chunk(number: usize) {
     test_hooks::panic_in_chunk(number);
+}
+
+/// Makes calls start their threads at once, however little the work is.
+#[pyfunction]
+pub(crate) fn start_threads_at_once(at_once: bool) {
+    test_hooks::start_threads_at_once(at_once);
 }

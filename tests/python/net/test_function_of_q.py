@@ -21,6 +21,8 @@ from bits import Bits, Float, coordinates, designs, solve
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+pytestmark = pytest.mark.usefixtures("threads_at_once")
+
 # Random mechanisms: 500, or 5000 in a campaign.
 COUNT = 5000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 500
 PARTS = 10

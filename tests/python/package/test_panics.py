@@ -13,10 +13,13 @@ from assur import _core
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-pytestmark = pytest.mark.skipif(
-    not hasattr(_core, "panic_in_chunk"),
-    reason="assur was built without the feature test-hooks, as every release is",
-)
+pytestmark = [
+    pytest.mark.skipif(
+        not hasattr(_core, "panic_in_chunk"),
+        reason="assur was built without the feature test-hooks, as every release is",
+    ),
+    pytest.mark.usefixtures("threads_at_once"),
+]
 
 Q = np.linspace(0.0, 2.0 * np.pi, 50)
 MANY = np.linspace(2.9, 3.1, 4000)  # designs: more than one chunk of work

@@ -38,6 +38,17 @@ def test_threads_accepted(threads: int) -> None:
     assert (solve(m, q, threads=threads) == solve(m, q)).all()
 
 
+@pytest.mark.parametrize("positions", [360, 3000, 70_000])
+def test_others_help_after_a_trial(positions: int) -> None:
+    """The first chunks are short, and one design may lie in chunks of both sizes."""
+    lengths = np.linspace(2.9, 3.1, 2_000_000 // positions)
+    m = assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"coupler.length": lengths})
+    q = np.linspace(-9.0, 9.0, positions)
+    one, two = (m.solve(q, 0, ["C"], threads=threads) for threads in (1, 2))
+    assert np.array_equal(one.joint("C").value, two.joint("C").value)
+
+
+@pytest.mark.usefixtures("threads_at_once")
 @pytest.mark.parametrize("positions", [360, 361])
 @pytest.mark.parametrize("threads", [1, 2])
 def test_results_beyond_the_caches_have_the_same_bits(threads: int, positions: int) -> None:
@@ -55,6 +66,7 @@ def test_results_beyond_the_caches_have_the_same_bits(threads: int, positions: i
             assert np.array_equal(whole[::100], some), (name, order)
 
 
+@pytest.mark.usefixtures("threads_at_once")
 @pytest.mark.parametrize("threads", [1, 2])
 @pytest.mark.parametrize("positions", [8_201, 65_541])
 def test_many_designs_at_many_positions_have_the_same_bits(positions: int, threads: int) -> None:

@@ -2,6 +2,7 @@
 pub mod bench_hooks;
 mod by_position;
 mod careful;
+pub(crate) mod chunks;
 mod coordinates;
 pub(crate) mod designs;
 pub(crate) mod dispatch;

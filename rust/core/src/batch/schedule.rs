@@ -1,33 +1,26 @@
-//! Cuts the work into chunks and runs threads that take one chunk after another.
+//! Runs threads that take one chunk of the work after another.
 
 use std::num::NonZeroUsize;
-use std::ops::Range;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{LazyLock, Mutex};
+use std::sync::{LazyLock, Mutex, OnceLock};
 use std::thread;
+use std::time::{Duration, Instant};
 
+use super::chunks::{Chunk, Chunks};
 use super::failure_log::FailureLog;
 use super::known_signs::KnownSigns;
-use super::outputs::{Arrays, Column};
 use super::writer::RowSlices;
 use crate::description::error::SolveError;
 use crate::math::simd::Simd;
 
-/// Positions per chunk: some hundred microseconds of work, so that tracing the branch and taking
-/// the chunk from the queue cost little.
-const CHUNK: usize = 8192;
-/// The same with at least [`MANY_DESIGNS`]: a longer chunk loads the shared coordinates and their
-/// unit vectors once for all its designs, as long as they fit in a cache.
-const CHUNK_OF_MANY_DESIGNS: usize = 65_536;
-/// With so many designs all threads have work even if each design is one chunk.
-const MANY_DESIGNS: usize = 64;
-/// The same with several drivers, where each position needs a branch of its own.
-const CHUNK_SEVERAL_DRIVERS: usize = 8;
-/// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
-const MAX_DESIGNS: usize = 128;
-/// Numbers in a result that no cache holds: 32 MiB.
-const BEYOND_CACHES: usize = 4 << 20;
+/// The first chunks are this many times shorter. They show how long the work will take.
+const TRIAL_PART: usize = 8;
+/// Least time of this trial: the first positions find the caches cold.
+const TRIAL: Duration = Duration::from_micros(50);
+/// Work that pays for other threads: 36 000 positions of a four-bar take as long (290 µs) on one thread
+/// as on two, half as many half as long.
+const WORTH_THREADS: Duration = Duration::from_micros(300);
 
 /// Which positions and designs take the careful path. Results are the same with any choice; tests
 /// compare the paths.
@@ -59,7 +52,7 @@ impl Care {
 /// How to do the work: threads, vector instructions and cancellation.
 #[derive(Debug, Clone, Copy)]
 pub struct Control<'a> {
-    /// Number of threads; `None` uses one per core, or a single thread for small work.
+    /// Most threads; `None` means one per core. Small work is done by one thread.
     pub threads: Option<NonZeroUsize>,
     /// Highest level of vector instructions to use.
     pub simd: Simd,
@@ -86,94 +79,6 @@ impl Default for Control<'_> {
     }
 }
 
-/// A range of positions of a range of designs.
-#[derive(Debug, Clone)]
-pub(crate) struct Chunk {
-    pub designs: Range<usize>,
-    pub positions: Range<usize>,
-}
-
-/// The chunks still to do, with the rows to write. After an interruption the rest stays unwritten:
-/// nobody may read it, and filling it would take as long as solving.
-pub(crate) struct Chunks<'a> {
-    rest: Arrays<'a>,
-    columns: &'a [Column],
-    designs: usize,
-    positions: usize,
-    next: (usize, usize),
-    size: usize,
-    past_caches: bool,
-}
-
-impl<'a> Chunks<'a> {
-    pub(crate) fn new(
-        arrays: Arrays<'a>,
-        columns: &'a [Column],
-        [designs, positions]: [usize; 2],
-        drivers: usize,
-    ) -> Self {
-        let size = match drivers {
-            1 if designs >= MANY_DESIGNS => positions.clamp(CHUNK, CHUNK_OF_MANY_DESIGNS),
-            1 => CHUNK,
-            _ => CHUNK_SEVERAL_DRIVERS,
-        };
-        let numbers: usize = arrays.columns.iter().map(|column| column.len()).sum();
-        let past_caches = numbers >= BEYOND_CACHES;
-        Self { rest: arrays, columns, designs, positions, next: (0, 0), size, past_caches }
-    }
-
-    /// Number of chunks.
-    fn count(&self) -> usize {
-        if self.positions == 0 {
-            0
-        } else if self.positions >= self.size {
-            self.designs * self.positions.div_ceil(self.size)
-        } else {
-            self.designs.div_ceil(self.designs_per_chunk())
-        }
-    }
-
-    /// Designs per chunk when each has all its positions in the chunk.
-    fn designs_per_chunk(&self) -> usize {
-        (self.size / self.positions).min(MAX_DESIGNS)
-    }
-
-    fn take(&mut self) -> Option<(Chunk, RowSlices<'a>)> {
-        let (design, position) = self.next;
-        if design == self.designs || self.positions == 0 {
-            return None;
-        }
-        let chunk = if self.positions >= self.size {
-            let end = (position + self.size).min(self.positions);
-            self.next = if end == self.positions { (design + 1, 0) } else { (design, end) };
-            Chunk { designs: design..design + 1, positions: position..end }
-        } else {
-            let end = (design + self.designs_per_chunk()).min(self.designs);
-            self.next = (end, 0);
-            Chunk { designs: design..end, positions: 0..self.positions }
-        };
-        let rows = self.take_rows(chunk.designs.len() * chunk.positions.len());
-        Some((chunk, rows))
-    }
-
-    fn take_rows(&mut self, rows: usize) -> RowSlices<'a> {
-        let columns = self.rest.columns.iter_mut().zip(self.columns);
-        RowSlices {
-            columns: columns.map(|(all, column)| split_front(all, rows * column.width)).collect(),
-            status: split_front(&mut self.rest.status, rows),
-            past_caches: self.past_caches,
-        }
-    }
-}
-
-/// Splits the first `count` elements off a slice.
-#[allow(clippy::mut_mut, reason = "the slice itself is moved on")]
-fn split_front<'a, T>(all: &mut &'a mut [T], count: usize) -> &'a mut [T] {
-    let (front, rest) = std::mem::take(all).split_at_mut(count);
-    *all = rest;
-    front
-}
-
 /// Makes the other workers stop when one panics.
 struct PanicFlag<'a>(&'a AtomicBool);
 
@@ -193,8 +98,8 @@ impl Control<'_> {
 
     /// Runs all chunks. Each thread makes its own worker and finishes it after its last chunk.
     ///
-    /// The threads live only during the call: starting them costs some ten microseconds, and no
-    /// idle thread is left that a fork of the process could break.
+    /// This thread begins alone; others start when the rest takes so long that they help. They live
+    /// only during the call: no idle thread is left that a fork of the process could break.
     pub(crate) fn run<W>(
         &self,
         chunks: Chunks<'_>,
@@ -202,22 +107,14 @@ impl Control<'_> {
         work: impl Fn(&mut W, &Chunk, RowSlices<'_>) + Sync,
         finish: impl Fn(W) + Sync,
     ) -> Result<(), SolveError> {
-        let count = chunks.count();
-        let threads = match self.threads {
-            // Asking the system for the number of cores takes longer than small work.
-            _ if count <= 1 => 1,
-            Some(threads) => threads.get().min(count),
-            None => thread::available_parallelism().map_or(1, NonZeroUsize::get).min(count),
-        };
-        let queue = Mutex::new(chunks);
+        let threads = self.most_threads(chunks.count());
+        let queue = Queue::new(chunks, threads > 1);
         let panicked = AtomicBool::new(false);
-        let work_until_done = || {
+        let work_while = |goes_on: &dyn Fn() -> bool| {
             let panic_flag = PanicFlag(&panicked);
             let mut worker = worker();
-            while !self.is_cancelled() && !panicked.load(Ordering::Relaxed) {
-                // The lock is not held during the work, so a panic does not poison it.
-                let next = queue.lock().ok().and_then(|mut queue| queue.take());
-                let Some((chunk, rows)) = next else { break };
+            while !self.is_cancelled() && !panicked.load(Ordering::Relaxed) && goes_on() {
+                let Some((chunk, rows)) = queue.take() else { break };
                 #[cfg(feature = "test-hooks")]
                 super::test_hooks::before_chunk();
                 work(&mut worker, &chunk, rows);
@@ -225,9 +122,10 @@ impl Control<'_> {
             drop(panic_flag);
             finish(worker);
         };
-        if threads == 1 {
-            work_until_done();
-        } else {
+        work_while(&|| threads == 1 || queue.ends_soon());
+        let threads = queue.end_trial(threads);
+        if threads > 0 && !self.is_cancelled() {
+            let work_until_done = || work_while(&|| true);
             thread::scope(|scope| {
                 // The calling thread only waits: if it worked too, the scheduler could keep a new
                 // thread queued behind it for a millisecond while another core is idle.
@@ -246,5 +144,66 @@ impl Control<'_> {
             });
         }
         if self.is_cancelled() { Err(SolveError::Interrupted) } else { Ok(()) }
+    }
+
+    /// Most threads for a number of chunks.
+    fn most_threads(&self, chunks: usize) -> usize {
+        match self.threads {
+            // Asking the system for the number of cores takes longer than small work.
+            _ if chunks <= 1 => 1,
+            Some(threads) => threads.get().min(chunks),
+            None => thread::available_parallelism().map_or(1, NonZeroUsize::get).min(chunks),
+        }
+    }
+}
+
+/// The chunks that the threads of a call share.
+struct Queue<'a> {
+    chunks: Mutex<Chunks<'a>>,
+    rows: usize,
+    started: OnceLock<Instant>,
+    /// Sizes of chunks after the trial.
+    sizes: [usize; 2],
+}
+
+impl<'a> Queue<'a> {
+    /// `with_trial`: the first chunks are short.
+    fn new(mut chunks: Chunks<'a>, with_trial: bool) -> Self {
+        let sizes = [chunks.size, chunks.max_designs];
+        if with_trial {
+            [chunks.size, chunks.max_designs] = sizes.map(|size| (size / TRIAL_PART).max(1));
+        }
+        Self { rows: chunks.left(), started: OnceLock::new(), chunks: Mutex::new(chunks), sizes }
+    }
+
+    /// The lock is not held during the work, so a panic does not poison it.
+    fn with<T>(&self, access: impl FnOnce(&mut Chunks<'a>) -> T) -> Option<T> {
+        self.chunks.lock().ok().map(|mut chunks| access(&mut chunks))
+    }
+
+    fn take(&self) -> Option<(Chunk, RowSlices<'a>)> {
+        self.with(Chunks::take).flatten()
+    }
+
+    /// Whether one thread will have done the rest before others would help, judged by its own time since
+    /// the first call.
+    fn ends_soon(&self) -> bool {
+        #[cfg(feature = "test-hooks")]
+        if super::test_hooks::threads_start_at_once() {
+            return false;
+        }
+        let elapsed = self.started.get_or_init(Instant::now).elapsed();
+        let left = self.with(|chunks| chunks.left()).unwrap_or(0);
+        let rest = elapsed.as_secs_f64() * left as f64 / (self.rows - left) as f64;
+        elapsed < TRIAL || rest < WORTH_THREADS.as_secs_f64()
+    }
+
+    /// Makes the chunks long; how many threads they serve.
+    fn end_trial(&self, threads: usize) -> usize {
+        self.with(|chunks| {
+            [chunks.size, chunks.max_designs] = self.sizes;
+            threads.min(chunks.count())
+        })
+        .unwrap_or(0)
     }
 }

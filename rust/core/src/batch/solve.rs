@@ -2,11 +2,12 @@
 
 use std::mem::MaybeUninit;
 
+use super::chunks::{Chunk, Chunks};
 use super::designs::Designs;
 use super::dispatch::{self, Entry, ForLevel};
 use super::outputs::{Arrays, Column, Quantity};
 use super::request::{Coordinates, Motion, Request, Series, Shape, check_arrays, product};
-use super::schedule::{Chunk, Chunks, Control};
+use super::schedule::Control;
 use super::worker::{Job, Worker};
 use super::writer::{RowSlices, Writer};
 use crate::description::error::SolveError;

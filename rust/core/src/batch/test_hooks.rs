@@ -1,8 +1,8 @@
-//! Hooks for tests and benches: a deliberate panic, to test how the library handles one, and the
-//! compilation of a tape by itself. Only the feature `test-hooks` has them, which releases are built
+//! Hooks for tests and benches: a deliberate panic, to test how the library handles one, threads for
+//! small work too, and the compilation of a tape by itself. Only the feature `test-hooks` has them, which releases are built
 //! without.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::outputs::Outputs;
 use crate::plan::compile_tape::Needs;
@@ -12,6 +12,18 @@ use crate::structure::closure::point_of_joint;
 
 /// Chunks left until the panic; 0: no panic.
 static CHUNKS: AtomicUsize = AtomicUsize::new(0);
+
+/// Whether threads start at once.
+static AT_ONCE: AtomicBool = AtomicBool::new(false);
+
+/// Makes all calls from now on start their threads at once, however little the work is.
+pub fn start_threads_at_once(at_once: bool) {
+    AT_ONCE.store(at_once, Ordering::SeqCst);
+}
+
+pub(crate) fn threads_start_at_once() -> bool {
+    AT_ONCE.load(Ordering::SeqCst)
+}
 
 /// Makes the `number`-th chunk from now on panic (0: none).
 pub fn panic_in_chunk(number: usize) {

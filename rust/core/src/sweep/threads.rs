@@ -4,9 +4,9 @@ use std::mem::MaybeUninit;
 
 use super::judge::{Batch, Outcome};
 use super::scratch::{Scratch, ScratchRows};
+use crate::batch::chunks::{Chunk, Chunks};
 use crate::batch::designs::{DesignRow, Designs};
 use crate::batch::dispatch::{Entry, ForLevel};
-use crate::batch::schedule::{Chunk, Chunks};
 use crate::batch::worker::Worker;
 use crate::batch::writer::RowSlices;
 use crate::description::error::SolveError;

@@ -1,0 +1,128 @@
+//! The work in chunks: some positions of some designs, with the rows to write.
+
+use std::ops::Range;
+
+use super::outputs::{Arrays, Column};
+use super::writer::RowSlices;
+
+/// Positions per chunk: some hundred microseconds of work, so that tracing the branch and taking
+/// the chunk from the queue cost little.
+const CHUNK: usize = 8192;
+/// The same with at least [`MANY_DESIGNS`]: a longer chunk loads the shared coordinates and their
+/// unit vectors once for all its designs, as long as they fit in a cache.
+const CHUNK_OF_MANY_DESIGNS: usize = 65_536;
+/// With so many designs all threads have work even if each design is one chunk.
+const MANY_DESIGNS: usize = 64;
+/// The same with several drivers, where each position needs a branch of its own.
+const CHUNK_SEVERAL_DRIVERS: usize = 8;
+/// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
+const MAX_DESIGNS: usize = 128;
+/// Numbers in a result that no cache holds: 32 MiB.
+const BEYOND_CACHES: usize = 4 << 20;
+
+/// A range of positions of a range of designs.
+#[derive(Debug, Clone)]
+pub(crate) struct Chunk {
+    pub designs: Range<usize>,
+    pub positions: Range<usize>,
+}
+
+/// The chunks still to do, with the rows to write. After an interruption the rest stays unwritten:
+/// nobody may read it, and filling it would take as long as solving.
+pub(crate) struct Chunks<'a> {
+    rest: Arrays<'a>,
+    columns: &'a [Column],
+    designs: usize,
+    positions: usize,
+    next: (usize, usize),
+    /// Most positions and designs of a chunk.
+    pub size: usize,
+    pub max_designs: usize,
+    past_caches: bool,
+}
+
+impl<'a> Chunks<'a> {
+    pub(crate) fn new(
+        arrays: Arrays<'a>,
+        columns: &'a [Column],
+        [designs, positions]: [usize; 2],
+        drivers: usize,
+    ) -> Self {
+        let size = match drivers {
+            1 if designs >= MANY_DESIGNS => positions.clamp(CHUNK, CHUNK_OF_MANY_DESIGNS),
+            1 => CHUNK,
+            _ => CHUNK_SEVERAL_DRIVERS,
+        };
+        let numbers: usize = arrays.columns.iter().map(|column| column.len()).sum();
+        let past_caches = numbers >= BEYOND_CACHES;
+        Self {
+            rest: arrays,
+            columns,
+            designs,
+            positions,
+            next: (0, 0),
+            size,
+            max_designs: MAX_DESIGNS,
+            past_caches,
+        }
+    }
+
+    /// Number of chunks not taken yet.
+    pub(super) fn count(&self) -> usize {
+        let (design, position) = self.next;
+        let designs = self.designs - design;
+        if self.positions == 0 {
+            0
+        } else if self.positions >= self.size {
+            designs * self.positions.div_ceil(self.size) - position / self.size
+        } else {
+            designs.div_ceil(self.designs_per_chunk())
+        }
+    }
+
+    /// Rows not taken yet.
+    pub(super) fn left(&self) -> usize {
+        let (design, position) = self.next;
+        (self.designs - design) * self.positions - position
+    }
+
+    /// Designs per chunk when each has all its positions in the chunk.
+    fn designs_per_chunk(&self) -> usize {
+        (self.size / self.positions).clamp(1, self.max_designs)
+    }
+
+    pub(super) fn take(&mut self) -> Option<(Chunk, RowSlices<'a>)> {
+        let (design, position) = self.next;
+        if design == self.designs || self.positions == 0 {
+            return None;
+        }
+        let chunk = if self.positions >= self.size || position > 0 {
+            let end = (position + self.size).min(self.positions);
+            self.next = if end == self.positions { (design + 1, 0) } else { (design, end) };
+            Chunk { designs: design..design + 1, positions: position..end }
+        } else {
+            let end = (design + self.designs_per_chunk()).min(self.designs);
+            self.next = (end, 0);
+            Chunk { designs: design..end, positions: 0..self.positions }
+        };
+        let rows = self.take_rows(chunk.designs.len() * chunk.positions.len());
+        Some((chunk, rows))
+    }
+
+    fn take_rows(&mut self, rows: usize) -> RowSlices<'a> {
+        let columns = self.rest.columns.iter_mut().zip(self.columns);
+        RowSlices {
+            columns: columns.map(|(all, column)| split_front(all, rows * column.width)).collect(),
+            status: split_front(&mut self.rest.status, rows),
+            past_caches: self.past_caches,
+        }
+    }
+}
+
+/// Splits the first `count` elements off a slice.
+#[allow(clippy::mut_mut, reason = "the slice itself is moved on")]
+fn split_front<'a, T>(all: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    let (front, rest) = std::mem::take(all).split_at_mut(count);
+    *all = rest;
+    front
+}
