@@ -32,13 +32,14 @@ if TYPE_CHECKING:
 
 
 class Positions(NamedTuple):
-    """A machine's motion and reactions at P positions: speeds and coordinates (P, n)."""
+    """A machine's motion and reactions at P positions: q and speeds (P, n), times (P,)."""
 
     machine: Machine
     motion: Motion
     found: Reactions
     q: Float
     speed: Float
+    t: Float
 
 
 class Acting(NamedTuple):
@@ -169,7 +170,7 @@ def _taker(at: Positions, point: PointLike) -> str:
 
 
 def _force(at: Positions, load: Force) -> Float:
-    x, y = (values_at(value, at.q, at.speed) for value in load.force)
+    x, y = (values_at(value, at.q, at.speed, at.t) for value in load.force)
     if load.axes is None:
         return np.stack([x, y], axis=-1)
     sine, cosine = _trig.sin_cos(at.motion.link(load.axes).value)

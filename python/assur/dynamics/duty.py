@@ -10,7 +10,7 @@ import numpy as np
 from assur._arrays import require_finite
 from assur._extreme import Extreme
 from assur.dynamics import reactions
-from assur.dynamics.along import DrivenMotion
+from assur.dynamics.along import DrivenMotion, times
 from assur.dynamics.pieces import Pieces
 from assur.errors import InputError, MotionError
 
@@ -75,9 +75,7 @@ class Duty(NamedTuple):
 
 def duty(
     machine: MachineModel,
-    q: npt.ArrayLike,
-    speed: npt.ArrayLike,
-    acceleration: npt.ArrayLike,
+    motion: DrivenMotion,
     on_error: OnError,
 ) -> Duty:
     """Return the duty of a drive; see `Machine.duty`."""
@@ -87,20 +85,22 @@ def duty(
             "and speed give the time; machine.effort gives the efforts of all"
         )
         raise InputError(message)
-    x, v, a, shape = reactions.broadcast_motion(machine, DrivenMotion(q, speed, acceleration, 0.0))
+    x, v, a, shape = reactions.broadcast_motion(machine, motion)
+    t = times(motion.t, shape)
     require_finite(x, "q")
     x, v, a = (np.broadcast_to(one, shape) for one in (x, v, a))
     _check_path(x, v)
-    effort = np.asarray(reactions.effort(machine, DrivenMotion(x, v, a, 0.0), on_error))
+    effort = np.asarray(reactions.effort(machine, DrivenMotion(x, v, a, t), on_error))
     rows = [one.reshape(-1, shape[-1]) for one in (x, v, effort)]
     numbers = np.empty((len(rows[0]), NUMBERS))
     is_closed, lacks_end, turn = _closing(machine, rows[0])
+    lacks_end &= (t == t[..., :1]).all(axis=-1).reshape(-1)
     if lacks_end.any():
         # The first position again, whole turns later, with its speed and acceleration.
         ends = rows[0][:, :1] + turn[:, None]
         after = np.where(lacks_end[:, None], ends, rows[0][:, :1]).reshape(*shape[:-1], 1)
         effort_after = reactions.effort(
-            machine, DrivenMotion(after, v[..., :1], a[..., :1], 0.0), "nan"
+            machine, DrivenMotion(after, v[..., :1], a[..., :1], t[..., :1]), "nan"
         )
         last = [ends, rows[1][:, :1], np.reshape(effort_after, (-1, 1))]
         longer = [np.concatenate(pair, axis=1) for pair in zip(rows, last, strict=True)]

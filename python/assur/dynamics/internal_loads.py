@@ -8,7 +8,7 @@ import numpy as np
 
 from assur._arrays import in_range
 from assur._validate import one_of, whole_number
-from assur.dynamics.along import DrivenMotion
+from assur.dynamics.along import DrivenMotion, times
 from assur.dynamics.beam import QUANTITIES
 from assur.dynamics.options import one_design
 from assur.dynamics.peaks import MEASURES, Peak, find_peak
@@ -18,8 +18,6 @@ from assur.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    import numpy.typing as npt
 
     from assur._arrays import Float
     from assur.dynamics.beam import Beam
@@ -70,13 +68,13 @@ class InternalLoads:
         rod: Rod,
         beam: Beam,
         x: Float,
-        motion: tuple[Float, Float, Float],
+        motion: DrivenMotion,
         shape: tuple[int, ...],
     ) -> None:
         self._rod, self._beam, self._motion, self._shape = rod, beam, motion, shape
         self.x = x
-        drivers = motion[0].shape[1]
-        self.q = motion[0].reshape(shape if drivers == 1 else (*shape, drivers))
+        drivers = motion.q.shape[1]
+        self.q = motion.q.reshape(shape if drivers == 1 else (*shape, drivers))
         self.axial, self.shear, self.moment = (
             beam.at(name, x).reshape(*shape, x.size) for name in QUANTITIES
         )
@@ -133,9 +131,7 @@ class InternalLoads:
 def internal_loads(
     machine: Machine,
     link: str,
-    q: npt.ArrayLike,
-    speed: npt.ArrayLike,
-    acceleration: npt.ArrayLike,
+    motion: DrivenMotion,
     along: Sequence[str] | None,
     density: Any,
     n: int,
@@ -149,12 +145,12 @@ def internal_loads(
     one_of(on_error, ("raise", "nan"), "on_error")
     whole_number(n, "n", 2)
     rod = straight_rod(machine, machine.mechanism, link, along, density)
-    *given, shape = broadcast_motion(machine, DrivenMotion(q, speed, acceleration, 0.0))
+    *given, shape = broadcast_motion(machine, motion)
     drivers = machine._drivers
     full = shape if drivers == 1 else (*shape, drivers)
-    flat = [np.broadcast_to(part, full).reshape(-1, drivers) for part in given]
-    motion = flat[0], flat[1], flat[2]
+    q, speed, acceleration = (np.broadcast_to(part, full).reshape(-1, drivers) for part in given)
+    each = DrivenMotion(q, speed, acceleration, times(motion.t, shape).ravel())
     with in_range(f"a load inside {link!r}"):
-        beam = rod.solve(*motion, on_error)
+        beam = rod.solve(each, on_error)
         x = np.linspace(0.0, rod.length, n)
-        return InternalLoads(rod, beam, x, motion, shape)
+        return InternalLoads(rod, beam, x, each, shape)

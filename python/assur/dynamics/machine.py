@@ -97,12 +97,14 @@ class Machine(MachineModel):
         threads : int, optional
             Largest number of threads; all cores by default.
         on_error : {"raise", "nan"}
-            Where there is no position or no analogue: raise an error, or return NaN.
+            Where there is no position: raise an error, or return NaN.
 
         Returns
         -------
         Reactions
-            Forces in joints and slides, driver, shaking force and moment.
+            Forces in joints and slides, driver, shaking force and moment. All are NaN where the
+            status is SINGULAR, as analogues are. At a change point they grow beyond all limits
+            beside it; only the torque of the drive stays finite, and `effort` gives it.
 
         Raises
         ------
@@ -181,10 +183,11 @@ class Machine(MachineModel):
     def internal_loads(
         self,
         link: str,
-        q: npt.ArrayLike,
+        q: MotionLike,
         speed: npt.ArrayLike = 0.0,
         acceleration: npt.ArrayLike = 0.0,
         *,
+        t: npt.ArrayLike = 0.0,
         along: Sequence[str] | None = None,
         density: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
         n: int = 101,
@@ -196,7 +199,7 @@ class Machine(MachineModel):
         ----------
         link : str
             A moving link of two joints or more, a straight rod between two of them.
-        q, speed, acceleration : array_like
+        q, speed, acceleration, t
             The motion, as in `reactions`; of one design.
         along : (str, str), optional
             The joints at the ends of the rod; the link's first two by default.
@@ -246,9 +249,8 @@ class Machine(MachineModel):
         >>> print(f"{peak.value:.4f} N·m at {peak.x:.4f} m, {np.degrees(peak.q):.3f}°")
         -253.0759 N·m at 0.1517 m, 61.356°
         """
-        return inside.internal_loads(
-            self, link, q, speed, acceleration, along, density, n, on_error
-        )
+        motion = motion_of(q, speed, acceleration, t)
+        return inside.internal_loads(self, link, motion, along, density, n, on_error)
 
     def with_counterweights(self, weights: Iterable[Counterweight]) -> Machine:
         """Return the machine with counterweights as point masses on its links.
@@ -282,24 +284,28 @@ class Machine(MachineModel):
 
     def duty(
         self,
-        q: npt.ArrayLike,
-        speed: npt.ArrayLike,
+        q: MotionLike,
+        speed: npt.ArrayLike = 0.0,
         acceleration: npt.ArrayLike = 0.0,
         *,
+        t: npt.ArrayLike = 0.0,
         on_error: OnError = "raise",
     ) -> Duty:
         """Return extremes, rms, power and energy of the drive's effort over a cycle.
 
         Parameters
         ----------
-        q : array_like
+        q : array_like, Run, SteadyState or State
             Coordinates in the order of the motion, ascending or descending: (N,) or, for a batch of
-            shape S, S + (N,), N at least 2.
+            shape S, S + (N,), N at least 2. Or a motion with its speeds: a run or steady state at
+            the ends of its steps, or what its `at` returns.
         speed : array_like
             Speed of the driver there, rad/s or m/s, broadcast to q; not 0, and in the direction in
             which q goes.
         acceleration : array_like
             Its acceleration, broadcast to q; that of a constant speed by default.
+        t : array_like
+            Times for functions among the loads, s, broadcast to the positions.
         on_error : {"raise", "nan"}
             For a position that fails: raise an error, or return NaN for its design.
 
@@ -346,7 +352,7 @@ class Machine(MachineModel):
         >>> duty.greatest_power.value.round(6), abs(duty.energy) < 1e-12
         (np.float64(10.0), np.True_)
         """
-        return duty.duty(self, q, speed, acceleration, on_error)
+        return duty.duty(self, motion_of(q, speed, acceleration, t), on_error)
 
     def equilibria(self, between: npt.ArrayLike | None = None) -> Equilibria:
         """Return the positions of rest under weights, springs and constant loads.

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from assur.dynamics.along import DrivenMotion
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -41,10 +42,10 @@ class Peak(NamedTuple):
 
 
 def find_peak(
-    rod: Rod, beam: Beam, motion: tuple[Float, ...], is_row: bool, quantity: str, of: str
+    rod: Rod, beam: Beam, motion: DrivenMotion, is_row: bool, quantity: str, of: str
 ) -> Peak:
-    """Return the peak over P positions; `motion`: coordinates, speeds, accelerations, (P, n)."""
-    q = motion[0]
+    """Return the peak over P positions: coordinates and rates (P, n), times (P,)."""
+    q = motion.q
     measure, value, x = _measured(beam, quantity, of)
     known = np.isfinite(measure)
     if not known.any():
@@ -65,13 +66,13 @@ def find_peak(
     # Not toward a position without a value, where loads may grow without a limit.
     before = np.where(np.isfinite(beside[peaks]), peaks - 1, peaks)
     after = np.where(np.isfinite(beside[peaks + 2]), peaks + 1, peaks)
-    speeds = float(motion[1][0, 0]), float(motion[2][0, 0])
-    found = _refined(rod, speeds, (quantity, of), q[before, 0], q[after, 0])
+    rates = float(motion.speed[0, 0]), float(motion.acceleration[0, 0]), float(motion.t[0])
+    found = _refined(rod, rates, (quantity, of), q[before, 0], q[after, 0])
     return max([(float(measure[at]), best), *found], key=lambda one: one[0])[1]
 
 
 def _refined(
-    rod: Rod, speeds: tuple[float, float], asked: tuple[str, str], low: Float, high: Float
+    rod: Rod, rates: tuple[float, float, float], asked: tuple[str, str], low: Float, high: Float
 ) -> list[tuple[float, Peak]]:
     """Return the peaks between positions: the best of a few in between, again and again."""
     first = np.abs(high - low)
@@ -80,9 +81,9 @@ def _refined(
     while True:
         q = low[:, np.newaxis] + part * (high - low)[:, np.newaxis]
         flat = q.reshape(-1, 1)
-        speed, acceleration = (np.full(flat.shape, one) for one in speeds)
+        v, a, t = (np.full(flat.shape, one) for one in rates)
         with np.errstate(over="ignore", invalid="ignore"):
-            beam = rod.solve(flat, speed, acceleration, "nan")
+            beam = rod.solve(DrivenMotion(flat, v, a, t[:, 0]), "nan")
             measure, value, x = (one.reshape(q.shape) for one in _measured(beam, *asked))
         best = np.argmax(measure, axis=1)
         if (np.abs(high - low) <= CLOSEST * first).all():

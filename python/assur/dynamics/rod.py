@@ -17,6 +17,7 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.dynamics.acting import Acting
+    from assur.dynamics.along import DrivenMotion
     from assur.dynamics.beam import Beam
     from assur.dynamics.machine import Machine
     from assur.dynamics.model import OnError
@@ -35,23 +36,22 @@ class Rod(NamedTuple):
     length: float
     density: Density
 
-    def solve(self, q: Float, speed: Float, acceleration: Float, on_error: OnError) -> Beam:
-        """Return the loads at P positions; arguments (P, n)."""
+    def solve(self, motion: DrivenMotion, on_error: OnError) -> Beam:
+        """Return the loads at P positions: coordinates and rates (P, n), times (P,)."""
         machine, first = self.machine, self.along[0]
-        one = q.shape[1] == 1
-        given = [part[:, 0] if one else part for part in (q, speed, acceleration)]
-        found = machine.reactions(*given, on_error=on_error)
-        mechanism = found._mechanism
-        motion = mechanism.solve(given[0], order=2, on_error=on_error)
-        a, b = (motion.joint(joint).value for joint in self.along)
+        one = motion.q.shape[1] == 1
+        given = [part[:, 0] if one else part for part in motion[:3]]
+        found = machine.reactions(*given, t=motion.t, on_error=on_error)
+        solved = found._mechanism.solve(given[0], order=2, on_error=on_error)
+        a, b = (solved.joint(joint).value for joint in self.along)
         e = (b - a) / self.length
         n = np.stack([-e[:, 1], e[:, 0]], axis=-1)
-        pull = motion.joint(first).acceleration(*given[1:]) - _gravity(machine)
-        angle = motion.link(self.link)
+        pull = solved.joint(first).acceleration(*given[1:]) - _gravity(machine)
+        angle = solved.link(self.link)
         spin, second = angle.velocity(given[1]), angle.acceleration(*given[1:])
         axial = np.stack([(pull * e).sum(axis=1), -spin * spin], axis=-1)
         across = np.stack([(pull * n).sum(axis=1), second], axis=-1)
-        at = Positions(machine, motion, found, q, speed)
+        at = Positions(machine, solved, found, motion.q, motion.speed, motion.t)
         loads = [self._on_line(load, a, e, n) for load in acting_on(at, self.link)]
         return solve_beam(self.length, self.density, axial, across, loads)
 

@@ -60,8 +60,8 @@ def _called(function: Function, t: float, q: Any, speed: Any) -> float:
     return float(array)
 
 
-def values_at(value: Value, q: Float, speed: Float) -> Float:
-    """Evaluate a value of a load at rows of coordinates and speeds, at t = 0.
+def values_at(value: Value, q: Float, speed: Float, t: Float) -> Float:
+    """Evaluate a value of a load at rows of coordinates and speeds, at times.
 
     NaN where a table ends.
     """
@@ -75,5 +75,5 @@ def values_at(value: Value, q: Float, speed: Float) -> Float:
         empty = np.empty(0)
         return table.reduce(empty, first, np.zeros(rows), empty, None, [])[2].reshape(rows)
     if callable(value):
-        return function_values([value], q, speed, np.zeros(rows))
+        return function_values([value], q, speed, t)
     return np.full(rows, value)

@@ -124,3 +124,23 @@ def test_nearly_a_parallelogram_ends_at_its_near_change_point() -> None:
     assert run.end == "near_change_point"
     assert run.events[-1].event.miss == pytest.approx(3e-14, rel=0.2)
     assert run.energy.error < 1e-6
+
+
+def test_forces_grow_toward_a_change_point_and_the_drive_has_a_limit() -> None:
+    """A parallelogram's coupler translates: the drive is m g r cos q.
+
+    The rocker bears half the weight and inertia by a force along itself: T sin q = −m (g + a) / 2.
+    """
+    machine = assur.Machine(
+        assur.FourBar(1.0, 3.0, 1.0, 3.0), {"coupler": Body(2.0, 1.5, (1.5, 0.0))}, [Gravity()]
+    )
+    q = np.pi + np.array([-1e-3, -1e-6, 0.0, 1e-6, 1e-3])
+    found = machine.reactions(q, speed=10.0)
+    assert found.status[2] == assur.Status.SINGULAR
+    assert np.isnan(found.joint("C", "rocker")[2]).all()
+    assert np.isnan(found.driver[2])
+    exact = 2.0 * 9.81 * np.cos(q)
+    assert np.abs(machine.effort(q, speed=10.0) - exact).max() < 1e-9 * np.abs(exact).max()
+    beside = [0, 1, 3, 4]
+    across = found.joint("C", "rocker")[beside, 0] * np.tan(q[beside])
+    assert np.allclose(across, -(9.81 - 100.0 * np.sin(q[beside])), rtol=1e-8)

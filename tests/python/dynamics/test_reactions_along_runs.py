@@ -72,6 +72,42 @@ def test_the_motor_of_a_motion(kind: str) -> None:
     assert np.abs(effort - found.driver).max() < CLOSE * largest(found, m)
 
 
+def test_loads_inside_a_link_along_a_run() -> None:
+    """As at the run's numbers, and not at other times."""
+    load = Force(("coupler", (1.0, 0.0)), (0.0, waves))
+    rod = Body(2.0, 2.0 * 3.0**2 / 12, (1.5, 0.0))
+    bodies = {"crank": Body(3.0, 0.4), "coupler": rod}
+    heavy = assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.2), bodies, [load])
+    run = heavy.run(t_end=0.3, q0=0.3, speed0=9.0)
+    own = heavy.internal_loads("coupler", run)
+    given = heavy.internal_loads("coupler", run.q, run.speed, run.acceleration, t=run.t)
+    then = heavy.internal_loads("coupler", run.q, run.speed, run.acceleration)
+    for quantity in ("axial", "shear", "moment"):
+        assert np.array_equal(getattr(own, quantity), getattr(given, quantity))
+    assert np.abs(own.moment - then.moment).max() > 1e-3 * np.abs(own.moment).max()
+    # Rates differ from position to position, so peaks are those of positions.
+    assert own.peak("shear").q in run.q
+
+
+def test_the_duty_of_a_motor() -> None:
+    """Over a run, the drive gives what the motor gives to all but its rotor."""
+    motor = LinearMotor(stall=300.0, no_load=12.0)
+    machine = assur.Machine(four_bar(), BODIES, LOADS, motor)
+    run = machine.run(t_end=1.5, q0=0.1, speed0=8.0)
+    t = np.linspace(0.0, 1.5, 20_001)
+    state = run.at(t)
+    duty = machine.duty(state)
+    torque = 300.0 * (1.0 - state.speed / 12.0)
+    work = np.trapezoid(torque * state.speed, t)
+    assert duty.energy == pytest.approx(work, rel=1e-5)
+    assert duty.time == pytest.approx(1.5, rel=1e-9)
+    assert duty.energy == pytest.approx(duty.work_in - duty.work_out, rel=1e-12)
+    with pytest.raises(assur.InputError, match="speed is given with a Run"):
+        machine.duty(run, 3.0)
+    with pytest.raises(assur.InputError, match="speed is 0"):
+        machine.duty(run.q)
+
+
 def test_times_are_broadcast() -> None:
     machine = assur.Machine(four_bar(), BODIES, [Force("C", (waves, 0.0))])
     times = np.array([0.0, 0.2, 0.7])

@@ -30,8 +30,8 @@ TOGETHER = 1e-6
 # Bits of a cell's part that one call bisects.
 BITS = 4
 # Positions of a gap that is looked at closely: so many, and no farther apart, rad. The branch may
-# find islands that are much narrower than NARROW, and steps from one to the next: of 243 016 gaps, one
-# had an island of 1.2e-6 rad in it.
+# find islands that are much narrower than NARROW, and steps from one to the next: one of 243 016
+# gaps had an island of 1.2e-6 rad in it.
 CLOSE = 4001
 APART = 5e-7
 
