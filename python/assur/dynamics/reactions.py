@@ -291,13 +291,12 @@ def reactions(
         np.ascontiguousarray(np.broadcast_to(one, full)).ravel() for one in (v, a)
     )
     coordinates = np.ascontiguousarray(np.broadcast_to(x, full) if per_design else x).ravel()
-    everywhere = np.ascontiguousarray(np.broadcast_to(x, full)).ravel()
-    given = function_values(
-        machine._core.load_functions,
-        everywhere.reshape(-1, drivers),
-        speeds.reshape(-1, drivers),
-        times(motion.t, shape).ravel(),
-    )
+    everywhere, functions = np.broadcast_to(x, full), machine._core.load_functions
+    at = times(motion.t, shape)
+    given = np.empty(0)
+    if functions:
+        rows = everywhere.reshape(-1, drivers), speeds.reshape(-1, drivers)
+        given = function_values(functions, *rows, at.ravel())
     keys = _keys(mechanism) if keys is None else keys
     arrays, status, failure = machine._core.reactions(
         mechanism._values.reshape(-1),
@@ -315,14 +314,15 @@ def reactions(
     _drop_infinite(keys, arrays, status.size)
     if on_error == "raise":
         drives = [arrays[keys.index(Key("driver", driver))] for driver in range(drivers)]
-        _require_finite("reactions are", np.stack(drives, axis=-1), status, everywhere)
+        each = drives[0][:, None] if drivers == 1 else np.stack(drives, axis=-1)
+        _require_finite("reactions are", each, status, everywhere)
     found: dict[Key, Float] = {}
     for key, array in zip(keys, arrays, strict=True):
         two = key.kind in ("joint", "shaking force")
         array.flags.writeable = False
         found[key] = array.reshape((*shape, 2) if two else shape)
-    everywhere_given = np.broadcast_to(x, full), np.broadcast_to(v, full), np.broadcast_to(a, full)
-    return Reactions(mechanism, everywhere_given, found, status.reshape(shape))
+    given_motion = everywhere, np.broadcast_to(v, full), np.broadcast_to(a, full)
+    return Reactions(mechanism, given_motion, found, status.reshape(shape))
 
 
 def _drop_infinite(keys: list[Key], arrays: list[Float], positions: int) -> None:

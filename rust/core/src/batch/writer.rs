@@ -366,8 +366,8 @@ impl RowSlices<'_> {
     /// whole lines; partial ones would take longer.
     #[inline(always)]
     fn past_caches(&self, entry: &RowEntry, range: RowRange) -> bool {
-        let first = &self.columns[entry.column][range.first * entry.width];
-        self.past_caches && range.once && std::ptr::from_ref(first).addr().is_multiple_of(LINE)
+        let first = range.first * entry.width;
+        range.once && self.past_caches && begins_line(&self.columns[entry.column][first..])
     }
 
     /// Prefetches rows that will be written through the caches.
@@ -407,9 +407,15 @@ impl RowSlices<'_> {
     }
 }
 
+/// Whether rows begin where a line of a cache does.
+#[inline(always)]
+pub(crate) fn begins_line(rows: &[MaybeUninit<f64>]) -> bool {
+    rows.as_ptr().addr().is_multiple_of(LINE)
+}
+
 /// Stores the lanes of a point, x and y side by side.
 #[inline(always)]
-fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], past: bool, p: Vector<R>) {
+pub(crate) fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], past: bool, p: Vector<R>) {
     let (first, last) = out.split_at_mut(R::LANES);
     let [before, after] = p.x.zip(p.y);
     write(first, past, before);
@@ -418,7 +424,7 @@ fn store_pairs<R: Real>(out: &mut [MaybeUninit<f64>], past: bool, p: Vector<R>) 
 
 /// Writes a whole register, past the caches if `past`.
 #[inline(always)]
-fn write<R: Real>(out: &mut [MaybeUninit<f64>], past: bool, x: R) {
+pub(crate) fn write<R: Real>(out: &mut [MaybeUninit<f64>], past: bool, x: R) {
     if past { x.stream(out) } else { x.write(out) }
 }
 

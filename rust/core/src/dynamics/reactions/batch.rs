@@ -14,7 +14,7 @@ use crate::batch::outputs::{Arrays, Column, Quantity};
 use crate::batch::request::{Coordinates, Request, Shape, check_arrays, product};
 use crate::batch::schedule::Control;
 use crate::batch::worker::{Job, Worker};
-use crate::batch::writer::{RowSlices, Writer};
+use crate::batch::writer::{RowSlices, Writer, begins_line, store_pairs, write};
 use crate::description::error::SolveError;
 use crate::dynamics::machine::Machine;
 use crate::math::derivatives::DerivativeTables;
@@ -301,6 +301,16 @@ impl<R: Real> Evaluate<'_, '_, R> {
             let value = self.value(index);
             let width = reaction.width();
             let out = &mut self.results.columns[index][(self.first + first) * width..];
+            if lanes == R::LANES {
+                let out = &mut out[..lanes * width];
+                let past = self.results.past_caches && begins_line(out);
+                if width == 2 {
+                    store_pairs(out, past, value);
+                } else {
+                    write(out, past, value.x);
+                }
+                continue;
+            }
             for lane in 0..lanes {
                 out[lane * width] = MaybeUninit::new(value.x.lane(lane));
                 if width == 2 {

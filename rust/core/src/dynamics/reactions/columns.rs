@@ -1,5 +1,7 @@
 //! Reads the kinematics of a few positions from the columns of a solved motion.
 
+use std::ops::Add;
+
 use super::force_plan::{Direction, ForcePlan};
 use super::scene::{Moving, Scene};
 use crate::batch::outputs::{Column, Quantity};
@@ -67,6 +69,24 @@ impl Rows {
     }
 }
 
+impl Rows {
+    /// The entry `offset` of `width` of each position, a pair: all first numbers come before the second.
+    #[inline(always)]
+    fn read_pairs<R: Real>(self, values: &[f64], width: usize, offset: usize) -> Vector<R> {
+        let first = self.first * 2;
+        match (values.get(first..first + R::LANES * 2), width) {
+            (Some(all), 1) => Vector::new(
+                R::from_lanes(|lane| all[2 * lane]),
+                R::from_lanes(|lane| all[2 * lane + 1]),
+            ),
+            _ => Vector::new(
+                self.read(values, 2 * width, offset),
+                self.read(values, 2 * width, width + offset),
+            ),
+        }
+    }
+}
+
 impl<R: Real> Scene<R> {
     /// Reads positions.
     #[inline(always)]
@@ -78,21 +98,22 @@ impl<R: Real> Scene<R> {
         solved: &Solved<'_>,
         rows: Rows,
     ) {
+        let n = plan.drivers;
+        for (driver, drive) in self.drive.iter_mut().enumerate() {
+            *drive = [solved.speed, solved.acceleration].map(|all| rows.read(all, n, driver));
+        }
+        let drive = &self.drive;
         for (point, source) in self.points.iter_mut().zip(&sources.points) {
             let &Some(column) = source else { continue };
-            let (x, y) = (
-                read_component(plan, solved, rows, column, [2, 0]),
-                read_component(plan, solved, rows, column, [2, 1]),
-            );
-            *point = Moving {
-                at: Vector::new(x.at, y.at),
-                velocity: Vector::new(x.velocity, y.velocity),
-                acceleration: Vector::new(x.acceleration, y.acceleration),
-            };
+            let read =
+                |order, width, entry| rows.read_pairs(solved.columns[column + order], width, entry);
+            *point = moving(plan.order, drive, read);
         }
         for (angle, source) in self.angles.iter_mut().zip(&sources.angles) {
             let &Some(column) = source else { continue };
-            *angle = read_component(plan, solved, rows, column, [1, 0]);
+            let read =
+                |order, width, entry| rows.read(solved.columns[column + order], width, entry);
+            *angle = moving(plan.order, drive, read);
         }
         for (slide, source) in self.slides.iter_mut().zip(&sources.slides) {
             let &Some(column) = source else { continue };
@@ -117,38 +138,55 @@ impl<R: Real> Scene<R> {
     }
 }
 
-/// Value, velocity and acceleration of one component by the chain rule: `ẋ = x_a q̇_a`,
-/// `ẍ = x_a q̈_a + x_ab q̇_a q̇_b`.
+/// Value, velocity and acceleration by the chain rule: `ẋ = x_a q̇_a`, `ẍ = x_a q̈_a + x_ab q̇_a q̇_b`.
+/// `read`: entry of an order, of so many.
 #[inline(always)]
-fn read_component<R: Real>(
-    plan: &ForcePlan,
-    solved: &Solved<'_>,
-    rows: Rows,
-    column: usize,
-    [width, component]: [usize; 2],
-) -> Moving<R> {
-    let n = plan.drivers;
-    let at = rows.read(solved.columns[column], width, component);
-    let (mut velocity, mut acceleration) = (R::ZERO, R::ZERO);
-    if plan.order == 0 {
+fn moving<R: Real, T: Term<R>>(
+    highest: usize,
+    drive: &[[R; 2]],
+    read: impl Fn(usize, usize, usize) -> T,
+) -> Moving<T> {
+    let n = drive.len();
+    let at = read(0, 1, 0);
+    let (mut velocity, mut acceleration) = (T::NONE, T::NONE);
+    if highest == 0 {
         return Moving { at, velocity, acceleration };
     }
-    for a in 0..n {
-        let d1 = rows.read::<R>(solved.columns[column + 1], width * n, component * n + a);
-        velocity += d1 * rows.read(solved.speed, n, a);
-        if plan.order > 1 {
-            acceleration += d1 * rows.read(solved.acceleration, n, a);
+    for (a, &[speed, speed_rate]) in drive.iter().enumerate() {
+        let d1 = read(1, n, a);
+        velocity = velocity + d1.times(speed);
+        if highest > 1 {
+            acceleration = acceleration + d1.times(speed_rate);
         }
     }
-    if plan.order > 1 {
-        for a in 0..n {
-            for b in 0..n {
-                let entry = (component * n + a) * n + b;
-                let d2 = rows.read::<R>(solved.columns[column + 2], width * n * n, entry);
-                let speeds = rows.read::<R>(solved.speed, n, a) * rows.read(solved.speed, n, b);
-                acceleration += d2 * speeds;
+    if highest > 1 {
+        for (a, &[first, _]) in drive.iter().enumerate() {
+            for (b, &[second, _]) in drive.iter().enumerate() {
+                acceleration = acceleration + read(2, n * n, a * n + b).times(first * second);
             }
         }
     }
     Moving { at, velocity, acceleration }
+}
+
+/// A number or a vector that moves.
+trait Term<R>: Copy + Add<Output = Self> {
+    const NONE: Self;
+    fn times(self, factor: R) -> Self;
+}
+
+impl<R: Real> Term<R> for R {
+    const NONE: Self = R::ZERO;
+    #[inline(always)]
+    fn times(self, factor: R) -> Self {
+        self * factor
+    }
+}
+
+impl<R: Real> Term<R> for Vector<R> {
+    const NONE: Self = Self::ZERO;
+    #[inline(always)]
+    fn times(self, factor: R) -> Self {
+        self.scale(factor)
+    }
 }

@@ -15,6 +15,8 @@ pub(crate) struct Moving<T> {
 /// Work space: kinematics, loads, and what the pairs transmit.
 #[derive(Debug, Clone)]
 pub(crate) struct Scene<R: Real> {
+    /// Speeds and accelerations of the drivers.
+    pub drive: Vec<[R; 2]>,
     pub points: Vec<Moving<Vector<R>>>,
     /// Angles of links.
     pub angles: Vec<Moving<R>>,
@@ -54,6 +56,7 @@ impl<R: Real> Scene<R> {
         let zero = Vector::ZERO;
         let resting = Moving { at: zero, velocity: zero, acceleration: zero };
         Self {
+            drive: vec![[R::ZERO; 2]; plan.drivers],
             points: vec![resting; points],
             angles: vec![still; links],
             directions: vec![Vector::ONE; links],
