@@ -10,11 +10,13 @@ import numpy as np
 from assur._arrays import finite_array
 from assur._validate import checked_name, one_of, real_number
 from assur.dynamics.along import motion_of
-from assur.dynamics.reactions import key_of_joint, reactions
+from assur.dynamics.reactions import Key, key_of_joint, reactions
 from assur.errors import InputError
 from assur.sweeps.terms import OfMachine
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy.typing as npt
 
     from assur.dynamics.machine import Machine
@@ -33,36 +35,83 @@ __all__ = [
 Measure = Literal["peak", "rms"]
 
 
-def _over_positions(measure: Measure, sizes: Float) -> Float:
-    """Reduce sizes (designs, positions)."""
-    with np.errstate(over="ignore"):
-        if measure == "peak":
-            return np.asarray(sizes.max(axis=-1))
-        return np.asarray(np.sqrt(np.square(sizes).mean(axis=-1)))
+def _over_positions(measure: Measure, squares: Float) -> Float:
+    """Reduce squares (designs, positions) of sizes."""
+    most = squares.max(axis=-1) if measure == "peak" else squares.mean(axis=-1)
+    return np.asarray(np.sqrt(most))
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class JointForce(OfMachine):
-    """The force in a joint."""
+class Driven(OfMachine):
+    """What follows from the reactions over a motion of the drivers."""
 
     measure: Measure
-    joint: str
-    on: str | None
     speed: Any
     acceleration: Any
 
-    def check(self, machine: Machine) -> None:
-        """Raise InputError for a joint or link that the machine does not have."""
-        assert machine.mechanism is not None
-        key_of_joint(machine.mechanism, self.joint, self.on)
+    @property
+    def motion(self) -> tuple[bytes, ...]:
+        """Equal for metrics of the same motion."""
+        both = np.asarray(self.speed), np.asarray(self.acceleration)
+        return tuple(part for one in both for part in (one.tobytes(), bytes(one.shape)))
+
+    def keys(self, machine: Machine) -> list[Key]:
+        """The reactions it needs."""
+        raise NotImplementedError
+
+    def of_reactions(self, machine: Machine, q: Float, found: dict[Key, Float]) -> Float:
+        """Its values for the designs of a machine."""
+        raise NotImplementedError
 
     def values(self, machine: Machine, q: Float, threads: int | None) -> Float:
         """Its values for the designs of a machine."""
-        motion = motion_of(q, self.speed, self.acceleration, 0.0)
+        return together([self], machine, q, threads)[0]
+
+
+def together(
+    metrics: Sequence[OfMachine], machine: Machine, q: Float, threads: int | None
+) -> list[Float]:
+    """Return the values of metrics for the designs of a machine: one motion is solved once."""
+    keys: dict[tuple[bytes, ...], list[Key]] = {}
+    for metric in metrics:
+        if isinstance(metric, Driven):
+            keys.setdefault(metric.motion, []).extend(metric.keys(machine))
+    solved: dict[tuple[bytes, ...], dict[Key, Float]] = {}
+    values = []
+    for metric in metrics:
+        if not isinstance(metric, Driven):
+            values.append(metric.values(machine, q, threads))
+            continue
+        if metric.motion not in solved:
+            motion = motion_of(q, metric.speed, metric.acceleration, 0.0)
+            asked = list(dict.fromkeys(keys[metric.motion]))
+            solved[metric.motion] = reactions(machine, motion, threads, "nan", asked)._found
+        with np.errstate(over="ignore"):
+            values.append(metric.of_reactions(machine, q, solved[metric.motion]))
+    return values
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class JointForce(Driven):
+    """The force in a joint."""
+
+    joint: str
+    on: str | None
+
+    def check(self, machine: Machine) -> None:
+        """Raise InputError for a joint or link that the machine does not have."""
+        self.keys(machine)
+
+    def keys(self, machine: Machine) -> list[Key]:
+        """The force in the joint."""
         assert machine.mechanism is not None
-        key = key_of_joint(machine.mechanism, self.joint, self.on)
-        force = reactions(machine, motion, threads, "nan", [key])._found[key]
-        return _over_positions(self.measure, np.sqrt(np.square(force).sum(axis=-1)))
+        return [key_of_joint(machine.mechanism, self.joint, self.on)]
+
+    def of_reactions(self, machine: Machine, _q: Float, found: dict[Key, Float]) -> Float:
+        """Its values for the designs of a machine."""
+        force = found[self.keys(machine)[0]]
+        x, y = force[..., 0], force[..., 1]
+        return _over_positions(self.measure, x * x + y * y)
 
     def __repr__(self) -> str:
         on = "" if self.on is None else f", on={self.on!r}"
@@ -70,20 +119,22 @@ class JointForce(OfMachine):
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Effort(OfMachine):
+class Effort(Driven):
     """The torque or force of the drive."""
 
-    measure: Measure
-    speed: Any
-    acceleration: Any
+    def keys(self, machine: Machine) -> list[Key]:
+        """The efforts of all drivers."""
+        return [Key("driver", driver) for driver in range(machine._drivers)]
 
-    def values(self, machine: Machine, q: Float, _threads: int | None) -> Float:
+    def of_reactions(self, machine: Machine, q: Float, found: dict[Key, Float]) -> Float:
         """Its values for the designs of a machine; with several drivers of the greatest."""
-        effort = np.abs(machine.effort(q, self.speed, self.acceleration, on_error="nan"))
-        if machine._drivers > 1:
-            effort = np.moveaxis(effort, -1, 0)
-            return np.asarray(_over_positions(self.measure, effort).max(axis=0))
-        return _over_positions(self.measure, effort)
+        each = [found[key] for key in self.keys(machine)]
+        if any(np.isnan(effort).any() for effort in each):
+            # At a change point the forces have no value, but the effort has.
+            effort = machine.effort(q, self.speed, self.acceleration, on_error="nan")
+            each = [effort] if machine._drivers == 1 else list(np.moveaxis(effort, -1, 0))
+        found_each = [_over_positions(self.measure, effort * effort) for effort in each]
+        return np.asarray(np.max(found_each, axis=0))
 
     def __repr__(self) -> str:
         return f"{self.measure}_effort()"
@@ -132,7 +183,7 @@ def _motion(speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> tuple[Any, Any
 
 def _joint_force(measure: Measure, joint: str, on: str | None, *motion: npt.ArrayLike) -> Metric:
     name = None if on is None else checked_name(on, "on")
-    return JointForce(measure, checked_name(joint, "joint"), name, *_motion(*motion))
+    return JointForce(measure, *_motion(*motion), checked_name(joint, "joint"), name)
 
 
 def peak_reaction(

@@ -14,6 +14,7 @@ from assur.errors import InputError
 from assur.kinematics.solve import checked_assembly
 from assur.sweeps.encode import encoded
 from assur.sweeps.engine import results
+from assur.sweeps.machine_metrics import together
 from assur.sweeps.measures import Measures
 from assur.sweeps.terms import Condition, Function, Leaf, Metric, OfMachine
 
@@ -118,8 +119,7 @@ class Measuring:
         of: dict[Single, Float] = dict(zip(self.leaves, found, strict=False))
         if self.functions:
             indices = np.flatnonzero(kept)
-            for function in self.functions:
-                of[function] = self._called(function, some, indices)
+            of.update(self._called(some, indices))
         values = {name: metric.value(of.__getitem__) for name, metric in self.metrics.items()}
         for condition in self.late:
             misses = kept & ~condition.holds(condition.metric.value(of.__getitem__))
@@ -127,26 +127,34 @@ class Measuring:
             values = {name: np.where(misses, np.nan, value) for name, value in values.items()}
         return values, status, kept
 
-    def _called(
-        self, function: Function | OfMachine, some: Mechanism, indices: npt.NDArray[np.intp]
-    ) -> Float:
-        """Call a function with the motions, or machines, of some designs."""
-        found = np.full(some.shape[0], np.nan)
+    def _called(self, some: Mechanism, indices: npt.NDArray[np.intp]) -> dict[Single, Float]:
+        """Call the functions with the motions, or machines, of some designs."""
+        found: dict[Single, Float] = {
+            function: np.full(some.shape[0], np.nan) for function in self.functions
+        }
         size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q))
         for first in range(0, len(indices), size):
             few = indices[first : first + size]
             batch = some._with_values(some._values[:, few])
-            numbers = self._numbers(function, batch)
-            if numbers.shape != few.shape:
-                message = f"{function!r} returned shape {numbers.shape} for designs {few.shape}"
-                raise InputError(message)
-            found[few] = numbers
+            for function, numbers in self._numbers(batch):
+                if numbers.shape != few.shape:
+                    message = f"{function!r} returned shape {numbers.shape} for designs {few.shape}"
+                    raise InputError(message)
+                found[function][few] = numbers
         return found
 
-    def _numbers(self, function: Function | OfMachine, batch: Mechanism) -> Float:
-        if isinstance(function, OfMachine):
+    def _numbers(self, batch: Mechanism) -> Iterator[tuple[Function | OfMachine, Float]]:
+        """Yield all functions with their values for a batch."""
+        of_machine = [one for one in self.functions if isinstance(one, OfMachine)]
+        if of_machine:
             assert self.machine is not None
-            return function.values(self.machine.of(batch), self.q, self.threads)
+            values = together(of_machine, self.machine.of(batch), self.q, self.threads)
+            yield from zip(of_machine, values, strict=True)
+        for function in self.functions:
+            if not isinstance(function, OfMachine):
+                yield function, self._of_motion(function, batch)
+
+    def _of_motion(self, function: Function, batch: Mechanism) -> Float:
         motion = batch.solve(
             self.q, function.order, function.outputs, self.assembly, "nan", self.threads
         )

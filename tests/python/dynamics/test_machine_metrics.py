@@ -79,6 +79,29 @@ def test_conditions_and_sums() -> None:
     assert np.array_equal(some["sum"][kept], (whole["peak"] + 2.0 * span["a"])[kept])
 
 
+def test_metrics_of_one_motion_share_its_reactions() -> None:
+    """Alone, together and beside those of another motion each has the same bits."""
+    other = {"other": metric.peak_reaction("C", speed=1.0), "rest": metric.peak_effort()}
+    whole = assur.sweep(MACHINE, {"coupler.length": COUPLERS}, Q, metrics={**ASKED, **other})
+    for name, one in {**ASKED, **other}.items():
+        alone = assur.sweep(MACHINE, {"coupler.length": COUPLERS}, Q, metrics={name: one})
+        assert np.array_equal(alone[name], whole[name], equal_nan=True), name
+    assert (whole["other"][:3] != whole["peak C"][:3]).all()
+
+
+def test_an_effort_at_a_change_point_has_a_value() -> None:
+    """A parallelogram's drive is m g r cos q; its forces have no value where it is flat."""
+    turn = np.linspace(0.0, np.pi, 5)
+    pairs = assur.Machine(
+        assur.FourBar(1.0, 3.0, 1.0, 3.0), {"coupler": Body(2.0, 1.5, (1.5, 0.0))}, [Gravity()]
+    )
+    asked = {"effort": metric.peak_effort(speed=3.0), "pin": metric.peak_reaction("C", speed=3.0)}
+    found = assur.sweep(pairs, {}, turn, metrics=asked)
+    # Through a change point analogues are interpolated, to 1e-10 (test_change_point_machines).
+    assert found["effort"] == pytest.approx(2.0 * 9.81, rel=1e-10)
+    assert np.isnan(found["pin"]).all()
+
+
 def test_other_processes_find_the_same() -> None:
     here = assur.sweep(MACHINE, {"coupler.length": COUPLERS}, Q, metrics=ASKED)
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:
