@@ -9,6 +9,7 @@ from cases import (
     classes,
     construction,
     flywheels,
+    forces,
     grids,
     growth,
     jansen_legs,
@@ -40,6 +41,7 @@ MAKERS = (
     growth.positions,
     threads.case,
     construction.case,
+    forces.case,
     flywheels.case,
     runs.case,
 )
