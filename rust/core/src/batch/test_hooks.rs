@@ -1,6 +1,6 @@
 //! Hooks for tests and benches: a deliberate panic, to test how the library handles one, threads for
-//! small work too, and the compilation of a tape by itself. Only the feature `test-hooks` has them, which releases are built
-//! without.
+//! small work too, and the compilation of a tape by itself. Only the feature `test-hooks` has them,
+//! which releases are built without.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 

@@ -70,7 +70,8 @@ impl Rows {
 }
 
 impl Rows {
-    /// The entry `offset` of `width` of each position, a pair: all first numbers come before the second.
+    /// The entry `offset` of `width` pairs of each position: all its first numbers come before the
+    /// second ones.
     #[inline(always)]
     fn read_pairs<R: Real>(self, values: &[f64], width: usize, offset: usize) -> Vector<R> {
         let first = self.first * 2;
