@@ -38,6 +38,16 @@ const POSITIONS_PER_BRANCH_OF_DYADS: usize = 100;
 /// Positions to diagnose between two checks for cancellation; fewer with several drivers.
 const POSITIONS_PER_CHECK: usize = 8192;
 
+/// Whether designs are solved at positions so quickly that no signal need be heard meanwhile.
+pub(crate) fn is_short(mechanism: &assur::Mechanism, designs: usize, positions: usize) -> bool {
+    let per_branch = match mechanism.structure().class() {
+        0..=2 => POSITIONS_PER_BRANCH_OF_DYADS,
+        _ => POSITIONS_PER_BRANCH,
+    };
+    let cost = designs.saturating_mul(positions.saturating_add(per_branch));
+    mechanism.q0().len() == 1 && cost < FEW_POSITIONS
+}
+
 /// An array for each column, or one for all of a small result; statuses; the first failure.
 type Solution<'py> =
     (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>, Option<Py<PyBaseException>>);
@@ -255,12 +265,7 @@ impl Mechanism {
         };
         request.check_arrays(&self.inner, &arrays).map_err(error_map::solve)?;
         let arrays = Mutex::new(Some(arrays));
-        let per_branch = match self.inner.structure().class() {
-            0..=2 => POSITIONS_PER_BRANCH_OF_DYADS,
-            _ => POSITIONS_PER_BRANCH,
-        };
-        let cost = count.saturating_add(designs.saturating_mul(per_branch));
-        let small = self.inner.q0().len() == 1 && cost < FEW_POSITIONS;
+        let small = is_short(&self.inner, designs, positions);
         if let Some(buffers) = &buffers {
             buffers.setattr("complete", false)?;
         }

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 
 use crate::convert::metric::{MetricSpec, condition};
 use crate::convert::word::Word;
+use crate::mechanism::is_short;
 use crate::{detach, error_map};
 
 /// Values of each metric, statuses, and which designs are kept.
@@ -29,7 +30,9 @@ pub(crate) fn measure<'py>(
     let conditions: Vec<_> = conditions.into_iter().map(condition).collect();
     let metrics: Vec<&dyn Metric> = metrics.iter().map(|spec| &*spec.0 as &dyn Metric).collect();
     let sweep = Sweep { dimensions, q, signs, metrics: &metrics, conditions: &conditions };
-    let measured = detach::run(py, false, |cancel| {
+    let designs = dimensions.len() / mechanism.dimensions().len().max(1);
+    let small = is_short(mechanism, designs, q.len());
+    let measured = detach::run(py, small, |cancel| {
         let control = Control { threads, cancel: Some(cancel), ..Control::default() };
         mechanism.measure(&sweep, &control)
     })?;
