@@ -60,8 +60,10 @@ def fitted(q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike) 
     return balance.fit(MACHINE, q, {"rocker": (-1.0, 0.5)}, speed, acceleration)
 
 
-def inside(q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> Any:
-    return MACHINE.internal_loads("coupler", q, speed, acceleration).moment
+def inside(
+    q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike, t: npt.ArrayLike
+) -> Any:
+    return MACHINE.internal_loads("coupler", q, speed, acceleration, t=t).moment
 
 
 def inside_rod(x: npt.ArrayLike) -> Any:
@@ -157,7 +159,7 @@ ENTRIES: dict[str, Entry] = {
     **each_of("MachineModel.reduced_moment", MACHINE.reduced_moment, q=0.0, speed=1.0),
     **each_of("MachineModel.potential", MACHINE.potential, q=0.0),
     **each_of("Machine.reactions", reactions, q=0.0, speed=1.0, acceleration=2.0, t=0.5),
-    **each_of("Machine.internal_loads", inside, q=0.0, speed=1.0, acceleration=2.0),
+    **each_of("Machine.internal_loads", inside, q=0.0, speed=1.0, acceleration=2.0, t=0.5),
     "Machine.internal_loads.density": Entry(
         lambda x: inside_rod(x).axial, (np.array([0.0, 1.0, 1.0, 3.0]),)
     ),
@@ -170,7 +172,7 @@ ENTRIES: dict[str, Entry] = {
         q=EVEN,
         force=FORCE,
     ),
-    **each_of("Machine.duty", MACHINE.duty, q=PHI, speed=1.0, acceleration=2.0),
+    **each_of("Machine.duty", MACHINE.duty, q=PHI, speed=1.0, acceleration=2.0, t=0.5),
     "Machine.equilibria.between": Entry(
         MACHINE.equilibria, (np.array([-1.0, 4.0]), np.array([0.0, 5.0]))
     ),

@@ -97,7 +97,9 @@ def reduce(c: Choices) -> object:
         lambda: c.call(machine.reduced_moment, q=c.numbers, speed=c.numbers),
         lambda: c.call(machine.potential, q=c.numbers),
         lambda: c.call(machine.equilibria, between=lambda: (c.number(), c.number())),
-        lambda: c.call(machine.duty, q=c.numbers, speed=c.numbers, acceleration=c.numbers),
+        lambda: c.call(
+            machine.duty, q=c.numbers, speed=c.numbers, acceleration=c.numbers, t=c.numbers
+        ),
         lambda: c.call(machine.flywheel, fluctuation=lambda: 0.1, mean_speed=c.positive),
         lambda: machine.design(c.argument(c.small)),
     )
