@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numba
 import numpy as np
@@ -13,9 +13,24 @@ from rivals.newton_euler import COUPLER, CRANK, FORCE, GRAVITY, ROCKER, SPEED
 if TYPE_CHECKING:
     from subject import Float
 
+Two: TypeAlias = tuple[float, float]
+Four: TypeAlias = tuple[float, float, float, float]
+# The column of a force, its sign, and where it acts.
+Acting: TypeAlias = tuple[int, float, float, float]
+
 
 @numba.njit(cache=True)
-def balance(matrix, right, row, body, at, moving, turning, first, second):  # type: ignore[no-untyped-def]
+def balance(
+    matrix: Float,
+    right: Float,
+    row: int,
+    body: Four,
+    at: Two,
+    moving: Two,
+    turning: Four,
+    first: Acting,
+    second: Acting,
+) -> Two:
     """Write the three equations of a link, with a force at each of two places."""
     mass, inertia, along, across = body
     ex, ey, spin, rate = turning

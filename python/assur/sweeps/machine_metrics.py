@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -33,6 +33,8 @@ __all__ = [
 ]
 
 Measure = Literal["peak", "rms"]
+# Shapes and bytes of speeds and accelerations.
+MotionKey: TypeAlias = tuple[tuple[tuple[int, ...], bytes], ...]
 
 
 def _over_positions(measure: Measure, squares: Float) -> Float:
@@ -50,10 +52,10 @@ class Driven(OfMachine):
     acceleration: Any
 
     @property
-    def motion(self) -> tuple[bytes, ...]:
+    def motion(self) -> MotionKey:
         """Equal for metrics of the same motion."""
         both = np.asarray(self.speed), np.asarray(self.acceleration)
-        return tuple(part for one in both for part in (one.tobytes(), bytes(one.shape)))
+        return tuple((one.shape, one.tobytes()) for one in both)
 
     def keys(self, machine: Machine) -> list[Key]:
         """The reactions it needs."""
@@ -72,11 +74,11 @@ def together(
     metrics: Sequence[OfMachine], machine: Machine, q: Float, threads: int | None
 ) -> list[Float]:
     """Return the values of metrics for the designs of a machine: one motion is solved once."""
-    keys: dict[tuple[bytes, ...], list[Key]] = {}
+    keys: dict[MotionKey, list[Key]] = {}
     for metric in metrics:
         if isinstance(metric, Driven):
             keys.setdefault(metric.motion, []).extend(metric.keys(machine))
-    solved: dict[tuple[bytes, ...], dict[Key, Float]] = {}
+    solved: dict[MotionKey, dict[Key, Float]] = {}
     values = []
     for metric in metrics:
         if not isinstance(metric, Driven):
@@ -130,11 +132,13 @@ class Effort(Driven):
         """Its values for the designs of a machine; with several drivers of the greatest."""
         each = [found[key] for key in self.keys(machine)]
         if any(np.isnan(effort).any() for effort in each):
-            # At a change point the forces have no value, but the effort has.
-            effort = machine.effort(q, self.speed, self.acceleration, on_error="nan")
-            each = [effort] if machine._drivers == 1 else list(np.moveaxis(effort, -1, 0))
-        found_each = [_over_positions(self.measure, effort * effort) for effort in each]
-        return np.asarray(np.max(found_each, axis=0))
+            # At a change point the forces have no value, but the effort has. Only there: the values
+            # of a design do not depend on those beside it.
+            known = machine.effort(q, self.speed, self.acceleration, on_error="nan")
+            every = [known] if machine._drivers == 1 else list(np.moveaxis(known, -1, 0))
+            each = [np.where(np.isnan(a), b, a) for a, b in zip(each, every, strict=True)]
+        sizes = [_over_positions(self.measure, effort * effort) for effort in each]
+        return np.asarray(np.max(sizes, axis=0))
 
     def __repr__(self) -> str:
         return f"{self.measure}_effort()"

@@ -102,6 +102,31 @@ def test_an_effort_at_a_change_point_has_a_value() -> None:
     assert np.isnan(found["pin"]).all()
 
 
+def test_an_effort_does_not_depend_on_the_designs_beside_it() -> None:
+    """One of them has change points, where the effort is found by power."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 48)
+    pairs = assur.Machine(
+        assur.FourBar(1.0, 3.0, 1.0, 3.0), {"coupler": Body(2.0, 1.5, (1.5, 0.0))}, [Gravity()]
+    )
+    rockers = np.array([1.0, 1.3, 1.4])
+    for asked in (metric.peak_effort(speed=3.0), metric.rms_effort(speed=3.0)):
+        whole = assur.sweep(pairs, {"rocker.length": rockers}, turn, metrics={"a": asked})
+        for index in range(3):
+            own = {"rocker.length": rockers[index : index + 1]}
+            alone = assur.sweep(pairs, own, turn, metrics={"a": asked})
+            assert alone["a"][0] == whole["a"][index], index
+
+
+def test_speeds_over_the_positions() -> None:
+    """As many as a turn in degrees; two motions with equal speeds are one."""
+    turn = np.radians(np.arange(360.0))
+    rising = np.linspace(1.0, 6.0, 360)
+    asked = {"a": metric.peak_effort(rising), "b": metric.peak_effort(rising, np.zeros(360))}
+    found = assur.sweep(MACHINE, {}, turn, metrics={**asked, "pin": metric.peak_reaction("C")})
+    exact = np.abs(MACHINE.reactions(turn, rising).driver).max()
+    assert found["a"] == found["b"] == pytest.approx(exact, rel=1e-14)
+
+
 def test_other_processes_find_the_same() -> None:
     here = assur.sweep(MACHINE, {"coupler.length": COUPLERS}, Q, metrics=ASKED)
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:

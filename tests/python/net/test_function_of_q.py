@@ -28,7 +28,7 @@ COUNT = 5000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 500
 PARTS = 10
 SIZES = (1, 7, 8, 9)
 LARGE = ("library crank_rocker", "library whitworth", "library trammel")
-CHUNK = 8192  # positions that one thread takes at a time; with several drivers 256
+CHUNK = 8192  # positions that one thread takes at a time; with several drivers 8
 
 
 def same(found: Bits, expected: Bits, what: str) -> None:
