@@ -97,14 +97,14 @@ class Machine(MachineModel):
         threads : int, optional
             Largest number of threads; all cores by default.
         on_error : {"raise", "nan"}
-            Where there is no position: raise an error, or return NaN.
+            Where there is no position or no analogue: raise an error, or return NaN.
 
         Returns
         -------
         Reactions
-            Forces in joints and slides, driver, shaking force and moment. All are NaN where the
-            status is SINGULAR, as analogues are. At a change point they grow beyond all limits
-            beside it; only the torque of the drive stays finite, and `effort` gives it.
+            Forces in joints and slides, driver, shaking force and moment. At a change point, where
+            analogues exist, all are NaN (status SINGULAR): beside it forces grow beyond all
+            limits. Only the torque of the drive stays finite, and `effort` gives it.
 
         Raises
         ------

@@ -145,3 +145,19 @@ def test_forces_grow_toward_a_change_point_and_the_drive_has_a_limit() -> None:
     across = found.joint("C", "rocker")[beside, 0] * np.tan(q[beside])
     # The coupler's second analogue, 0, is known to u κ³: 1e-7 at 1e-3 from the change point.
     assert np.allclose(across, -(9.81 - 100.0 * np.sin(q[beside])), rtol=1e-5)
+
+
+def test_reactions_at_a_dead_point_are_refused() -> None:
+    """Unlike a change point it has no analogues; beside it the effort grows without a limit."""
+    linkage = assur.Mechanism(
+        joints={"O": (0.0, 0.0), "A": (0.6, 0.8), "B": (3.0, 0.0)},
+        links={"ground": ["O"], "crank": ["O", "A"], "rod": ["A", "B"], "piston": ["B"]},
+        slides={"bore": assur.Slide("piston", "ground", 0.0, "O")},
+        driver="bore",
+    )
+    machine = assur.Machine(linkage, {"rod": Body(1.0, 0.1)}, [Gravity()])
+    top = linkage.dimensions["crank.length"] + linkage.dimensions["rod.length"]
+    for method in (machine.reactions, machine.effort):
+        with pytest.raises(assur.PositionError, match='dyad "A" is flat'):
+            method(top, 1.0)
+    assert np.isnan(machine.reactions(top, 1.0, on_error="nan").driver)
