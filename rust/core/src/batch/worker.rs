@@ -216,6 +216,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
             if !prepared {
                 let plan = self.design.mechanism.plan();
+                // Later blocks are not longer.
+                self.space.many.groups = block.div_ceil(R::LANES).min(G);
                 self.space.many.prepare(plan, &self.design.constants, self.design.derivatives);
                 prepared = true;
             }

@@ -99,7 +99,7 @@ impl Design<'_> {
         if self.has_groups() && !uniform.has_reference(|| self.reference_branch()) {
             return Traced::No;
         }
-        let start = &self.mechanism.class_angle;
+        let start = &self.mechanism.class_angle[..];
         let cx = Context {
             plan: self.mechanism.plan(),
             constants: &self.constants,
@@ -110,7 +110,7 @@ impl Design<'_> {
         let (branch, tracer, settled) = (&mut self.branch, &mut self.lane_tracer, &self.settled);
         let with_angles = !classes.is_empty();
         let references = references.filter(|_| self.closed_forms && with_angles);
-        let mut is_solved = false;
+        let (mut is_solved, mut is_scanned) = (false, false);
         let mut turns_fully = grid.is_turn && (with_angles || !self.closed_forms);
         if let Some(references) = references {
             uniform.solve_knots::<L>(&cx, grid, false);
@@ -118,10 +118,11 @@ impl Design<'_> {
             let mut plain = uniform.survey(&cx, classes, start, references);
             is_solved = true;
             if plain.is_none() && grid.is_turn {
-                is_solved = false;
-                if tracer.survey::<L, G>(&cx, uniform, (classes, start), settled, references) {
-                    plain = Some(true);
-                }
+                let of = (classes, start);
+                let surveyed = tracer.survey::<L, G>(&cx, uniform, of, settled, references);
+                let Some(surveyed) = surveyed else { return Traced::No };
+                is_scanned = true;
+                plain = surveyed.then_some(true);
             }
             if plain == Some(true) {
                 branch.set_constant_signs(start.len(), cx.signs);
@@ -144,7 +145,14 @@ impl Design<'_> {
             }
             let traced = turns_fully && uniform.trace(&cx, classes, start, branch)
                 || self.closed_forms
-                    && tracer.trace::<L, G>(&cx, uniform, classes, start, settled, branch);
+                    && tracer.trace::<L, G>(
+                        &cx,
+                        uniform,
+                        (classes, start),
+                        settled,
+                        is_scanned,
+                        branch,
+                    );
             // Beyond a gap, angles depend on which islands the knots hit. A slide is then left to the
             // tracer, whose knots do not depend on the requested positions.
             if !traced || follows_slide && !branch.ends_once() {

@@ -79,16 +79,19 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Sets the analogues of driven slides.
     #[inline(always)]
     fn prepare_driven_slides(&mut self, plan: &Plan, derivatives: &DerivativeTables) {
+        let groups = self.groups.min(G);
         for driver in 0..plan.drivers.len() {
             let Some(slide) = plan.driven_slide(driver) else { continue };
             for k in 1..self.len {
                 let own = derivatives.driver_of[k] == Some(driver);
-                self.pose.slides[slide * self.len + k] = [if own { R::ONE } else { R::ZERO }; G];
+                let rate = if own { R::ONE } else { R::ZERO };
+                self.pose.slides[slide * self.len + k][..groups].fill(rate);
             }
         }
     }
 
-    /// Sets what all positions of a design share; call it before the first of them.
+    /// Sets, in the lane groups in use, what all positions of a design share; call it before the first of
+    /// them.
     #[inline(always)]
     pub(crate) fn prepare(
         &mut self,
@@ -96,15 +99,15 @@ impl<R: Real, const G: usize> State<R, G> {
         constants: &DesignConstants,
         derivatives: &DerivativeTables,
     ) {
-        let len = self.len;
+        let (len, groups) = (self.len, self.groups.min(G));
         for point in 0..plan.points {
             if R::LANES > 1 && !plan.fixed[point] {
                 // Every position sets all points that its steps place.
                 continue;
             }
             let fixed = Vector::splat(constants.fixed[point]);
-            self.pose.points[point * len] = [fixed; G];
-            self.conditions.coordinate_scale2[point] = [fixed.norm2(); G];
+            self.pose.points[point * len][..groups].fill(fixed);
+            self.conditions.coordinate_scale2[point][..groups].fill(fixed.norm2());
             if R::LANES == 1 {
                 self.pose.points[point * len + 1..(point + 1) * len].fill([Vector::ZERO; G]);
             }

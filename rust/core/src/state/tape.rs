@@ -67,7 +67,7 @@ impl<R: Real, const G: usize> State<R, G> {
     /// otherwise they have the same bits.
     #[inline(always)]
     pub(crate) fn run_bare<L: Level<Register = R>>(&mut self, cx: &Context<'_>, tape: &Tape) {
-        self.conditions.open = [R::Mask::NONE; G];
+        self.conditions.open[..self.groups.min(G)].fill(R::Mask::NONE);
         self.load_drivers(cx, tape);
         match self.len {
             1 => self.run_bare_of_length::<L, 1>(cx, tape),
@@ -170,13 +170,14 @@ impl<R: Real, const G: usize> State<R, G> {
     fn start_careful(&mut self) {
         self.fault = None;
         self.status = Status::Ok;
-        self.conditions.greatest = [R::ONE; G];
-        self.conditions.needs_scalar = [R::Mask::NONE; G];
-        self.conditions.open = [R::Mask::NONE; G];
-        self.work.first_step = [R::ZERO; G];
-        self.work.later_steps = [R::ZERO; G];
+        let groups = self.groups.min(G);
+        self.conditions.greatest[..groups].fill(R::ONE);
+        self.conditions.needs_scalar[..groups].fill(R::Mask::NONE);
+        self.conditions.open[..groups].fill(R::Mask::NONE);
+        self.work.first_step[..groups].fill(R::ZERO);
+        self.work.later_steps[..groups].fill(R::ZERO);
         for q in &self.pose.q {
-            for g in 0..G {
+            for g in 0..groups {
                 self.conditions.needs_scalar[g] =
                     self.conditions.needs_scalar[g].or(q[g].finite().not());
             }

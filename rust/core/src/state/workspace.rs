@@ -1,9 +1,11 @@
-//! Work space of the iteration for groups above class II, with the results that the branch checks.
+//! Work space of the careful path and of the iteration for groups above class II, with the results
+//! that the branch checks.
 
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::plan::Plan;
+use crate::state::dyad::intersections::Closing;
 
 #[derive(Debug, Clone)]
 pub(crate) struct Workspace<R: Real = f64, const G: usize = 1> {
@@ -26,6 +28,8 @@ pub(crate) struct Workspace<R: Real = f64, const G: usize = 1> {
     pub(crate) first_step: [R; G],
     /// Greatest sum of the changes in the later steps.
     pub(crate) later_steps: [R; G],
+    /// How the dyad that was solved last closes, on the careful path.
+    pub(crate) closings: [Closing<R>; G],
 }
 
 impl<R: Real, const G: usize> Workspace<R, G> {
@@ -43,6 +47,7 @@ impl<R: Real, const G: usize> Workspace<R, G> {
             det_sign: vec![[R::ZERO; G]; plan.groups().count()],
             first_step: [R::ZERO; G],
             later_steps: [R::ZERO; G],
+            closings: [Closing::CLOSED; G],
         }
     }
 }

@@ -2,9 +2,12 @@
 
 use super::cell_test::{Bits, DyadSamples, has};
 use super::grid::KNOTS;
-use crate::math::lanes::LANES;
 use crate::math::tolerance::KNOT_MAX_TURN;
 
+/// Most ends searched for together; a turn seldom has more.
+pub(super) const MAX_ENDS: usize = 8;
+/// A position on either side of each.
+pub(super) const POSITIONS: usize = 2 * MAX_ENDS;
 /// Half-width of the interval that confines an end, in cells: the turn left in it is a sixteenth of
 /// that over the cell.
 const STRETCH: f64 = 1.0 / 256.0;
@@ -23,7 +26,7 @@ pub(in crate::branch) struct ScanView<'l> {
     pub from: f64,
     pub cell: f64,
     pub count: usize,
-    /// Cells with one end of a gap and no other doubt.
+    /// Cells with a dead point and no other doubt.
     pub cells: Bits,
     /// Knots that can be reached.
     pub reached: Bits,
@@ -33,7 +36,7 @@ pub(in crate::branch) struct ScanView<'l> {
     pub rates: &'l [[f64; KNOTS]],
 }
 
-/// The end of a gap between two knots.
+/// The end of a dyad's gap between two knots.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::branch) struct GapEnd {
     /// The knot after it.
@@ -42,6 +45,8 @@ pub(in crate::branch) struct GapEnd {
     dyad: usize,
     /// Whether the gap starts here: the dyad closes before the end, not after it.
     pub is_start: bool,
+    /// Whether it lies within a gap of a later dyad, so that neither side can be reached.
+    pub is_shut: bool,
     /// Its position as a fraction of the cell, and the derivative of the square by that fraction.
     root: f64,
     slope: f64,
@@ -64,7 +69,10 @@ impl GapEnd {
         for _ in 0..STEPS {
             root -= (from + root * (fall + root * (b + root * c))) / slope(root);
         }
-        let end = Self { knot, dyad, is_start, root, slope: slope(root), is_confirmed: false };
+        let known = if is_start { knot - 1 } else { knot };
+        let is_shut = !has(scan.reached, known);
+        let slope = slope(root);
+        let end = Self { knot, dyad, is_start, is_shut, root, slope, is_confirmed: false };
         (0.0 < root && root < 1.0).then_some(end)
     }
 
@@ -86,12 +94,12 @@ impl GapEnd {
         if self.is_start { [first, first + 1] } else { [first + 1, first] }
     }
 
-    /// The neighbouring knot that can be reached.
+    /// The neighbouring knot at which the dyad closes.
     pub(in crate::branch) fn known(&self) -> usize {
         if self.is_start { self.knot - 1 } else { self.knot }
     }
 
-    /// The neighbouring knot that cannot.
+    /// The neighbouring knot at which it does not.
     fn far(&self) -> usize {
         if self.is_start { self.knot } else { self.knot - 1 }
     }
@@ -134,7 +142,7 @@ impl GapEnd {
     /// and show that no later dyad opens before it.
     pub(in crate::branch) fn is_as_predicted(
         &self,
-        samples: &[[[f64; LANES]; 3]],
+        samples: &[[[f64; POSITIONS]; 3]],
         open: u32,
         scan: &ScanView<'_>,
         first: usize,
@@ -160,8 +168,12 @@ impl GapEnd {
             if !stays_away([at_knot, slopes[0]], y, [square, slopes[1]]) {
                 return false;
             }
+            if square < 0.0 {
+                // Later dyads do not matter.
+                break;
+            }
         }
-        open >> inside & 1 == 0
+        (open >> inside & 1 != 0) == self.is_shut
     }
 }
 

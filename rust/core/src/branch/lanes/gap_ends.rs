@@ -5,24 +5,21 @@
 //! have to be very close to follow them. Ends that are not confirmed here are left to closer scans.
 
 use super::cell_test::Bits;
-use super::gap_end::{GapEnd, ScanView};
+use super::gap_end::{GapEnd, MAX_ENDS, POSITIONS, ScanView};
 use super::uniform::UniformTracer;
 use crate::math::angle::unwrap_to;
-use crate::math::lanes::{LANES, Mask, Real};
+use crate::math::lanes::{Mask, Real};
 use crate::state::kernel::Level;
 use crate::state::state::Context;
-
-/// Most ends searched for; a turn seldom has more.
-const MAX_ENDS: usize = LANES / 2;
 
 /// Predicted ends, with samples at the positions before and after each.
 #[derive(Debug, Default)]
 pub(in crate::branch) struct GapEnds {
     ends: Vec<GapEnd>,
     /// For every dyad, its squares, their rates and [`DyadSample::flat`] at these positions.
-    samples: Vec<[[f64; LANES]; 3]>,
+    samples: Vec<[[f64; POSITIONS]; 3]>,
     /// For every requested class, the angles at these positions.
-    angles: Vec<[f64; LANES]>,
+    angles: Vec<[f64; POSITIONS]>,
     /// A bit for each position that does not close.
     open: u32,
 }
@@ -37,6 +34,11 @@ pub(in crate::branch) struct EndPosition {
 }
 
 impl GapEnds {
+    /// Whether the cell before a knot has a confirmed end of which neither side can be reached.
+    pub(in crate::branch) fn is_shut(&self, knot: usize) -> bool {
+        self.index(knot).is_some_and(|index| self.ends[index].is_shut)
+    }
+
     fn index(&self, knot: usize) -> Option<usize> {
         self.ends.iter().position(|end| end.is_confirmed && end.knot == knot)
     }
@@ -49,6 +51,9 @@ impl GapEnds {
     ) -> Option<[EndPosition; 2]> {
         let index = self.index(knot)?;
         let end = &self.ends[index];
+        if end.is_shut {
+            return None;
+        }
         let [before, after] = end.beside(scan);
         Some([
             EndPosition { at: before, reached: end.is_start, lane: 2 * index },
@@ -56,13 +61,14 @@ impl GapEnds {
         ])
     }
 
-    /// All ends, each with the angles of a class at its inside position and beyond. All must be
-    /// confirmed.
+    /// All ends that can be reached, each with the angles of a class at its inside position and
+    /// beyond. All must be confirmed.
     pub(in crate::branch) fn with_angles(
         &self,
         class: usize,
     ) -> impl Iterator<Item = (&GapEnd, [f64; 2])> {
-        self.ends.iter().enumerate().map(move |(index, end)| {
+        let within_reach = |(_, end): &(usize, &GapEnd)| !end.is_shut;
+        self.ends.iter().enumerate().filter(within_reach).map(move |(index, end)| {
             (end, end.lanes(2 * index).map(|lane| self.angles[class][lane]))
         })
     }
@@ -95,9 +101,9 @@ impl GapEnds {
         for (index, end) in self.ends.iter_mut().enumerate() {
             end.is_confirmed = end.is_as_predicted(&self.samples, self.open, scan, 2 * index);
         }
-        self.angles.resize(classes.len(), [0.0; LANES]);
+        self.angles.resize(classes.len(), [0.0; POSITIONS]);
         for (angles, &class) in self.angles.iter_mut().zip(classes) {
-            for group in 0..LANES / L::Register::LANES {
+            for group in 0..knots.state.groups {
                 let angle = knots.state.pose.class[class][group].angle();
                 for lane in 0..L::Register::LANES {
                     angles[group * L::Register::LANES + lane] = angle.lane(lane);
@@ -123,16 +129,16 @@ impl GapEnds {
         knots: &mut UniformTracer<L::Register, G>,
         scan: &ScanView<'_>,
     ) {
-        let mut at = [scan.from; LANES];
+        let mut at = [scan.from; POSITIONS];
         for (end, at) in self.ends.iter().zip(at.chunks_exact_mut(2)) {
             at.copy_from_slice(&end.beside((scan.from, scan.cell)));
         }
-        knots.set_at(&at);
+        knots.set_at(&at[..2 * self.ends.len()]);
         knots.solve_carefully::<L>(cx);
-        self.samples.resize(scan.dyads.len(), [[0.0; LANES]; 3]);
+        self.samples.resize(scan.dyads.len(), [[0.0; POSITIONS]; 3]);
         let of_dyads = cx.plan.dyads().zip(&cx.tape.dyads).zip(&mut self.samples);
         for ((dyad, &op), [squares, rates, flats]) in of_dyads {
-            for group in 0..LANES / L::Register::LANES {
+            for group in 0..knots.state.groups {
                 let sample = knots.state.sample(group, cx, dyad, &cx.tape.ops[op]);
                 for lane in 0..L::Register::LANES {
                     squares[group * L::Register::LANES + lane] = sample.square.lane(lane);
@@ -142,7 +148,7 @@ impl GapEnds {
             }
         }
         self.open = 0;
-        for group in 0..LANES / L::Register::LANES {
+        for group in 0..knots.state.groups {
             self.open |= knots.not_closed(group).bits() << (group * L::Register::LANES);
         }
     }
@@ -150,6 +156,9 @@ impl GapEnds {
     /// Whether all angles can be unwrapped from the reachable knot to an end.
     fn turns_little(&self, scan: &ScanView<'_>, index: usize) -> bool {
         let end = &self.ends[index];
+        if end.is_shut {
+            return true;
+        }
         let [inside, outside] = end.lanes(2 * index);
         self.angles.iter().zip(scan.angles.iter().zip(scan.rates)).all(|(beside, (at, rate))| {
             let near = at[end.known()];

@@ -8,10 +8,10 @@
 use std::f64::consts::TAU;
 
 use super::cell_test::has;
-use super::gap_end::ScanView;
 use super::gap_ends::GapEnds;
 use super::grid::KNOTS;
 use super::scan::Scan;
+use super::surveyed_angle::SurveyedAngle;
 use super::uniform::UniformTracer;
 use crate::branch::branch::Branch;
 use crate::math::angle::{is_about_half, unwrap_to, whole_turns};
@@ -39,7 +39,7 @@ const ISLAND_LEVELS: usize = 2;
 /// Work space, reused for all designs.
 #[derive(Debug, Default)]
 pub(crate) struct LaneTracer {
-    scans: [Scan; LEVELS],
+    pub(in crate::branch) scans: [Scan; LEVELS],
     /// Unwrapped angles of the requested classes at the last knot.
     last: Vec<f64>,
     /// The same at the first position that can be reached; empty before it.
@@ -50,7 +50,9 @@ pub(crate) struct LaneTracer {
     next: Vec<f64>,
     was_reached: bool,
     /// The ends of gaps between the knots of each scan.
-    ends: [GapEnds; LEVELS],
+    pub(in crate::branch) ends: [GapEnds; LEVELS],
+    /// Angles of the requested classes in a survey.
+    pub(in crate::branch) surveyed: Vec<SurveyedAngle>,
     /// Whether these ends stand in for closer scans of dead points.
     ends_serve: bool,
     /// How far each angle turns between the last knot that can be reached and the next.
@@ -67,23 +69,25 @@ pub(crate) struct LaneTracer {
 impl LaneTracer {
     /// Traces the solved knots into `branch`, with the angles of `classes`; false if signs may change or
     /// an angle cannot be unwrapped. `start`: the drawing's angles; `settled`: dyads whose signs are
-    /// known to be constant.
+    /// known to be constant; `is_scanned`: [`Self::survey`] has scanned the knots.
     #[inline(always)]
     pub(crate) fn trace<L: Level, const G: usize>(
         &mut self,
         cx: &Context<'_>,
         knots: &mut UniformTracer<L::Register, G>,
-        classes: &[usize],
-        start: &[f64],
+        (classes, start): (&[usize], &[f64]),
         settled: &[bool],
+        is_scanned: bool,
         branch: &mut Branch,
     ) -> bool {
-        if !self.take_turn(cx, knots, classes, settled) {
-            return false;
-        }
         self.ends_serve = !classes.is_empty();
-        if self.ends_serve {
-            self.find_ends::<L, G>(cx, knots, classes, 0);
+        if !is_scanned {
+            if !self.take_turn(cx, knots, classes, settled) {
+                return false;
+            }
+            if self.ends_serve {
+                self.find_ends::<L, G>(cx, knots, classes, 0);
+            }
         }
         self.dead_point_levels = DEAD_POINT_LEVELS;
         loop {
@@ -127,20 +131,30 @@ impl LaneTracer {
         self.ends[level].find::<L, G>(cx, knots, classes, &self.scans[level].view());
     }
 
-    /// The ends of gaps between the knots of the first scan, and what that shows about them.
-    pub(in crate::branch) fn turn_ends(&self) -> (&GapEnds, ScanView<'_>) {
-        (&self.ends[0], self.scans[0].view())
-    }
-
-    /// Whether a sign may change between two knots of the first scan.
-    pub(in crate::branch) fn has_uncertain_cells(&self) -> bool {
-        let scan = &self.scans[0];
-        scan.uncertain | scan.curved | scan.may_hide_island != 0
-    }
-
-    /// Whether every dead point has a confirmed end.
-    pub(in crate::branch) fn has_found_all_ends(&self) -> bool {
-        self.ends[0].cells() == self.scans[0].dead_point
+    /// Scans the cell before the next knot of a scan more closely, one level down; false if one of the
+    /// knots is singular. `beyond`: whether angles beyond dead points matter.
+    #[inline(always)]
+    pub(in crate::branch) fn scan_closer<L: Level, const G: usize>(
+        &mut self,
+        cx: &Context<'_>,
+        knots: &mut UniformTracer<L::Register, G>,
+        classes: &[usize],
+        settled: &[bool],
+        (level, beyond): (usize, bool),
+    ) -> bool {
+        let scan = &self.scans[level];
+        let (from, width) = (scan.from + scan.cell * (scan.next - 1) as f64, scan.cell);
+        knots.set_between((from, width));
+        if beyond && has(scan.dead_point, scan.next) {
+            // Some of these knots are beyond the dead point.
+            knots.solve_carefully::<L>(cx);
+        } else {
+            knots.solve::<L>(cx, beyond);
+            if !classes.is_empty() {
+                knots.take_care_of_doubts::<L>(cx);
+            }
+        }
+        self.scans[level + 1].take(cx, knots, classes, settled, (from, width / CELLS))
     }
 
     /// Traces the knots of the first scan, with closer scans where they are needed.
@@ -192,7 +206,8 @@ impl LaneTracer {
                     self.push_next((beside.at, beside.reached), classes, branch);
                 }
             }
-            let looked = if ends.is_some() {
+            let is_shut = self.ends_serve && self.ends[level].is_shut(knot);
+            let looked = if ends.is_some() || is_shut {
                 Some(false)
             } else {
                 self.needs_closer_scan(level, knot, !classes.is_empty())
@@ -201,21 +216,23 @@ impl LaneTracer {
                 return false;
             };
             if closer && level + 1 < LEVELS {
-                let scan = &self.scans[level];
-                let (from, width) = (scan.from + scan.cell * (knot - 1) as f64, scan.cell);
-                knots.set_between((from, width));
-                if !classes.is_empty() && has(scan.dead_point, knot) {
-                    // Some of these knots are beyond the dead point.
-                    knots.solve_carefully::<L>(cx);
-                } else {
-                    knots.solve::<L>(cx, !classes.is_empty());
-                }
+                let taken = self.scan_closer::<L, G>(
+                    cx,
+                    knots,
+                    classes,
+                    settled,
+                    (level, !classes.is_empty()),
+                );
                 level += 1;
                 count += 1;
-                let within = (from, width / CELLS);
-                let taken = self.scans[level].take(cx, knots, classes, settled, within);
                 if !taken || count > MAX_SCANS {
                     return false;
+                }
+                if !has(self.scans[level].reached, 0) {
+                    // Angles of the flat dyad, which the parent scan may not have.
+                    let scan = &self.scans[level];
+                    self.principal.clear();
+                    self.principal.extend(scan.angles.iter().map(|angles| angles[0]));
                 }
                 if self.ends_serve {
                     self.find_ends::<L, G>(cx, knots, classes, level);

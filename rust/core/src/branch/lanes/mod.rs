@@ -10,4 +10,5 @@ pub(crate) mod lane_tracer;
 pub(crate) mod reference_branch;
 mod scan;
 mod survey;
+mod surveyed_angle;
 pub(crate) mod uniform;

@@ -119,19 +119,26 @@ impl Scan {
 
     /// What the scan shows about the ends of gaps.
     pub(in crate::branch) fn view(&self) -> ScanView<'_> {
-        let against = self.uncertain | self.curved | self.may_hide_island;
-        // Another dyad that is open at both knots may close between them.
-        let at_one_end = self.reached ^ (self.reached << 1);
         ScanView {
             from: self.from,
             cell: self.cell,
             count: self.count,
-            cells: self.dead_point & !against & at_one_end & !1,
+            cells: self.dead_point & !self.doubtful_cells() & !1,
             reached: self.reached,
             dyads: &self.dyads,
             angles: &self.angles,
             rates: &self.rates,
         }
+    }
+
+    /// Cells in which a sign may change, or a gap or an island may hide.
+    pub(in crate::branch) fn doubtful_cells(&self) -> Bits {
+        self.uncertain | self.curved | self.may_hide_island
+    }
+
+    /// Cells that can be reached from end to end, over which a requested angle turns fast.
+    pub(in crate::branch) fn fast_cells(&self) -> Bits {
+        self.fast & self.reached & self.reached << 1
     }
 
     /// Skips cells in which no sign can change.

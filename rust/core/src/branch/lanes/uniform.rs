@@ -16,7 +16,7 @@ use crate::branch::branch::Branch;
 use crate::branch::knot::{SignInterval, may_touch};
 use crate::math::angle::{Reference, turns_between, unwrap_to, whole_turns};
 use crate::math::derivatives::DerivativeTables;
-use crate::math::lanes::{LANES, Mask, Real};
+use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
 use crate::plan::dyad::Form;
@@ -150,10 +150,10 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
 
     /// Sets positions in place of the knots.
     #[inline(always)]
-    pub(in crate::branch) fn set_at(&mut self, at: &[f64; LANES]) {
-        self.state.groups = LANES / R::LANES;
+    pub(in crate::branch) fn set_at(&mut self, at: &[f64]) {
+        self.state.groups = at.len().div_ceil(R::LANES);
         for group in 0..self.state.groups.min(G) {
-            self.set_group(group, |lane| at[lane]);
+            self.set_group(group, |lane| at[lane.min(at.len() - 1)]);
         }
     }
 

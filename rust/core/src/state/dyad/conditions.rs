@@ -9,14 +9,9 @@ use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Records how a dyad closes; a single position may fail here.
+    /// Records how a dyad closes, as its kernel left it; a single position may fail here.
     #[inline(always)]
-    pub(crate) fn record_closings(
-        &mut self,
-        cx: &Context<'_>,
-        op: &DyadOp,
-        closings: &[Closing<R>; G],
-    ) {
+    pub(crate) fn record_closings(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let Step::Dyad(dyad) = &cx.plan.steps[op.step] else { return };
         for g in 0..self.groups.min(G) {
             let mut upstream2 =
@@ -25,8 +20,9 @@ impl<R: Real, const G: usize> State<R, G> {
                 let class = cx.plan.orientations[carrier].class;
                 upstream2 = upstream2.max(self.conditions.of_class[class][g]);
             }
-            self.record_closing(g, cx, (dyad, op.step), &closings[g], upstream2);
-            if R::LANES == 1 && self.status == Status::Singular && closings[g].flat.any() {
+            let closing = self.work.closings[g];
+            self.record_closing(g, cx, (dyad, op.step), &closing, upstream2);
+            if R::LANES == 1 && self.status == Status::Singular && closing.flat.any() {
                 self.set_nan_analogues(g, dyad);
             }
         }

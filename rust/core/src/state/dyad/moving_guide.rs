@@ -1,6 +1,6 @@
 //! The dyad of a leg and a slide along a guide on a moving link that is already solved (RRP).
 
-use super::intersections::{Closing, Guided};
+use super::intersections::Guided;
 use super::turning_leg::entry;
 use crate::math::derivatives::{Term, one_driver};
 use crate::math::lanes::{Mask, Real};
@@ -50,13 +50,12 @@ impl<R: Real, const G: usize> State<R, G> {
         let (along, offset) = (Vector::splat(own.guides[1]), Vector::splat(own.offset));
         let (reach, inverse_arm2) = (R::splat(own.reach), R::splat(own.inverse_arm2));
         let bounds = &mut self.conditions.bounds[op.dyad];
-        let mut closings = [Closing::CLOSED; G];
         for g in 0..self.groups.min(G) {
             let guide = carrier[0][g] * along;
             let chord = (end[0][g] - start[0][g]) - carrier[0][g] * offset;
             let solved = Guided::circle_and_line::<CAREFUL>(&a, guide, chord, signs[g], reach);
             if CAREFUL {
-                closings[g] = solved.closing;
+                self.work.closings[g] = solved.closing;
             } else {
                 self.conditions.open[g] = self.conditions.open[g].or(solved.closing.open);
                 let own = solved.closing.sine2 * inverse_arm2;
@@ -93,7 +92,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
         }
         if CAREFUL {
-            self.record_closings(cx, op, &closings);
+            self.record_closings(cx, op);
         }
         self.turn_orientations(cx, op);
     }

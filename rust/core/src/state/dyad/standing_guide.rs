@@ -2,7 +2,7 @@
 
 use super::chord::{Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
 use super::guide_chord::GuideChord;
-use super::intersections::{CircleAndLine, Closing};
+use super::intersections::CircleAndLine;
 use super::turning_leg::{entry, second_rest, third_rest};
 use crate::math::lanes::Real;
 use crate::math::stride::Stride;
@@ -80,14 +80,13 @@ impl<R: Real, const G: usize> State<R, G> {
         let a = a.on_lanes::<W>();
         let (reach, inverse_arm2) = (W::splat(own.reach), W::splat(own.inverse_arm2));
         let bounds = &mut self.conditions.bounds[op.dyad];
-        let mut closings = [Closing::CLOSED; G];
         for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
             let turning = chord.turning::<W, ENDS>(g);
             let k = chord.at::<W, ENDS>(0, g, turning);
             let sign = W::load(signs, g);
             let solved = CircleAndLine::solve::<CAREFUL>(&a, k, sign, reach);
             if CAREFUL {
-                closings[g] = solved.closing.first();
+                self.work.closings[g] = solved.closing.first();
             } else {
                 W::add_to(solved.closing.open, &mut self.conditions.open, g);
                 let mut bound = solved.closing.sine2 * inverse_arm2;
@@ -127,7 +126,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
         }
         if CAREFUL {
-            self.record_closings(cx, op, &closings);
+            self.record_closings(cx, op);
         }
         self.turn_orientations(cx, op);
     }
@@ -149,11 +148,10 @@ impl<R: Real, const G: usize> State<R, G> {
         let (into, to_turn) = (guide.conj(), guide * a.inverse);
         let a = a.on_lanes();
         let (offset, reach) = (Vector::splat(own.offset), R::splat(own.reach));
-        let mut closings = [Closing::CLOSED; G];
         for g in 0..self.groups.min(G) {
             let k = ((end[0][g] - start[0][g]) - offset).turn(into);
             let solved = CircleAndLine::solve::<true>(&a, k, signs[g], reach);
-            closings[g] = solved.closing;
+            self.work.closings[g] = solved.closing;
             (leg[0][g], s[0][g]) = (solved.leg.turn(guide), solved.slide);
             turn[g] = solved.leg.turn(to_turn);
             let on_guide = LegOnGuide { leg: solved.leg, inverse: solved.inverse };
@@ -169,7 +167,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 leg[k][g] = entry(solved.leg, u[k][g], Some(rest)).turn(guide);
             }
         }
-        self.record_closings(cx, op, &closings);
+        self.record_closings(cx, op);
         self.turn_orientations(cx, op);
     }
 }

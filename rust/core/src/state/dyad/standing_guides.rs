@@ -23,7 +23,6 @@ impl<R: Real, const G: usize> State<R, G> {
         let offset = Vector::splat(own.offset);
         let sine2 = R::splat(determinant * determinant);
         let bounds = &mut self.conditions.bounds[op.dyad];
-        let mut closings = [Closing::CLOSED; G];
         for k in 0..len {
             for g in 0..self.groups.min(G) {
                 let mut chord = end[k][g] - start[k][g];
@@ -36,14 +35,14 @@ impl<R: Real, const G: usize> State<R, G> {
         }
         for g in 0..self.groups.min(G) {
             if CAREFUL {
-                closings[g] = Closing::of_lines(s[0][g], t[0][g], R::splat(determinant));
+                self.work.closings[g] = Closing::of_lines(s[0][g], t[0][g], R::splat(determinant));
             } else {
                 bounds[g] =
                     if op.may_have_upstream() { self.conditions.bound[g] * sine2 } else { sine2 };
             }
         }
         if CAREFUL {
-            self.record_closings(cx, op, &closings);
+            self.record_closings(cx, op);
         }
     }
 }

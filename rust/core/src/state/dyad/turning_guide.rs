@@ -1,6 +1,6 @@
 //! The dyad with a guide that turns (RPR).
 
-use super::intersections::{Closing, Guided};
+use super::intersections::Guided;
 use crate::math::derivatives::{Term, one_driver};
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
@@ -56,12 +56,11 @@ impl<R: Real, const G: usize> State<R, G> {
         let a = Vector::splat(cx.constants.legs[op.dyad][0].vector);
         let (guide, inverse_arm2) = (Vector::splat(own.guides[1]), R::splat(own.inverse_arm2));
         let bounds = &mut self.conditions.bounds[op.dyad];
-        let mut closings = [Closing::CLOSED; G];
         for g in 0..self.groups.min(G) {
             let chord = end[0][g] - start[0][g];
             let solved = Guided::turning_guide::<CAREFUL>(a, guide, chord, signs[g]);
             if CAREFUL {
-                closings[g] = solved.closing;
+                self.work.closings[g] = solved.closing;
             } else {
                 self.conditions.open[g] = self.conditions.open[g].or(solved.closing.open);
                 // The arm is relative to the distance.
@@ -106,7 +105,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
         }
         if CAREFUL {
-            self.record_closings(cx, op, &closings);
+            self.record_closings(cx, op);
         }
         self.turn_orientations(cx, op);
     }

@@ -1,7 +1,7 @@
 //! The dyad of two legs (RRR), the most frequent one.
 
 use super::chord::{DyadChord, Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
-use super::intersections::{Closing, TwoCircles};
+use super::intersections::TwoCircles;
 use super::turning_leg::{entry, second_rest, third_rest};
 use crate::math::lanes::Real;
 use crate::math::stride::Stride;
@@ -81,13 +81,12 @@ impl<R: Real, const G: usize> State<R, G> {
             sides.per_sine2 = W::splat(own.bounding_per_sine2);
         }
         let bounds = &mut self.conditions.bounds[op.dyad];
-        let mut closings = [Closing::CLOSED; G];
         for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
             let arm = chord.arm::<W, ENDS>(g);
             let k = chord.at::<W, ENDS>(0, g, arm);
             let solved = TwoCircles::solve::<CAREFUL>([&a, &b], &sides, k, W::load(signs, g));
             if CAREFUL {
-                closings[g] = solved.closing.first();
+                self.work.closings[g] = solved.closing.first();
             } else {
                 W::add_to(solved.closing.open, &mut self.conditions.open, g);
                 let mut bound = solved.closing.sine2;
@@ -138,7 +137,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
         }
         if CAREFUL {
-            self.record_closings(cx, op, &closings);
+            self.record_closings(cx, op);
         }
         self.turn_orientations(cx, op);
     }
@@ -160,11 +159,10 @@ impl<R: Real, const G: usize> State<R, G> {
         let legs = &cx.constants.legs[op.dyad];
         let (a, b) = (legs[0].on_lanes(), legs[1].on_lanes());
         let sides = cx.constants.dyads[op.dyad].sides.on_lanes();
-        let mut closings = [Closing::CLOSED; G];
         for g in 0..self.groups.min(G) {
             let k = end[0][g] - start[0][g];
             let solved = TwoCircles::solve::<true>([&a, &b], &sides, k, signs[g]);
-            closings[g] = solved.closing;
+            self.work.closings[g] = solved.closing;
             let [a0, b0] = solved.legs;
             (a_jet[0][g], b_jet[0][g]) = (a0, b0);
             (a_turn[g], b_turn[g]) = (a.turn_to(a0), b.turn_to(b0));
@@ -183,7 +181,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 b_jet[k][g] = chord - a_jet[k][g];
             }
         }
-        self.record_closings(cx, op, &closings);
+        self.record_closings(cx, op);
         self.turn_orientations(cx, op);
     }
 }
