@@ -16,13 +16,16 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     pub(crate) fn guess(&mut self, cx: &Context<'_>) {
         let Some(Some(reference)) = self.reference.get() else { return };
         let inverse_scale = R::splat(1.0 / cx.constants.scale);
+        let groups = self.state.groups.min(G);
         let unknowns = cx.plan.groups().flat_map(|group| &group.unknowns);
         for (&unknown, knots) in unknowns.zip(&reference.unknowns) {
             match unknown {
-                Unknown::Class(class) => self.state.pose.class[class] = *knots,
+                Unknown::Class(class) => {
+                    self.state.pose.class[class][..groups].copy_from_slice(&knots[..groups]);
+                }
                 Unknown::Slide(slide) => {
                     let values = &mut self.state.pose.slides[slide * self.state.len];
-                    for (value, knot) in values.iter_mut().zip(knots) {
+                    for (value, knot) in values[..groups].iter_mut().zip(knots) {
                         *value = knot.x * inverse_scale;
                     }
                 }

@@ -18,6 +18,8 @@ use crate::state::status::{Fault, Status};
 
 /// Entries of a jet: the value and three analogues.
 const ENTRIES: usize = ONE_DRIVER.len();
+/// Entries of the greatest Jacobian and its inverse.
+const MATRIX: usize = 2 * MAX_UNKNOWNS * MAX_UNKNOWNS;
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves a group of `N` loops (step `index`).
@@ -48,6 +50,8 @@ impl<R: Real, const G: usize> State<R, G> {
         for i in 0..N {
             wanted[i] = self.work.angle_wanted[bar_classes[i]] || !loops[i].orientations.is_empty();
         }
+        // Once: clearing them takes as long as a step.
+        let (mut matrix, mut jets) = ([[R::ZERO]; MATRIX], Jets::NONE);
         for g in 0..self.groups.min(G) {
             let mut known = [Vector::ZERO; N];
             for (known, l) in known.iter_mut().zip(loops) {
@@ -61,7 +65,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 units: classes.map(|class| self.pose.class[class][g]),
                 spans: [[Vector::ZERO; N]; N],
                 chords: [Vector::ZERO; N],
-                matrix: [[R::ZERO]; 2 * MAX_UNKNOWNS * MAX_UNKNOWNS],
+                matrix: &mut matrix,
             };
             let skipped = [self.conditions.needs_scalar[g]];
             let last_determinant = [self.work.det_sign[group.index][g]];
@@ -84,7 +88,7 @@ impl<R: Real, const G: usize> State<R, G> {
             if len > 1 {
                 let [determinant] = equations.invert();
                 self.work.determinants[group.index][g] = determinant;
-                let mut jets = Jets::new(&equations);
+                jets.start(&equations);
                 let of = Analogues { binary, loops, classes, bar_classes, wanted };
                 self.binary_analogues::<1, N>(g, &of, &equations, &mut jets);
                 if len > 2 {
@@ -172,7 +176,7 @@ struct BinaryEquations<'l, R, const N: usize> {
     /// The loops' chords.
     chords: [Vector<R>; N],
     /// The Jacobian, with its inverse beside it.
-    matrix: [[R; 1]; 2 * MAX_UNKNOWNS * MAX_UNKNOWNS],
+    matrix: &'l mut [[R; 1]; MATRIX],
 }
 
 impl<R: Real, const N: usize> BinaryEquations<'_, R, N> {
@@ -212,7 +216,7 @@ impl<R: Real, const N: usize> Equations<R, 1> for BinaryEquations<'_, R, N> {
                 self.matrix[l * 2 * N + unknown][0] = self.spans[l][unknown].cross(along);
             }
         }
-        invert(&mut self.matrix, N)
+        invert(self.matrix, N)
     }
 
     #[inline(always)]
@@ -268,17 +272,22 @@ struct Jets<R, const N: usize> {
 type VectorJet<R> = [Vector<R>; ENTRIES];
 
 impl<R: Real, const N: usize> Jets<R, N> {
+    const NONE: Self = Self {
+        spans: [[[Vector::ZERO; ENTRIES]; N]; N],
+        chords: [[Vector::ZERO; ENTRIES]; N],
+        rates: [[R::ZERO; ENTRIES]; N],
+        bar_rates: [[R::ZERO; ENTRIES]; N],
+    };
+
+    /// Sets the values, from which the analogues follow order by order.
     #[inline(always)]
-    fn new(equations: &BinaryEquations<'_, R, N>) -> Self {
-        let zero = [Vector::ZERO; ENTRIES];
-        let (mut spans, mut chords) = ([[zero; N]; N], [zero; N]);
+    fn start(&mut self, equations: &BinaryEquations<'_, R, N>) {
         for l in 0..N {
-            chords[l][0] = equations.chords[l];
+            self.chords[l][0] = equations.chords[l];
             for unknown in 0..N {
-                spans[l][unknown][0] = equations.spans[l][unknown];
+                self.spans[l][unknown][0] = equations.spans[l][unknown];
             }
         }
-        Self { spans, chords, rates: [[R::ZERO; ENTRIES]; N], bar_rates: [[R::ZERO; ENTRIES]; N] }
     }
 
     /// Analogues of order `K` of the unknowns and of the wanted bars. Every order has the same matrix;
