@@ -302,6 +302,8 @@ class Machine:
         acceleration: _Float,
         function_values: _Float,
         reactions: list[Key],
+        rows: int,
+        squares: bool,
         threads: int | None,
         report: list[int],
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], Any]: ...

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -283,35 +284,14 @@ def reactions(
         message = "a machine of a table has no joints: reactions need a mechanism"
         raise InputError(message)
     one_of(on_error, ("raise", "nan"), "on_error")
-    drivers, designs = machine._drivers, machine.shape
-    x, v, a, shape = broadcast_motion(machine, motion)
-    per_design = bool(designs) and x.ndim > (1 if drivers == 1 else 2)
-    full = shape if drivers == 1 else (*shape, drivers)
-    speeds, accelerations = (
-        np.ascontiguousarray(np.broadcast_to(one, full)).ravel() for one in (v, a)
-    )
-    coordinates = np.ascontiguousarray(np.broadcast_to(x, full) if per_design else x).ravel()
-    everywhere, functions = np.broadcast_to(x, full), machine._core.load_functions
-    at = times(motion.t, shape)
-    given = np.empty(0)
-    if functions:
-        rows = everywhere.reshape(-1, drivers), speeds.reshape(-1, drivers)
-        given = function_values(functions, *rows, at.ravel())
+    drivers = machine._drivers
     keys = _keys(mechanism) if keys is None else keys
-    arrays, status, failure = machine._core.reactions(
-        mechanism._values.reshape(-1),
-        coordinates,
-        per_design,
-        speeds,
-        accelerations,
-        given,
-        keys,
-        checked_threads(threads),
-        list(designs),
-    )
+    everywhere, v, a, shape = broadcast_motion(machine, motion)
+    full = shape if drivers == 1 else (*shape, drivers)
+    everywhere = np.broadcast_to(everywhere, full)
+    arrays, status, failure = _solved(machine, motion, threads, keys, squares=False)
     if on_error == "raise" and failure is not None:
         raise failure
-    _drop_infinite(keys, arrays, status.size)
     if on_error == "raise":
         drives = [arrays[keys.index(Key("driver", driver))] for driver in range(drivers)]
         each = drives[0][:, None] if drivers == 1 else np.stack(drives, axis=-1)
@@ -325,21 +305,57 @@ def reactions(
     return Reactions(mechanism, given_motion, found, status.reshape(shape))
 
 
-def _drop_infinite(keys: list[Key], arrays: list[Float], positions: int) -> None:
-    """Make all reactions NaN at positions where one is infinite: an infinite load has none.
+def reaction_squares(
+    machine: MachineModel, motion: DrivenMotion, threads: int | None, keys: list[Key]
+) -> dict[Key, Float]:
+    """Return the greatest and the mean square of reactions over all positions, (designs, 2).
 
-    (The place of a guide's force is at infinity where the force is zero.)
+    NaN where a position of a design has no value. Nothing is kept of the positions.
     """
-    rows = [array.reshape(positions, array.size // max(positions, 1)) for array in arrays]
-    infinite = np.zeros(positions, dtype=np.bool_)
-    with np.errstate(over="ignore", invalid="ignore"):
-        for key, array in zip(keys, rows, strict=True):
-            # A sum reads an array once; a closer look is for those that are not finite throughout.
-            if key.kind != "along" and not np.isfinite(array.sum()):
-                infinite |= np.isinf(array).any(axis=1)
-    if infinite.any():
-        for array in rows:
-            array[infinite] = np.nan
+    arrays, _, _ = _solved(machine, motion, threads, keys, squares=True)
+    return {key: array.reshape(-1, 2) for key, array in zip(keys, arrays, strict=True)}
+
+
+def _solved(
+    machine: MachineModel,
+    motion: DrivenMotion,
+    threads: int | None,
+    keys: list[Key],
+    squares: bool,
+) -> tuple[list[Float], npt.NDArray[np.uint8], Any]:
+    """Return an array for each key, the statuses, and the exception of the first failure."""
+    mechanism = machine.mechanism
+    assert mechanism is not None
+    drivers, designs = machine._drivers, machine.shape
+    x, v, a, shape = broadcast_motion(machine, motion)
+    per_design = bool(designs) and x.ndim > (1 if drivers == 1 else 2)
+    full = shape if drivers == 1 else (*shape, drivers)
+    everywhere, functions = np.broadcast_to(x, full), machine._core.load_functions
+    # One speed for all positions is not repeated.
+    speeds, accelerations = (
+        np.ascontiguousarray(one if one.size == drivers else np.broadcast_to(one, full)).ravel()
+        for one in (v, a)
+    )
+    coordinates = np.ascontiguousarray(everywhere if per_design else x).ravel()
+    at = times(motion.t, shape)
+    given = np.empty(0)
+    if functions:
+        rows = everywhere.reshape(-1, drivers), np.broadcast_to(v, full).reshape(-1, drivers)
+        given = function_values(functions, *rows, at.ravel())
+    found: tuple[list[Float], npt.NDArray[np.uint8], Any] = machine._core.reactions(
+        mechanism._values.reshape(-1),
+        coordinates,
+        per_design,
+        speeds,
+        accelerations,
+        given,
+        keys,
+        math.prod(designs if squares else shape),
+        squares,
+        checked_threads(threads),
+        list(designs),
+    )
+    return found
 
 
 def _require_finite(what: str, drives: Float, status: npt.NDArray[np.uint8], q: Float) -> None:

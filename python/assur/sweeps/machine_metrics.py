@@ -10,7 +10,7 @@ import numpy as np
 from assur._arrays import finite_array
 from assur._validate import checked_name, one_of, real_number
 from assur.dynamics.along import motion_of
-from assur.dynamics.reactions import Key, key_of_joint, reactions
+from assur.dynamics.reactions import Key, key_of_joint, reaction_squares, reactions
 from assur.errors import InputError
 from assur.sweeps.terms import OfMachine
 
@@ -37,10 +37,9 @@ Measure = Literal["peak", "rms"]
 MotionKey: TypeAlias = tuple[tuple[tuple[int, ...], bytes], ...]
 
 
-def _over_positions(measure: Measure, squares: Float) -> Float:
-    """Reduce squares (designs, positions) of sizes."""
-    most = squares.max(axis=-1) if measure == "peak" else squares.mean(axis=-1)
-    return np.asarray(np.sqrt(most))
+def _root(measure: Measure, squares: Float) -> Float:
+    """Return peaks or root mean squares, given the greatest and the mean squares (designs, 2)."""
+    return np.asarray(np.sqrt(squares[:, 0 if measure == "peak" else 1]))
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -61,7 +60,7 @@ class Driven(OfMachine):
         """The reactions it needs."""
         raise NotImplementedError
 
-    def of_reactions(self, machine: Machine, q: Float, found: dict[Key, Float]) -> Float:
+    def of_squares(self, machine: Machine, q: Float, squares: dict[Key, Float]) -> Float:
         """Its values for the designs of a machine."""
         raise NotImplementedError
 
@@ -87,9 +86,8 @@ def together(
         if metric.motion not in solved:
             motion = motion_of(q, metric.speed, metric.acceleration, 0.0)
             asked = list(dict.fromkeys(keys[metric.motion]))
-            solved[metric.motion] = reactions(machine, motion, threads, "nan", asked)._found
-        with np.errstate(over="ignore"):
-            values.append(metric.of_reactions(machine, q, solved[metric.motion]))
+            solved[metric.motion] = reaction_squares(machine, motion, threads, asked)
+        values.append(metric.of_squares(machine, q, solved[metric.motion]))
     return values
 
 
@@ -109,11 +107,9 @@ class JointForce(Driven):
         assert machine.mechanism is not None
         return [key_of_joint(machine.mechanism, self.joint, self.on)]
 
-    def of_reactions(self, machine: Machine, _q: Float, found: dict[Key, Float]) -> Float:
+    def of_squares(self, machine: Machine, _q: Float, squares: dict[Key, Float]) -> Float:
         """Its values for the designs of a machine."""
-        force = found[self.keys(machine)[0]]
-        x, y = force[..., 0], force[..., 1]
-        return _over_positions(self.measure, x * x + y * y)
+        return _root(self.measure, squares[self.keys(machine)[0]])
 
     def __repr__(self) -> str:
         on = "" if self.on is None else f", on={self.on!r}"
@@ -128,17 +124,31 @@ class Effort(Driven):
         """The efforts of all drivers."""
         return [Key("driver", driver) for driver in range(machine._drivers)]
 
-    def of_reactions(self, machine: Machine, q: Float, found: dict[Key, Float]) -> Float:
+    def of_squares(self, machine: Machine, q: Float, squares: dict[Key, Float]) -> Float:
         """Its values for the designs of a machine; with several drivers of the greatest."""
-        each = [found[key] for key in self.keys(machine)]
-        if any(np.isnan(effort).any() for effort in each):
-            # At a change point the forces have no value, but the effort has. Only there: the values
-            # of a design do not depend on those beside it.
-            known = machine.effort(q, self.speed, self.acceleration, on_error="nan")
-            every = [known] if machine._drivers == 1 else list(np.moveaxis(known, -1, 0))
-            each = [np.where(np.isnan(a), b, a) for a, b in zip(each, every, strict=True)]
-        sizes = [_over_positions(self.measure, effort * effort) for effort in each]
-        return np.asarray(np.max(sizes, axis=0))
+        sizes = [_root(self.measure, squares[key]) for key in self.keys(machine)]
+        greatest = np.asarray(np.max(sizes, axis=0))
+        missing = np.flatnonzero(np.isnan(greatest))
+        if missing.size:
+            assert machine.mechanism is not None
+            few = machine.mechanism._with_values(machine.mechanism._values[:, missing])
+            greatest[missing] = self._by_power(machine.of(few), q)
+        return greatest
+
+    def _by_power(self, machine: Machine, q: Float) -> Float:
+        """Its values where a position has no forces: at a change point the effort has a value."""
+        motion, keys = motion_of(q, self.speed, self.acceleration, 0.0), self.keys(machine)
+        found = reactions(machine, motion, None, "nan", keys)._found
+        known = machine.effort(q, self.speed, self.acceleration, on_error="nan")
+        every = [known] if machine._drivers == 1 else list(np.moveaxis(known, -1, 0))
+        each = [
+            np.where(np.isnan(found[key]), b, found[key])
+            for key, b in zip(keys, every, strict=True)
+        ]
+        with np.errstate(over="ignore"):
+            squares = [effort * effort for effort in each]
+        reduce = np.max if self.measure == "peak" else np.mean
+        return np.asarray(np.max([np.sqrt(reduce(square, axis=-1)) for square in squares], axis=0))
 
     def __repr__(self) -> str:
         return f"{self.measure}_effort()"

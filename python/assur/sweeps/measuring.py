@@ -14,7 +14,7 @@ from assur.errors import InputError
 from assur.kinematics.solve import checked_assembly
 from assur.sweeps.encode import encoded
 from assur.sweeps.engine import results
-from assur.sweeps.machine_metrics import together
+from assur.sweeps.machine_metrics import Driven, together
 from assur.sweeps.measures import Measures
 from assur.sweeps.terms import Condition, Function, Leaf, Metric, OfMachine
 
@@ -132,7 +132,9 @@ class Measuring:
         found: dict[Single, Float] = {
             function: np.full(some.shape[0], np.nan) for function in self.functions
         }
-        size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q))
+        # Reactions keep nothing of the positions.
+        keeps = not all(isinstance(one, Driven) for one in self.functions)
+        size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q)) if keeps else max(1, len(indices))
         for first in range(0, len(indices), size):
             few = indices[first : first + size]
             batch = some._with_values(some._values[:, few])

@@ -217,7 +217,8 @@ impl Machine {
     }
 
     /// Reactions of designs at positions, `reactions` those that are asked for; the other arguments
-    /// are those of `reduce`.
+    /// are those of `reduce`. `squares`: only the greatest and the mean square of each design are; then
+    /// the `rows` are the designs, else designs × positions.
     #[allow(clippy::too_many_arguments, reason = "flat arrays")]
     fn reactions<'py>(
         &self,
@@ -229,6 +230,8 @@ impl Machine {
         acceleration: Flat<'py>,
         function_values: Flat<'py>,
         reactions: Vec<Key>,
+        rows: usize,
+        squares: bool,
         threads: Option<NonZeroUsize>,
         report: Vec<usize>,
     ) -> PyResult<reactions::Found<'py>> {
@@ -236,7 +239,16 @@ impl Machine {
             return Err(error::input("a machine of a table has no joints", None));
         };
         let mechanism = &mechanism.get().inner;
-        let inputs = Inputs { dimensions, q, per_design, speed, acceleration, function_values };
+        let inputs = Inputs {
+            dimensions,
+            q,
+            per_design,
+            speed,
+            acceleration,
+            function_values,
+            rows,
+            squares,
+        };
         reactions::reactions(py, mechanism, machine, &inputs, &reactions, threads, &report)
     }
 

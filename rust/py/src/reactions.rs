@@ -78,6 +78,10 @@ pub(crate) struct Inputs<'py> {
     pub speed: Flat<'py>,
     pub acceleration: Flat<'py>,
     pub function_values: Flat<'py>,
+    /// Designs × positions.
+    pub rows: usize,
+    /// See `ReactionRequest::squares`; then the rows are the designs.
+    pub squares: bool,
 }
 
 /// See `assur.Machine.reactions`.
@@ -105,14 +109,16 @@ pub(crate) fn reactions<'py>(
         acceleration: inputs.acceleration.as_slice()?,
         external: inputs.function_values.as_slice()?,
         reactions: &reactions,
+        squares: inputs.squares,
     };
-    let drivers = mechanism.q0().len();
-    let rows = request.speed.len() / drivers.max(1);
+    let rows = inputs.rows;
     let mut memory = Memory::for_a_call();
     let status = memory.array::<u8>(py, rows, 1)?;
     let values = reactions
         .iter()
-        .map(|reaction| memory.array::<f64>(py, rows, reaction.width()))
+        .map(|reaction| {
+            memory.array::<f64>(py, rows, if inputs.squares { 2 } else { reaction.width() })
+        })
         .collect::<PyResult<Vec<_>>>()?;
     let mut borrowed: Vec<_> = values.iter().map(PyArrayMethods::readwrite).collect();
     let mut borrowed_status = status.readwrite();
@@ -122,7 +128,8 @@ pub(crate) fn reactions<'py>(
     };
     let arrays = Mutex::new(Some(arrays));
     let log = FailureLog::default();
-    let solved = detach::run(py, rows < FEW_POSITIONS, |cancel| {
+    let is_short = !inputs.squares && rows < FEW_POSITIONS;
+    let solved = detach::run(py, is_short, |cancel| {
         let control =
             Control { threads, cancel: Some(cancel), failures: Some(&log), ..Control::default() };
         let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());

@@ -127,6 +127,51 @@ def test_speeds_over_the_positions() -> None:
     assert found["a"] == found["b"] == pytest.approx(exact, rel=1e-14)
 
 
+@pytest.mark.parametrize("count", [1, 3, 8, 9, 47, 100])
+def test_any_number_of_positions(count: int) -> None:
+    """They are taken some at a time; those that a register has too many count once."""
+    turn = np.linspace(0.1, 5.0, count)
+    engine = assur.Machine(
+        assur.SliderCrank(1.0, 3.0, 0.1),
+        {"rod": Body(2.0, 0.3, (1.2, 0.1)), "piston": Body(1.5)},
+        [Gravity(), Force("B", (lambda _t, q, speed: 40.0 * np.sin(3.0 * q) + speed, 0.0))],
+    )
+    speed = np.linspace(2.0, 7.0, count)
+    found = engine.reactions(turn, speed)
+    asked = {
+        "pin": metric.peak_reaction("A", speed=speed),
+        "rms": metric.rms_reaction("B", speed=speed),
+        "effort": metric.peak_effort(speed),
+        "mean": metric.rms_effort(speed),
+    }
+    rod = {"rod.length": np.array([3.0, 3.0])}
+    measured = assur.sweep(engine, rod, turn, metrics=asked)
+    squares = {name: (found.joint(name, on="rod") ** 2).sum(axis=-1) for name in "AB"}
+    exact = {
+        "pin": squares["A"].max(),
+        "rms": squares["B"].mean(),
+        "effort": (found.driver**2).max(),
+        "mean": (found.driver**2).mean(),
+    }
+    for name, square in exact.items():
+        assert measured[name] == pytest.approx(np.sqrt(square), rel=1e-14), name
+
+
+def test_an_undetermined_force_has_no_peak() -> None:
+    """Two parallel rockers too many share a load that no balance divides."""
+    joints = {"A": (0, 0), "B": (0, 1), "C": (3, 1), "D": (3, 0), "E": (1.5, 0), "F": (1.5, 1)}
+    links = {"ground": "ADE", "crank": "AB", "rod": "BCF", "rocker": "CD", "third": "EF"}
+    three = assur.Mechanism(joints, {name: list(of) for name, of in links.items()}, "crank")
+    machine = assur.Machine(three, {"rod": Body(2.0, 0.5, (1.0, 0.0))}, [Gravity()])
+    q = three.q0 + np.linspace(-0.5, 0.5, 11)
+    asked = {"F": metric.peak_reaction("F", on="third"), "effort": metric.peak_effort()}
+    found = assur.sweep(machine, {}, q, metrics=asked)
+    stored = machine.reactions(q)
+    assert np.isnan(stored.joint("F", on="third")).any()
+    assert np.isnan(found["F"])
+    assert found["effort"] == pytest.approx(np.abs(stored.driver).max(), rel=1e-12)
+
+
 def test_other_processes_find_the_same() -> None:
     here = assur.sweep(MACHINE, {"coupler.length": COUPLERS}, Q, metrics=ASKED)
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:

@@ -107,6 +107,24 @@ pub trait Real:
         let half = |first: usize| Self::from_lanes(|lane| numbers[first + lane]);
         [half(0), half(Self::LANES)]
     }
+    /// The reverse of [`zip`](Self::zip): the even numbers of both, and the odd ones.
+    #[inline(always)]
+    #[must_use]
+    fn unzip(self, other: Self) -> [Self; 2] {
+        let mut numbers = [0.0; 2 * LANES];
+        for lane in 0..Self::LANES {
+            numbers[lane] = self.lane(lane);
+            numbers[Self::LANES + lane] = other.lane(lane);
+        }
+        let part = |first: usize| Self::from_lanes(|lane| numbers[2 * lane + first]);
+        [part(0), part(1)]
+    }
+    /// The numbers at the front of a slice that is long enough.
+    #[inline(always)]
+    #[must_use]
+    fn read(values: &[f64]) -> Self {
+        Self::from_lanes(|lane| values[lane])
+    }
     /// Writes its numbers to the front of a slice that is long enough.
     #[inline(always)]
     fn write(self, out: &mut [MaybeUninit<f64>]) {

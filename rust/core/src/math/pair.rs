@@ -123,6 +123,15 @@ impl<R: Real> Real for Pair<R> {
         [Self(a, b), Self(c, d)]
     }
     #[inline(always)]
+    fn unzip(self, other: Self) -> [Self; 2] {
+        let ([a, b], [c, d]) = (self.0.unzip(self.1), other.0.unzip(other.1));
+        [Self(a, c), Self(b, d)]
+    }
+    #[inline(always)]
+    fn read(values: &[f64]) -> Self {
+        Self(R::read(values), R::read(&values[R::LANES..]))
+    }
+    #[inline(always)]
     fn prefetch(numbers: &[MaybeUninit<f64>]) {
         R::prefetch(numbers);
     }

@@ -20,6 +20,9 @@ const PROBES: usize = LANES;
 /// Positions from which that is worth it.
 const MANY_POSITIONS: usize = 4 * PROBES;
 
+/// Columns that a metric reads without an allocation.
+const FEW_SOURCES: usize = 8;
+
 /// What a motion is at the end of a turn and at its start is the same to this part of its size. Near
 /// a change point positions are known to 1.5e-8, the root of the rounding; assemblies that differ do
 /// so by far more.
@@ -129,12 +132,24 @@ impl Batch<'_> {
         let drivers = self.shape.drivers;
         let count = q.len() / drivers;
         let column = |&index: &usize| &rows.column(index)[..count * self.columns[index].width];
-        let values: Vec<&[f64]> = self.sources[metric].iter().map(column).collect();
-        let metric = (self.sweep.metrics[metric], &self.sources[metric][..]);
+        let sources = &self.sources[metric][..];
+        // Most read few columns; an allocation would take as long as the metric of the probes.
+        let mut few = [&[][..]; FEW_SOURCES];
+        let many: Vec<&[f64]>;
+        let values = if let Some(few) = few.get_mut(..sources.len()) {
+            for (values, source) in few.iter_mut().zip(sources) {
+                *values = column(source);
+            }
+            few
+        } else {
+            many = sources.iter().map(column).collect();
+            &many[..]
+        };
+        let metric = (self.sweep.metrics[metric], sources);
         let returns = q.len() == self.course.q.len() && self.returns(rows, metric);
         let dimensions = row.dimensions;
         let cancel = self.control.cancel;
-        metric.0.of(&Positions { q, drivers, dimensions, values: &values, returns, cancel })
+        metric.0.of(&Positions { q, drivers, dimensions, values, returns, cancel })
     }
 
     /// Whether what a metric reads is the same after a turn, at two positions.

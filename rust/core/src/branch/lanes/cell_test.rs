@@ -45,8 +45,7 @@ pub(in crate::branch) fn has(bits: Bits, knot: usize) -> bool {
 /// The entries of one register.
 #[inline(always)]
 fn entries<R: Real>(all: &[f64; SAMPLES], from: usize) -> R {
-    let entries = &all[from..][..R::LANES];
-    R::from_lanes(|lane| entries[lane])
+    R::read(&all[from..])
 }
 
 /// Cells with the bits of both their knots set.

@@ -59,7 +59,7 @@ impl LaneTracer {
             let (scan, ends) = (&self.scans[level], &self.ends[level]);
             let doubtful =
                 scan.doubtful_cells() | scan.fast_cells() | scan.dead_point & !ends.cells();
-            let doubtful = doubtful.checked_shr(scan.next as u32).unwrap_or(0);
+            let doubtful = if scan.next < scan.count { doubtful >> scan.next } else { 0 };
             let knot = (scan.next + doubtful.trailing_zeros() as usize).min(scan.count);
             let view = scan.view();
             let passes = |(class, angle): (usize, &mut SurveyedAngle)| {

@@ -23,7 +23,7 @@ pub(crate) struct Sources {
 pub(crate) struct Solved<'a> {
     /// Position after position.
     pub columns: &'a [&'a [f64]],
-    /// Speeds and accelerations of the drivers, drivers fastest.
+    /// Speeds and accelerations of the drivers, drivers fastest: of every position, or one for all.
     pub speed: &'a [f64],
     pub acceleration: &'a [f64],
     pub positions: usize,
@@ -62,7 +62,7 @@ impl Rows {
         let first = self.first * width;
         // Widths that the compiler knows are read by few instructions.
         match (values.get(first..first + R::LANES * width), width) {
-            (Some(all), 1) => R::from_lanes(|lane| all[lane]),
+            (Some(all), 1) => R::read(all),
             (Some(all), 2) => R::from_lanes(|lane| all[2 * lane + offset]),
             _ => R::from_lanes(|lane| values[(self.first + lane).min(self.last) * width + offset]),
         }
@@ -70,16 +70,22 @@ impl Rows {
 }
 
 impl Rows {
+    /// A speed or acceleration of one of `n` drivers: of each position, or the same for all.
+    #[inline(always)]
+    fn read_drive<R: Real>(self, values: &[f64], n: usize, driver: usize) -> R {
+        if values.len() == n { R::splat(values[driver]) } else { self.read(values, n, driver) }
+    }
+
     /// The entry `offset` of `width` pairs of each position: all its first numbers come before the
     /// second ones.
     #[inline(always)]
     fn read_pairs<R: Real>(self, values: &[f64], width: usize, offset: usize) -> Vector<R> {
         let first = self.first * 2;
         match (values.get(first..first + R::LANES * 2), width) {
-            (Some(all), 1) => Vector::new(
-                R::from_lanes(|lane| all[2 * lane]),
-                R::from_lanes(|lane| all[2 * lane + 1]),
-            ),
+            (Some(all), 1) => {
+                let [x, y] = R::unzip(R::read(all), R::read(&all[R::LANES..]));
+                Vector::new(x, y)
+            }
             _ => Vector::new(
                 self.read(values, 2 * width, offset),
                 self.read(values, 2 * width, width + offset),
@@ -101,20 +107,19 @@ impl<R: Real> Scene<R> {
     ) {
         let n = plan.drivers;
         for (driver, drive) in self.drive.iter_mut().enumerate() {
-            *drive = [solved.speed, solved.acceleration].map(|all| rows.read(all, n, driver));
+            *drive = [
+                rows.read_drive(solved.speed, n, driver),
+                rows.read_drive(solved.acceleration, n, driver),
+            ];
         }
         let drive = &self.drive;
         for (point, source) in self.points.iter_mut().zip(&sources.points) {
             let &Some(column) = source else { continue };
-            let read =
-                |order, width, entry| rows.read_pairs(solved.columns[column + order], width, entry);
-            *point = moving(plan.order, drive, read);
+            *point = moving(plan.order, drive, rows, &solved.columns[column..]);
         }
         for (angle, source) in self.angles.iter_mut().zip(&sources.angles) {
             let &Some(column) = source else { continue };
-            let read =
-                |order, width, entry| rows.read(solved.columns[column + order], width, entry);
-            *angle = moving(plan.order, drive, read);
+            *angle = moving(plan.order, drive, rows, &solved.columns[column..]);
         }
         for (slide, source) in self.slides.iter_mut().zip(&sources.slides) {
             let &Some(column) = source else { continue };
@@ -140,21 +145,23 @@ impl<R: Real> Scene<R> {
 }
 
 /// Value, velocity and acceleration by the chain rule: `ẋ = x_a q̇_a`, `ẍ = x_a q̈_a + x_ab q̇_a q̇_b`.
-/// `read`: entry of an order, of so many.
+/// `columns`: those of all orders.
+// A closure that reads would not be compiled with the level's instructions.
 #[inline(always)]
 fn moving<R: Real, T: Term<R>>(
     highest: usize,
     drive: &[[R; 2]],
-    read: impl Fn(usize, usize, usize) -> T,
+    rows: Rows,
+    columns: &[&[f64]],
 ) -> Moving<T> {
     let n = drive.len();
-    let at = read(0, 1, 0);
+    let at = T::read(rows, columns[0], 1, 0);
     let (mut velocity, mut acceleration) = (T::NONE, T::NONE);
     if highest == 0 {
         return Moving { at, velocity, acceleration };
     }
     for (a, &[speed, speed_rate]) in drive.iter().enumerate() {
-        let d1 = read(1, n, a);
+        let d1 = T::read(rows, columns[1], n, a);
         velocity = velocity + d1.times(speed);
         if highest > 1 {
             acceleration = acceleration + d1.times(speed_rate);
@@ -163,7 +170,8 @@ fn moving<R: Real, T: Term<R>>(
     if highest > 1 {
         for (a, &[first, _]) in drive.iter().enumerate() {
             for (b, &[second, _]) in drive.iter().enumerate() {
-                acceleration = acceleration + read(2, n * n, a * n + b).times(first * second);
+                let d2 = T::read(rows, columns[2], n * n, a * n + b);
+                acceleration = acceleration + d2.times(first * second);
             }
         }
     }
@@ -174,6 +182,8 @@ fn moving<R: Real, T: Term<R>>(
 trait Term<R>: Copy + Add<Output = Self> {
     const NONE: Self;
     fn times(self, factor: R) -> Self;
+    /// The entry `offset` of `width` at each position.
+    fn read(rows: Rows, values: &[f64], width: usize, offset: usize) -> Self;
 }
 
 impl<R: Real> Term<R> for R {
@@ -182,6 +192,10 @@ impl<R: Real> Term<R> for R {
     fn times(self, factor: R) -> Self {
         self * factor
     }
+    #[inline(always)]
+    fn read(rows: Rows, values: &[f64], width: usize, offset: usize) -> Self {
+        rows.read(values, width, offset)
+    }
 }
 
 impl<R: Real> Term<R> for Vector<R> {
@@ -189,5 +203,9 @@ impl<R: Real> Term<R> for Vector<R> {
     #[inline(always)]
     fn times(self, factor: R) -> Self {
         self.scale(factor)
+    }
+    #[inline(always)]
+    fn read(rows: Rows, values: &[f64], width: usize, offset: usize) -> Self {
+        rows.read_pairs(values, width, offset)
     }
 }

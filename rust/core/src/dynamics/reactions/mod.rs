@@ -9,10 +9,13 @@
 pub(crate) mod applied;
 pub(crate) mod batch;
 pub(crate) mod columns;
+mod evaluate;
 pub(crate) mod force_plan;
 pub(crate) mod moments;
 pub(crate) mod pair_forces;
 pub(crate) mod redundant;
+pub(crate) mod request;
 pub(crate) mod scene;
+mod squares;
 pub(crate) mod steps;
 pub(crate) mod transposed;

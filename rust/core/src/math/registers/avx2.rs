@@ -42,6 +42,15 @@ impl Real for F64x4 {
         }
     }
     #[inline(always)]
+    fn unzip(self, other: Self) -> [Self; 2] {
+        // SAFETY: the contract of the type.
+        unsafe {
+            let first = _mm256_permute2f128_pd::<0x20>(self.0, other.0);
+            let last = _mm256_permute2f128_pd::<0x31>(self.0, other.0);
+            [Self(_mm256_unpacklo_pd(first, last)), Self(_mm256_unpackhi_pd(first, last))]
+        }
+    }
+    #[inline(always)]
     fn floor(self) -> Self {
         // SAFETY: the contract of the type.
         Self(unsafe { _mm256_floor_pd(self.0) })

@@ -77,6 +77,18 @@ impl Real for F64x8 {
         }
     }
     #[inline(always)]
+    fn unzip(self, other: Self) -> [Self; 2] {
+        // SAFETY: the contract of the type.
+        unsafe {
+            let even = _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14);
+            let odd = _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15);
+            [
+                Self(_mm512_permutex2var_pd(self.0, even, other.0)),
+                Self(_mm512_permutex2var_pd(self.0, odd, other.0)),
+            ]
+        }
+    }
+    #[inline(always)]
     fn floor(self) -> Self {
         // SAFETY: the contract of the type.
         Self(unsafe {

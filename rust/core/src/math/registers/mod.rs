@@ -108,6 +108,13 @@ macro_rules! common {
             numbers[lane]
         }
         #[inline(always)]
+        fn read(values: &[f64]) -> Self {
+            let mut numbers = [0.0; $lanes];
+            numbers.copy_from_slice(&values[..$lanes]);
+            // SAFETY: a register is as many numbers side by side.
+            Self(unsafe { std::mem::transmute::<[f64; $lanes], $register>(numbers) })
+        }
+        #[inline(always)]
         fn write(self, out: &mut [MaybeUninit<f64>]) {
             type Numbers = [MaybeUninit<f64>; $lanes];
             // SAFETY: a register is as many numbers side by side.

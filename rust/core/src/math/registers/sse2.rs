@@ -25,6 +25,11 @@ impl Real for F64x2 {
         // SAFETY: the contract of the type.
         unsafe { [Self(_mm_unpacklo_pd(self.0, other.0)), Self(_mm_unpackhi_pd(self.0, other.0))] }
     }
+    #[inline(always)]
+    fn unzip(self, other: Self) -> [Self; 2] {
+        // With two numbers in a register both are the same.
+        self.zip(other)
+    }
     /// SSE2 has no instruction for it: numbers below 2^52 are rounded by adding and subtracting
     /// 2^52, and lowered by 1 where that rounded up.
     #[inline(always)]

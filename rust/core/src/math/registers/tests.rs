@@ -40,6 +40,14 @@ fn compare<R: Real>() {
             let mut written = [MaybeUninit::new(0.0); 16];
             let (first, last) = written.split_at_mut(R::LANES);
             let [before, after] = x.zip(y);
+            let [even, odd] = before.unzip(after);
+            let given: Vec<f64> = (0..R::LANES).map(|lane| number(i, lane)).collect();
+            let read = R::read(&given);
+            for lane in 0..R::LANES {
+                assert_eq!(even.lane(lane).to_bits(), number(i, lane).to_bits());
+                assert_eq!(odd.lane(lane).to_bits(), number(j, lane).to_bits());
+                assert_eq!(read.lane(lane).to_bits(), number(i, lane).to_bits());
+            }
             before.write(first);
             after.write(last);
             for lane in 0..R::LANES {

@@ -1,0 +1,243 @@
+//! The reactions of one design at some positions, a register of these at a time: stored, or their
+//! squares alone.
+
+use std::mem::MaybeUninit;
+
+use super::applied::Values;
+use super::columns::{Rows, Solved, Sources};
+use super::force_plan::ForcePlan;
+use super::pair_forces::{JointForce, Reaction};
+use super::request::ReactionRequest;
+use super::scene::Scene;
+use super::squares::Squares;
+use crate::batch::dispatch::Task;
+use crate::batch::outputs::Column;
+use crate::batch::request::{Request, Shape};
+use crate::batch::schedule::Control;
+use crate::batch::writer::{RowSlices, Writer, begins_line, store_pairs, write};
+use crate::dynamics::machine::Machine;
+use crate::math::derivatives::DerivativeTables;
+use crate::math::lanes::{Mask, Real};
+use crate::math::vector::Vector;
+use crate::plan::mechanism::Mechanism;
+use crate::state::status::Status;
+
+/// What all chunks of a batch share.
+pub(super) struct Batch<'b> {
+    pub mechanism: &'b Mechanism,
+    pub machine: &'b Machine,
+    pub plan: &'b ForcePlan,
+    pub sources: Sources,
+    pub joints: Vec<JointForce>,
+    pub asked: &'b ReactionRequest<'b>,
+    pub request: &'b Request<'b>,
+    pub derivatives: &'b DerivativeTables,
+    pub writer: &'b Writer<'b>,
+    pub columns: &'b [Column],
+    pub callbacks: usize,
+    pub shape: &'b Shape,
+    pub control: &'b Control<'b>,
+}
+
+/// The reactions of one design at some positions.
+pub(super) struct Evaluate<'e, 'r, R: Real> {
+    pub batch: &'e Batch<'e>,
+    pub guides: Vec<Vector>,
+    pub solved: Solved<'e>,
+    pub values: Values<'e>,
+    pub status: &'e [u8],
+    pub scene: &'e mut Scene<R>,
+    pub results: &'e mut RowSlices<'r>,
+    pub squares: &'e mut Vec<Squares<R>>,
+    /// Row of the first position, or of the design if squares are asked for.
+    pub first: usize,
+}
+
+impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
+    #[inline(always)]
+    fn run(&mut self) {
+        let Batch { plan, machine, sources, asked, .. } = self.batch;
+        let count = self.solved.positions;
+        self.squares.clear();
+        self.squares.resize(asked.reactions.len(), Squares::NONE);
+        for first in (0..count).step_by(R::LANES) {
+            let rows = Rows { first, last: count - 1 };
+            self.scene.read(plan, sources, &self.guides, &self.solved, rows);
+            self.scene.apply(plan, machine, self.values, rows);
+            self.scene.start(plan);
+            self.scene.carry_loads(plan);
+            self.scene.pass_moments(plan);
+            let lanes = R::LANES.min(count - first);
+            if asked.squares {
+                self.add_squares(first, lanes);
+            } else {
+                self.write(first, lanes);
+            }
+            for &stress in &plan.self_stresses {
+                self.scene.stress(plan, stress);
+                self.scene.carry_loads(plan);
+                self.scene.pass_moments(plan);
+                self.drop_stressed(first, lanes);
+            }
+        }
+        if asked.squares {
+            self.write_squares();
+            return;
+        }
+        for (row, &status) in self.status.iter().enumerate() {
+            self.results.status[self.first + row] = MaybeUninit::new(status);
+            if status > Status::NearSingular as u8 {
+                self.write_nan(self.first + row);
+            }
+        }
+    }
+}
+
+impl<R: Real> Evaluate<'_, '_, R> {
+    /// Force of a guide on what slides there.
+    #[inline(always)]
+    fn normal(&self, slide: usize) -> R {
+        let Some(edge) = self.batch.plan.guide_edges[slide] else { return R::ZERO };
+        -self.scene.guides[slide].cross(self.scene.edge_force[edge])
+    }
+
+    /// The value of a reaction in all lanes.
+    #[inline(always)]
+    fn value(&self, index: usize) -> Vector<R> {
+        let (reaction, joint) = (self.batch.asked.reactions[index], &self.batch.joints[index]);
+        let scene = &*self.scene;
+        match reaction {
+            Reaction::Joint { .. } => joint.of(scene),
+            Reaction::Normal(slide) => one(self.normal(slide)),
+            Reaction::Moment(slide) => one(scene.slide_moment[slide]),
+            Reaction::Along(slide) => {
+                one(scene.slides[slide] + scene.slide_moment[slide] / self.normal(slide))
+            }
+            Reaction::Driver(driver) => one(scene.driver[driver]),
+            Reaction::ShakingForce => scene.shaking_force,
+            Reaction::ShakingMoment => one(scene.shaking_moment),
+        }
+    }
+
+    #[inline(always)]
+    fn write(&mut self, first: usize, lanes: usize) {
+        // An infinite load has no reactions. (The place of a guide's force is at infinity where the force
+        // is zero.)
+        let (infinity, mut infinite) = (R::splat(f64::INFINITY), R::Mask::NONE);
+        for (index, reaction) in self.batch.asked.reactions.iter().enumerate() {
+            let value = self.value(index);
+            if !matches!(reaction, Reaction::Along(_)) {
+                infinite = infinite.or(infinity.le(value.x.abs())).or(infinity.le(value.y.abs()));
+            }
+            let width = reaction.width();
+            let out = &mut self.results.columns[index][(self.first + first) * width..];
+            if lanes == R::LANES {
+                let out = &mut out[..lanes * width];
+                let past = self.results.past_caches && begins_line(out);
+                if width == 2 {
+                    store_pairs(out, past, value);
+                } else {
+                    write(out, past, value.x);
+                }
+                continue;
+            }
+            for lane in 0..lanes {
+                out[lane * width] = MaybeUninit::new(value.x.lane(lane));
+                if width == 2 {
+                    out[lane * width + 1] = MaybeUninit::new(value.y.lane(lane));
+                }
+            }
+        }
+        if infinite.any() {
+            for lane in 0..lanes {
+                if infinite.lane(lane) {
+                    self.write_nan(self.first + first + lane);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn add_squares(&mut self, first: usize, lanes: usize) {
+        let used = R::from_lanes(|lane| lane as f64).lt(R::splat(lanes as f64));
+        for index in 0..self.squares.len() {
+            let value = self.value(index);
+            self.squares[index].add(value, first / R::LANES, used);
+        }
+    }
+
+    // Loops: closures would not be compiled with the level's instructions.
+    #[inline(always)]
+    fn write_squares(&mut self) {
+        let mut worst = Status::Ok as u8;
+        for &status in self.status {
+            worst = worst.max(status);
+        }
+        self.results.status[self.first] = MaybeUninit::new(worst);
+        let mut is_known = worst <= Status::NearSingular as u8;
+        for (index, reaction) in self.batch.asked.reactions.iter().enumerate() {
+            // The place of a guide's force may be at infinity.
+            let is_place = matches!(reaction, Reaction::Along(_));
+            is_known &= is_place || !self.squares[index].is_infinite();
+        }
+        for (index, column) in self.results.columns.iter_mut().enumerate() {
+            let both = self.squares[index].greatest_and_mean(self.solved.positions);
+            let both = if is_known { both } else { [f64::NAN; 2] };
+            for axis in 0..2 {
+                column[2 * self.first + axis] = MaybeUninit::new(both[axis]);
+            }
+        }
+    }
+
+    /// Leaves out what a self-stress changes: it cannot be known.
+    #[inline(always)]
+    fn drop_stressed(&mut self, first: usize, lanes: usize) {
+        let size = self.batch.mechanism.linkage().size();
+        for (index, &reaction) in self.batch.asked.reactions.iter().enumerate() {
+            let unit = match reaction {
+                Reaction::ShakingForce | Reaction::ShakingMoment => continue,
+                Reaction::Moment(_) => size,
+                Reaction::Along(slide) => {
+                    // Known with the normal force and the moment.
+                    let moment = self.scene.slide_moment[slide];
+                    let stressed = Scene::is_stressed(self.normal(slide), R::ONE)
+                        .or(Scene::is_stressed(moment, R::splat(size)));
+                    self.drop_lanes(index, [first, lanes], stressed);
+                    continue;
+                }
+                Reaction::Driver(driver) if self.batch.plan.driven_links[driver].is_some() => size,
+                _ => 1.0,
+            };
+            // A force is known as a whole, or not at all: its axes are the drawing's.
+            let stressed = Scene::is_stressed(self.value(index).size(), R::splat(unit));
+            self.drop_lanes(index, [first, lanes], stressed);
+        }
+    }
+
+    #[inline(always)]
+    fn drop_lanes(&mut self, index: usize, [first, lanes]: [usize; 2], stressed: R::Mask) {
+        if self.batch.asked.squares {
+            // The lanes beyond the last position repeat it.
+            self.squares[index].drop(stressed);
+            return;
+        }
+        for lane in (0..lanes).filter(|&lane| stressed.lane(lane)) {
+            let width = self.batch.asked.reactions[index].width();
+            let row = self.first + first + lane;
+            self.results.columns[index][row * width..(row + 1) * width]
+                .fill(MaybeUninit::new(f64::NAN));
+        }
+    }
+
+    fn write_nan(&mut self, row: usize) {
+        for (reaction, column) in self.batch.asked.reactions.iter().zip(&mut self.results.columns) {
+            let width = reaction.width();
+            column[row * width..(row + 1) * width].fill(MaybeUninit::new(f64::NAN));
+        }
+    }
+}
+
+#[inline(always)]
+fn one<R: Real>(value: R) -> Vector<R> {
+    Vector::new(value, R::ZERO)
+}

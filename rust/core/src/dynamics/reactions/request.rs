@@ -1,0 +1,26 @@
+//! What reactions are asked for.
+
+use super::pair_forces::Reaction;
+use crate::batch::request::Coordinates;
+
+/// Motions of a batch of designs, of which reactions are asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct ReactionRequest<'a> {
+    /// Dimensions: the first of every design, then the second of every design, and so on.
+    pub dimensions: &'a [f64],
+    /// Coordinates of the drivers, rad or m.
+    pub coordinates: Coordinates<'a>,
+    /// Assembly signs, +1 or −1 for every dyad with two solutions.
+    pub signs: &'a [i8],
+    /// Speeds of the drivers, rad/s or m/s: designs × positions × drivers, or one for all.
+    pub speed: &'a [f64],
+    /// Their accelerations, rad/s² or m/s², likewise.
+    pub acceleration: &'a [f64],
+    /// Values of the loads' callbacks: designs × positions × callbacks.
+    pub external: &'a [f64],
+    /// What is asked for.
+    pub reactions: &'a [Reaction],
+    /// Whether of each design only the greatest square and the mean square of every reaction are
+    /// wanted, over its positions.
+    pub squares: bool,
+}
