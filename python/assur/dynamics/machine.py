@@ -333,8 +333,8 @@ class Machine(MachineModel):
         any power of h (L. N. Trefethen and J. A. C. Weideman, SIAM Review 56 (2014) 385). Even
         steps may leave out the end of the turn, as `np.linspace(0, 2 * np.pi, n, endpoint=False)`
         does: its position is added. Otherwise all numbers are over the range of the positions.
-        The ends of the steps of a run or steady state are uneven and far apart: the energy has about
-        four digits. More have closer positions, ``machine.duty(run.at(times))`` or
+        The steps of a run or steady state are uneven and long: the energy has about four digits. It
+        has more at closer positions: ``machine.duty(run.at(times))``, or
         ``machine.duty(steady.at(angles))``.
 
         Examples
