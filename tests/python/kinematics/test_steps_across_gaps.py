@@ -53,6 +53,12 @@ def test_an_island_within_a_cell() -> None:
     assert not list(gap_steps.far(design, q))
 
 
+def test_an_island_beside_a_dead_point_that_cannot_be_reached() -> None:
+    """A later dyad, open at both knots, closes between them, where an earlier one has its end."""
+    design = assur.Mechanism(**arguments(campaign_cases.MAKE["random"](17462).description))
+    assert not list(gap_steps.far(design, way(design, 2 * np.pi)))
+
+
 def test_a_gap_within_a_cell() -> None:
     """An earlier dyad opens and closes again between two knots, and cuts an island off."""
     batches = (batch for name, batch, _ in partial_requests.cases(678) if "changing" in name)

@@ -118,6 +118,8 @@ impl Design<'_> {
             let mut plain = uniform.survey(&cx, classes, start, references);
             is_solved = true;
             if plain.is_none() && grid.is_turn {
+                // Islands are found by the samples of dyads beyond dead points too.
+                uniform.solve_again_carefully::<L>(&cx);
                 let of = (classes, start);
                 let surveyed = tracer.survey::<L, G>(&cx, uniform, of, settled, references);
                 let Some(surveyed) = surveyed else { return Traced::No };

@@ -26,7 +26,7 @@ pub(in crate::branch) struct ScanView<'l> {
     pub from: f64,
     pub cell: f64,
     pub count: usize,
-    /// Cells with a dead point and no other doubt.
+    /// Cells with one end of a gap and no other doubt.
     pub cells: Bits,
     /// Knots that can be reached.
     pub reached: Bits,
@@ -36,7 +36,7 @@ pub(in crate::branch) struct ScanView<'l> {
     pub rates: &'l [[f64; KNOTS]],
 }
 
-/// The end of a dyad's gap between two knots.
+/// The end of a gap between two knots.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::branch) struct GapEnd {
     /// The knot after it.
@@ -45,8 +45,6 @@ pub(in crate::branch) struct GapEnd {
     dyad: usize,
     /// Whether the gap starts here: the dyad closes before the end, not after it.
     pub is_start: bool,
-    /// Whether it lies within a gap of a later dyad, so that neither side can be reached.
-    pub is_shut: bool,
     /// Its position as a fraction of the cell, and the derivative of the square by that fraction.
     root: f64,
     slope: f64,
@@ -69,10 +67,7 @@ impl GapEnd {
         for _ in 0..STEPS {
             root -= (from + root * (fall + root * (b + root * c))) / slope(root);
         }
-        let known = if is_start { knot - 1 } else { knot };
-        let is_shut = !has(scan.reached, known);
-        let slope = slope(root);
-        let end = Self { knot, dyad, is_start, is_shut, root, slope, is_confirmed: false };
+        let end = Self { knot, dyad, is_start, root, slope: slope(root), is_confirmed: false };
         (0.0 < root && root < 1.0).then_some(end)
     }
 
@@ -94,12 +89,12 @@ impl GapEnd {
         if self.is_start { [first, first + 1] } else { [first + 1, first] }
     }
 
-    /// The neighbouring knot at which the dyad closes.
+    /// The neighbouring knot that can be reached.
     pub(in crate::branch) fn known(&self) -> usize {
         if self.is_start { self.knot - 1 } else { self.knot }
     }
 
-    /// The neighbouring knot at which it does not.
+    /// The neighbouring knot that cannot.
     fn far(&self) -> usize {
         if self.is_start { self.knot } else { self.knot - 1 }
     }
@@ -168,12 +163,8 @@ impl GapEnd {
             if !stays_away([at_knot, slopes[0]], y, [square, slopes[1]]) {
                 return false;
             }
-            if square < 0.0 {
-                // Later dyads do not matter.
-                break;
-            }
         }
-        (open >> inside & 1 != 0) == self.is_shut
+        open >> inside & 1 == 0
     }
 }
 

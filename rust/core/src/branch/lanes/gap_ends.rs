@@ -34,11 +34,6 @@ pub(in crate::branch) struct EndPosition {
 }
 
 impl GapEnds {
-    /// Whether the cell before a knot has a confirmed end of which neither side can be reached.
-    pub(in crate::branch) fn is_shut(&self, knot: usize) -> bool {
-        self.index(knot).is_some_and(|index| self.ends[index].is_shut)
-    }
-
     fn index(&self, knot: usize) -> Option<usize> {
         self.ends.iter().position(|end| end.is_confirmed && end.knot == knot)
     }
@@ -51,9 +46,6 @@ impl GapEnds {
     ) -> Option<[EndPosition; 2]> {
         let index = self.index(knot)?;
         let end = &self.ends[index];
-        if end.is_shut {
-            return None;
-        }
         let [before, after] = end.beside(scan);
         Some([
             EndPosition { at: before, reached: end.is_start, lane: 2 * index },
@@ -61,14 +53,13 @@ impl GapEnds {
         ])
     }
 
-    /// All ends that can be reached, each with the angles of a class at its inside position and
-    /// beyond. All must be confirmed.
+    /// All confirmed ends, each with the angles of a class at its inside position and beyond.
     pub(in crate::branch) fn with_angles(
         &self,
         class: usize,
     ) -> impl Iterator<Item = (&GapEnd, [f64; 2])> {
-        let within_reach = |(_, end): &(usize, &GapEnd)| !end.is_shut;
-        self.ends.iter().enumerate().filter(within_reach).map(move |(index, end)| {
+        let is_confirmed = |(_, end): &(usize, &GapEnd)| end.is_confirmed;
+        self.ends.iter().enumerate().filter(is_confirmed).map(move |(index, end)| {
             (end, end.lanes(2 * index).map(|lane| self.angles[class][lane]))
         })
     }
@@ -156,9 +147,6 @@ impl GapEnds {
     /// Whether all angles can be unwrapped from the reachable knot to an end.
     fn turns_little(&self, scan: &ScanView<'_>, index: usize) -> bool {
         let end = &self.ends[index];
-        if end.is_shut {
-            return true;
-        }
         let [inside, outside] = end.lanes(2 * index);
         self.angles.iter().zip(scan.angles.iter().zip(scan.rates)).all(|(beside, (at, rate))| {
             let near = at[end.known()];

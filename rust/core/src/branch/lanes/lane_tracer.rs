@@ -206,8 +206,7 @@ impl LaneTracer {
                     self.push_next((beside.at, beside.reached), classes, branch);
                 }
             }
-            let is_shut = self.ends_serve && self.ends[level].is_shut(knot);
-            let looked = if ends.is_some() || is_shut {
+            let looked = if ends.is_some() {
                 Some(false)
             } else {
                 self.needs_closer_scan(level, knot, !classes.is_empty())

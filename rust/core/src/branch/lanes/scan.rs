@@ -119,11 +119,13 @@ impl Scan {
 
     /// What the scan shows about the ends of gaps.
     pub(in crate::branch) fn view(&self) -> ScanView<'_> {
+        // Another dyad that is open at both knots may close between them.
+        let at_one_end = self.reached ^ (self.reached << 1);
         ScanView {
             from: self.from,
             cell: self.cell,
             count: self.count,
-            cells: self.dead_point & !self.doubtful_cells() & !1,
+            cells: self.dead_point & !self.doubtful_cells() & at_one_end & !1,
             reached: self.reached,
             dyads: &self.dyads,
             angles: &self.angles,

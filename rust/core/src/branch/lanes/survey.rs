@@ -74,7 +74,7 @@ impl LaneTracer {
                     return false;
                 }
                 self.scans[level].next = knot;
-                if !self.scan_closer::<L, G>(cx, knots, classes, settled, (level, false)) {
+                if !self.scan_closer::<L, G>(cx, knots, classes, settled, (level, true)) {
                     return false;
                 }
                 level += 1;

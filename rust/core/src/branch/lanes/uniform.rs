@@ -148,6 +148,14 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
     }
 
+    /// Solves the knots again, carefully, if they were not.
+    #[inline(always)]
+    pub(crate) fn solve_again_carefully<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
+        if !self.is_careful {
+            self.solve_carefully::<L>(cx);
+        }
+    }
+
     /// Sets positions in place of the knots.
     #[inline(always)]
     pub(in crate::branch) fn set_at(&mut self, at: &[f64]) {
