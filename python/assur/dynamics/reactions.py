@@ -286,10 +286,11 @@ def reactions(
     one_of(on_error, ("raise", "nan"), "on_error")
     drivers = machine._drivers
     keys = _keys(mechanism) if keys is None else keys
-    everywhere, v, a, shape = broadcast_motion(machine, motion)
+    moving = broadcast_motion(machine, motion)
+    x, v, a, shape = moving
+    arrays, status, failure = _solved(machine, moving, motion.t, threads, keys, squares=False)
     full = shape if drivers == 1 else (*shape, drivers)
-    everywhere = np.broadcast_to(everywhere, full)
-    arrays, status, failure = _solved(machine, motion, threads, keys, squares=False)
+    everywhere = np.broadcast_to(x, full)
     if on_error == "raise" and failure is not None:
         raise failure
     if on_error == "raise":
@@ -312,13 +313,15 @@ def reaction_squares(
 
     NaN where a position of a design has no value. Nothing is kept of the positions.
     """
-    arrays, _, _ = _solved(machine, motion, threads, keys, squares=True)
+    moving = broadcast_motion(machine, motion)
+    arrays, _, _ = _solved(machine, moving, motion.t, threads, keys, squares=True)
     return {key: array.reshape(-1, 2) for key, array in zip(keys, arrays, strict=True)}
 
 
 def _solved(
     machine: MachineModel,
-    motion: DrivenMotion,
+    moving: tuple[Float, Float, Float, tuple[int, ...]],
+    t: npt.ArrayLike,
     threads: int | None,
     keys: list[Key],
     squares: bool,
@@ -327,17 +330,18 @@ def _solved(
     mechanism = machine.mechanism
     assert mechanism is not None
     drivers, designs = machine._drivers, machine.shape
-    x, v, a, shape = broadcast_motion(machine, motion)
+    x, v, a, shape = moving
     per_design = bool(designs) and x.ndim > (1 if drivers == 1 else 2)
     full = shape if drivers == 1 else (*shape, drivers)
     everywhere, functions = np.broadcast_to(x, full), machine._core.load_functions
-    # One speed for all positions is not repeated.
+    # One speed for all positions is not repeated; (2, 1) of two drivers are two positions.
+    given_once = ((),) if drivers == 1 else ((drivers,),)
     speeds, accelerations = (
-        np.ascontiguousarray(one if one.size == drivers else np.broadcast_to(one, full)).ravel()
+        np.ascontiguousarray(one if one.shape in given_once else np.broadcast_to(one, full)).ravel()
         for one in (v, a)
     )
     coordinates = np.ascontiguousarray(everywhere if per_design else x).ravel()
-    at = times(motion.t, shape)
+    at = times(t, shape)
     given = np.empty(0)
     if functions:
         rows = everywhere.reshape(-1, drivers), np.broadcast_to(v, full).reshape(-1, drivers)

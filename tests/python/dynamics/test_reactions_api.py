@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import assur
+import machines
 from assur import Body, Force, Gravity
 from reaction_view import View
 
@@ -43,6 +44,15 @@ def test_speeds_broadcast() -> None:
     assert each.driver.shape == each.slide("bore").normal.shape == (4,)
     assert each.shaking_force.shape == (4, 2)
     assert each.shaking_moment.shape == (4,)
+
+
+@pytest.mark.parametrize("speed", [2.0, (2.0, -3.0), ((2.0,), (-3.0,)), ((2.0, -3.0),)])
+def test_speeds_of_two_drivers_broadcast(speed: Any) -> None:
+    """Two numbers are of the drivers, or of two positions: as NumPy has it."""
+    two = assur.Machine(machines.five_bar(), {"b1": Body(2.0, 0.1)}, [Gravity()])
+    q = np.add(machines.five_bar().q0, [[0.0, 0.0], [0.1, -0.05]])
+    found, exact = (two.reactions(q, v) for v in (speed, np.broadcast_to(speed, (2, 2))))
+    assert np.array_equal(found.driver, exact.driver)
 
 
 def test_designs() -> None:
