@@ -132,7 +132,7 @@ impl LaneTracer {
     }
 
     /// Scans the cell before the next knot of a scan more closely, one level down; false if one of the
-    /// knots is singular. `beyond`: whether angles beyond dead points matter.
+    /// knots is singular.
     #[inline(always)]
     pub(in crate::branch) fn scan_closer<L: Level, const G: usize>(
         &mut self,
@@ -140,19 +140,16 @@ impl LaneTracer {
         knots: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
         settled: &[bool],
-        (level, beyond): (usize, bool),
+        level: usize,
     ) -> bool {
         let scan = &self.scans[level];
         let (from, width) = (scan.from + scan.cell * (scan.next - 1) as f64, scan.cell);
         knots.set_between((from, width));
-        if beyond && has(scan.dead_point, scan.next) {
+        if !classes.is_empty() && has(scan.dead_point, scan.next) {
             // Some of these knots are beyond the dead point.
             knots.solve_carefully::<L>(cx);
         } else {
-            knots.solve::<L>(cx, beyond);
-            if !classes.is_empty() {
-                knots.take_care_of_doubts::<L>(cx);
-            }
+            knots.solve::<L>(cx, !classes.is_empty());
         }
         self.scans[level + 1].take(cx, knots, classes, settled, (from, width / CELLS))
     }
@@ -215,23 +212,11 @@ impl LaneTracer {
                 return false;
             };
             if closer && level + 1 < LEVELS {
-                let taken = self.scan_closer::<L, G>(
-                    cx,
-                    knots,
-                    classes,
-                    settled,
-                    (level, !classes.is_empty()),
-                );
+                let taken = self.scan_closer::<L, G>(cx, knots, classes, settled, level);
                 level += 1;
                 count += 1;
                 if !taken || count > MAX_SCANS {
                     return false;
-                }
-                if !has(self.scans[level].reached, 0) {
-                    // Angles of the flat dyad, which the parent scan may not have.
-                    let scan = &self.scans[level];
-                    self.principal.clear();
-                    self.principal.extend(scan.angles.iter().map(|angles| angles[0]));
                 }
                 if self.ends_serve {
                     self.find_ends::<L, G>(cx, knots, classes, level);

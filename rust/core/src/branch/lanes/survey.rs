@@ -74,7 +74,7 @@ impl LaneTracer {
                     return false;
                 }
                 self.scans[level].next = knot;
-                if !self.scan_closer::<L, G>(cx, knots, classes, settled, (level, true)) {
+                if !self.scan_closer::<L, G>(cx, knots, classes, settled, level) {
                     return false;
                 }
                 level += 1;

@@ -14,7 +14,7 @@ pub struct ReactionRequest<'a> {
     pub signs: &'a [i8],
     /// Speeds of the drivers, rad/s or m/s: designs × positions × drivers, or one for all.
     pub speed: &'a [f64],
-    /// Their accelerations, rad/s² or m/s², likewise.
+    /// Accelerations of the drivers, rad/s² or m/s²: designs × positions × drivers, or one for all.
     pub acceleration: &'a [f64],
     /// Values of the loads' callbacks: designs × positions × callbacks.
     pub external: &'a [f64],

@@ -102,7 +102,7 @@ mod tests {
     fn one_missing_value_leaves_none() {
         assert!(of::<Pair<f64>>(&[[1.0, 2.0], [f64::NAN, 0.0], [3.0, 0.0]])[0].is_nan());
         assert!(of::<Pair<f64>>(&[[1.0, 2.0], [3.0, f64::NAN], [3.0, 0.0]])[1].is_nan());
-        // A great force is no missing one, even if its square is beyond all numbers.
+        // A great force has a value, even if its square is beyond all numbers.
         assert_eq!(of::<Pair<f64>>(&[[1.0e200, 0.0], [1.0, 1.0]])[0], f64::INFINITY);
     }
 }
