@@ -39,6 +39,19 @@ def test_the_shorter_way(part: int) -> None:
                 assert not found, f"{name}, design {i}: {found}"
 
 
+@pytest.mark.parametrize("part", range(PARTS))
+def test_beside_the_drawing(part: int) -> None:
+    """One rounding before the drawing's coordinate a turn ends: angles are those one turn before."""
+    for seed in range(part, 3 * COUNT, PARTS):
+        batch = design_spaces.crank_space(seed, partial_requests.DESIGNS)
+        (q0,) = np.unique(batch.q0)
+        q = np.nextafter(q0, [-np.inf, q0, np.inf])
+        motion = batch.solve(q, order=0, outputs=list(batch.links), on_error="nan")
+        for name in batch.links:
+            apart = np.ptp(motion.link(name).value, axis=1)
+            assert not np.any(apart > 1.0), (seed, name)
+
+
 def test_an_island_within_a_cell() -> None:
     """Found once: between two gaps of very different depth it was not looked for."""
     rng = np.random.default_rng(280)

@@ -1,6 +1,7 @@
 //! Chooses the compiled copy of the worker, by the processor and the caller's limit.
 
 use super::worker::{Job, Worker};
+use crate::branch::lanes::uniform::Traced;
 use crate::math::lanes::Real;
 use crate::math::simd::Simd;
 use crate::state::kernel::portable::Portable;
@@ -28,7 +29,7 @@ pub(crate) trait Entry: Level {
         worker: &mut Worker<'_, Self::Register, G>,
         job: &Job<'_, '_>,
         plain: bool,
-    ) -> bool;
+    ) -> Traced;
     /// Does a task with the level's instructions.
     fn call(task: &mut impl Task<Self::Register>);
 }
@@ -56,7 +57,7 @@ impl Entry for Portable {
         worker: &mut Worker<'_, Self::Register, G>,
         job: &Job<'_, '_>,
         plain: bool,
-    ) -> bool {
+    ) -> Traced {
         worker.trace::<Self>(job, plain)
     }
     #[inline(never)]
@@ -92,7 +93,7 @@ macro_rules! entry {
                 worker: &mut Worker<'_, Self::Register, G>,
                 job: &Job<'_, '_>,
                 plain: bool,
-            ) -> bool {
+            ) -> Traced {
                 use crate::state::kernel::$module::$level;
                 #[inline(never)]
                 #[target_feature(enable = $features)]
@@ -100,7 +101,7 @@ macro_rules! entry {
                     worker: &mut Worker<'_, <$level as Level>::Register, G>,
                     job: &Job<'_, '_>,
                     plain: bool,
-                ) -> bool {
+                ) -> Traced {
                     worker.trace::<$level>(job, plain)
                 }
                 // SAFETY: `at_level` chooses this only if `Simd::best` found these instructions.

@@ -159,9 +159,9 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     pub(crate) fn run<L: Level<Register = R>>(
         &mut self,
         job: &mut Job<'_, '_>,
-        trace: fn(&mut Self, &Job<'_, '_>, bool) -> bool,
+        trace: fn(&mut Self, &Job<'_, '_>, bool) -> Traced,
     ) {
-        let mut surveyed = trace(self, job, self.by.is_none());
+        let mut traced = trace(self, job, self.by.is_none());
         let drivers = self.design.mechanism.q0().len();
         let count = job.q.len() / drivers;
         if let Some((index, mut by)) = self.by.take() {
@@ -181,9 +181,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             }
         }
         self.load_coordinates(job);
-        if surveyed && self.space.coordinates.is_far {
-            surveyed = trace(self, job, false);
+        if traced == Traced::Surveyed && self.space.coordinates.is_far {
+            traced = trace(self, job, false);
         }
+        let surveyed = traced == Traced::Surveyed;
         // Bare analogues are for one driver.
         let bare = drivers == 1 || self.space.many.len == 1;
         let mut doubts = if bare && (surveyed || self.is_plain()) { 0 } else { MAX_DOUBTS };
@@ -193,7 +194,11 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             self.space.many.prepare_bare(&cx);
         }
         let mut prepared = false;
-        let mut located = !surveyed && (doubts == MAX_DOUBTS || self.find_references());
+        let mut located = match traced {
+            Traced::Surveyed => false,
+            Traced::AtKnots => true,
+            _ => doubts == MAX_DOUBTS || self.find_references(),
+        };
         if located {
             self.locate();
         }
@@ -234,13 +239,17 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
     }
 
-    /// Traces the branch. Returns true if it only showed the design to be plain (allowed by `plain`).
+    /// Traces the branch. If `plain`, it may only show that the design is plain.
     #[inline(always)]
-    pub(super) fn trace<L: Level<Register = R>>(&mut self, job: &Job<'_, '_>, plain: bool) -> bool {
+    pub(super) fn trace<L: Level<Register = R>>(
+        &mut self,
+        job: &Job<'_, '_>,
+        plain: bool,
+    ) -> Traced {
         if self.has_known_signs(job.design) {
             self.design.set_constant_signs();
             self.is_smooth = true;
-            return false;
+            return Traced::Whole;
         }
         let mut traced = Traced::No;
         // The first guess of a group's iteration depends on how its branch was traced.
@@ -270,7 +279,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             known.set_constant(job.design);
         }
         self.is_smooth = self.design.is_smooth(job.q);
-        traced == Traced::Surveyed
+        traced
     }
 
     /// Whether only the signs of the branch are needed, and they are known to be constant.

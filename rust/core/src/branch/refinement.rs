@@ -12,8 +12,8 @@ const EDGE_HALVINGS: u32 = 14;
 const MAX_GAP_RATE: f64 = 8.0;
 /// A negative square stays below zero in a cell if it is below zero by this many times its rise over it.
 const MAX_FALLS: f64 = 4.0;
-/// Halvings in search of an island: down to a tenth of a degree.
-const ISLAND_HALVINGS: u32 = 7;
+/// Halvings in search of an island: down to the 16 000th part of a cell.
+const ISLAND_HALVINGS: u32 = 14;
 /// Whether a cell must be halved, after `depth` halvings.
 pub(super) fn must_refine(a: &Knot, b: &Knot, depth: u32) -> bool {
     if a.reached != b.reached {

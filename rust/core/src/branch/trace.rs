@@ -110,21 +110,21 @@ impl Design<'_> {
         let (branch, tracer, settled) = (&mut self.branch, &mut self.lane_tracer, &self.settled);
         let with_angles = !classes.is_empty();
         let references = references.filter(|_| self.closed_forms && with_angles);
-        let (mut is_solved, mut is_scanned) = (false, false);
+        let mut is_solved = false;
         let mut turns_fully = grid.is_turn && (with_angles || !self.closed_forms);
         if let Some(references) = references {
             uniform.solve_knots::<L>(&cx, grid, false);
             uniform.take_care_of_doubts::<L>(&cx);
-            let mut plain = uniform.survey(&cx, classes, start, references);
-            is_solved = true;
+            let plain = uniform.survey(&cx, classes, start, references);
+            // A survey solves closer scans in their place.
+            is_solved = plain.is_some();
             if plain.is_none() && grid.is_turn {
-                // Islands are found by the samples of dyads beyond dead points too.
-                uniform.solve_again_carefully::<L>(&cx);
                 let of = (classes, start);
-                let surveyed = tracer.survey::<L, G>(&cx, uniform, of, settled, references);
+                let surveyed = tracer.survey::<L, G>(&cx, uniform, of, settled, references, branch);
                 let Some(surveyed) = surveyed else { return Traced::No };
-                is_scanned = true;
-                plain = surveyed.then_some(true);
+                if surveyed != Traced::No {
+                    return surveyed;
+                }
             }
             if plain == Some(true) {
                 branch.set_constant_signs(start.len(), cx.signs);
@@ -147,14 +147,7 @@ impl Design<'_> {
             }
             let traced = turns_fully && uniform.trace(&cx, classes, start, branch)
                 || self.closed_forms
-                    && tracer.trace::<L, G>(
-                        &cx,
-                        uniform,
-                        (classes, start),
-                        settled,
-                        is_scanned,
-                        branch,
-                    );
+                    && tracer.trace::<L, G>(&cx, uniform, (classes, start), settled, branch);
             // Beyond a gap, angles depend on which islands the knots hit. A slide is then left to the
             // tracer, whose knots do not depend on the requested positions.
             if !traced || follows_slide && !branch.ends_once() {

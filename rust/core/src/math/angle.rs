@@ -7,9 +7,6 @@ use super::lanes::Real;
 /// Slightly less than half a turn, so that [`turns_between`] does not switch at exact half turns.
 const ABOUT_HALF: f64 = 0.5 - 1.0 / 1024.0;
 
-/// Distance (rad) from half a turn at which rounding, and the choice of the clockwise way, might decide.
-const TIE: f64 = 1.0 / 128.0;
-
 /// Number of whole turns to add to `angle` to come nearest to `near`. About half a turn away (a
 /// link that points to where a joint went through infinity) the sum is clockwise of `near`, whatever
 /// the rounding errors.
@@ -24,11 +21,17 @@ pub(crate) fn unwrap_to<R: Real>(angle: R, near: R) -> R {
     angle + R::splat(TAU) * turns_between(angle, near)
 }
 
-/// Whether the error `slack` of a step across a gap (rad) decides which way is the shorter.
+/// Whether an error of `slack` (rad) decides which way is the shorter, if [`unwrap_to`] takes the step.
 #[inline(always)]
-pub(crate) fn is_about_half(step: f64, slack: f64) -> bool {
+pub(crate) fn is_tie(step: f64, slack: f64) -> bool {
     let most = TAU * ABOUT_HALF;
-    step.abs() + (slack + TIE) > most
+    step + slack > most || step - slack < most - TAU
+}
+
+/// The same of the step that [`whole_turns`] leaves of a change.
+#[inline(always)]
+pub(crate) fn is_tie_over_period(change: f64, slack: f64) -> bool {
+    is_tie((TAU * whole_turns(change) - change) * change.signum(), slack)
 }
 
 /// How to unwrap all angles of a link without tracing them.

@@ -14,6 +14,9 @@ use crate::state::state::{Context, State};
 
 /// A cell is too coarse if a square differs from the trapezoidal rule by this fraction of itself.
 const MAX_CURVATURE: f64 = 0.5;
+/// A square falls or rises throughout a cell if it does at both ends and differs from the trapezoidal rule by
+/// less than this part of its least fall or rise: two thirds would allow a rate of zero between them.
+const MAX_UNSTEADY: f64 = 0.25;
 /// A negative square stays below zero in a cell if it is below zero by this many times its rise over
 /// the neighbouring cell.
 const MAX_FALLS: f64 = 4.0;
@@ -57,8 +60,8 @@ fn at_both_ends(bits: Bits) -> Bits {
 /// Samples of one dyad at the knots of a scan.
 #[derive(Debug, Clone)]
 pub(in crate::branch) struct DyadSamples {
-    /// See [`DyadSample::square`]. The first [`BEFORE`] entries and those after the last knot are
-    /// padding that no knot sets.
+    /// See [`DyadSample::square`]; −∞ where a dyad before it does not close. The first [`BEFORE`] entries
+    /// and those after the last knot are padding that no knot sets.
     square: [f64; SAMPLES],
     /// See [`DyadSample::rate`].
     rate: [f64; SAMPLES],
@@ -126,10 +129,11 @@ impl DyadSamples {
             let first = group * R::LANES;
             let sample = state.sample(group, cx, dyad, op);
             let DyadSample { square, rate, side, flat: folded } = sample;
-            for (all, own) in [(&mut self.square, square), (&mut self.rate, rate)] {
-                for (lane, stored) in all[BEFORE + first..][..R::LANES].iter_mut().enumerate() {
-                    *stored = own.lane(lane);
-                }
+            for lane in 0..R::LANES {
+                let at = BEFORE + first + lane;
+                let is_known = has(known, first + lane);
+                self.square[at] = if is_known { square.lane(lane) } else { f64::NEG_INFINITY };
+                self.rate[at] = rate.lane(lane);
             }
             closes |= R::ZERO.lt(square).bits() << first;
             self.folded |= R::ZERO.lt(folded).bits() << first;
@@ -150,6 +154,10 @@ impl DyadSamples {
             let curvature = (square - before) - half * (rate + rate_before);
             let least = square.min(before);
             let straight = curvature.abs().lt(R::splat(MAX_CURVATURE) * least);
+            let slowest = rate.abs().min(rate_before.abs()) * cell;
+            let falls_or_rises = R::ZERO.lt(rate * rate_before);
+            let is_steady = curvature.abs().lt(R::splat(MAX_UNSTEADY) * slowest);
+            let straight = straight.or(falls_or_rises.and(is_steady));
             let same_side = R::ZERO.lt(side * side_before);
             vanishing |= touches.or(same_side.not()).bits() << first;
             curved |= straight.not().bits() << first;
@@ -199,12 +207,12 @@ impl DyadSamples {
             let after = entries::<R>(&self.square, first + 3);
             let start = entries::<R>(&self.rate, first + 1) * cell;
             let end = entries::<R>(&self.rate, first + 2) * cell;
-            let (mut rise, mut fall) = (from - before, to - after);
-            if settled {
-                // Where the neighbour is unknown, the rate at the knot stands in.
-                rise = R::select(before.finite().or(start.finite().not()), rise, start);
-                fall = R::select(after.finite().or(end.finite().not()), fall, -end);
-            } else {
+            // Where the neighbour is unknown, the rate at the knot stands in.
+            let with_before = before.finite().or(start.finite().not());
+            let with_after = after.finite().or(end.finite().not());
+            let mut rise = R::select(with_before, from - before, start);
+            let mut fall = R::select(with_after, to - after, -end);
+            if !settled {
                 // Beyond the peak there may be another gap, less deep: its own rate shows that too.
                 rise = R::select(rise.lt(start), start, rise);
                 fall = R::select(fall.lt(-end), -end, fall);

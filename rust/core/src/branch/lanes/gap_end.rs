@@ -2,6 +2,7 @@
 
 use super::cell_test::{Bits, DyadSamples, has};
 use super::grid::KNOTS;
+use crate::math::angle::unwrap_to;
 use crate::math::tolerance::KNOT_MAX_TURN;
 
 /// Most ends searched for together; a turn seldom has more.
@@ -22,11 +23,10 @@ const STEPS: usize = 4;
 /// What a scan shows about the ends of gaps.
 #[derive(Clone, Copy)]
 pub(in crate::branch) struct ScanView<'l> {
-    /// The first knot, the width of a cell, and the number of knots.
+    /// The first knot, and the width of a cell.
     pub from: f64,
     pub cell: f64,
-    pub count: usize,
-    /// Cells with one end of a gap and no other doubt.
+    /// Cells with a dead point and no other doubt.
     pub cells: Bits,
     /// Knots that can be reached.
     pub reached: Bits,
@@ -45,6 +45,8 @@ pub(in crate::branch) struct GapEnd {
     dyad: usize,
     /// Whether the gap starts here: the dyad closes before the end, not after it.
     pub is_start: bool,
+    /// Whether it lies in the gap of a later dyad, so that nothing can be reached on either side.
+    pub is_shut: bool,
     /// Its position as a fraction of the cell, and the derivative of the square by that fraction.
     root: f64,
     slope: f64,
@@ -67,8 +69,16 @@ impl GapEnd {
         for _ in 0..STEPS {
             root -= (from + root * (fall + root * (b + root * c))) / slope(root);
         }
-        let end = Self { knot, dyad, is_start, root, slope: slope(root), is_confirmed: false };
+        let slope = slope(root);
+        let mut end =
+            Self { knot, dyad, is_start, is_shut: false, root, slope, is_confirmed: false };
+        end.is_shut = !has(scan.reached, end.known());
         (0.0 < root && root < 1.0).then_some(end)
+    }
+
+    /// Whether it is confirmed, and positions on one side of it can be reached.
+    pub(in crate::branch) fn is_open(&self) -> bool {
+        self.is_confirmed && !self.is_shut
     }
 
     /// Positions before and after it, as fractions of the cell.
@@ -89,7 +99,7 @@ impl GapEnd {
         if self.is_start { [first, first + 1] } else { [first + 1, first] }
     }
 
-    /// The neighbouring knot that can be reached.
+    /// The neighbouring knot at which the dyad closes.
     pub(in crate::branch) fn known(&self) -> usize {
         if self.is_start { self.knot - 1 } else { self.knot }
     }
@@ -99,7 +109,7 @@ impl GapEnd {
         if self.is_start { self.knot } else { self.knot - 1 }
     }
 
-    /// Distance from the reachable knot, as a fraction of the cell.
+    /// Distance from the knot at which the dyad closes, as a fraction of the cell.
     fn distance(&self) -> f64 {
         if self.is_start { self.root } else { 1.0 - self.root }
     }
@@ -110,10 +120,29 @@ impl GapEnd {
         ((inside - self.root).abs() / self.distance()).sqrt()
     }
 
-    /// Converts a rate at the reachable knot into a derivative by that square root.
+    /// Converts a rate at the knot at which the dyad closes into a derivative by that square root.
     fn per_part(&self, scan: &ScanView<'_>, rate: f64) -> f64 {
         let width = 2.0 * self.distance() * scan.cell;
         if self.is_start { -rate * width } else { rate * width }
+    }
+
+    /// An angle at the end: the cubic in the square root of the distance through the angle and its rate at
+    /// the inside position, `known`, and at the reachable knot.
+    pub(in crate::branch) fn extrapolated(
+        &self,
+        scan: &ScanView<'_>,
+        (angle, rate): (f64, f64),
+        (angles, rates): (&[f64; KNOTS], &[f64; KNOTS]),
+    ) -> f64 {
+        let y = self.part_of_root();
+        let [from, to] = [y * rate, rates[self.known()]].map(|rate| self.per_part(scan, rate));
+        let width = 1.0 - y;
+        let change = unwrap_to(angles[self.known()], angle) - angle;
+        let (from, to, t) = (from * width, to * width, -y / width);
+        // Hermite's polynomial: angle + t (from + t (b + t c)).
+        let c = from + to - 2.0 * change;
+        let b = change - from - c;
+        angle + t * (from + t * (b + t * c))
     }
 
     /// Whether an angle can be unwrapped to the end: from the reachable knot to the inside position it
@@ -134,7 +163,7 @@ impl GapEnd {
     }
 
     /// Whether the two positions beside it, from lane `first` on, confirm the end where it was predicted
-    /// and show that no later dyad opens before it.
+    /// and show that no later dyad opens before it, or closes if it lies in that dyad's gap.
     pub(in crate::branch) fn is_as_predicted(
         &self,
         samples: &[[[f64; POSITIONS]; 3]],
@@ -163,8 +192,11 @@ impl GapEnd {
             if !stays_away([at_knot, slopes[0]], y, [square, slopes[1]]) {
                 return false;
             }
+            if at_knot < 0.0 {
+                return self.is_shut;
+            }
         }
-        open >> inside & 1 == 0
+        !self.is_shut && open >> inside & 1 == 0
     }
 }
 

@@ -18,8 +18,9 @@ pub(in crate::branch) struct GapEnds {
     ends: Vec<GapEnd>,
     /// For every dyad, its squares, their rates and [`DyadSample::flat`] at these positions.
     samples: Vec<[[f64; POSITIONS]; 3]>,
-    /// For every requested class, the angles at these positions.
+    /// For every requested class, the angles at these positions, and their rates.
     angles: Vec<[f64; POSITIONS]>,
+    rates: Vec<[f64; POSITIONS]>,
     /// A bit for each position that does not close.
     open: u32,
 }
@@ -33,18 +34,33 @@ pub(in crate::branch) struct EndPosition {
     pub lane: usize,
 }
 
+/// An angle at the end of a gap.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::branch) struct AngleAtEnd {
+    /// At the position that can be reached, and at the one beyond.
+    pub inside: f64,
+    pub beyond: f64,
+    /// How far the one beyond may be from the angle at the very end.
+    pub slack: f64,
+}
+
+/// Error of an angle extrapolated to the end, as a part of how far it turned between both positions.
+const EXTRAPOLATED: f64 = 0.0625;
+
 impl GapEnds {
-    fn index(&self, knot: usize) -> Option<usize> {
-        self.ends.iter().position(|end| end.is_confirmed && end.knot == knot)
+    /// Whether the cell before a knot has a dead point that is confirmed to lie in another dyad's gap.
+    pub(in crate::branch) fn is_shut(&self, knot: usize) -> bool {
+        self.ends.iter().any(|end| end.is_confirmed && end.is_shut && end.knot == knot)
     }
 
-    /// The positions beside the end in the cell before a knot, if that end is confirmed.
+    /// The positions beside the end in the cell before a knot, if that end is confirmed and one of them
+    /// can be reached.
     pub(in crate::branch) fn beside(
         &self,
         scan: (f64, f64),
         knot: usize,
     ) -> Option<[EndPosition; 2]> {
-        let index = self.index(knot)?;
+        let index = self.ends.iter().position(|end| end.is_open() && end.knot == knot)?;
         let end = &self.ends[index];
         let [before, after] = end.beside(scan);
         Some([
@@ -53,14 +69,24 @@ impl GapEnds {
         ])
     }
 
-    /// All confirmed ends, each with the angles of a class at its inside position and beyond.
+    /// The angles of a class at all confirmed ends beside which positions can be reached.
     pub(in crate::branch) fn with_angles(
         &self,
+        scan: &ScanView<'_>,
         class: usize,
-    ) -> impl Iterator<Item = (&GapEnd, [f64; 2])> {
-        let is_confirmed = |(_, end): &(usize, &GapEnd)| end.is_confirmed;
-        self.ends.iter().enumerate().filter(is_confirmed).map(move |(index, end)| {
-            (end, end.lanes(2 * index).map(|lane| self.angles[class][lane]))
+    ) -> impl Iterator<Item = (&GapEnd, AngleAtEnd)> {
+        let is_open = |(_, end): &(usize, &GapEnd)| end.is_open();
+        let at_knots = (&scan.angles[class], &scan.rates[class]);
+        self.ends.iter().enumerate().filter(is_open).map(move |(index, end)| {
+            let (angles, rates) = (&self.angles[class], &self.rates[class]);
+            let [inside, beyond] = end.lanes(2 * index);
+            let known = (angles[inside], rates[inside]);
+            let extrapolated = end.extrapolated(scan, known, at_knots);
+            let [inside, beyond] = [inside, beyond].map(|lane| angles[lane]);
+            let own = unwrap_to(inside, beyond) - beyond;
+            let apart = unwrap_to(extrapolated, beyond) - beyond;
+            let slack = apart.abs() + EXTRAPOLATED * own.abs();
+            (end, AngleAtEnd { inside, beyond, slack })
         })
     }
 
@@ -93,16 +119,21 @@ impl GapEnds {
             end.is_confirmed = end.is_as_predicted(&self.samples, self.open, scan, 2 * index);
         }
         self.angles.resize(classes.len(), [0.0; POSITIONS]);
-        for (angles, &class) in self.angles.iter_mut().zip(classes) {
+        self.rates.resize(classes.len(), [0.0; POSITIONS]);
+        let pose = &knots.state.pose;
+        for ((angles, rates), &class) in self.angles.iter_mut().zip(&mut self.rates).zip(classes) {
             for group in 0..knots.state.groups {
-                let angle = knots.state.pose.class[class][group].angle();
+                let angle = pose.class[class][group].angle();
+                let rate = pose.theta[knots.state.len * class + 1][group];
                 for lane in 0..L::Register::LANES {
                     angles[group * L::Register::LANES + lane] = angle.lane(lane);
+                    rates[group * L::Register::LANES + lane] = rate.lane(lane);
                 }
             }
         }
         for index in 0..self.ends.len() {
-            self.ends[index].is_confirmed &= self.turns_little(scan, index);
+            self.ends[index].is_confirmed &=
+                self.ends[index].is_shut || self.turns_little(scan, index);
         }
     }
 

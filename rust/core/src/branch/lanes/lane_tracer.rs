@@ -14,7 +14,7 @@ use super::scan::Scan;
 use super::surveyed_angle::SurveyedAngle;
 use super::uniform::UniformTracer;
 use crate::branch::branch::Branch;
-use crate::math::angle::{is_about_half, unwrap_to, whole_turns};
+use crate::math::angle::{is_tie, is_tie_over_period, unwrap_to, whole_turns};
 use crate::math::lanes::Real;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
@@ -31,10 +31,14 @@ const LEVELS: usize = 5;
 const DEAD_POINT_LEVELS: usize = 3;
 /// How far (rad) an angle may be from that at a dead point, if it is not defined beyond.
 const UNDEFINED: f64 = 0.03125;
+/// How far (rad) an angle may turn on the way to a position beyond the end of a gap and back.
+const TIE_AT_ENDS: f64 = 0.0078125;
+/// Distance from half a turn (rad) at which rounding might decide which way an angle steps across a gap.
+pub(in crate::branch) const TIE: f64 = TIE_AT_ENDS / 32.0;
 /// Most scans of one design.
 const MAX_SCANS: usize = 256;
-/// Levels at which islands are searched for: down to the 200th part of a cell.
-const ISLAND_LEVELS: usize = 2;
+/// Levels at which islands are searched for: down to the 50 000th part of a cell.
+const ISLAND_LEVELS: usize = 4;
 
 /// Work space, reused for all designs.
 #[derive(Debug, Default)]
@@ -69,7 +73,7 @@ pub(crate) struct LaneTracer {
 impl LaneTracer {
     /// Traces the solved knots into `branch`, with the angles of `classes`; false if signs may change or
     /// an angle cannot be unwrapped. `start`: the drawing's angles; `settled`: dyads whose signs are
-    /// known to be constant; `is_scanned`: [`Self::survey`] has scanned the knots.
+    /// known to be constant.
     #[inline(always)]
     pub(crate) fn trace<L: Level, const G: usize>(
         &mut self,
@@ -77,17 +81,14 @@ impl LaneTracer {
         knots: &mut UniformTracer<L::Register, G>,
         (classes, start): (&[usize], &[f64]),
         settled: &[bool],
-        is_scanned: bool,
         branch: &mut Branch,
     ) -> bool {
         self.ends_serve = !classes.is_empty();
-        if !is_scanned {
-            if !self.take_turn(cx, knots, classes, settled) {
-                return false;
-            }
-            if self.ends_serve {
-                self.find_ends::<L, G>(cx, knots, classes, 0);
-            }
+        if !self.take_turn(cx, knots, classes, settled) {
+            return false;
+        }
+        if self.ends_serve {
+            self.find_ends::<L, G>(cx, knots, classes, 0);
         }
         self.dead_point_levels = DEAD_POINT_LEVELS;
         loop {
@@ -132,7 +133,7 @@ impl LaneTracer {
     }
 
     /// Scans the cell before the next knot of a scan more closely, one level down; false if one of the
-    /// knots is singular.
+    /// knots is singular. `flat`: whether the angles of flat dyads are wanted beyond dead points.
     #[inline(always)]
     pub(in crate::branch) fn scan_closer<L: Level, const G: usize>(
         &mut self,
@@ -140,16 +141,19 @@ impl LaneTracer {
         knots: &mut UniformTracer<L::Register, G>,
         classes: &[usize],
         settled: &[bool],
-        level: usize,
+        (level, flat): (usize, bool),
     ) -> bool {
         let scan = &self.scans[level];
         let (from, width) = (scan.from + scan.cell * (scan.next - 1) as f64, scan.cell);
         knots.set_between((from, width));
-        if !classes.is_empty() && has(scan.dead_point, scan.next) {
+        if flat && has(scan.dead_point, scan.next) {
             // Some of these knots are beyond the dead point.
             knots.solve_carefully::<L>(cx);
         } else {
-            knots.solve::<L>(cx, !classes.is_empty());
+            knots.solve::<L>(cx, flat);
+            if !classes.is_empty() {
+                knots.take_care_of_doubts::<L>(cx);
+            }
         }
         self.scans[level + 1].take(cx, knots, classes, settled, (from, width / CELLS))
     }
@@ -176,6 +180,7 @@ impl LaneTracer {
         if !classes.is_empty() {
             self.push(0, 0, classes, branch);
         }
+        let flat = !classes.is_empty();
         let (mut level, mut count) = (0, 0);
         loop {
             if classes.is_empty() {
@@ -203,7 +208,8 @@ impl LaneTracer {
                     self.push_next((beside.at, beside.reached), classes, branch);
                 }
             }
-            let looked = if ends.is_some() {
+            let is_shut = self.ends_serve && self.ends[level].is_shut(knot);
+            let looked = if ends.is_some() || is_shut {
                 Some(false)
             } else {
                 self.needs_closer_scan(level, knot, !classes.is_empty())
@@ -212,7 +218,7 @@ impl LaneTracer {
                 return false;
             };
             if closer && level + 1 < LEVELS {
-                let taken = self.scan_closer::<L, G>(cx, knots, classes, settled, level);
+                let taken = self.scan_closer::<L, G>(cx, knots, classes, settled, (level, flat));
                 level += 1;
                 count += 1;
                 if !taken || count > MAX_SCANS {
@@ -235,12 +241,17 @@ impl LaneTracer {
             let [a, b] = [self.first[index], self.last[index]];
             branch.gain[class] = TAU * whole_turns(b - a);
             let slack = self.into_gap[index] + self.into_first[index];
-            self.is_tie |= is_about_half((a + branch.gain[class]) - b, slack);
+            self.is_tie |= is_tie_over_period(b - a, slack + self.tie());
         }
         if !classes.is_empty() {
             branch.period = Some(TAU);
         }
         true
+    }
+
+    /// Distance from half a turn at which it is not clear which way an angle steps across a gap.
+    fn tie(&self) -> f64 {
+        if self.ends_serve { TIE_AT_ENDS } else { TIE }
     }
 
     /// Whether the cell before a knot needs a closer scan; `None` if none would be close enough.
@@ -329,7 +340,7 @@ impl LaneTracer {
                 follow(&mut last, self.principal[index]);
                 let beyond = turn_between(self.principal[index], next);
                 self.is_tie |=
-                    is_about_half(last - self.last[index], self.into_gap[index] + beyond);
+                    is_tie(last - self.last[index], self.into_gap[index] + beyond + self.tie());
                 if !has_first {
                     self.into_first.push(beyond);
                 }

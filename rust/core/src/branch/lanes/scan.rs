@@ -96,18 +96,19 @@ impl Scan {
         self.angles.resize(classes.len(), [0.0; KNOTS]);
         self.rates.resize(classes.len(), [0.0; KNOTS]);
         for (index, &class) in classes.iter().enumerate() {
-            let (mut last, limit) = (R::ZERO, R::splat(KNOT_MAX_TURN));
-            let mut rate_before = R::ZERO;
+            let (mut last, limit, cell) = (R::ZERO, R::splat(KNOT_MAX_TURN), R::splat(cell));
+            let mut last_rate = R::ZERO;
             for group in 0..groups {
                 // Beyond a dead point a rotation's length is not 1, so `unit_angle` would be wrong.
                 let angle = state.pose.class[class][group].angle();
                 let rate = state.pose.theta[state.len * class + 1][group];
                 let before = previous(last.lane(R::LANES - 1), angle);
                 let turned = unwrap_to(angle, before) - before;
-                let steep = rate.abs().max(previous(rate_before.lane(R::LANES - 1), rate).abs());
-                let is_fast = limit.lt(turned.abs()).or(limit.lt((steep * R::splat(cell)).abs()));
+                let rate_before = previous(last_rate.lane(R::LANES - 1), rate);
+                let is_fast =
+                    turns_fast(turned, [rate_before, rate].map(|rate| rate * cell), limit);
                 self.fast |= is_fast.bits() << (group * R::LANES);
-                (last, rate_before) = (angle, rate);
+                (last, last_rate) = (angle, rate);
                 for lane in 0..R::LANES {
                     self.angles[index][group * R::LANES + lane] = angle.lane(lane);
                     self.rates[index][group * R::LANES + lane] = rate.lane(lane);
@@ -119,13 +120,10 @@ impl Scan {
 
     /// What the scan shows about the ends of gaps.
     pub(in crate::branch) fn view(&self) -> ScanView<'_> {
-        // Another dyad that is open at both knots may close between them.
-        let at_one_end = self.reached ^ (self.reached << 1);
         ScanView {
             from: self.from,
             cell: self.cell,
-            count: self.count,
-            cells: self.dead_point & !self.doubtful_cells() & at_one_end & !1,
+            cells: self.dead_point & !self.doubtful_cells() & !1,
             reached: self.reached,
             dyads: &self.dyads,
             angles: &self.angles,
@@ -160,7 +158,8 @@ impl Scan {
         }
         let changes = self.reached ^ (self.reached << 1);
         let islands = if with_islands { self.may_hide_island } else { 0 };
-        let busy = self.uncertain | self.curved | self.dead_point | self.fast | changes | islands;
+        let busy =
+            self.uncertain | self.curved | self.dead_point | self.fast_cells() | changes | islands;
         (self.next + (busy >> self.next).trailing_zeros() as usize).min(self.count)
     }
 
@@ -176,4 +175,17 @@ impl Scan {
         let change = self.dyads.iter().find_map(|dyad| dyad.change_to_dead_point(knot));
         change.is_none_or(|change| self.dyads.iter().all(|dyad| dyad.stays_away(knot, change)))
     }
+}
+
+/// Whether an angle turns so fast over a cell that two knots do not show how. `turned`: its change, in which
+/// whole turns may be missing; `tangents`: its rates at both knots, times the cell.
+#[inline(always)]
+fn turns_fast<R: Real>(turned: R, tangents: [R; 2], limit: R) -> R::Mask {
+    let [from, to] = tangents;
+    let (turns, steepest) = (turned.abs(), from.abs().max(to.abs()));
+    let slow = turns.le(limit).and(steepest.le(limit));
+    // A smooth turn agrees with the trapezoidal rule.
+    let apart = (turned - R::splat(0.5) * (from + to)).abs();
+    let smooth = apart.le(R::splat(0.5) * limit).and(turns.le(R::splat(2.0) * limit));
+    slow.or(smooth.and(steepest.le(R::splat(3.0) * limit))).not()
 }

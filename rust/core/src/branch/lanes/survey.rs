@@ -1,8 +1,12 @@
-//! Survey of a design with gaps: shows that it is plain without recording its angles knot by knot.
+//! Survey of a design with gaps: shows that it is plain without recording its angles beside the gaps.
 
+use std::f64::consts::TAU;
+
+use super::grid::{CELL, KNOTS};
 use super::lane_tracer::LaneTracer;
 use super::surveyed_angle::SurveyedAngle;
-use super::uniform::UniformTracer;
+use super::uniform::{Traced, UniformTracer};
+use crate::branch::branch::Branch;
 use crate::math::angle::Reference;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
@@ -14,8 +18,8 @@ const MAX_CLOSER: u32 = 6;
 
 impl LaneTracer {
     /// Scans the solved knots. Whether a design with gaps is plain: no sign may change, the ends of all
-    /// gaps are confirmed, and no requested angle turns fast or far. Sets the reference of each class.
-    /// `None` if one of the knots is singular.
+    /// gaps are confirmed, and no requested angle turns fast. Sets the reference of each class, or if one is
+    /// not enough for an angle, those at the knots of `branch`. `None` if one of the knots is singular.
     #[inline(always)]
     pub(crate) fn survey<L: Level, const G: usize>(
         &mut self,
@@ -24,7 +28,8 @@ impl LaneTracer {
         (classes, start): (&[usize], &[f64]),
         settled: &[bool],
         references: &mut [Reference],
-    ) -> Option<bool> {
+        branch: &mut Branch,
+    ) -> Option<Traced> {
         if !self.take_turn(cx, knots, classes, settled) {
             return None;
         }
@@ -33,15 +38,49 @@ impl LaneTracer {
         angles.clear();
         let scan = self.scans[0].view();
         angles.extend((0..classes.len()).map(|i| SurveyedAngle::new(&scan, i, start[classes[i]])));
-        let is_plain = self.survey_cells::<L, G>(cx, knots, classes, settled, &mut angles)
-            && angles.iter().zip(classes).all(|(angle, &class)| {
+        let mut traced = Traced::No;
+        if self.survey_cells::<L, G>(cx, knots, classes, settled, &mut angles) {
+            branch.set_constant_signs(start.len(), cx.signs);
+            let with_one = angles.iter().zip(classes).all(|(angle, &class)| {
                 let reference = angle.reference();
                 references[class] = reference.unwrap_or(references[class]);
                 reference.is_some()
             });
+            if with_one {
+                traced = Traced::Surveyed;
+            } else if self.set_references(&angles, classes, branch) {
+                traced = Traced::AtKnots;
+            }
+        }
         self.surveyed = angles;
-        self.scans[0].next = 1;
-        Some(is_plain)
+        Some(traced)
+    }
+
+    /// Sets the references at the knots of the first scan; false if they do not serve all values.
+    #[inline(always)]
+    fn set_references(
+        &self,
+        angles: &[SurveyedAngle],
+        classes: &[usize],
+        branch: &mut Branch,
+    ) -> bool {
+        let width = branch.gain.len();
+        branch.angles.resize(KNOTS * width, 0.0);
+        for (angle, &class) in angles.iter().zip(classes) {
+            let (Some(references), Some(gain)) = (angle.references(), angle.gain()) else {
+                return false;
+            };
+            for (row, &reference) in branch.angles.chunks_exact_mut(width).zip(references) {
+                row[class] = reference;
+            }
+            branch.gain[class] = gain;
+        }
+        let scan = &self.scans[0];
+        branch.at.extend((0..KNOTS).map(|knot| scan.from + scan.cell * knot as f64));
+        branch.reached.resize(KNOTS, true);
+        branch.period = Some(TAU);
+        branch.inverse_width = Some(1.0 / CELL);
+        true
     }
 
     /// Surveys all cells, with closer scans of those whose knots leave a doubt.
@@ -63,8 +102,7 @@ impl LaneTracer {
             let knot = (scan.next + doubtful.trailing_zeros() as usize).min(scan.count);
             let view = scan.view();
             let passes = |(class, angle): (usize, &mut SurveyedAngle)| {
-                angle.pass_ends(ends, &view, class, scan.next..knot)
-                    && (knot < scan.count || angle.pass_knots(&view, class))
+                angle.pass((ends, level == 0), &view, class, scan.next..knot)
             };
             if !angles.iter_mut().enumerate().all(passes) {
                 return false;
@@ -74,7 +112,7 @@ impl LaneTracer {
                     return false;
                 }
                 self.scans[level].next = knot;
-                if !self.scan_closer::<L, G>(cx, knots, classes, settled, level) {
+                if !self.scan_closer::<L, G>(cx, knots, classes, settled, (level, false)) {
                     return false;
                 }
                 level += 1;
@@ -84,6 +122,12 @@ impl LaneTracer {
                 return true;
             } else {
                 level -= 1;
+                if level == 0 {
+                    let knot = self.scans[0].next;
+                    for angle in &mut *angles {
+                        angle.end_cell(knot);
+                    }
+                }
                 self.scans[level].next += 1;
             }
         }

@@ -33,6 +33,9 @@ pub(crate) enum Traced {
     /// The design is plain: its signs are the same everywhere, and each requested angle has a
     /// reference. Angles at knots are not known.
     Surveyed,
+    /// The design is plain; the branch has a reference of each requested angle for every cell, at the
+    /// evenly spaced knot before it.
+    AtKnots,
     /// All signs and requested angles are known.
     Whole,
 }
@@ -144,14 +147,6 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     #[inline(always)]
     pub(crate) fn take_care_of_doubts<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
         if !self.is_careful && self.state.is_doubtful() {
-            self.solve_carefully::<L>(cx);
-        }
-    }
-
-    /// Solves the knots again, carefully, if they were not.
-    #[inline(always)]
-    pub(crate) fn solve_again_carefully<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
-        if !self.is_careful {
             self.solve_carefully::<L>(cx);
         }
     }
@@ -376,8 +371,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
 
 /// A reference for all angles whose values at the knots are in a range; `None` if it is too wide.
 pub(crate) fn reference_of([least, most]: [f64; 2]) -> Option<Reference> {
-    // Between two knots an angle may leave the range by one step.
-    let margin = 2.0 * KNOT_MAX_TURN;
+    // Between two knots an angle leaves the range by less than one step.
+    let margin = KNOT_MAX_TURN;
     if -PI < least - margin && most + margin < PI {
         return Some(Reference::Principal);
     }
