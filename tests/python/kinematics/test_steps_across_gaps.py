@@ -41,7 +41,7 @@ def test_the_shorter_way(part: int) -> None:
 
 @pytest.mark.parametrize("part", range(PARTS))
 def test_beside_the_drawing(part: int) -> None:
-    """One rounding before the drawing's coordinate a turn ends: angles are those one turn before."""
+    """One rounding beside the drawing's coordinate, where a turn ends, no angle is a turn away."""
     for seed in range(part, 3 * COUNT, PARTS):
         batch = design_spaces.crank_space(seed, partial_requests.DESIGNS)
         (q0,) = np.unique(batch.q0)

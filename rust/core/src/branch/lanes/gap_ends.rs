@@ -44,6 +44,10 @@ pub(in crate::branch) struct AngleAtEnd {
     pub slack: f64,
 }
 
+/// How far (rad) an angle may turn on the way to a position beyond the end of a gap and back.
+pub(in crate::branch) const TIE_AT_ENDS: f64 = 0.0078125;
+/// Distance from half a turn (rad) at which rounding might decide which way an angle steps across a gap.
+pub(in crate::branch) const TIE: f64 = TIE_AT_ENDS / 32.0;
 /// Error of an angle extrapolated to the end, as a part of how far it turned between both positions.
 const EXTRAPOLATED: f64 = 0.0625;
 

@@ -8,7 +8,7 @@
 use std::f64::consts::TAU;
 
 use super::cell_test::has;
-use super::gap_ends::GapEnds;
+use super::gap_ends::{GapEnds, TIE, TIE_AT_ENDS};
 use super::grid::KNOTS;
 use super::scan::Scan;
 use super::surveyed_angle::SurveyedAngle;
@@ -31,10 +31,6 @@ const LEVELS: usize = 5;
 const DEAD_POINT_LEVELS: usize = 3;
 /// How far (rad) an angle may be from that at a dead point, if it is not defined beyond.
 const UNDEFINED: f64 = 0.03125;
-/// How far (rad) an angle may turn on the way to a position beyond the end of a gap and back.
-const TIE_AT_ENDS: f64 = 0.0078125;
-/// Distance from half a turn (rad) at which rounding might decide which way an angle steps across a gap.
-pub(in crate::branch) const TIE: f64 = TIE_AT_ENDS / 32.0;
 /// Most scans of one design.
 const MAX_SCANS: usize = 256;
 /// Levels at which islands are searched for: down to the 50 000th part of a cell.

@@ -5,9 +5,8 @@ use std::ops;
 
 use super::cell_test::has;
 use super::gap_end::{GapEnd, ScanView};
-use super::gap_ends::{AngleAtEnd, GapEnds};
+use super::gap_ends::{AngleAtEnd, GapEnds, TIE};
 use super::grid::KNOTS;
-use super::lane_tracer::TIE;
 use super::uniform::reference_of;
 use crate::math::angle::{Reference, is_tie, is_tie_over_period, unwrap_to, whole_turns};
 use crate::math::tolerance::KNOT_MAX_TURN;
