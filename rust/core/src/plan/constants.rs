@@ -1,6 +1,7 @@
 //! The constant vectors of one design.
 
 use super::binary_links::LoopVectors;
+use super::curvature::curvature;
 use super::dyad_constants::DyadConstants;
 use super::leg::Leg;
 use super::lengths::{Lengths, Slot, inverse_power, power_of_two};
@@ -42,6 +43,8 @@ pub(crate) struct DesignConstants {
     pub reach: Vec<f64>,
     /// For every edge that turns with a leg but is not one: the edge divided by the leg.
     pub on_leg: Vec<Vector>,
+    /// See [`curvature`], of every group above class II.
+    pub curvature: Vec<f64>,
     /// Spans and bars of the groups of binary links.
     pub spans: LoopVectors,
     /// The misfit of redundant links is relative to this size: 1, or less where a joint far from
@@ -249,6 +252,8 @@ impl DesignConstants {
                 self.on_leg[i] = self.legs[leg / 2][leg % 2].part(self.edge_vector[i]);
             }
         }
+        self.curvature.clear();
+        self.curvature.extend(plan.groups().map(|group| curvature(plan, group, &self.edge_vector)));
         self.spans.measure(plan, &self.edge_vector);
         // Twice, since the scale is more than half of the greatest length.
         let longest = plan.pairs.longest(&self.edge_vector, &self.fixed);

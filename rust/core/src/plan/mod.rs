@@ -13,6 +13,7 @@ pub(crate) mod compile;
 pub(crate) mod compile_tape;
 pub(crate) mod constants;
 pub(crate) mod constants_rate;
+pub(crate) mod curvature;
 pub(crate) mod dyad;
 pub(crate) mod dyad_constants;
 pub(crate) mod group;

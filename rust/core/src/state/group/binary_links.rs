@@ -46,6 +46,7 @@ impl<R: Real, const G: usize> State<R, G> {
             inv_norms[i] = R::splat(links.bars[i].inv_norm());
             max_arm2[i] = R::splat(cx.constants.max_arm2[classes[i]]);
         }
+        let curvature = R::splat(cx.constants.curvature[group.index]);
         let mut wanted = [false; N];
         for i in 0..N {
             wanted[i] = self.work.angle_wanted[bar_classes[i]] || !loops[i].orientations.is_empty();
@@ -66,6 +67,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 spans: [[Vector::ZERO; N]; N],
                 chords: [Vector::ZERO; N],
                 matrix: &mut matrix,
+                curvature,
             };
             let skipped = [self.conditions.needs_scalar[g]];
             let last_determinant = [self.work.det_sign[group.index][g]];
@@ -177,6 +179,7 @@ struct BinaryEquations<'l, R, const N: usize> {
     chords: [Vector<R>; N],
     /// The Jacobian, with its inverse beside it.
     matrix: &'l mut [[R; 1]; MATRIX],
+    curvature: R,
 }
 
 impl<R: Real, const N: usize> BinaryEquations<'_, R, N> {
@@ -231,6 +234,11 @@ impl<R: Real, const N: usize> Equations<R, 1> for BinaryEquations<'_, R, N> {
             size2 += self.max_arm2[unknown] * sum;
         }
         [size2]
+    }
+
+    #[inline(always)]
+    fn curvature(&self) -> R {
+        self.curvature
     }
 
     #[inline(always)]

@@ -63,6 +63,11 @@ impl<R: Real, const G: usize> Equations<R, G> for GroupEquations<'_, '_, R, G> {
     }
 
     #[inline(always)]
+    fn curvature(&self) -> R {
+        R::splat(self.cx.constants.curvature[self.group.index])
+    }
+
+    #[inline(always)]
     fn step(&mut self, done: &[R::Mask; G]) -> [R; G] {
         let (len, n) = (self.state.len, self.group.rows);
         let (inverse, residual) = self.matrix.split_at_mut(2 * n * n);

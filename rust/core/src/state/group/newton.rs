@@ -23,6 +23,8 @@ pub(super) trait Equations<R: Real, const G: usize> {
     /// Takes a Newton step with the present inverse on the lanes that are not done; returns the
     /// largest change of an unknown before it is limited.
     fn step(&mut self, done: &[R::Mask; G]) -> [R; G];
+    /// See [`crate::plan::curvature::curvature`].
+    fn curvature(&self) -> R;
 }
 
 /// Iterates from the present unknowns, on the lanes that are not `skipped`. `determinants`: what the
@@ -33,7 +35,7 @@ pub(super) fn iterate<R: Real, const G: usize>(
     skipped: [R::Mask; G],
     determinants: [R; G],
 ) -> NewtonState<R, G> {
-    let mut work = NewtonState::new(skipped, determinants);
+    let mut work = NewtonState::new(skipped, determinants, equations.curvature());
     equations.update();
     for round in 0..NEWTON_MAX_ROUNDS {
         if all(&work.done) {
@@ -62,6 +64,8 @@ pub(crate) struct NewtonState<R: Real, const G: usize> {
     pub determinants: [R; G],
     /// Square of the weighted norm of its inverse.
     pub inverse_size2: [R; G],
+    /// See [`Equations::curvature`].
+    curvature: R,
     /// Largest change of an unknown in the first step (rad, or relative to the scale).
     pub first_step: [R; G],
     /// Sum of the largest changes in the later steps.
@@ -70,11 +74,12 @@ pub(crate) struct NewtonState<R: Real, const G: usize> {
 
 impl<R: Real, const G: usize> NewtonState<R, G> {
     #[inline(always)]
-    fn new(done: [R::Mask; G], determinants: [R; G]) -> Self {
+    fn new(done: [R::Mask; G], determinants: [R; G], curvature: R) -> Self {
         Self {
             done,
             determinants,
             inverse_size2: [R::ONE; G],
+            curvature,
             first_step: [R::ZERO; G],
             later_steps: [R::ZERO; G],
         }
@@ -104,11 +109,11 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
         skip
     }
 
-    /// Whether one step is enough: the remaining error is the square of the step times the
-    /// condition (Kantorovich's theorem).
+    /// Whether one step is enough: the remaining error is the square of the step times the curvature
+    /// and the condition (Kantorovich's theorem).
     #[inline(always)]
     fn will_converge(&self, g: usize, first_size: R) -> R::Mask {
-        let error = first_size * first_size;
+        let error = first_size * first_size * self.curvature;
         (error * error * self.inverse_size2[g].max(R::ONE))
             .lt(R::splat(NEWTON_TOLERANCE * NEWTON_TOLERANCE))
     }
@@ -134,11 +139,11 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
             if is_first {
                 self.first_step[g] = R::select(done, self.first_step[g], first_size[g]);
             }
-            // The remaining error is about the product of the two steps.
-            let error = first_size[g] * second_size;
-            let settled = skip[g].not().and(error.lt(R::splat(NEWTON_TOLERANCE)));
-            let is_short = first_size[g]
-                .lt(R::splat(NEWTON_LAST_STEP))
+            // What remains is about the product of the two steps times the curvature.
+            let bent = first_size[g] * self.curvature;
+            let settled = skip[g].not().and((bent * second_size).lt(R::splat(NEWTON_TOLERANCE)));
+            let is_short = (bent * first_size[g])
+                .lt(R::splat(NEWTON_LAST_STEP * NEWTON_LAST_STEP))
                 .or(self.will_converge(g, first_size[g]));
             self.done[g] = done.or(settled).or(is_short);
         }
