@@ -171,3 +171,13 @@ def test_dimensions_beyond_a_fold_say_where_it_is() -> None:
         there = mechanism.with_dimensions({"l48.length": drawn + share * (9.0 - drawn)})
         at = there.solve(float(mechanism.q0), order=0, on_error="nan").status
         assert (at == Status.LOST) == (status == Status.LOST), share
+
+
+def test_a_short_bar_closes() -> None:
+    """Found once: a bar of 7 % of the size was left 56 units in the last place too long."""
+    case = higher_models.higher_case(2276)
+    m = assur.Mechanism(**arguments(case.description))
+    grid, _ = cases.grid_of(m, np.random.default_rng(2276))
+    fine = solver(m)(grid)
+    misfit, _ = Geometry(case.description).misfit(fine)
+    assert misfit[fine.reached].max() < 1.0
