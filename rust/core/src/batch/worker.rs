@@ -138,6 +138,11 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         true
     }
 
+    /// See [`Design::misses_position`].
+    pub(crate) fn misses_position(&self, step: f64) -> bool {
+        self.design.misses_position(&self.space.tape, step)
+    }
+
     /// The least and the greatest value of a driven slide at any position of a job, m.
     fn driven_range(&mut self, job: &Job<'_, '_>) -> [f64; 2] {
         let (shared, range) = self.driven_range;

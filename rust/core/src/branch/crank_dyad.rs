@@ -1,5 +1,5 @@
-//! A dyad on a crank and the ground: its change points follow from the extremes of one distance,
-//! without solving a position.
+//! A dyad on a crank and the ground: its change points, and whether it goes through a turn, follow from
+//! the extremes of one distance, without solving a position.
 
 use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Form};
@@ -15,7 +15,7 @@ const NEAR: f64 = 1.0e-9;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CrankDyad {
     /// Index of the dyad.
-    dyad: usize,
+    pub dyad: usize,
     /// The crank's edge, and the fixed point about which it turns.
     crank: usize,
     pivot: usize,
@@ -53,6 +53,30 @@ impl CrankDyad {
             ground,
             guide,
         })
+    }
+
+    /// Whether the dyad certainly does not close at one of the positions that go round in even steps
+    /// (rad). If false, it may close or not.
+    pub(crate) fn misses_position(&self, constants: &DesignConstants, step: f64) -> bool {
+        let crank = constants.edge_vector[self.crank].norm();
+        let frame = constants.fixed[self.ground] - constants.fixed[self.pivot];
+        let [a, b] = &constants.legs[self.dyad];
+        // From the extreme to the position nearest to it the crank turns by half a step at most. No
+        // cosine is less than this.
+        let squeeze = 0.125 * step * step;
+        if let Some(guide) = self.guide {
+            let line = frame + constants.edge_vector[guide];
+            let middle = constants.guide[guide].cross(line);
+            let near = NEAR * (crank + middle.abs() + a.norm);
+            return middle.abs() + crank * (1.0 - squeeze) > a.norm + near;
+        }
+        let frame = frame.norm();
+        let nearer = 2.0 * squeeze * crank * frame;
+        let (longest, shortest) = (frame + crank, frame - crank);
+        let near = NEAR * (longest + a.norm + b.norm);
+        let (most, least) = (a.norm + b.norm + near, (a.norm - b.norm).abs() - near);
+        longest * longest - nearer > most * most
+            || least > 0.0 && shortest * shortest + nearer < least * least
     }
 
     /// Whether the dyad is nowhere near flat at the extremes, so that its sign never changes.
@@ -93,9 +117,16 @@ fn fixed_guide(plan: &Plan, dyad: &Dyad) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
+    use proptest::prelude::*;
+
     use super::*;
+    use crate::branch::design::Design;
+    use crate::math::derivatives::DerivativeTables;
     use crate::plan::mechanism::Mechanism;
-    use crate::{Description, FourBar, FourBarMode};
+    use crate::state::status::Status;
+    use crate::{Coordinates, Description, FourBar, FourBarMode, Outputs, Request};
 
     /// A slider-crank whose guide starts at a joint of its own, 30° from horizontal, `offset` beside
     /// it.
@@ -157,6 +188,86 @@ mod tests {
         for (rod, keeps) in [(2.0, false), (2.00001, true), (1.5, true), (3.0, true)] {
             let mechanism = engine(rod);
             assert_eq!(keeps_sign(&mechanism, mechanism.drawing()), keeps, "{rod}");
+        }
+    }
+
+    const POSITIONS: [u32; 4] = [3, 8, 72, 361];
+
+    /// Whether the design misses a position by its shape alone, and whether one of the positions, as
+    /// solved, is none.
+    fn misses(drawing: &Description, stretch: &[f64], q: &[f64]) -> [bool; 2] {
+        let mechanism = Mechanism::new(drawing).unwrap_or_else(|error| panic!("{error}"));
+        let dimensions: Vec<f64> =
+            mechanism.drawing().iter().zip(stretch.iter().cycle()).map(|(x, s)| x * s).collect();
+        let derivatives = DerivativeTables::new(1, 0);
+        let mut design = Design::new(&mechanism, mechanism.signs(), &derivatives);
+        design.bind(&dimensions);
+        let request = Request {
+            dimensions: &dimensions,
+            coordinates: Coordinates::Shared(q),
+            signs: mechanism.signs(),
+            order: 0,
+            outputs: &Outputs::all(&mechanism),
+            by: None,
+        };
+        let solved = mechanism.solve(&request).unwrap_or_else(|error| panic!("{error}"));
+        let fails = solved.status.contains(&(Status::Unreachable as u8));
+        [design.misses_position(&mechanism.plan().tape, q[1] - q[0]), fails]
+    }
+
+    /// A crank-rocker turned in its frame, and an offset slider-crank with a tilted guide; each link
+    /// listed either way round.
+    fn drawings(turned: bool) -> [Description; 2] {
+        let pair = |a, b| if turned { [b, a] } else { [a, b] };
+        let common = Description::new().joint("A", [0.2, -0.1]).joint("B", [0.9, 0.6]);
+        let four_bar = common
+            .clone()
+            .joint("C", [1.0, 3.5])
+            .joint("D", [-1.5, 2.5])
+            .link("ground", pair("A", "D"))
+            .link("crank", pair("A", "B"))
+            .link("coupler", pair("B", "C"))
+            .link("rocker", pair("C", "D"))
+            .driver("crank");
+        let slider_crank = common
+            .joint("C", [3.0, 2.0])
+            .joint("D", [-1.0, 0.3])
+            .link("ground", pair("A", "D"))
+            .link("crank", pair("A", "B"))
+            .link("rod", pair("B", "C"))
+            .link("piston", ["C"])
+            .slide("guide", "piston", "ground", 0.4, Some("D"))
+            .driver("crank");
+        [four_bar, slider_crank]
+    }
+
+    #[test]
+    fn a_link_of_another_length_is_missed() {
+        let q: Vec<f64> = (0..72).map(|k| TAU * f64::from(k) / 72.0).collect();
+        for drawing in drawings(false) {
+            for (crank, missed) in [(1.0, false), (3.0, true)] {
+                let stretch = [crank, 1.0, 1.0, 1.0, 1.0, 1.0];
+                assert_eq!(misses(&drawing, &stretch, &q), [missed; 2], "{drawing:?} {crank}");
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn positions_that_are_missed_are_unreachable(
+            stretch in prop::collection::vec(0.3_f64..2.0, 6),
+            first in -7.0_f64..7.0,
+            turned: bool,
+            backward: bool,
+            count in prop::sample::select(POSITIONS.to_vec()),
+        ) {
+            let turn = if backward { -TAU } else { TAU };
+            let q: Vec<f64> =
+                (0..count).map(|k| first + turn * f64::from(k) / f64::from(count)).collect();
+            for drawing in drawings(turned) {
+                let [missed, fails] = misses(&drawing, &stretch, &q);
+                prop_assert!(fails || !missed, "{stretch:?} {first}");
+            }
         }
     }
 }

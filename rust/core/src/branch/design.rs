@@ -17,7 +17,7 @@ use crate::plan::constants::DesignConstants;
 use crate::plan::constants_rate::ConstantsRate;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Plan;
-use crate::plan::tape::Tape;
+use crate::plan::tape::{Op, Tape};
 use crate::state::state::{Context, State};
 
 /// One design after another, in the requested assembly.
@@ -142,6 +142,16 @@ impl<'a> Design<'a> {
     pub(crate) fn rate(&self, index: usize) -> ConstantsRate {
         let mechanism = self.mechanism;
         ConstantsRate::new(mechanism.plan(), &mechanism.slots, &self.constants, &self.values, index)
+    }
+
+    /// Whether a dyad that the tape solves certainly does not close at one of the positions of a turn in
+    /// even steps (rad). If false, it may close or not.
+    pub(crate) fn misses_position(&self, tape: &Tape, step: f64) -> bool {
+        self.crank_dyads.iter().flatten().any(|dyad| {
+            let op = &tape.ops[tape.dyads[dyad.dyad]];
+            let is_used = matches!(op, Op::TwoLegs(op) | Op::StandingGuide(op) if op.is_used);
+            is_used && dyad.misses_position(&self.constants, step)
+        })
     }
 
     /// The context of a position; its signs are those at the drawing.

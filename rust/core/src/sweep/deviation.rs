@@ -1,8 +1,9 @@
 //! How straight, or how round, the best part of a path is.
 
 use super::course::Course;
+use super::line_bounds::LineBounds;
 use super::metric::{Metric, Need, Positions};
-use super::moments::{Moments, RunningSums, SIDE_BY_SIDE};
+use super::moments::{Moments, SIDE_BY_SIDE};
 use crate::batch::outputs::Quantity;
 use crate::math::vector::Vector;
 
@@ -47,25 +48,26 @@ impl Metric for Deviation {
             return f64::NAN;
         }
         let starts = if positions.returns { points.len() } else { points.len() - count + 1 };
-        let mut path: Vec<Vector> = points.iter().map(|&[x, y]| Vector::new(x, y)).collect();
+        let mut path = Vec::with_capacity(starts + count - 1);
+        path.extend(points.iter().map(|&[x, y]| Vector::new(x, y)));
         path.extend_from_within(..starts + count - 1 - points.len());
-        // Three points show where the best stretch is likely to be, and which are worse.
+        let bounds = (self.shape == Shape::Line).then(|| LineBounds::of(&path, count));
         let size = if self.is_relative { diagonal(points) } else { 1.0 };
-        let bounds: Vec<f64> = match self.shape {
-            Shape::Line => path.windows(count).map(|stretch| of_three(stretch) / size).collect(),
-            Shape::Circle => vec![0.0; starts],
-        };
-        let likely =
-            (0..starts).fold(0, |best, at| if bounds[at] < bounds[best] { at } else { best });
+        // Three points show where the best stretch is likely to be, and which are worse.
+        let [of_three2, of_sums2] =
+            bounds.as_ref().map_or([&[][..]; 2], |bounds| [bounds.of_three(), bounds.of_sums()]);
+        let likely = (0..of_three2.len())
+            .fold(0, |best, at| if of_three2[at] < of_three2[best] { at } else { best });
         let mut least = self.greatest(&path[likely..likely + count], f64::INFINITY);
-        let sums = RunningSums::of(&path);
-        for ((start, stretch), &bound) in path.windows(count).enumerate().zip(&bounds) {
+        for (start, stretch) in path.windows(count).enumerate() {
             if positions.is_cancelled() {
                 return f64::NAN;
             }
-            let few_points = || off_line_of_sums(stretch, sums.moments(start, count)) / size;
-            let is_line = self.shape == Shape::Line;
-            if bound < least && !(is_line && few_points() > least + sums.rounding / size) {
+            let is_worse = bounds.as_ref().is_some_and(|bounds| {
+                let (limit, slack) = (least * size, least * size + bounds.rounding);
+                of_three2[start] >= limit * limit || of_sums2[start] > slack * slack
+            });
+            if !is_worse {
                 let found = self.greatest(stretch, least);
                 least = if found < least { found } else { least };
             }
@@ -163,25 +165,6 @@ impl Deviation {
         };
         farthest(stretch, least * length, distance) / length
     }
-}
-
-/// How far some of the first, middle and last point of a stretch are from any line, at least: half of
-/// the least altitude of their triangle (a little less, for rounding).
-fn of_three(stretch: &[Vector]) -> f64 {
-    let from = stretch[0];
-    let (a, b) = (stretch[stretch.len() / 2] - from, stretch[stretch.len() - 1] - from);
-    let twice_area = a.cross(b);
-    let altitude2 = twice_area * twice_area / a.norm2().max(b.norm2()).max((b - a).norm2());
-    // The triangle may be a point.
-    (0.5 - 1.0e-9) * altitude2.max(0.0).sqrt()
-}
-
-/// How far the ends and the middle of a stretch are from a line.
-fn off_line_of_sums(stretch: &[Vector], moments: Moments) -> f64 {
-    let (middle, axis) = (moments.middle, moments.axis());
-    let last = stretch.len() - 1;
-    let few = [0, last / 2, last].map(|at| axis.cross(stretch[at] - middle).abs());
-    few[0].max(few[1]).max(few[2])
 }
 
 /// The diagonal of the box around some points: no stretch is longer.

@@ -37,6 +37,7 @@ mod deviation;
 mod extremes;
 mod judge;
 mod least_transmission;
+mod line_bounds;
 mod means;
 mod measure;
 mod metric;

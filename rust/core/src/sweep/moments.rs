@@ -2,10 +2,6 @@
 
 use crate::math::vector::Vector;
 
-/// Distances by running sums differ from others by no more than this part of the size of the path: a
-/// stretch that is a thousandth of it has moments to nine digits, and a direction to as many.
-const RUNNING_SUMS: f64 = 1.0e-6;
-
 /// Points that are summed or compared at once.
 pub(super) const SIDE_BY_SIDE: usize = 4;
 
@@ -46,39 +42,6 @@ impl Moments {
             Vector::new(xy, radius - half)
         };
         if axis == Vector::ZERO { Vector::ONE } else { axis.scale(1.0 / axis.norm()) }
-    }
-}
-
-/// Running sums of coordinates, squares and products about the first point of a path.
-pub(super) struct RunningSums {
-    origin: Vector,
-    sums: Vec<[f64; 5]>,
-    /// How far a distance by these may be off.
-    pub rounding: f64,
-}
-
-impl RunningSums {
-    pub(super) fn of(path: &[Vector]) -> Self {
-        let origin = path.first().copied().unwrap_or(Vector::ZERO);
-        let mut sum = [0.0; 5];
-        let mut size = 0.0;
-        let mut sums = Vec::with_capacity(path.len() + 1);
-        sums.push(sum);
-        for &point in path {
-            let Vector { x, y } = point - origin;
-            for (sum, term) in sum.iter_mut().zip([x, y, x * x, x * y, y * y]) {
-                *sum += term;
-            }
-            sums.push(sum);
-            size = if x.abs() + y.abs() > size { x.abs() + y.abs() } else { size };
-        }
-        Self { origin, sums, rounding: RUNNING_SUMS * size }
-    }
-
-    pub(super) fn moments(&self, start: usize, count: usize) -> Moments {
-        let (from, to) = (&self.sums[start], &self.sums[start + count]);
-        let sums = std::array::from_fn(|k| to[k] - from[k]);
-        Moments::about(self.origin, sums, count)
     }
 }
 

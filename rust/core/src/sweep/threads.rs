@@ -79,6 +79,10 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
         if !self.worker.bind(row, &mut rows.job(all, design)) {
             return batch.judge(rows, (row, q), false, found);
         }
+        let step = batch.course.turn.map(|turn| turn / batch.course.count() as f64);
+        if step.is_some_and(|step| self.worker.misses_position(step)) {
+            return Outcome::Fails(Status::Unreachable as u8);
+        }
         let is_trial = self.probed < TRIAL || !batch.sweep.conditions.is_empty();
         let is_worth = is_trial || self.dropped * LEAST_PART_DROPPED >= self.probed;
         if is_worth && !probes.is_empty() {

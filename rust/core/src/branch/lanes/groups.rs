@@ -37,8 +37,10 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     /// than the knot before, or than the drawing.
     #[inline(always)]
     pub(crate) fn build_cells(&mut self, cx: &Context<'_>, branch: &mut Branch) -> bool {
-        branch.cells.clear();
-        let Some(Some(reference)) = self.reference.get() else { return true };
+        let Some(Some(reference)) = self.reference.get() else {
+            branch.cells.clear();
+            return true;
+        };
         let state = &self.state;
         let is_near = |step: R, max: f64| step.lane(0) <= max;
         if !(is_near(state.work.first_step[0], MAX_FIRST_STEP)

@@ -359,9 +359,14 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             let step = (angle + R::splat(TAU) * turns) - before;
             let rate = self.state.pose.theta[self.state.len * class + 1][group] * R::splat(CELL);
             fast = fast.or(max_turn.lt(step.abs())).or(R::splat(KNOT_MAX_TURN).lt(rate.abs()));
-            for lane in 0..R::LANES {
-                whole_turns += turns.lane(lane);
-                angles[lane * count + class] = angle.lane(lane) + TAU * whole_turns;
+            let unwrapped = angle + R::splat(TAU * whole_turns);
+            let passes_half = turns.abs().le(R::ZERO).not().any();
+            for (lane, knot) in angles.chunks_exact_mut(count).enumerate() {
+                knot[class] = unwrapped.lane(lane);
+                if passes_half {
+                    whole_turns += turns.lane(lane);
+                    knot[class] = angle.lane(lane) + TAU * whole_turns;
+                }
             }
             self.last_angles[class] = (angle.lane(R::LANES - 1), whole_turns);
         }
