@@ -120,25 +120,30 @@ fn many_designs(c: &mut Criterion) {
     batch(c, 10_000);
 }
 
-/// A student's call: one mechanism, one turn, everything kept.
+/// A student's call: one mechanism, one turn; everything in new arrays, or two outputs in given ones.
 fn one_design(c: &mut Criterion) {
     let q = turn();
     let mut group = c.benchmark_group("one_design");
     group.throughput(Throughput::Elements(u64::from(POSITIONS)));
-    for (name, mechanism) in mechanisms::all() {
-        let outputs = Outputs::all(&mechanism);
+    for ((name, mechanism), last) in mechanisms::all().into_iter().zip(["C", "B", "7"]) {
+        let all = Outputs::all(&mechanism);
+        let joints = vec![mechanism.joint(last).expect("a joint")];
+        let links = vec![*all.links.last().expect("a link")];
+        let two = Outputs { joints, links, ..Outputs::default() };
         for order in [0, 2] {
+            let coordinates = Coordinates::Shared(&q);
+            let (dimensions, signs) = (mechanism.drawing(), mechanism.signs());
+            let everything =
+                Request { dimensions, coordinates, signs, order, outputs: &all, by: None };
             group.bench_function(BenchmarkId::new(name, order), |b| {
+                b.iter(|| mechanism.solve(black_box(&everything)).expect("solved"));
+            });
+            let some = Request { outputs: &two, ..everything.clone() };
+            let mut buffers = Buffers::new(&some.columns(&mechanism), q.len());
+            let control = Control { threads: NonZeroUsize::new(1), ..Control::default() };
+            group.bench_function(BenchmarkId::new(format!("{name}, two outputs"), order), |b| {
                 b.iter(|| {
-                    let request = Request {
-                        dimensions: mechanism.drawing(),
-                        coordinates: Coordinates::Shared(black_box(&q)),
-                        signs: mechanism.signs(),
-                        order,
-                        outputs: &outputs,
-                        by: None,
-                    };
-                    mechanism.solve(&request).expect("solved")
+                    fill(&mechanism, black_box(&some), buffers.arrays(), &control).expect("solved");
                 });
             });
         }
