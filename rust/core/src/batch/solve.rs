@@ -106,7 +106,7 @@ pub fn fill(
     control: &Control<'_>,
 ) -> Result<(), SolveError> {
     let shape = Shape::of(mechanism, request)?;
-    let derivatives = DerivativeTables::new(shape.drivers, request.order);
+    let derivatives = DerivativeTables::shared(shape.drivers, request.order);
     let columns = request.columns(mechanism);
     check_arrays(&columns, &arrays, product(shape.designs, shape.positions)?)?;
     let writer = match request.by {

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::cell::RefCell;
+use std::sync::Arc;
 
 use super::branch::Branch;
 use super::change_interpolant::{ChangeInterpolant, ChangeWindow};
@@ -28,7 +29,7 @@ pub(crate) struct Design<'a> {
     /// Tables of the requested order.
     pub derivatives: &'a DerivativeTables,
     /// Tables for tracing: of first order, or second with groups above class II.
-    pub(super) tracing_derivatives: DerivativeTables,
+    pub(super) tracing_derivatives: Arc<DerivativeTables>,
     /// The tape for tracing.
     pub(super) tracing_tape: Cow<'a, Tape>,
     /// Dimensions of the present design.
@@ -73,7 +74,7 @@ impl<'a> Design<'a> {
             constants: DesignConstants::default(),
             units: Units::default(),
             derivatives,
-            tracing_derivatives: DerivativeTables::new(mechanism.q0().len(), order),
+            tracing_derivatives: DerivativeTables::shared(mechanism.q0().len(), order),
             tracing_tape: Cow::Borrowed(&mechanism.plan().tracing_tape),
             values: Vec::new(),
             initial_unknowns: Ok(Vec::new()),

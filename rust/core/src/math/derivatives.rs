@@ -4,6 +4,8 @@
 //! terms in the derivative of a product (Leibniz) and of a unit vector `U = exp(iΘ)`, from
 //! `∂U = i U ∂Θ`.
 
+use std::sync::{Arc, OnceLock};
+
 /// One term `factor · a[left] · b[right]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Term {
@@ -58,7 +60,19 @@ pub(crate) struct DerivativeTables {
     pub rotation: Vec<Vec<Term>>,
 }
 
+/// Tables of one driver: most calls need them, and building them takes as long as some hundred positions.
+static OF_ONE_DRIVER: [OnceLock<Arc<DerivativeTables>>; 4] = [const { OnceLock::new() }; 4];
+
 impl DerivativeTables {
+    /// The tables up to an order, built once for one driver.
+    pub(crate) fn shared(drivers: usize, order: usize) -> Arc<Self> {
+        let build = || Arc::new(Self::new(drivers, order));
+        match OF_ONE_DRIVER.get(order) {
+            Some(built) if drivers == 1 => Arc::clone(built.get_or_init(build)),
+            _ => build(),
+        }
+    }
+
     /// Builds the tables up to an order.
     #[must_use]
     pub(crate) fn new(drivers: usize, order: usize) -> Self {
