@@ -39,6 +39,7 @@ from assur.mechanisms.named import FourBar, SliderCrank
 
 if TYPE_CHECKING:
     from assur import balance, events, flywheel, metric
+    from assur.dynamics.friction import JointFriction, SlideFriction
     from assur.dynamics.loads import (
         Body,
         Damper,
@@ -77,6 +78,7 @@ __all__ = [
     "Group",
     "InductionMotor",
     "InputError",
+    "JointFriction",
     "LinearMotor",
     "Machine",
     "Measures",
@@ -87,6 +89,7 @@ __all__ = [
     "Run",
     "Sensitivity",
     "Slide",
+    "SlideFriction",
     "SliderCrank",
     "Spring",
     "Status",
@@ -112,6 +115,7 @@ __version__ = version()
 # Imported at first use: more than half of what `import assur` would take (PEP 562).
 _LATER = {
     "assur": ("balance", "events", "flywheel", "metric"),
+    "assur.dynamics.friction": ("JointFriction", "SlideFriction"),
     "assur.dynamics.loads": (
         "Body",
         "Damper",

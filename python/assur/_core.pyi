@@ -6,6 +6,7 @@ import numpy.typing as npt
 from typing_extensions import Self
 
 from assur.description.words import Drive, Slide
+from assur.dynamics.friction import PairFriction
 from assur.dynamics.loads import Body, Load
 from assur.dynamics.machine import Method
 from assur.dynamics.motors import Motor
@@ -270,6 +271,7 @@ class Machine:
         bodies: list[tuple[str, Body]],
         loads: list[Load],
         motors: list[Motor | None],
+        friction: list[tuple[str, PairFriction]],
     ) -> Self: ...
     @staticmethod
     def from_table(
@@ -304,6 +306,7 @@ class Machine:
         reactions: list[Key],
         rows: int,
         squares: bool,
+        friction: tuple[list[float], int],
         threads: int | None,
         report: list[int],
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], Any]: ...

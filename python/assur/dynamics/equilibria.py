@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import real_array, short
+from assur.dynamics.options import without_friction
 from assur.errors import InputError, MotionError
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ def equilibria(machine: MachineModel, between: Any) -> Equilibria:
             "hold the others: make a mechanism with links fixed at them"
         )
         raise InputError(message)
+    without_friction(machine, "equilibria")
     if machine.shape:
         message = (
             f"the machine is a batch of designs of shape {machine.shape}, each with its own number "

@@ -22,6 +22,7 @@ from assur.dynamics.options import (
     step_count,
     tolerance_pair,
     turn_count,
+    without_friction,
 )
 from assur.dynamics.run import Run
 from assur.dynamics.steady import SteadyState
@@ -47,6 +48,7 @@ def run(
 ) -> Run:
     """See `Machine.run`."""
     one_design(machine, "run")
+    without_friction(machine, "run")
     along_q = q_end is not None
     if along_q == (t_end is not None):
         message = "run needs t_end or q_end" + (", not both" if along_q else "")
@@ -99,6 +101,7 @@ def steady_state(
 ) -> SteadyState:
     """See `Machine.steady_state`; with `wanted`, size a flywheel for this fluctuation."""
     one_design(machine, "steady_state")
+    without_friction(machine, "steady_state")
     require_rotary_driver(machine, "a periodic motion")
     one_of(options["mean"], flywheels.MEANS, "mean")
     guess = None if speed is None else real_number(speed, "speed")

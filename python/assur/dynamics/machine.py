@@ -46,6 +46,9 @@ class Machine(MachineModel):
     motor : ConstantTorque, LinearMotor, InductionMotor or Table, optional
         Motor of the driver; with several drivers a sequence, None for each without one. Its rotor
         counts as inertia; its torque is not a load.
+    friction : mapping of str to JointFriction or SlideFriction, optional
+        Friction in joints and slides, by name. It counts in `reactions`, `effort` and what follows
+        from them; motions in time do not have it yet and refuse it.
 
     Raises
     ------
@@ -78,6 +81,7 @@ class Machine(MachineModel):
         acceleration: npt.ArrayLike = 0.0,
         *,
         t: npt.ArrayLike = 0.0,
+        sense: npt.ArrayLike | None = None,
         threads: int | None = None,
         on_error: OnError = "raise",
     ) -> Reactions:
@@ -94,6 +98,9 @@ class Machine(MachineModel):
             default: statics.
         t : array_like
             Times for functions among the loads, s, broadcast to the positions.
+        sense : int, optional
+            +1 or −1 (one for each driver): in which way the drive is about to move where the speed
+            is 0. Friction needs it.
         threads : int, optional
             Largest number of threads; all cores by default.
         on_error : {"raise", "nan"}
@@ -139,7 +146,7 @@ class Machine(MachineModel):
         array([ 800.    , -204.3016])
         """
         motion = motion_of(q, speed, acceleration, t)
-        return reactions.reactions(self, motion, threads, on_error)
+        return reactions.reactions(self, motion, threads, on_error, sense=sense)
 
     def effort(
         self,
@@ -148,14 +155,15 @@ class Machine(MachineModel):
         acceleration: npt.ArrayLike = 0.0,
         *,
         t: npt.ArrayLike = 0.0,
+        sense: npt.ArrayLike | None = None,
         on_error: OnError = "raise",
     ) -> Any:
         """Return the torque or force of the drive, by virtual power alone.
 
         Parameters
         ----------
-        q, speed, acceleration, t
-            See `reactions`.
+        q, speed, acceleration, t, sense
+            See `reactions`. With friction the effort is that of `reactions`.
         on_error : {"raise", "nan"}
             See `reactions`.
 
@@ -178,7 +186,7 @@ class Machine(MachineModel):
         >>> machine.effort([0.5, 1.5], speed=10.0).round(4)
         array([11.9002, -3.753 ])
         """
-        return reactions.effort(self, motion_of(q, speed, acceleration, t), on_error)
+        return reactions.effort(self, motion_of(q, speed, acceleration, t), on_error, sense)
 
     def internal_loads(
         self,

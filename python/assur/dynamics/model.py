@@ -11,6 +11,7 @@ from assur import _core
 from assur._arrays import counted, real_array
 from assur._validate import one_of
 from assur.dynamics import parts, reduce
+from assur.dynamics.friction import checked_friction
 from assur.dynamics.loads import checked_load
 from assur.dynamics.options import as_list
 from assur.errors import InputError
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from assur._arrays import Float
+    from assur.dynamics.friction import PairFriction
     from assur.dynamics.loads import Body, Load
     from assur.dynamics.motors import Motor
     from assur.flywheel import Spline
@@ -59,6 +61,7 @@ class MachineModel:
         bodies: Mapping[str, Body] = MappingProxyType({}),
         loads: Sequence[Load] = (),
         motor: Motor | Sequence[Motor | None] | None = None,
+        friction: Mapping[str, PairFriction] = MappingProxyType({}),
     ) -> None:
         parts.check_types(mechanism, bodies)
         self.mechanism = mechanism
@@ -69,15 +72,19 @@ class MachineModel:
         self.motor: Any = tuple(motor) if isinstance(motor, list | tuple) else motor
         if isinstance(self.motor, tuple) and len(self.motor) == 1 == self._drivers:
             self.motor = self.motor[0]
+        self.friction: Mapping[str, PairFriction] = MappingProxyType(
+            checked_friction(mechanism, friction)
+        )
         self._rebuild_with: tuple[Any, ...] = (
             type(self),
-            (mechanism, dict(bodies), self.loads, self.motor),
+            (mechanism, dict(bodies), self.loads, self.motor, dict(self.friction)),
         )
         self._core = _core.Machine(
             mechanism._core,
             loads=[parts.load(mechanism, checked_load(load)) for load in self.loads],
             bodies=[parts.body(mechanism, link, body) for link, body in self.bodies.items()],
             motors=parts.motors(self.motor, self._drivers),
+            friction=list(self.friction.items()),
         )
         if mechanism.driver not in mechanism.slides:
             for rows, periodic in self._core.tables:
@@ -85,7 +92,7 @@ class MachineModel:
 
     def of(self, mechanism: Mechanism) -> Self:
         """Return a machine with the same parts of other designs of its mechanism."""
-        return type(self)(mechanism, self.bodies, self.loads, self.motor)
+        return type(self)(mechanism, self.bodies, self.loads, self.motor, self.friction)
 
     @classmethod
     def from_table(
@@ -131,7 +138,7 @@ class MachineModel:
         """
         self = cls.__new__(cls)
         self.mechanism, self.loads, self.motor = None, (), motor
-        self.bodies = MappingProxyType({})
+        self.bodies, self.friction = MappingProxyType({}), MappingProxyType({})
         self._drivers = 1
         x, columns = parts.columns(phi, moment, inertia)
         one_of(spline, SPLINES, "spline")
@@ -163,7 +170,9 @@ class MachineModel:
             return "<assur.Machine of a table>"
         formula = self.mechanism.structure.formula
         bodies = "1 body" if len(self.bodies) == 1 else f"{len(self.bodies)} bodies"
-        return f"<assur.Machine {formula}, {bodies}, {counted(len(self.loads), 'load')}>"
+        loads = counted(len(self.loads), "load")
+        rubs = f", friction in {counted(len(self.friction), 'pair')}" if self.friction else ""
+        return f"<assur.Machine {formula}, {bodies}, {loads}{rubs}>"
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -175,7 +184,7 @@ class MachineModel:
         if self.mechanism is None:
             message = "this machine is a single table, not a batch"
             raise InputError(message)
-        return type(self)(self.mechanism.design(index), self.bodies, self.loads, self.motor)
+        return self.of(self.mechanism.design(index))
 
     def reduced_inertia(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Reduced:
         """Return the reduced inertia Σ m (dS/dq)² + I (dθ/dq)² and its exact derivative.

@@ -28,6 +28,17 @@ def one_design(machine: MachineModel, what: str) -> None:
         raise InputError(message)
 
 
+def without_friction(machine: MachineModel, what: str) -> None:
+    """Raise InputError for a machine with friction."""
+    if machine.friction:
+        pairs = ", ".join(machine.friction)
+        message = (
+            f"{what} has no friction yet, the machine has some in {pairs}: make one without "
+            "friction=; reactions and effort have it"
+        )
+        raise InputError(message)
+
+
 def require_rotary_driver(machine: MachineModel, what: str) -> None:
     """Raise InputError unless the machine has one driver and that is an angle."""
     driver = None if machine.mechanism is None else machine.mechanism.driver

@@ -13,11 +13,14 @@ from assur._validate import checked_name, checked_threads, one_of
 from assur.description.words import Status
 from assur.dynamics import bearing as bearings
 from assur.dynamics.along import times
+from assur.dynamics.friction import SlideFriction
 from assur.dynamics.reduce import with_designs
 from assur.dynamics.values import function_values
 from assur.errors import InputError, MotionError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy.typing as npt
 
     from assur._arrays import Float
@@ -38,6 +41,11 @@ class Key:
     on: int = 0
 
 
+SOLUTIONS, SAFETY = Key("solutions"), Key("safety")
+# What the core says where it would have to search for too many solutions, or cannot know a force.
+UNSOLVED, UNDETERMINED = -1.0, -2.0
+
+
 class SlideReaction(NamedTuple):
     """What a guide does to the link that slides on it.
 
@@ -50,11 +58,14 @@ class SlideReaction(NamedTuple):
     along : ndarray
         Where on the guide the normal force alone has this moment: the slide's value plus
         moment / normal, m.
+    friction : ndarray
+        Force of friction along the guide, N; 0 without.
     """
 
     normal: Any
     moment: Any
     along: Any
+    friction: Any
 
 
 class Reactions:
@@ -77,6 +88,22 @@ class Reactions:
         `assur.Status` of every position.
     undetermined : tuple of str
         Reactions that redundant links leave undetermined.
+    locked : ndarray of bool
+        Where friction leaves no solution: the drive cannot move the machine against its loads,
+        however strong it is. Forces are NaN there.
+    losses : dict of str to ndarray
+        Power that friction takes in each joint and slide that has some, W.
+    efficiency : ndarray
+        1 − loss/max(P₀ + loss, −P₀), with P₀ the power of the drive without friction: what comes
+        out of what goes in, whichever way power flows. Negative where friction alone holds the
+        loads that drive the machine (self-locking in reverse). NaN at rest.
+    solutions : tuple of Reactions
+        All that agree with the law of friction. The first is this one; where there are fewer
+        solutions than elsewhere, the later ones are NaN.
+    safety : ndarray
+        By what all coefficients of friction can be multiplied before the solution ends to which
+        friction leads as it grows from nothing: below 1 where this one does not follow from it. At
+        most 1e6.
     """
 
     def __init__(
@@ -85,10 +112,12 @@ class Reactions:
         motion: tuple[Float, Float, Float],
         found: dict[Key, Float],
         status: npt.NDArray[np.uint8],
+        again: Callable[[list[Key], int], Reactions] | None = None,
     ) -> None:
         self._mechanism = mechanism
         self.q, self.speed, self.acceleration = motion
         self._found = found
+        self._again = again
         self.status = status
 
     def __repr__(self) -> str:
@@ -122,9 +151,9 @@ class Reactions:
         names = []
         for key, values in self._found.items():
             kind, index, on = key.kind, key.index, key.on
-            if kind in ("along", "shaking force", "shaking moment"):
+            if kind not in ("joint", "normal", "moment", "driver"):
                 continue
-            missing = np.isnan(values[..., 0] if kind == "joint" else values)
+            missing = np.isnan(values[..., 0] if kind == "joint" else values) & ~self.locked
             if not np.any(missing & solved):
                 continue
             if kind == "joint":
@@ -134,6 +163,76 @@ class Reactions:
             else:
                 names.append(f'{kind} of slide "{slides[index]}"')
         return tuple(names)
+
+    @property
+    def locked(self) -> Any:
+        """Where friction leaves no solution."""
+        return np.asarray(self._found.get(SOLUTIONS, np.ones(self.status.shape)) == 0.0)[()]
+
+    @property
+    def losses(self) -> dict[str, Any]:
+        """Power that friction takes in each pair, W."""
+        joints, slides = self._mechanism._joint_names, list(self._mechanism.slides)
+        names = {"joint loss": joints, "slide loss": slides}
+        return {
+            names[key.kind][key.index]: values[()]
+            for key, values in self._found.items()
+            if key.kind in names
+        }
+
+    @property
+    def efficiency(self) -> Any:
+        """What comes out of what goes in."""
+        loss = np.sum(list(self.losses.values()), axis=0) + np.zeros(self.status.shape)
+        power = np.asarray(self.driver * self.speed)
+        if np.size(self._mechanism.q0) > 1:
+            power = power.sum(axis=-1)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return (1.0 - loss / np.maximum(power, loss - power))[()]
+
+    @property
+    def solutions(self) -> tuple[Reactions, ...]:
+        """All reactions that agree with the law of friction."""
+        if self._again is None:
+            return (self,)
+        counts = self._found[SOLUTIONS]
+        most = int(np.nanmax(counts, initial=0.0))
+        keys = list(self._found)
+        return (self, *(self._again(keys, index) for index in range(1, most)))[:most]
+
+    @property
+    def safety(self) -> Any:
+        """By what coefficients of friction can be multiplied before this solution ends."""
+        if self._again is None:
+            return np.full(self.status.shape, np.inf)[()]
+        return self._again([SAFETY], 0)._found[SAFETY][()]
+
+    def joint_moment(self, name: str, on: str) -> Any:
+        """Return the moment of friction on a link at a joint.
+
+        Parameters
+        ----------
+        name : str
+            The joint.
+        on : str
+            The link; one that has the joint.
+
+        Returns
+        -------
+        ndarray
+            N·m, counter-clockwise; 0 without friction. The moments on all links of a joint add up
+            to zero.
+
+        Raises
+        ------
+        InputError
+            A joint or link that does not exist, or a link without this joint.
+        """
+        key = key_of_joint(self._mechanism, checked_name(name, "joint"), checked_name(on, "on"))
+        moment = self._found.get(Key("joint moment", key.index, key.on))
+        if moment is None:
+            return np.where(np.isnan(self.shaking_moment), np.nan, 0.0)[()]
+        return moment[()]
 
     def joint(self, name: str, on: str) -> Float:
         """Return the force on a link from all other links at a joint.
@@ -221,12 +320,15 @@ class Reactions:
         Returns
         -------
         SlideReaction
-            Normal force and moment about the sliding point on the sliding link, and where on the
-            guide their resultant acts.
+            Normal force and moment about the sliding point on the sliding link, where on the guide
+            their resultant acts, and friction.
         """
         index = self._mechanism._core.require("slide", checked_name(name, "slide"))
-        parts = (self._found[Key(kind, index)][()] for kind in ("normal", "moment", "along"))
-        return SlideReaction(*parts)
+        normal, moment, along = (
+            self._found[Key(kind, index)][()] for kind in ("normal", "moment", "along")
+        )
+        friction = self._found.get(Key("friction", index), np.where(np.isnan(normal), np.nan, 0.0))
+        return SlideReaction(normal, moment, along, friction[()])
 
 
 def _links_at(mechanism: Mechanism) -> dict[str, list[str]]:
@@ -268,12 +370,48 @@ def _keys(mechanism: Mechanism) -> list[Key]:
     return [*keys, Key("shaking force"), Key("shaking moment")]
 
 
+def _keys_of_friction(machine: MachineModel) -> list[Key]:
+    mechanism = machine.mechanism
+    assert mechanism is not None
+    core, links_at = mechanism._core, _links_at(mechanism)
+    keys: list[Key] = []
+    for name, friction in machine.friction.items():
+        if isinstance(friction, SlideFriction):
+            slide = core.require("slide", name)
+            keys += [Key("friction", slide), Key("slide loss", slide)]
+            continue
+        joint = core.require("joint", name)
+        links = [core.require("link", link) for link in links_at[name]]
+        keys += [*(Key("joint moment", joint, link) for link in links), Key("joint loss", joint)]
+    return [*keys, SOLUTIONS] if keys else []
+
+
+def _require_solved(found: dict[Key, Float]) -> None:
+    """Raise InputError where the core has not looked for the frictions of a position."""
+    counts = found[SOLUTIONS]
+    if np.any(counts == UNDETERMINED):
+        message = (
+            "redundant links leave forces undetermined in a pair with friction, so that friction is "
+            "undetermined too: leave it out, or the redundant links"
+        )
+        raise InputError(message)
+    if np.any(counts == UNSOLVED):
+        message = (
+            "so many pairs with friction depend on one another that their solutions are not "
+            "searched for, and there may be several or none: leave out the friction that matters "
+            "least"
+        )
+        raise InputError(message)
+
+
 def reactions(
     machine: MachineModel,
     motion: DrivenMotion,
     threads: int | None,
     on_error: OnError,
     keys: list[Key] | None = None,
+    sense: npt.ArrayLike | None = None,
+    solution: int = 0,
 ) -> Reactions:
     """Return the reactions of a machine; see `Machine.reactions`.
 
@@ -285,10 +423,13 @@ def reactions(
         raise InputError(message)
     one_of(on_error, ("raise", "nan"), "on_error")
     drivers = machine._drivers
-    keys = _keys(mechanism) if keys is None else keys
+    if keys is None:
+        keys = [*_keys(mechanism), *_keys_of_friction(machine)]
     moving = broadcast_motion(machine, motion)
     x, v, a, shape = moving
-    arrays, status, failure = _solved(machine, moving, motion.t, threads, keys, squares=False)
+    arrays, status, failure = _solved(
+        machine, moving, motion.t, threads, keys, squares=False, friction=(sense, solution)
+    )
     full = shape if drivers == 1 else (*shape, drivers)
     everywhere = np.broadcast_to(x, full)
     if on_error == "raise" and failure is not None:
@@ -296,14 +437,24 @@ def reactions(
     if on_error == "raise":
         drives = [arrays[keys.index(Key("driver", driver))] for driver in range(drivers)]
         each = drives[0][:, None] if drivers == 1 else np.stack(drives, axis=-1)
-        _require_finite("reactions are", each, status, everywhere)
+        is_locked = np.zeros(status.shape, np.bool_)
+        if SOLUTIONS in keys:
+            is_locked = arrays[keys.index(SOLUTIONS)] <= 0.0
+        _require_finite("reactions are", each, status, everywhere, is_locked)
     found: dict[Key, Float] = {}
     for key, array in zip(keys, arrays, strict=True):
         two = key.kind in ("joint", "shaking force")
         array.flags.writeable = False
         found[key] = array.reshape((*shape, 2) if two else shape)
+    if SOLUTIONS in found:
+        _require_solved(found)
     given_motion = everywhere, np.broadcast_to(v, full), np.broadcast_to(a, full)
-    return Reactions(mechanism, given_motion, found, status.reshape(shape))
+
+    def again(keys: list[Key], solution: int) -> Reactions:
+        return reactions(machine, motion, threads, "nan", keys, sense, solution)
+
+    rubs = again if machine.friction and SOLUTIONS in found else None
+    return Reactions(mechanism, given_motion, found, status.reshape(shape), rubs)
 
 
 def reaction_squares(
@@ -325,6 +476,7 @@ def _solved(
     threads: int | None,
     keys: list[Key],
     squares: bool,
+    friction: tuple[npt.ArrayLike | None, int] = (None, 0),
 ) -> tuple[list[Float], npt.NDArray[np.uint8], Any]:
     """Return an array for each key, the statuses, and the exception of the first failure."""
     mechanism = machine.mechanism
@@ -341,6 +493,7 @@ def _solved(
         for one in (v, a)
     )
     coordinates = np.ascontiguousarray(everywhere if per_design else x).ravel()
+    senses = _senses(machine, np.broadcast_to(v, full).reshape(-1, drivers), friction[0])
     at = times(t, shape)
     given = np.empty(0)
     if functions:
@@ -356,19 +509,44 @@ def _solved(
         keys,
         math.prod(designs if squares else shape),
         squares,
+        (senses, friction[1]),
         checked_threads(threads),
         list(designs),
     )
     return found
 
 
-def _require_finite(what: str, drives: Float, status: npt.NDArray[np.uint8], q: Float) -> None:
+def _senses(machine: MachineModel, speeds: Float, sense: npt.ArrayLike | None) -> list[float]:
+    """Return in which sense each driver is about to move at rest, which friction needs."""
+    if sense is not None:
+        senses = real_array(sense, "sense").ravel()
+        if senses.size != machine._drivers or not np.isin(senses, (-1.0, 1.0)).all():
+            wanted = "+1 or −1" if machine._drivers == 1 else f"{machine._drivers} of +1 or −1"
+            message = f"sense is {short(sense)}: {wanted} is needed"
+            raise InputError(message)
+        found: list[float] = senses.tolist()
+        return found
+    if machine.friction and not speeds.any(axis=1).all():
+        message = (
+            "speed is 0: friction needs sense=+1 or −1, the way in which the drive is about to move"
+        )
+        raise InputError(message, value=0.0)
+    return []
+
+
+def _require_finite(
+    what: str,
+    drives: Float,
+    status: npt.NDArray[np.uint8],
+    q: Float,
+    is_locked: npt.NDArray[np.bool_] | bool = False,
+) -> None:
     """Raise MotionError where a load or an inertia force is not finite, though the position is.
 
     `drives`: torques or forces of the drivers, (positions, drivers).
     """
     finite = np.isfinite(drives).all(axis=-1)
-    beyond = np.flatnonzero(~finite & (status <= Status.NEAR_SINGULAR))
+    beyond = np.flatnonzero(~finite & (status <= Status.NEAR_SINGULAR) & ~np.asarray(is_locked))
     if beyond.size:
         at = q.reshape(drives.shape)[beyond[0]].tolist()
         shown = ", ".join(f"{number:.15g}" for number in at)
@@ -415,9 +593,14 @@ def effort(
     machine: MachineModel,
     motion: DrivenMotion,
     on_error: OnError,
+    sense: npt.ArrayLike | None = None,
 ) -> Any:
     """Return the effort of the drivers by virtual power; see `Machine.effort`."""
     n = machine._drivers
+    if machine.friction:
+        # What friction takes depends on the forces in its pairs.
+        keys = [*(Key("driver", driver) for driver in range(n)), SOLUTIONS]
+        return reactions(machine, motion, None, on_error, keys, sense).driver
     x, v, a, shape = broadcast_motion(machine, motion)
     full = shape if n == 1 else (*shape, n)
     # A motor's rotor belongs to the drive.

@@ -13,7 +13,12 @@ from assur._arrays import finite_array, real_number
 from assur._validate import one_of
 from assur.dynamics.integrate import steady_state
 from assur.dynamics.motors import ConstantTorque
-from assur.dynamics.options import PERIOD_RTOL, require_rotary_driver, require_whole_periods
+from assur.dynamics.options import (
+    PERIOD_RTOL,
+    require_rotary_driver,
+    require_whole_periods,
+    without_friction,
+)
 from assur.dynamics.steady_flywheel import SteadyFlywheel
 from assur.dynamics.table import Table
 from assur.errors import AssurWarning, InputError, MotionError
@@ -52,6 +57,7 @@ def flywheel(
     machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, on_error: str
 ) -> Flywheel:
     """See `Machine.flywheel`."""
+    without_friction(machine, "flywheel")
     require_rotary_driver(machine, "a flywheel")
     one_of(on_error, ("raise", "nan"), "on_error")
     torque: Any = 0.0 if machine.motor is None else getattr(machine.motor, "torque", None)

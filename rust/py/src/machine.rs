@@ -16,6 +16,7 @@ use pyo3::{PyTraverseError, PyVisit};
 
 use crate::convert::body::Body;
 use crate::convert::event::event;
+use crate::convert::friction::PairFriction;
 use crate::convert::load::loads;
 use crate::convert::motor::motors;
 use crate::convert::value::{Values, table};
@@ -85,7 +86,7 @@ pub(crate) struct Machine {
 
 #[pymethods]
 impl Machine {
-    /// Reads the dataclasses of loads, bodies by link, and motors by driver.
+    /// Reads the dataclasses of loads, bodies by link, motors by driver, and friction by pair.
     #[new]
     fn new(
         py: Python<'_>,
@@ -93,6 +94,7 @@ impl Machine {
         bodies: Vec<(String, Body)>,
         loads: Vec<Bound<'_, PyAny>>,
         motors: Vec<Option<Bound<'_, PyAny>>>,
+        friction: Vec<(String, PairFriction)>,
     ) -> PyResult<Self> {
         let core = &mechanism.bind(py).get().inner;
         catch_panic(|| {
@@ -102,8 +104,11 @@ impl Machine {
             let motors = self::motors(&motors, &mut values)?;
             let body = |(link, body): &(String, Body)| body.of_link(core, link);
             let bodies = bodies.iter().map(body).collect::<PyResult<_>>()?;
+            let of_pair = |(name, own): &(String, PairFriction)| own.of_pair(core, name);
+            let friction = friction.iter().map(of_pair).collect::<PyResult<_>>()?;
             let Values { tables, functions } = values;
-            let machine = assur::dynamics::Machine { bodies, loads, gravity, tables, motors };
+            let machine =
+                assur::dynamics::Machine { bodies, loads, gravity, tables, motors, friction };
             Ok((machine, functions, load_functions))
         })
         .map(|(machine, functions, load_functions)| Self {
@@ -218,7 +223,8 @@ impl Machine {
 
     /// Reactions of designs at positions, `reactions` those that are asked for; the other arguments
     /// are those of `reduce`. `squares`: only the greatest and the mean square of each design are; then
-    /// the `rows` are the designs, else designs × positions.
+    /// the `rows` are the designs, else designs × positions. `sense`: of the drivers at rest, and
+    /// `solution`: see `ReactionRequest`.
     #[allow(clippy::too_many_arguments, reason = "flat arrays")]
     fn reactions<'py>(
         &self,
@@ -232,6 +238,7 @@ impl Machine {
         reactions: Vec<Key>,
         rows: usize,
         squares: bool,
+        friction: (Vec<f64>, usize),
         threads: Option<NonZeroUsize>,
         report: Vec<usize>,
     ) -> PyResult<reactions::Found<'py>> {
@@ -248,6 +255,7 @@ impl Machine {
             function_values,
             rows,
             squares,
+            friction,
         };
         reactions::reactions(py, mechanism, machine, &inputs, &reactions, threads, &report)
     }

@@ -29,6 +29,12 @@ enum Kind {
     Normal,
     Moment,
     Along,
+    JointMoment,
+    Friction,
+    JointLoss,
+    SlideLoss,
+    Solutions,
+    Safety,
     Driver,
     ShakingForce,
     ShakingMoment,
@@ -41,6 +47,12 @@ impl Words for Kind {
         ("normal", Self::Normal),
         ("moment", Self::Moment),
         ("along", Self::Along),
+        ("joint moment", Self::JointMoment),
+        ("friction", Self::Friction),
+        ("joint loss", Self::JointLoss),
+        ("slide loss", Self::SlideLoss),
+        ("solutions", Self::Solutions),
+        ("safety", Self::Safety),
         ("driver", Self::Driver),
         ("shaking force", Self::ShakingForce),
         ("shaking moment", Self::ShakingMoment),
@@ -62,6 +74,12 @@ impl Key {
             Kind::Normal => Reaction::Normal(self.index),
             Kind::Moment => Reaction::Moment(self.index),
             Kind::Along => Reaction::Along(self.index),
+            Kind::JointMoment => Reaction::JointMoment { joint: self.index, on: self.on },
+            Kind::Friction => Reaction::Friction(self.index),
+            Kind::JointLoss => Reaction::JointLoss(self.index),
+            Kind::SlideLoss => Reaction::SlideLoss(self.index),
+            Kind::Solutions => Reaction::Solutions,
+            Kind::Safety => Reaction::Safety,
             Kind::Driver => Reaction::Driver(self.index),
             Kind::ShakingForce => Reaction::ShakingForce,
             Kind::ShakingMoment => Reaction::ShakingMoment,
@@ -82,6 +100,8 @@ pub(crate) struct Inputs<'py> {
     pub rows: usize,
     /// See `ReactionRequest::squares`; then the rows are the designs.
     pub squares: bool,
+    /// The sense of the drivers at rest, and which solution is meant.
+    pub friction: (Vec<f64>, usize),
 }
 
 /// See `assur.Machine.reactions`.
@@ -108,6 +128,8 @@ pub(crate) fn reactions<'py>(
         speed: inputs.speed.as_slice()?,
         acceleration: inputs.acceleration.as_slice()?,
         external: inputs.function_values.as_slice()?,
+        sense: &inputs.friction.0,
+        solution: inputs.friction.1,
         reactions: &reactions,
         squares: inputs.squares,
     };

@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::body::Body;
+use super::friction::description::Friction;
 use super::kinematics::SolvedPose;
 use super::load::Load;
 use super::motor::Motor;
@@ -29,6 +30,8 @@ pub struct Machine {
     pub tables: Vec<Table>,
     /// Its motors. Their rotors count in the machine's inertia, but their torque is not a load.
     pub motors: Vec<Motor>,
+    /// Friction in its pairs: of [reactions](Machine::reactions), not of the reduced moment.
+    pub friction: Vec<Friction>,
 }
 
 /// A machine referred to its drivers at many positions, one after another; NaN where a position

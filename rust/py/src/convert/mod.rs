@@ -4,6 +4,7 @@
 pub(crate) mod body;
 pub(crate) mod description;
 pub(crate) mod event;
+pub(crate) mod friction;
 pub(crate) mod load;
 pub(crate) mod metric;
 pub(crate) mod motor;

@@ -135,7 +135,13 @@ impl<R: Real> Scene<R> {
     }
 
     #[inline(always)]
-    fn force_on(&mut self, plan: &ForcePlan, link: usize, place: Vector<R>, force: Vector<R>) {
+    pub(super) fn force_on(
+        &mut self,
+        plan: &ForcePlan,
+        link: usize,
+        place: Vector<R>,
+        force: Vector<R>,
+    ) {
         if link == plan.ground {
             return;
         }
@@ -145,7 +151,7 @@ impl<R: Real> Scene<R> {
     }
 
     #[inline(always)]
-    fn moment_on(&mut self, plan: &ForcePlan, link: usize, moment: R) {
+    pub(super) fn moment_on(&mut self, plan: &ForcePlan, link: usize, moment: R) {
         if link != plan.ground {
             self.link_moment[link] += moment;
         }

@@ -14,8 +14,8 @@ use crate::plan::mechanism::Mechanism;
 pub(crate) struct Sources {
     /// Of every point: its columns from order 0 on.
     points: Vec<Option<usize>>,
-    angles: Vec<Option<usize>>,
-    slides: Vec<Option<usize>>,
+    pub(super) angles: Vec<Option<usize>>,
+    pub(super) slides: Vec<Option<usize>>,
 }
 
 /// The solved columns of some positions of one design, and the motion of its drivers there.
@@ -74,6 +74,15 @@ impl Rows {
     #[inline(always)]
     fn read_drive<R: Real>(self, values: &[f64], n: usize, driver: usize) -> R {
         if values.len() == n { R::splat(values[driver]) } else { self.read(values, n, driver) }
+    }
+
+    /// The rate of what has these first derivatives, at speeds of the drivers.
+    pub(super) fn rate<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
+        let mut rate = R::ZERO;
+        for (driver, &speed) in speeds.iter().enumerate() {
+            rate += self.read::<R>(derivatives, speeds.len(), driver) * speed;
+        }
+        rate
     }
 
     /// The entry `offset` of `width` pairs of each position: all its first numbers come before the

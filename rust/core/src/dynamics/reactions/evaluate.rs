@@ -8,6 +8,7 @@ use super::columns::{Rows, Solved, Sources};
 use super::force_plan::ForcePlan;
 use super::pair_forces::{JointForce, Reaction};
 use super::request::ReactionRequest;
+use super::rubbing::Pair;
 use super::scene::Scene;
 use super::squares::Squares;
 use crate::batch::dispatch::Task;
@@ -64,6 +65,9 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
             let rows = Rows { first, last: count - 1 };
             self.scene.read(plan, sources, &self.guides, &self.solved, rows);
             self.scene.apply(plan, machine, self.values, rows);
+            if !plan.rubbing.is_empty() {
+                self.rub(rows);
+            }
             self.scene.start(plan);
             self.scene.carry_loads(plan);
             self.scene.pass_moments(plan);
@@ -94,11 +98,31 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
 }
 
 impl<R: Real> Evaluate<'_, '_, R> {
+    /// Adds friction to the loads.
+    fn rub(&mut self, rows: Rows) {
+        let Batch { mechanism, plan, sources, asked, .. } = self.batch;
+        let size = mechanism.linkage().size();
+        self.scene.read_rubbing(plan, sources, &self.solved, rows, (asked.sense, size));
+        let asks_safety = asked.reactions.contains(&Reaction::Safety);
+        self.scene.rub(plan, (asked.solution, asks_safety), size);
+    }
+
+    /// The sum over the pairs with friction at a joint or in a slide.
+    #[inline(always)]
+    fn sum_of_friction(&self, term: impl Fn(&Pair, usize) -> Option<R>) -> Vector<R> {
+        let mut sum = R::ZERO;
+        for (index, rubbing) in self.batch.plan.rubbing.iter().enumerate() {
+            if let Some(term) = term(&rubbing.pair, index) {
+                sum += term;
+            }
+        }
+        one(sum)
+    }
+
     /// Force of a guide on what slides there.
     #[inline(always)]
     fn normal(&self, slide: usize) -> R {
-        let Some(edge) = self.batch.plan.guide_edges[slide] else { return R::ZERO };
-        -self.scene.guides[slide].cross(self.scene.edge_force[edge])
+        self.scene.normal(self.batch.plan, slide)
     }
 
     /// The value of a reaction in all lanes.
@@ -113,6 +137,30 @@ impl<R: Real> Evaluate<'_, '_, R> {
             Reaction::Along(slide) => {
                 one(scene.slides[slide] + scene.slide_moment[slide] / self.normal(slide))
             }
+            Reaction::JointMoment { joint, on } => {
+                self.sum_of_friction(|pair, index| match *pair {
+                    Pair::Journal { joint: at, on: own, fast, .. } if at == joint => {
+                        let friction = scene.rubs.friction[index];
+                        (own == on).then_some(friction).or((fast == on).then_some(-friction))
+                    }
+                    _ => None,
+                })
+            }
+            Reaction::JointLoss(joint) => self.sum_of_friction(|pair, index| match *pair {
+                Pair::Journal { joint: at, .. } if at == joint => Some(scene.rubs.loss(index)),
+                _ => None,
+            }),
+            Reaction::Friction(slide) => self.sum_of_friction(|pair, index| match *pair {
+                Pair::Guide { slide: own, .. } if own == slide => Some(scene.rubs.friction[index]),
+                _ => None,
+            }),
+            Reaction::SlideLoss(slide) => self.sum_of_friction(|pair, index| match *pair {
+                Pair::Guide { slide: own, .. } if own == slide => Some(scene.rubs.loss(index)),
+                _ => None,
+            }),
+            Reaction::Solutions if plan_rubs(self.batch.plan) => one(scene.rubs.solutions),
+            Reaction::Solutions => one(R::ONE),
+            Reaction::Safety => one(scene.rubs.safety),
             Reaction::Driver(driver) => one(scene.driver[driver]),
             Reaction::ShakingForce => scene.shaking_force,
             Reaction::ShakingMoment => one(scene.shaking_moment),
@@ -126,7 +174,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
         let (infinity, mut infinite) = (R::splat(f64::INFINITY), R::Mask::NONE);
         for (index, reaction) in self.batch.asked.reactions.iter().enumerate() {
             let value = self.value(index);
-            if !matches!(reaction, Reaction::Along(_)) {
+            if !is_unbounded(*reaction) {
                 infinite = infinite.or(infinity.le(value.x.abs())).or(infinity.le(value.y.abs()));
             }
             let width = reaction.width();
@@ -177,7 +225,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
         let mut is_known = worst <= Status::NearSingular as u8;
         for (index, reaction) in self.batch.asked.reactions.iter().enumerate() {
             // The place of a guide's force may be at infinity.
-            let is_place = matches!(reaction, Reaction::Along(_));
+            let is_place = is_unbounded(*reaction);
             is_known &= is_place || !self.squares[index].is_infinite();
         }
         for (index, column) in self.results.columns.iter_mut().enumerate() {
@@ -195,7 +243,14 @@ impl<R: Real> Evaluate<'_, '_, R> {
         let size = self.batch.mechanism.linkage().size();
         for (index, &reaction) in self.batch.asked.reactions.iter().enumerate() {
             let unit = match reaction {
-                Reaction::ShakingForce | Reaction::ShakingMoment => continue,
+                Reaction::ShakingForce
+                | Reaction::ShakingMoment
+                | Reaction::JointMoment { .. }
+                | Reaction::Friction(_)
+                | Reaction::JointLoss(_)
+                | Reaction::SlideLoss(_)
+                | Reaction::Solutions
+                | Reaction::Safety => continue,
                 Reaction::Moment(_) => size,
                 Reaction::Along(slide) => {
                     // Known with the normal force and the moment.
@@ -240,4 +295,13 @@ impl<R: Real> Evaluate<'_, '_, R> {
 #[inline(always)]
 fn one<R: Real>(value: R) -> Vector<R> {
     Vector::new(value, R::ZERO)
+}
+
+fn plan_rubs(plan: &ForcePlan) -> bool {
+    !plan.rubbing.is_empty()
+}
+
+/// Whether a reaction may be infinite where the machine is not.
+fn is_unbounded(reaction: Reaction) -> bool {
+    matches!(reaction, Reaction::Along(_) | Reaction::Safety)
 }

@@ -1,5 +1,6 @@
 //! What the reactions of a machine need of its mechanism, compiled once.
 
+use super::rubbing::{Pair, Rubbing};
 use super::steps::{SelfStress, Transposed, self_stresses, transposed_steps};
 use crate::batch::outputs::{Outputs, Quantity};
 use crate::description::Driver;
@@ -80,6 +81,8 @@ pub(crate) struct ForcePlan {
     pub slide_drivers: Vec<Option<usize>>,
     /// The edge along every slide.
     pub guide_edges: Vec<Option<usize>>,
+    /// Pairs with friction.
+    pub rubbing: Vec<Rubbing>,
 }
 
 impl ForcePlan {
@@ -87,7 +90,7 @@ impl ForcePlan {
     pub(crate) fn new(mechanism: &Mechanism, machine: &Machine) -> Self {
         let (plan, linkage) = (mechanism.plan(), mechanism.linkage());
         let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
-        let has_speeds = machine.loads.iter().any(reads_velocities);
+        let has_speeds = machine.loads.iter().any(reads_velocities) || !machine.friction.is_empty();
         let edges: Vec<ForceEdge> = plan
             .edges
             .iter()
@@ -117,6 +120,7 @@ impl ForcePlan {
             .collect();
         let mut compiled = Self {
             guide_edges,
+            rubbing: Vec::new(),
             drivers: plan.drivers.len(),
             outputs: Outputs::default(),
             order: match (has_inertia, has_speeds) {
@@ -142,6 +146,9 @@ impl ForcePlan {
                 .map(|s| linkage.drivers.iter().position(|&d| d == Driver::Slide(s)))
                 .collect(),
         };
+        let links_at: Vec<Vec<usize>> =
+            (0..linkage.joints.len()).map(|joint| linkage.links_at(joint).collect()).collect();
+        compiled.rubbing = Rubbing::of(&compiled, &links_at, &machine.friction);
         compiled.find_needs(mechanism, machine);
         compiled
     }
@@ -166,6 +173,12 @@ impl ForcePlan {
                     self.need_point(from);
                     self.need_direction(self.slide_links[slide][1]);
                 }
+            }
+        }
+        for rubbing in self.rubbing.clone() {
+            if let Pair::Journal { on, fast, .. } = rubbing.pair {
+                self.need_angle(on);
+                self.need_angle(fast);
             }
         }
         for body in &machine.bodies {

@@ -15,6 +15,7 @@ pub(crate) mod moments;
 pub(crate) mod pair_forces;
 pub(crate) mod redundant;
 pub(crate) mod request;
+pub(crate) mod rubbing;
 pub(crate) mod scene;
 mod squares;
 pub(crate) mod steps;

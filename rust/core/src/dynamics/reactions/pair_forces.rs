@@ -22,6 +22,25 @@ pub enum Reaction {
     Moment(usize),
     /// Where on the guide the normal force alone would have that moment: value + moment/normal, m.
     Along(usize),
+    /// Moment of friction on a link at a joint, N·m.
+    JointMoment {
+        /// The joint.
+        joint: usize,
+        /// The link.
+        on: usize,
+    },
+    /// Force of friction on the sliding link along the guide, N.
+    Friction(usize),
+    /// Power that friction takes at a joint, W.
+    JointLoss(usize),
+    /// Power that friction takes in a slide, W.
+    SlideLoss(usize),
+    /// Number of solutions: 0 where friction locks the machine, −1 where too many pairs depend on one
+    /// another, −2 where redundant links leave the force in one of them undetermined.
+    Solutions,
+    /// By what all coefficients of friction can be multiplied before the solution ends to which friction
+    /// leads as it grows from nothing.
+    Safety,
     /// Torque (N·m) or force (N) of a driver.
     Driver(usize),
     /// Inertia forces of all bodies, N: x and y.

@@ -18,6 +18,12 @@ pub struct ReactionRequest<'a> {
     pub acceleration: &'a [f64],
     /// Values of the loads' callbacks: designs × positions × callbacks.
     pub external: &'a [f64],
+    /// In which sense each driver is about to move where all rest, +1 or −1: for friction. May be
+    /// empty.
+    pub sense: &'a [f64],
+    /// Which of the solutions is meant where friction has several; 0: the one to which friction leads
+    /// as it grows from nothing.
+    pub solution: usize,
     /// What is asked for.
     pub reactions: &'a [Reaction],
     /// Whether of each design only the greatest square and the mean square of every reaction are

@@ -1,6 +1,7 @@
 //! The kinematics of a few positions, and the forces on them: one per lane.
 
 use super::force_plan::ForcePlan;
+use super::rubbing::Rubs;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
@@ -44,6 +45,7 @@ pub(crate) struct Scene<R: Real> {
     pub slide_moment: Vec<R>,
     /// Torque or force of every driver.
     pub driver: Vec<R>,
+    pub(super) rubs: Rubs<R>,
     pub(super) matrix: Vec<[R; 1]>,
     pub(super) right: Vec<R>,
 }
@@ -72,8 +74,16 @@ impl<R: Real> Scene<R> {
             edge_force: vec![zero; plan.edges.len()],
             slide_moment: vec![R::ZERO; slides],
             driver: vec![R::ZERO; plan.drivers],
+            rubs: Rubs::default(),
             matrix: Vec::new(),
             right: Vec::new(),
         }
+    }
+
+    /// Force of a guide on what slides there.
+    #[inline(always)]
+    pub(super) fn normal(&self, plan: &ForcePlan, slide: usize) -> R {
+        let Some(edge) = plan.guide_edges[slide] else { return R::ZERO };
+        -self.guides[slide].cross(self.edge_force[edge])
     }
 }

@@ -1,0 +1,93 @@
+//! Newton's iteration for the law of friction, and the way from no friction to all of it.
+
+use super::problem::FrictionProblem;
+
+/// Steps of the iteration. It converges to the second order between the kinks of the law.
+const MAX_STEPS: usize = 50;
+/// A step that is this part of the friction is rounding.
+const LAST_STEP: f64 = 1.0e-13;
+/// Parts of the way: the first step, the shortest one, and the longest.
+const FIRST: f64 = 0.25;
+const SHORTEST: f64 = 1.0e-9;
+/// The greatest correction of a predicted step, in parts of it.
+const MOST_CORRECTION: f64 = 0.5;
+
+impl FrictionProblem {
+    /// The solution near a start; `scale` multiplies all coefficients. `None` if the iteration does not
+    /// converge.
+    pub(super) fn newton(&self, start: &[f64], scale: f64) -> Option<Vec<f64>> {
+        let mut friction = start.to_vec();
+        let least = LAST_STEP * self.size();
+        let mut last = f64::INFINITY;
+        for _ in 0..MAX_STEPS {
+            let residual = self.residual(&friction, scale);
+            let step = self.jacobian(&friction, scale).lu().solve(&residual)?;
+            let mut size = 0.0_f64;
+            for (friction, step) in friction.iter_mut().zip(step.iter()) {
+                *friction -= step;
+                size = size.max(friction.abs());
+            }
+            let change = step.amax();
+            if !change.is_finite() {
+                return None;
+            }
+            // Rounding may keep steps from becoming shorter still.
+            if change <= least.max(LAST_STEP * size) || change >= last && change <= 1e-10 * size {
+                return Some(friction);
+            }
+            last = change;
+        }
+        None
+    }
+
+    /// The only solution of a contraction.
+    pub(super) fn only(&self) -> Option<Vec<f64>> {
+        let start = vec![0.0; self.pairs.len()];
+        self.newton(&start, 1.0).or_else(|| {
+            // Newton's iteration may go back and forth across a kink; this one cannot.
+            let mut friction = start;
+            for _ in 0..100_000 {
+                let residual = self.residual(&friction, 1.0);
+                for (friction, residual) in friction.iter_mut().zip(residual.iter()) {
+                    *friction -= residual;
+                }
+                if residual.amax() <= LAST_STEP * self.size() {
+                    return Some(friction);
+                }
+            }
+            None
+        })
+    }
+
+    /// Follows the solution from no friction on while all coefficients grow to `goal` times their own.
+    /// Returns how far it leads, and the solution there.
+    pub(super) fn follow(&self, goal: f64) -> (f64, Vec<f64>) {
+        let mut friction = vec![0.0; self.pairs.len()];
+        let (mut at, mut step) = (0.0, FIRST);
+        while at < goal {
+            let next = (at + step).min(goal);
+            match self.advance(&friction, at, next) {
+                Some(found) => {
+                    friction = found;
+                    at = next;
+                    step *= 2.0;
+                }
+                None if step > SHORTEST => step *= 0.5,
+                None => break,
+            }
+        }
+        (at, friction)
+    }
+
+    /// A step of it: along the tangent, then corrected.
+    fn advance(&self, from: &[f64], at: f64, next: f64) -> Option<Vec<f64>> {
+        // ∂(residual)/∂(scale) is what friction without feedback is.
+        let rate = (self.residual(from, 1.0) - self.residual(from, 0.0)) * (at - next);
+        let tangent = self.jacobian(from, at).lu().solve(&rate)?;
+        let start: Vec<f64> = from.iter().zip(tangent.iter()).map(|(a, b)| a + b).collect();
+        let found = self.newton(&start, next)?;
+        let apart = found.iter().zip(&start).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let limit = MOST_CORRECTION * tangent.amax();
+        (apart <= limit.max(1e-9 * self.size())).then_some(found)
+    }
+}

@@ -1,0 +1,145 @@
+//! Coulomb friction at one position: what rubs, and how every reaction depends on the friction.
+//!
+//! At given speeds and accelerations reactions are linear in the loads, friction among them. So with
+//! the friction τ of all pairs (moments on links at pins, forces along guides) each pair's reaction is
+//! R = R₀ + A τ, and the law of friction says τ = −s c(R), with s the sense of the sliding and c ≥ 0
+//! homogeneous in R.
+
+use nalgebra::{DMatrix, DVector};
+
+/// The law of friction of a pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Law {
+    /// A journal in a bearing: moment ρ |F|, with ρ the radius of the friction circle. R is the force F.
+    Journal { circle: f64 },
+    /// A link on a guide that it touches over a length L, at both ends: force f (|N/2 − M/L| +
+    /// |N/2 + M/L|) = f max(|N|, 2 |M|/L). R is the normal force N and the moment M.
+    Guide { coefficient: f64, half_length: f64 },
+}
+
+impl Law {
+    /// Size of the friction.
+    pub(super) fn size(self, [x, y]: [f64; 2]) -> f64 {
+        match self {
+            Self::Journal { circle } => circle * (x * x + y * y).sqrt(),
+            Self::Guide { coefficient, half_length } => {
+                coefficient * x.abs().max(y.abs() / half_length)
+            }
+        }
+    }
+
+    /// The slope of the size: by the first and second number of R. At a kink that of one side.
+    fn slope(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        match self {
+            Self::Journal { circle } => {
+                let size = (x * x + y * y).sqrt();
+                if size > 0.0 { [circle * x / size, circle * y / size] } else { [0.0; 2] }
+            }
+            Self::Guide { coefficient, half_length } if x.abs() >= y.abs() / half_length => {
+                [coefficient.copysign(x), 0.0]
+            }
+            Self::Guide { coefficient, half_length } => {
+                [0.0, (coefficient / half_length).copysign(y)]
+            }
+        }
+    }
+
+    /// The forms, linear in R, of which one is the size where it is greatest.
+    pub(super) fn faces(self) -> Vec<[f64; 2]> {
+        match self {
+            Self::Journal { .. } => Vec::new(),
+            Self::Guide { coefficient, half_length } => {
+                let tilted = coefficient / half_length;
+                vec![[coefficient, 0.0], [-coefficient, 0.0], [0.0, tilted], [0.0, -tilted]]
+            }
+        }
+    }
+}
+
+/// A pair with friction at a position.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct RubbingPair {
+    pub law: Law,
+    /// +1 or −1.
+    pub sense: f64,
+    /// How fast it slides, rad/s or m/s: 0 or more.
+    pub rate: f64,
+    /// Its reaction without friction.
+    pub base: [f64; 2],
+    /// What the friction of every pair adds to that, per unit.
+    pub slopes: Vec<[f64; 2]>,
+}
+
+impl RubbingPair {
+    /// Whether its reaction is known.
+    pub(crate) fn is_finite(&self) -> bool {
+        let finite = |numbers: &[f64; 2]| numbers.iter().all(|number| number.is_finite());
+        finite(&self.base) && self.slopes.iter().all(finite)
+    }
+}
+
+/// All pairs with friction that slide at a position.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct FrictionProblem {
+    pub pairs: Vec<RubbingPair>,
+}
+
+impl FrictionProblem {
+    /// The reaction of a pair.
+    pub(super) fn reaction(&self, pair: usize, friction: &[f64]) -> [f64; 2] {
+        let RubbingPair { base, slopes, .. } = &self.pairs[pair];
+        let mut sum = *base;
+        for (slope, &friction) in slopes.iter().zip(friction) {
+            sum[0] += slope[0] * friction;
+            sum[1] += slope[1] * friction;
+        }
+        sum
+    }
+
+    /// By how much the law is missed, if all coefficients are multiplied by `scale`.
+    pub(super) fn residual(&self, friction: &[f64], scale: f64) -> DVector<f64> {
+        DVector::from_fn(self.pairs.len(), |row, _| {
+            let pair = &self.pairs[row];
+            friction[row] + scale * pair.sense * pair.law.size(self.reaction(row, friction))
+        })
+    }
+
+    /// The slopes of the residual by the friction.
+    pub(super) fn jacobian(&self, friction: &[f64], scale: f64) -> DMatrix<f64> {
+        let n = self.pairs.len();
+        let mut matrix = DMatrix::identity(n, n);
+        for (row, pair) in self.pairs.iter().enumerate() {
+            let [x, y] = pair.law.slope(self.reaction(row, friction));
+            for (column, slope) in pair.slopes.iter().enumerate() {
+                matrix[(row, column)] += scale * pair.sense * (x * slope[0] + y * slope[1]);
+            }
+        }
+        matrix
+    }
+
+    /// A size that friction is compared with: that without any feedback.
+    pub(super) fn size(&self) -> f64 {
+        self.pairs.iter().map(|pair| pair.law.size(pair.base)).fold(0.0, f64::max)
+    }
+
+    /// Whether there is exactly one solution because friction changes the friction by less than itself.
+    ///
+    /// With B ≥ 0 the bounds of those changes the law is a contraction in a weighted norm if B has a
+    /// spectral radius below 1, which it has if (I − B) y = 1 has a positive solution y (A. Berman and
+    /// R. J. Plemmons, *Nonnegative Matrices in the Mathematical Sciences*, 1994, ch. 6).
+    pub(super) fn is_contraction(&self) -> bool {
+        let n = self.pairs.len();
+        let matrix = DMatrix::from_fn(n, n, |row, column| {
+            let pair = &self.pairs[row];
+            let bound = pair.law.size(pair.slopes[column]);
+            if row == column { 1.0 - bound } else { -bound }
+        });
+        matrix
+            .lu()
+            .solve(&DVector::from_element(n, 1.0))
+            .is_some_and(|y| y.iter().all(|&y| y > 0.0 && y < MOST_FEEDBACK))
+    }
+}
+
+/// Beyond this the spectral radius is 1 but for rounding.
+const MOST_FEEDBACK: f64 = 1.0e6;

@@ -1,0 +1,287 @@
+//! Friction in the pairs of a machine at some positions: what rubs, how fast, and what that does to all
+//! reactions.
+
+use super::columns::{Rows, Solved, Sources};
+use super::force_plan::ForcePlan;
+use super::pair_forces::JointForce;
+use super::scene::Scene;
+use crate::dynamics::friction::description::Friction;
+use crate::dynamics::friction::problem::{FrictionProblem, Law, RubbingPair};
+use crate::dynamics::friction::solutions::TooManyPaths;
+use crate::math::lanes::{Mask, Real};
+use crate::math::vector::Vector;
+
+/// A relative speed below this part of the drivers' is rounding: then a pair does not rub.
+const AT_REST: f64 = 1.0e-12;
+/// Most that coefficients are multiplied by when the safety is asked for.
+const MOST_SAFETY: f64 = 1.0e6;
+
+/// Number of solutions where so many pairs depend on one another that these are not searched for.
+const UNSOLVED: f64 = -1.0;
+/// Where redundant links leave the force in one of them undetermined.
+const UNDETERMINED: f64 = -2.0;
+
+/// Two links that rub.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Rubbing {
+    pub pair: Pair,
+    law: Law,
+    viscous: f64,
+}
+
+/// Where they rub.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Pair {
+    /// A link on the pin, which is fast in another one.
+    Journal { joint: usize, on: usize, fast: usize, force: JointForce },
+    /// A link on a guide.
+    Guide { slide: usize, sliding: usize, carrying: usize },
+}
+
+impl Rubbing {
+    /// The pairs of a machine's friction.
+    pub(crate) fn of(
+        plan: &ForcePlan,
+        links_at: &[Vec<usize>],
+        friction: &[Friction],
+    ) -> Vec<Self> {
+        let mut found = Vec::new();
+        for friction in friction {
+            match *friction {
+                Friction::Joint { joint, circle, viscous } => {
+                    let Some((&fast, others)) = links_at[joint].split_first() else { continue };
+                    found.extend(others.iter().map(|&on| Self {
+                        pair: Pair::Journal {
+                            joint,
+                            on,
+                            fast,
+                            force: JointForce::new(plan, links_at, joint, on),
+                        },
+                        law: Law::Journal { circle },
+                        viscous,
+                    }));
+                }
+                Friction::Slide { slide, coefficient, length, viscous } => {
+                    let [sliding, carrying] = plan.slide_links[slide];
+                    found.push(Self {
+                        pair: Pair::Guide { slide, sliding, carrying },
+                        law: Law::Guide { coefficient, half_length: 0.5 * length },
+                        viscous,
+                    });
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Work space, and the friction found.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Rubs<R: Real> {
+    /// Speed of every pair, as it is, and as it is or is about to be.
+    speeds: Vec<[R; 2]>,
+    /// Below these a pair does not rub.
+    still: Vec<R>,
+    /// Reactions without friction, and per unit of friction in every pair.
+    base: Vec<Vector<R>>,
+    slopes: Vec<Vec<Vector<R>>>,
+    /// Moments or forces of friction, with the viscous part.
+    pub friction: Vec<R>,
+    /// Number of solutions.
+    pub solutions: R,
+    pub safety: R,
+}
+
+impl<R: Real> Rubs<R> {
+    /// The power that friction takes in a pair.
+    #[inline(always)]
+    pub(super) fn loss(&self, pair: usize) -> R {
+        -(self.friction[pair] * self.speeds[pair][0])
+    }
+}
+
+impl<R: Real> Scene<R> {
+    /// Reads how fast every pair rubs.
+    pub(super) fn read_rubbing(
+        &mut self,
+        plan: &ForcePlan,
+        sources: &Sources,
+        solved: &Solved<'_>,
+        rows: Rows,
+        (sense, size): (&[f64], f64),
+    ) {
+        let mut rests = R::Mask::NONE.not();
+        for &[speed, _] in &self.drive {
+            rests = rests.and(speed.abs().le(R::ZERO));
+        }
+        let ways: Vec<R> = self
+            .drive
+            .iter()
+            .enumerate()
+            .map(|(driver, &[speed, _])| {
+                let sense = sense.get(driver).copied().unwrap_or(0.0);
+                R::select(rests, R::splat(sense), speed)
+            })
+            .collect();
+        let mut turning = R::ZERO;
+        for (driver, &way) in ways.iter().enumerate() {
+            let is_angle = plan.driven_links[driver].is_some();
+            turning += way.abs() * R::splat(if is_angle { 1.0 } else { 1.0 / size });
+        }
+        self.rubs.speeds.clear();
+        self.rubs.still.clear();
+        for Rubbing { pair, .. } in &plan.rubbing {
+            let (way, unit) = match *pair {
+                Pair::Journal { on, fast, .. } => {
+                    let of = |link| match sources.angles[link] {
+                        Some(column) if link != plan.ground => {
+                            rows.rate(solved.columns[column + 1], &ways)
+                        }
+                        _ => R::ZERO,
+                    };
+                    (of(on) - of(fast), 1.0)
+                }
+                Pair::Guide { slide, .. } => {
+                    let rate = sources.slides[slide]
+                        .map_or(R::ZERO, |column| rows.rate(solved.columns[column + 1], &ways));
+                    (rate, size)
+                }
+            };
+            self.rubs.speeds.push([R::select(rests, R::ZERO, way), way]);
+            self.rubs.still.push(turning * R::splat(AT_REST * unit));
+        }
+    }
+
+    /// Adds the friction of all pairs to the loads; the others are there.
+    pub(super) fn rub(
+        &mut self,
+        plan: &ForcePlan,
+        (solution, asks_safety): (usize, bool),
+        size: f64,
+    ) {
+        let count = plan.rubbing.len();
+        for (index, Rubbing { viscous, .. }) in plan.rubbing.iter().enumerate() {
+            let drag = -(self.rubs.speeds[index][0] * R::splat(*viscous));
+            self.rub_pair(plan, index, drag);
+            self.rubs.friction.resize(count, R::ZERO);
+            self.rubs.friction[index] = drag;
+        }
+        let loads = (self.link_force.clone(), self.link_moment.clone());
+        self.start(plan);
+        self.rubs.base = self.pair_reactions(plan);
+        self.rubs.slopes.clear();
+        for index in 0..count {
+            self.link_force.fill(Vector::ZERO);
+            self.link_moment.fill(R::ZERO);
+            self.rub_pair(plan, index, R::ONE);
+            self.start(plan);
+            let slopes = self.pair_reactions(plan);
+            self.rubs.slopes.push(slopes);
+        }
+        let undetermined = self.undetermined(plan, size);
+        (self.link_force, self.link_moment) = loads;
+        let mut dry = vec![R::ZERO; count];
+        let (mut solutions, mut safety) = (vec![0.0; R::LANES], vec![f64::NAN; R::LANES]);
+        for lane in 0..R::LANES {
+            let (problem, used) = self.problem(plan, lane);
+            let is_determined = !undetermined.lane(lane);
+            let is_known = is_determined && problem.pairs.iter().all(RubbingPair::is_finite);
+            let solved = if is_known { problem.solve() } else { Ok(Vec::new()) };
+            solutions[lane] = match &solved {
+                Ok(all) if is_known => all.len() as f64,
+                Ok(_) if is_determined => f64::NAN,
+                Ok(_) => UNDETERMINED,
+                Err(TooManyPaths) => UNSOLVED,
+            };
+            let all = solved.unwrap_or_default();
+            if asks_safety && is_known {
+                safety[lane] = problem.safety(MOST_SAFETY);
+            }
+            for (index, &pair) in used.iter().enumerate() {
+                let own = all.get(solution).map_or(f64::NAN, |friction| friction[index]);
+                dry[pair] = with_lane(dry[pair], lane, own);
+            }
+            if all.get(solution).is_none() {
+                for dry in &mut dry {
+                    *dry = with_lane(*dry, lane, f64::NAN);
+                }
+            }
+        }
+        self.rubs.solutions = R::from_lanes(|lane| solutions[lane]);
+        self.rubs.safety = R::from_lanes(|lane| safety[lane]);
+        for (index, &dry) in dry.iter().enumerate() {
+            self.rub_pair(plan, index, dry);
+            self.rubs.friction[index] += dry;
+        }
+    }
+
+    /// Lets friction of a pair act on both of its links.
+    fn rub_pair(&mut self, plan: &ForcePlan, index: usize, friction: R) {
+        match plan.rubbing[index].pair {
+            Pair::Journal { on, fast, .. } => {
+                self.moment_on(plan, on, friction);
+                self.moment_on(plan, fast, -friction);
+            }
+            Pair::Guide { slide, sliding, carrying } => {
+                let at = self.points[plan.reference[sliding]].at;
+                let along = self.guides[slide].scale(friction);
+                self.force_on(plan, sliding, at, along);
+                self.force_on(plan, carrying, at, -along);
+            }
+        }
+    }
+
+    /// Lanes in which a force of a pair is undetermined.
+    fn undetermined(&mut self, plan: &ForcePlan, size: f64) -> R::Mask {
+        let mut found = R::Mask::NONE;
+        for &stress in &plan.self_stresses {
+            self.stress(plan, stress);
+            for (rubbing, reaction) in plan.rubbing.iter().zip(self.pair_reactions(plan)) {
+                let moment = match rubbing.pair {
+                    Pair::Journal { .. } => reaction.y,
+                    Pair::Guide { .. } => reaction.y * R::splat(1.0 / size),
+                };
+                let force = Vector::new(reaction.x, moment);
+                found = found.or(Self::is_stressed(force.size(), R::ONE));
+            }
+        }
+        found
+    }
+
+    /// The reactions on which the friction of every pair depends.
+    fn pair_reactions(&mut self, plan: &ForcePlan) -> Vec<Vector<R>> {
+        self.carry_loads(plan);
+        self.pass_moments(plan);
+        plan.rubbing
+            .iter()
+            .map(|rubbing| match &rubbing.pair {
+                Pair::Journal { force, .. } => force.of(self),
+                &Pair::Guide { slide, .. } => {
+                    Vector::new(self.normal(plan, slide), self.slide_moment[slide])
+                }
+            })
+            .collect()
+    }
+
+    /// The pairs that rub in a lane, and which of all they are.
+    fn problem(&self, plan: &ForcePlan, lane: usize) -> (FrictionProblem, Vec<usize>) {
+        let rubs = &self.rubs;
+        let way = |pair: usize| rubs.speeds[pair][1].lane(lane);
+        let rubbing = |&pair: &usize| way(pair).abs() > rubs.still[pair].lane(lane);
+        let used: Vec<usize> = (0..plan.rubbing.len()).filter(rubbing).collect();
+        let of = |vector: Vector<R>| [vector.x.lane(lane), vector.y.lane(lane)];
+        let pairs = used.iter().map(|&pair| RubbingPair {
+            law: plan.rubbing[pair].law,
+            sense: 1.0_f64.copysign(way(pair)),
+            rate: way(pair).abs(),
+            base: of(rubs.base[pair]),
+            slopes: used.iter().map(|&on| of(rubs.slopes[on][pair])).collect(),
+        });
+        (FrictionProblem { pairs: pairs.collect() }, used)
+    }
+}
+
+/// The same with another number in a lane.
+fn with_lane<R: Real>(numbers: R, lane: usize, number: f64) -> R {
+    R::from_lanes(|own| if own == lane { number } else { numbers.lane(own) })
+}
