@@ -5,7 +5,15 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from assur.dynamics import counterweight, duty, equilibria, integrate, reactions, size_flywheel
+from assur.dynamics import (
+    counterweight,
+    duty,
+    equilibria,
+    impact,
+    integrate,
+    reactions,
+    size_flywheel,
+)
 from assur.dynamics import internal_loads as inside
 from assur.dynamics.along import motion_of
 from assur.dynamics.model import MachineModel
@@ -19,7 +27,9 @@ if TYPE_CHECKING:
     from assur.dynamics.counterweight import Counterweight
     from assur.dynamics.duty import Duty
     from assur.dynamics.equilibria import Equilibria
+    from assur.dynamics.impact import Impact
     from assur.dynamics.internal_loads import InternalLoads
+    from assur.dynamics.loads import Force, Torque
     from assur.dynamics.model import OnError
     from assur.dynamics.reactions import Reactions
     from assur.dynamics.run import Run
@@ -425,6 +435,72 @@ class Machine(MachineModel):
         (array([-1.570796,  1.570796]), array([ True, False]), array([5.884176,      nan]))
         """
         return equilibria.equilibria(self, between)
+
+    def impact(
+        self,
+        load: Force | Torque,
+        q: npt.ArrayLike,
+        speed: npt.ArrayLike,
+        *,
+        restitution: npt.ArrayLike = 0.0,
+        impulse: npt.ArrayLike | None = None,
+        on_error: OnError = "raise",
+    ) -> Impact:
+        """Return speeds and impulses when a link hits an obstacle, or is struck.
+
+        Parameters
+        ----------
+        load : Force or Torque
+            Where the impact acts, and the direction in which the obstacle pushes: a unit force at a
+            point (along a link's axes with `axes=`), or a unit torque for a link that is stopped
+            from turning.
+        q : array_like
+            Coordinates, see `reduced_inertia`.
+        speed : array_like
+            Speeds of the drivers before it, rad/s or m/s, broadcast to q.
+        restitution : array_like
+            Of the obstacle: 0, the point stays with it, to 1, it leaves as fast as it came.
+        impulse : array_like, optional
+            A given impulse along `load` instead of an obstacle, N·s.
+        on_error : {"raise", "nan"}
+            See `reduced_inertia`.
+
+        Returns
+        -------
+        Impact
+            Speeds after it, the impulse, the energy lost, and the impulses in all pairs.
+
+        Raises
+        ------
+        PositionError
+            A position that the assembly does not reach, or without analogues.
+        InputError
+            A load without a direction, a restitution not from 0 to 1, a machine without inertia.
+
+        Notes
+        -----
+        With H the reduced inertia and g the derivatives of the point's way along the force, H Δq̇ =
+        gᵀ P. An obstacle asks for g q̇⁺ = −e g q̇⁻, so P = −(1 + e) g q̇⁻ / (g H⁻¹ gᵀ), and the energy
+        ½ (1 − e²) (g q̇⁻)² / (g H⁻¹ gᵀ) is lost; with one driver all speeds are multiplied by −e.
+        Where the point moves away nothing happens. Loads, springs and friction are finite forces
+        and have no impulse; the drives are free (J. Wittenburg, *Dynamics of Multibody Systems*,
+        2008, ch. 8).
+
+        Examples
+        --------
+        A rocker is stopped by an elastic buffer:
+
+        >>> import assur
+        >>> linkage = assur.FourBar(0.05, 0.15, 0.12, 0.16)
+        >>> machine = assur.Machine(linkage, {"rocker": assur.Body(0.8, 1.5e-3, (0.06, 0.0))})
+        >>> stop = assur.Force(("rocker", (0.1, 0.0)), (0.0, -1.0), axes="rocker")
+        >>> hit = machine.impact(stop, q=2.0, speed=20.0, restitution=0.4)
+        >>> hit.speed, hit.energy_lost.round(6)
+        (np.float64(-8.0), np.float64(0.127807))
+        """
+        return impact.impact(
+            self, load, motion_of(q, speed, 0.0, 0.0), restitution, impulse, on_error
+        )
 
     def flywheel(
         self,

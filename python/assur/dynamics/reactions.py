@@ -391,8 +391,8 @@ def _require_solved(found: dict[Key, Float]) -> None:
     counts = found[SOLUTIONS]
     if np.any(counts == UNDETERMINED):
         message = (
-            "redundant links leave forces undetermined in a pair with friction, so that friction is "
-            "undetermined too: leave it out, or the redundant links"
+            "redundant links leave forces in a pair with friction undetermined, and its friction "
+            "with them: leave it out, or the redundant links"
         )
         raise InputError(message)
     if np.any(counts == UNSOLVED):

@@ -19,10 +19,10 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import Float, finite_array, real_array, real_number
+from assur._arrays import Float, finite_array, flag, real_array, real_number
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
-from assur.papers.jamming import JammingEvent, JammingRun, run
+from assur.papers.jamming import JammingEvent, JammingRun, Side, run
 
 __all__ = [
     "JammingEvent",
@@ -278,38 +278,84 @@ def least_transmission_angle(
     f_d: npt.ArrayLike,
     r_d: npt.ArrayLike,
     rocker: npt.ArrayLike,
+    *,
+    f_b: npt.ArrayLike = 0.0,
+    r_b: npt.ArrayLike = 0.0,
+    coupler: npt.ArrayLike | None = None,
+    exact: bool = False,
+    side: Side = "outer",
 ) -> Any:
     """Return the least transmission angle at which friction lets the rocker move, rad.
 
     sin γ = (f_C r_C + f_D r_D) / l₃ (equation 8), with coefficients of friction and radii of the
-    joints C and D. NaN in arrays where the rocker does not move at any angle.
+    joints C and D. The paper neglects that friction at B and C also turns the coupler's force off
+    its line; `exact` is without this approximation, for links without mass and a crank that
+    drives. NaN in arrays where the rocker does not move at any angle.
+
+    Parameters
+    ----------
+    f_c, r_c, f_d, r_d : array_like
+        Coefficients of friction and radii of the pins at C and D; they broadcast.
+    rocker : array_like
+        Its length, in the unit of the radii.
+    f_b, r_b : array_like
+        The same of B; for `exact`.
+    coupler : array_like
+        Its length; needed with `exact`.
+    exact : bool
+        Whether the exact limit is returned.
+    side : {"outer", "inner"}
+        For `exact`: the extreme at which coupler and rocker are nearly stretched, or nearly folded.
+        Radii ρ of the friction circles, on one side of the extreme with s = 1, on the other with
+        s = −1: arcsin((ρ_D + s ρ_C)/l₃) + arcsin((ρ_B ± s ρ_C)/l₂), + on the outer side. The crank
+        passes if γ at the extreme is greater than both.
 
     Raises
     ------
     InputError
-        If the rocker does not move at any angle (for a single mechanism).
+        If the rocker does not move at any angle (for a single mechanism); negative numbers; `exact`
+        without the coupler.
 
     Examples
     --------
     >>> import assur
     >>> round(assur.crank_rocker.least_transmission_angle(0.1, 0.5, 0.1, 1.5, 1.5), 7)
     0.1337316
+    >>> exact = assur.crank_rocker.least_transmission_angle(
+    ...     0.1, 1.0, 0.1, 1.0, 1.5, f_b=0.1, r_b=1.0, coupler=4.5, exact=True
+    ... )
+    >>> round(exact, 7)
+    0.1781907
     """
     named = {"f_c": f_c, "r_c": r_c, "f_d": f_d, "r_d": r_d, "rocker": rocker}
+    if flag(exact, "exact"):
+        if coupler is None:
+            message = "coupler is None: the exact limit needs its length"
+            raise InputError(message)
+        named |= {"f_b": f_b, "r_b": r_b, "coupler": coupler}
+    one_of(side, ("outer", "inner"), "side")
     arrays = {name: finite_array(value, name) for name, value in named.items()}
     for name, array in arrays.items():
         if (array < 0.0).any():
             wrong = float(array[array < 0.0].flat[0])
             message = f"{name} is {wrong!r}: it must not be negative"
             raise InputError(message, value=wrong)
-    _positive(arrays["rocker"], "rocker")
+    for name in ("rocker", "coupler") if exact else ("rocker",):
+        _positive(arrays[name], name)
     flat, shape = _broadcast(*arrays.values())
-    found = _core.crank_rocker_least_gamma(flat[:4], flat[4])
+    if exact:
+        circles = [flat[5] * flat[6], flat[0] * flat[1], flat[2] * flat[3]]
+        found = _core.crank_rocker_exact_least_gamma(circles, [flat[7], flat[4]], side == "outer")
+    else:
+        found = _core.crank_rocker_least_gamma(flat[:4], flat[4])
     if shape:
         return found.reshape(shape)
     if np.isnan(found[0]):
-        a, b, c, d, length = (float(column[0]) for column in flat)
+        a, b, c, d, length = (float(column[0]) for column in flat[:5])
         reduced = (a * b + c * d) / length
+        if exact:
+            message = "friction is so great that the rocker does not move at any angle"
+            raise InputError(message)
         message = f"f_p = {reduced:.6g} is not below 1: the rocker does not move at any angle"
         raise InputError(message, value=reduced)
     return float(found[0])

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import Float, real_number
+from assur._arrays import Float, finite_array, real_number
 from assur._trig import sin_cos
 from assur.errors import DimensionError, InputError
 
@@ -97,7 +97,7 @@ def run(
     l2: float,
     l3: float,
     ground: Ground,
-    gamma_min: float,
+    gamma_min: float | tuple[float, float],
     speed: float = 1.0,
     phi0: float = math.pi / 2,
     turns: float = 1.0,
@@ -110,8 +110,10 @@ def run(
         Crank, coupler and rocker, m.
     ground : float or callable
         l₄, m: a number, or a function of time, s.
-    gamma_min : float
-        Transmission angle below which the rocker does not move, rad.
+    gamma_min : float or (float, float)
+        Transmission angle below which the rocker does not move, rad: on both sides, or on the outer
+        and on the inner one. `crank_rocker.least_transmission_angle` gives the paper's, and the
+        exact ones.
     speed : float
         Speed of the crank, rad/s, of either sign.
     phi0 : float
@@ -147,15 +149,18 @@ def run(
     >>> [(event.kind, round(math.degrees(event.phi1), 6)) for event in result.events]
     [('jam', 348.255903), ('return', 371.744097)]
     """
-    numbers = {"l1": l1, "l2": l2, "l3": l3, "gamma_min": gamma_min, "speed": speed}
+    numbers = {"l1": l1, "l2": l2, "l3": l3, "speed": speed}
     values = {n: real_number(v, n) for n, v in {**numbers, "phi0": phi0, "turns": turns}.items()}
     for name in ("l1", "l2", "l3"):
         if values[name] <= 0.0:
             message = f"{name} is {values[name]!r}: a length must be positive"
             raise DimensionError(message, dimension=name, value=values[name])
-    if not 0.0 < values["gamma_min"] < math.pi / 2:
+    both = finite_array(gamma_min, "gamma_min")
+    if both.shape not in ((), (2,)) or not ((both > 0.0) & (both < math.pi / 2)).all():
         message = f"gamma_min is {gamma_min!r}: an angle above 0 and below π/2 rad is needed"
         raise InputError(message)
+    outer, inner = np.broadcast_to(both, (2,)).tolist()
+    case: dict[str, Any] = {**values, "gamma_min": (outer, inner)}
     if values["speed"] == 0.0 or not 0.0 < values["turns"] <= MAX_TURNS:
         message = (
             f"speed is {speed!r} and turns {turns!r}: the crank must turn, "
@@ -173,7 +178,7 @@ def run(
 
     fixed = None if callable(ground) else ground_at(0.0)
     given = ground_at if fixed is None else lambda _: fixed
-    made = _core.crank_rocker_run(values, given)
+    made = _core.crank_rocker_run(case, given)
     t, l4 = made["t"], made["l4"]
     return JammingRun(
         t,
@@ -184,16 +189,17 @@ def run(
         made["b"].reshape(-1, 2),
         made["c"].reshape(-1, 2),
         np.stack([-l4, np.zeros_like(l4)], axis=-1),
-        tuple(_event(values, **event) for event in made["events"]),
+        tuple(_event(case, **event) for event in made["events"]),
     )
 
 
 def _event(
-    case: dict[str, float], kind: Kind, side: Side, ground: float, **numbers: Any
+    case: dict[str, Any], kind: Kind, side: Side, ground: float, **numbers: Any
 ) -> JammingEvent:
     """Return an event with its sentence."""
     sign = 1.0 if side == "outer" else -1.0
-    l2, l3, cosine = case["l2"], case["l3"], sin_cos(case["gamma_min"])[1]
+    l2, l3 = case["l2"], case["l3"]
+    cosine = sin_cos(case["gamma_min"][0 if side == "outer" else 1])[1]
     rod = math.sqrt(l2 * l2 + l3 * l3 + sign * 2.0 * l2 * l3 * cosine)
     texts = {
         "jam": f"C jams at γ = γ_min ({side}): D slides, BD stays {rod:.9g} m",

@@ -148,6 +148,29 @@ pub(crate) fn crank_rocker_least_gamma<'py>(
     Ok(PyArray1::from_vec(py, detach::map(py, rows.len(), least)?))
 }
 
+/// The exact ones without masses, of radii of the friction circles at B, C and D, and of coupler and rocker;
+/// NaN where friction prevents all motion.
+#[pyfunction]
+pub(crate) fn crank_rocker_exact_least_gamma<'py>(
+    py: Python<'py>,
+    circles: [Flat<'py>; 3],
+    lengths: [Flat<'py>; 2],
+    is_outer: bool,
+) -> PyResult<Array<'py>> {
+    let column = |flat: &Flat<'py>| flat.as_slice().map(<[f64]>::to_vec);
+    let [b, c, d] = [column(&circles[0])?, column(&circles[1])?, column(&circles[2])?];
+    let [coupler, rocker] = [column(&lengths[0])?, column(&lengths[1])?];
+    for other in [&c, &d, &coupler, &rocker] {
+        check_same_length(b.len(), other.len())?;
+    }
+    let side = if is_outer { core::Side::Outer } else { core::Side::Inner };
+    let least = |i: usize| {
+        core::exact_least_gamma([b[i], c[i], d[i]], [coupler[i], rocker[i]], side)
+            .unwrap_or(f64::NAN)
+    };
+    Ok(PyArray1::from_vec(py, detach::map(py, b.len(), least)?))
+}
+
 /// What is asked of a run that may jam.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
@@ -155,7 +178,7 @@ pub(crate) struct Case {
     l1: f64,
     l2: f64,
     l3: f64,
-    gamma_min: f64,
+    gamma_min: [f64; 2],
     speed: f64,
     phi0: f64,
     turns: f64,

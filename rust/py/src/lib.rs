@@ -30,9 +30,9 @@ use pyo3::prelude::*;
 mod _core {
     #[pymodule_export]
     use super::crank_rocker::{
-        crank_rocker_blocked, crank_rocker_extremes, crank_rocker_grashof,
-        crank_rocker_ground_range, crank_rocker_least_gamma, crank_rocker_run, crank_rocker_solve,
-        crank_rocker_turns,
+        crank_rocker_blocked, crank_rocker_exact_least_gamma, crank_rocker_extremes,
+        crank_rocker_grashof, crank_rocker_ground_range, crank_rocker_least_gamma,
+        crank_rocker_run, crank_rocker_solve, crank_rocker_turns,
     };
     #[pymodule_export]
     use super::error_map::error_kinds;

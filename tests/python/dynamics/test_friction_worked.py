@@ -139,9 +139,14 @@ def test_two_solutions_or_none() -> None:
 def test_locked_beside_the_stretched_position() -> None:
     """P5's crank-rocker is locked on one side of it, though γ is never below P5's limit."""
     machine = four_bar(-100.0, (1.0, 4.5, 1.5, 4.985), (0.1, 0.1, 0.1, 0.1))
+    # P5 counts the crank's angle from that position, clockwise.
     edge = 0.0825900520399
-    assert machine.reactions(edge * (1 - 1e-9), 1.0).locked
-    assert not machine.reactions(edge * (1 + 1e-9), 1.0).locked
-    assert machine.reactions([1e-9, 0.5 * edge], 1.0).locked.all()
-    size = abs(machine.reactions([-0.02, 1.5 * edge], 1.0).driver)
-    np.testing.assert_allclose(size, [91.44838124, 1221.754320], rtol=1e-8)
+
+    def at(phi: Any) -> Any:
+        return machine.reactions(math.pi - np.asarray(phi), 1.0)
+
+    assert at([1e-9, 0.5 * edge, edge * (1 - 1e-9)]).locked.all()
+    assert not at([-1e-9, edge * (1 + 1e-9), 1.5 * edge]).locked.any()
+    np.testing.assert_allclose(
+        abs(at([-0.02, 1.5 * edge]).driver), [91.44838124, 1221.754320], rtol=1e-9
+    )

@@ -6,6 +6,8 @@ use super::problem::FrictionProblem;
 const MAX_STEPS: usize = 50;
 /// A step that is this part of the friction is rounding.
 const LAST_STEP: f64 = 1.0e-13;
+/// The same of a step that does not become shorter, where friction is as sensitive.
+const STALLED: f64 = 1.0e-4;
 /// Parts of the way: the first step, the shortest one, and the longest.
 const FIRST: f64 = 0.25;
 const SHORTEST: f64 = 1.0e-9;
@@ -31,9 +33,13 @@ impl FrictionProblem {
             if !change.is_finite() {
                 return None;
             }
-            // Rounding may keep steps from becoming shorter still.
-            if change <= least.max(LAST_STEP * size) || change >= last && change <= 1e-10 * size {
+            if change <= least.max(LAST_STEP * size) {
                 return Some(friction);
+            }
+            // Near locking, rounding keeps steps from becoming shorter; the law is met none the less.
+            if change >= last && change <= STALLED * size {
+                let missed = self.residual(&friction, scale).amax();
+                return (missed <= LAST_STEP * (size + self.size())).then_some(friction);
             }
             last = change;
         }

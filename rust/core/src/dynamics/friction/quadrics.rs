@@ -20,8 +20,8 @@ const MAX_STEPS: usize = 10_000;
 const CORRECTIONS: usize = 3;
 /// A correction that is this small is the last one.
 const LAST_CORRECTION: f64 = 1.0e-11;
-/// A solution whose first homogeneous coordinate is this small is at infinity.
-const AT_INFINITY: f64 = 1.0e-9;
+/// A solution whose first homogeneous coordinate is this small is at infinity; a larger one may be, too.
+const AT_INFINITY: f64 = 1.0e-15;
 
 /// The equations; each form lists its constant term, then the factors of the unknowns.
 pub(super) struct Quadrics {
@@ -29,7 +29,8 @@ pub(super) struct Quadrics {
 }
 
 impl Quadrics {
-    /// All isolated finite solutions, real or not, each as often as its multiplicity.
+    /// All isolated finite solutions, real or not, each as often as its multiplicity; some may be at
+    /// infinity but for rounding.
     pub(super) fn solutions(&self) -> Vec<Vec<Number>> {
         let n = self.forms.len();
         (0..1_usize << n).filter_map(|signs| self.end_of_path(signs)).collect()
@@ -60,6 +61,12 @@ impl Quadrics {
                 // A multiple solution: its path has come as near as it can.
                 None => break,
             }
+        }
+        if let Some(correction) = self.jacobian(&point, 1.0).lu().solve(&self.value(&point, 1.0))
+            && at >= 1.0
+        {
+            // Of a solution far away the first coordinate is small, and wanted to many digits.
+            point -= correction;
         }
         let size = point.iter().map(|u| u.norm()).fold(0.0, f64::max);
         let first = point[0];

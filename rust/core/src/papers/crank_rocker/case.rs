@@ -126,8 +126,8 @@ impl<E: Display> Hint for JammingError<E> {
 pub struct Case {
     /// Crank, coupler and rocker, m.
     pub lengths: [f64; 3],
-    /// Least transmission angle, rad, above 0.
-    pub gamma_min: f64,
+    /// Least transmission angles on the outer and the inner side, rad, above 0.
+    pub gamma_min: [f64; 2],
     /// Speed of the crank, rad/s, not 0.
     pub speed: f64,
     /// Crank angle at the time 0, rad.

@@ -63,8 +63,9 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> JammingLinkage<F> {
     /// BD where C jams.
     fn jam_distance(&self, side: Side) -> f64 {
         let [_, l2, l3] = self.case.lengths;
-        let product = 2.0 * l2 * l3 * sin_cos(self.case.gamma_min).1;
-        let sign = if side == Side::Outer { 1.0 } else { -1.0 };
+        let [outer, inner] = self.case.gamma_min;
+        let (sign, gamma_min) = if side == Side::Outer { (1.0, outer) } else { (-1.0, inner) };
+        let product = 2.0 * l2 * l3 * sin_cos(gamma_min).1;
         (l2 * l2 + l3 * l3 + sign * product).sqrt()
     }
 

@@ -14,7 +14,7 @@
 //!
 //! let case = Case {
 //!     lengths: [1.0, 4.5, 1.5],
-//!     gamma_min: 0.2,
+//!     gamma_min: [0.2; 2],
 //!     speed: 1.0,
 //!     phi0: 1.5,
 //!     turns: 1.0,
@@ -35,6 +35,6 @@ pub use case::{Case, Event, JammingError, Kind, Row, Side};
 pub use motion::{Assembly, Lengths, Position, Rates, position};
 pub use run::run;
 pub use zone::{
-    Grashof, blocked, crank_turns, grashof, ground_range, least_gamma, margins,
+    Grashof, blocked, crank_turns, exact_least_gamma, grashof, ground_range, least_gamma, margins,
     transmission_extremes,
 };

@@ -1,7 +1,8 @@
 //! Rotatability of the crank, and positions that friction does not block.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
+use super::case::Side;
 use super::motion::Lengths;
 use crate::math::trig::{asin, atan2, sin_cos};
 
@@ -120,4 +121,31 @@ pub fn blocked([l1, l2, l3, l4]: Lengths, gamma_min: f64) -> Vec<[f64; 2]> {
 pub fn least_gamma([f_c, r_c, f_d, r_d]: [f64; 4], rocker: f64) -> Option<f64> {
     let reduced = (f_c * r_c + f_d * r_d) / rocker;
     (reduced < 1.0).then(|| asin(reduced))
+}
+
+/// Least transmission angle that friction allows where no link has mass and the crank drives, exactly:
+/// radii ρ of the friction circles at B, C and D.
+///
+/// The coupler's moments about B turn the force off the line BC by arcsin((s ρ_C − t ρ_B)/l₂), and those of
+/// the rocker about D ask for l₃ sin γ′ ≥ ρ_D + s ρ_C, with s and t the senses in which rocker and coupler
+/// turn in C and coupler and crank in B, to that of the rocker's swing. At its extreme t is −1 on the outer
+/// side, +1 on the inner one, and s changes: the crank passes if γ there exceeds the limit of both. `None` if
+/// friction blocks every angle.
+#[must_use]
+pub fn exact_least_gamma(
+    [at_b, at_c, at_d]: [f64; 3],
+    [coupler, rocker]: [f64; 2],
+    side: Side,
+) -> Option<f64> {
+    let limit = |s: f64| {
+        let moment = (at_d + s * at_c) / rocker;
+        let off = match side {
+            Side::Outer => (s * at_c + at_b) / coupler,
+            Side::Inner => (at_b - s * at_c) / coupler,
+        };
+        (moment.abs() < 1.0 && off.abs() < 1.0).then(|| asin(moment) + asin(off))
+    };
+    let [plus, minus] = [limit(1.0)?, limit(-1.0)?];
+    let greater = plus.max(minus);
+    (greater < FRAC_PI_2).then_some(greater.max(0.0))
 }
