@@ -73,7 +73,7 @@ def equilibria(machine: MachineModel, between: Any) -> Equilibria:
             "equilibria need constant loads, or tables over q (assur.Table)"
         )
         raise InputError(message)
-    ends, is_turn, intervals = _range(machine, between)
+    ends, is_turn, intervals = search_range(machine, between)
     dimensions = np.empty(0) if machine.mechanism is None else machine.mechanism._values.ravel()
     q, stable, stiffness, frequency, indifferent, jumps, incomplete, empty, failure = (
         machine._core.equilibria(dimensions, list(ends), is_turn, intervals)
@@ -106,7 +106,7 @@ def equilibria(machine: MachineModel, between: Any) -> Equilibria:
     return found
 
 
-def _range(machine: MachineModel, between: Any) -> tuple[tuple[float, float], bool, int]:
+def search_range(machine: MachineModel, between: Any) -> tuple[tuple[float, float], bool, int]:
     """Return the ends of the search, whether they are one position, and the count of intervals."""
     mechanism = machine.mechanism
     is_slide = mechanism is not None and mechanism.driver in mechanism.slides

@@ -11,6 +11,7 @@ from assur.dynamics import (
     equilibria,
     impact,
     integrate,
+    locking,
     reactions,
     size_flywheel,
 )
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from assur.dynamics.impact import Impact
     from assur.dynamics.internal_loads import InternalLoads
     from assur.dynamics.loads import Force, Torque
+    from assur.dynamics.locking import SelfLocking
     from assur.dynamics.model import OnError
     from assur.dynamics.reactions import Reactions
     from assur.dynamics.run import Run
@@ -435,6 +437,53 @@ class Machine(MachineModel):
         (array([-1.570796,  1.570796]), array([ True, False]), array([5.884176,      nan]))
         """
         return equilibria.equilibria(self, between)
+
+    def self_locking(
+        self,
+        sense: int = 1,
+        *,
+        speed: float = 0.0,
+        acceleration: float = 0.0,
+        between: tuple[float, float] | None = None,
+        n: int = 720,
+    ) -> SelfLocking:
+        """Return where friction locks the machine, or holds its loads.
+
+        Parameters
+        ----------
+        sense : int
+            +1 or −1: the way in which the drive moves, or is about to move.
+        speed, acceleration : float
+            Of the driver, rad/s and rad/s² (slides: m/s and m/s²); at rest by default.
+        between : (float, float), optional
+            The range of q; a driven angle has a whole turn by default.
+        n : int
+            Number of steps over the range; an interval shorter than a step may be missed.
+
+        Returns
+        -------
+        SelfLocking
+            Intervals of q, their ends to rounding.
+
+        Raises
+        ------
+        InputError
+            No friction, several drivers, a batch of designs (`reactions(...).locked` has its
+            shape), a wrong range.
+
+        Examples
+        --------
+        A rocker that drives a crank cannot start it near the dead points:
+
+        >>> import assur
+        >>> import numpy as np
+        >>> pins = {name: assur.JointFriction(0.1, 0.4) for name in "ABCD"}
+        >>> linkage = assur.FourBar(1.0, 4.5, 1.5, 4.9)
+        >>> pushed = assur.Machine(linkage, loads=[assur.Torque("rocker", 100.0)], friction=pins)
+        >>> np.degrees(pushed.self_locking().holding).round(2)
+        array([[182.4 , 194.57]])
+        """
+        return locking.self_locking(self, sense, speed, acceleration, between, n)
 
     def impact(
         self,

@@ -44,7 +44,8 @@ def test_slider_crank(case: tuple[float, ...]) -> None:
     np.testing.assert_allclose(found.efficiency, efficiency, rtol=1e-9)
     guide = found.slide("bore")
     np.testing.assert_allclose([guide.normal, guide.moment], [normal, moment], rtol=1e-9)
-    assert not found.locked and len(found.solutions) == 1
+    assert not found.locked
+    assert len(found.solutions) == 1
     without = Machine(engine().mechanism, loads=engine().loads)
     np.testing.assert_allclose(without.reactions(math.radians(degrees)).driver, bare, rtol=1e-9)
     # The power balance.
@@ -52,7 +53,8 @@ def test_slider_crank(case: tuple[float, ...]) -> None:
     assert abs(found.driver * speed - (bare * speed + loss)) < 1e-6 * abs(bare)
     # At rest, about to move that way, the forces are the same.
     still = engine().reactions(math.radians(degrees), sense=speed)
-    assert still.driver == found.driver and sum(still.losses.values()) == 0.0
+    assert still.driver == found.driver
+    assert sum(still.losses.values()) == 0.0
 
 
 # q°, driver without friction, driver, normal, moment, force of the pin A on the rod
@@ -132,7 +134,9 @@ def test_two_solutions_or_none() -> None:
     np.testing.assert_allclose(second.slide("way").normal, 500.0, rtol=1e-9)
     assert first.driver == found.driver
     none = pressed(160.0).reactions(one.q0, -1.0)
-    assert none.locked and np.isnan(none.driver) and none.solutions == ()
+    assert none.locked
+    assert np.isnan(none.driver)
+    assert none.solutions == ()
     assert none.safety < 1.0 < found.safety
 
 
@@ -150,3 +154,93 @@ def test_locked_beside_the_stretched_position() -> None:
     np.testing.assert_allclose(
         abs(at([-0.02, 1.5 * edge]).driver), [91.44838124, 1221.754320], rtol=1e-9
     )
+
+
+def degrees_of(intervals: list[Any]) -> Any:
+    """All of them as ends within a turn from 0°, ascending."""
+    both = np.degrees(np.concatenate(intervals))
+    turns = np.floor(both[:, :1] / 360.0 + 1e-9)
+    both = both - 360.0 * turns
+    return both[np.argsort(both[:, 0])]
+
+
+def test_a_rocker_that_drives_holds_near_the_dead_points() -> None:
+    numbers = (1.0, 4.5, 1.5, 4.9), (0.04, 0.03, 0.03, 0.04)
+    held = [four_bar(torque, *numbers).self_locking() for torque in (100.0, -100.0)]
+    assert all(one.locked.size == 0 for one in held)
+    ends = degrees_of([one.holding for one in held])
+    # Either torque drives on one side of a dead point: together they hold it on both.
+    joined = [ends[0, 0], ends[1, 1], ends[2, 0], ends[3, 1]]
+    known = [11.32576989, 19.14528813, 182.4061261, 192.7240218]
+    # Known to their last digits.
+    np.testing.assert_allclose(joined, known, rtol=0, atol=6e-8)
+    np.testing.assert_allclose([ends[0, 1], ends[2, 1]], [ends[1, 0], ends[3, 0]], atol=1e-9)
+
+
+def test_a_piston_that_drives_does_not_start_near_the_dead_points() -> None:
+    held = [engine().self_locking(sense).holding for sense in (1, -1)]
+    ends = np.degrees(np.concatenate(held)).ravel()
+    ends = ends[np.argsort(abs((ends + 90.0) % 360.0 - 90.0))]
+    near = abs((ends + 180.0) % 360.0 - 180.0)
+    # 0° and 180° themselves end an interval on each side.
+    np.testing.assert_allclose(sorted(near[near < 90.0])[-2:], [1.981592570] * 2, atol=1e-8)
+    far = 180.0 - near[near > 90.0]
+    np.testing.assert_allclose(sorted(far)[-2:], [2.649633689] * 2, atol=1e-8)
+
+
+def test_locked_interval_of_the_crank_rocker() -> None:
+    machine = four_bar(-100.0, (1.0, 4.5, 1.5, 4.985), (0.1, 0.1, 0.1, 0.1))
+    found = machine.self_locking(between=(math.pi - 0.5, math.pi + 0.5))
+    edge = 0.0825900520399
+    assert any(
+        abs(low - (math.pi - edge)) < 1e-10 and abs(high - math.pi) < 1e-10
+        for low, high in found.locked
+    )
+
+
+# Coupler, rocker; ρ at B, C, D; limits on the outer side at s = ±1, on the inner side.
+LIMITS = [
+    ((4.5, 1.5), (0.75 * math.sin(0.2),) * 3, (0.26627160962, 0.0), (0.2, 0.06627160962)),
+    ((4.5, 1.5), (0.1, 0.1, 0.1), (0.17819067879, 0.0), (0.13373158941, 0.04445908938)),
+    (
+        (4.0, 2.5),
+        (0.06, 0.08, 0.05),
+        (0.08703061300, -0.01700030885),
+        (0.04702344239, 0.02300686176),
+    ),
+    (
+        (2.5, 3.5),
+        (0.15, 0.05, 0.1),
+        (0.12295585328, 0.05429687459),
+        (0.08288094760, 0.09437178027),
+    ),
+]
+ZONES = [
+    (4.04451986348, 4.96022164888),
+    (4.02002286869, 4.98216023333),
+    (2.50735130846, 5.49417466047),
+    (2.03820516736, 4.98898011617),
+]
+
+
+@pytest.mark.parametrize("case", range(4))
+def test_exact_limits_of_the_transmission_angle(case: int) -> None:
+    (coupler, rocker), (b, c, d), outer, inner = LIMITS[case]
+    find: Any = assur.crank_rocker.least_transmission_angle
+    limits = [
+        find(1.0, c, 1.0, d, rocker, f_b=1.0, r_b=b, coupler=coupler, exact=True, side=side)
+        for side in ("outer", "inner")
+    ]
+    np.testing.assert_allclose(limits, [max(outer), max(inner)], rtol=0, atol=1e-11)
+    zone = assur.crank_rocker.ground_range
+    ends = [zone(coupler, rocker, 0.0, gamma_min=limit) for limit in limits]
+    np.testing.assert_allclose([ends[1][0], ends[0][1]], ZONES[case], rtol=0, atol=1e-10)
+    # The solver agrees: a crank passes a little inside the zone, and jams a little outside.
+    for part, jams in ((-1e-9, False), (1e-9, True)):
+        ground = ends[0][1] * (1.0 + part)
+        locked = []
+        for torque in (-100.0, 100.0):
+            machine = four_bar(torque, (1.0, coupler, rocker, ground), (0.0, b, c, d))
+            at = math.pi + np.array([-1e-13, -1e-10, -1e-7, 1e-7, 1e-10, 1e-13])
+            locked.append(machine.reactions(at, 1.0, on_error="nan").locked)
+        assert np.any(locked) == jams, (part, locked)

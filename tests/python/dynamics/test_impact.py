@@ -85,11 +85,13 @@ def test_a_clutch() -> None:
 
 @pytest.mark.parametrize("seed", range(40))
 def test_momentum_and_energy(seed: int) -> None:
-    """Random machines of all classes: the obstacle's rebound, energy, and momentum of the drivers."""
+    """Random machines of all classes: rebound, energy, and the momentum of the drivers."""
     case = reaction_case(seed)
     machine: Any = case.machine
     q, speed, _ = case.position(0)
-    link = next(name for name in case.mechanism.links if case.mechanism.links[name] and name != "ground")
+    link = next(
+        name for name in case.mechanism.links if case.mechanism.links[name] and name != "ground"
+    )
     for sense in (1.0, -1.0):
         load = Force((link, (0.3, 0.2)), (0.6 * sense, 0.8 * sense))
         hit = machine.impact(load, q, speed, restitution=0.3)

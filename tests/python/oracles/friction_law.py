@@ -1,7 +1,8 @@
 """The law of friction at one position, from forces in body coordinates with multipliers.
 
-Forces are linear in friction, so the oracle's forces without friction, and with a unit of it in each pair,
-give those with any.  A search from many starts finds solutions that a library should know.
+Forces are linear in friction, so the oracle's forces without friction, and with a unit of it in
+each pair, give those with any.  A search from many starts finds solutions that a library should
+know.
 """
 
 from __future__ import annotations

@@ -6,22 +6,31 @@
 //! complex numbers. By Bézout's theorem no isolated solution is left out. In homogeneous coordinates
 //! paths that lead to infinity end like others.
 
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::Complex;
 
 type Number = Complex<f64>;
 
 /// Turns the start out of the real numbers, so that no two paths meet but at the end.
 const GAMMA: Number = Number { re: 0.614_930_271, im: 0.788_580_493 };
-/// The longest and shortest step of the way from 0 to 1.
-const LONGEST: f64 = 0.1;
+/// The first and the shortest step of the way from 0 to 1.
+const FIRST: f64 = 0.05;
 const SHORTEST: f64 = 1.0e-12;
 /// Steps of a path, and of Newton's iteration on it.
 const MAX_STEPS: usize = 10_000;
 const CORRECTIONS: usize = 3;
-/// A correction that is this small is the last one.
-const LAST_CORRECTION: f64 = 1.0e-11;
+/// A correction that is this small is the last one: the next would be as its square.
+const LAST_CORRECTION: f64 = 1.0e-5;
+/// The first correction of a step: at most, in parts of the point, and so small that the next step may be longer.
+const MOST_CORRECTION: f64 = 0.02;
+const EASY: f64 = 2.0e-3;
 /// A solution whose first homogeneous coordinate is this small is at infinity; a larger one may be, too.
 const AT_INFINITY: f64 = 1.0e-15;
+
+/// Most unknowns: vectors and matrices of this size need no allocation, which would take most of the time.
+pub(super) const MAX_UNKNOWNS: usize = 15;
+
+/// Homogeneous coordinates, and what has as many entries; of the rest nothing is used.
+type Point = [Number; MAX_UNKNOWNS + 1];
 
 /// The equations; each form lists its constant term, then the factors of the unknowns.
 pub(super) struct Quadrics {
@@ -30,7 +39,7 @@ pub(super) struct Quadrics {
 
 impl Quadrics {
     /// All isolated finite solutions, real or not, each as often as its multiplicity; some may be at
-    /// infinity but for rounding.
+    /// infinity but for rounding. At most [`MAX_UNKNOWNS`] unknowns.
     pub(super) fn solutions(&self) -> Vec<Vec<Number>> {
         let n = self.forms.len();
         (0..1_usize << n).filter_map(|signs| self.end_of_path(signs)).collect()
@@ -39,112 +48,193 @@ impl Quadrics {
     /// Follows the path that begins at u_k = ±1.
     fn end_of_path(&self, signs: usize) -> Option<Vec<Number>> {
         let n = self.forms.len();
-        let mut point = DVector::from_fn(n + 1, |k, _| {
+        let mut point = [Number::ZERO; MAX_UNKNOWNS + 1];
+        let mut height = Number::ZERO;
+        for (k, u) in point.iter_mut().enumerate().take(n + 1) {
             let is_negative = k > 0 && signs >> (k - 1) & 1 == 1;
-            Number::new(if is_negative { -1.0 } else { 1.0 }, 0.0)
-        });
-        let height: Number = point.iter().enumerate().map(|(k, &u)| patch(k) * u).sum();
-        point /= height;
-        let (mut at, mut step) = (0.0, LONGEST);
+            *u = Number::from(if is_negative { -1.0 } else { 1.0 });
+            height += patch(k) * *u;
+        }
+        for u in &mut point {
+            *u /= height;
+        }
+        let (mut at, mut step) = (0.0, FIRST);
         for _ in 0..MAX_STEPS {
             if at >= 1.0 {
                 break;
             }
             let next = f64::min(at + step, 1.0);
             match self.advance(&point, at, next) {
-                Some(found) => {
+                Some((found, is_easy)) => {
                     point = found;
                     at = next;
-                    step = (1.5 * step).min(LONGEST);
+                    step *= if is_easy { 2.0 } else { 1.0 };
                 }
-                None if step > SHORTEST => step *= 0.5,
+                None if step > SHORTEST => step *= 0.25,
                 // A multiple solution: its path has come as near as it can.
                 None => break,
             }
         }
-        if let Some(correction) = self.jacobian(&point, 1.0).lu().solve(&self.value(&point, 1.0))
-            && at >= 1.0
-        {
+        for _ in 0..CORRECTIONS {
             // Of a solution far away the first coordinate is small, and wanted to many digits.
-            point -= correction;
+            match self.newton(&point, 1.0) {
+                Some(correction) if at >= 1.0 => subtract(&mut point, &correction),
+                _ => break,
+            }
         }
-        let size = point.iter().map(|u| u.norm()).fold(0.0, f64::max);
         let first = point[0];
-        (first.norm() > AT_INFINITY * size)
-            .then(|| point.iter().skip(1).map(|u| u / first).collect())
+        (first.norm() > AT_INFINITY * size(&point))
+            .then(|| point[1..=n].iter().map(|u| u / first).collect())
     }
 
-    /// A step along the tangent, corrected.
-    fn advance(&self, from: &DVector<Number>, at: f64, next: f64) -> Option<DVector<Number>> {
-        let rate = self.rate(from);
-        let tangent = self.jacobian(from, at).lu().solve(&rate)?;
-        let mut point = from - tangent * Number::from(next - at);
-        for _ in 0..CORRECTIONS {
-            let correction = self.jacobian(&point, next).lu().solve(&self.value(&point, next))?;
-            point -= &correction;
-            let size = correction.iter().map(|u| u.norm()).fold(0.0, f64::max);
-            if size <= LAST_CORRECTION {
-                return Some(point);
+    /// Against which the point moves as the way goes on.
+    fn tangent(&self, point: &Point, at: f64) -> Option<Point> {
+        let mut rate = [Number::ZERO; MAX_UNKNOWNS + 1];
+        for (k, rate) in rate.iter_mut().enumerate().take(self.forms.len()) {
+            let [start, end] = self.parts(point, k);
+            *rate = end - GAMMA * start;
+        }
+        self.solve(point, at, rate)
+    }
+
+    /// A step by the midpoint rule, corrected; and whether a longer one would have done.
+    fn advance(&self, from: &Point, at: f64, next: f64) -> Option<(Point, bool)> {
+        let half = self.tangent(from, at)?;
+        let mut middle = *from;
+        for (u, rate) in middle.iter_mut().zip(&half) {
+            *u -= rate * (0.5 * (next - at));
+        }
+        let rate = self.tangent(&middle, 0.5 * (at + next))?;
+        let mut point = *from;
+        for (u, rate) in point.iter_mut().zip(&rate) {
+            *u -= rate * (next - at);
+        }
+        let mut first = 0.0;
+        for round in 0..CORRECTIONS {
+            let correction = self.newton(&point, next)?;
+            subtract(&mut point, &correction);
+            let moved = size(&correction);
+            if round == 0 {
+                first = moved;
+            }
+            if first > MOST_CORRECTION * size(from) {
+                return None;
+            }
+            if moved <= LAST_CORRECTION {
+                return Some((point, first <= EASY));
             }
         }
         None
     }
 
+    /// A step of Newton's iteration.
+    fn newton(&self, point: &Point, at: f64) -> Option<Point> {
+        let n = self.forms.len();
+        let mut value = [Number::ZERO; MAX_UNKNOWNS + 1];
+        for (k, value) in value.iter_mut().enumerate().take(n) {
+            let [start, end] = self.parts(point, k);
+            *value = GAMMA * start * (1.0 - at) + end * at;
+        }
+        value[n] = Number::from(-1.0);
+        for (k, u) in point.iter().enumerate().take(n + 1) {
+            value[n] += patch(k) * u;
+        }
+        self.solve(point, at, value)
+    }
+
     /// Start u_k² − u₀² and end u_k² − a_k² − b_k² of each equation.
-    fn parts(&self, point: &DVector<Number>, k: usize) -> [Number; 2] {
+    fn parts(&self, point: &Point, k: usize) -> [Number; 2] {
         let square = point[k + 1] * point[k + 1];
         let [a, b] = [0, 1].map(|form| product(&self.forms[k][form], point));
         [square - point[0] * point[0], square - a * a - b * b]
     }
 
-    fn value(&self, point: &DVector<Number>, at: f64) -> DVector<Number> {
+    /// Solves the equations linear at a point, by Gauss's elimination.
+    fn solve(&self, point: &Point, at: f64, mut right: Point) -> Option<Point> {
         let n = self.forms.len();
-        DVector::from_fn(n + 1, |k, _| {
-            if k == n {
-                point.iter().enumerate().map(|(k, &u)| patch(k) * u).sum::<Number>() - 1.0
-            } else {
-                let [start, end] = self.parts(point, k);
-                GAMMA * start * (1.0 - at) + end * at
-            }
-        })
-    }
-
-    fn rate(&self, point: &DVector<Number>) -> DVector<Number> {
-        let n = self.forms.len();
-        DVector::from_fn(n + 1, |k, _| {
-            if k == n {
-                return Number::from(0.0);
-            }
-            let [start, end] = self.parts(point, k);
-            end - GAMMA * start
-        })
-    }
-
-    fn jacobian(&self, point: &DVector<Number>, at: f64) -> DMatrix<Number> {
-        let n = self.forms.len();
-        let mut matrix = DMatrix::from_element(n + 1, n + 1, Number::from(0.0));
+        let mut matrix = [[Number::ZERO; MAX_UNKNOWNS + 1]; MAX_UNKNOWNS + 1];
         for k in 0..n {
-            let [a, b] = [0, 1].map(|form| product(&self.forms[k][form], point));
-            for column in 0..=n {
-                let [from_a, from_b] = [0, 1].map(|form| self.forms[k][form][column]);
-                matrix[(k, column)] = -(a * from_a + b * from_b) * (2.0 * at);
+            let [a, b] = [0, 1].map(|form| product(&self.forms[k][form], point) * (-2.0 * at));
+            let [of_a, of_b] = &self.forms[k];
+            for (entry, (&of_a, &of_b)) in matrix[k].iter_mut().zip(of_a.iter().zip(of_b)) {
+                *entry = a * of_a + b * of_b;
             }
             let start = GAMMA * (1.0 - at);
-            matrix[(k, k + 1)] += (start + at) * point[k + 1] * 2.0;
-            matrix[(k, 0)] -= start * point[0] * 2.0;
+            matrix[k][k + 1] += (start + at) * point[k + 1] * 2.0;
+            matrix[k][0] -= start * point[0] * 2.0;
+        }
+        for (k, entry) in matrix[n].iter_mut().enumerate().take(n + 1) {
+            *entry = patch(k);
         }
         for column in 0..=n {
-            matrix[(n, column)] = patch(column);
+            let pivot = (column..=n).fold(column, |best, row| {
+                let [one, other] = [row, best].map(|row| matrix[row][column].norm_sqr());
+                if one > other { row } else { best }
+            });
+            matrix.swap(column, pivot);
+            right.swap(column, pivot);
+            if matrix[column][column] == Number::ZERO {
+                return None;
+            }
+            let inverse = Number::from(1.0) / matrix[column][column];
+            let own = matrix[column];
+            let own_right = right[column];
+            for row in column + 1..=n {
+                let factor = matrix[row][column] * inverse;
+                for (entry, own) in matrix[row][column..=n].iter_mut().zip(&own[column..=n]) {
+                    *entry -= factor * own;
+                }
+                right[row] -= factor * own_right;
+            }
         }
-        matrix
+        for row in (0..=n).rev() {
+            let mut sum = right[row];
+            for column in row + 1..=n {
+                sum -= matrix[row][column] * right[column];
+            }
+            right[row] = sum / matrix[row][row];
+        }
+        right[..=n].iter().all(|u| u.re.is_finite() && u.im.is_finite()).then_some(right)
     }
 }
 
-fn product(form: &[f64], point: &DVector<Number>) -> Number {
-    form.iter().zip(point.iter()).map(|(&factor, &u)| u * factor).sum()
+fn product(form: &[f64], point: &Point) -> Number {
+    let mut sum = Number::ZERO;
+    for (&factor, u) in form.iter().zip(point) {
+        sum += u * factor;
+    }
+    sum
+}
+
+fn subtract(point: &mut Point, other: &Point) {
+    for (u, other) in point.iter_mut().zip(other) {
+        *u -= other;
+    }
+}
+
+fn size(point: &Point) -> f64 {
+    point.iter().map(|u| u.norm()).fold(0.0, f64::max)
 }
 
 /// Factors of the plane in which homogeneous coordinates are scaled: any that are not special.
 fn patch(k: usize) -> Number {
-    Number::from_polar(1.0, 0.5 + 2.399_963_229_728_653 * k as f64)
+    const PATCH: [Number; MAX_UNKNOWNS + 1] = [
+        Number { re: 0.877582562, im: 0.479425539 },
+        Number { re: -0.970949367, im: 0.239285031 },
+        Number { re: 0.554313129, im: -0.832308209 },
+        Number { re: 0.153482867, im: 0.988151309 },
+        Number { re: -0.780660108, im: -0.624955835 },
+        Number { re: 0.997786069, im: -0.066505343 },
+        Number { re: -0.690812681, im: 0.723033775 },
+        Number { re: 0.020981474, im: -0.999779865 },
+        Number { re: 0.659870509, im: 0.751379339 },
+        Number { re: -0.994117428, im: -0.108307616 },
+        Number { re: 0.806191996, im: -0.591654009 },
+        Number { re: -0.194804347, im: 0.980842121 },
+        Number { re: -0.518906670, im: -0.854830900 },
+        Number { re: 0.960055605, im: 0.279809282 },
+        Number { re: -0.896923579, im: 0.442185587 },
+        Number { re: 0.362671461, im: -0.931917063 },
+    ];
+    PATCH[k]
 }

@@ -3,10 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::problem::{FrictionProblem, Law};
-use super::quadrics::Quadrics;
+use super::quadrics::{MAX_UNKNOWNS, Quadrics};
 
-/// Most paths that are followed for one block of pairs.
-const MAX_PATHS: usize = 1 << 14;
+/// Most paths that are followed for one block of pairs, as a power of 2: half a second.
+const MAX_PATHS: usize = 12;
 /// The part of a solution that may be imaginary: a double one is known to the root of rounding only.
 const IMAGINARY: f64 = 1.0e-4;
 /// How far a solution may be from the end of its path, and how near two that are the same.
@@ -96,7 +96,7 @@ impl FrictionProblem {
             (0..n).partition(|&pair| matches!(self.pairs[pair].law, Law::Journal { .. }));
         let faces: Vec<_> = guides.iter().map(|&guide| self.pairs[guide].law.faces()).collect();
         let choices: usize = faces.iter().map(Vec::len).product();
-        if journals.len() + 2 * guides.len() > MAX_PATHS.ilog2() as usize {
+        if journals.len() + 2 * guides.len() > MAX_PATHS || journals.len() > MAX_UNKNOWNS {
             return Err(TooManyPaths);
         }
         let mut found: Vec<Vec<f64>> = Vec::new();
