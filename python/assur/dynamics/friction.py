@@ -37,24 +37,27 @@ class JointFriction:
         Of the pin, m.
     viscous : float
         Moment per relative speed, N·m·s/rad, besides.
+    static_coefficient : float, optional
+        At rest, not below `coefficient`, which it is by default.
 
     Examples
     --------
     >>> import assur
     >>> assur.JointFriction(coefficient=0.08, radius=0.02)
-    JointFriction(coefficient=0.08, radius=0.02, viscous=0.0)
+    JointFriction(coefficient=0.08, radius=0.02, viscous=0.0, static_coefficient=None)
     """
 
     coefficient: float
     radius: float
     viscous: float = 0.0
+    static_coefficient: float | None = None
 
     def __post_init__(self) -> None:
         numbers = {
             name: not_negative(getattr(self, name), f"JointFriction: {name}")
             for name in ("coefficient", "radius", "viscous")
         }
-        replace_fields(self, **numbers)
+        replace_fields(self, **numbers, static_coefficient=_static(self))
 
 
 @dataclass(frozen=True)
@@ -74,17 +77,20 @@ class SlideFriction:
         Of the bearing, m: more than 0.
     viscous : float
         Force per speed, N·s/m, besides.
+    static_coefficient : float, optional
+        At rest, not below `coefficient`, which it is by default.
 
     Examples
     --------
     >>> import assur
     >>> assur.SlideFriction(coefficient=0.1, length=0.06)
-    SlideFriction(coefficient=0.1, length=0.06, viscous=0.0)
+    SlideFriction(coefficient=0.1, length=0.06, viscous=0.0, static_coefficient=None)
     """
 
     coefficient: float
     length: float
     viscous: float = 0.0
+    static_coefficient: float | None = None
 
     def __post_init__(self) -> None:
         numbers = {
@@ -94,10 +100,22 @@ class SlideFriction:
         if numbers["length"] == 0.0:
             message = "SlideFriction: length is 0: the length of the bearing is needed, m"
             raise InputError(message)
-        replace_fields(self, **numbers)
+        replace_fields(self, **numbers, static_coefficient=_static(self))
 
 
 PairFriction: TypeAlias = JointFriction | SlideFriction
+
+
+def _static(friction: PairFriction) -> float | None:
+    """Return the coefficient at rest, if it is not below that of sliding."""
+    if friction.static_coefficient is None:
+        return None
+    what = f"{type(friction).__name__}: static_coefficient"
+    at_rest = not_negative(friction.static_coefficient, what)
+    if at_rest < friction.coefficient:
+        message = f"{what} is {at_rest:g}, below the coefficient {friction.coefficient:g}"
+        raise InputError(message, value=at_rest)
+    return at_rest
 
 
 def checked_friction(mechanism: Mechanism, friction: Any) -> dict[str, PairFriction]:

@@ -74,7 +74,7 @@ def impact(
             given = np.where(approach < 0.0, -(1.0 + e) * approach / mobility, 0.0)
             given = np.where(np.isnan(mobility), np.nan, given)
         else:
-            given = np.broadcast_to(finite_array(impulse, "impulse"), shape)
+            given = _of_positions(finite_array(impulse, "impulse"), "impulse", shape)
     change = answer * given[..., None]
     # ½ q̇ᵀ H q̇ before less after, without the difference of two large numbers.
     lost = -given * (approach + 0.5 * mobility * given)
@@ -108,7 +108,17 @@ def _restitution(restitution: Any, shape: tuple[int, ...]) -> Any:
     if (e < 0.0).any() or (e > 1.0).any():
         message = f"restitution is {short(restitution)}: from 0 (it stays) to 1 (nothing is lost)"
         raise InputError(message)
-    return np.broadcast_to(e, shape)
+    return _of_positions(e, "restitution", shape)
+
+
+def _of_positions(numbers: Any, what: str, shape: tuple[int, ...]) -> Any:
+    if numbers.size == 1:
+        numbers = numbers.reshape(())
+    try:
+        return np.broadcast_to(numbers, shape)
+    except ValueError as error:
+        message = f"{what} has the shape {numbers.shape}, the positions {shape}: they do not fit"
+        raise InputError(message) from error
 
 
 def _solved(inertia: Any, path: Any) -> Any:

@@ -36,7 +36,17 @@ if TYPE_CHECKING:
 # Less accurate periods do not determine the speed.
 LOOSEST_RTOL = 1e-4
 # Ends of a run that the user did not ask for: they warn.
-EARLY_ENDS = ("lost", "table ends", "motor table ends", "stalled", "step limit", "time limit")
+EARLY_ENDS = (
+    "locked",
+    "lost",
+    "table ends",
+    "motor table ends",
+    "stalled",
+    "step limit",
+    "time limit",
+)
+# Events of friction.
+STICK, SLIP = "stick", "slip"
 # Warn of an energy imbalance above both: relative to the greatest energy, and in units of rtol.
 IMBALANCE_WARN_FLOOR, IMBALANCE_WARN_RTOLS = 1e-6, 1e3
 # Warn when the balancing moment exceeds this fraction of the motor's.
@@ -48,7 +58,8 @@ def run(
 ) -> Run:
     """See `Machine.run`."""
     one_design(machine, "run")
-    without_friction(machine, "run")
+    if machine._drivers > 1:
+        without_friction(machine, "run with several drivers")
     along_q = q_end is not None
     if along_q == (t_end is not None):
         message = "run needs t_end or q_end" + (", not both" if along_q else "")
@@ -82,7 +93,8 @@ def run(
         checked_breaks(options["breaks"]),
         checked,
     )
-    made = Run(core, machine.mechanism, n, watched, along_q)
+    # The core counts what friction does after the events that were asked for.
+    made = Run(core, machine.mechanism, n, [*watched, STICK, SLIP], along_q)
     if made.end in EARLY_ENDS:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)
     # A machine from a table has no singular positions.

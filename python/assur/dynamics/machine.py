@@ -60,7 +60,8 @@ class Machine(MachineModel):
         counts as inertia; its torque is not a load.
     friction : mapping of str to JointFriction or SlideFriction, optional
         Friction in joints and slides, by name. It counts in `reactions`, `effort` and what follows
-        from them; motions in time do not have it yet and refuse it.
+        from them, and in `run` with one driver; `steady_state`, `flywheel` and `equilibria` refuse
+        it.
 
     Raises
     ------
@@ -93,7 +94,7 @@ class Machine(MachineModel):
         acceleration: npt.ArrayLike = 0.0,
         *,
         t: npt.ArrayLike = 0.0,
-        sense: npt.ArrayLike | None = None,
+        sense: float | Sequence[float] | None = None,
         threads: int | None = None,
         on_error: OnError = "raise",
     ) -> Reactions:
@@ -167,7 +168,7 @@ class Machine(MachineModel):
         acceleration: npt.ArrayLike = 0.0,
         *,
         t: npt.ArrayLike = 0.0,
-        sense: npt.ArrayLike | None = None,
+        sense: float | Sequence[float] | None = None,
         on_error: OnError = "raise",
     ) -> Any:
         """Return the torque or force of the drive, by virtual power alone.

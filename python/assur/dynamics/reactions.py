@@ -19,7 +19,7 @@ from assur.dynamics.values import function_values
 from assur.errors import InputError, MotionError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     import numpy.typing as npt
 
@@ -410,7 +410,7 @@ def reactions(
     threads: int | None,
     on_error: OnError,
     keys: list[Key] | None = None,
-    sense: npt.ArrayLike | None = None,
+    sense: float | Sequence[float] | None = None,
     solution: int = 0,
 ) -> Reactions:
     """Return the reactions of a machine; see `Machine.reactions`.
@@ -476,7 +476,7 @@ def _solved(
     threads: int | None,
     keys: list[Key],
     squares: bool,
-    friction: tuple[npt.ArrayLike | None, int] = (None, 0),
+    friction: tuple[float | Sequence[float] | None, int] = (None, 0),
 ) -> tuple[list[Float], npt.NDArray[np.uint8], Any]:
     """Return an array for each key, the statuses, and the exception of the first failure."""
     mechanism = machine.mechanism
@@ -516,7 +516,9 @@ def _solved(
     return found
 
 
-def _senses(machine: MachineModel, speeds: Float, sense: npt.ArrayLike | None) -> list[float]:
+def _senses(
+    machine: MachineModel, speeds: Float, sense: float | Sequence[float] | None
+) -> list[float]:
     """Return in which sense each driver is about to move at rest, which friction needs."""
     if sense is not None:
         senses = real_array(sense, "sense").ravel()
@@ -593,7 +595,7 @@ def effort(
     machine: MachineModel,
     motion: DrivenMotion,
     on_error: OnError,
-    sense: npt.ArrayLike | None = None,
+    sense: float | Sequence[float] | None = None,
 ) -> Any:
     """Return the effort of the drivers by virtual power; see `Machine.effort`."""
     n = machine._drivers

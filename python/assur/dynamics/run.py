@@ -78,8 +78,9 @@ class EventRecord(NamedTuple):
     Attributes
     ----------
     event : object
-        The event as passed to `Machine.run`; or "dead point", "rest" or "near_change_point"
-        (`NearChangePoint`) if the mechanism itself ended the run.
+        The event as passed to `Machine.run`; "stick" where friction stops a machine, "slip" where
+        it no longer holds it; or "dead point", "rest" or "near_change_point" (`NearChangePoint`)
+        if the mechanism itself ended the run.
     t, q, speed
         Time, s, and the driver's coordinate and speed.
     """
@@ -154,8 +155,8 @@ class Run:
     events : list of EventRecord
         The events detected, in order.
     end : str
-        Why it ended: "reached", "event", "rest", "dead point", "near_change_point", "lost",
-        "table ends", "stalled", "step limit" or "time limit".
+        Why it ended: "reached", "event", "rest", "dead point", "near_change_point", "locked",
+        "lost", "table ends", "stalled", "step limit" or "time limit".
     message : str
         The same as a sentence.
     statistics : Statistics
@@ -325,6 +326,7 @@ class Run:
             "reached": "reached its end",
             "event": f"{event} at {place}",
             "dead point": f"a dead point at {place}: this assembly has no motion beyond it",
+            "locked": f"friction locks the machine at {place}: no acceleration agrees with it",
             "lost": f"the branch cannot be tracked beyond {place}: {ending['why']}",
             "rest": f"the machine came to rest at {place}",
             "table ends": f"a table over q ends at {place}",

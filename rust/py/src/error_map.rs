@@ -240,6 +240,9 @@ pub(crate) fn run(error: RunError<PyErr>) -> PyErr {
         RunError::NotFinite { at, .. } => {
             (Class::Motion, Fields { q: Some(std::slice::from_ref(at)), ..none() })
         }
+        RunError::Locked { q } => {
+            (Class::Motion, Fields { q: Some(std::slice::from_ref(q)), ..none() })
+        }
         RunError::TableEnds { q, .. } => (Class::Input, Fields { value: Some(*q), ..none() }),
         _ => (Class::Input, none()),
     };

@@ -46,7 +46,8 @@ def test_slider_crank(case: tuple[float, ...]) -> None:
     np.testing.assert_allclose([guide.normal, guide.moment], [normal, moment], rtol=1e-9)
     assert not found.locked
     assert len(found.solutions) == 1
-    without = Machine(engine().mechanism, loads=engine().loads)
+    mechanism: Any = engine().mechanism
+    without = Machine(mechanism, loads=engine().loads)
     np.testing.assert_allclose(without.reactions(math.radians(degrees)).driver, bare, rtol=1e-9)
     # The power balance.
     loss = sum(found.losses.values())
@@ -71,7 +72,7 @@ def test_a_tilted_piston_with_masses(case: Any) -> None:
     bodies = {"rod": Body(1.2, 0.015, (0.12, 0.0)), "piston": Body(2.0)}
     load = Force(("piston", (0.03, 0.02)), (-800.0, 0.0))
     one = assur.SliderCrank(crank=0.1, rod=0.35)
-    friction = {**ENGINE_FRICTION, "bore": SlideFriction(0.1, 0.06)}
+    friction: Any = {**ENGINE_FRICTION, "bore": SlideFriction(0.1, 0.06)}
     found = Machine(one, bodies, [load], friction=friction).reactions(math.radians(degrees), 60.0)
     np.testing.assert_allclose(found.driver, driver, rtol=1e-9)
     guide = found.slide("bore")

@@ -123,9 +123,8 @@ def test_positions_and_designs() -> None:
             many.reactions.joint("C", on="rocker")[k], one.reactions.joint("C", on="rocker")
         )
     np.testing.assert_allclose(many.energy_lost[2], 0.0, atol=1e-15)
-    wide = Machine(
-        machine.mechanism.with_dimensions({"rocker.length": [0.12, 0.13]}), machine.bodies
-    )
+    mechanism: Any = machine.mechanism
+    wide = Machine(mechanism.with_dimensions({"rocker.length": [0.12, 0.13]}), machine.bodies)
     assert wide.impact(STOP, q, -20.0).speed.shape == (2, 3)
 
 
@@ -137,6 +136,7 @@ def test_positions_and_designs() -> None:
         (lambda m: m.impact(Torque("rocker", lambda *_: 1.0), 2.0, 1.0), "direction in numbers"),
         (lambda m: m.impact(STOP, 2.0, 1.0, restitution=1.5), "restitution is 1.5: from 0"),
         (lambda m: m.impact(STOP, 2.0, 1.0, restitution=math.nan), "restitution"),
+        (lambda m: m.impact(STOP, 2.0, 1.0, restitution=[0.1, 0.2]), "they do not fit"),
         (lambda m: m.impact(STOP, 2.0, math.inf), "speed is inf"),
         (lambda m: m.impact(STOP, 2.0, 1.0, impulse=math.nan), "impulse"),
         (lambda m: Machine(m.mechanism).impact(STOP, 2.0, 1.0), "no inertia"),

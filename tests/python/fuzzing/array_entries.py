@@ -60,6 +60,14 @@ def fitted(q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike) 
     return balance.fit(MACHINE, q, {"rocker": (-1.0, 0.5)}, speed, acceleration)
 
 
+PUSH = assur.Torque("crank", 1.0)
+PARTS = np.array(0.5)
+
+
+def struck(q: npt.ArrayLike, speed: npt.ArrayLike, restitution: npt.ArrayLike) -> Any:
+    return MACHINE.impact(PUSH, q, speed, restitution=restitution).speed
+
+
 def inside(
     q: npt.ArrayLike, speed: npt.ArrayLike, acceleration: npt.ArrayLike, t: npt.ArrayLike
 ) -> Any:
@@ -172,6 +180,10 @@ ENTRIES: dict[str, Entry] = {
         q=EVEN,
         force=FORCE,
     ),
+    **each_of("Machine.impact", struck, q=0.5, speed=-20.0, restitution=PARTS),
+    "Machine.impact.impulse": Entry(
+        lambda p: MACHINE.impact(PUSH, 0.5, -20.0, impulse=p).speed, (np.array(2.0),)
+    ),
     **each_of("Machine.duty", MACHINE.duty, q=PHI, speed=1.0, acceleration=2.0, t=0.5),
     "Machine.equilibria.between": Entry(
         MACHINE.equilibria, (np.array([-1.0, 4.0]), np.array([0.0, 5.0]))
@@ -250,5 +262,16 @@ ENTRIES: dict[str, Entry] = {
         f_d=8.0,
         r_d=2.0,
         rocker=5.0,
+    ),
+    **each_of(
+        "assur.crank_rocker.least_transmission_angle",
+        partial(
+            crank_rocker.least_transmission_angle,
+            *(0.1, 1.0, 0.2, 1.0, 15.0),
+            exact=True,
+        ),
+        f_b=0.5,
+        r_b=1.0,
+        coupler=20.0,
     ),
 }

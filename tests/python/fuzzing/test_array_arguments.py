@@ -181,6 +181,7 @@ OPTIONAL = (
     "Machine.run",
     "Run.at",
     "Machine.equilibria",
+    "Machine.impact.impulse",
     "Machine.flywheel",
     "Machine.steady_state",
     "assur.flywheel",

@@ -73,7 +73,7 @@ impl<'p> SolvedPose<'p> {
     }
 
     /// Derivative `k` of the unit vector along a link's x axis, up to the second order.
-    fn frame(&self, link: usize, k: usize) -> Vector {
+    pub(crate) fn frame(&self, link: usize, k: usize) -> Vector {
         let Position { state, plan, constants, .. } = &self.position;
         let o = plan.link_orientation[link];
         let orientation = &plan.orientations[o];
@@ -99,6 +99,12 @@ impl<'p> SolvedPose<'p> {
         let turns = self.derivatives.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
         let class_angle = state.pose.theta[rotation.class * self.derivatives.len() + k][0];
         (class_angle + f64::from(turns)) * units.angle[k]
+    }
+
+    /// Derivative `k` of a slide's value (0: the value), m.
+    pub(crate) fn slide(&self, slide: usize, k: usize) -> f64 {
+        let Position { state, units, .. } = &self.position;
+        state.pose.slides[slide * self.derivatives.len() + k][0] * units.length[k]
     }
 
     /// A link's angle, rad, continuous along the branch from the drawing.

@@ -40,6 +40,7 @@ impl From<StopReason> for StopReasonState {
             StopReason::Event(event) => Self { event: Some(event), ..of("event") },
             StopReason::Rest => of("rest"),
             StopReason::DeadPoint => of("dead point"),
+            StopReason::Locked => of("locked"),
             StopReason::Lost(why) => Self { why: Some(why), ..of("lost") },
             StopReason::NearChangePoint { dyad, miss, q } => {
                 let near_change_point = Some(NearChangePoint { dyad, miss, q });
@@ -70,6 +71,7 @@ impl StopReasonState {
             "event" => StopReason::Event(self.event?),
             "rest" => StopReason::Rest,
             "dead point" => StopReason::DeadPoint,
+            "locked" => StopReason::Locked,
             "lost" => StopReason::Lost(self.why.clone()?),
             "near_change_point" => {
                 let NearChangePoint { dyad, miss, q } = self.near_change_point.clone()?;

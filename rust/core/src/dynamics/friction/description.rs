@@ -10,6 +10,8 @@ pub enum Friction {
         joint: usize,
         /// Radius of the friction circle, m: the coefficient times the journal's radius.
         circle: f64,
+        /// The same at rest, not less.
+        static_circle: f64,
         /// Moment per relative speed, N·m·s/rad.
         viscous: f64,
     },
@@ -20,6 +22,8 @@ pub enum Friction {
         slide: usize,
         /// Coefficient of friction.
         coefficient: f64,
+        /// The same at rest, not less.
+        static_coefficient: f64,
         /// The length, m.
         length: f64,
         /// Force per speed, N·s/m.

@@ -2,6 +2,7 @@
 
 mod blocks;
 pub(crate) mod description;
+pub(crate) mod motion;
 mod newton;
 pub(crate) mod problem;
 mod quadrics;

@@ -102,7 +102,8 @@ impl<R: Real> Evaluate<'_, '_, R> {
     fn rub(&mut self, rows: Rows) {
         let Batch { mechanism, plan, sources, asked, .. } = self.batch;
         let size = mechanism.linkage().size();
-        self.scene.read_rubbing(plan, sources, &self.solved, rows, (asked.sense, size));
+        let ways = self.scene.ways(asked.sense);
+        self.scene.read_rubbing(plan, sources, (&self.solved, rows), &ways, size);
         let asks_safety = asked.reactions.contains(&Reaction::Safety);
         self.scene.rub(plan, (asked.solution, asks_safety), size);
     }

@@ -26,6 +26,8 @@ const UNDETERMINED: f64 = -2.0;
 pub(crate) struct Rubbing {
     pub pair: Pair,
     law: Law,
+    /// The law of what is about to move.
+    static_law: Law,
     viscous: f64,
 }
 
@@ -48,7 +50,7 @@ impl Rubbing {
         let mut found = Vec::new();
         for friction in friction {
             match *friction {
-                Friction::Joint { joint, circle, viscous } => {
+                Friction::Joint { joint, circle, static_circle, viscous } => {
                     let Some((&fast, others)) = links_at[joint].split_first() else { continue };
                     found.extend(others.iter().map(|&on| Self {
                         pair: Pair::Journal {
@@ -58,14 +60,17 @@ impl Rubbing {
                             force: JointForce::new(plan, links_at, joint, on),
                         },
                         law: Law::Journal { circle },
+                        static_law: Law::Journal { circle: static_circle },
                         viscous,
                     }));
                 }
-                Friction::Slide { slide, coefficient, length, viscous } => {
+                Friction::Slide { slide, coefficient, static_coefficient, length, viscous } => {
                     let [sliding, carrying] = plan.slide_links[slide];
+                    let half_length = 0.5 * length;
                     found.push(Self {
                         pair: Pair::Guide { slide, sliding, carrying },
-                        law: Law::Guide { coefficient, half_length: 0.5 * length },
+                        law: Law::Guide { coefficient, half_length },
+                        static_law: Law::Guide { coefficient: static_coefficient, half_length },
                         viscous,
                     });
                 }
@@ -77,14 +82,16 @@ impl Rubbing {
 
 /// Work space, and the friction found.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Rubs<R: Real> {
+pub(crate) struct Rubs<R: Real> {
+    /// Whether the static law holds; if not said, where all drivers rest.
+    pub is_static: Option<bool>,
     /// Speed of every pair, as it is, and as it is or is about to be.
     speeds: Vec<[R; 2]>,
     /// Below these a pair does not rub.
     still: Vec<R>,
     /// Reactions without friction, and per unit of friction in every pair.
-    base: Vec<Vector<R>>,
-    slopes: Vec<Vec<Vector<R>>>,
+    pub base: Vec<Vector<R>>,
+    pub slopes: Vec<Vec<Vector<R>>>,
     /// Moments or forces of friction, with the viscous part.
     pub friction: Vec<R>,
     /// Number of solutions.
@@ -101,28 +108,30 @@ impl<R: Real> Rubs<R> {
 }
 
 impl<R: Real> Scene<R> {
-    /// Reads how fast every pair rubs.
-    pub(super) fn read_rubbing(
-        &mut self,
-        plan: &ForcePlan,
-        sources: &Sources,
-        solved: &Solved<'_>,
-        rows: Rows,
-        (sense, size): (&[f64], f64),
-    ) {
+    /// The speeds of the drivers; where all rest, unit speeds in the given sense.
+    pub(super) fn ways(&self, sense: &[f64]) -> Vec<R> {
         let mut rests = R::Mask::NONE.not();
         for &[speed, _] in &self.drive {
             rests = rests.and(speed.abs().le(R::ZERO));
         }
-        let ways: Vec<R> = self
-            .drive
-            .iter()
-            .enumerate()
-            .map(|(driver, &[speed, _])| {
-                let sense = sense.get(driver).copied().unwrap_or(0.0);
-                R::select(rests, R::splat(sense), speed)
-            })
-            .collect();
+        let way = |(driver, &[speed, _]): (usize, &[R; 2])| {
+            let sense = sense.get(driver).copied().unwrap_or(0.0);
+            R::select(rests, R::splat(sense), speed)
+        };
+        self.drive.iter().enumerate().map(way).collect()
+    }
+
+    /// Reads how fast every pair rubs, and how fast it would if the drivers had the speeds `ways`, which
+    /// give the sense of friction.
+    pub(crate) fn read_rubbing(
+        &mut self,
+        plan: &ForcePlan,
+        sources: &Sources,
+        (solved, rows): (&Solved<'_>, Rows),
+        ways: &[R],
+        size: f64,
+    ) {
+        let speeds: Vec<R> = self.drive.iter().map(|&[speed, _]| speed).collect();
         let mut turning = R::ZERO;
         for (driver, &way) in ways.iter().enumerate() {
             let is_angle = plan.driven_links[driver].is_some();
@@ -131,23 +140,21 @@ impl<R: Real> Scene<R> {
         self.rubs.speeds.clear();
         self.rubs.still.clear();
         for Rubbing { pair, .. } in &plan.rubbing {
-            let (way, unit) = match *pair {
+            let rate = |drivers: &[R]| match *pair {
                 Pair::Journal { on, fast, .. } => {
                     let of = |link| match sources.angles[link] {
                         Some(column) if link != plan.ground => {
-                            rows.rate(solved.columns[column + 1], &ways)
+                            rows.rate(solved.columns[column + 1], drivers)
                         }
                         _ => R::ZERO,
                     };
-                    (of(on) - of(fast), 1.0)
+                    of(on) - of(fast)
                 }
-                Pair::Guide { slide, .. } => {
-                    let rate = sources.slides[slide]
-                        .map_or(R::ZERO, |column| rows.rate(solved.columns[column + 1], &ways));
-                    (rate, size)
-                }
+                Pair::Guide { slide, .. } => sources.slides[slide]
+                    .map_or(R::ZERO, |column| rows.rate(solved.columns[column + 1], drivers)),
             };
-            self.rubs.speeds.push([R::select(rests, R::ZERO, way), way]);
+            let unit = if matches!(pair, Pair::Guide { .. }) { size } else { 1.0 };
+            self.rubs.speeds.push([rate(&speeds), rate(ways)]);
             self.rubs.still.push(turning * R::splat(AT_REST * unit));
         }
     }
@@ -160,24 +167,11 @@ impl<R: Real> Scene<R> {
         size: f64,
     ) {
         let count = plan.rubbing.len();
-        for (index, Rubbing { viscous, .. }) in plan.rubbing.iter().enumerate() {
-            let drag = -(self.rubs.speeds[index][0] * R::splat(*viscous));
-            self.rub_pair(plan, index, drag);
-            self.rubs.friction.resize(count, R::ZERO);
-            self.rubs.friction[index] = drag;
-        }
+        self.drag(plan);
         let loads = (self.link_force.clone(), self.link_moment.clone());
         self.start(plan);
         self.rubs.base = self.pair_reactions(plan);
-        self.rubs.slopes.clear();
-        for index in 0..count {
-            self.link_force.fill(Vector::ZERO);
-            self.link_moment.fill(R::ZERO);
-            self.rub_pair(plan, index, R::ONE);
-            self.start(plan);
-            let slopes = self.pair_reactions(plan);
-            self.rubs.slopes.push(slopes);
-        }
+        self.respond(plan, |_| ());
         let undetermined = self.undetermined(plan, size);
         (self.link_force, self.link_moment) = loads;
         let mut dry = vec![R::ZERO; count];
@@ -215,6 +209,31 @@ impl<R: Real> Scene<R> {
         }
     }
 
+    /// Adds viscous friction to the loads.
+    pub(crate) fn drag(&mut self, plan: &ForcePlan) {
+        self.rubs.friction.resize(plan.rubbing.len(), R::ZERO);
+        for (index, Rubbing { viscous, .. }) in plan.rubbing.iter().enumerate() {
+            let drag = -(self.rubs.speeds[index][0] * R::splat(*viscous));
+            self.rub_pair(plan, index, drag);
+            self.rubs.friction[index] = drag;
+        }
+    }
+
+    /// Finds what a unit of friction in each pair does to all of them; replaces the loads. `each` sees the
+    /// scene of one after another.
+    pub(crate) fn respond(&mut self, plan: &ForcePlan, mut each: impl FnMut(&Self)) {
+        self.rubs.slopes.clear();
+        for index in 0..plan.rubbing.len() {
+            self.link_force.fill(Vector::ZERO);
+            self.link_moment.fill(R::ZERO);
+            self.rub_pair(plan, index, R::ONE);
+            self.start(plan);
+            let slopes = self.pair_reactions(plan);
+            self.rubs.slopes.push(slopes);
+            each(self);
+        }
+    }
+
     /// Lets friction of a pair act on both of its links.
     fn rub_pair(&mut self, plan: &ForcePlan, index: usize, friction: R) {
         match plan.rubbing[index].pair {
@@ -249,7 +268,7 @@ impl<R: Real> Scene<R> {
     }
 
     /// The reactions on which the friction of every pair depends.
-    fn pair_reactions(&mut self, plan: &ForcePlan) -> Vec<Vector<R>> {
+    pub(crate) fn pair_reactions(&mut self, plan: &ForcePlan) -> Vec<Vector<R>> {
         self.carry_loads(plan);
         self.pass_moments(plan);
         plan.rubbing
@@ -263,19 +282,24 @@ impl<R: Real> Scene<R> {
             .collect()
     }
 
-    /// The pairs that rub in a lane, and which of all they are.
-    fn problem(&self, plan: &ForcePlan, lane: usize) -> (FrictionProblem, Vec<usize>) {
+    /// The pairs that rub in a lane, and which of all they are. At rest they have their static law.
+    pub(crate) fn problem(&self, plan: &ForcePlan, lane: usize) -> (FrictionProblem, Vec<usize>) {
         let rubs = &self.rubs;
         let way = |pair: usize| rubs.speeds[pair][1].lane(lane);
         let rubbing = |&pair: &usize| way(pair).abs() > rubs.still[pair].lane(lane);
         let used: Vec<usize> = (0..plan.rubbing.len()).filter(rubbing).collect();
+        let rests = self.drive.iter().all(|[speed, _]| speed.lane(lane) == 0.0);
+        let is_static = rubs.is_static.unwrap_or(rests);
         let of = |vector: Vector<R>| [vector.x.lane(lane), vector.y.lane(lane)];
-        let pairs = used.iter().map(|&pair| RubbingPair {
-            law: plan.rubbing[pair].law,
-            sense: 1.0_f64.copysign(way(pair)),
-            rate: way(pair).abs(),
-            base: of(rubs.base[pair]),
-            slopes: used.iter().map(|&on| of(rubs.slopes[on][pair])).collect(),
+        let pairs = used.iter().map(|&pair| {
+            let rubbing = &plan.rubbing[pair];
+            RubbingPair {
+                law: if is_static { rubbing.static_law } else { rubbing.law },
+                sense: 1.0_f64.copysign(way(pair)),
+                rate: way(pair).abs(),
+                base: of(rubs.base[pair]),
+                slopes: used.iter().map(|&on| of(rubs.slopes[on][pair])).collect(),
+            }
         });
         (FrictionProblem { pairs: pairs.collect() }, used)
     }

@@ -45,7 +45,7 @@ pub(crate) struct Scene<R: Real> {
     pub slide_moment: Vec<R>,
     /// Torque or force of every driver.
     pub driver: Vec<R>,
-    pub(super) rubs: Rubs<R>,
+    pub(crate) rubs: Rubs<R>,
     pub(super) matrix: Vec<[R; 1]>,
     pub(super) right: Vec<R>,
 }

@@ -12,7 +12,7 @@ use crate::state::closures::{ClosedPath, Closures};
 impl<R: Real> Scene<R> {
     /// Starts with the loads on the links.
     #[inline(always)]
-    pub(super) fn start(&mut self, plan: &ForcePlan) {
+    pub(crate) fn start(&mut self, plan: &ForcePlan) {
         self.point_load.fill(Vector::ZERO);
         self.edge_force.fill(Vector::ZERO);
         self.sliding.fill(R::ZERO);

@@ -7,6 +7,7 @@ use super::callbacks::Callbacks;
 use super::error::{RunError, outside_table};
 use super::model::ReducedModel;
 use super::table_cursor::TableCursor;
+use crate::dynamics::friction::motion::{Drive, RubbingState};
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
 use crate::dynamics::tables::table::{Cell, Table};
@@ -44,6 +45,10 @@ pub(crate) struct Equation<'a, S, O> {
     pub drive: Vec<f64>,
     /// Derivative of the first driver's by its speed.
     pub d_drive_d_speed: f64,
+    /// Moment of friction on the only driver, at the last state.
+    pub friction: f64,
+    /// Whether friction left no acceleration at the last state.
+    pub is_locked: bool,
     /// Ranges of time and coordinate in which callbacks are evaluated: just inside the breaks,
     /// where they may jump.
     pub times: [f64; 2],
@@ -79,6 +84,8 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             reduced: Reduced::new(drivers),
             drive: vec![0.0; drivers],
             d_drive_d_speed: 0.0,
+            friction: 0.0,
+            is_locked: false,
             times: [f64::NEG_INFINITY, f64::INFINITY],
             coordinates: [f64::NEG_INFINITY, f64::INFINITY],
             wants_slopes: false,
@@ -245,16 +252,40 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         Ok(())
     }
 
-    /// Moment of all loads and motors on a driver.
+    /// Finds the acceleration and the moment of friction of the only driver at the state whose loads were
+    /// applied last.
+    pub(crate) fn rub(
+        &mut self,
+        q: f64,
+        state: RubbingState,
+    ) -> Result<f64, EquationFault<O::Error>> {
+        self.friction = 0.0;
+        let rotors: f64 = self.motors.iter().map(Motor::inertia).sum();
+        let drive = Drive { effort: self.drive[0], inertia: rotors + self.flywheel };
+        let numbers = Numbers { tables: &self.readings, external: &self.external };
+        let found = self.model.rubbing_acceleration(state, drive, numbers);
+        self.is_locked = found.is_none();
+        let Some(acceleration) = found else {
+            self.rejected = None;
+            return Err(Fault::OutOfDomain);
+        };
+        let free = self.moment(0) - self.reduced.centrifugal(0, &[state.speed]);
+        self.friction = self.inertia(q)? * acceleration - free;
+        Ok(acceleration)
+    }
+
+    /// Moment of all loads, motors and friction on a driver.
     pub(crate) fn moment(&self, driver: usize) -> f64 {
-        self.reduced.moment(driver) + self.drive[driver]
+        let friction = if driver == 0 { self.friction } else { 0.0 };
+        self.reduced.moment(driver) + self.drive[driver] + friction
     }
 
     /// Power of loads and motors that the potential energy does not include, W.
     pub(crate) fn power(&self, speed: &[f64]) -> f64 {
         let driver_power =
             |(driver, v): (usize, &f64)| (self.reduced.applied[driver] + self.drive[driver]) * v;
-        speed.iter().enumerate().map(driver_power).sum()
+        let friction = self.friction * speed[0];
+        speed.iter().enumerate().map(driver_power).sum::<f64>() + friction
     }
 
     /// The reduced inertia of a single driver.

@@ -17,6 +17,15 @@ pub enum RunError<E> {
     /// The error of a callback.
     #[error("{0}")]
     Callback(E),
+    /// Friction locks the machine where it is to start.
+    #[error(
+        "friction locks the machine at q = {}: no acceleration agrees with it",
+        number(*q)
+    )]
+    Locked {
+        /// The coordinate.
+        q: f64,
+    },
     /// The reduced inertia is not positive.
     #[error(
         "the reduced inertia is {} kg·m² at q = {}: it must be positive everywhere",
@@ -91,6 +100,7 @@ impl<E: std::fmt::Display> Hint for RunError<E> {
                 "give {driver:?}, or the links that move with it, a Body with a mass or an inertia"
             )),
             Self::NoInitialPosition(failure) => failure.hint(),
+            Self::Locked { .. } => Some("start elsewhere, or with less friction".into()),
             Self::TableEnds { .. } => Some("extend the table, or start within it".into()),
             _ => None,
         }

@@ -7,6 +7,7 @@ use super::error::{RunError, check_counts};
 use super::model::{MechanismModel, ReducedModel, TabulatedMachine};
 use super::options::{EventKind, RunOptions};
 use super::sample::Samples;
+use super::stick_slip::Change;
 use super::system::{Ended, RunSystem};
 use super::table_cursor::SAME_KNOT_RTOL;
 use super::tolerances::tolerances;
@@ -82,6 +83,9 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     equation.begin(options.q[0], options.speed)?;
     let mut system = RunSystem::new(equation, options);
     system.store_initial_energy(options)?;
+    if let (&[q], &[speed]) = (options.q, options.speed) {
+        system.begin_phase(options.t, q, speed)?;
+    }
     let (from, end) = match options.along {
         Variable::Time => (options.t, options.end),
         Variable::Coordinate => (options.q[0], options.end),
@@ -106,6 +110,10 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
         // With several drivers each position is solved from the one before.
         let largest = if has_angle_events { ANGLE_EVENT_STEP } else { SEVERAL_DRIVERS_STEP };
         max_change.extend(sizes.iter().map(|size| largest * size));
+    }
+    if system.friction_event().is_some() && system.equation.callbacks.count() > 0 {
+        // While it rests nothing but these steps looks for loads that move it.
+        max_step = max_step.min((to - from).abs() / STEPS_AT_REST);
     }
     let ode_options = Options {
         relative: &relative,
@@ -142,6 +150,8 @@ fn clip_to_tables(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>)
     clipped
 }
 
+/// Least number of steps of a run with friction and functions among the loads.
+const STEPS_AT_REST: f64 = 1000.0;
 /// Largest step (rad, or of the size) with events on angles of the mechanism.
 const ANGLE_EVENT_STEP: f64 = 0.1;
 /// The same with several drivers and no such events.
@@ -199,8 +209,19 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
     let Solution { end, events, event_states, dense: path, statistics, y: y_end, .. } = solution;
     let (along, sign, len) = (system.along, system.sign, system.len());
     let read = |x: f64, y: &[f64]| sample_at(along, sign, x, y, &vec![f64::NAN; len]);
+    let friction_event = system.friction_event();
+    let mut changes = system.changes.iter();
     let record = |(event, y): (&crate::ode::solution::Event, &[f64])| {
-        let index = system.event_index(event.index)?;
+        // After the events that were asked for: stick, and slip.
+        let index = if Some(event.index) == friction_event {
+            match changes.next()? {
+                Change::Stick => options.events.len(),
+                Change::Slip => options.events.len() + 1,
+                Change::Turn => return None,
+            }
+        } else {
+            system.event_index(event.index)?
+        };
         let sample = read(event.t, y);
         Some(EventRecord { event: index, t: sample.t, q: sample.q, speed: sample.speed })
     };
@@ -215,6 +236,9 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
         (_, Some(Ended::DeadPoint)) => edge_reason(&mut system.equation),
         (End::Event { index, .. }, _) => {
             system.event_index(index).map_or(StopReason::Stalled, StopReason::Event)
+        }
+        (End::DomainBoundary { .. } | End::Stalled { .. }, _) if system.equation.is_locked => {
+            StopReason::Locked
         }
         (End::DomainBoundary { t } | End::Stalled { t }, _)
             if along == Variable::Coordinate && system.is_at_dead_point(&[t], last_work) =>

@@ -3,6 +3,7 @@
 use std::convert::Infallible;
 
 use crate::dynamics::angle_between::Angle;
+use crate::dynamics::friction::motion::{Drive, FrictionMotion, RubbingState};
 use crate::dynamics::kinematics::SolvedPose;
 use crate::dynamics::machine::{Machine, ReducedTable};
 use crate::dynamics::motor::Motor;
@@ -36,6 +37,17 @@ pub(crate) trait ReducedModel {
 
     /// Name of the link or slide that is a driver.
     fn driver_name(&self, driver: usize) -> Option<String>;
+
+    /// Whether pairs have friction.
+    fn has_friction(&self) -> bool {
+        false
+    }
+
+    /// The acceleration of the only driver under friction, at the last position; `None` where friction
+    /// leaves none.
+    fn rubbing_acceleration(&mut self, _: RubbingState, _: Drive, _: Numbers<'_>) -> Option<f64> {
+        None
+    }
 
     /// Reduces the other loads at the last position and these speeds.
     fn apply_loads(&mut self, speed: &[f64], numbers: Numbers<'_>, out: &mut Reduced);
@@ -71,6 +83,7 @@ pub(crate) struct MechanismModel<'m> {
     machine: &'m Machine,
     derivatives: &'m DerivativeTables,
     evaluator: Evaluator<'m>,
+    friction: Option<FrictionMotion<'m>>,
 }
 
 /// Beyond this condition of a dyad or group the analogues have too few digits to be integrated:
@@ -131,7 +144,9 @@ impl<'m> MechanismModel<'m> {
     ) -> Self {
         let lifted = machine.has_torsion();
         let evaluator = Evaluator::new(mechanism, dimensions, derivatives, Queries::Any, lifted);
-        Self { machine, derivatives, evaluator }
+        let rubs = !machine.friction.is_empty() && mechanism.q0().len() == 1;
+        let friction = rubs.then(|| FrictionMotion::new(machine, mechanism, dimensions));
+        Self { machine, derivatives, evaluator, friction }
     }
 }
 
@@ -150,6 +165,21 @@ impl ReducedModel for MechanismModel<'_> {
         self.machine
             .add_configuration(&SolvedPose::new(self.evaluator.position(), self.derivatives), out);
         Ok(())
+    }
+
+    fn has_friction(&self) -> bool {
+        self.friction.is_some()
+    }
+
+    fn rubbing_acceleration(
+        &mut self,
+        state: RubbingState,
+        drive: Drive,
+        numbers: Numbers<'_>,
+    ) -> Option<f64> {
+        let pose = SolvedPose::new(self.evaluator.position(), self.derivatives);
+        let friction = self.friction.as_mut()?;
+        friction.acceleration(&pose, state, drive, (numbers.tables, numbers.external))
     }
 
     fn failure(&self, rejection: Rejection, q: &[f64]) -> Option<Failure> {

@@ -7,7 +7,9 @@ use super::equation::{Equation, just_inside};
 use super::error::RunError;
 use super::model::ReducedModel;
 use super::options::{EventKind, EventSpec, RunOptions};
+use super::stick_slip::{Change, Phase};
 use super::variable::Variable;
+use crate::dynamics::friction::motion::RubbingState;
 use crate::ode::system::{Action, Crossing, Fault, System};
 use crate::state::status::Rejection;
 
@@ -34,6 +36,9 @@ pub(crate) struct RunSystem<'a, S, O> {
     pub ended: Option<Ended>,
     /// Sign of the speed, for a run along the coordinate.
     pub sign: f64,
+    pub(super) phase: Phase,
+    /// All changes of the phase, one for each event of friction.
+    pub(super) changes: Vec<Change>,
     drivers: usize,
     /// Initial kinetic and potential energy, once known.
     energy: Option<[f64; 2]>,
@@ -71,6 +76,8 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             deadline: options.deadline,
             ended: None,
             sign: options.speed[0].signum(),
+            phase: Phase::Smooth,
+            changes: Vec::new(),
             drivers: options.q.len(),
             energy: None,
             reach: (1.0e3 * options.relative).clamp(MIN_REACH, MAX_REACH),
@@ -155,7 +162,20 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
     /// Next comes the event that may be a dead point: for a single driver its rest, for several the
     /// least distance from a singular position.
     fn has_dead_points(&self) -> bool {
-        self.along == Variable::Time && self.equation.model.has_dead_points()
+        self.along == Variable::Time
+            && !self.has_stick_slip()
+            && self.equation.model.has_dead_points()
+    }
+
+    /// In its place comes the event that friction stops a machine, or no longer holds it.
+    fn has_stick_slip(&self) -> bool {
+        self.along == Variable::Time && self.phase != Phase::Smooth
+    }
+
+    /// Index of that event.
+    pub(crate) fn friction_event(&self) -> Option<usize> {
+        let before = self.crossings().len() - self.events.len();
+        self.has_stick_slip().then(|| before - 1)
     }
 
     /// The direction of crossing of each event function.
@@ -166,6 +186,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         let directions = self.events.iter().map(|event| event.crossing);
         std::iter::repeat_n(Crossing::Boundary, 2 * tables)
             .chain(std::iter::repeat_n(crossing, usize::from(self.has_dead_points())))
+            .chain(std::iter::repeat_n(Crossing::Rising, usize::from(self.has_stick_slip())))
             .chain(directions)
             .collect()
     }
@@ -222,7 +243,17 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
                 let outcome =
                     equation.set_configuration(q).and_then(|()| equation.apply_loads(t, q, speed));
                 match outcome {
-                    Ok(()) => equation.moment(0) - equation.reduced.centrifugal(0, speed),
+                    Ok(()) => match self.phase {
+                        Phase::Smooth => {
+                            equation.moment(0) - equation.reduced.centrifugal(0, speed)
+                        }
+                        Phase::Stick => f64::NAN,
+                        Phase::Slip(sense) => {
+                            let speed = speed[0];
+                            let state = RubbingState { speed, sense, is_static: false };
+                            equation.rub(q[0], state).unwrap_or(f64::NAN)
+                        }
+                    },
                     Err(Fault::OutOfDomain) => f64::NAN,
                     Err(Fault::Error(error)) => return Err(error),
                 }
@@ -242,7 +273,17 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
                 equation.set_configuration(q)?;
                 equation.apply_loads(x, q, speed)?;
                 rates[..n].copy_from_slice(speed);
-                equation.accelerations(q, speed, &mut rates[n..2 * n])?;
+                match self.phase {
+                    Phase::Smooth => equation.accelerations(q, speed, &mut rates[n..2 * n])?,
+                    Phase::Slip(sense) => {
+                        let state = RubbingState { speed: speed[0], sense, is_static: false };
+                        rates[1] = equation.rub(q[0], state)?;
+                    }
+                    Phase::Stick => {
+                        rates.fill(0.0);
+                        return Ok(());
+                    }
+                }
                 rates[2 * n] = equation.power(speed);
             }
             Variable::Coordinate => {
@@ -255,6 +296,13 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
                 let speed = [self.sign * y[0].sqrt()];
                 equation.set_configuration(&[x])?;
                 equation.apply_loads(y[1], &[x], &speed)?;
+                if let Phase::Slip(sense) = self.phase {
+                    let state = RubbingState { speed: speed[0], sense, is_static: false };
+                    rates[0] = 2.0 * equation.rub(x, state)?;
+                    rates[1] = 1.0 / speed[0];
+                    rates[2] = equation.power(&speed) / speed[0];
+                    return Ok(());
+                }
                 let inertia = equation.inertia(x)?;
                 // The quotient does not wait for the state.
                 let inverse = 1.0 / inertia;
@@ -295,13 +343,20 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
             values[0] = if n == 1 { speed[0] } else { self.singularity_trend(q, speed) };
             values = &mut values[1..];
         }
+        if self.has_stick_slip() {
+            values[0] = match self.phase {
+                Phase::Slip(sense) => -speed[0] * sense,
+                _ => self.slip_margin(t, q[0])?,
+            };
+            values = &mut values[1..];
+        }
         for (value, spec) in values.iter_mut().zip(self.events) {
             *value = self.event_value(&spec.kind, t, q, speed)?;
         }
         Ok(())
     }
 
-    fn on_event(&mut self, event: usize, _: f64, y: &mut [f64]) -> Result<Action, Self::Error> {
+    fn on_event(&mut self, event: usize, t: f64, y: &mut [f64]) -> Result<Action, Self::Error> {
         if let Some(index) = self.event_index(event) {
             let stops = self.events[index].stops;
             return Ok(if stops { Action::Stop } else { Action::Continue });
@@ -324,7 +379,14 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
             event -= 2;
         }
         let Some(which) = self.equation.motors_with_table().nth(event / 2) else {
-            return Ok(self.on_possible_dead_point(y));
+            if !self.has_stick_slip() || self.phase != Phase::Stick {
+                let action = self.on_possible_dead_point(y);
+                if action == Action::Stop || !self.has_stick_slip() {
+                    return Ok(action);
+                }
+            }
+            self.change_phase(t, y)?;
+            return Ok(Action::Restart);
         };
         let Some((driver, speed)) = self.equation.advance_motor_table(which, up) else {
             self.ended = Some(Ended::Motor(which));

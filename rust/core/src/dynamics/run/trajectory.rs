@@ -18,6 +18,8 @@ pub enum StopReason {
     Rest,
     /// At a dead point: the assembly has no motion beyond it.
     DeadPoint,
+    /// Where friction locks the machine while it moves.
+    Locked,
     /// Where the branch cannot be tracked: the reason.
     Lost(String),
     /// Beside a near miss of a change point: the lengths of a dyad miss one by `miss`, and the

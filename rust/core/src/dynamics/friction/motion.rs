@@ -1,0 +1,162 @@
+//! The acceleration of a machine with friction: the drive is given, and both the acceleration and the
+//! friction follow.
+//!
+//! Reactions are linear in the acceleration α too. The effort of the drive, D₀ + D_α α + D_τ τ, is what the
+//! motor gives; so α is linear in the friction τ, and with it each pair's reaction. What remains is the law
+//! of friction as for a given motion.
+
+use crate::batch::outputs::{Column, Quantity, columns};
+use crate::dynamics::kinematics::{Point, SolvedPose};
+use crate::dynamics::machine::Machine;
+use crate::dynamics::reactions::applied::Values;
+use crate::dynamics::reactions::columns::{Rows, Solved, Sources, guide_directions};
+use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::reactions::scene::Scene;
+use crate::math::vector::Vector;
+use crate::plan::mechanism::Mechanism;
+
+/// The drive of a machine at one state.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Drive {
+    /// What motors give, N·m or N.
+    pub effort: f64,
+    /// Inertia of their rotors and of a flywheel.
+    pub inertia: f64,
+}
+
+/// A state of a machine with one driver.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RubbingState {
+    pub speed: f64,
+    /// +1 or −1: the way in which everything slides, or is about to slide.
+    pub sense: f64,
+    /// Whether it is at rest, so that static friction holds it.
+    pub is_static: bool,
+}
+
+/// Work space of a machine's accelerations under friction.
+pub(crate) struct FrictionMotion<'m> {
+    machine: &'m Machine,
+    plan: ForcePlan,
+    columns: Vec<Column>,
+    sources: Sources,
+    guides: Vec<Vector>,
+    size: f64,
+    values: Vec<Vec<f64>>,
+    tables: Vec<Vec<f64>>,
+    scene: Scene<f64>,
+}
+
+/// The only position.
+const ROW: Rows = Rows { first: 0, last: 0 };
+
+impl<'m> FrictionMotion<'m> {
+    /// For a design with one driver and friction.
+    pub(crate) fn new(machine: &'m Machine, mechanism: &Mechanism, dimensions: &[f64]) -> Self {
+        let plan = ForcePlan::new(mechanism, machine);
+        let columns = columns(&plan.outputs, 1, plan.order);
+        Self {
+            sources: Sources::new(&plan, &columns),
+            guides: guide_directions(mechanism, dimensions),
+            size: mechanism.linkage().size(),
+            values: columns.iter().map(|column| vec![0.0; column.width]).collect(),
+            tables: vec![vec![0.0]; machine.tables.len()],
+            scene: Scene::new(&plan),
+            machine,
+            columns,
+            plan,
+        }
+    }
+
+    /// The acceleration; `None` where friction leaves none. `tables` and `external`: values of the loads.
+    pub(crate) fn acceleration(
+        &mut self,
+        pose: &SolvedPose<'_>,
+        state: RubbingState,
+        drive: Drive,
+        (tables, external): (&[[f64; 2]], &[[f64; 2]]),
+    ) -> Option<f64> {
+        self.read_values(pose);
+        for (table, &[value, _]) in self.tables.iter_mut().zip(tables) {
+            table[0] = value;
+        }
+        let external: Vec<f64> = external.iter().map(|&[value, _]| value).collect();
+        let Self { machine, plan, sources, guides, values, tables, scene, .. } = self;
+        let values_of_loads = Values { tables, external: &external, callbacks: external.len() };
+        let columns: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        let speed = [state.speed];
+        let load = |acceleration: f64, scene: &mut Scene<f64>| {
+            let acceleration = [acceleration];
+            let (columns, speed, acceleration) = (&columns[..], &speed[..], &acceleration[..]);
+            let solved = Solved { columns, speed, acceleration, positions: 1 };
+            scene.read(plan, sources, guides, &solved, ROW);
+            scene.apply(plan, machine, values_of_loads, ROW);
+            scene.read_rubbing(plan, sources, (&solved, ROW), &[state.sense], self.size);
+        };
+        load(1.0, scene);
+        let accelerated = (scene.link_force.clone(), scene.link_moment.clone());
+        load(0.0, scene);
+        scene.rubs.is_static = Some(state.is_static);
+        let still = (scene.link_force.clone(), scene.link_moment.clone());
+        scene.drag(plan);
+        scene.start(plan);
+        let base = scene.pair_reactions(plan);
+        let effort = scene.driver[0];
+        for (own, (one, other)) in
+            scene.link_force.iter_mut().zip(accelerated.0.iter().zip(&still.0))
+        {
+            *own = *one - *other;
+        }
+        for (own, (one, other)) in
+            scene.link_moment.iter_mut().zip(accelerated.1.iter().zip(&still.1))
+        {
+            *own = one - other;
+        }
+        scene.start(plan);
+        let per_acceleration = scene.pair_reactions(plan);
+        let inertia = scene.driver[0] + drive.inertia;
+        let mut per_friction = Vec::new();
+        scene.respond(plan, |scene| per_friction.push(scene.driver[0]));
+        // α = (motors − D₀ − D_τ τ)/D_α.
+        let free = (drive.effort - effort) / inertia;
+        scene.rubs.base = base
+            .iter()
+            .zip(&per_acceleration)
+            .map(|(&base, &rate)| base + rate.scale(free))
+            .collect();
+        for (slopes, effort) in scene.rubs.slopes.iter_mut().zip(&per_friction) {
+            for (slope, &rate) in slopes.iter_mut().zip(&per_acceleration) {
+                *slope = *slope - rate.scale(effort / inertia);
+            }
+        }
+        let (problem, used) = scene.problem(plan, 0);
+        let all = problem.solve().ok()?;
+        let friction = all.first()?;
+        let of_friction: f64 =
+            used.iter().zip(friction).map(|(&pair, friction)| per_friction[pair] * friction).sum();
+        Some(free - of_friction / inertia)
+    }
+
+    /// Fills the columns that reactions read.
+    fn read_values(&mut self, pose: &SolvedPose<'_>) {
+        let is_torsion = self.machine.has_torsion();
+        for (column, values) in self.columns.iter().zip(&mut self.values) {
+            let k = column.order;
+            match column.quantity {
+                Quantity::Joint(joint) => {
+                    let place = pose.point(Point::Joint(joint), k);
+                    values.copy_from_slice(&[place.x, place.y]);
+                }
+                Quantity::Origin(link) => {
+                    let place = pose.point(Point::Link { link, at: [0.0, 0.0] }, k);
+                    values.copy_from_slice(&[place.x, place.y]);
+                }
+                Quantity::Slide(slide) => values[0] = pose.slide(slide, k),
+                Quantity::Angle(link) if k > 0 => values[0] = pose.angle(link, k),
+                // Without torsion springs only the direction is read.
+                Quantity::Angle(link) if is_torsion => values[0] = pose.total_angle(link),
+                Quantity::Angle(link) => values[0] = pose.frame(link, 0).angle(),
+            }
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Stick and slip: a machine with friction moves in one sense, or rests while friction holds it.
+
+use super::callbacks::Callbacks;
+use super::error::RunError;
+use super::model::ReducedModel;
+use super::system::RunSystem;
+use crate::dynamics::friction::motion::RubbingState;
+use crate::ode::system::Fault;
+
+/// How a machine with friction moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Phase {
+    /// It has no friction.
+    Smooth,
+    /// It slides in this sense, +1 or −1.
+    Slip(f64),
+    /// It rests.
+    Stick,
+}
+
+/// A change of the phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Change {
+    /// Friction holds it.
+    Stick,
+    /// It begins to slide.
+    Slip,
+    /// It comes back at once.
+    Turn,
+}
+
+impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
+    /// The accelerations with which friction would let it begin to slide forward and backward from rest:
+    /// infinite the other way where it locks.
+    fn accelerations_from_rest(
+        &mut self,
+        t: f64,
+        q: f64,
+    ) -> Result<[f64; 2], Fault<RunError<O::Error>>> {
+        let equation = &mut self.equation;
+        equation.set_configuration(&[q])?;
+        equation.apply_loads(t, &[q], &[0.0])?;
+        let mut both = [f64::NEG_INFINITY, f64::INFINITY];
+        for (own, sense) in both.iter_mut().zip([1.0, -1.0]) {
+            let state = RubbingState { speed: 0.0, sense, is_static: true };
+            match equation.rub(q, state) {
+                Ok(acceleration) => *own = acceleration,
+                Err(Fault::OutOfDomain) if equation.is_locked => {}
+                Err(fault) => return Err(fault),
+            }
+        }
+        equation.is_locked = false;
+        equation.friction = 0.0;
+        Ok(both)
+    }
+
+    /// By how much the loads are too weak (below 0) or too strong for friction to hold it at rest.
+    pub(crate) fn slip_margin(&mut self, t: f64, q: f64) -> Result<f64, RunError<O::Error>> {
+        match self.accelerations_from_rest(t, q) {
+            Ok([forward, backward]) => Ok(forward.max(-backward)),
+            Err(Fault::OutOfDomain) => Ok(f64::NAN),
+            Err(Fault::Error(error)) => Err(error),
+        }
+    }
+
+    /// The phase that begins at rest.
+    pub(crate) fn phase_from_rest(&mut self, t: f64, q: f64) -> Result<Phase, RunError<O::Error>> {
+        Ok(match self.accelerations_from_rest(t, q) {
+            // Where both ways are open friction is too small to matter which: the loads decide.
+            Ok([forward, backward]) if forward > 0.0 && forward >= -backward => Phase::Slip(1.0),
+            Ok([_, backward]) if backward < 0.0 => Phase::Slip(-1.0),
+            Ok(_) => Phase::Stick,
+            Err(Fault::OutOfDomain) => Phase::Slip(1.0),
+            Err(Fault::Error(error)) => return Err(error),
+        })
+    }
+
+    /// Sets the phase at the start of a run.
+    pub(crate) fn begin_phase(
+        &mut self,
+        t: f64,
+        q: f64,
+        speed: f64,
+    ) -> Result<(), RunError<O::Error>> {
+        if self.equation.model.has_friction() {
+            self.phase = if speed == 0.0 {
+                self.phase_from_rest(t, q)?
+            } else {
+                Phase::Slip(speed.signum())
+            };
+        }
+        let Phase::Slip(sense) = self.phase else { return Ok(()) };
+        let equation = &mut self.equation;
+        let state = RubbingState { speed, sense, is_static: false };
+        let begun = equation
+            .set_configuration(&[q])
+            .and_then(|()| equation.apply_loads(t, &[q], &[speed]))
+            .and_then(|()| equation.rub(q, state));
+        match begun {
+            Err(Fault::OutOfDomain) if equation.is_locked => Err(RunError::Locked { q }),
+            Err(Fault::OutOfDomain) => Err(equation.no_initial_position(&[q])),
+            Err(Fault::Error(error)) => Err(error),
+            Ok(_) => Ok(()),
+        }
+    }
+
+    /// Changes the phase at rest after a slip, or as friction no longer holds.
+    pub(crate) fn change_phase(&mut self, t: f64, y: &mut [f64]) -> Result<(), RunError<O::Error>> {
+        let before = self.phase;
+        y[1] = 0.0;
+        self.phase = match before {
+            // The event is where the margin is zero, to rounding: it slides on.
+            Phase::Stick => match self.accelerations_from_rest(t, y[0]) {
+                Ok([forward, backward]) => {
+                    Phase::Slip(if forward >= -backward { 1.0 } else { -1.0 })
+                }
+                Err(Fault::Error(error)) => return Err(error),
+                Err(Fault::OutOfDomain) => Phase::Slip(1.0),
+            },
+            _ => self.phase_from_rest(t, y[0])?,
+        };
+        self.changes.push(match (before, self.phase) {
+            (_, Phase::Stick) => Change::Stick,
+            (Phase::Stick, _) => Change::Slip,
+            _ => Change::Turn,
+        });
+        Ok(())
+    }
+}
