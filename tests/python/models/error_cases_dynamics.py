@@ -11,6 +11,7 @@ import assur
 from assur import (
     Body,
     InputError,
+    JointFriction,
     LinearMotor,
     Machine,
     MotionError,
@@ -87,7 +88,17 @@ def torn(row: int, value: float) -> Any:
     return np.where(np.arange(9) == row, value, MOMENT)
 
 
+def jammed() -> Machine:
+    """Beside its stretched position friction in the pins leaves no motion against the load."""
+    pins = {name: JointFriction(0.1, 1.0) for name in "ABCD"}
+    linkage = assur.FourBar(1.0, 4.5, 1.5, 4.985)
+    return Machine(
+        linkage, {"crank": Body(inertia=1.0)}, [Torque("rocker", -100.0)], friction=pins
+    )
+
+
 RUN: dict[str, Case] = {
+    "locked": Case(MotionError, lambda: jammed().run(1.0, q0=3.1, speed0=1.0), {"q": 3.1}),
     "no_inertia": Case(
         InputError,
         lambda: wheel(inertia=0.0).run(1.0, speed0=1.0),

@@ -1,7 +1,7 @@
 //! The acceleration of a machine with friction: the drive is given, and both the acceleration and the
 //! friction follow.
 //!
-//! Reactions are linear in the acceleration α too. The effort of the drive, D₀ + D_α α + D_τ τ, is what the
+//! Reactions are linear in the acceleration α too. The effort of the drive, D₀ + D₁ α + D₂ τ, is what the
 //! motor gives; so α is linear in the friction τ, and with it each pair's reaction. What remains is the law
 //! of friction as for a given motion.
 
@@ -117,7 +117,7 @@ impl<'m> FrictionMotion<'m> {
         let inertia = scene.driver[0] + drive.inertia;
         let mut per_friction = Vec::new();
         scene.respond(plan, |scene| per_friction.push(scene.driver[0]));
-        // α = (motors − D₀ − D_τ τ)/D_α.
+        // α = (motors − D₀ − D₂ τ)/D₁.
         let free = (drive.effort - effort) / inertia;
         scene.rubs.base = base
             .iter()

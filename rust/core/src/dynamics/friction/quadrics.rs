@@ -1,8 +1,8 @@
-//! All solutions of quadratic equations u_k² = a_k(u)² + b_k(u)², with a_k and b_k linear: the sizes of
+//! All solutions of quadratic equations uₖ² = aₖ(u)² + bₖ(u)², with aₖ and bₖ linear: the sizes of
 //! forces on which friction depends.
 //!
 //! A total-degree homotopy (A. J. Sommese and C. W. Wampler, *The Numerical Solution of Systems of
-//! Polynomials*, 2005, ch. 8): the 2ⁿ solutions of u_k² = 1 are followed to those of the equations in
+//! Polynomials*, 2005, ch. 8): the 2ⁿ solutions of uₖ² = 1 are followed to those of the equations in
 //! complex numbers. By Bézout's theorem no isolated solution is left out. In homogeneous coordinates
 //! paths that lead to infinity end like others.
 
@@ -45,7 +45,7 @@ impl Quadrics {
         (0..1_usize << n).filter_map(|signs| self.end_of_path(signs)).collect()
     }
 
-    /// Follows the path that begins at u_k = ±1.
+    /// Follows the path that begins at uₖ = ±1.
     fn end_of_path(&self, signs: usize) -> Option<Vec<Number>> {
         let n = self.forms.len();
         let mut point = [Number::ZERO; MAX_UNKNOWNS + 1];
@@ -142,7 +142,7 @@ impl Quadrics {
         self.solve(point, at, value)
     }
 
-    /// Start u_k² − u₀² and end u_k² − a_k² − b_k² of each equation.
+    /// Start uₖ² − u₀² and end uₖ² − aₖ² − bₖ² of each equation.
     fn parts(&self, point: &Point, k: usize) -> [Number; 2] {
         let square = point[k + 1] * point[k + 1];
         let [a, b] = [0, 1].map(|form| product(&self.forms[k][form], point));

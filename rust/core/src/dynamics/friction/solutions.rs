@@ -110,16 +110,16 @@ impl FrictionProblem {
                 })
                 .collect();
             for start in self.with_faces(&journals, &guides, &chosen) {
-                self.add(start, &mut found);
+                self.add(&start, &mut found);
             }
         }
         Ok(found)
     }
 
     /// Adds the solution near a start, unless there is none or it is known.
-    fn add(&self, start: Vec<f64>, found: &mut Vec<Vec<f64>>) {
-        let Some(solution) = self.newton(&start, 1.0) else { return };
-        let size = amax(&solution).max(amax(&start));
+    fn add(&self, start: &[f64], found: &mut Vec<Vec<f64>>) {
+        let Some(solution) = self.newton(start, 1.0) else { return };
+        let size = amax(&solution).max(amax(start));
         let apart = start.iter().zip(&solution).all(|(a, b)| (a - b).abs() <= NEAR * size);
         if apart && !found.iter().any(|other| is_same(other, &solution)) {
             found.push(solution);

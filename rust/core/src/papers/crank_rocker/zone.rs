@@ -126,8 +126,8 @@ pub fn least_gamma([f_c, r_c, f_d, r_d]: [f64; 4], rocker: f64) -> Option<f64> {
 /// Least transmission angle that friction allows where no link has mass and the crank drives, exactly:
 /// radii ρ of the friction circles at B, C and D.
 ///
-/// The coupler's moments about B turn the force off the line BC by arcsin((s ρ_C − t ρ_B)/l₂), and those of
-/// the rocker about D ask for l₃ sin γ′ ≥ ρ_D + s ρ_C, with s and t the senses in which rocker and coupler
+/// The coupler's moments about B turn the force off the line BC by arcsin((s ρC − t ρB)/l₂), and those of
+/// the rocker about D ask for l₃ sin γ′ ≥ ρD + s ρC, with s and t the senses in which rocker and coupler
 /// turn in C and coupler and crank in B, to that of the rocker's swing. At its extreme t is −1 on the outer
 /// side, +1 on the inner one, and s changes: the crank passes if γ there exceeds the limit of both. `None` if
 /// friction blocks every angle.
