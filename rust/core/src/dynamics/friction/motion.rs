@@ -11,6 +11,7 @@ use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::applied::Values;
 use crate::dynamics::reactions::columns::{Rows, Solved, Sources, guide_directions};
 use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::reactions::rubbing::Rubbing;
 use crate::dynamics::reactions::scene::Scene;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
@@ -38,6 +39,7 @@ pub(crate) struct RubbingState {
 pub(crate) struct FrictionMotion<'m> {
     machine: &'m Machine,
     plan: ForcePlan,
+    rubbing: Vec<Rubbing>,
     columns: Vec<Column>,
     sources: Sources,
     guides: Vec<Vector>,
@@ -55,6 +57,9 @@ impl<'m> FrictionMotion<'m> {
     pub(crate) fn new(machine: &'m Machine, mechanism: &Mechanism, dimensions: &[f64]) -> Self {
         let plan = ForcePlan::new(mechanism, machine);
         let columns = columns(&plan.outputs, 1, plan.order);
+        let linkage = mechanism.linkage();
+        let links_at: Vec<Vec<usize>> =
+            (0..linkage.joints.len()).map(|joint| linkage.links_at(joint).collect()).collect();
         Self {
             sources: Sources::new(&plan, &columns),
             guides: guide_directions(mechanism, dimensions),
@@ -62,6 +67,7 @@ impl<'m> FrictionMotion<'m> {
             values: columns.iter().map(|column| vec![0.0; column.width]).collect(),
             tables: vec![vec![0.0]; machine.tables.len()],
             scene: Scene::new(&plan),
+            rubbing: Rubbing::of(&plan, &links_at, &machine.friction),
             machine,
             columns,
             plan,
@@ -81,7 +87,8 @@ impl<'m> FrictionMotion<'m> {
             table[0] = value;
         }
         let external: Vec<f64> = external.iter().map(|&[value, _]| value).collect();
-        let Self { machine, plan, sources, guides, values, tables, scene, .. } = self;
+        let Self { machine, plan, rubbing, sources, guides, values, tables, scene, .. } = self;
+        let rubbing = &rubbing[..];
         let values_of_loads = Values { tables, external: &external, callbacks: external.len() };
         let columns: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
         let speed = [state.speed];
@@ -91,16 +98,17 @@ impl<'m> FrictionMotion<'m> {
             let solved = Solved { columns, speed, acceleration, positions: 1 };
             scene.read(plan, sources, guides, &solved, ROW);
             scene.apply(plan, machine, values_of_loads, ROW);
-            scene.read_rubbing(plan, sources, (&solved, ROW), &[state.sense], self.size);
+            let pairs = (&*plan, rubbing);
+            scene.read_rubbing(pairs, sources, (&solved, ROW), &[state.sense], self.size);
         };
         load(1.0, scene);
         let accelerated = (scene.link_force.clone(), scene.link_moment.clone());
         load(0.0, scene);
         scene.rubs.is_static = Some(state.is_static);
         let still = (scene.link_force.clone(), scene.link_moment.clone());
-        scene.drag(plan);
+        scene.drag(plan, rubbing);
         scene.start(plan);
-        let base = scene.pair_reactions(plan);
+        let base = scene.pair_reactions(plan, rubbing);
         let effort = scene.driver[0];
         for (own, (one, other)) in
             scene.link_force.iter_mut().zip(accelerated.0.iter().zip(&still.0))
@@ -113,10 +121,10 @@ impl<'m> FrictionMotion<'m> {
             *own = one - other;
         }
         scene.start(plan);
-        let per_acceleration = scene.pair_reactions(plan);
+        let per_acceleration = scene.pair_reactions(plan, rubbing);
         let inertia = scene.driver[0] + drive.inertia;
         let mut per_friction = Vec::new();
-        scene.respond(plan, |scene| per_friction.push(scene.driver[0]));
+        scene.respond(plan, rubbing, |scene| per_friction.push(scene.driver[0]));
         // α = (motors − D₀ − D₂ τ)/D₁.
         let free = (drive.effort - effort) / inertia;
         scene.rubs.base = base
@@ -129,7 +137,7 @@ impl<'m> FrictionMotion<'m> {
                 *slope = *slope - rate.scale(effort / inertia);
             }
         }
-        let (problem, used) = scene.problem(plan, 0);
+        let (problem, used) = scene.problem(rubbing, 0);
         let all = problem.solve().ok()?;
         let friction = all.first()?;
         let of_friction: f64 =

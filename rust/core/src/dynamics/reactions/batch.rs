@@ -6,6 +6,7 @@ use super::evaluate::{Batch, Evaluate};
 use super::force_plan::ForcePlan;
 use super::pair_forces::{JointForce, Reaction};
 use super::request::ReactionRequest;
+use super::rubbing::Rubbing;
 use super::scene::Scene;
 use super::squares::Squares;
 use crate::batch::chunks::{Chunk, Chunks};
@@ -81,6 +82,7 @@ impl Machine {
             mechanism,
             machine: self,
             joints: asked.reactions.iter().map(joint_force).collect(),
+            rubbing: Rubbing::of(&plan, &links_at, &self.friction),
             sources: Sources::new(&plan, &columns),
             plan: &plan,
             asked,

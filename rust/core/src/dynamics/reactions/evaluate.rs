@@ -8,7 +8,7 @@ use super::columns::{Rows, Solved, Sources};
 use super::force_plan::ForcePlan;
 use super::pair_forces::{JointForce, Reaction};
 use super::request::ReactionRequest;
-use super::rubbing::Pair;
+use super::rubbing::{Pair, Rubbing};
 use super::scene::Scene;
 use super::squares::Squares;
 use crate::batch::dispatch::Task;
@@ -30,6 +30,7 @@ pub(super) struct Batch<'b> {
     pub plan: &'b ForcePlan,
     pub sources: Sources,
     pub joints: Vec<JointForce>,
+    pub rubbing: Vec<Rubbing>,
     pub asked: &'b ReactionRequest<'b>,
     pub request: &'b Request<'b>,
     pub derivatives: &'b DerivativeTables,
@@ -57,7 +58,7 @@ pub(super) struct Evaluate<'e, 'r, R: Real> {
 impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
     #[inline(always)]
     fn run(&mut self) {
-        let Batch { plan, machine, sources, asked, .. } = self.batch;
+        let Batch { plan, machine, sources, asked, rubbing, .. } = self.batch;
         let count = self.solved.positions;
         self.squares.clear();
         self.squares.resize(asked.reactions.len(), Squares::NONE);
@@ -65,7 +66,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
             let rows = Rows { first, last: count - 1 };
             self.scene.read(plan, sources, &self.guides, &self.solved, rows);
             self.scene.apply(plan, machine, self.values, rows);
-            if !plan.rubbing.is_empty() {
+            if !rubbing.is_empty() {
                 self.rub(rows);
             }
             self.scene.start(plan);
@@ -100,19 +101,20 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
 impl<R: Real> Evaluate<'_, '_, R> {
     /// Adds friction to the loads.
     fn rub(&mut self, rows: Rows) {
-        let Batch { mechanism, plan, sources, asked, .. } = self.batch;
+        let Batch { mechanism, plan, sources, asked, rubbing, .. } = self.batch;
         let size = mechanism.linkage().size();
         let ways = self.scene.ways(asked.sense);
-        self.scene.read_rubbing(plan, sources, (&self.solved, rows), &ways, size);
+        let pairs = (*plan, &rubbing[..]);
+        self.scene.read_rubbing(pairs, sources, (&self.solved, rows), &ways, size);
         let asks_safety = asked.reactions.contains(&Reaction::Safety);
-        self.scene.rub(plan, (asked.solution, asks_safety), size);
+        self.scene.rub(pairs, (asked.solution, asks_safety), size);
     }
 
     /// The sum over the pairs with friction at a joint or in a slide.
     #[inline(always)]
     fn sum_of_friction(&self, term: impl Fn(&Pair, usize) -> Option<R>) -> Vector<R> {
         let mut sum = R::ZERO;
-        for (index, rubbing) in self.batch.plan.rubbing.iter().enumerate() {
+        for (index, rubbing) in self.batch.rubbing.iter().enumerate() {
             if let Some(term) = term(&rubbing.pair, index) {
                 sum += term;
             }
@@ -159,8 +161,8 @@ impl<R: Real> Evaluate<'_, '_, R> {
                 Pair::Guide { slide: own, .. } if own == slide => Some(scene.rubs.loss(index)),
                 _ => None,
             }),
-            Reaction::Solutions if plan_rubs(self.batch.plan) => one(scene.rubs.solutions),
-            Reaction::Solutions => one(R::ONE),
+            Reaction::Solutions if self.batch.rubbing.is_empty() => one(R::ONE),
+            Reaction::Solutions => one(scene.rubs.solutions),
             Reaction::Safety => one(scene.rubs.safety),
             Reaction::Driver(driver) => one(scene.driver[driver]),
             Reaction::ShakingForce => scene.shaking_force,
@@ -296,10 +298,6 @@ impl<R: Real> Evaluate<'_, '_, R> {
 #[inline(always)]
 fn one<R: Real>(value: R) -> Vector<R> {
     Vector::new(value, R::ZERO)
-}
-
-fn plan_rubs(plan: &ForcePlan) -> bool {
-    !plan.rubbing.is_empty()
 }
 
 /// Whether a reaction may be infinite where the machine is not.

@@ -1,10 +1,10 @@
 //! What the reactions of a machine need of its mechanism, compiled once.
 
-use super::rubbing::{Pair, Rubbing};
 use super::steps::{SelfStress, Transposed, self_stresses, transposed_steps};
 use crate::batch::outputs::{Outputs, Quantity};
 use crate::description::Driver;
 use crate::description::frame::Axis;
+use crate::dynamics::friction::description::Friction;
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::load::Load;
 use crate::dynamics::machine::Machine;
@@ -81,8 +81,6 @@ pub(crate) struct ForcePlan {
     pub slide_drivers: Vec<Option<usize>>,
     /// The edge along every slide.
     pub guide_edges: Vec<Option<usize>>,
-    /// Pairs with friction.
-    pub rubbing: Vec<Rubbing>,
 }
 
 impl ForcePlan {
@@ -120,7 +118,6 @@ impl ForcePlan {
             .collect();
         let mut compiled = Self {
             guide_edges,
-            rubbing: Vec::new(),
             drivers: plan.drivers.len(),
             outputs: Outputs::default(),
             order: match (has_inertia, has_speeds) {
@@ -146,9 +143,6 @@ impl ForcePlan {
                 .map(|s| linkage.drivers.iter().position(|&d| d == Driver::Slide(s)))
                 .collect(),
         };
-        let links_at: Vec<Vec<usize>> =
-            (0..linkage.joints.len()).map(|joint| linkage.links_at(joint).collect()).collect();
-        compiled.rubbing = Rubbing::of(&compiled, &links_at, &machine.friction);
         compiled.find_needs(mechanism, machine);
         compiled
     }
@@ -175,10 +169,9 @@ impl ForcePlan {
                 }
             }
         }
-        for rubbing in self.rubbing.clone() {
-            if let Pair::Journal { on, fast, .. } = rubbing.pair {
-                self.need_angle(on);
-                self.need_angle(fast);
+        for friction in &machine.friction {
+            if let &Friction::Joint { joint, .. } = friction {
+                linkage.links_at(joint).for_each(|link| self.need_angle(link));
             }
         }
         for body in &machine.bodies {

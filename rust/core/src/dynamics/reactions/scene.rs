@@ -1,7 +1,7 @@
 //! The kinematics of a few positions, and the forces on them: one per lane.
 
 use super::force_plan::ForcePlan;
-use super::rubbing::Rubs;
+use super::rubs::Rubs;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 

@@ -84,7 +84,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     let mut system = RunSystem::new(equation, options);
     system.store_initial_energy(options)?;
     if let (&[q], &[speed]) = (options.q, options.speed) {
-        system.begin_phase(options.t, q, speed)?;
+        system.phase = system.equation.first_phase(options.t, q, speed)?;
     }
     let (from, end) = match options.along {
         Variable::Time => (options.t, options.end),

@@ -1,9 +1,9 @@
 //! Stick and slip: a machine with friction moves in one sense, or rests while friction holds it.
 
 use super::callbacks::Callbacks;
+use super::equation::Equation;
 use super::error::RunError;
 use super::model::ReducedModel;
-use super::system::RunSystem;
 use crate::dynamics::friction::motion::RubbingState;
 use crate::ode::system::Fault;
 
@@ -29,7 +29,7 @@ pub(crate) enum Change {
     Turn,
 }
 
-impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
+impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
     /// The accelerations with which friction would let it begin to slide forward and backward from rest:
     /// infinite the other way where it locks.
     fn accelerations_from_rest(
@@ -37,20 +37,19 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         t: f64,
         q: f64,
     ) -> Result<[f64; 2], Fault<RunError<O::Error>>> {
-        let equation = &mut self.equation;
-        equation.set_configuration(&[q])?;
-        equation.apply_loads(t, &[q], &[0.0])?;
+        self.set_configuration(&[q])?;
+        self.apply_loads(t, &[q], &[0.0])?;
         let mut both = [f64::NEG_INFINITY, f64::INFINITY];
         for (own, sense) in both.iter_mut().zip([1.0, -1.0]) {
             let state = RubbingState { speed: 0.0, sense, is_static: true };
-            match equation.rub(q, state) {
+            match self.rub(q, state) {
                 Ok(acceleration) => *own = acceleration,
-                Err(Fault::OutOfDomain) if equation.is_locked => {}
+                Err(Fault::OutOfDomain) if self.is_locked => {}
                 Err(fault) => return Err(fault),
             }
         }
-        equation.is_locked = false;
-        equation.friction = 0.0;
+        self.is_locked = false;
+        self.friction = 0.0;
         Ok(both)
     }
 
@@ -75,55 +74,56 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         })
     }
 
-    /// Sets the phase at the start of a run.
-    pub(crate) fn begin_phase(
+    /// The phase at the start of a run.
+    pub(crate) fn first_phase(
         &mut self,
         t: f64,
         q: f64,
         speed: f64,
-    ) -> Result<(), RunError<O::Error>> {
-        if self.equation.model.has_friction() {
-            self.phase = if speed == 0.0 {
-                self.phase_from_rest(t, q)?
-            } else {
-                Phase::Slip(speed.signum())
-            };
+    ) -> Result<Phase, RunError<O::Error>> {
+        if !self.model.has_friction() {
+            return Ok(Phase::Smooth);
         }
-        let Phase::Slip(sense) = self.phase else { return Ok(()) };
-        let equation = &mut self.equation;
+        let phase =
+            if speed == 0.0 { self.phase_from_rest(t, q)? } else { Phase::Slip(speed.signum()) };
+        let Phase::Slip(sense) = phase else { return Ok(phase) };
         let state = RubbingState { speed, sense, is_static: false };
-        let begun = equation
+        let begun = self
             .set_configuration(&[q])
-            .and_then(|()| equation.apply_loads(t, &[q], &[speed]))
-            .and_then(|()| equation.rub(q, state));
+            .and_then(|()| self.apply_loads(t, &[q], &[speed]))
+            .and_then(|()| self.rub(q, state));
         match begun {
-            Err(Fault::OutOfDomain) if equation.is_locked => Err(RunError::Locked { q }),
-            Err(Fault::OutOfDomain) => Err(equation.no_initial_position(&[q])),
+            Err(Fault::OutOfDomain) if self.is_locked => Err(RunError::Locked { q }),
+            Err(Fault::OutOfDomain) => Err(self.no_initial_position(&[q])),
             Err(Fault::Error(error)) => Err(error),
-            Ok(_) => Ok(()),
+            Ok(_) => Ok(phase),
         }
     }
 
-    /// Changes the phase at rest after a slip, or as friction no longer holds.
-    pub(crate) fn change_phase(&mut self, t: f64, y: &mut [f64]) -> Result<(), RunError<O::Error>> {
-        let before = self.phase;
-        y[1] = 0.0;
-        self.phase = match before {
+    /// The phase that follows one, at rest after a slip, or as friction no longer holds; and what has
+    /// happened.
+    pub(crate) fn next_phase(
+        &mut self,
+        before: Phase,
+        t: f64,
+        q: f64,
+    ) -> Result<(Phase, Change), RunError<O::Error>> {
+        let phase = match before {
             // The event is where the margin is zero, to rounding: it slides on.
-            Phase::Stick => match self.accelerations_from_rest(t, y[0]) {
+            Phase::Stick => match self.accelerations_from_rest(t, q) {
                 Ok([forward, backward]) => {
                     Phase::Slip(if forward >= -backward { 1.0 } else { -1.0 })
                 }
                 Err(Fault::Error(error)) => return Err(error),
                 Err(Fault::OutOfDomain) => Phase::Slip(1.0),
             },
-            _ => self.phase_from_rest(t, y[0])?,
+            _ => self.phase_from_rest(t, q)?,
         };
-        self.changes.push(match (before, self.phase) {
+        let change = match (before, phase) {
             (_, Phase::Stick) => Change::Stick,
             (Phase::Stick, _) => Change::Slip,
             _ => Change::Turn,
-        });
-        Ok(())
+        };
+        Ok((phase, change))
     }
 }

@@ -346,7 +346,7 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         if self.has_stick_slip() {
             values[0] = match self.phase {
                 Phase::Slip(sense) => -speed[0] * sense,
-                _ => self.slip_margin(t, q[0])?,
+                _ => self.equation.slip_margin(t, q[0])?,
             };
             values = &mut values[1..];
         }
@@ -385,7 +385,10 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
                     return Ok(action);
                 }
             }
-            self.change_phase(t, y)?;
+            y[1] = 0.0;
+            let (phase, change) = self.equation.next_phase(self.phase, t, y[0])?;
+            self.phase = phase;
+            self.changes.push(change);
             return Ok(Action::Restart);
         };
         let Some((driver, speed)) = self.equation.advance_motor_table(which, up) else {

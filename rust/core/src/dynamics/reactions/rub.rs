@@ -1,0 +1,236 @@
+//! Friction at some positions: how fast pairs rub, and what that does to all reactions.
+
+use super::columns::{Rows, Solved, Sources};
+use super::force_plan::ForcePlan;
+use super::rubbing::{Pair, Rubbing};
+use super::scene::Scene;
+use crate::dynamics::friction::problem::{FrictionProblem, RubbingPair};
+use crate::dynamics::friction::solutions::TooManyPaths;
+use crate::math::lanes::{Mask, Real};
+use crate::math::vector::Vector;
+
+/// A relative speed below this part of the drivers' is rounding: then a pair does not rub.
+const AT_REST: f64 = 1.0e-12;
+/// Most that coefficients are multiplied by when the safety is asked for.
+const MOST_SAFETY: f64 = 1.0e6;
+
+/// Number of solutions where so many pairs depend on one another that these are not searched for.
+const UNSOLVED: f64 = -1.0;
+/// Where redundant links leave the force in one of them undetermined.
+const UNDETERMINED: f64 = -2.0;
+
+impl<R: Real> Scene<R> {
+    /// The speeds of the drivers; where all rest, unit speeds in the given sense.
+    pub(super) fn ways(&self, sense: &[f64]) -> Vec<R> {
+        let mut rests = R::Mask::NONE.not();
+        for &[speed, _] in &self.drive {
+            rests = rests.and(speed.abs().le(R::ZERO));
+        }
+        let way = |(driver, &[speed, _]): (usize, &[R; 2])| {
+            let sense = sense.get(driver).copied().unwrap_or(0.0);
+            R::select(rests, R::splat(sense), speed)
+        };
+        self.drive.iter().enumerate().map(way).collect()
+    }
+
+    /// Reads how fast every pair rubs, and how fast it would if the drivers had the speeds `ways`, which
+    /// give the sense of friction.
+    pub(crate) fn read_rubbing(
+        &mut self,
+        (plan, rubbing): (&ForcePlan, &[Rubbing]),
+        sources: &Sources,
+        (solved, rows): (&Solved<'_>, Rows),
+        ways: &[R],
+        size: f64,
+    ) {
+        let speeds: Vec<R> = self.drive.iter().map(|&[speed, _]| speed).collect();
+        let mut turning = R::ZERO;
+        for (driver, &way) in ways.iter().enumerate() {
+            let is_angle = plan.driven_links[driver].is_some();
+            turning += way.abs() * R::splat(if is_angle { 1.0 } else { 1.0 / size });
+        }
+        self.rubs.speeds.clear();
+        self.rubs.still.clear();
+        for Rubbing { pair, .. } in rubbing {
+            let rate = |drivers: &[R]| match *pair {
+                Pair::Journal { on, fast, .. } => {
+                    let of = |link| match sources.angles[link] {
+                        Some(column) if link != plan.ground => {
+                            rows.rate(solved.columns[column + 1], drivers)
+                        }
+                        _ => R::ZERO,
+                    };
+                    of(on) - of(fast)
+                }
+                Pair::Guide { slide, .. } => sources.slides[slide]
+                    .map_or(R::ZERO, |column| rows.rate(solved.columns[column + 1], drivers)),
+            };
+            let unit = if matches!(pair, Pair::Guide { .. }) { size } else { 1.0 };
+            self.rubs.speeds.push([rate(&speeds), rate(ways)]);
+            self.rubs.still.push(turning * R::splat(AT_REST * unit));
+        }
+    }
+
+    /// Adds the friction of all pairs to the loads; the others are there.
+    pub(super) fn rub(
+        &mut self,
+        (plan, rubbing): (&ForcePlan, &[Rubbing]),
+        (solution, asks_safety): (usize, bool),
+        size: f64,
+    ) {
+        let count = rubbing.len();
+        self.drag(plan, rubbing);
+        let loads = (self.link_force.clone(), self.link_moment.clone());
+        self.start(plan);
+        self.rubs.base = self.pair_reactions(plan, rubbing);
+        self.respond(plan, rubbing, |_| ());
+        let undetermined = self.undetermined(plan, rubbing, size);
+        (self.link_force, self.link_moment) = loads;
+        let mut dry = vec![R::ZERO; count];
+        let (mut solutions, mut safety) = (vec![0.0; R::LANES], vec![f64::NAN; R::LANES]);
+        for lane in 0..R::LANES {
+            let (problem, used) = self.problem(rubbing, lane);
+            let is_determined = !undetermined.lane(lane);
+            let is_known = is_determined && problem.pairs.iter().all(RubbingPair::is_finite);
+            let solved = if is_known { problem.solve() } else { Ok(Vec::new()) };
+            solutions[lane] = match &solved {
+                Ok(all) if is_known => all.len() as f64,
+                Ok(_) if is_determined => f64::NAN,
+                Ok(_) => UNDETERMINED,
+                Err(TooManyPaths) => UNSOLVED,
+            };
+            let all = solved.unwrap_or_default();
+            if asks_safety && is_known {
+                safety[lane] = problem.safety(MOST_SAFETY);
+            }
+            for (index, &pair) in used.iter().enumerate() {
+                let own = all.get(solution).map_or(f64::NAN, |friction| friction[index]);
+                dry[pair] = with_lane(dry[pair], lane, own);
+            }
+            if all.get(solution).is_none() {
+                for dry in &mut dry {
+                    *dry = with_lane(*dry, lane, f64::NAN);
+                }
+            }
+        }
+        self.rubs.solutions = R::from_lanes(|lane| solutions[lane]);
+        self.rubs.safety = R::from_lanes(|lane| safety[lane]);
+        for (index, &dry) in dry.iter().enumerate() {
+            self.rub_pair(plan, &rubbing[index], dry);
+            self.rubs.friction[index] += dry;
+        }
+    }
+
+    /// Adds viscous friction to the loads.
+    pub(crate) fn drag(&mut self, plan: &ForcePlan, rubbing: &[Rubbing]) {
+        self.rubs.friction.resize(rubbing.len(), R::ZERO);
+        for (index, own) in rubbing.iter().enumerate() {
+            let drag = -(self.rubs.speeds[index][0] * R::splat(own.viscous));
+            self.rub_pair(plan, own, drag);
+            self.rubs.friction[index] = drag;
+        }
+    }
+
+    /// Finds what a unit of friction in each pair does to all of them; replaces the loads. `each` sees the
+    /// scene of one after another.
+    pub(crate) fn respond(
+        &mut self,
+        plan: &ForcePlan,
+        rubbing: &[Rubbing],
+        mut each: impl FnMut(&Self),
+    ) {
+        self.rubs.slopes.clear();
+        for own in rubbing {
+            self.link_force.fill(Vector::ZERO);
+            self.link_moment.fill(R::ZERO);
+            self.rub_pair(plan, own, R::ONE);
+            self.start(plan);
+            let slopes = self.pair_reactions(plan, rubbing);
+            self.rubs.slopes.push(slopes);
+            each(self);
+        }
+    }
+
+    /// Lets friction of a pair act on both of its links.
+    fn rub_pair(&mut self, plan: &ForcePlan, rubbing: &Rubbing, friction: R) {
+        match rubbing.pair {
+            Pair::Journal { on, fast, .. } => {
+                self.moment_on(plan, on, friction);
+                self.moment_on(plan, fast, -friction);
+            }
+            Pair::Guide { slide, sliding, carrying } => {
+                let at = self.points[plan.reference[sliding]].at;
+                let along = self.guides[slide].scale(friction);
+                self.force_on(plan, sliding, at, along);
+                self.force_on(plan, carrying, at, -along);
+            }
+        }
+    }
+
+    /// Lanes in which a force of a pair is undetermined.
+    fn undetermined(&mut self, plan: &ForcePlan, rubbing: &[Rubbing], size: f64) -> R::Mask {
+        let mut found = R::Mask::NONE;
+        for &stress in &plan.self_stresses {
+            self.stress(plan, stress);
+            for (own, reaction) in rubbing.iter().zip(self.pair_reactions(plan, rubbing)) {
+                let moment = match own.pair {
+                    Pair::Journal { .. } => reaction.y,
+                    Pair::Guide { .. } => reaction.y * R::splat(1.0 / size),
+                };
+                let force = Vector::new(reaction.x, moment);
+                found = found.or(Self::is_stressed(force.size(), R::ONE));
+            }
+        }
+        found
+    }
+
+    /// The reactions on which the friction of every pair depends.
+    pub(crate) fn pair_reactions(
+        &mut self,
+        plan: &ForcePlan,
+        rubbing: &[Rubbing],
+    ) -> Vec<Vector<R>> {
+        self.carry_loads(plan);
+        self.pass_moments(plan);
+        rubbing
+            .iter()
+            .map(|own| match &own.pair {
+                Pair::Journal { force, .. } => force.of(self),
+                &Pair::Guide { slide, .. } => {
+                    Vector::new(self.normal(plan, slide), self.slide_moment[slide])
+                }
+            })
+            .collect()
+    }
+
+    /// The pairs that rub in a lane, and which of all they are. At rest they have their static law.
+    pub(crate) fn problem(
+        &self,
+        rubbing: &[Rubbing],
+        lane: usize,
+    ) -> (FrictionProblem, Vec<usize>) {
+        let rubs = &self.rubs;
+        let way = |pair: usize| rubs.speeds[pair][1].lane(lane);
+        let rubs_here = |&pair: &usize| way(pair).abs() > rubs.still[pair].lane(lane);
+        let used: Vec<usize> = (0..rubbing.len()).filter(rubs_here).collect();
+        let rests = self.drive.iter().all(|[speed, _]| speed.lane(lane) == 0.0);
+        let is_static = rubs.is_static.unwrap_or(rests);
+        let of = |vector: Vector<R>| [vector.x.lane(lane), vector.y.lane(lane)];
+        let pairs = used.iter().map(|&pair| {
+            let own = &rubbing[pair];
+            RubbingPair {
+                law: if is_static { own.static_law } else { own.law },
+                sense: 1.0_f64.copysign(way(pair)),
+                rate: way(pair).abs(),
+                base: of(rubs.base[pair]),
+                slopes: used.iter().map(|&on| of(rubs.slopes[on][pair])).collect(),
+            }
+        });
+        (FrictionProblem { pairs: pairs.collect() }, used)
+    }
+}
+
+/// The same with another number in a lane.
+fn with_lane<R: Real>(numbers: R, lane: usize, number: f64) -> R {
+    R::from_lanes(|own| if own == lane { number } else { numbers.lane(own) })
+}

@@ -1,0 +1,32 @@
+//! Work space of friction: how fast pairs rub, how their reactions depend on friction, and the friction
+//! found.
+
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
+
+/// Work space, and the friction found.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Rubs<R: Real> {
+    /// Whether the static law holds; if not said, where all drivers rest.
+    pub is_static: Option<bool>,
+    /// Speed of every pair, as it is, and as it is or is about to be.
+    pub speeds: Vec<[R; 2]>,
+    /// Below these a pair does not rub.
+    pub still: Vec<R>,
+    /// Reactions without friction, and per unit of friction in every pair.
+    pub base: Vec<Vector<R>>,
+    pub slopes: Vec<Vec<Vector<R>>>,
+    /// Moments or forces of friction, with the viscous part.
+    pub friction: Vec<R>,
+    /// Number of solutions.
+    pub solutions: R,
+    pub safety: R,
+}
+
+impl<R: Real> Rubs<R> {
+    /// The power that friction takes in a pair.
+    #[inline(always)]
+    pub(super) fn loss(&self, pair: usize) -> R {
+        -(self.friction[pair] * self.speeds[pair][0])
+    }
+}
