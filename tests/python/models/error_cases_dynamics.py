@@ -92,9 +92,7 @@ def jammed() -> Machine:
     """Beside its stretched position friction in the pins leaves no motion against the load."""
     pins = {name: JointFriction(0.1, 1.0) for name in "ABCD"}
     linkage = assur.FourBar(1.0, 4.5, 1.5, 4.985)
-    return Machine(
-        linkage, {"crank": Body(inertia=1.0)}, [Torque("rocker", -100.0)], friction=pins
-    )
+    return Machine(linkage, {"crank": Body(inertia=1.0)}, [Torque("rocker", -100.0)], friction=pins)
 
 
 RUN: dict[str, Case] = {
