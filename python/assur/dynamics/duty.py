@@ -57,6 +57,11 @@ class Duty(NamedTuple):
         Energy that it gives, and that it takes back, J; neither is negative.
     time : float or ndarray
         Time that the motion takes, s.
+    lost : float or ndarray
+        Energy that friction takes, J: what the drive gives beyond what it would give without.
+    efficiency : float or ndarray
+        1 − lost/max(energy, lost − energy): what comes out of what goes in, whichever way energy
+        flows over the cycle; NaN if none flows.
     """
 
     effort: Any
@@ -71,6 +76,8 @@ class Duty(NamedTuple):
     work_in: Any
     work_out: Any
     time: Any
+    lost: Any
+    efficiency: Any
 
 
 def duty(
@@ -116,8 +123,13 @@ def duty(
     columns = [numbers[:, k].reshape(shape[:-1])[()] for k in range(NUMBERS)]
     greatest, least, most, fewest = (Extreme(*columns[k : k + 2]) for k in (0, 2, 4, 6))
     rms, energy, work_in, work_out, time = columns[8:]
-    with np.errstate(over="ignore", invalid="ignore"):
+    lost = 0.0 * energy
+    if machine.friction and machine.mechanism is not None:
+        free = type(machine)(machine.mechanism, machine.bodies, machine.loads, machine.motor)
+        lost = energy - duty(free, DrivenMotion(x, v, a, t), on_error).energy
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mean_power = energy / time
+        efficiency = 1.0 - lost / np.maximum(energy, lost - energy)
     return Duty(
         effort,
         greatest,
@@ -131,6 +143,8 @@ def duty(
         work_in,
         work_out,
         time,
+        lost,
+        efficiency,
     )
 
 

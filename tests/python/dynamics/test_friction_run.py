@@ -175,3 +175,19 @@ def test_what_has_no_friction_yet_refuses_it() -> None:
     ):
         with pytest.raises(assur.InputError, match="has no friction yet"):
             call()
+
+
+def test_efficiency_over_a_cycle() -> None:
+    """What friction takes over a turn is the integral of the losses of all pairs."""
+    machine = engine(1.0)
+    q = np.linspace(0.0, 2 * math.pi, 721)
+    duty = machine.duty(q[:-1], 30.0)
+    losses = machine.reactions(q, 30.0).losses
+    lost = sum(np.trapezoid(power, q / 30.0) for power in losses.values())
+    np.testing.assert_allclose(duty.lost, lost, rtol=1e-4)
+    # The torque on the crank takes all that is not lost.
+    output = 3.0 * 2 * math.pi
+    np.testing.assert_allclose(duty.energy, output + duty.lost, rtol=1e-6)
+    np.testing.assert_allclose(duty.efficiency, output / duty.energy, rtol=1e-6)
+    free = engine(0.0).duty(q[:-1], 30.0)
+    assert (free.lost, free.efficiency) == (0.0, 1.0)
