@@ -12,7 +12,7 @@ from assur.dynamics.machine import Method
 from assur.dynamics.motors import Motor
 from assur.dynamics.reactions import Key
 from assur.dynamics.values import Function
-from assur.events import AngleLimit, Crossing, Position, Rest, Speed
+from assur.events import AngleLimit, Crossing, Obstacle, Position, Rest, Speed
 from assur.flywheel import Mean, Spline
 from assur.flywheel.sizing import Task
 from assur.kinematics.held import Buffers
@@ -334,7 +334,7 @@ class Machine:
         tolerances: tuple[float, list[float] | None],
         limits: tuple[float, int, float | None],
         breaks: list[float],
-        events: list[Rest | Position | Speed | AngleLimit | Crossing],
+        events: list[Rest | Position | Speed | AngleLimit | Crossing | Obstacle],
     ) -> Run: ...
     def steady(
         self,

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from assur.dynamics.values import Function
     from assur.kinematics.mechanism import Mechanism
 
-__all__ = ["Crossing", "Position", "Rest", "Speed", "TransmissionAngle"]
+__all__ = ["Crossing", "Obstacle", "Position", "Rest", "Speed", "TransmissionAngle"]
 
 Direction: TypeAlias = Literal["either", "rising", "falling"]
 DIRECTIONS = ("either", "rising", "falling")
@@ -118,7 +118,44 @@ class Crossing:
     direction: Direction = "either"
 
 
-Event: TypeAlias = Rest | Position | Speed | TransmissionAngle | Crossing
+@dataclass(frozen=True)
+class Obstacle:
+    """A stop that throws the machine back: its speed is multiplied by −restitution.
+
+    With one driver that is so wherever the obstacle is; `Machine.impact` gives the impulses there.
+
+    Parameters
+    ----------
+    at : Position, TransmissionAngle or Crossing
+        Where it is, and from which side the machine comes: `direction` "rising" or "falling". What
+        this says of stopping does not count.
+    restitution : float
+        0 to 1. Where the machine stays at the obstacle the run ends: with 0 at once, else when it
+        hits with a millionth of the greatest speed.
+
+    Examples
+    --------
+    A pendulum falls against a wall, and back:
+
+    >>> import assur
+    >>> pendulum = assur.Mechanism(
+    ...     joints={"O": (0, 0), "A": (1, 0)},
+    ...     links={"ground": ["O"], "rod": ["O", "A"]},
+    ...     driver="rod",
+    ... )
+    >>> machine = assur.Machine(pendulum, {"rod": assur.Body(1.0, at="A")}, [assur.Gravity()])
+    >>> wall = assur.events.Obstacle(assur.events.Position(-1.5, direction="falling"), 0.5)
+    >>> hit = machine.run(t_end=1.0, q0=0.0, events=[wall]).events[0]
+    >>> round(hit.t, 6), round(hit.speed, 6)
+    (0.575971, -4.423896)
+    """
+
+    at: Position | TransmissionAngle | Crossing
+    restitution: float
+
+
+Watched: TypeAlias = Rest | Position | Speed | TransmissionAngle | Crossing
+Event: TypeAlias = Watched | Obstacle
 
 
 @dataclass(frozen=True)
@@ -134,12 +171,14 @@ class AngleLimit:
 
 def checked(
     event: Any, mechanism: Mechanism | None, drivers: int
-) -> Rest | Position | Speed | AngleLimit | Crossing:
+) -> Rest | Position | Speed | AngleLimit | Crossing | Obstacle:
     """Return the event with checked fields, which the core reads by name."""
-    if not isinstance(event, Event):
+    if isinstance(event, Obstacle):
+        return _obstacle(event, mechanism, drivers)
+    if not isinstance(event, Watched):
         message = (
-            f"{short(event)} is not an event: Rest, Position, Speed, TransmissionAngle or Crossing "
-            "of assur.events"
+            f"{short(event)} is not an event: Rest, Position, Speed, TransmissionAngle, Crossing "
+            "or Obstacle of assur.events"
         )
         raise InputError(message)
     direction = "either" if isinstance(event, Rest) else _direction(event, event.direction)
@@ -155,6 +194,25 @@ def checked(
     if isinstance(event, Position):
         return Position(real_number(event.q, "Position q"), stop, driver, direction)
     return Speed(real_number(event.speed, "Speed speed"), stop, driver, direction)
+
+
+def _obstacle(event: Obstacle, mechanism: Mechanism | None, drivers: int) -> Obstacle:
+    if drivers > 1:
+        message = f"{event!r}: the machine has {drivers} drivers, an Obstacle is for one"
+        raise InputError(message)
+    at: Any = event.at
+    if not isinstance(at, Position | TransmissionAngle | Crossing):
+        message = f"Obstacle at: {short(at)} is no Position, TransmissionAngle or Crossing"
+        raise InputError(message)
+    if at.direction == "either":
+        message = f"{event!r}: direction= says from which side, 'rising' or 'falling'"
+        raise InputError(message)
+    restitution = real_number(event.restitution, "Obstacle restitution")
+    if not 0.0 <= restitution <= 1.0:
+        message = f"Obstacle restitution is {restitution:g}: from 0 (it stays) to 1 is needed"
+        raise InputError(message, value=restitution)
+    found: Any = checked(at, mechanism, drivers)
+    return Obstacle(found, restitution)
 
 
 def _direction(event: Any, direction: Any) -> Direction:

@@ -67,6 +67,9 @@ def run(
     watched = as_list(options["events"], "events")
     n = machine._drivers
     checked = [known_events.checked(one, machine.mechanism, n) for one in watched]
+    if along_q and any(isinstance(one, known_events.Obstacle) for one in watched):
+        message = "q_end: over q a motion does not turn back at an Obstacle; give t_end"
+        raise InputError(message)
     start, speeds = _start(machine, q0, "q0"), _start(machine, speed0, "speed0")
     if along_q and n > 1:
         message = f"q_end: a run over q needs a single driver, this mechanism has {n}"

@@ -145,3 +145,71 @@ def test_positions_and_designs() -> None:
 def test_refusals(call: Any, said: str) -> None:
     with pytest.raises(assur.InputError, match=said):
         call(linkage())
+
+
+def ball() -> Machine:
+    """A weight that falls along a vertical guide."""
+    one = assur.Mechanism(
+        joints={"O": (0, 0), "B": (0, 2.0)},
+        links={"ground": "O", "ball": "B"},
+        slides={"way": assur.Slide("ball", "ground", math.pi / 2, "O")},
+        driver="way",
+    )
+    return Machine(one, {"ball": Body(3.0)}, [assur.Gravity()])
+
+
+def test_a_ball_bounces() -> None:
+    """From 2 m, e = 0.5: hits at √(2h/g), then after 2 e^k √(2h/g) each, to the end at Σ."""
+    floor = assur.events.Obstacle(assur.events.Position(0.0, direction="falling"), 0.5)
+    fall = math.sqrt(4.0 / 9.81)
+    run = ball().run(t_end=1.5, q0=2.0, events=[floor])
+    times = [fall * (1 + 2 * sum(0.5**k for k in range(1, n))) for n in range(1, 5)]
+    assert [one.event for one in run.events[:4]] == [floor] * 4
+    np.testing.assert_allclose([one.t for one in run.events[:2]], times[:2], rtol=0, atol=1e-9)
+    np.testing.assert_allclose([one.t for one in run.events[:4]], times, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(run.events[1].speed, -0.5 * math.sqrt(4.0 * 9.81), rtol=1e-9)
+    assert run.energy.error < 1e-9
+    # It lies still after three times the fall.
+    rest = ball().run(t_end=5.0, q0=2.0, events=[floor])
+    assert rest.end == "event"
+    np.testing.assert_allclose(rest.t[-1], 3 * fall, rtol=1e-5)
+    stays = ball().run(t_end=5.0, q0=2.0, events=[assur.events.Obstacle(floor.at, 0.0)])
+    assert (stays.end, len(stays.events)) == ("event", 1)
+
+
+def test_an_elastic_stop_of_a_linkage() -> None:
+    """Energy stays, the way back is the way there, and `impact` gives the same speed."""
+    mechanism: Any = linkage().mechanism
+    machine = Machine(mechanism, linkage().bodies)
+    stop = assur.events.Obstacle(
+        assur.events.Crossing(lambda _t, q, _v: 2.0 - q, direction="falling"), 1.0
+    )
+    run = machine.run(t_end=0.3, q0=0.5, speed0=20.0, events=[stop])
+    hit = run.events[0]
+    np.testing.assert_allclose(hit.q, 2.0, atol=1e-12)
+    back = run.at(2 * hit.t)
+    np.testing.assert_allclose([back.q, back.speed], [0.5, -20.0], rtol=1e-8)
+    assert run.energy.error < 1e-9
+    push = Force("C", (-1.0, 0.0))
+    way = float(machine.impact(push, hit.q, hit.speed, restitution=1.0).speed)
+    other = float(machine.impact(Force("C", (1.0, 0.0)), hit.q, hit.speed, restitution=1.0).speed)
+    assert min(way, other) == pytest.approx(-hit.speed, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("obstacle", "said"),
+    [
+        (assur.events.Obstacle(assur.events.Position(1.0), 0.5), "from which side"),
+        (assur.events.Obstacle(assur.events.Position(1.0, direction="rising"), 1.5), "is 1.5"),
+        (assur.events.Obstacle(assur.events.Rest(), 0.5), "is no Position"),  # type: ignore[arg-type]
+    ],
+)
+def test_obstacles_that_are_refused(obstacle: Any, said: str) -> None:
+    with pytest.raises(assur.InputError, match=said):
+        linkage().run(t_end=1.0, q0=0.0, speed0=1.0, events=[obstacle])
+
+
+def test_an_obstacle_over_q_is_refused() -> None:
+    stop = assur.events.Obstacle(assur.events.Position(1.0, direction="rising"), 0.5)
+    with pytest.raises(assur.InputError, match="does not turn back"):
+        linkage().run(q_end=2.0, q0=0.0, speed0=1.0, events=[stop])

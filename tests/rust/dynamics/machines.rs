@@ -74,7 +74,7 @@ fn options_that_do_not_fit_are_named() {
     );
     said(run(&task(&[0.0], &[], 1.0), own), "wrong number of speeds: 0 given, 1 needed");
     let kind = EventKind::Speed { driver: 1, value: 0.0 };
-    let watches = [EventSpec { kind, crossing: Crossing::Either, stops: true }];
+    let watches = [EventSpec { kind, crossing: Crossing::Either, stops: true, rebound: None }];
     let watched = RunOptions { events: &watches, ..task(&[0.0], &[1.0], 1.0) };
     said(run(&watched, own), "wrong number of drivers: 1 given, 2 needed");
     let steady = machine.steady(&mechanism, &own[1..], &search(TAU, Some(1.0)), None, NoCallbacks);
@@ -108,6 +108,7 @@ fn energy_stays_and_a_position_is_met() {
         kind: EventKind::Coordinate { driver: 0, value: 20.0 },
         crossing: Crossing::Rising,
         stops: true,
+        rebound: None,
     }];
     let mut task = task(&[0.0], &[3.0], 60.0);
     task.events = &watches;

@@ -40,6 +40,12 @@ struct Crossing<'py> {
     function: Bound<'py, PyAny>,
 }
 
+#[derive(FromPyObject)]
+struct Obstacle<'py> {
+    at: Bound<'py, PyAny>,
+    restitution: f64,
+}
+
 /// Reads an event; its function, if it has one, is added to the list.
 pub(crate) fn event(
     mechanism: Option<&Mechanism>,
@@ -47,6 +53,11 @@ pub(crate) fn event(
     functions: &mut Vec<Py<PyAny>>,
 ) -> PyResult<EventSpec> {
     let is = |class| MODULE.is(object, class);
+    if is("Obstacle")? {
+        let Obstacle { at, restitution } = object.extract()?;
+        let spec = event(mechanism, &at, functions)?;
+        return Ok(EventSpec { rebound: Some(restitution), stops: false, ..spec });
+    }
     let crossing = |object: &Bound<'_, PyAny>| {
         object
             .getattr("direction")?
@@ -73,5 +84,5 @@ pub(crate) fn event(
     } else {
         return Err(MODULE.unknown(object));
     };
-    Ok(EventSpec { kind, crossing, stops: object.getattr("stop")?.extract()? })
+    Ok(EventSpec { kind, crossing, stops: object.getattr("stop")?.extract()?, rebound: None })
 }

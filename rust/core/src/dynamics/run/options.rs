@@ -43,6 +43,9 @@ pub struct EventSpec {
     pub crossing: Crossing,
     /// Whether the run ends there.
     pub stops: bool,
+    /// The coefficient of restitution of an obstacle there: the speed of the only driver is multiplied by
+    /// −this.
+    pub rebound: Option<f64>,
 }
 
 /// Options of a run.

@@ -39,6 +39,8 @@ pub(crate) struct RunSystem<'a, S, O> {
     pub(super) phase: Phase,
     /// All changes of the phase, one for each event of friction.
     pub(super) changes: Vec<Change>,
+    /// The greatest speed with which it has hit an obstacle.
+    hardest_hit: f64,
     drivers: usize,
     /// Initial kinetic and potential energy, once known.
     energy: Option<[f64; 2]>,
@@ -57,6 +59,8 @@ const MAX_DRIFT: f64 = 3.0;
 /// Multiples of the energies' rounding that do not count as a change.
 const ROUNDINGS: f64 = 64.0;
 
+/// A hit with less than this part of the speed of the hardest one leaves the machine at the obstacle.
+const STAYS: f64 = 1.0e-6;
 /// Kinetic energy below this part of the energies of a motion counts as zero: the balance is kept
 /// far better.
 const AT_REST: f64 = 1.0e-6;
@@ -78,6 +82,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             sign: options.speed[0].signum(),
             phase: Phase::Smooth,
             changes: Vec::new(),
+            hardest_hit: 0.0,
             drivers: options.q.len(),
             energy: None,
             reach: (1.0e3 * options.relative).clamp(MIN_REACH, MAX_REACH),
@@ -219,6 +224,37 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         Action::Stop
     }
 
+    /// Throws the machine back from an obstacle; ends the run where it stays there.
+    fn rebound(
+        &mut self,
+        restitution: f64,
+        t: f64,
+        y: &mut [f64],
+    ) -> Result<Action, RunError<O::Error>> {
+        let before = y[1];
+        if before.abs() <= STAYS * self.hardest_hit {
+            return Ok(Action::Stop);
+        }
+        self.hardest_hit = self.hardest_hit.max(before.abs());
+        let lost = match self.equation.set_configuration(&y[..1]) {
+            Ok(()) => {
+                let reduced = &self.equation.reduced;
+                reduced.kinetic(&[before]) - reduced.kinetic(&[restitution * before])
+            }
+            Err(Fault::OutOfDomain) => 0.0,
+            Err(Fault::Error(error)) => return Err(error),
+        };
+        y[1] = -restitution * before;
+        y[2] -= lost;
+        if restitution == 0.0 {
+            return Ok(Action::Stop);
+        }
+        if self.phase != Phase::Smooth {
+            self.phase = self.equation.first_phase(t, y[0], y[1])?;
+        }
+        Ok(Action::Restart)
+    }
+
     /// Index of the `EventSpec` of an event.
     pub(crate) fn event_index(&self, event: usize) -> Option<usize> {
         event.checked_sub(self.crossings().len() - self.events.len())
@@ -358,7 +394,10 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
 
     fn on_event(&mut self, event: usize, t: f64, y: &mut [f64]) -> Result<Action, Self::Error> {
         if let Some(index) = self.event_index(event) {
-            let stops = self.events[index].stops;
+            let EventSpec { stops, rebound, .. } = self.events[index];
+            if let Some(restitution) = rebound {
+                return self.rebound(restitution, t, y);
+            }
             return Ok(if stops { Action::Stop } else { Action::Continue });
         }
         let up = event % 2 == 1;

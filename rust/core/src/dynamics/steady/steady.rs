@@ -162,8 +162,12 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
             return Err(SteadyError::NotPeriodic);
         }
         self.equation.extra_moment = start.moment;
-        let events =
-            [EventSpec { kind: EventKind::Extreme, crossing: Crossing::Either, stops: false }];
+        let events = [EventSpec {
+            kind: EventKind::Extreme,
+            crossing: Crossing::Either,
+            stops: false,
+            rebound: None,
+        }];
         let run_options = RunOptions {
             along: Variable::Coordinate,
             t: 0.0,
