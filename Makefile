@@ -98,7 +98,7 @@ campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(CAMPAIGN) --mixed --count 100000 --out docs/campaign-mixed.md
 	$(CAMPAIGN) --machines --count 10000 --out docs/campaign-machines.md
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/net/test_function_of_q.py \
-	  tests/python/net/test_careful.py
+	  tests/python/net/test_careful.py tests/python/dynamics/test_friction_random.py
 
 # Flags: the targets have no magic numbers to compare with, and one unit takes minutes to compile.
 FUZZ := cargo fuzz run --sanitizer none --no-trace-compares --codegen-units 16

@@ -131,7 +131,8 @@ class Obstacle:
         this says of stopping does not count.
     restitution : float
         0 to 1. Where the machine stays at the obstacle the run ends: with 0 at once, else when it
-        hits with a millionth of the greatest speed.
+        hits with less than a thousandth of the greatest speed, or would rebound by less than 1e4
+        tolerances of the coordinate (1e-6 rad, or of the size).
 
     Examples
     --------

@@ -41,7 +41,7 @@ class Key:
     on: int = 0
 
 
-SOLUTIONS, SAFETY = Key("solutions"), Key("safety")
+SOLUTIONS, SAFETY, RESIDUAL = Key("solutions"), Key("safety"), Key("residual")
 # What the core says where it would have to search for too many solutions, or cannot know a force.
 UNSOLVED, UNDETERMINED = -1.0, -2.0
 
@@ -100,6 +100,9 @@ class Reactions:
     solutions : tuple of Reactions
         All that agree with the law of friction. The first is this one; where there are fewer
         solutions than elsewhere, the later ones are NaN.
+    residual : ndarray
+        By how much the law of friction is missed, in parts of the greatest friction: rounding where
+        the iteration has converged; 0 without friction.
     safety : ndarray
         By what all coefficients of friction can be multiplied before the solution ends to which
         friction leads as it grows from nothing: below 1 where this one does not follow from it. At
@@ -199,6 +202,11 @@ class Reactions:
         most = int(np.nanmax(counts, initial=0.0))
         keys = list(self._found)
         return (self, *(self._again(keys, index) for index in range(1, most)))[:most]
+
+    @property
+    def residual(self) -> Any:
+        """By how much the law of friction is missed, in parts of the greatest friction."""
+        return self._found.get(RESIDUAL, np.zeros(self.status.shape))[()]
 
     @property
     def safety(self) -> Any:
@@ -383,7 +391,7 @@ def _keys_of_friction(machine: MachineModel) -> list[Key]:
         joint = core.require("joint", name)
         links = [core.require("link", link) for link in links_at[name]]
         keys += [*(Key("joint moment", joint, link) for link in links), Key("joint loss", joint)]
-    return [*keys, SOLUTIONS] if keys else []
+    return [*keys, SOLUTIONS, RESIDUAL] if keys else []
 
 
 def _require_solved(found: dict[Key, Float]) -> None:

@@ -34,6 +34,7 @@ def check(seed: int, counts: dict[str, int]) -> None:
     assert found.locked == (not solutions)
     known = [friction_of(law, one) for one in solutions]
     for one, friction in zip(solutions, known, strict=True):
+        assert one.residual <= 1e-11, seed
         solved = law.solve(law.loads(friction))
         close = CLOSE * solved.condition * solved.largest()
         forces = law._forces(solved)

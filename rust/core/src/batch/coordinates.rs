@@ -20,6 +20,8 @@ pub(super) struct CoordinateRegisters<R, const G: usize> {
     pub(super) registers: usize,
     /// Offset into the shared coordinates, if shared.
     shared: Option<usize>,
+    /// The coordinates that are loaded, if they are angles of one driver: the next call may have the same.
+    loaded: Vec<f64>,
     /// Whether each driver's coordinate is an angle.
     is_angle: Vec<bool>,
     /// Whether a coordinate is too large for [`Reference::Turning`](crate::math::angle::Reference).
@@ -56,6 +58,7 @@ impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
             blocks: Vec::new(),
             registers: 0,
             shared: None,
+            loaded: Vec::new(),
             is_angle,
             is_far: false,
             are_finite: false,
@@ -78,6 +81,14 @@ impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
             return false;
         }
         self.shared = shared;
+        let bits = |q: &f64| q.to_bits();
+        if self.is_angle[..] == [true] && self.loaded.iter().map(bits).eq(q.iter().map(bits)) {
+            return true;
+        }
+        self.loaded.clear();
+        if self.is_angle[..] == [true] {
+            self.loaded.extend_from_slice(q);
+        }
         self.is_far = q.iter().any(|q| q.abs() > MAX_TURNED);
         let units = design.units.coordinate.iter().cycle();
         self.are_finite = q.iter().zip(units).all(|(q, unit)| (q * unit).is_finite());

@@ -9,6 +9,9 @@ use super::{Driver, Linkage};
 use crate::math::tolerance::PARALLEL;
 use crate::math::trig::{atan2, sin_cos};
 
+/// Roundings of a place beside a guide that count as none.
+const ROUNDINGS: f64 = 4.0;
+
 /// What sets the direction of the x axis of a link's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
@@ -133,8 +136,12 @@ impl Linkage {
     pub fn drawing_slide(&self, slide: usize) -> (f64, f64) {
         let (o, p) = (self.slide_origin(slide), self.sliding_point(slide));
         let (x, y) = (p[0] - o[0], p[1] - o[1]);
-        let (sin, cos) = sin_cos(self.slides[slide].angle);
-        (x * cos + y * sin, y * cos - x * sin)
+        let angle = self.slides[slide].angle;
+        let (sin, cos) = sin_cos(angle);
+        let across = y * cos - x * sin;
+        // A guide drawn through the point: the angle, π/2 for example, is known to rounding only.
+        let rounding = ROUNDINGS * f64::EPSILON * (1.0 + angle.abs()) * (x.abs() + y.abs());
+        (x * cos + y * sin, if across.abs() <= rounding { 0.0 } else { across })
     }
 
     /// Coordinate of a driver in the drawing, rad or m.

@@ -104,6 +104,12 @@ impl FrictionProblem {
         })
     }
 
+    /// By how much frictions miss the law, in parts of the greatest of them.
+    pub(crate) fn missed(&self, friction: &[f64]) -> f64 {
+        let greatest = friction.iter().fold(0.0_f64, |most, friction| most.max(friction.abs()));
+        if greatest == 0.0 { 0.0 } else { self.residual(friction, 1.0).amax() / greatest }
+    }
+
     /// The slopes of the residual by the friction.
     pub(super) fn jacobian(&self, friction: &[f64], scale: f64) -> DMatrix<f64> {
         let n = self.pairs.len();

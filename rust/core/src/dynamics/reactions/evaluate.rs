@@ -164,6 +164,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
             Reaction::Solutions if self.batch.rubbing.is_empty() => one(R::ONE),
             Reaction::Solutions => one(scene.rubs.solutions),
             Reaction::Safety => one(scene.rubs.safety),
+            Reaction::Residual => one(scene.rubs.residual),
             Reaction::Driver(driver) => one(scene.driver[driver]),
             Reaction::ShakingForce => scene.shaking_force,
             Reaction::ShakingMoment => one(scene.shaking_moment),
@@ -253,7 +254,8 @@ impl<R: Real> Evaluate<'_, '_, R> {
                 | Reaction::JointLoss(_)
                 | Reaction::SlideLoss(_)
                 | Reaction::Solutions
-                | Reaction::Safety => continue,
+                | Reaction::Safety
+                | Reaction::Residual => continue,
                 Reaction::Moment(_) => size,
                 Reaction::Along(slide) => {
                     // Known with the normal force and the moment.

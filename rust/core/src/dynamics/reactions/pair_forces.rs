@@ -38,6 +38,8 @@ pub enum Reaction {
     /// Number of solutions: 0 where friction locks the machine, −1 where too many pairs depend on one
     /// another, −2 where redundant links leave the force in one of them undetermined.
     Solutions,
+    /// By how much the law of friction is missed, in parts of the greatest friction.
+    Residual,
     /// By what all coefficients of friction can be multiplied before the solution ends to which friction
     /// leads as it grows from nothing.
     Safety,

@@ -88,6 +88,7 @@ impl<R: Real> Scene<R> {
         (self.link_force, self.link_moment) = loads;
         let mut dry = vec![R::ZERO; count];
         let (mut solutions, mut safety) = (vec![0.0; R::LANES], vec![f64::NAN; R::LANES]);
+        let mut residual = vec![f64::NAN; R::LANES];
         for lane in 0..R::LANES {
             let (problem, used) = self.problem(rubbing, lane);
             let is_determined = !undetermined.lane(lane);
@@ -103,6 +104,9 @@ impl<R: Real> Scene<R> {
             if asks_safety && is_known {
                 safety[lane] = problem.safety(MOST_SAFETY);
             }
+            if let Some(friction) = all.get(solution) {
+                residual[lane] = problem.missed(friction);
+            }
             for (index, &pair) in used.iter().enumerate() {
                 let own = all.get(solution).map_or(f64::NAN, |friction| friction[index]);
                 dry[pair] = with_lane(dry[pair], lane, own);
@@ -115,6 +119,7 @@ impl<R: Real> Scene<R> {
         }
         self.rubs.solutions = R::from_lanes(|lane| solutions[lane]);
         self.rubs.safety = R::from_lanes(|lane| safety[lane]);
+        self.rubs.residual = R::from_lanes(|lane| residual[lane]);
         for (index, &dry) in dry.iter().enumerate() {
             self.rub_pair(plan, &rubbing[index], dry);
             self.rubs.friction[index] += dry;

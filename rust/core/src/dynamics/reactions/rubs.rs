@@ -21,6 +21,8 @@ pub(crate) struct Rubs<R: Real> {
     /// Number of solutions.
     pub solutions: R,
     pub safety: R,
+    /// By how much the law of friction is missed, in parts of the greatest friction.
+    pub residual: R,
 }
 
 impl<R: Real> Rubs<R> {

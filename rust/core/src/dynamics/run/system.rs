@@ -59,8 +59,11 @@ const MAX_DRIFT: f64 = 3.0;
 /// Multiples of the energies' rounding that do not count as a change.
 const ROUNDINGS: f64 = 64.0;
 
-/// A hit with less than this part of the speed of the hardest one leaves the machine at the obstacle.
-const STAYS: f64 = 1.0e-6;
+/// A hit with less than this part of the speed of the hardest one leaves the machine at the obstacle: the
+/// next way there and back would be shorter than steps are.
+const STAYS: f64 = 1.0e-3;
+/// The same of a rebound by less than this many tolerances of the coordinate.
+const LEAST_REBOUND: f64 = 1.0e4;
 /// Kinetic energy below this part of the energies of a motion counts as zero: the balance is kept
 /// far better.
 const AT_REST: f64 = 1.0e-6;
@@ -252,7 +255,15 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         if self.phase != Phase::Smooth {
             self.phase = self.equation.first_phase(t, y[0], y[1])?;
         }
-        Ok(Action::Restart)
+        let mut rates = [0.0; 3];
+        if let Err(Fault::Error(error)) = self.rates(t, y, &mut rates) {
+            return Err(error);
+        }
+        // How far it goes before it turns back to the obstacle, if it does.
+        let way = y[1] * y[1] / (2.0 * rates[1].abs());
+        let turns_back = rates[1] * y[1] < 0.0;
+        let least = LEAST_REBOUND * self.relative * self.equation.model.unit(0);
+        Ok(if turns_back && way < least { Action::Stop } else { Action::Restart })
     }
 
     /// Index of the `EventSpec` of an event.
