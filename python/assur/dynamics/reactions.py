@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -458,11 +459,22 @@ def reactions(
         _require_solved(found)
     given_motion = everywhere, np.broadcast_to(v, full), np.broadcast_to(a, full)
 
-    def again(keys: list[Key], solution: int) -> Reactions:
-        return reactions(machine, motion, threads, "nan", keys, sense, solution)
-
+    # Not a closure, which could not be pickled.
+    again = partial(_again, machine, motion, threads, sense)
     rubs = again if machine.friction and SOLUTIONS in found else None
     return Reactions(mechanism, given_motion, found, status.reshape(shape), rubs)
+
+
+def _again(
+    machine: MachineModel,
+    motion: DrivenMotion,
+    threads: int | None,
+    sense: float | Sequence[float] | None,
+    keys: list[Key],
+    solution: int,
+) -> Reactions:
+    """Return some reactions of the same motion, in one of the solutions."""
+    return reactions(machine, motion, threads, "nan", keys, sense, solution)
 
 
 def reaction_squares(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 from typing import Any
 
 import numpy as np
@@ -83,6 +84,18 @@ def test_a_loom_of_class_iv() -> None:
                 link = [link for link, joints in one.links.items() if name in joints][1]
                 size = coefficient * 0.3 * np.hypot(*each.joint(name, on=link))
                 np.testing.assert_allclose(abs(each.joint_moment(name, link)), size, rtol=1e-9)
+
+
+def test_pickles() -> None:
+    rubbing = machine()
+    found = rubbing.reactions([0.5, 1.0], 1.0)
+    again = pickle.loads(pickle.dumps(found))
+    np.testing.assert_array_equal(again.driver, found.driver)
+    np.testing.assert_array_equal(again.safety, found.safety)
+    assert len(again.solutions) == 1
+    copied = pickle.loads(pickle.dumps(rubbing))
+    assert copied.friction == rubbing.friction
+    np.testing.assert_array_equal(copied.reactions(0.5, 1.0).driver, found.driver[0])
 
 
 def test_designs_and_positions_keep_their_places() -> None:
