@@ -245,3 +245,34 @@ def test_exact_limits_of_the_transmission_angle(case: int) -> None:
             at = math.pi + np.array([-1e-13, -1e-10, -1e-7, 1e-7, 1e-10, 1e-13])
             locked.append(machine.reactions(at, 1.0, on_error="nan").locked)
         assert np.any(locked) == jams, (part, locked)
+
+
+@pytest.mark.parametrize("side", ["outer", "inner"])
+@pytest.mark.parametrize("case", range(4))
+def test_the_solver_locks_at_the_exact_limit(case: int, side: Any) -> None:
+    """The transmission angle at the extreme at which no solution is left, by bisection."""
+    (coupler, rocker), (b, c, d), *_ = LIMITS[case]
+    limit = assur.crank_rocker.least_transmission_angle(
+        1.0, c, 1.0, d, rocker, f_b=1.0, r_b=b, coupler=coupler, exact=True, side=side
+    )
+    squares, product = coupler**2 + rocker**2, 2 * coupler * rocker
+    sign = 1.0 if side == "outer" else -1.0
+    # At the extreme itself coupler and rocker rest in C; beside it by 1e-8 γ is the same.
+    at = (math.pi if side == "outer" else 0.0) + np.array([-1e-8, 1e-8])
+
+    def locks(gamma: float) -> bool:
+        ground = math.sqrt(squares + sign * product * math.cos(gamma)) - sign
+        return any(
+            four_bar(torque, (1.0, coupler, rocker, ground), (0.0, b, c, d))
+            .reactions(at, 1.0)
+            .locked.any()
+            for torque in (-100.0, 100.0)
+        )
+
+    low, high = 0.9 * limit, 1.1 * limit
+    assert locks(low)
+    assert not locks(high)
+    for _ in range(45):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if locks(middle) else (low, middle)
+    assert abs(low - limit) <= 1e-12
