@@ -86,7 +86,9 @@ def _pins(at: Positions, link: str) -> Iterator[Acting]:
     for joint in _mechanism(at).links[link]:
         force = at.found.joint(joint, on=link)
         place = at.motion.joint(joint).value
-        yield Acting(f"joint {joint!r}", place, force, _nothing(at), joint)
+        rubs = joint in at.machine.friction
+        couple = at.found.joint_moment(joint, on=link) if rubs else _nothing(at)
+        yield Acting(f"joint {joint!r}", place, force, couple, joint)
 
 
 def _slides(at: Positions, link: str) -> Iterator[Acting]:
@@ -99,6 +101,8 @@ def _slides(at: Positions, link: str) -> Iterator[Acting]:
         across = np.stack([-along[:, 1], along[:, 0]], axis=-1)
         pair = at.found.slide(name)
         force, moment = pair.normal[:, np.newaxis] * across, pair.moment
+        if name in at.machine.friction:
+            force = force + pair.friction[:, np.newaxis] * along
         if name in drivers:
             force = force + _effort(at, drivers.index(name))[:, np.newaxis] * along
         sliding = mechanism.links[slide.link]

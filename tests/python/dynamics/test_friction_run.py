@@ -191,3 +191,19 @@ def test_efficiency_over_a_cycle() -> None:
     np.testing.assert_allclose(duty.efficiency, output / duty.energy, rtol=1e-6)
     free = engine(0.0).duty(q[:-1], 30.0)
     assert (free.lost, free.efficiency) == (0.0, 1.0)
+
+
+def test_friction_bends_a_rod() -> None:
+    """Its moments act at the pins: beyond the last one nothing is left inside."""
+    rod = Body(4.0, 4.0 * 0.4**2 / 12, at=(0.2, 0.0))
+    pins = {name: JointFriction(0.1, 0.03) for name in "OAB"}
+    machine = Machine(
+        assur.SliderCrank(0.1, 0.4), {"rod": rod, "piston": Body(20.0)}, friction=pins
+    )
+    q = np.linspace(0.1, 6.0, 7)
+    inside = machine.internal_loads("rod", q, speed=30.0)
+    found = machine.reactions(q, 30.0)
+    first, last = (found.joint_moment(name, "rod") for name in "AB")
+    np.testing.assert_allclose(inside.moment[:, 0], -first, rtol=1e-12)
+    # At the last place the loads there do not count: what is left balances the pin's moment.
+    np.testing.assert_allclose(inside.moment[:, -1], last, rtol=1e-9)
