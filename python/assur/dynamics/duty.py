@@ -9,7 +9,7 @@ import numpy as np
 
 from assur._arrays import require_finite
 from assur._extreme import Extreme
-from assur.dynamics import reactions
+from assur.dynamics import kinetostatics
 from assur.dynamics.along import DrivenMotion, times
 from assur.dynamics.pieces import Pieces
 from assur.errors import InputError, MotionError
@@ -92,12 +92,12 @@ def duty(
             "and speed give the time; machine.effort gives the efforts of all"
         )
         raise InputError(message)
-    x, v, a, shape = reactions.broadcast_motion(machine, motion)
+    x, v, a, shape = kinetostatics.broadcast_motion(machine, motion)
     t = times(motion.t, shape)
     require_finite(x, "q")
     x, v, a = (np.broadcast_to(one, shape) for one in (x, v, a))
     _check_path(x, v)
-    effort = np.asarray(reactions.effort(machine, DrivenMotion(x, v, a, t), on_error))
+    effort = np.asarray(kinetostatics.effort(machine, DrivenMotion(x, v, a, t), on_error))
     rows = [one.reshape(-1, shape[-1]) for one in (x, v, effort)]
     numbers = np.empty((len(rows[0]), NUMBERS))
     is_closed, lacks_end, turn = _closing(machine, rows[0])
@@ -106,7 +106,7 @@ def duty(
         # The first position again, whole turns later, with its speed and acceleration.
         ends = rows[0][:, :1] + turn[:, None]
         after = np.where(lacks_end[:, None], ends, rows[0][:, :1]).reshape(*shape[:-1], 1)
-        effort_after = reactions.effort(
+        effort_after = kinetostatics.effort(
             machine, DrivenMotion(after, v[..., :1], a[..., :1], t[..., :1]), "nan"
         )
         last = [ends, rows[1][:, :1], np.reshape(effort_after, (-1, 1))]

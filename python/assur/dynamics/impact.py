@@ -9,8 +9,8 @@ import numpy as np
 
 from assur._arrays import finite_array, short
 from assur.dynamics.along import DrivenMotion
+from assur.dynamics.kinetostatics import broadcast_motion, reactions
 from assur.dynamics.loads import Force, Torque
-from assur.dynamics.reactions import broadcast_motion, reactions
 from assur.errors import InputError
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ from assur._arrays import in_range
 from assur._validate import one_of, whole_number
 from assur.dynamics.along import DrivenMotion, times
 from assur.dynamics.beam import QUANTITIES
+from assur.dynamics.kinetostatics import broadcast_motion
 from assur.dynamics.options import one_design
 from assur.dynamics.peaks import MEASURES, Peak, find_peak
-from assur.dynamics.reactions import broadcast_motion
 from assur.dynamics.rod import straight_rod
 from assur.errors import InputError
 

@@ -11,8 +11,8 @@ from assur._arrays import real_number, short
 from assur._validate import whole_number
 from assur.dynamics.along import DrivenMotion
 from assur.dynamics.equilibria import search_range
+from assur.dynamics.kinetostatics import reactions
 from assur.dynamics.options import one_design
-from assur.dynamics.reactions import reactions
 from assur.errors import InputError
 
 if TYPE_CHECKING:

@@ -11,8 +11,8 @@ from assur.dynamics import (
     equilibria,
     impact,
     integrate,
+    kinetostatics,
     locking,
-    reactions,
     size_flywheel,
 )
 from assur.dynamics import internal_loads as inside
@@ -159,7 +159,7 @@ class Machine(MachineModel):
         array([ 800.    , -204.3016])
         """
         motion = motion_of(q, speed, acceleration, t)
-        return reactions.reactions(self, motion, threads, on_error, sense=sense)
+        return kinetostatics.reactions(self, motion, threads, on_error, sense=sense)
 
     def effort(
         self,
@@ -199,7 +199,7 @@ class Machine(MachineModel):
         >>> machine.effort([0.5, 1.5], speed=10.0).round(4)
         array([11.9002, -3.753 ])
         """
-        return reactions.effort(self, motion_of(q, speed, acceleration, t), on_error, sense)
+        return kinetostatics.effort(self, motion_of(q, speed, acceleration, t), on_error, sense)
 
     def internal_loads(
         self,

@@ -10,7 +10,8 @@ import numpy as np
 from assur._arrays import finite_array
 from assur._validate import checked_name, one_of, real_number
 from assur.dynamics.along import motion_of
-from assur.dynamics.reactions import Key, key_of_joint, reaction_squares, reactions
+from assur.dynamics.kinetostatics import reaction_squares, reactions
+from assur.dynamics.reactions import Key, key_of_joint
 from assur.errors import InputError
 from assur.sweeps.terms import OfMachine
 

@@ -1,0 +1,319 @@
+"""Kinetostatics: reactions and efforts from a motion, with friction, through the core."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._arrays import real_array, short
+from assur._validate import checked_threads, one_of
+from assur.description.words import Status
+from assur.dynamics.along import times
+from assur.dynamics.friction import SlideFriction
+from assur.dynamics.reactions import RESIDUAL, SOLUTIONS, Key, Reactions, links_at
+from assur.dynamics.reduce import with_designs
+from assur.dynamics.values import function_values
+from assur.errors import InputError, MotionError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.dynamics.along import DrivenMotion
+    from assur.dynamics.model import MachineModel, OnError
+    from assur.kinematics.mechanism import Mechanism
+
+# What the core says where it would have to search for too many solutions, or cannot know a force.
+UNSOLVED, UNDETERMINED = -1.0, -2.0
+
+
+def _keys(mechanism: Mechanism) -> list[Key]:
+    core = mechanism._core
+    is_redundant = any(core.redundant)
+    keys: list[Key] = []
+    for joint, links in links_at(mechanism).items():
+        index = core.require("joint", joint)
+        # What the last link takes follows from the others, unless these are undetermined.
+        asked = links if is_redundant and len(links) > 1 else links[:-1]
+        keys += [Key("joint", index, core.require("link", link)) for link in asked]
+    for slide in range(len(mechanism.slides)):
+        keys += [Key(kind, slide) for kind in ("normal", "moment", "along")]
+    keys += [Key("driver", driver) for driver in range(int(np.size(mechanism.q0)))]
+    return [*keys, Key("shaking force"), Key("shaking moment")]
+
+
+def _keys_of_friction(machine: MachineModel) -> list[Key]:
+    mechanism = machine.mechanism
+    assert mechanism is not None
+    core, links_of = mechanism._core, links_at(mechanism)
+    keys: list[Key] = []
+    for name, friction in machine.friction.items():
+        if isinstance(friction, SlideFriction):
+            slide = core.require("slide", name)
+            keys += [Key("friction", slide), Key("slide loss", slide)]
+            continue
+        joint = core.require("joint", name)
+        links = [core.require("link", link) for link in links_of[name]]
+        keys += [*(Key("joint moment", joint, link) for link in links), Key("joint loss", joint)]
+    return [*keys, SOLUTIONS, RESIDUAL] if keys else []
+
+
+def _require_solved(found: dict[Key, Float]) -> None:
+    """Raise InputError where the core has not looked for the frictions of a position."""
+    counts = found[SOLUTIONS]
+    if np.any(counts == UNDETERMINED):
+        message = (
+            "redundant links leave forces in a pair with friction undetermined, and its friction "
+            "with them: leave it out, or the redundant links"
+        )
+        raise InputError(message)
+    if np.any(counts == UNSOLVED):
+        message = (
+            "so many pairs with friction depend on one another that their solutions are not "
+            "searched for, and there may be several or none: leave out the friction that matters "
+            "least"
+        )
+        raise InputError(message)
+
+
+def reactions(
+    machine: MachineModel,
+    motion: DrivenMotion,
+    threads: int | None,
+    on_error: OnError,
+    keys: list[Key] | None = None,
+    sense: float | Sequence[float] | None = None,
+    solution: int = 0,
+) -> Reactions:
+    """Return the reactions of a machine; see `Machine.reactions`.
+
+    Some of them, if `keys` are given, without errors.
+    """
+    mechanism = machine.mechanism
+    if mechanism is None:
+        message = "a machine of a table has no joints: reactions need a mechanism"
+        raise InputError(message)
+    one_of(on_error, ("raise", "nan"), "on_error")
+    drivers = machine._drivers
+    if keys is None:
+        keys = [*_keys(mechanism), *_keys_of_friction(machine)]
+    moving = broadcast_motion(machine, motion)
+    x, v, a, shape = moving
+    arrays, status, failure = _solved(
+        machine, moving, motion.t, threads, keys, squares=False, friction=(sense, solution)
+    )
+    full = shape if drivers == 1 else (*shape, drivers)
+    everywhere = np.broadcast_to(x, full)
+    if on_error == "raise" and failure is not None:
+        raise failure
+    if on_error == "raise":
+        drives = [arrays[keys.index(Key("driver", driver))] for driver in range(drivers)]
+        each = drives[0][:, None] if drivers == 1 else np.stack(drives, axis=-1)
+        is_locked = np.zeros(status.shape, np.bool_)
+        if SOLUTIONS in keys:
+            is_locked = arrays[keys.index(SOLUTIONS)] <= 0.0
+        _require_finite("reactions are", each, status, everywhere, is_locked)
+    found: dict[Key, Float] = {}
+    for key, array in zip(keys, arrays, strict=True):
+        two = key.kind in ("joint", "shaking force")
+        array.flags.writeable = False
+        found[key] = array.reshape((*shape, 2) if two else shape)
+    if SOLUTIONS in found:
+        _require_solved(found)
+    given_motion = everywhere, np.broadcast_to(v, full), np.broadcast_to(a, full)
+
+    # Not a closure, which could not be pickled.
+    again = partial(_again, machine, motion, threads, sense)
+    rubs = again if machine.friction and SOLUTIONS in found else None
+    return Reactions(mechanism, given_motion, found, status.reshape(shape), rubs)
+
+
+def _again(
+    machine: MachineModel,
+    motion: DrivenMotion,
+    threads: int | None,
+    sense: float | Sequence[float] | None,
+    keys: list[Key],
+    solution: int,
+) -> Reactions:
+    """Return some reactions of the same motion, in one of the solutions."""
+    return reactions(machine, motion, threads, "nan", keys, sense, solution)
+
+
+def reaction_squares(
+    machine: MachineModel, motion: DrivenMotion, threads: int | None, keys: list[Key]
+) -> dict[Key, Float]:
+    """Return the greatest and the mean square of reactions over all positions, (designs, 2).
+
+    NaN where a position of a design has no value. Nothing is kept of the positions.
+    """
+    moving = broadcast_motion(machine, motion)
+    arrays, _, _ = _solved(machine, moving, motion.t, threads, keys, squares=True)
+    return {key: array.reshape(-1, 2) for key, array in zip(keys, arrays, strict=True)}
+
+
+def _solved(
+    machine: MachineModel,
+    moving: tuple[Float, Float, Float, tuple[int, ...]],
+    t: npt.ArrayLike,
+    threads: int | None,
+    keys: list[Key],
+    squares: bool,
+    friction: tuple[float | Sequence[float] | None, int] = (None, 0),
+) -> tuple[list[Float], npt.NDArray[np.uint8], Any]:
+    """Return an array for each key, the statuses, and the exception of the first failure."""
+    mechanism = machine.mechanism
+    assert mechanism is not None
+    drivers, designs = machine._drivers, machine.shape
+    x, v, a, shape = moving
+    per_design = bool(designs) and x.ndim > (1 if drivers == 1 else 2)
+    full = shape if drivers == 1 else (*shape, drivers)
+    everywhere, functions = np.broadcast_to(x, full), machine._core.load_functions
+    # One speed for all positions is not repeated; (2, 1) of two drivers are two positions.
+    given_once = ((),) if drivers == 1 else ((drivers,),)
+    speeds, accelerations = (
+        np.ascontiguousarray(one if one.shape in given_once else np.broadcast_to(one, full)).ravel()
+        for one in (v, a)
+    )
+    coordinates = np.ascontiguousarray(everywhere if per_design else x).ravel()
+    rows = everywhere.reshape(-1, drivers), np.broadcast_to(v, full).reshape(-1, drivers)
+    senses = _senses(machine, *rows, friction[0])
+    at = times(t, shape)
+    given = np.empty(0)
+    if functions:
+        given = function_values(functions, *rows, at.ravel())
+    found: tuple[list[Float], npt.NDArray[np.uint8], Any] = machine._core.reactions(
+        mechanism._values.reshape(-1),
+        coordinates,
+        per_design,
+        speeds,
+        accelerations,
+        given,
+        keys,
+        math.prod(designs if squares else shape),
+        squares,
+        (senses, friction[1]),
+        checked_threads(threads),
+        list(designs),
+    )
+    return found
+
+
+def _senses(
+    machine: MachineModel, q: Float, speeds: Float, sense: float | Sequence[float] | None
+) -> list[float]:
+    """Return in which sense each driver is about to move at rest, which friction needs."""
+    if sense is not None:
+        senses = real_array(sense, "sense").ravel()
+        if senses.size != machine._drivers or not np.isin(senses, (-1.0, 1.0)).all():
+            wanted = "+1 or −1" if machine._drivers == 1 else f"{machine._drivers} of +1 or −1"
+            message = f"sense is {short(sense)}: {wanted} is needed"
+            raise InputError(message)
+        found: list[float] = senses.tolist()
+        return found
+    rests = ~speeds.any(axis=1)
+    if machine.friction and rests.any():
+        shown = ", ".join(f"{number:.9g}" for number in q[np.argmax(rests)])
+        message = (
+            f"speed is 0 at q = {shown}: friction needs sense=+1 or −1, the way in which the drive "
+            "is about to move"
+        )
+        raise InputError(message, value=0.0)
+    return []
+
+
+def _require_finite(
+    what: str,
+    drives: Float,
+    status: npt.NDArray[np.uint8],
+    q: Float,
+    is_locked: npt.NDArray[np.bool_] | bool = False,
+) -> None:
+    """Raise MotionError where a load or an inertia force is not finite, though the position is.
+
+    `drives`: torques or forces of the drivers, (positions, drivers).
+    """
+    finite = np.isfinite(drives).all(axis=-1)
+    beyond = np.flatnonzero(~finite & (status <= Status.NEAR_SINGULAR) & ~np.asarray(is_locked))
+    if beyond.size:
+        at = q.reshape(drives.shape)[beyond[0]].tolist()
+        shown = ", ".join(f"{number:.15g}" for number in at)
+        message = (
+            f"the {what} not finite at q = {shown}: a load, a speed or a mass is too great "
+            "there, a table ends, or a damper or spring has length zero (on_error='nan' keeps the "
+            "others)"
+        )
+        raise MotionError(message, kind="not_finite", q=at[0] if len(at) == 1 else tuple(at))
+
+
+def broadcast_motion(
+    machine: MachineModel, motion: DrivenMotion
+) -> tuple[Float, Float, Float, tuple[int, ...]]:
+    """Return coordinates, speeds, accelerations, and the shape of the positions of all designs."""
+    n, designs = machine._drivers, machine.shape
+    q, speed, acceleration, _ = motion
+    x = real_array(q, "q")
+    v, a = real_array(speed, "speed"), real_array(acceleration, "acceleration")
+    if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
+        message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
+        raise InputError(message)
+    for name, values, given in (("speed", v, speed), ("acceleration", a, acceleration)):
+        if not np.isfinite(values).all():
+            message = f"{name} is {short(given)}: finite numbers are needed"
+            raise InputError(message)
+    shape = with_designs(x.shape if n == 1 else x.shape[:-1], designs)
+    full = shape if n == 1 else (*shape, n)
+    for name, values in (("speed", v), ("acceleration", a)):
+        if not _broadcasts(values, full):
+            message = f"{name} has the shape {values.shape}, q {x.shape}: they do not fit"
+            raise InputError(message)
+    return x, v, a, shape
+
+
+def _broadcasts(values: Float, shape: tuple[int, ...]) -> bool:
+    try:
+        return np.broadcast_shapes(values.shape, shape) == shape
+    except ValueError:
+        return False
+
+
+def effort(
+    machine: MachineModel,
+    motion: DrivenMotion,
+    on_error: OnError,
+    sense: float | Sequence[float] | None = None,
+) -> Any:
+    """Return the effort of the drivers by virtual power; see `Machine.effort`."""
+    n = machine._drivers
+    if machine.friction:
+        # What friction takes depends on the forces in its pairs.
+        keys = [*(Key("driver", driver) for driver in range(n)), SOLUTIONS]
+        return reactions(machine, motion, None, on_error, keys, sense).driver
+    x, v, a, shape = broadcast_motion(machine, motion)
+    full = shape if n == 1 else (*shape, n)
+    # A motor's rotor belongs to the drive.
+    bare = machine
+    if machine.motor is not None and machine.mechanism is not None:
+        bare = type(machine)(machine.mechanism, machine.bodies, machine.loads)
+    inertia, rates, moment, _ = bare._reduce(x, v, on_error, times(motion.t, shape))
+    speeds = np.broadcast_to(v, full).reshape(*shape, n)
+    accelerations = np.broadcast_to(a, full).reshape(*shape, n)
+    out = -moment
+    with np.errstate(over="ignore", invalid="ignore"):
+        for i in range(n):
+            for j in range(n):
+                out[..., i] += inertia[..., i, j] * accelerations[..., j]
+                for k in range(n):
+                    # Lagrange's equations: Σ (∂Mᵢⱼ/∂k − ½ ∂Mⱼₖ/∂i) q̇ⱼ q̇ₖ.
+                    rate = rates[..., k, i, j] - 0.5 * rates[..., i, j, k]
+                    out[..., i] += rate * speeds[..., j] * speeds[..., k]
+    if on_error == "raise":
+        solved = np.full(out.size // n, Status.OK, dtype=np.uint8)
+        _require_finite("effort is", out.reshape(-1, n), solved, np.broadcast_to(x, full))
+    out[np.isinf(out)] = np.nan
+    return out[..., 0][()] if n == 1 else out
