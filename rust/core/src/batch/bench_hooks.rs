@@ -44,15 +44,14 @@ impl ForLevel for Parts<'_, '_> {
         let Coordinates::Shared(q) = request.coordinates else { panic!("shared coordinates") };
         assert!(q.len() >= BLOCK, "a block has {BLOCK} positions");
         let derivatives = DerivativeTables::new(1, request.order);
-        let columns = request.columns(mechanism);
-        let writer = Writer::new(mechanism, &derivatives, &columns);
+        let writer = Writer::of(mechanism, &derivatives, request);
         let control = Control::default();
         let mut worker: Worker<'_, L::Register, G> =
-            Worker::new(mechanism, request, &derivatives, &writer, &columns, &control);
+            Worker::new(mechanism, request, &derivatives, &writer, &control);
         let mut designs = Designs::default();
         designs.read(mechanism, request.dimensions, 1, 0..1);
         let mut values: Vec<Vec<MaybeUninit<f64>>> =
-            columns.iter().map(|c| vec![MaybeUninit::new(0.0); q.len() * c.width]).collect();
+            writer.columns.iter().map(|c| vec![MaybeUninit::new(0.0); q.len() * c.width]).collect();
         let mut rows = RowSlices {
             columns: values.iter_mut().map(Vec::as_mut_slice).collect(),
             status: &mut vec![MaybeUninit::new(0); q.len()],

@@ -1,11 +1,12 @@
 //! Solves a request (designs, coordinates, outputs) into arrays.
 
 use std::mem::MaybeUninit;
+use std::sync::Arc;
 
 use super::chunks::{Chunk, Chunks};
 use super::designs::Designs;
 use super::dispatch::{self, Entry, ForLevel};
-use super::outputs::{Arrays, Column, Quantity};
+use super::outputs::{Arrays, Quantity};
 use super::request::{Coordinates, Motion, Request, Series, Shape, check_arrays, product};
 use super::schedule::Control;
 use super::worker::{Job, Worker};
@@ -107,15 +108,12 @@ pub fn fill(
 ) -> Result<(), SolveError> {
     let shape = Shape::of(mechanism, request)?;
     let derivatives = DerivativeTables::shared(shape.drivers, request.order);
-    let columns = request.columns(mechanism);
-    check_arrays(&columns, &arrays, product(shape.designs, shape.positions)?)?;
-    let writer = match request.by {
-        None => Writer::new(mechanism, &derivatives, &columns),
-        Some(index) => Writer::for_sensitivity(mechanism, &derivatives, &columns, index),
-    };
-    let chunks = Chunks::new(arrays, &columns, [shape.designs, shape.positions], shape.drivers);
-    let (columns, derivatives, writer) = (&columns[..], &derivatives, &writer);
-    let batch = Batch { mechanism, request, derivatives, writer, columns, shape, control };
+    let writer = &Writer::of(mechanism, &derivatives, request);
+    let columns = &writer.columns;
+    check_arrays(columns, &arrays, product(shape.designs, shape.positions)?)?;
+    let chunks = Chunks::new(arrays, columns, [shape.designs, shape.positions], shape.drivers);
+    let derivatives = &derivatives;
+    let batch = Batch { mechanism, request, derivatives, writer, shape, control };
     dispatch::at_level(control.simd, Fill { batch: &batch, chunks })
 }
 
@@ -124,8 +122,7 @@ struct Batch<'b> {
     mechanism: &'b Mechanism,
     request: &'b Request<'b>,
     derivatives: &'b DerivativeTables,
-    writer: &'b Writer<'b>,
-    columns: &'b [Column],
+    writer: &'b Arc<Writer>,
     shape: Shape,
     control: &'b Control<'b>,
 }
@@ -141,9 +138,9 @@ impl ForLevel for Fill<'_, '_> {
 
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
         type ThreadState<'a, R, const G: usize> = (Worker<'a, R, G>, Designs);
-        let Batch { mechanism, request, derivatives, writer, columns, shape, control } = self.batch;
+        let Batch { mechanism, request, derivatives, writer, shape, control } = self.batch;
         let worker = || -> ThreadState<'_, L::Register, G> {
-            let one = Worker::new(mechanism, request, derivatives, writer, columns, control);
+            let one = Worker::new(mechanism, request, derivatives, writer, control);
             (one, Designs::default())
         };
         let work = |(worker, designs): &mut ThreadState<'_, L::Register, G>,

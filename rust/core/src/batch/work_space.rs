@@ -1,8 +1,10 @@
 //! A worker's work space, kept for later calls with the same request and mechanism.
 
+use std::sync::Arc;
+
 use super::coordinates::CoordinateRegisters;
-use super::outputs::Column;
 use super::writer::Writer;
+use crate::branch::design::DesignMemory;
 use crate::branch::lanes::uniform::UniformTracer;
 use crate::branch::location::BranchLocation;
 use crate::math::angle::Reference;
@@ -18,8 +20,8 @@ const MAX_POINTS: usize = 100;
 
 /// Work space of one thread, with blocks of `G` registers `R`.
 pub(super) struct WorkSpace<R: Real, const G: usize> {
-    /// The columns that it was made for.
-    columns: Vec<Column>,
+    /// The writer that it was made for.
+    writer: Arc<Writer>,
     /// State of a single position.
     pub(super) one: State,
     /// State of a block.
@@ -36,6 +38,8 @@ pub(super) struct WorkSpace<R: Real, const G: usize> {
     pub(super) tape: Tape,
     /// The tape that traces its designs; a worker's design holds it during a call. None with groups.
     pub(super) tracing_tape: Option<Tape>,
+    /// Memory of the design, which holds it during a call.
+    pub(super) design: DesignMemory,
     /// Turn reference of each requested class, for plain designs.
     pub(super) references: Vec<Reference>,
     /// Made for the first design that needs it.
@@ -47,25 +51,19 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
     pub(super) fn take(
         mechanism: &Mechanism,
         derivatives: &DerivativeTables,
-        writer: &Writer<'_>,
-        columns: &[Column],
+        writer: &Arc<Writer>,
     ) -> Box<Self> {
-        match mechanism.number.take(|kept: &Self| kept.columns == columns) {
+        match mechanism.number.take(|kept: &Self| Arc::ptr_eq(&kept.writer, writer)) {
             Some(mut kept) => {
                 kept.coordinates.forget();
                 kept.locations.clear();
                 kept
             }
-            None => Box::new(Self::new(mechanism, derivatives, writer, columns)),
+            None => Box::new(Self::new(mechanism, derivatives, writer)),
         }
     }
 
-    fn new(
-        mechanism: &Mechanism,
-        derivatives: &DerivativeTables,
-        writer: &Writer<'_>,
-        columns: &[Column],
-    ) -> Self {
+    fn new(mechanism: &Mechanism, derivatives: &DerivativeTables, writer: &Arc<Writer>) -> Self {
         let plan = mechanism.plan();
         let mut many = State::new(plan, derivatives);
         many.work.angle_wanted.clone_from(&writer.wanted);
@@ -75,7 +73,7 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
         }
         let needs = Needs { points: &points, classes: &writer.wanted, samples: false };
         Self {
-            columns: columns.to_vec(),
+            writer: Arc::clone(writer),
             one: State::new(plan, derivatives),
             many,
             lifted: vec![[R::ZERO; G]; plan.classes],
@@ -84,6 +82,7 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
             locations_even: false,
             tape: Tape::new(plan, needs),
             tracing_tape: plan.has_closed_forms().then(|| Tape::for_dyads(plan, &writer.wanted)),
+            design: DesignMemory::default(),
             references: vec![Reference::Principal; plan.classes],
             uniform: None,
         }

@@ -2,6 +2,7 @@
 //! lane cannot decide.
 
 use std::mem::MaybeUninit;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::designs::DesignRow;
@@ -33,7 +34,7 @@ const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 /// Solver of one thread, with blocks of `G` registers `R`.
 pub(crate) struct Worker<'a, R: Real, const G: usize> {
     pub(super) design: Design<'a>,
-    pub(super) writer: &'a Writer<'a>,
+    pub(super) writer: &'a Writer,
     pub(super) columns: &'a [Column],
     pub(super) space: Box<WorkSpace<R, G>>,
     /// The dimension to differentiate by, with its work space.
@@ -71,12 +72,12 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         mechanism: &'a Mechanism,
         request: &Request<'_>,
         derivatives: &'a DerivativeTables,
-        writer: &'a Writer<'a>,
-        columns: &'a [Column],
+        writer: &'a Arc<Writer>,
         control: &Control<'a>,
     ) -> Self {
-        let mut design = Design::new(mechanism, request.signs, derivatives);
-        let mut space = WorkSpace::take(mechanism, derivatives, writer, columns);
+        let mut space = WorkSpace::take(mechanism, derivatives, writer);
+        let mut design = Design::new(mechanism, request.signs, derivatives)
+            .reusing(std::mem::take(&mut space.design));
         if control.care == Care::Needed
             && let Some(tape) = space.tracing_tape.take()
         {
@@ -88,7 +89,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             by: request.by.map(|index| (index, Sensitivity::new(plan, derivatives))),
             design,
             writer,
-            columns,
+            columns: &writer.columns,
             care: control.care,
             is_smooth: false,
             depends_on_request: false,
@@ -108,7 +109,9 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     /// Keeps the work space for later calls.
     pub(crate) fn finish(mut self) {
         let mechanism = self.design.mechanism;
-        self.space.tracing_tape = self.design.into_tracing_tape().or(self.space.tracing_tape);
+        let (tape, memory) = self.design.into_memory();
+        self.space.tracing_tape = tape.or(self.space.tracing_tape);
+        self.space.design = memory;
         self.space.keep(mechanism);
     }
 

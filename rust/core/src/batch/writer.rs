@@ -1,8 +1,11 @@
 //! Writes the numbers of solved positions to their columns.
 
+use std::f64::consts::TAU;
 use std::mem::MaybeUninit;
+use std::sync::Arc;
 
-use super::outputs::{Column, Quantity};
+use super::outputs::{Column, Outputs, Quantity};
+use super::request::Request;
 use crate::branch::units::Units;
 use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
@@ -60,15 +63,30 @@ struct RowEntry {
     driven: f64,
 }
 
+/// The angle of a link: that of its class, plus constants and the drivers' turns.
+#[derive(Debug)]
+struct AngleEntry {
+    row: RowEntry,
+    class: usize,
+    turns: Vec<i8>,
+    /// Whole turns in the drawing, rad.
+    whole_turns: f64,
+}
+
 /// Writes positions into their rows.
-pub(crate) struct Writer<'a> {
-    mechanism: &'a Mechanism,
+#[derive(Debug)]
+pub(crate) struct Writer {
+    /// The request that it serves.
+    outputs: Outputs,
+    order: usize,
+    by: Option<usize>,
+    /// The arrays that the request fills.
+    pub columns: Vec<Column>,
     /// Entries of a jet.
     jet: usize,
     points: Vec<RowEntry>,
     slides: Vec<RowEntry>,
-    /// Angles of links.
-    angles: Vec<RowEntry>,
+    angles: Vec<AngleEntry>,
     /// Derivatives of links' angles.
     rates: Vec<RowEntry>,
     /// Classes whose angle is wanted.
@@ -79,13 +97,22 @@ pub(crate) struct Writer<'a> {
     shifted: bool,
 }
 
-impl<'a> Writer<'a> {
-    pub(crate) fn new(
-        mechanism: &'a Mechanism,
+impl Writer {
+    /// The writer of a request, made once for all calls that ask for the same.
+    pub(crate) fn of(
+        mechanism: &Mechanism,
         derivatives: &DerivativeTables,
-        columns: &[Column],
-    ) -> Self {
+        request: &Request<'_>,
+    ) -> Arc<Self> {
+        let fits = |kept: &Self| {
+            kept.order == request.order && kept.by == request.by && kept.outputs == *request.outputs
+        };
+        mechanism.number.share(fits, || Self::new(mechanism, derivatives, request))
+    }
+
+    fn new(mechanism: &Mechanism, derivatives: &DerivativeTables, request: &Request<'_>) -> Self {
         let plan = mechanism.plan();
+        let columns = request.columns(mechanism);
         let mut classes: Vec<usize> = columns
             .iter()
             .filter_map(|column| match column.quantity {
@@ -100,40 +127,46 @@ impl<'a> Writer<'a> {
         for &class in &classes {
             wanted[class] = true;
         }
-        let [mut points, mut slides, mut angles, mut rates] = [const { Vec::new() }; 4];
+        let [mut points, mut slides, mut rates] = [const { Vec::new() }; 3];
+        let mut angles = Vec::new();
         for (index, column) in columns.iter().enumerate() {
             let tensor = derivatives.tensor(column.order);
             for (component, &k) in tensor.iter().enumerate() {
-                let (list, source, driven) = match column.quantity {
-                    Quantity::Joint(joint) => (&mut points, point_of_joint(joint), 0),
-                    Quantity::Origin(link) => (&mut points, plan.reference[link], 0),
-                    Quantity::Slide(slide) => (&mut slides, slide, 0),
-                    Quantity::Angle(link) if k == 0 => (&mut angles, link, 0),
-                    Quantity::Angle(link) => {
-                        let rotation = &plan.rotation[link];
-                        let turns =
-                            derivatives.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
-                        (&mut rates, rotation.class, turns)
-                    }
-                };
-                let source = match column.quantity {
-                    Quantity::Angle(_) if k == 0 => source,
-                    _ => source * derivatives.len() + k,
-                };
                 let (width, y) = (column.width, tensor.len());
-                list.push(RowEntry {
+                let row = |source, driven| RowEntry {
                     column: index,
                     width,
                     index: component,
                     y,
                     k,
                     source,
-                    driven: driven.into(),
-                });
+                    driven,
+                };
+                let entry = |source: usize| source * derivatives.len() + k;
+                match column.quantity {
+                    Quantity::Joint(joint) => points.push(row(entry(point_of_joint(joint)), 0.0)),
+                    Quantity::Origin(link) => points.push(row(entry(plan.reference[link]), 0.0)),
+                    Quantity::Slide(slide) => slides.push(row(entry(slide), 0.0)),
+                    Quantity::Angle(link) if k == 0 => angles.push(AngleEntry {
+                        row: row(link, 0.0),
+                        class: plan.rotation[link].class,
+                        turns: plan.rotation[link].turns.clone(),
+                        whole_turns: TAU * mechanism.whole_turns[link],
+                    }),
+                    Quantity::Angle(link) => {
+                        let rotation = &plan.rotation[link];
+                        let turns =
+                            derivatives.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
+                        rates.push(row(entry(rotation.class), turns.into()));
+                    }
+                }
             }
         }
-        Self {
-            mechanism,
+        let mut writer = Self {
+            outputs: request.outputs.clone(),
+            order: request.order,
+            by: request.by,
+            columns,
             jet: derivatives.len(),
             points,
             slides,
@@ -142,35 +175,32 @@ impl<'a> Writer<'a> {
             classes,
             wanted,
             shifted: true,
+        };
+        if let Some(index) = request.by {
+            writer.treat_as_sensitivity(mechanism, index);
         }
+        writer
+    }
+
+    /// Sensitivities: angles are treated like their analogues, and points get no origin.
+    fn treat_as_sensitivity(&mut self, mechanism: &Mechanism, index: usize) {
+        let mut unit_change = vec![0.0; mechanism.dimensions().len()];
+        unit_change[index] = 1.0;
+        let offsets = offsets(mechanism.plan(), &mechanism.slots, &unit_change);
+        for entry in &mut self.rates {
+            entry.driven = 0.0;
+        }
+        for AngleEntry { row, class, .. } in self.angles.drain(..) {
+            let driven = offsets[row.source];
+            self.rates.push(RowEntry { source: class * self.jet, driven, ..row });
+        }
+        self.shifted = false;
+        self.classes.clear();
     }
 
     /// The points that are written.
     pub(crate) fn wanted_points(&self) -> impl Iterator<Item = usize> {
         self.points.iter().map(|entry| entry.source / self.jet)
-    }
-
-    /// A writer of sensitivities: it treats angles like their analogues and adds no origin to points.
-    pub(crate) fn for_sensitivity(
-        mechanism: &'a Mechanism,
-        derivatives: &DerivativeTables,
-        columns: &[Column],
-        index: usize,
-    ) -> Self {
-        let mut writer = Self::new(mechanism, derivatives, columns);
-        let plan = mechanism.plan();
-        let mut unit_change = vec![0.0; mechanism.dimensions().len()];
-        unit_change[index] = 1.0;
-        let offsets = offsets(plan, &mechanism.slots, &unit_change);
-        for entry in &mut writer.rates {
-            entry.driven = 0.0;
-        }
-        for entry in writer.angles.drain(..) {
-            let class = plan.rotation[entry.source].class;
-            let driven = offsets[entry.source];
-            writer.rates.push(RowEntry { source: class * derivatives.len(), driven, ..entry });
-        }
-        Self { shifted: false, classes: Vec::new(), ..writer }
     }
 
     /// Writes `count` positions, lane after lane of a state, into the rows from `row` on.
@@ -187,12 +217,11 @@ impl<'a> Writer<'a> {
     ) {
         self.write_jets(rows, range, (constants, unit), state, failed);
         for entry in &self.angles {
-            let offset = R::splat(self.offset(entry, constants));
-            let rotation = &self.mechanism.plan().rotation[entry.source];
-            let lifted = &lifted[rotation.class];
+            let offset = R::splat(entry.offset(constants));
+            let (lifted, turns, entry) = (&lifted[entry.class], &entry.turns, &entry.row);
             let past = rows.past_caches(entry, range);
             for (g, out) in entry.groups::<R>(rows.of(entry, range)) {
-                let angle = of_link::<R, R, G>(lifted[g], &rotation.turns, &state.pose.q, g);
+                let angle = of_link::<R, R, G>(lifted[g], turns, &state.pose.q, g);
                 entry.store(out, past, or_nan::<R, R, G>(failed, g, angle + offset));
             }
         }
@@ -210,26 +239,19 @@ impl<'a> Writer<'a> {
         failed: Option<&[R::Mask; G]>,
     ) {
         for entry in &self.angles {
-            let offset = W::splat(self.offset(entry, constants));
-            let rotation = &self.mechanism.plan().rotation[entry.source];
-            let (units, reference) =
-                (&state.pose.class[rotation.class], references[rotation.class]);
+            let offset = W::splat(entry.offset(constants));
+            let (units, reference) = (&state.pose.class[entry.class], references[entry.class]);
+            let (turns, entry) = (&entry.turns, &entry.row);
             let past = rows.past_caches(entry, range);
             for (stride, out) in entry.groups::<W>(rows.of(entry, range)) {
                 let g = stride * W::REGISTERS;
                 let q = W::load(&state.pose.q[0], g);
                 let angle = reference.lift(W::load_vectors(units, g).unit_angle(), q);
-                let angle = of_link::<W, R, G>(angle, &rotation.turns, &state.pose.q, g);
+                let angle = of_link::<W, R, G>(angle, turns, &state.pose.q, g);
                 entry.store(out, past, or_nan::<W, R, G>(failed, g, angle + offset));
             }
         }
         self.write_jets(rows, range, (constants, unit), state, failed);
-    }
-
-    /// The constant difference between an angle and that of its class.
-    fn offset(&self, entry: &RowEntry, constants: &DesignConstants) -> f64 {
-        let whole = std::f64::consts::TAU * self.mechanism.whole_turns[entry.source];
-        constants.offset[entry.source] + whole
     }
 
     /// Writes points, slides, and the derivatives of angles.
@@ -331,6 +353,13 @@ fn of_link<W: Stride<R>, R: Real, const G: usize>(
 fn scaled<R: Real>(point: Vector<R>, scale: R, shift: Option<Vector<R>>) -> Vector<R> {
     let scaled = point.scale(scale);
     if let Some(shift) = shift { scaled + shift } else { scaled }
+}
+
+impl AngleEntry {
+    /// The constant difference between the angle and that of its class.
+    fn offset(&self, constants: &DesignConstants) -> f64 {
+        constants.offset[self.row.source] + self.whole_turns
+    }
 }
 
 impl RowEntry {

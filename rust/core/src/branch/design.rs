@@ -51,13 +51,25 @@ pub(crate) struct Design<'a> {
     pub(super) crank_dyads: Vec<Option<CrankDyad>>,
     /// For every dyad of the present design, whether its sign is known to be constant.
     pub(super) settled: Vec<bool>,
-    pub(super) lane_tracer: LaneTracer,
+    pub(super) lane_tracer: Box<LaneTracer>,
     /// Range around a change point within which the motion is interpolated.
     pub change_window: ChangeWindow,
     /// Interpolants in use, by their change point.
     pub(super) interpolants: RefCell<Vec<(f64, Option<ChangeInterpolant>)>>,
     /// Work space of [`Self::may_change`].
-    at_drawing: Option<State>,
+    at_drawing: Option<Box<State>>,
+}
+
+/// What a design fills when it is bound and traced: allocated once for all designs of a mechanism.
+#[derive(Default)]
+pub(crate) struct DesignMemory {
+    constants: DesignConstants,
+    values: Vec<f64>,
+    branch: Branch,
+    settled: Vec<bool>,
+    /// Boxed: moving it would take longer than solving a position.
+    lane_tracer: Box<LaneTracer>,
+    at_drawing: Option<Box<State>>,
 }
 
 impl<'a> Design<'a> {
@@ -85,11 +97,17 @@ impl<'a> Design<'a> {
             closed_forms: mechanism.plan().has_closed_forms(),
             crank_dyads: crank_dyads(mechanism.plan()),
             settled: Vec::new(),
-            lane_tracer: LaneTracer::default(),
+            lane_tracer: Box::default(),
             change_window: ChangeWindow::SHORT,
             interpolants: RefCell::default(),
             at_drawing: None,
         }
+    }
+
+    /// The same with the memory of an earlier one of the mechanism.
+    pub(crate) fn reusing(self, memory: DesignMemory) -> Self {
+        let DesignMemory { constants, values, branch, settled, lane_tracer, at_drawing } = memory;
+        Self { constants, values, branch, settled, lane_tracer, at_drawing, ..self }
     }
 
     /// Traces by a tape that has the requested angles only.
@@ -97,11 +115,13 @@ impl<'a> Design<'a> {
         self.tracing_tape = Cow::Owned(tape);
     }
 
-    /// That tape, which another design may use.
-    pub(crate) fn into_tracing_tape(self) -> Option<Tape> {
+    /// That tape, which another design may use, and the memory.
+    pub(crate) fn into_memory(self) -> (Option<Tape>, DesignMemory) {
+        let Self { constants, values, branch, settled, lane_tracer, at_drawing, .. } = self;
+        let memory = DesignMemory { constants, values, branch, settled, lane_tracer, at_drawing };
         match self.tracing_tape {
-            Cow::Owned(tape) => Some(tape),
-            Cow::Borrowed(_) => None,
+            Cow::Owned(tape) => (Some(tape), memory),
+            Cow::Borrowed(_) => (None, memory),
         }
     }
 
@@ -131,7 +151,7 @@ impl<'a> Design<'a> {
     /// For every sign, whether its dyad can pass change points.
     pub(crate) fn may_change(&mut self) -> Vec<bool> {
         let state = self.at_drawing.take();
-        let mut state = state.unwrap_or_else(|| self.state(&self.tracing_derivatives));
+        let mut state = state.unwrap_or_else(|| Box::new(self.state(&self.tracing_derivatives)));
         let cx = self.context(&self.tracing_derivatives);
         state.prepare(cx.plan, cx.constants, cx.derivatives);
         let may_change = may_change(&cx, &mut state, &self.q0);

@@ -1,8 +1,8 @@
 //! Work spaces kept from one call to the next: making one takes longer than solving one design.
 
 use std::any::Any;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
 
 /// Most work spaces kept, for all mechanisms together. Each thread of a call takes one.
 const MAX_KEPT: usize = 8;
@@ -31,6 +31,19 @@ impl PlanNumber {
         };
         let index = kept.iter().rposition(fits)?;
         kept.remove(index).1.downcast().ok()
+    }
+
+    /// A kept object that fits, which calls share, or a new one.
+    pub(crate) fn share<T: Any + Send + Sync>(
+        &self,
+        fits: impl Fn(&T) -> bool,
+        make: impl FnOnce() -> T,
+    ) -> Arc<T> {
+        let kept = self.take(|kept: &Arc<T>| fits(kept));
+        let kept = kept.unwrap_or_else(|| Box::new(Arc::new(make())));
+        let shared = Arc::clone(&kept);
+        self.keep(kept);
+        shared
     }
 
     /// Keeps a work space, in place of the oldest if there are [`MAX_KEPT`].

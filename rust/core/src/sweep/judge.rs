@@ -1,5 +1,7 @@
 //! What becomes of a design, and its metrics, given its positions.
 
+use std::sync::Arc;
+
 use super::course::Course;
 use super::metric::{Metric, Positions};
 use super::request::Sweep;
@@ -53,7 +55,7 @@ pub(super) struct Batch<'b> {
     pub sweep: &'b Sweep<'b>,
     pub request: &'b Request<'b>,
     pub derivatives: &'b DerivativeTables,
-    pub writer: &'b Writer<'b>,
+    pub writer: &'b Arc<Writer>,
     pub columns: &'b [Column],
     pub sources: &'b [Vec<usize>],
     pub probes: &'b Probes,

@@ -53,10 +53,9 @@ impl Mechanism {
         if sweep.conditions.iter().any(|condition| condition.metric >= sweep.metrics.len()) {
             return Err(SolveError::Shape("a condition's metric is beyond what there is".into()));
         }
-        let columns = request.columns(self);
-        let sources = sources(sweep.metrics, &columns);
         let derivatives = DerivativeTables::new(shape.drivers, order);
-        let writer = Writer::new(self, &derivatives, &columns);
+        let writer = Writer::of(self, &derivatives, &request);
+        let sources = sources(sweep.metrics, &writer.columns);
         let probes = Probes::new(&course);
         // After the metrics 1 of each design that is kept.
         let mut values = vec![vec![f64::NAN; shape.designs]; sweep.metrics.len() + 1];
@@ -80,7 +79,7 @@ impl Mechanism {
             request: &request,
             derivatives: &derivatives,
             writer: &writer,
-            columns: &columns,
+            columns: &writer.columns,
             sources: &sources,
             probes: &probes,
             course: &course,

@@ -50,7 +50,7 @@ impl ForLevel for Measure<'_, '_> {
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
         let batch = self.batch;
         let Batch { mechanism, request, derivatives, writer, columns, control, .. } = *batch;
-        let one = || Worker::new(mechanism, request, derivatives, writer, columns, control);
+        let one = || Worker::new(mechanism, request, derivatives, writer, control);
         let worker = || Own::<'_, L::Register, G> {
             solver: Solver { worker: one(), probe: one(), probed: 0, dropped: 0 },
             designs: Designs::default(),

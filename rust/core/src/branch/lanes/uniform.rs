@@ -19,11 +19,14 @@ use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::KNOT_MAX_TURN;
 use crate::math::vector::Vector;
-use crate::plan::dyad::Form;
+use crate::plan::dyad::{Form, Unknown};
 use crate::plan::plan::Plan;
 use crate::state::dyad::sample::DyadSample;
 use crate::state::kernel::Level;
 use crate::state::state::{Context, State};
+
+/// Cosine of [`KNOT_MAX_TURN`].
+const COS_MAX_TURN: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// How far a branch was traced in closed form or by knots in lanes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,6 +62,8 @@ pub(crate) struct UniformTracer<R: Real, const G: usize> {
     squares: Vec<(f64, f64)>,
     /// Angle of every class at the last knot, and its whole turns up to there.
     pub(crate) last_angles: Vec<(f64, f64)>,
+    /// With groups: the classes whose angles are unwrapped.
+    unwrapped: Vec<usize>,
     /// For every dyad of two guides: on which side of parallel these are at the knots before.
     guide_sides: Vec<bool>,
     /// Unknowns of groups at the knots of the drawing's branch; computed once.
@@ -78,6 +83,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             knots: Vec::new(),
             squares: vec![(0.0, 0.0); plan.signs()],
             last_angles: vec![(0.0, 0.0); plan.classes],
+            unwrapped: Vec::new(),
             guide_sides: Vec::new(),
             reference: OnceCell::new(),
         }
@@ -194,13 +200,41 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         start: &[f64],
         branch: &mut Branch,
     ) -> bool {
-        // Groups are predicted with all angles.
-        let all: Vec<usize> =
-            if self.reference.get().is_some() { (0..start.len()).collect() } else { Vec::new() };
-        let classes = if all.is_empty() { classes } else { &all };
+        let has_groups = self.reference.get().is_some();
+        if has_groups {
+            self.set_unwrapped(cx.plan, classes);
+        }
+        let unwrapped = std::mem::take(&mut self.unwrapped);
+        let classes = if has_groups { &unwrapped[..] } else { classes };
+        let traced = self.trace_classes(cx, (classes, has_groups), start, branch);
+        self.unwrapped = unwrapped;
+        traced
+    }
+
+    /// With groups: the requested classes, and those of the groups' unknowns.
+    fn set_unwrapped(&mut self, plan: &Plan, classes: &[usize]) {
+        self.unwrapped.clear();
+        self.unwrapped.extend_from_slice(classes);
+        for unknown in plan.groups().flat_map(|group| &group.unknowns) {
+            if let Unknown::Class(class) = *unknown
+                && !classes.contains(&class)
+            {
+                self.unwrapped.push(class);
+            }
+        }
+    }
+
+    /// Traces with the angles of `classes`; of all others checks that they turn slowly if `with_others`.
+    #[inline(always)]
+    fn trace_classes(
+        &mut self,
+        cx: &Context<'_>,
+        (classes, with_others): (&[usize], bool),
+        start: &[f64],
+        branch: &mut Branch,
+    ) -> bool {
         self.guide_sides.clear();
         branch.at.clear();
-        branch.angles.clear();
         branch.angles.resize(KNOTS * start.len(), 0.0);
         // Before the first knot there is only the drawing.
         self.squares.fill((0.0, 0.0));
@@ -209,6 +243,9 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
         for group in 0..(KNOTS / R::LANES).min(G) {
             if !(self.check_knots(cx, group) && self.unwrap(group, classes, &mut branch.angles)) {
+                return false;
+            }
+            if with_others && !self.others_turn_slowly(group, classes) {
                 return false;
             }
             branch.at.extend((0..R::LANES).map(|lane| self.knots[group].0.lane(lane)));
@@ -337,6 +374,31 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             range = [range[0].min(least.lane(lane)), range[1].max(most.lane(lane))];
         }
         Some(range)
+    }
+
+    /// Whether the links of all classes but these turn slowly between the knots of a register and those
+    /// before. Groups are predicted with all of them.
+    #[inline(always)]
+    fn others_turn_slowly(&self, group: usize, classes: &[usize]) -> bool {
+        let mut slow = R::Mask::NONE.not();
+        for class in (0..self.last_angles.len()).filter(|class| !classes.contains(class)) {
+            let units = &self.state.pose.class[class];
+            let unit = units[group];
+            // The first knot may be far from the drawing's own angle.
+            let last = if group == 0 {
+                Vector::splat(Vector::new(unit.x.lane(0), unit.y.lane(0)))
+            } else {
+                units[group - 1]
+            };
+            let end = R::LANES - 1;
+            let before =
+                Vector::new(previous(last.x.lane(end), unit.x), previous(last.y.lane(end), unit.y));
+            let rate = self.state.pose.theta[self.state.len * class + 1][group] * R::splat(CELL);
+            slow = slow
+                .and(R::splat(COS_MAX_TURN).le(before.dot(unit)))
+                .and(rate.abs().le(R::splat(KNOT_MAX_TURN)));
+        }
+        slow.all()
     }
 
     /// Unwraps the angles of a register of knots; false if a link turns fast there.

@@ -68,9 +68,8 @@ impl Machine {
         if !fits {
             return Err(SolveError::Shape("speeds, accelerations or values do not fit".into()));
         }
-        let columns = request.columns(mechanism);
         let derivatives = DerivativeTables::new(shape.drivers, plan.order);
-        let writer = Writer::new(mechanism, &derivatives, &columns);
+        let writer = Writer::of(mechanism, &derivatives, &request);
         let linkage = mechanism.linkage();
         let links_at: Vec<Vec<usize>> =
             (0..linkage.joints.len()).map(|joint| linkage.links_at(joint).collect()).collect();
@@ -83,13 +82,13 @@ impl Machine {
             machine: self,
             joints: asked.reactions.iter().map(joint_force).collect(),
             rubbing: Rubbing::of(&plan, &links_at, &self.friction),
-            sources: Sources::new(&plan, &columns),
+            sources: Sources::new(&plan, &writer.columns),
             plan: &plan,
             asked,
             request: &request,
             derivatives: &derivatives,
             writer: &writer,
-            columns: &columns,
+            columns: &writer.columns,
             callbacks: asked.external.len().checked_div(rows).unwrap_or(0),
             shape: &shape,
             control,
@@ -121,7 +120,7 @@ impl ForLevel for React<'_, '_> {
         let batch = self.batch;
         let Batch { mechanism, request, derivatives, writer, columns, control, .. } = *batch;
         let own = || Own::<'_, L::Register, G> {
-            worker: Worker::new(mechanism, request, derivatives, writer, columns, control),
+            worker: Worker::new(mechanism, request, derivatives, writer, control),
             designs: Designs::default(),
             scratch: Scratch::new(columns, batch.shape.positions),
             scene: Scene::new(batch.plan),

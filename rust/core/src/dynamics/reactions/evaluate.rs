@@ -2,6 +2,7 @@
 //! squares alone.
 
 use std::mem::MaybeUninit;
+use std::sync::Arc;
 
 use super::applied::Values;
 use super::columns::{Rows, Solved, Sources};
@@ -34,7 +35,7 @@ pub(super) struct Batch<'b> {
     pub asked: &'b ReactionRequest<'b>,
     pub request: &'b Request<'b>,
     pub derivatives: &'b DerivativeTables,
-    pub writer: &'b Writer<'b>,
+    pub writer: &'b Arc<Writer>,
     pub columns: &'b [Column],
     pub callbacks: usize,
     pub shape: &'b Shape,
