@@ -47,7 +47,8 @@
 )]
 
 // The layers, from the bottom up: math, ode, description, structure, plan, state, branch, query,
-// batch, sweep, dynamics, papers. Each imports only from those below it (`tools/check_order`).
+// batch, assemblies, sweep, dynamics, papers. Each imports only from those below it (`tools/check_order`).
+mod assemblies;
 mod batch;
 mod branch;
 mod description;
@@ -61,6 +62,8 @@ mod state;
 mod structure;
 pub mod sweep;
 
+pub use assemblies::assembly::{Assemblies, Assembly, PathFailure};
+pub use assemblies::solutions::PathEnd;
 #[doc(hidden)]
 pub use batch::bench_hooks;
 pub use batch::failure_log::{FailureLog, FirstFailure};

@@ -126,7 +126,9 @@ pub(crate) fn solve(error: SolveError) -> PyErr {
     use SolveError as E;
     let none = Fields::default;
     let (class, fields) = match &error {
-        E::HigherClass { group, .. } => (Class::Structure, Fields { group: Some(group), ..none() }),
+        E::TooManyAssemblies { group } => {
+            (Class::Structure, Fields { group: Some(group), ..none() })
+        }
         E::BadDimension { name, value, .. } => {
             (Class::Dimension, Fields { dimension: Some(name), value: Some(*value), ..none() })
         }

@@ -194,11 +194,15 @@ impl Case<'_> {
         }
         let row = usize::from(self.question.alone[0]) % motion.status.len();
         let Some(position) = self.positions(motion).nth(row) else { return };
-        let found = self.mechanism.assemblies(&position.dimensions, position.q);
+        let found = self.mechanism.assemblies(&position.dimensions, position.q, None);
         let found = match found {
-            Ok(found) => found,
+            Ok(found) => found.found,
             Err(error) => return check_sentence(&error.to_string()),
         };
+        if self.mechanism.structure().class() > 2 {
+            return;
+        }
+        let found: Vec<Vec<i8>> = found.into_iter().map(|assembly| assembly.signs).collect();
         for (index, signs) in found.iter().enumerate() {
             let diagnosis = self.mechanism.diagnose(&position.dimensions, position.q, signs);
             let diagnosis = &diagnosis.expect("an assembly of this mechanism")[0];

@@ -367,9 +367,9 @@ pub enum SolveError {
     /// The caller cancelled the work.
     #[error("the work was interrupted: not all positions were solved")]
     Interrupted,
-    /// Assemblies of a group above class II are not supported.
-    #[error("group {group} is of class {class}: assemblies() supports class II only")]
-    HigherClass { group: String, class: String },
+    /// The complex assemblies of a group cannot be counted.
+    #[error("group {group} has more assemblies than can be found")]
+    TooManyAssemblies { group: String },
     /// A dimension is not finite or out of range, or a length is not positive.
     #[error("dimension {name:?} is {}: {need}", number(*value))]
     BadDimension { name: String, value: f64, need: &'static str },
@@ -396,7 +396,7 @@ impl Hint for SolveError {
     fn hint(&self) -> Option<String> {
         match self {
             Self::Unknown { hint, .. } => hint.clone(),
-            Self::HigherClass { .. } => {
+            Self::TooManyAssemblies { .. } => {
                 Some("for another assembly draw the mechanism that way".into())
             }
             Self::CoordinateTooFar { .. } => Some("take whole turns off an angle".into()),

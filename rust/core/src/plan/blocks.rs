@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use super::dyad::{Dyad, Form, LoopTerm, Unknown};
 use super::group::Group;
-use super::plan::{EdgeSlide, Higher, Plan, PlanEdge, Step};
+use super::plan::{EdgeSlide, Plan, PlanEdge, Step};
 use crate::description::Linkage;
 use crate::description::error::StructureError;
 use crate::structure::Structure;
@@ -36,12 +36,10 @@ pub(crate) fn add_steps(
             }
             _ => {
                 let links = plan_links(linkage, &plan.edges, &edges);
-                let higher = higher(links, linkage, structure);
-                let name = format!("{}({})", higher.class, higher.links);
+                let name = group_name(links, linkage, structure);
                 let (group, chords) = Group::new(plan, &edges, &unknowns, &known, name);
                 edges.retain(|edge| !chords.contains(edge));
                 plan.steps.push(Step::Group(group));
-                plan.higher.get_or_insert(higher);
             }
         }
         place_points(plan, &mut known, edges);
@@ -58,13 +56,12 @@ fn plan_links(linkage: &Linkage, edges: &[PlanEdge], of: &[usize]) -> Vec<usize>
     links
 }
 
-fn higher(links: Vec<usize>, linkage: &Linkage, structure: &Structure) -> Higher {
+/// Class and links of a group, for messages.
+fn group_name(links: Vec<usize>, linkage: &Linkage, structure: &Structure) -> String {
     let group = structure.groups.iter().find(|g| g.links.iter().any(|l| links.contains(l)));
     let links = group.map_or(links, |g| g.links.clone());
-    Higher {
-        links: links.iter().map(|&l| linkage.links[l].name.as_str()).collect::<Vec<_>>().join(", "),
-        class: roman(group.map_or(3, |g| g.class.max(3))),
-    }
+    let names: Vec<&str> = links.iter().map(|&l| linkage.links[l].name.as_str()).collect();
+    format!("{}({})", roman(group.map_or(3, |g| g.class.max(3))), names.join(", "))
 }
 
 /// Incidence pattern of the kept edges' equations, and the meaning of its unknowns.

@@ -89,7 +89,6 @@ impl Plan {
             steps: Vec::new(),
             dyad_names: Vec::new(),
             dyad_links: Vec::new(),
-            higher: None,
             pairs: PairSpans::default(),
             may_change: Vec::new(),
             leg_edges: LegEdges::default(),

@@ -167,17 +167,6 @@ impl Mechanism {
         &self.signs
     }
 
-    /// Fails if the mechanism has a group above class II.
-    pub(crate) fn require_closed_form(&self) -> Result<(), SolveError> {
-        match &self.plan.higher {
-            Some(higher) => Err(SolveError::HigherClass {
-                group: format!("{}({})", higher.class, higher.links),
-                class: higher.class.clone(),
-            }),
-            None => Ok(()),
-        }
-    }
-
     /// Index of a joint by name.
     ///
     /// # Errors

@@ -110,15 +110,6 @@ pub(crate) enum AngleFrom {
     Slide { link: usize, slide: usize },
 }
 
-/// A group that has no closed form.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Higher {
-    /// Names of its links.
-    pub links: String,
-    /// Class in Roman numerals.
-    pub class: String,
-}
-
 /// The compiled mechanism.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Plan {
@@ -150,8 +141,6 @@ pub(crate) struct Plan {
     pub dyad_names: Vec<String>,
     /// Names of the same dyads' links.
     pub dyad_links: Vec<String>,
-    /// The first group without a closed form.
-    pub higher: Option<Higher>,
     /// Pairs of every link; empty if no link or slide is redundant.
     pub pairs: PairSpans,
     /// For every sign, whether its dyad can pass change points in the drawing.

@@ -91,7 +91,7 @@ impl Mechanism {
     }
 
     /// Refuses slices whose lengths do not fit this mechanism.
-    pub(super) fn check(
+    pub(crate) fn check(
         &self,
         dimensions: &[f64],
         q: &[f64],

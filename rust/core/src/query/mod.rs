@@ -1,5 +1,4 @@
-//! Questions about one design: a diagnosis of a position, its assemblies, positions in sequence.
-pub(crate) mod assemblies;
+//! Questions about one design: a diagnosis of a position, positions in sequence.
 pub(crate) mod construction;
 pub(crate) mod diagnosis;
 pub(crate) mod evaluator;

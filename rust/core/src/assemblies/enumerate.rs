@@ -1,0 +1,291 @@
+//! All assemblies of a mechanism at one coordinate: the two of each dyad in closed form, those of each
+//! group above class II by homotopy, one after another in the order of the plan.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::assembly::{Assemblies, Assembly, PathFailure};
+use super::forms::GroupForms;
+use super::parameters::parameters;
+use super::solutions::{GroupFibres, PathEnd, unknowns};
+use crate::branch::design::Design;
+use crate::description::error::SolveError;
+use crate::math::derivatives::DerivativeTables;
+use crate::math::vector::Vector;
+use crate::plan::dyad::Unknown;
+use crate::plan::group::Group;
+use crate::plan::mechanism::Mechanism;
+use crate::plan::plan::Step;
+use crate::state::state::{Context, State};
+use crate::state::status::Status;
+use crate::structure::closure::point_of_joint;
+
+/// Greatest distance (relative to the size) of two assemblies that are one, where a dyad or group is
+/// flat: beside a dead point half of all digits are lost.
+const DOUBLE: f64 = 1.0e-8;
+/// How far (rad, or in sizes) Newton's iteration may lead from the end of a path. Beside a dead point
+/// that end is good to half of all digits.
+const CONFIRMED: f64 = 1.0e-5;
+
+/// The fibres of all groups of a mechanism, in order.
+struct Fibres(Vec<GroupFibres>);
+
+/// A step with several solutions.
+enum Choice<'p> {
+    Sign { sign: usize, step: usize },
+    Group { group: &'p Group, step: usize },
+}
+
+impl Choice<'_> {
+    fn step(&self) -> usize {
+        match *self {
+            Self::Sign { step, .. } | Self::Group { step, .. } => step,
+        }
+    }
+}
+
+impl Mechanism {
+    /// Every assembly that exists at `q`.
+    ///
+    /// # Errors
+    ///
+    /// Slices of the wrong length, a coordinate too far from the drawing, a group with more assemblies
+    /// than the method can find, or [`SolveError::Interrupted`] once `cancel` is true.
+    pub fn assemblies(
+        &self,
+        dimensions: &[f64],
+        q: &[f64],
+        cancel: Option<&AtomicBool>,
+    ) -> Result<Assemblies, SolveError> {
+        let count = self.plan().signs();
+        self.check(dimensions, q, &vec![1; count])?;
+        if self.dimensions().first_fault(dimensions).is_some() || q.len() != self.q0().len() {
+            return Ok(Assemblies::default());
+        }
+        let fibres = self.fibres();
+        let derivatives = DerivativeTables::shared(q.len(), 1);
+        let mut design = Design::new(self, &vec![1; count], &derivatives);
+        design.bind(dimensions);
+        let scaled = design.scaled(q);
+        if design.is_too_far(&scaled) {
+            return Err(SolveError::CoordinateTooFar { q: q.to_vec() });
+        }
+        let state = design.state(&derivatives);
+        let mut search = Search {
+            design: &design,
+            fibres: &fibres,
+            derivatives: &derivatives,
+            scaled: &scaled,
+            choices: choices(self),
+            signs: vec![1.0; count],
+            unknowns: vec![0.0; self.plan().groups().map(|group| group.unknowns.len()).sum()],
+            state,
+            cancel,
+            found: Assemblies {
+                complex_counts: fibres.0.iter().map(GroupFibres::count).collect(),
+                ..Assemblies::default()
+            },
+            places: Vec::new(),
+        };
+        search.from(0, false)?;
+        let mut found = search.found;
+        if !design.has_groups() {
+            for assembly in &mut found.found {
+                if cancel.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+                    return Err(SolveError::Interrupted);
+                }
+                let signs: Vec<f64> = assembly.signs.iter().map(|&sign| f64::from(sign)).collect();
+                assembly.signs = design.signs_at_drawing(&signs, &scaled);
+            }
+        }
+        Ok(found)
+    }
+
+    /// Those of random dimensions, found once.
+    fn fibres(&self) -> Arc<Fibres> {
+        self.number.share(
+            |_: &Fibres| true,
+            || {
+                let of = |group| GroupFibres::new(GroupForms::new(self.plan(), group));
+                Fibres(self.plan().groups().map(of).collect())
+            },
+        )
+    }
+}
+
+fn choices(mechanism: &Mechanism) -> Vec<Choice<'_>> {
+    let mut choices = Vec::new();
+    for (step, of) in mechanism.plan().steps.iter().enumerate() {
+        match of {
+            Step::Dyad(dyad) => {
+                choices.extend(dyad.sign.map(|sign| Choice::Sign { sign, step }));
+            }
+            Step::Group(group) => choices.push(Choice::Group { group, step }),
+            _ => {}
+        }
+    }
+    choices
+}
+
+/// A search through all choices, depth first.
+struct Search<'s> {
+    design: &'s Design<'s>,
+    fibres: &'s Fibres,
+    derivatives: &'s DerivativeTables,
+    scaled: &'s [f64],
+    choices: Vec<Choice<'s>>,
+    /// The choices so far.
+    signs: Vec<f64>,
+    unknowns: Vec<f64>,
+    state: State,
+    cancel: Option<&'s AtomicBool>,
+    found: Assemblies,
+    /// Points and rotations of what was found, in sizes.
+    places: Vec<Vec<Vector>>,
+}
+
+impl Search<'_> {
+    /// Completes the choices from the one at `index` on.
+    fn from(&mut self, index: usize, is_double: bool) -> Result<(), SolveError> {
+        if self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+            return Err(SolveError::Interrupted);
+        }
+        let Some(choice) = self.choices.get(index) else {
+            self.solve();
+            self.add(is_double);
+            return Ok(());
+        };
+        match *choice {
+            Choice::Sign { sign, .. } => {
+                for value in [1.0, -1.0] {
+                    self.signs[sign] = value;
+                    if index + 1 == self.choices.len() || self.reaches(index + 1) {
+                        self.from(index + 1, is_double)?;
+                    }
+                }
+                self.signs[sign] = 1.0;
+            }
+            Choice::Group { group, .. } => self.from_group(index, group, is_double)?,
+        }
+        Ok(())
+    }
+
+    /// Solves the position as chosen; whether nothing fails before a choice.
+    fn reaches(&mut self, index: usize) -> bool {
+        self.solve();
+        let step = self.choices[index].step();
+        !self.state.has_failed() || self.state.fault.is_some_and(|fault| fault.step() >= step)
+    }
+
+    fn context(&self) -> Context<'_> {
+        Context { signs: &self.signs, ..self.design.context(self.derivatives) }
+    }
+
+    fn solve(&mut self) {
+        let plan = self.design.mechanism.plan();
+        let unknowns = plan.groups().flat_map(|group| &group.unknowns);
+        for (&unknown, &value) in unknowns.zip(&self.unknowns) {
+            match unknown {
+                Unknown::Class(class) => self.state.pose.class[class][0] = Vector::at_angle(value),
+                Unknown::Slide(slide) => self.state.pose.slides[slide * self.state.len][0] = value,
+            }
+        }
+        let cx = Context { signs: &self.signs, ..self.design.context(self.derivatives) };
+        self.state.solve(&cx, self.scaled);
+    }
+
+    fn from_group(
+        &mut self,
+        index: usize,
+        group: &Group,
+        is_double: bool,
+    ) -> Result<(), SolveError> {
+        let own = &self.fibres.0[group.index];
+        if own.fibres.is_empty() {
+            return Err(SolveError::TooManyAssemblies { group: group.name.clone() });
+        }
+        if !self.reaches(index) {
+            return Ok(());
+        }
+        let given = parameters(&own.forms, group, &self.context(), &self.state);
+        let solutions = own.solutions(&given);
+        let fail = |end| PathFailure { group: group.name.clone(), end };
+        self.found.failures.extend(solutions.failures.iter().copied().map(fail));
+        let plan = self.design.mechanism.plan();
+        let earlier = plan.groups().take(group.index).map(|group| group.unknowns.len());
+        let first: usize = earlier.sum();
+        let step = self.choices[index].step();
+        for (point, is_multiple) in solutions.real() {
+            let values = unknowns(&own.forms, &given, point);
+            self.unknowns[first..first + values.len()].copy_from_slice(&values);
+            self.solve();
+            let failed = self.state.has_failed()
+                && self.state.fault.is_none_or(|fault| fault.step() <= step);
+            if failed || !self.confirms(group, &values) {
+                if !is_multiple {
+                    self.found.failures.push(fail(PathEnd::Unconfirmed));
+                }
+                continue;
+            }
+            self.from(index + 1, is_double || *is_multiple)?;
+        }
+        Ok(())
+    }
+
+    /// Whether Newton's iteration of the real closures has led to these values.
+    fn confirms(&self, group: &Group, values: &[f64]) -> bool {
+        group.unknowns.iter().zip(values).all(|(&unknown, &value)| {
+            let error = match unknown {
+                Unknown::Class(class) => {
+                    (self.state.pose.class[class][0] - Vector::at_angle(value)).norm()
+                }
+                Unknown::Slide(slide) => {
+                    let own = self.state.pose.slides[slide * self.state.len][0];
+                    (own - value).abs() / value.abs().max(1.0)
+                }
+            };
+            error <= CONFIRMED
+        })
+    }
+
+    /// Adds the position just solved, if it exists.
+    fn add(&mut self, is_double: bool) {
+        let state = &self.state;
+        if matches!(state.status, Status::Unreachable | Status::BadInput | Status::NotConverged) {
+            return;
+        }
+        let points = state.pose.points.chunks_exact(state.len).map(|jet| jet[0][0]);
+        let place: Vec<Vector> =
+            points.chain(state.pose.class.iter().map(|unit| unit[0])).collect();
+        let size = place.iter().map(|p| p.size()).fold(1.0, f64::max);
+        let is_same = |other: &Vec<Vector>| {
+            place.iter().zip(other).all(|(&a, &b)| (a - b).size() <= DOUBLE * size)
+        };
+        if let Some(known) = self.places.iter().position(is_same) {
+            self.found.found[known].is_double = true;
+            return;
+        }
+        let assembly = self.assembly(is_double);
+        self.found.found.push(assembly);
+        self.places.push(place);
+    }
+
+    /// The position just solved.
+    fn assembly(&self, is_double: bool) -> Assembly {
+        let (mechanism, state) = (self.design.mechanism, &self.state);
+        let constants = &self.design.constants;
+        let joint = |joint: usize| {
+            let point = state.pose.points[point_of_joint(joint) * state.len][0];
+            let [x, y] = constants.origin;
+            [point.x * constants.scale + x, point.y * constants.scale + y]
+        };
+        let slides = state.pose.slides.chunks_exact(state.len);
+        Assembly {
+            signs: self.signs.iter().map(|&sign| if sign > 0.0 { 1 } else { -1 }).collect(),
+            class_angles: state.pose.class.iter().map(|unit| unit[0].angle()).collect(),
+            slides: slides.map(|jet| jet[0][0] * constants.scale).collect(),
+            joints: (0..mechanism.linkage().joints.len()).map(joint).collect(),
+            is_double,
+        }
+    }
+}

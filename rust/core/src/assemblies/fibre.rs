@@ -1,0 +1,135 @@
+//! All complex assemblies of one group with random dimensions: a start for those of any dimensions.
+//!
+//! The paths begin at products of linear forms, of which each choice of n factors in X and the other n
+//! in Y has one solution: C(2n, n), as many as there can be (Sommese & Wampler 2005, ch. 8, a
+//! two-homogeneous start). Some end at infinity; how many do is a property of the group.
+
+use super::follow::{Ends, follow};
+use super::forms::GroupForms;
+use super::homotopy::{Homotopy, Parameters};
+use super::linear::{inverse, solve};
+use super::paths::Tightness;
+use super::random::Random;
+use crate::math::simd::Simd;
+use crate::math::vector::Vector;
+
+/// Where paths that may lead to infinity are left.
+const NEAR_END: f64 = 1.0 - 1.0e-9;
+/// Newton's rounds from there: toward a multiple solution each halves the distance.
+const ROUNDS: usize = 40;
+/// The last of them, relative to the solution, if the solution is regular.
+const REGULAR: f64 = 1.0e-12;
+/// A solution with a first homogeneous coordinate this small is at infinity.
+const AT_INFINITY: f64 = 1.0e-7;
+/// How near (relative to their size) the same solution is found on two ways; others are farther.
+const SAME: f64 = 1.0e-8;
+/// Pairs of ways that may disagree before the group is given up.
+const TRIALS: u64 = 6;
+
+/// The complex assemblies of a group with random parameters.
+#[derive(Debug)]
+pub(super) struct Fibre {
+    pub parameters: Parameters,
+    /// Components of x, then of y.
+    pub points: Vec<Vec<Vector>>,
+}
+
+impl Fibre {
+    /// Finds them; `None` if no two ways to them agree.
+    pub(super) fn new(forms: &GroupForms, seed: u64) -> Option<Self> {
+        let mut random = Random(seed);
+        let parameters: Parameters =
+            (0..forms.parameters()).map(|_| [random.complex(), random.complex()]).collect();
+        let system = Homotopy::between(forms, &parameters, &parameters);
+        let mut earlier: Vec<Vec<Vec<Vector>>> = Vec::new();
+        for _ in 0..TRIALS {
+            let found = finite_solutions(&system, forms.half(), &mut random);
+            if earlier.iter().any(|other| agree(&found, other)) {
+                return Some(Self { parameters, points: found });
+            }
+            earlier.push(found);
+        }
+        None
+    }
+}
+
+/// The finite regular solutions of a system, by a random start.
+fn finite_solutions(system: &Homotopy, half: usize, random: &mut Random) -> Vec<Vec<Vector>> {
+    let n = system.variables + 1;
+    let coordinates =
+        [0, 1].map(|_| -> Vec<Vector> { (0..n * n).map(|_| random.complex()).collect() });
+    let there = system.transformed([&coordinates[0], &coordinates[1]]);
+    let mut form = || -> Vec<Vector> { (0..n).map(|_| random.complex()).collect() };
+    let products: Vec<[Vec<Vector>; 2]> = system.forms.iter().map(|_| [form(), form()]).collect();
+    let way = there.from_products(&products, random.direction());
+    let starts: Vec<Vec<Vector>> = (0..1_usize << products.len())
+        .filter(|choice| choice.count_ones() as usize == half)
+        .map(|choice| start(&there, &products, choice))
+        .collect();
+    let ends = follow(&way, &starts, Tightness::LOOSE, NEAR_END, Simd::best());
+    let finished = Homotopy { ..way };
+    let Ends { points, last, .. } = super::follow::refine(&finished, &ends.points, ROUNDS);
+    let mut found = Vec::new();
+    for (point, last) in points.into_iter().zip(last) {
+        let [x, y] = [0, 1].map(|side| {
+            let own = &point[side * (n - 1)..][..n - 1];
+            let by = &coordinates[side];
+            let full = |i: usize| {
+                own.iter().enumerate().fold(by[i * n], |sum, (j, &x)| sum + by[i * n + j + 1] * x)
+            };
+            (0..n).map(full).collect::<Vec<Vector>>()
+        });
+        let is_finite = [&x, &y].iter().all(|full| {
+            let size = full.iter().map(|x| x.norm()).fold(0.0, f64::max);
+            full[0].norm() > AT_INFINITY * size
+        });
+        if last < REGULAR && is_finite {
+            let mut own = Vec::with_capacity(2 * (n - 1));
+            for full in [x, y] {
+                let scale = inverse(full[0]);
+                own.extend(full[1..].iter().map(|&x| x * scale));
+            }
+            found.push(own);
+        }
+    }
+    found
+}
+
+/// The point where chosen left factors vanish, and the right ones of all other products.
+fn start(system: &Homotopy, products: &[[Vec<Vector>; 2]], choice: usize) -> Vec<Vector> {
+    let n = system.variables;
+    let mut point = Vec::with_capacity(2 * n);
+    for side in 0..2 {
+        let mut matrix = Vec::with_capacity(n * (n + 1));
+        let mut add = |factors: &[Vector]| {
+            matrix.extend_from_slice(&factors[1..]);
+            matrix.push(-factors[0]);
+        };
+        for (k, product) in products.iter().enumerate() {
+            if choice >> k & 1 == 1 - side {
+                add(&product[side]);
+            }
+        }
+        for row in &system.rows[side] {
+            let row: Vec<Vector> = row.iter().map(|factor| factor[0]).collect();
+            add(&row);
+        }
+        solve(&mut matrix, n);
+        point.extend(matrix.chunks_exact(n + 1).map(|row| row[n]));
+    }
+    point
+}
+
+/// Whether two lists hold the same solutions, all of them different.
+fn agree(one: &[Vec<Vector>], other: &[Vec<Vector>]) -> bool {
+    one.len() == other.len()
+        && one.iter().all(|point| other.iter().filter(|other| is_same(point, other)).count() == 1)
+        && other.iter().all(|point| one.iter().filter(|other| is_same(point, other)).count() == 1)
+}
+
+/// Whether two solutions are the same but for rounding.
+pub(super) fn is_same(a: &[Vector], b: &[Vector]) -> bool {
+    let difference: f64 = a.iter().zip(b).map(|(&a, &b)| (a - b).norm2()).sum();
+    let size: f64 = 1.0 + a.iter().map(|a| a.norm2()).sum::<f64>();
+    difference <= SAME * SAME * size
+}

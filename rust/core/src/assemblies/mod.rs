@@ -1,0 +1,12 @@
+//! All assemblies of a mechanism of any class.
+pub(crate) mod assembly;
+mod enumerate;
+mod fibre;
+mod follow;
+mod forms;
+mod homotopy;
+mod linear;
+mod parameters;
+mod paths;
+mod random;
+pub(crate) mod solutions;

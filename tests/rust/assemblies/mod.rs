@@ -1,0 +1,2 @@
+//! All assemblies of a position.
+mod counts;
