@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 
 from assur._core import version
 from assur.description.structure import Group, Structure
-from assur.description.words import Assembly, Drive, Slide, Status
+from assur.description.words import Drive, Slide, Status
 from assur.errors import (
     AssurError,
     AssurWarning,
@@ -30,6 +30,7 @@ from assur.errors import (
     PositionError,
     StructureError,
 )
+from assur.kinematics.assembly import Assemblies, Assembly
 from assur.kinematics.mechanism import Mechanism
 from assur.kinematics.motion import Motion
 from assur.kinematics.quantity import Analogues
@@ -62,6 +63,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Analogues",
+    "Assemblies",
     "Assembly",
     "AssurError",
     "AssurWarning",

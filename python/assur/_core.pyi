@@ -15,6 +15,7 @@ from assur.dynamics.values import Function
 from assur.events import AngleLimit, Crossing, Obstacle, Position, Rest, Speed
 from assur.flywheel import Mean, Spline
 from assur.flywheel.sizing import Task
+from assur.kinematics.assembly import AssemblyNumbers, FoundAssemblies
 from assur.kinematics.held import Buffers
 from assur.sweeps.specs import Spec
 
@@ -213,7 +214,12 @@ class Mechanism:
         signs: list[int],
     ) -> tuple[_Float, _Float]: ...
     def explain(self, dimensions: list[float], q: list[float], signs: list[int]) -> str: ...
-    def assemblies(self, dimensions: list[float], q: list[float]) -> list[list[int]]: ...
+    def assemblies(
+        self, dimensions: _Float, q: _Float, per_design: bool, threads: int | None
+    ) -> list[FoundAssemblies]: ...
+    def drawn_in(
+        self, dimensions: list[float], q: list[float], assembly: AssemblyNumbers
+    ) -> Self: ...
     @staticmethod
     def statuses() -> list[tuple[str, int]]: ...
 

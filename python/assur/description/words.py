@@ -1,14 +1,11 @@
-"""Slides, drives and assemblies of a description, and the statuses of positions."""
+"""Slides and drives of a description, and the statuses of positions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 
-from assur._validate import checked_signs
-
-__all__ = ["Assembly", "Drive", "Slide", "Status"]
+__all__ = ["Drive", "Slide", "Status"]
 
 
 class Status(IntEnum):
@@ -86,44 +83,3 @@ class Drive:
 
     link: str
     relative_to: str = "ground"
-
-
-class Assembly(Mapping[str, int]):
-    """The sign (+1 or −1) of every dyad with two solutions, by inner joint or slide.
-
-    Examples
-    --------
-    >>> import assur
-    >>> a = assur.Assembly({"C": 1})
-    >>> a
-    Assembly({'C': 1})
-    >>> a["C"], -a
-    (1, Assembly({'C': -1}))
-    """
-
-    __slots__ = ("_signs",)
-
-    def __init__(self, signs: Mapping[str, int]) -> None:
-        self._signs = checked_signs(signs)
-
-    def __getitem__(self, name: str) -> int:
-        for key, sign in self._signs:
-            if key == name:
-                return sign
-        raise KeyError(name)
-
-    def __iter__(self) -> Iterator[str]:
-        return (name for name, _ in self._signs)
-
-    def __len__(self) -> int:
-        return len(self._signs)
-
-    def __hash__(self) -> int:
-        return hash(frozenset(self._signs))
-
-    def __neg__(self) -> Assembly:
-        """Return the assembly with every sign reversed."""
-        return Assembly({name: -sign for name, sign in self._signs})
-
-    def __repr__(self) -> str:
-        return f"Assembly({dict(self._signs)!r})"

@@ -15,15 +15,18 @@ from assur._core import KnownSigns
 from assur._validate import checked_index, checked_name, checked_signs, real_array
 from assur.description import encode
 from assur.description.structure import Group, Structure
-from assur.description.words import Assembly, Slide
+from assur.description.words import Slide
 from assur.errors import InputError
+from assur.kinematics import assemblies as assembly_search
 from assur.kinematics import solve as solver
+from assur.kinematics.assembly import Assembly, drawn_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from assur._core import Mechanism as Core
     from assur.description.encode import Description, DriverLike
+    from assur.kinematics.assembly import Place
     from assur.kinematics.motion import Motion
 
 __all__ = ["Mechanism"]
@@ -77,6 +80,7 @@ class Mechanism:
         "_description",
         "_joints",
         "_known_signs",
+        "_place",
         "_names",
         "_signs",
         "_structure",
@@ -90,6 +94,8 @@ class Mechanism:
     _values: Float
     _structure: Structure | None
     _joints: MappingProxyType[str, Any] | None
+    # Where it is drawn, if not in the drawing.
+    _place: Place | None
     # Of all dyads, in the drawing; not to be modified.
     _signs: list[int]
     # Indices of joints, links and slides by name.
@@ -125,6 +131,7 @@ class Mechanism:
             _structure=None,
             _joints=None,
             _names=None,
+            _place=None,
             _signs=[sign for _, sign in core.assembly],
         )
         self._set_values(np.array(core.drawing) if values is None else values)
@@ -151,9 +158,16 @@ class Mechanism:
         other._share(self, values)
         return other
 
+    def _drawn_at(self, place: Place, core: Core) -> Mechanism:
+        """Return the mechanism drawn at a place of one of its designs."""
+        other = object.__new__(Mechanism)
+        other._share(self, self._values)
+        other._set(_core=core, _place=place, _signs=[sign for _, sign in core.assembly])
+        return other
+
     def _share(self, other: Mechanism, values: Float) -> None:
         """Become the other mechanism with other values of its dimensions."""
-        for name in ("_core", "_description", "_structure", "_names", "_signs"):
+        for name in ("_core", "_description", "_structure", "_names", "_place", "_signs"):
             object.__setattr__(self, name, getattr(other, name))
         self._set(_joints=None)
         self._set_values(values)
@@ -167,13 +181,14 @@ class Mechanism:
         raise AttributeError(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_rebuild, (self._description, np.array(self._values)))
+        return (_rebuild, (self._description, np.array(self._values), self._place))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mechanism):
             return NotImplemented
         return (
             self._description == other._description
+            and self._place == other._place
             and self._values.shape == other._values.shape
             and self._values.tobytes() == other._values.tobytes()
         )
@@ -202,7 +217,8 @@ class Mechanism:
             drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._description.joints}
             # The drawing holds unless another assembly is named or redundant links adjusted it.
             as_drawn = (
-                self._values.tolist() == self._core.drawing
+                self._place is None
+                and self._values.tolist() == self._core.drawing
                 and not self._description.assembly
                 and self._core.adjustment == 0.0
             )
@@ -298,6 +314,27 @@ class Mechanism:
         """The assembly shown by the drawing."""
         return Assembly(dict(self._core.assembly))
 
+    def with_assembly(self, assembly: Assembly) -> Mechanism:
+        """Return the mechanism drawn in another assembly, as `assemblies` found it.
+
+        With a group above class II its `q0` is where the assembly was found.
+
+        Examples
+        --------
+        >>> import assur
+        >>> m = assur.FourBar(40, 120, 80, 100)
+        >>> crossed = m.with_assembly(m.assemblies(0.7)[1])
+        >>> crossed.assembly
+        Assembly({'C': -1})
+        """
+        drawn = drawn_in(self, assembly)
+        if drawn is not self:
+            return drawn
+        signs = solver.checked_assembly(self, assembly)
+        named = zip((name for name, _ in self._core.assembly), signs, strict=True)
+        description = self._description._replace(assembly=tuple(named))
+        return self._make(description, np.array(self._values))
+
     @property
     def dimensions(self) -> Mapping[str, Any]:
         """The dimensions by name, m or rad: floats, or arrays of shape S.
@@ -390,6 +427,9 @@ class Mechanism:
         >>> assur.FourBar(1.0, 3.0, 2.5, 3.0).with_driver("rocker").structure.formula
         'I(rocker) → II(crank, coupler)'
         """
+        if self._place is not None:
+            message = "with_driver: not for a mechanism that is drawn in an assembly"
+            raise InputError(message)
         description = self._description._replace(
             drivers=encode.drivers(driver), assembly=checked_signs(assembly, strict=False)
         )
@@ -456,8 +496,36 @@ class Mechanism:
         """
         return solver.solve(self, q, order, outputs, assembly, on_error, threads, out)
 
-    def assemblies(self, q: npt.ArrayLike) -> list[Assembly]:
-        """Return every real assembly at one position, for use as ``solve(q, assembly=a)``.
+    def assemblies(self, q: npt.ArrayLike, threads: int | None = None) -> Any:
+        """Return every real assembly at a position, for use as ``solve(q, assembly=a)``.
+
+        Dyads are solved in closed form. Of a group above class II all complex assemblies with
+        random dimensions are known, and followed to those of the design: no isolated one is left
+        out [1]_.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinate of the driver, as for `solve`.
+        threads : int, optional
+            Most threads; by default one per core.
+
+        Returns
+        -------
+        Assemblies
+            The list of one position, with `complex_count` and `failures`; of several positions or
+            designs, nested lists in the shape S + (N,).
+
+        Warns
+        -----
+        AssurWarning
+            If an assembly may be missing: the group moves while its driver is locked (a
+            parallelogram), or a path could not be followed.
+
+        References
+        ----------
+        .. [1] A. P. Morgan and A. J. Sommese, "Coefficient-parameter polynomial continuation",
+           Appl. Math. Comput. 29 (1989) 123-160.
 
         Examples
         --------
@@ -465,20 +533,7 @@ class Mechanism:
         >>> assur.FourBar(40, 120, 80, 100).assemblies(0.7)
         [Assembly({'C': 1}), Assembly({'C': -1})]
         """
-        if self.shape:
-            batch = f"this is a batch {self.shape}"
-            message = f"assemblies() is for one design, {batch}: take one with design(i)"
-            raise InputError(message)
-        one = np.atleast_1d(real_array(q, "q"))
-        if one.shape != (self._driver_count,):
-            message = f"q has shape {one.shape}: one position of {self._driver_count} drivers"
-            raise InputError(message)
-        if not np.isfinite(one).all():
-            message = f"q = {q!r}: a finite coordinate is needed"
-            raise InputError(message, value=float(one[~np.isfinite(one)][0]))
-        names = [name for name, _ in self._core.assembly]
-        found = self._core.assemblies(self._values.tolist(), one.tolist())
-        return [Assembly(dict(zip(names, signs, strict=True))) for signs in found]
+        return assembly_search.assemblies(self, q, threads)
 
     def plot(self, q: float | None = None, ax: Any = None) -> Any:
         """Draw the mechanism at one position (needs matplotlib).
@@ -499,5 +554,10 @@ class Mechanism:
         return mechanism_picture(self, q, ax)
 
 
-def _rebuild(description: Description, values: Float) -> Mechanism:
-    return Mechanism._make(description, values)
+def _rebuild(description: Description, values: Float, place: Place | None = None) -> Mechanism:
+    mechanism = Mechanism._make(description, values)
+    if place is None:
+        return mechanism
+    own = place.mechanism
+    core = own._core.drawn_in(own._values.tolist(), list(place.q), place.numbers)
+    return mechanism._drawn_at(place, core)

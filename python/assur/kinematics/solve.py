@@ -10,6 +10,7 @@ import numpy.typing as npt
 from assur._arrays import short
 from assur._validate import checked_order, checked_signs, checked_threads, one_of, real_array
 from assur.errors import InputError
+from assur.kinematics.assembly import Assembly, drawn_in
 from assur.kinematics.motion import Motion
 from assur.kinematics.request import SolveRequest
 
@@ -37,7 +38,10 @@ def solve(
     """See `Mechanism.solve`."""
     one_of(on_error, ("raise", "nan"), "on_error")
     order = checked_order(order)
-    coordinates, positions, per_design = _coordinates(mechanism, q)
+    if isinstance(assembly, Assembly):
+        drawn = drawn_in(mechanism, assembly)
+        mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
+    coordinates, positions, per_design = checked_coordinates(mechanism, q)
     coordinates.flags.writeable = False
     own_signs = assembly is None
     signs = mechanism._signs if own_signs else checked_assembly(mechanism, assembly)
@@ -82,7 +86,7 @@ def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
     return held.buffers
 
 
-def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[int, ...], bool]:
+def checked_coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[int, ...], bool]:
     """Return coordinates, the shape of positions, and whether each design has its own."""
     array = real_array(q, "q")
     drivers = mechanism._driver_count

@@ -1,6 +1,7 @@
 //! Python binding of `assur`: converts arguments, releases the GIL and maps errors.
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
+mod assemblies;
 mod convert;
 mod crank_rocker;
 mod detach;

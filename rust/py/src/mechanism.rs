@@ -20,13 +20,15 @@ use crate::detach::{self, catch_panic};
 use crate::known_signs::KnownSigns;
 use crate::memory::Memory;
 use crate::sweep::{self, Found};
-use crate::{error, error_map};
+use crate::{assemblies, error, error_map};
 
 /// Positions below which a call with one driver takes only milliseconds and need not check for
 /// signals. (With several drivers a single position may take as long.)
 const FEW_POSITIONS: usize = 100_000;
 /// Dyads with two solutions below which finding all assemblies need not check for signals.
 const FEW_SIGNS: usize = 12;
+/// Positions whose assemblies take only milliseconds then.
+const FEW_ASSEMBLIES: usize = 100;
 /// Links below which building a mechanism need not check for signals.
 const FEW_LINKS: usize = 64;
 /// Bytes below which a result is one array: making many takes longer than solving.
@@ -373,18 +375,36 @@ impl Mechanism {
         })
     }
 
-    /// Signs of every assembly that exists at `q`.
+    /// Every assembly of designs at positions.
     fn assemblies(
         &self,
         py: Python<'_>,
+        dimensions: PyReadonlyArray1<'_, f64>,
+        q: PyReadonlyArray1<'_, f64>,
+        per_design: bool,
+        threads: Option<usize>,
+    ) -> PyResult<Vec<assemblies::Found>> {
+        let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
+        let (mechanism, dimensions, q) = (&self.inner, &dimensions[..], &q[..]);
+        let question = assemblies::Question { mechanism, dimensions, q, per_design };
+        let [designs, positions] = question.shape();
+        let is_quick = mechanism.structure().class() <= 2 && mechanism.signs().len() < FEW_SIGNS;
+        let small = is_quick && designs * positions < FEW_ASSEMBLIES;
+        let found = detach::run(py, small, |cancel| question.answer(threads, cancel))?;
+        Ok(found.map_err(error_map::solve)?.into_iter().map(Into::into).collect())
+    }
+
+    /// The mechanism drawn in an assembly of a design.
+    fn drawn_in(
+        &self,
         dimensions: Vec<f64>,
         q: Vec<f64>,
-    ) -> PyResult<Vec<Vec<i8>>> {
-        let small = self.inner.signs().len() < FEW_SIGNS;
-        let found = detach::run(py, small, |cancel| {
-            self.inner.assemblies_unless(&dimensions, &q, Some(cancel))
-        })?;
-        found.map_err(error_map::solve)
+        assembly: assemblies::AssemblyNumbers,
+    ) -> PyResult<Self> {
+        catch_panic(|| {
+            let drawn = self.inner.drawn_in(&dimensions, &q, &assembly.into());
+            Ok(Self { inner: drawn.map_err(error_map::solve)? })
+        })
     }
 
     /// Names and codes of the statuses.

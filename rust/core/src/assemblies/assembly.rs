@@ -1,5 +1,7 @@
 //! One assembly of a mechanism, and all of them at a position.
 
+use std::fmt;
+
 use super::solutions::PathEnd;
 
 /// A way to put a mechanism together at a coordinate.
@@ -28,6 +30,12 @@ pub struct PathFailure {
     pub end: PathEnd,
 }
 
+impl fmt::Display for PathFailure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "group {}: {}", self.group, self.end)
+    }
+}
+
 /// Every assembly of a design at a coordinate.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Assemblies {
@@ -38,4 +46,15 @@ pub struct Assemblies {
     pub complex_counts: Vec<usize>,
     /// Paths that found none.
     pub failures: Vec<PathFailure>,
+}
+
+impl Assemblies {
+    /// Whether no assembly can be missing: the failures, if any, are at infinity or where two
+    /// assemblies meet.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        let loses_none =
+            |failure: &PathFailure| matches!(failure.end, PathEnd::AtInfinity | PathEnd::Multiple);
+        self.failures.iter().all(loses_none)
+    }
 }

@@ -101,6 +101,29 @@ impl Mechanism {
         Ok(found)
     }
 
+    /// The mechanism drawn in an assembly of a design at `q`.
+    ///
+    /// # Errors
+    ///
+    /// Numbers that do not fit this mechanism.
+    pub fn drawn_in(
+        &self,
+        dimensions: &[f64],
+        q: &[f64],
+        assembly: &Assembly,
+    ) -> Result<Self, SolveError> {
+        self.check(dimensions, q, &assembly.signs)?;
+        let fits = q.len() == self.q0().len()
+            && assembly.class_angles.len() == self.class_angle.len()
+            && assembly.slides.len() == self.slide_value.len();
+        let start = (&assembly.signs[..], &assembly.class_angles[..], &assembly.slides[..]);
+        if fits {
+            Ok(self.drawn_at(dimensions, q, start))
+        } else {
+            Err(SolveError::Shape("the assembly is one of another mechanism".into()))
+        }
+    }
+
     /// Those of random dimensions, found once.
     fn fibres(&self) -> Arc<Fibres> {
         self.number.share(
@@ -215,8 +238,9 @@ impl Search<'_> {
         let earlier = plan.groups().take(group.index).map(|group| group.unknowns.len());
         let first: usize = earlier.sum();
         let step = self.choices[index].step();
-        for (point, is_multiple) in solutions.real() {
-            let values = unknowns(&own.forms, &given, point);
+        for solution in solutions.real() {
+            let is_multiple = solution.is_multiple;
+            let values = unknowns(&own.forms, &given, &solution.point);
             self.unknowns[first..first + values.len()].copy_from_slice(&values);
             self.solve();
             let failed = self.state.has_failed()
@@ -227,7 +251,7 @@ impl Search<'_> {
                 }
                 continue;
             }
-            self.from(index + 1, is_double || *is_multiple)?;
+            self.from(index + 1, is_double || is_multiple)?;
         }
         Ok(())
     }

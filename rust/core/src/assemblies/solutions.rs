@@ -13,6 +13,8 @@ use super::forms::GroupForms;
 use super::homotopy::{Homotopy, Parameters};
 use super::linear::inverse;
 use super::paths::Tightness;
+use thiserror::Error;
+
 use crate::math::simd::Simd;
 use crate::math::vector::Vector;
 
@@ -57,10 +59,11 @@ impl GroupFibres {
         for tightness in [Tightness::LOOSE, Tightness::TIGHT] {
             for fibre in &self.fibres {
                 let found = Solutions::of(&self.forms, fibre, parameters, tightness);
-                if found.doubts() == 0 {
+                if found.failures.is_empty() {
                     return found;
                 }
-                if best.as_ref().is_none_or(|best| found.doubts() < best.doubts()) {
+                let fewer = |best: &Solutions| found.failures.len() < best.failures.len();
+                if best.as_ref().is_none_or(fewer) {
                     best = Some(found);
                 }
             }
@@ -69,30 +72,49 @@ impl GroupFibres {
     }
 }
 
-/// How a path ended that found no regular solution.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// How a path ended that found no solution of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum PathEnd {
     /// The solution goes to infinity: the group has fewer with these dimensions.
+    #[error("a complex assembly is at infinity with these dimensions")]
     AtInfinity,
-    /// Two paths or more end on one solution.
+    /// Two paths or more end on one solution, at a dead point of the group.
+    #[error("two assemblies meet")]
     Multiple,
+    /// A single path ends where the group can move while its driver is locked: there are more
+    /// assemblies than can be listed.
+    #[error("it moves while its driver is locked, so it has more assemblies than can be listed")]
+    Loose,
+    /// The mirror image of a complex solution is missing: a path has passed to another.
+    #[error("the mirror image of a complex assembly was not found: one may be missing")]
+    Unpaired,
     /// Newton's iteration of the real closures leads elsewhere.
+    #[error("an assembly could not be confirmed by Newton's iteration: it is left out")]
     Unconfirmed,
     /// The path could not be followed beyond this part of it.
+    #[error("a path could not be followed beyond {:.3} % of it: one assembly may be missing", 100.0 * at)]
     Stuck {
         /// 0 to 1.
         at: f64,
     },
 }
 
+/// A solution where paths end.
+#[derive(Debug, Clone)]
+pub(super) struct Solution {
+    /// Components of x, then of y.
+    pub point: Vec<Vector>,
+    /// The paths that end there.
+    paths: usize,
+    /// Whether it is a multiple one: the equations are singular.
+    pub is_multiple: bool,
+}
+
 /// The ends of a group's paths.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Solutions {
-    /// Different finite solutions; whether several paths end on it.
-    pub points: Vec<(Vec<Vector>, bool)>,
+    found: Vec<Solution>,
     pub failures: Vec<PathEnd>,
-    /// Solutions whose conjugate is missing.
-    pub unpaired: usize,
 }
 
 impl Solutions {
@@ -108,7 +130,7 @@ impl Solutions {
         for (point, &at) in ends.points.into_iter().zip(&ends.at) {
             let size = point.iter().map(|x| x.norm()).fold(0.0, f64::max);
             if at >= 1.0 && size < FAR {
-                solutions.add(point);
+                solutions.add(point, false);
             } else if size >= FAR {
                 solutions.failures.push(PathEnd::AtInfinity);
             } else if at > NEAR_END {
@@ -116,7 +138,7 @@ impl Solutions {
                 let is_settled = refined.last[0] < SETTLED;
                 match refined.points.into_iter().next() {
                     Some(point) if is_settled && point.iter().all(|x| x.norm() < FAR) => {
-                        solutions.add_multiple(point);
+                        solutions.add(point, true);
                     }
                     _ => solutions.failures.push(PathEnd::AtInfinity),
                 }
@@ -124,43 +146,37 @@ impl Solutions {
                 solutions.failures.push(PathEnd::Stuck { at });
             }
         }
-        let points = &solutions.points;
-        let has_conjugate = |point: &[Vector]| {
-            let mirrored = conjugate(point);
-            points.iter().any(|(other, _)| is_near(&mirrored, other))
+        let found = &solutions.found;
+        let has_conjugate = |solution: &&Solution| {
+            let mirrored = conjugate(&solution.point);
+            found.iter().any(|other| is_near(&mirrored, &other.point))
         };
-        solutions.unpaired = points.iter().filter(|(point, _)| !has_conjugate(point)).count();
+        let unpaired = found.iter().filter(|solution| !has_conjugate(solution)).count();
+        let single = |solution: &&Solution| solution.is_multiple && solution.paths == 1;
+        let loose = found.iter().filter(single).count();
+        solutions.failures.extend(std::iter::repeat_n(PathEnd::Unpaired, unpaired));
+        solutions.failures.extend(std::iter::repeat_n(PathEnd::Loose, loose));
         solutions
     }
 
-    /// Adds the regular end of a path.
-    fn add(&mut self, point: Vec<Vector>) {
-        match self.points.iter_mut().find(|(other, _)| is_same(&point, other)) {
-            Some((_, is_multiple)) => {
-                *is_multiple = true;
+    /// Adds the end of a path; on a multiple solution it is less accurate.
+    fn add(&mut self, point: Vec<Vector>, is_multiple: bool) {
+        let is_known = |other: &&mut Solution| {
+            if is_multiple { is_near(&point, &other.point) } else { is_same(&point, &other.point) }
+        };
+        match self.found.iter_mut().find(is_known) {
+            Some(known) => {
+                known.paths += 1;
+                known.is_multiple = true;
                 self.failures.push(PathEnd::Multiple);
             }
-            None => self.points.push((point, false)),
+            None => self.found.push(Solution { point, paths: 1, is_multiple }),
         }
-    }
-
-    /// Adds the end of a path on a multiple solution, which is less accurate.
-    fn add_multiple(&mut self, point: Vec<Vector>) {
-        match self.points.iter_mut().find(|(other, _)| is_near(&point, other)) {
-            Some((_, is_multiple)) => *is_multiple = true,
-            None => self.points.push((point, true)),
-        }
-        self.failures.push(PathEnd::Multiple);
-    }
-
-    /// How many ends are not accounted for.
-    fn doubts(&self) -> usize {
-        self.failures.len() + self.unpaired
     }
 
     /// The solutions that may be real.
-    pub(super) fn real(&self) -> impl Iterator<Item = &(Vec<Vector>, bool)> {
-        self.points.iter().filter(|(point, _)| is_near(point, &conjugate(point)))
+    pub(super) fn real(&self) -> impl Iterator<Item = &Solution> {
+        self.found.iter().filter(|solution| is_near(&solution.point, &conjugate(&solution.point)))
     }
 }
 

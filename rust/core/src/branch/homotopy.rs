@@ -5,7 +5,6 @@
 
 use super::design::Design;
 use super::knot::{MAX_FIRST_STEP, MAX_LATER_STEPS, Taylor2};
-use crate::description::Driver;
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::Unknown;
@@ -33,9 +32,7 @@ impl Design<'_> {
             .iter()
             .map(|&unknown| match unknown {
                 Unknown::Class(class) => mechanism.class_angle[class],
-                Unknown::Slide(slide) => {
-                    mechanism.linkage().drawing_coordinate(Driver::Slide(slide))
-                }
+                Unknown::Slide(slide) => mechanism.slide_value[slide],
             })
             .collect();
         let mut det_signs: Option<Vec<bool>> = None;

@@ -10,11 +10,11 @@ use super::work_spaces::PlanNumber;
 use crate::description::dimension::Dimensions;
 use crate::description::error::{Named, SolveError, StructureError};
 use crate::description::names::{mistaken_kind, suggest};
-use crate::description::{Description, Linkage};
+use crate::description::{Description, Driver, Linkage};
 use crate::math::tolerance::FLAT_SINE;
 use crate::math::vector::Vector;
 use crate::structure::adjust::Adjusted;
-use crate::structure::closure::Closure;
+use crate::structure::closure::{Closure, Rotation};
 use crate::structure::{Structure, adjust};
 
 /// A mechanism: its description, its structure, and the plan that solves it.
@@ -32,6 +32,8 @@ pub struct Mechanism {
     pub(crate) slots: DimensionMap,
     /// Angle of every class in the drawing.
     pub(crate) class_angle: Vec<f64>,
+    /// Value of every slide in the drawing, m.
+    pub(crate) slide_value: Vec<f64>,
     /// Whole turns between each link's angle in the drawing and the sum of its class's angle and
     /// offsets.
     pub(crate) whole_turns: Vec<f64>,
@@ -81,6 +83,9 @@ impl Mechanism {
         let q0: Vec<f64> = linkage.drivers.iter().map(|&d| linkage.drawing_coordinate(d)).collect();
         let signs = drawing_signs(&linkage, &plan)?;
         let class_angle = class_angles(&linkage, &plan);
+        let slides = 0..linkage.slides.len();
+        let slide_value =
+            slides.map(|slide| linkage.drawing_coordinate(Driver::Slide(slide))).collect();
         let slots = DimensionMap::new(&plan, &linkage, &closure, &dimensions);
         let constants = DesignConstants::new(&plan, &slots, &drawing);
         let whole_turns = (0..linkage.links.len())
@@ -102,6 +107,7 @@ impl Mechanism {
             signs,
             slots,
             class_angle,
+            slide_value,
             whole_turns,
             number: PlanNumber::next(),
         })
@@ -123,6 +129,33 @@ impl Mechanism {
     #[must_use]
     pub(crate) fn plan(&self) -> &Plan {
         &self.plan
+    }
+
+    /// The mechanism drawn elsewhere: with these dimensions at a coordinate, in the assembly that has
+    /// these signs, angles of classes (rad) and values of slides (m). Its links' angles are in
+    /// (−π, π] there.
+    pub(crate) fn drawn_at(
+        &self,
+        dimensions: &[f64],
+        q: &[f64],
+        (signs, class_angle, slide_value): (&[i8], &[f64], &[f64]),
+    ) -> Self {
+        let constants = DesignConstants::new(&self.plan, &self.slots, dimensions);
+        let principal = |(link, rotation): (usize, &Rotation)| {
+            let driven: f64 = rotation.turns.iter().zip(q).map(|(&t, q)| f64::from(t) * q).sum();
+            let angle = class_angle[rotation.class] + constants.offset[link] + driven;
+            -(angle / TAU).round()
+        };
+        Self {
+            drawing: dimensions.to_vec(),
+            q0: q.to_vec(),
+            signs: signs.to_vec(),
+            class_angle: class_angle.to_vec(),
+            slide_value: slide_value.to_vec(),
+            whole_turns: self.plan.rotation.iter().enumerate().map(principal).collect(),
+            number: PlanNumber::next(),
+            ..self.clone()
+        }
     }
 
     /// Sets, for every sign, whether its dyad can pass change points in the drawing.

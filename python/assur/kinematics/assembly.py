@@ -1,0 +1,265 @@
+"""Ways to put a mechanism together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, TypedDict
+
+import numpy as np
+
+from assur._validate import checked_signs
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from assur._arrays import Float
+    from assur._core import Mechanism as Core
+    from assur.kinematics.mechanism import Mechanism
+
+__all__ = ["Assemblies", "Assembly", "Place"]
+
+# How near (relative to the size) two positions of the same assembly are; others are farther.
+SAME = 1e-6
+
+
+class AssemblyNumbers(TypedDict):
+    """An assembly as the core knows it."""
+
+    signs: list[int]
+    class_angles: list[float]
+    slides: list[float]
+    joints: list[tuple[float, float]]
+    is_double: bool
+
+
+class FoundAssemblies(TypedDict):
+    """The assemblies of a position as the core found them."""
+
+    assemblies: list[AssemblyNumbers]
+    complex_count: list[int]
+    failures: list[str]
+    is_complete: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where an assembly was found: a design, its coordinates, and the core's numbers."""
+
+    mechanism: Mechanism
+    q: tuple[float, ...]
+    numbers: AssemblyNumbers
+
+    @property
+    def is_traced(self) -> bool:
+        """Whether the assembly is what can be reached from here, not signs alone."""
+        return self.mechanism._core.cls > 2
+
+
+class Assembly(Mapping[str, int]):
+    """One way to put a mechanism together.
+
+    It maps every dyad with two solutions, by inner joint or slide, to its sign (+1 or −1). A group
+    above class II has no such sign: its assembly is what can be reached from a place, which
+    `Mechanism.assemblies` finds.
+
+    Parameters
+    ----------
+    signs : mapping of str to int
+        The signs.
+
+    Attributes
+    ----------
+    q : float or ndarray or None
+        Where it was found, rad or m; None if it was not found but named.
+    joints : mapping of str to tuple or None
+        Positions of the joints there, m.
+    is_double : bool
+        Whether two assemblies meet there.
+    complex_count : tuple of int
+        Number of complex assemblies of each group above class II.
+
+    Notes
+    -----
+    Assemblies of class II are equal if their signs are. Others are equal if following one of them
+    to the place of the other arrives there.
+
+    Examples
+    --------
+    >>> import assur
+    >>> a = assur.Assembly({"C": 1})
+    >>> a
+    Assembly({'C': 1})
+    >>> a["C"], -a
+    (1, Assembly({'C': -1}))
+    """
+
+    __slots__ = ("_complex_count", "_core", "_place", "_signs")
+
+    def __init__(self, signs: Mapping[str, int]) -> None:
+        self._signs = checked_signs(signs)
+        self._place: Place | None = None
+        self._complex_count: tuple[int, ...] = ()
+        # The mechanism drawn in it, made when first needed.
+        self._core: Core | None = None
+
+    @classmethod
+    def _found(cls, place: Place, complex_count: Iterable[int]) -> Assembly:
+        names = [name for name, _ in place.mechanism._core.assembly]
+        found = cls(dict(zip(names, place.numbers["signs"], strict=True)))
+        found._place = place
+        found._complex_count = tuple(complex_count)
+        return found
+
+    @property
+    def q(self) -> float | Float | None:
+        """Where it was found, rad or m; with several drivers an array."""
+        if self._place is None:
+            return None
+        q = self._place.q
+        return q[0] if len(q) == 1 else np.array(q)
+
+    @property
+    def joints(self) -> Mapping[str, tuple[float, float]] | None:
+        """Positions of the joints where it was found, m."""
+        if self._place is None:
+            return None
+        names = self._place.mechanism._joint_names
+        return MappingProxyType(dict(zip(names, self._place.numbers["joints"], strict=True)))
+
+    @property
+    def is_double(self) -> bool:
+        """Whether two assemblies meet where it was found."""
+        return self._place is not None and self._place.numbers["is_double"]
+
+    @property
+    def complex_count(self) -> tuple[int, ...]:
+        """Number of complex assemblies of each group above class II."""
+        return self._complex_count
+
+    def __getitem__(self, name: str) -> int:
+        for key, sign in self._signs:
+            if key == name:
+                return sign
+        raise KeyError(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for name, _ in self._signs)
+
+    def __len__(self) -> int:
+        return len(self._signs)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Mapping):
+            return NotImplemented
+        if dict(self) != dict(other):
+            return False
+        theirs = other._place if isinstance(other, Assembly) else None
+        own = self._place
+        if own is None or theirs is None or not (own.is_traced and theirs.is_traced):
+            # A named assembly says nothing about groups above class II.
+            return not any(place is not None and place.is_traced for place in (own, theirs))
+        one, another = own.mechanism, theirs.mechanism
+        is_same = (
+            one._description == another._description
+            and one._values.tobytes() == another._values.tobytes()
+        )
+        return is_same and self._leads_to(theirs)
+
+    def _leads_to(self, place: Place) -> bool:
+        """Whether following it to a place arrives there."""
+        assert self._place is not None
+        target = np.array(place.q) if len(place.q) > 1 else place.q[0]
+        motion = place.mechanism.solve(target, order=0, assembly=self, on_error="nan")
+        names, wanted = place.mechanism._joint_names, np.array(place.numbers["joints"])
+        there = np.array([motion.joint(name).value for name in names])
+        slides = np.array([motion.slide(name).value for name in place.mechanism.slides])
+        size = max(np.ptp(wanted, axis=0).max(), 1e-300)
+        errors = np.abs(np.concatenate([there - wanted], axis=None))
+        gaps = np.abs(slides - np.array(place.numbers["slides"]))
+        return bool((errors <= SAME * size).all() and (gaps <= SAME * size).all())
+
+    def __hash__(self) -> int:
+        # Beside a change point a sign may differ from that of an equal assembly elsewhere.
+        traced = self._place is not None and self._place.is_traced
+        return hash(frozenset(self if traced else self._signs))
+
+    def __neg__(self) -> Assembly:
+        """Return the assembly with every sign reversed."""
+        if self._place is not None and self._place.is_traced:
+            message = "an assembly of a group above class II has no opposite: see assemblies()"
+            raise InputError(message)
+        return Assembly({name: -sign for name, sign in self._signs})
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_rebuild, (dict(self._signs), self._place, self._complex_count))
+
+    def __repr__(self) -> str:
+        if self._place is None or not self._place.is_traced:
+            return f"Assembly({dict(self._signs)!r})"
+        q = ", ".join(f"{q:.6g}" for q in self._place.q)
+        signs = f"{dict(self._signs)!r}, " if self._signs else ""
+        x, y = self._place.numbers["joints"][-1]
+        return f"<assur.Assembly {signs}q={q}, {list(self.joints or ())[-1]}=({x:.4g}, {y:.4g})>"
+
+
+def drawn_in(mechanism: Mechanism, assembly: Assembly) -> Mechanism:
+    """Return the mechanism drawn where an assembly of a group above class II was found.
+
+    Any other assembly is given by its signs: the mechanism itself is returned.
+    """
+    place = assembly._place
+    if place is None or not place.is_traced:
+        return mechanism
+    if place.mechanism._description != mechanism._description:
+        message = "assembly: it is one of another mechanism"
+        raise InputError(message)
+    if assembly._core is None:
+        values = place.mechanism._values.tolist()
+        assembly._core = place.mechanism._core.drawn_in(values, list(place.q), place.numbers)
+    return mechanism._drawn_at(place, assembly._core)
+
+
+def _rebuild(
+    signs: dict[str, int], place: Place | None, complex_count: tuple[int, ...]
+) -> Assembly:
+    assembly = Assembly(signs)
+    assembly._place = place
+    assembly._complex_count = complex_count
+    return assembly
+
+
+class Assemblies(list[Assembly]):
+    """Every real assembly of a design at one position: a list, with what is known of the rest.
+
+    Attributes
+    ----------
+    complex_count : tuple of int
+        Number of complex assemblies of each group above class II, with dimensions that are not
+        special.
+    failures : tuple of str
+        Paths of the search that found no assembly of their own, each with its reason.
+    is_complete : bool
+        Whether no assembly can be missing: failures, if any, are at infinity or where two
+        assemblies meet.
+    """
+
+    __slots__ = ("complex_count", "failures", "is_complete")
+
+    def __init__(
+        self,
+        found: Iterable[Assembly],
+        complex_count: Iterable[int],
+        failures: Iterable[str],
+        is_complete: bool,
+    ) -> None:
+        super().__init__(found)
+        self.complex_count = tuple(complex_count)
+        self.failures = tuple(failures)
+        self.is_complete = is_complete
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        own = (list(self), self.complex_count, self.failures, self.is_complete)
+        return (Assemblies, own)

@@ -1,0 +1,105 @@
+//! All assemblies for Python.
+
+use std::sync::atomic::AtomicBool;
+
+use assur::{Assemblies, SolveError};
+use pyo3::prelude::*;
+
+use crate::parallel_map::parallel_map;
+
+/// Positions that pay for another thread.
+const MIN_PER_THREAD: usize = 16;
+
+/// An assembly: signs, angles of classes, values of slides, coordinates of joints.
+#[derive(FromPyObject, IntoPyObject)]
+pub(crate) struct AssemblyNumbers {
+    pub(crate) signs: Vec<i8>,
+    pub(crate) class_angles: Vec<f64>,
+    pub(crate) slides: Vec<f64>,
+    pub(crate) joints: Vec<(f64, f64)>,
+    pub(crate) is_double: bool,
+}
+
+/// The assemblies of a position; numbers of complex ones; paths that found none.
+#[derive(IntoPyObject)]
+pub(crate) struct Found {
+    assemblies: Vec<AssemblyNumbers>,
+    complex_count: Vec<usize>,
+    failures: Vec<String>,
+    is_complete: bool,
+}
+
+impl From<Assemblies> for Found {
+    fn from(all: Assemblies) -> Self {
+        let is_complete = all.is_complete();
+        Self {
+            assemblies: all.found.into_iter().map(AssemblyNumbers::from).collect(),
+            complex_count: all.complex_counts,
+            failures: all.failures.iter().map(ToString::to_string).collect(),
+            is_complete,
+        }
+    }
+}
+
+impl From<assur::Assembly> for AssemblyNumbers {
+    fn from(one: assur::Assembly) -> Self {
+        Self {
+            signs: one.signs,
+            class_angles: one.class_angles,
+            slides: one.slides,
+            joints: one.joints.into_iter().map(|[x, y]| (x, y)).collect(),
+            is_double: one.is_double,
+        }
+    }
+}
+
+impl From<AssemblyNumbers> for assur::Assembly {
+    fn from(one: AssemblyNumbers) -> Self {
+        Self {
+            signs: one.signs,
+            class_angles: one.class_angles,
+            slides: one.slides,
+            joints: one.joints.into_iter().map(|(x, y)| [x, y]).collect(),
+            is_double: one.is_double,
+        }
+    }
+}
+
+/// The assemblies of designs at positions.
+pub(crate) struct Question<'q> {
+    pub(crate) mechanism: &'q assur::Mechanism,
+    /// The first dimension of every design, then the second.
+    pub(crate) dimensions: &'q [f64],
+    pub(crate) q: &'q [f64],
+    pub(crate) per_design: bool,
+}
+
+impl Question<'_> {
+    /// Number of designs, and of positions of each.
+    pub(crate) fn shape(&self) -> [usize; 2] {
+        let (size, drivers) = (self.mechanism.dimensions().len(), self.mechanism.q0().len());
+        let designs = self.dimensions.len().checked_div(size).unwrap_or(1);
+        let positions = self.q.len() / drivers / if self.per_design { designs.max(1) } else { 1 };
+        [designs, positions]
+    }
+
+    /// Answers it; stops once `cancel` is true.
+    pub(crate) fn answer(
+        &self,
+        threads: Option<usize>,
+        cancel: &AtomicBool,
+    ) -> Result<Vec<Assemblies>, SolveError> {
+        let [designs, positions] = self.shape();
+        let drivers = self.mechanism.q0().len();
+        let one = |index: usize| {
+            let (design, position) = (index / positions, index % positions);
+            let values: Vec<f64> =
+                self.dimensions.chunks_exact(designs.max(1)).map(|of| of[design]).collect();
+            let row = if self.per_design { index } else { position };
+            let q = &self.q[row * drivers..][..drivers];
+            self.mechanism.assemblies(&values, q, Some(cancel))
+        };
+        let count = designs * positions;
+        parallel_map(count, MIN_PER_THREAD, threads, cancel, &one).into_iter().collect()
+    }
+}
