@@ -3,6 +3,7 @@
 //! Medians and ratios are what counts: baseline beside AVX2 and AVX-512, one thread
 //! beside two, every case in the same run.
 
+mod assemblies;
 mod beside_by_hand;
 mod by_hand;
 mod kernels;
@@ -212,5 +213,5 @@ criterion_group!(
     several_drivers,
     compile_tape
 );
-criterion_group! { name = parts; config = short(); targets = kernels::kernels, metrics::metrics }
+criterion_group! { name = parts; config = short(); targets = kernels::kernels, metrics::metrics, assemblies::assemblies, assemblies::limits }
 criterion_main!(benches, parts);

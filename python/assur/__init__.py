@@ -31,6 +31,7 @@ from assur.errors import (
     StructureError,
 )
 from assur.kinematics.assembly import Assemblies, Assembly
+from assur.kinematics.limits import DeadPoint, Limits
 from assur.kinematics.mechanism import Mechanism
 from assur.kinematics.motion import Motion
 from assur.kinematics.quantity import Analogues
@@ -71,6 +72,7 @@ __all__ = [
     "ClassIV",
     "ConstantTorque",
     "Damper",
+    "DeadPoint",
     "DimensionError",
     "Drive",
     "Force",
@@ -81,6 +83,7 @@ __all__ = [
     "InductionMotor",
     "InputError",
     "JointFriction",
+    "Limits",
     "LinearMotor",
     "Machine",
     "Measures",

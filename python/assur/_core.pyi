@@ -17,6 +17,7 @@ from assur.flywheel import Mean, Spline
 from assur.flywheel.sizing import Task
 from assur.kinematics.assembly import AssemblyNumbers, FoundAssemblies
 from assur.kinematics.held import Buffers
+from assur.kinematics.limits import FoundLimits
 from assur.sweeps.specs import Spec
 
 __all__ = [
@@ -217,6 +218,24 @@ class Mechanism:
     def assemblies(
         self, dimensions: _Float, q: _Float, per_design: bool, threads: int | None
     ) -> list[FoundAssemblies]: ...
+    @staticmethod
+    def for_pose(
+        joints: list[tuple[str, float, float]],
+        links: list[tuple[str, list[str]]],
+        slides: list[tuple[str, Slide]],
+        drivers: list[str | Drive],
+    ) -> Mechanism: ...
+    def at_pose(
+        self, joints: list[tuple[float, float]], angles: list[float], slides: list[float]
+    ) -> tuple[list[float], AssemblyNumbers]: ...
+    def extremes(
+        self,
+        dimensions: list[float],
+        signs: list[int],
+        coordinate: tuple[str, int, int],
+        order: int,
+    ) -> tuple[tuple[float, float], tuple[float, float]] | None: ...
+    def limits(self, dimensions: _Float, signs: list[int], threads: int | None) -> FoundLimits: ...
     def drawn_in(
         self, dimensions: list[float], q: list[float], assembly: AssemblyNumbers
     ) -> Self: ...

@@ -30,9 +30,9 @@ def assemblies(mechanism: Mechanism, q: npt.ArrayLike, threads: int | None) -> A
         mechanism._values.ravel(), array.ravel(), per_design, checked_threads(threads)
     )
     shape = (*mechanism.shape, *positions)
-    rows = np.broadcast_to(
-        array if drivers > 1 else array[..., None], (*shape, drivers)
-    ).reshape(-1, drivers)
+    rows = np.broadcast_to(array if drivers > 1 else array[..., None], (*shape, drivers)).reshape(
+        -1, drivers
+    )
     designs = np.moveaxis(mechanism._values, 0, -1).reshape(-1, len(mechanism._values))
     each = max(len(found) // max(len(designs), 1), 1)
     lists = []

@@ -32,6 +32,7 @@ class AssemblyNumbers(TypedDict):
     class_angles: list[float]
     slides: list[float]
     joints: list[tuple[float, float]]
+    angles: list[float]
     is_double: bool
 
 

@@ -15,18 +15,24 @@ from assur._core import KnownSigns
 from assur._validate import checked_index, checked_name, checked_signs, real_array
 from assur.description import encode
 from assur.description.structure import Group, Structure
-from assur.description.words import Slide
 from assur.errors import InputError
 from assur.kinematics import assemblies as assembly_search
+from assur.kinematics import extremes as extreme_search
+from assur.kinematics import find as inverse
+from assur.kinematics import limits as limit_search
 from assur.kinematics import solve as solver
 from assur.kinematics.assembly import Assembly, drawn_in
+from assur.kinematics.pose import redrive
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from assur._core import Mechanism as Core
     from assur.description.encode import Description, DriverLike
+    from assur.description.words import Slide
     from assur.kinematics.assembly import Place
+    from assur.kinematics.extremes import Extremes
+    from assur.kinematics.limits import Limits
     from assur.kinematics.motion import Motion
 
 __all__ = ["Mechanism"]
@@ -80,8 +86,8 @@ class Mechanism:
         "_description",
         "_joints",
         "_known_signs",
-        "_place",
         "_names",
+        "_place",
         "_signs",
         "_structure",
         "_values",
@@ -123,8 +129,10 @@ class Mechanism:
         )
         self._initialise(description, None)
 
-    def _initialise(self, description: Description, values: Float | None) -> None:
-        core = encode.core_of(description)
+    def _initialise(
+        self, description: Description, values: Float | None, core: Core | None = None
+    ) -> None:
+        core = core or encode.core_of(description)
         self._set(
             _core=core,
             _description=description,
@@ -147,9 +155,11 @@ class Mechanism:
         self._set(_values=array, _known_signs=KnownSigns(math.prod(array.shape[1:])))
 
     @classmethod
-    def _make(cls, description: Description, values: Float | None) -> Mechanism:
+    def _make(
+        cls, description: Description, values: Float | None, core: Core | None = None
+    ) -> Mechanism:
         mechanism = object.__new__(Mechanism)
-        mechanism._initialise(description, values)
+        mechanism._initialise(description, values, core)
         return mechanism
 
     def _with_values(self, values: Float) -> Mechanism:
@@ -215,14 +225,7 @@ class Mechanism:
         """
         if self._joints is None:
             drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._description.joints}
-            # The drawing holds unless another assembly is named or redundant links adjusted it.
-            as_drawn = (
-                self._place is None
-                and self._values.tolist() == self._core.drawing
-                and not self._description.assembly
-                and self._core.adjustment == 0.0
-            )
-            if not as_drawn:
+            if not self._is_as_drawn:
                 motion = self.solve(self._q0_array(), order=0, on_error="nan")
                 arrays = {name: motion.joint(name).value for name in drawn}
                 single = not self.shape
@@ -230,6 +233,16 @@ class Mechanism:
             object.__setattr__(self, "_joints", MappingProxyType(drawn))
         assert self._joints is not None
         return self._joints
+
+    @property
+    def _is_as_drawn(self) -> bool:
+        """Whether this is the drawing, not with another assembly or adjusted redundant links."""
+        return (
+            self._place is None
+            and self._values.tolist() == self._core.drawing
+            and not self._description.assembly
+            and self._core.adjustment == 0.0
+        )
 
     @property
     def _joint_names(self) -> tuple[str, ...]:
@@ -410,6 +423,7 @@ class Mechanism:
         self,
         driver: DriverLike | Sequence[DriverLike],
         assembly: Mapping[str, int] | None = None,
+        q: npt.ArrayLike | None = None,
     ) -> Mechanism:
         """Return the same linkage with another driver.
 
@@ -420,20 +434,21 @@ class Mechanism:
         assembly : mapping of str to int, optional
             Signs of dyads drawn with their links collinear; the dyads depend on the
             driver.
+        q : float or array_like, optional
+            Coordinate of the present driver, for one design: the new mechanism is drawn at that
+            position, which with the assembly is kept. By default it is `q0`.
 
         Examples
         --------
         >>> import assur
-        >>> assur.FourBar(1.0, 3.0, 2.5, 3.0).with_driver("rocker").structure.formula
+        >>> four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+        >>> four_bar.with_driver("rocker").structure.formula
         'I(rocker) → II(crank, coupler)'
+        >>> turned = four_bar.with_driver("rocker", q=1.0)
+        >>> four_bar.solve(1.0).link("rocker").value - turned.q0
+        np.float64(0.0)
         """
-        if self._place is not None:
-            message = "with_driver: not for a mechanism that is drawn in an assembly"
-            raise InputError(message)
-        description = self._description._replace(
-            drivers=encode.drivers(driver), assembly=checked_signs(assembly, strict=False)
-        )
-        return self._make(description, np.array(self._values))
+        return redrive(self, encode.drivers(driver), checked_signs(assembly, strict=False), q)
 
     def design(self, index: int | tuple[int, ...]) -> Mechanism:
         """Return one design of a batch as a single mechanism."""
@@ -534,6 +549,86 @@ class Mechanism:
         [Assembly({'C': 1}), Assembly({'C': -1})]
         """
         return assembly_search.assemblies(self, q, threads)
+
+    def limits(
+        self, assembly: Mapping[str, int] | None = None, threads: int | None = None
+    ) -> Limits:
+        """Return where an assembly exists.
+
+        Parameters
+        ----------
+        assembly : mapping of str to int, optional
+            As for `solve`; the drawing's by default.
+        threads : int, optional
+            Most threads for a batch; by default one per core.
+
+        Returns
+        -------
+        Limits
+            Intervals of q, dead points (to 1e-10), whether the motion closes.
+
+        Examples
+        --------
+        >>> import assur
+        >>> limits = assur.FourBar(3.0, 2.5, 2.0, 4.0).limits()
+        >>> limits.intervals.round(6)
+        array([[-1.371564,  1.371564]])
+        >>> limits.full_rotation, limits.dead_points[0].group
+        (False, 'II(coupler, rocker)')
+        >>> assur.FourBar(1.0, 4.0, 3.0, 4.5).limits()
+        <assur.Limits [-inf, inf], closes in 1 turn>
+        """
+        return limit_search.limits(self, assembly, threads)
+
+    def extremes(
+        self, name: str, order: int = 0, assembly: Mapping[str, int] | None = None
+    ) -> Extremes:
+        """Return the least and the greatest value of a coordinate, over all q of an assembly.
+
+        Parameters
+        ----------
+        name : str
+            A joint's ``"B.x"`` or ``"B.y"``, a link (its angle) or a slide (its value).
+        order : {0, 1, 2}
+            Of the derivative by q: 0 the coordinate itself, 1 and 2 its analogues.
+        assembly : mapping of str to int, optional
+            As for `solve`; the drawing's by default.
+
+        Examples
+        --------
+        >>> import assur
+        >>> bore = assur.SliderCrank(1.0, 3.0, 0.5).extremes("bore")
+        >>> round(bore.stroke, 9), round(bore.time_ratio, 9)
+        (2.032135293, 1.084500514)
+        >>> round(bore.greatest.value, 9), round(bore.greatest.q, 9)
+        (3.968626967, 0.125327831)
+        """
+        return extreme_search.extremes(self, name, order, assembly)
+
+    def find(self, name: str, value: Any) -> list[tuple[Any, Assembly]]:
+        """Return every coordinate and assembly at which a coordinate of the motion has a value.
+
+        Parameters
+        ----------
+        name : str
+            A slide, a link (its angle, whole turns apart), or a joint's ``"B.x"`` or ``"B.y"``;
+            with two drivers a joint.
+        value : float or array_like
+            The value, m or rad; with two drivers the joint's place (x, y).
+
+        Returns
+        -------
+        list of (q, Assembly)
+            By q, in (−π, π] of an angle; an array of two with two drivers.
+
+        Examples
+        --------
+        >>> import assur
+        >>> engine = assur.SliderCrank(1.0, 3.0)
+        >>> [(round(q, 6), dict(assembly)) for q, assembly in engine.find("bore", 3.0)]
+        [(-1.403348, {'B': 1}), (1.403348, {'B': 1})]
+        """
+        return inverse.find(self, name, value)
 
     def plot(self, q: float | None = None, ax: Any = None) -> Any:
         """Draw the mechanism at one position (needs matplotlib).

@@ -86,7 +86,9 @@ def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
     return held.buffers
 
 
-def checked_coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> tuple[Float, tuple[int, ...], bool]:
+def checked_coordinates(
+    mechanism: Mechanism, q: npt.ArrayLike
+) -> tuple[Float, tuple[int, ...], bool]:
     """Return coordinates, the shape of positions, and whether each design has its own."""
     array = real_array(q, "q")
     drivers = mechanism._driver_count

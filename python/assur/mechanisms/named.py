@@ -108,4 +108,23 @@ def _copy_from(mechanism: Mechanism, drawing: Any, dimensions: dict[str, npt.Arr
     # The drawing has fixed lengths, so that neither the assembly nor q0 depends on the dimensions
     # (or on other designs of a batch).
     sized = from_drawing(drawing).with_dimensions(dimensions)
+    if not sized.shape:
+        sized = _where_it_exists(sized)
     mechanism._share(sized, sized._values)
+
+
+def _where_it_exists(mechanism: Mechanism) -> Mechanism:
+    """Return one design, drawn in the middle of its motion if it does not reach the drawing's q."""
+    intervals = mechanism.limits().intervals
+    q0 = mechanism.q0
+    if not len(intervals) or ((intervals[:, 0] <= q0) & (q0 <= intervals[:, 1])).any():
+        return mechanism
+    middle = float(intervals[-1].mean())
+    for assembly in mechanism.assemblies(middle):
+        place = assembly._place
+        if assembly == mechanism.assembly and place is not None:
+            core = mechanism._core.drawn_in(
+                mechanism._values.tolist(), list(place.q), place.numbers
+            )
+            return mechanism._drawn_at(place, core)
+    return mechanism

@@ -62,7 +62,7 @@ class Course:
     """The coordinates of some designs: the same for all, or of each its own."""
 
     def __init__(self, every: Mechanism, q: npt.ArrayLike) -> None:
-        array, positions, self.is_own = solver._coordinates(every, q)
+        array, positions, self.is_own = solver.checked_coordinates(every, q)
         array.flags.writeable = False
         self.whole = array
         axes = len(every.shape)

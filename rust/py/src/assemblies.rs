@@ -12,11 +12,13 @@ const MIN_PER_THREAD: usize = 16;
 
 /// An assembly: signs, angles of classes, values of slides, coordinates of joints.
 #[derive(FromPyObject, IntoPyObject)]
+#[pyo3(from_item_all)]
 pub(crate) struct AssemblyNumbers {
     pub(crate) signs: Vec<i8>,
     pub(crate) class_angles: Vec<f64>,
     pub(crate) slides: Vec<f64>,
     pub(crate) joints: Vec<(f64, f64)>,
+    pub(crate) angles: Vec<f64>,
     pub(crate) is_double: bool,
 }
 
@@ -48,6 +50,7 @@ impl From<assur::Assembly> for AssemblyNumbers {
             class_angles: one.class_angles,
             slides: one.slides,
             joints: one.joints.into_iter().map(|[x, y]| (x, y)).collect(),
+            angles: one.angles,
             is_double: one.is_double,
         }
     }
@@ -60,6 +63,7 @@ impl From<AssemblyNumbers> for assur::Assembly {
             class_angles: one.class_angles,
             slides: one.slides,
             joints: one.joints.into_iter().map(|(x, y)| [x, y]).collect(),
+            angles: one.angles,
             is_double: one.is_double,
         }
     }

@@ -10,6 +10,7 @@ mod error;
 mod error_map;
 mod flywheel;
 mod known_signs;
+mod limits;
 mod machine;
 mod mechanism;
 mod memory;

@@ -20,7 +20,7 @@ use crate::detach::{self, catch_panic};
 use crate::known_signs::KnownSigns;
 use crate::memory::Memory;
 use crate::sweep::{self, Found};
-use crate::{assemblies, error, error_map};
+use crate::{assemblies, error, error_map, limits};
 
 /// Positions below which a call with one driver takes only milliseconds and need not check for
 /// signals. (With several drivers a single position may take as long.)
@@ -68,6 +68,22 @@ pub(crate) struct GroupFields {
     slides: Vec<String>,
 }
 
+fn described(
+    joints: Vec<(String, f64, f64)>,
+    links: Vec<(String, Vec<String>)>,
+    slides: Vec<(String, Slide)>,
+    drivers: Vec<Driver>,
+    assembly: Vec<(String, i64)>,
+) -> Description {
+    Description {
+        joints: joints.into_iter().map(|(name, x, y)| (name, [x, y])).collect(),
+        links,
+        slides: slides.into_iter().map(|(name, slide)| slide.named(name)).collect(),
+        drivers: drivers.into_iter().map(|driver| driver.0).collect(),
+        assembly,
+    }
+}
+
 /// A compiled mechanism.
 #[pyclass(frozen, module = "assur._core")]
 pub(crate) struct Mechanism {
@@ -85,18 +101,66 @@ impl Mechanism {
         drivers: Vec<Driver>,
         assembly: Vec<(String, i64)>,
     ) -> PyResult<Self> {
-        let description = Description {
-            joints: joints.into_iter().map(|(name, x, y)| (name, [x, y])).collect(),
-            links,
-            slides: slides.into_iter().map(|(name, slide)| slide.named(name)).collect(),
-            drivers: drivers.into_iter().map(|driver| driver.0).collect(),
-            assembly,
-        };
+        let description = described(joints, links, slides, drivers, assembly);
         let small = description.links.len() < FEW_LINKS;
         let built = detach::run(py, small, |cancel| {
             assur::Mechanism::new_unless(&description, Some(cancel))
         })?;
         Ok(Self { inner: built.map_err(error_map::structure)? })
+    }
+
+    /// The same of a drawing that need not show the assembly.
+    #[staticmethod]
+    fn for_pose(
+        joints: Vec<(String, f64, f64)>,
+        links: Vec<(String, Vec<String>)>,
+        slides: Vec<(String, Slide)>,
+        drivers: Vec<Driver>,
+    ) -> PyResult<Self> {
+        catch_panic(|| {
+            let description = described(joints, links, slides, drivers, Vec::new());
+            let inner = assur::Mechanism::new_for_pose(&description);
+            Ok(Self { inner: inner.map_err(error_map::structure)? })
+        })
+    }
+
+    /// Coordinates of the drivers in a pose (joints, angles of links, values of slides), and the
+    /// assembly that it shows.
+    fn at_pose(
+        &self,
+        joints: Vec<(f64, f64)>,
+        angles: Vec<f64>,
+        slides: Vec<f64>,
+    ) -> PyResult<(Vec<f64>, assemblies::AssemblyNumbers)> {
+        catch_panic(|| {
+            let joints = joints.into_iter().map(|(x, y)| [x, y]).collect();
+            let pose = assur::Pose { joints, angles, slides };
+            let (q, assembly) = self.inner.at_pose(&pose).map_err(error_map::structure)?;
+            Ok((q, assembly.into()))
+        })
+    }
+
+    /// Least and greatest value of a coordinate (a joint's with its component, a link's, a slide's)
+    /// or of a derivative of it, each with its place; none if the assembly does not exist.
+    fn extremes(
+        &self,
+        py: Python<'_>,
+        dimensions: Vec<f64>,
+        signs: Vec<i8>,
+        coordinate: (String, usize, usize),
+        order: usize,
+    ) -> PyResult<Option<((f64, f64), (f64, f64))>> {
+        let (kind, index, component) = coordinate;
+        let tracked = match kind.as_str() {
+            "joint" => assur::Tracked::Joint(index, component),
+            "link" => assur::Tracked::Link(index),
+            _ => assur::Tracked::Slide(index),
+        };
+        let small = self.inner.structure().class() <= 2;
+        let found =
+            detach::run(py, small, |_| self.inner.extremes(&dimensions, &signs, tracked, order))?;
+        let pair = |one: assur::ValueAt| (one.value, one.q);
+        Ok(found.map_err(error_map::solve)?.map(|[least, most]| (pair(least), pair(most))))
     }
 
     /// Names of the dimensions, in order.
@@ -392,6 +456,23 @@ impl Mechanism {
         let small = is_quick && designs * positions < FEW_ASSEMBLIES;
         let found = detach::run(py, small, |cancel| question.answer(threads, cancel))?;
         Ok(found.map_err(error_map::solve)?.into_iter().map(Into::into).collect())
+    }
+
+    /// Where an assembly of designs exists.
+    fn limits<'py>(
+        &self,
+        py: Python<'py>,
+        dimensions: PyReadonlyArray1<'py, f64>,
+        signs: Vec<i8>,
+        threads: Option<usize>,
+    ) -> PyResult<limits::FoundLimits<'py>> {
+        let dimensions = dimensions.as_slice()?.to_vec();
+        let designs = dimensions.len() / self.inner.dimensions().len().max(1);
+        let small = self.inner.structure().class() <= 2 && designs < FEW_ASSEMBLIES;
+        let found = detach::run(py, small, |cancel| {
+            limits::find(&self.inner, &dimensions, &signs, threads, cancel)
+        })?;
+        Ok(limits::arrays(py, &found.map_err(error_map::solve)?, self.inner.fold_names()))
     }
 
     /// The mechanism drawn in an assembly of a design.

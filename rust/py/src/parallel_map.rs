@@ -14,8 +14,10 @@ pub(crate) fn parallel_map<T: Send>(
     cancel: &AtomicBool,
     one: &(impl Fn(usize) -> T + Sync),
 ) -> Vec<T> {
+    // Asking the system for the number of cores takes longer than small work.
+    let most = count.div_ceil(min_per_thread).max(1);
     let available = || thread::available_parallelism().map_or(1, NonZero::get);
-    let threads = threads.unwrap_or_else(available).min(count.div_ceil(min_per_thread)).max(1);
+    let threads = if most == 1 { 1 } else { threads.unwrap_or_else(available).min(most).max(1) };
     let share = count.div_ceil(threads);
     let run_share = |first: usize| -> Vec<T> {
         let indices = first..(first + share).min(count);

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from assembly_models import CASES, Case
 from scan import count
 

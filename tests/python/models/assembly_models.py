@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 import assur
-import numpy as np
 from scan import Complex, Float, Misfit, carried, circles, line
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
 @dataclass(frozen=True)
@@ -222,7 +226,7 @@ def two_plates(rng: np.random.Generator) -> Case:
 
 
 def loom(rng: np.random.Generator, block: bool = False) -> Case:
-    """The class IV group of the weaving loom; with `block`, a block on the first plate for its bar."""
+    """The loom's class IV group; with `block`, a block on the first plate in place of its bar."""
     p = points(rng, "012345678")
     names = {"1": "0", "2": "1", "3": "2", "4": "3", "5": "4", "6": "5", "7": "6", "8": "7"}
     at = {name: p[own] for name, own in names.items()}
@@ -267,9 +271,9 @@ def loom(rng: np.random.Generator, block: bool = False) -> Case:
 
 
 def class_v(rng: np.random.Generator, block: bool = False) -> Case:
-    """Class V: three plates and three bars; with `block`, a block on the first plate for one bar."""
+    """Class V: three plates and three bars; with `block`, a block in place of one bar."""
     p = points(rng, "OXYZMaKL")
-    p |= {name: one for name, one in points(rng, "NQ").items()}
+    p |= points(rng, "NQ")
     links = {
         "ground": "OYZ",
         "crank": "OX",
@@ -303,6 +307,22 @@ def class_v(rng: np.random.Generator, block: bool = False) -> Case:
         return np.asarray(np.abs(at_a - p["Z"]) - length(p["Z"], p["a"]))
 
     return Case(mechanism, misfit, 2, 16)
+
+
+def ring(plates: int) -> assur.Mechanism:
+    """Plates tied by bars around a circle, the first pinned to the crank, others to the ground."""
+    turns = [2.0 * math.pi * i / plates for i in range(plates)]
+    at = {"O": (2.5, 0.3)}
+    links = {"ground": ["O"], "crank": ["O", "D0"]}
+    for i, turn in enumerate(turns):
+        for name, radius, ahead in (("D", 2.0, 0.0), ("E", 3.0, -0.1), ("F", 3.1, 0.15)):
+            angle = turn + ahead + 0.03 * i
+            at[f"{name}{i}"] = (radius * math.cos(angle), radius * math.sin(angle))
+        links[f"plate{i}"] = [f"D{i}", f"E{i}", f"F{i}"]
+        links[f"bar{i}"] = [f"F{i}", f"E{(i + 1) % plates}"]
+        if i:
+            links["ground"].append(f"D{i}")
+    return assur.Mechanism(at, links, "crank")
 
 
 # Each with the number that the campaign counts.

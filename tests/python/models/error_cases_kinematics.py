@@ -8,6 +8,7 @@ from typing import Any
 
 import assur
 import higher_models
+from assembly_models import ring
 from assur import DimensionError, InputError, PositionError, StructureError
 from error_case import Case
 from mechanism_data import arguments
@@ -33,6 +34,7 @@ LOOM = assur.ClassIV(
         "10": (4.28, 1.52),
     }
 )  # fmt: skip
+RING = ring(7)
 LOOM_GROUP = "IV(l234, l365, l48, l876, l95, l107)"
 # Driven by its rocker, it comes to a dead point where crank and coupler are in line.
 ROCKER = assur.FourBar(1.0, 3.0, 3.0, 3.0).with_driver("rocker")
@@ -193,7 +195,11 @@ STRUCTURE: dict[str, Case] = {
 }
 
 REQUEST: dict[str, Case] = {
-    "higher_class": Case(StructureError, lambda: LOOM.assemblies(0.0), {"group": LOOM_GROUP}),
+    "too_many_assemblies": Case(
+        StructureError,
+        lambda: RING.assemblies(RING.q0),
+        {"group": RING._core.formula.partition("→ ")[2]},
+    ),
     "bad_dimension": Case(
         DimensionError,
         lambda: M.with_dimensions({"coupler.length": -1.0}),

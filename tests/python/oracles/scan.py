@@ -1,4 +1,4 @@
-"""Assemblies of a group counted by a scan: one link is turned by hand, one bar or block is left out.
+"""Assemblies of a group counted by a scan: one link is turned by hand, one bar is left out.
 
 What remains are dyads; the number of assemblies is the number of turns at which the bar left out
 fits. Nothing but plane geometry with NumPy.
@@ -31,7 +31,9 @@ def circles(a: Complex, r: float, b: Complex | complex, s: float, sign: int) -> 
     return np.asarray(a + d * (along + 1j * sign * across))
 
 
-def line(a: Complex, r: float, point: Complex | complex, way: Complex | complex, sign: int) -> Complex:
+def line(
+    a: Complex, r: float, point: Complex | complex, way: Complex | complex, sign: int
+) -> Complex:
     """Where a circle about `a` meets the line through `point` along the unit vector `way`."""
     foot = (a - point) * np.conj(way)
     across2 = r * r - foot.imag**2
@@ -45,43 +47,54 @@ def carried(given: complex, base: complex, drawn: complex, at: Complex, tip: Com
 
 def count(misfit: Misfit, dyads: int, samples: int) -> int:
     """Number of assemblies found with so many samples a turn."""
+    branches = [
+        lambda turns, signs=signs: misfit(turns, signs) for signs in product((1, -1), repeat=dyads)
+    ]
+    turns = np.linspace(0.0, 2.0 * np.pi, samples + 1) + 0.123
     with np.errstate(invalid="ignore", divide="ignore"):
+        for _ in range(2):
+            # At the end of a branch another one may begin that is shorter than a step.
+            turns = np.unique(np.concatenate([turns, *(_ends(of, turns) for of in branches)]))
         return sum(
-            _sign_changes(misfit(turns, signs))
-            for signs in product((1, -1), repeat=dyads)
-            for turns in _stretches(lambda turns, signs=signs: misfit(turns, signs), samples)
+            _roots(of, turns[start:stop]) for of in branches for start, stop in _runs(of(turns))
         )
 
 
-def _sign_changes(values: Float) -> int:
-    return int(np.count_nonzero(np.diff(values > 0.0)))
+def _roots(of: Callable[[Float], Float], turns: Float) -> int:
+    """Roots on a stretch: changes of sign, and pairs of them beside a smallest misfit."""
+    values = of(turns)
+    positive = values > 0.0
+    changes = int(np.count_nonzero(positive[1:] != positive[:-1]))
+    size = np.abs(values)
+    low = (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:])
+    alike = (positive[1:-1] == positive[:-2]) & (positive[1:-1] == positive[2:])
+    dips = np.flatnonzero(low & alike)
+    left, right, side = turns[dips], turns[dips + 2], np.where(positive[dips + 1], 1.0, -1.0)
+    least = np.full(len(dips), np.inf)
+    for _ in range(80):
+        third = (right - left) / 3.0
+        a, b = side * of(left + third), side * of(right - third)
+        least = np.minimum(least, np.minimum(a, b))
+        left, right = np.where(a > b, left + third, left), np.where(a > b, right, right - third)
+    return changes + 2 * int(np.count_nonzero(least < 0.0))
 
 
-def _stretches(of: Callable[[Float], Float], samples: int) -> Iterator[Float]:
-    """Turns on each stretch over which all dyads close, its ends included."""
-    turns = np.linspace(0.0, 2.0 * np.pi, samples + 1) + 0.123
+def _ends(of: Callable[[Float], Float], turns: Float) -> Float:
+    """Turns toward the ends of all stretches over which the dyads close, ends included."""
     closes = np.isfinite(of(turns))
     edges = np.flatnonzero(closes[1:] != closes[:-1])
-    inside = np.where(closes[edges], turns[edges], turns[edges + 1])
-    last, beyond = inside.copy(), np.where(closes[edges], turns[edges + 1], turns[edges])
+    before = closes[edges]
+    inside = np.where(before, turns[edges], turns[edges + 1])
+    last, beyond = inside, np.where(before, turns[edges + 1], turns[edges])
     for _ in range(60):
         middle = 0.5 * (last + beyond)
         fits = np.isfinite(of(middle))
         last, beyond = np.where(fits, middle, last), np.where(fits, beyond, middle)
-    for start, stop in _runs(closes):
-        stretch = [turns[start:stop]]
-        at_start = np.flatnonzero(edges == start - 1)
-        at_stop = np.flatnonzero(edges == stop - 1)
-        if at_start.size:
-            way = inside[at_start[0]] + (last[at_start[0]] - inside[at_start[0]]) * NEAR_END
-            stretch.insert(0, way[:0:-1])
-        if at_stop.size:
-            way = inside[at_stop[0]] + (last[at_stop[0]] - inside[at_stop[0]]) * NEAR_END
-            stretch.append(way[1:])
-        yield np.concatenate(stretch)
+    return np.ravel(inside[:, None] + (last - inside)[:, None] * NEAR_END)
 
 
-def _runs(closes: npt.NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
-    padded = np.concatenate([[False], closes, [False]])
+def _runs(values: Float) -> Iterator[tuple[int, int]]:
+    """Stretches of finite values."""
+    padded = np.concatenate([[False], np.isfinite(values), [False]])
     changes = np.flatnonzero(padded[1:] != padded[:-1])
     return zip(changes[::2].tolist(), changes[1::2].tolist(), strict=True)

@@ -17,6 +17,8 @@ pub struct Assembly {
     pub slides: Vec<f64>,
     /// Positions of all joints, m.
     pub joints: Vec<[f64; 2]>,
+    /// Angles of all links, rad, in (−π, π].
+    pub angles: Vec<f64>,
     /// Whether two assemblies meet here.
     pub is_double: bool,
 }

@@ -1,6 +1,7 @@
 //! All assemblies of a mechanism at one coordinate: the two of each dyad in closed form, those of each
 //! group above class II by homotopy, one after another in the order of the plan.
 
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -101,35 +102,28 @@ impl Mechanism {
         Ok(found)
     }
 
-    /// The mechanism drawn in an assembly of a design at `q`.
-    ///
-    /// # Errors
-    ///
-    /// Numbers that do not fit this mechanism.
-    pub fn drawn_in(
-        &self,
-        dimensions: &[f64],
-        q: &[f64],
-        assembly: &Assembly,
-    ) -> Result<Self, SolveError> {
-        self.check(dimensions, q, &assembly.signs)?;
-        let fits = q.len() == self.q0().len()
-            && assembly.class_angles.len() == self.class_angle.len()
-            && assembly.slides.len() == self.slide_value.len();
-        let start = (&assembly.signs[..], &assembly.class_angles[..], &assembly.slides[..]);
-        if fits {
-            Ok(self.drawn_at(dimensions, q, start))
-        } else {
-            Err(SolveError::Shape("the assembly is one of another mechanism".into()))
-        }
-    }
-
     /// Those of random dimensions, found once.
     fn fibres(&self) -> Arc<Fibres> {
         self.number.share(
             |_: &Fibres| true,
             || {
-                let of = |group| GroupFibres::new(GroupForms::new(self.plan(), group));
+                let derivatives = DerivativeTables::shared(self.q0().len(), 0);
+                let mut drawing = Design::new(self, self.signs(), &derivatives);
+                drawing.bind(self.drawing());
+                let mut state = drawing.state(&derivatives);
+                for (class, &angle) in state.pose.class.iter_mut().zip(&self.class_angle) {
+                    *class = [Vector::at_angle(angle)];
+                }
+                for (slide, &value) in self.slide_value.iter().enumerate() {
+                    state.pose.slides[slide * state.len][0] = value / drawing.constants.scale;
+                }
+                let cx = drawing.context(&derivatives);
+                state.solve(&cx, &drawing.q0);
+                let of = |group| {
+                    let forms = GroupForms::new(self.plan(), group);
+                    let drawn = parameters(&forms, group, &cx, &state);
+                    GroupFibres::new(forms, &drawn)
+                };
                 Fibres(self.plan().groups().map(of).collect())
             },
         )
@@ -304,11 +298,20 @@ impl Search<'_> {
             [point.x * constants.scale + x, point.y * constants.scale + y]
         };
         let slides = state.pose.slides.chunks_exact(state.len);
+        let angle = |link: usize| {
+            let rotation = &mechanism.plan().rotation[link];
+            let turns = rotation.turns.iter().zip(self.scaled);
+            let driven: f64 = turns.map(|(&turns, q)| f64::from(turns) * q).sum();
+            let class = state.pose.class[rotation.class][0].angle();
+            let angle = class + constants.offset[link] + driven;
+            angle - TAU * ((angle - PI) / TAU).ceil()
+        };
         Assembly {
             signs: self.signs.iter().map(|&sign| if sign > 0.0 { 1 } else { -1 }).collect(),
             class_angles: state.pose.class.iter().map(|unit| unit[0].angle()).collect(),
             slides: slides.map(|jet| jet[0][0] * constants.scale).collect(),
             joints: (0..mechanism.linkage().joints.len()).map(joint).collect(),
+            angles: (0..mechanism.linkage().links.len()).map(angle).collect(),
             is_double,
         }
     }

@@ -23,6 +23,9 @@ const REGULAR: f64 = 1.0e-12;
 const AT_INFINITY: f64 = 1.0e-7;
 /// How near (relative to their size) the same solution is found on two ways; others are farther.
 const SAME: f64 = 1.0e-8;
+/// How far from those of the drawing the parameters are, in sizes: near enough for short paths, and
+/// far from dead points, which real parameters are near.
+const AWAY: f64 = 0.3;
 /// Pairs of ways that may disagree before the group is given up.
 const TRIALS: u64 = 6;
 
@@ -35,11 +38,16 @@ pub(super) struct Fibre {
 }
 
 impl Fibre {
-    /// Finds them; `None` if no two ways to them agree.
-    pub(super) fn new(forms: &GroupForms, seed: u64) -> Option<Self> {
+    /// Finds those of parameters beside `drawing`; `None` if no two ways to them agree.
+    pub(super) fn new(forms: &GroupForms, drawing: &Parameters, seed: u64) -> Option<Self> {
         let mut random = Random(seed);
-        let parameters: Parameters =
-            (0..forms.parameters()).map(|_| [random.complex(), random.complex()]).collect();
+        let mut beside = |x: Vector| {
+            // A drawing that does not close leaves points unknown.
+            let is_known = x.x.is_finite() && x.y.is_finite();
+            let from = if is_known { x } else { Vector::ZERO };
+            from + random.complex().scale(if is_known { AWAY } else { 1.0 })
+        };
+        let parameters: Parameters = drawing.iter().map(|&[x, y]| [beside(x), beside(y)]).collect();
         let system = Homotopy::between(forms, &parameters, &parameters);
         let mut earlier: Vec<Vec<Vec<Vector>>> = Vec::new();
         for _ in 0..TRIALS {

@@ -126,11 +126,6 @@ impl GroupForms {
         })
     }
 
-    /// Number of parameters.
-    pub(super) fn parameters(&self) -> usize {
-        2 * self.edges + self.points.len()
-    }
-
     /// Index of a parameter.
     pub(super) fn index(&self, parameter: Parameter) -> usize {
         match parameter {

@@ -9,4 +9,5 @@ mod linear;
 mod parameters;
 mod paths;
 mod random;
+mod redraw;
 pub(crate) mod solutions;

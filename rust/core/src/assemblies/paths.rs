@@ -11,11 +11,15 @@ use crate::math::vector::Vector;
 /// The first step, and the shortest.
 const FIRST: f64 = 0.0625;
 const SHORTEST: f64 = 1.0e-13;
-/// Newton's corrections of a step; successes after which the step doubles.
+/// Newton's corrections of a step.
 const CORRECTIONS: usize = 3;
-const SUCCESSES: f64 = 3.0;
+/// The part of the greatest first correction that the next step aims at, and by how much a step may
+/// change.
+const AIM: f64 = 0.2;
+const LEAST_CHANGE: f64 = 0.2;
+const MOST_CHANGE: f64 = 3.0;
 /// The last correction of a step, relative to the solution: the error is about its square.
-const LAST_CORRECTION: f64 = 1.0e-9;
+const LAST_CORRECTION: f64 = 1.0e-6;
 /// Most steps of a path.
 const MAX_STEPS: usize = 5000;
 
@@ -191,7 +195,7 @@ impl<R: Real> Task<R> for Paths<'_, R> {
     #[inline(always)]
     fn run(&mut self) {
         let end = R::splat(self.end);
-        let (mut step, mut successes) = (R::splat(FIRST), R::ZERO);
+        let mut step = R::splat(FIRST);
         for _ in 0..MAX_STEPS {
             let rest = end - self.at;
             let is_last = rest.le(step);
@@ -217,12 +221,11 @@ impl<R: Real> Task<R> for Paths<'_, R> {
                 *point = select(good, *trial, *point);
             }
             self.at = R::select(good, next, self.at);
-            successes = R::select(good, successes + R::ONE, R::ZERO);
-            let longer = R::splat(SUCCESSES).le(successes);
-            successes = R::select(longer, R::ZERO, successes);
-            let shorter = R::splat(0.5) * step;
-            let grown = R::select(longer, step + step, step);
-            step = R::select(good, grown, R::select(active, shorter, step));
+            // The error is of fifth order in the step; the fourth root is on the safe side.
+            let ratio = R::splat(AIM * self.tightness.0) / first;
+            let change = ratio.sqrt().sqrt().max(R::splat(LEAST_CHANGE)).min(R::splat(MOST_CHANGE));
+            let safe = R::select(good, change, change.min(R::splat(0.5)));
+            step = R::select(active, safe * own, step);
         }
     }
 }

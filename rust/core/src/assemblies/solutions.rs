@@ -24,10 +24,14 @@ const NEAR_END: f64 = 1.0 - 1.0e-5;
 const ROUNDS: usize = 30;
 /// A last step, relative to the solution, of a multiple one that was found.
 const SETTLED: f64 = 1.0e-7;
-/// Solutions this large are on their way to infinity.
+/// Solutions this large are at infinity; near the end of a path that cannot be followed to it, these.
 const FAR: f64 = 1.0e6;
+const LARGE: f64 = 1.0e2;
 /// How near to its own conjugate (relative to its size) a solution may be real.
 const REAL: f64 = 1.0e-6;
+/// Most loops of a group, half as many as its links: the 924 paths of six take seconds, those of seven a
+/// minute.
+const MOST_LOOPS: usize = 6;
 /// Seeds of the random parameters.
 const SEEDS: [u64; 2] = [0x6173_7375_7221_0001, 0x6173_7375_7221_0002];
 
@@ -40,9 +44,10 @@ pub(super) struct GroupFibres {
 }
 
 impl GroupFibres {
-    pub(super) fn new(forms: GroupForms) -> Self {
-        let fibres: Vec<Fibre> =
-            SEEDS.iter().filter_map(|&seed| Fibre::new(&forms, seed)).collect();
+    pub(super) fn new(forms: GroupForms, drawing: &Parameters) -> Self {
+        let new = |&seed: &u64| Fibre::new(&forms, drawing, seed);
+        let can_be_followed = forms.half() <= MOST_LOOPS;
+        let fibres: Vec<Fibre> = SEEDS.iter().filter(|_| can_be_followed).filter_map(new).collect();
         // Their numbers are a property of the group.
         let agree = fibres.windows(2).all(|two| two[0].points.len() == two[1].points.len());
         Self { forms, fibres: if agree { fibres } else { Vec::new() } }
@@ -140,7 +145,9 @@ impl Solutions {
                     Some(point) if is_settled && point.iter().all(|x| x.norm() < FAR) => {
                         solutions.add(point, true);
                     }
-                    _ => solutions.failures.push(PathEnd::AtInfinity),
+                    // On the way to infinity a solution is already large.
+                    _ if size > LARGE => solutions.failures.push(PathEnd::AtInfinity),
+                    _ => solutions.failures.push(PathEnd::Loose),
                 }
             } else {
                 solutions.failures.push(PathEnd::Stuck { at });

@@ -24,7 +24,7 @@ const ISLAND_STEPS: f64 = 1024.0;
 /// Most cells of a segment. Callers limit their coordinates accordingly.
 const MAX_CELLS: f64 = 1.0e6;
 /// Turns after which the signs must be those of the drawing again; a kite needs two.
-const MAX_TURNS: u32 = 64;
+pub(crate) const MAX_TURNS: u32 = 64;
 
 /// Angles and signs along one path.
 #[derive(Debug, Clone, Default)]

@@ -17,12 +17,12 @@ pub(crate) struct CrankDyad {
     /// Index of the dyad.
     pub dyad: usize,
     /// The crank's edge, and the fixed point about which it turns.
-    crank: usize,
-    pivot: usize,
+    pub(crate) crank: usize,
+    pub(crate) pivot: usize,
     /// The dyad's fixed point; the crank's pin is its other one.
-    ground: usize,
+    pub(crate) ground: usize,
     /// The guide's edge, if there is one.
-    guide: Option<usize>,
+    pub(crate) guide: Option<usize>,
 }
 
 impl CrankDyad {

@@ -39,7 +39,7 @@ pub(crate) struct Design<'a> {
     pub(crate) initial_unknowns: Result<Vec<Taylor2>, f64>,
     pub(super) signs: Vec<f64>,
     /// Scaled coordinates of the drawing.
-    pub(super) q0: Vec<f64>,
+    pub(crate) q0: Vec<f64>,
     /// The branch from the drawing, if one serves all positions.
     pub branch: Branch,
     /// Whether the branch serves all positions of several drivers.
@@ -210,7 +210,7 @@ impl<'a> Design<'a> {
     }
 
     /// Whether one branch serves all positions, and its driver is an angle.
-    pub(super) fn has_one_rotary_driver(&self) -> bool {
+    pub(crate) fn has_one_rotary_driver(&self) -> bool {
         self.q0.len() == 1 && self.mechanism.plan().driven_slide(0).is_none()
     }
 

@@ -216,6 +216,14 @@ impl Design<'_> {
         self.trace_knot_by_knot(q);
     }
 
+    /// No slide goes farther than the sum of all lengths, in sizes.
+    pub(crate) fn reach(&self) -> f64 {
+        let edges = self.mechanism.plan().edges.iter().zip(&self.constants.edge_vector);
+        let paired = edges.filter(|(edge, _)| edge.paired).map(|(_, vector)| vector);
+        let lengths = paired.chain(&self.constants.fixed).map(|vector| vector.norm());
+        2.0 * lengths.sum::<f64>() + 1.0
+    }
+
     /// Traces the branch over the coordinates `q`, one knot after another.
     #[cold]
     #[inline(never)]
@@ -238,12 +246,7 @@ impl Design<'_> {
             let scaled =
                 || q.iter().map(|q| q * self.units.coordinate[0]).filter(|q| q.is_finite());
             let range = [scaled().fold(start, f64::min), scaled().fold(start, f64::max)];
-            // No slide goes farther than the sum of all lengths.
-            let paired =
-                cx.plan.edges.iter().zip(&cx.constants.edge_vector).filter(|(e, _)| e.paired);
-            let lengths = paired.map(|(_, w)| w).chain(&cx.constants.fixed).map(|w| w.norm());
-            let reach = 2.0 * lengths.sum::<f64>() + 1.0;
-            Branch::over_range(&cx, &mut state, start, range, reach, from)
+            Branch::over_range(&cx, &mut state, start, range, self.reach(), from)
         };
     }
 

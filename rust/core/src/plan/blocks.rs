@@ -210,13 +210,14 @@ fn dyad(
             .filter(|&&l| plan.rotation[l].class != 0 || linkage.slides.iter().any(|s| s.link == l))
             .map(|&l| linkage.links[l].name.as_str())
             .collect();
-        (name, moving.join("-"))
+        (name, moving.join("-"), format!("II({})", moving.join(", ")))
     });
-    let sign = sign.map(|(name, links)| {
+    let sign = sign.map(|(name, links, group)| {
         // Loops through links with driven angles may share their inner joint.
         let name = if plan.dyad_names.contains(&name) { links.clone() } else { name };
         plan.dyad_names.push(name);
         plan.dyad_links.push(links);
+        plan.dyad_groups.push(group);
         plan.dyad_names.len() - 1
     });
     let orientations = unknowns.map(|unknown| {

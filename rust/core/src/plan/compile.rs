@@ -89,6 +89,7 @@ impl Plan {
             steps: Vec::new(),
             dyad_names: Vec::new(),
             dyad_links: Vec::new(),
+            dyad_groups: Vec::new(),
             pairs: PairSpans::default(),
             may_change: Vec::new(),
             leg_edges: LegEdges::default(),

@@ -14,20 +14,29 @@ use crate::description::{Description, Driver, Linkage};
 use crate::math::tolerance::FLAT_SINE;
 use crate::math::vector::Vector;
 use crate::structure::adjust::Adjusted;
-use crate::structure::closure::{Closure, Rotation};
+use crate::structure::closure::Closure;
 use crate::structure::{Structure, adjust};
+
+/// What becomes of dyads whose links are drawn in line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Flat {
+    /// The drawing does not show their assembly: it is refused, unless the description names it.
+    Refused,
+    /// The drawing's assembly is not asked for: all signs are +1.
+    Positive,
+}
 
 /// A mechanism: its description, its structure, and the plan that solves it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mechanism {
-    linkage: Linkage,
+    pub(super) linkage: Linkage,
     structure: Structure,
-    plan: Plan,
+    pub(super) plan: Plan,
     dimensions: Dimensions,
-    drawing: Vec<f64>,
+    pub(super) drawing: Vec<f64>,
     adjustment: f64,
-    q0: Vec<f64>,
-    signs: Vec<i8>,
+    pub(super) q0: Vec<f64>,
+    pub(super) signs: Vec<i8>,
     /// Indices of the dimensions of edges and slides.
     pub(crate) slots: DimensionMap,
     /// Angle of every class in the drawing.
@@ -60,6 +69,7 @@ impl Mechanism {
     /// Those of [`Mechanism::new`], and [`StructureError::Interrupted`].
     pub(crate) fn compile(
         description: &Description,
+        flat: Flat,
         cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
         let mut linkage = Linkage::new(description)?;
@@ -81,7 +91,10 @@ impl Mechanism {
         let dimensions = Dimensions::of(&linkage);
         let drawing = dimensions.of_drawing(&linkage);
         let q0: Vec<f64> = linkage.drivers.iter().map(|&d| linkage.drawing_coordinate(d)).collect();
-        let signs = drawing_signs(&linkage, &plan)?;
+        let signs = match flat {
+            Flat::Refused => drawing_signs(&linkage, &plan)?,
+            Flat::Positive => vec![1; plan.signs()],
+        };
         let class_angle = class_angles(&linkage, &plan);
         let slides = 0..linkage.slides.len();
         let slide_value =
@@ -129,33 +142,6 @@ impl Mechanism {
     #[must_use]
     pub(crate) fn plan(&self) -> &Plan {
         &self.plan
-    }
-
-    /// The mechanism drawn elsewhere: with these dimensions at a coordinate, in the assembly that has
-    /// these signs, angles of classes (rad) and values of slides (m). Its links' angles are in
-    /// (−π, π] there.
-    pub(crate) fn drawn_at(
-        &self,
-        dimensions: &[f64],
-        q: &[f64],
-        (signs, class_angle, slide_value): (&[i8], &[f64], &[f64]),
-    ) -> Self {
-        let constants = DesignConstants::new(&self.plan, &self.slots, dimensions);
-        let principal = |(link, rotation): (usize, &Rotation)| {
-            let driven: f64 = rotation.turns.iter().zip(q).map(|(&t, q)| f64::from(t) * q).sum();
-            let angle = class_angle[rotation.class] + constants.offset[link] + driven;
-            -(angle / TAU).round()
-        };
-        Self {
-            drawing: dimensions.to_vec(),
-            q0: q.to_vec(),
-            signs: signs.to_vec(),
-            class_angle: class_angle.to_vec(),
-            slide_value: slide_value.to_vec(),
-            whole_turns: self.plan.rotation.iter().enumerate().map(principal).collect(),
-            number: PlanNumber::next(),
-            ..self.clone()
-        }
     }
 
     /// Sets, for every sign, whether its dyad can pass change points in the drawing.
@@ -250,7 +236,7 @@ fn find<'a>(
 }
 
 /// Angle in the drawing of every class.
-fn class_angles(linkage: &Linkage, plan: &Plan) -> Vec<f64> {
+pub(super) fn class_angles(linkage: &Linkage, plan: &Plan) -> Vec<f64> {
     let mut angles = vec![0.0; plan.classes];
     for (l, r) in plan.rotation.iter().enumerate() {
         if r.class != 0 && r.slides.is_empty() && r.turns.iter().all(|&t| t == 0) {
@@ -261,7 +247,7 @@ fn class_angles(linkage: &Linkage, plan: &Plan) -> Vec<f64> {
 }
 
 /// Assembly signs of the drawing, unless the user gives them by name.
-fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureError> {
+pub(super) fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureError> {
     for (name, _) in &linkage.assembly {
         if !plan.dyad_names.contains(name) {
             return Err(StructureError::Unknown {

@@ -25,6 +25,7 @@ pub(crate) mod mechanism;
 pub(crate) mod named;
 pub(crate) mod pair_span;
 pub(crate) mod plan;
+pub(crate) mod redraw;
 pub(crate) mod redundant;
 pub(crate) mod tape;
 pub(crate) mod work_spaces;

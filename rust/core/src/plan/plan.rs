@@ -141,6 +141,8 @@ pub(crate) struct Plan {
     pub dyad_names: Vec<String>,
     /// Names of the same dyads' links.
     pub dyad_links: Vec<String>,
+    /// The same as groups, for limits.
+    pub dyad_groups: Vec<String>,
     /// Pairs of every link; empty if no link or slide is redundant.
     pub pairs: PairSpans,
     /// For every sign, whether its dyad can pass change points in the drawing.

@@ -10,7 +10,7 @@ use crate::description::error::StructureError;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_ROUNDING};
 use crate::plan::constants::DesignConstants;
-use crate::plan::mechanism::Mechanism;
+use crate::plan::mechanism::{Flat, Mechanism};
 use crate::query::failure::Reason;
 use crate::state::status::Status;
 
@@ -38,7 +38,7 @@ impl Mechanism {
         description: &Description,
         cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
-        let mut mechanism = Self::compile(description, cancel)?;
+        let mut mechanism = Self::compile(description, Flat::Refused, cancel)?;
         if mechanism.q0().len() > 1 {
             let derivatives = DerivativeTables::new(mechanism.q0().len(), 1);
             let mut drawing = Design::new(&mechanism, mechanism.signs(), &derivatives);

@@ -97,7 +97,19 @@ impl<'m> Evaluator<'m> {
         queries: Queries<'_>,
         needs_angles: bool,
     ) -> Self {
-        let mut design = Design::new(mechanism, mechanism.signs(), derivatives);
+        let own = (dimensions, mechanism.signs());
+        Self::with_signs(mechanism, own, derivatives, queries, needs_angles)
+    }
+
+    /// The same in another assembly.
+    pub(crate) fn with_signs(
+        mechanism: &'m Mechanism,
+        (dimensions, signs): (&[f64], &[i8]),
+        derivatives: &'m DerivativeTables,
+        queries: Queries<'_>,
+        needs_angles: bool,
+    ) -> Self {
+        let mut design = Design::new(mechanism, signs, derivatives);
         design.change_window = ChangeWindow::LONG;
         design.bind(dimensions);
         let far = MAX_SLIDE * design.constants.scale;
@@ -132,6 +144,11 @@ impl<'m> Evaluator<'m> {
     /// Unit of a driver's coordinate: the size for a slide, 1 for an angle.
     pub(crate) fn unit(&self, driver: usize) -> f64 {
         1.0 / self.design.units.coordinate[driver]
+    }
+
+    /// How far a slide may go, m.
+    pub(crate) fn reach(&self) -> f64 {
+        self.design.reach() * self.design.constants.scale
     }
 
     /// Status of the last position.
@@ -299,5 +316,13 @@ impl Position<'_> {
             angle += f64::from(turns) * q;
         }
         angle + self.constants.offset[link] + std::f64::consts::TAU * self.whole_turns[link]
+    }
+
+    /// Derivative of a link's angle, of one driver.
+    pub(crate) fn angle_rate(&self, link: usize, order: usize) -> f64 {
+        let rotation = &self.plan.rotation[link];
+        let class = self.state.pose.theta[rotation.class * self.state.len + order][0];
+        let driven = if order == 1 { f64::from(rotation.turns[0]) } else { 0.0 };
+        (class + driven) * self.units.angle[order]
     }
 }

@@ -2,5 +2,7 @@
 pub(crate) mod construction;
 pub(crate) mod diagnosis;
 pub(crate) mod evaluator;
+pub(crate) mod extremes;
 pub(crate) mod failure;
+pub(crate) mod limits;
 pub mod metrics;

@@ -1,0 +1,102 @@
+"""Extremes of a coordinate of the motion."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from assur._arrays import short
+from assur.errors import InputError, PositionError
+from assur.kinematics.assembly import Assembly, drawn_in
+from assur.kinematics.solve import checked_assembly
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from assur.kinematics.mechanism import Mechanism
+
+__all__ = ["Extremes", "ValueAt"]
+
+
+class ValueAt(NamedTuple):
+    """A value, and the driver's coordinate where it is taken."""
+
+    value: float
+    q: float
+
+
+@dataclass(frozen=True, slots=True)
+class Extremes:
+    """The least and the greatest value of a coordinate, or of a derivative of it.
+
+    Attributes
+    ----------
+    least, greatest : ValueAt
+        The value (m or rad, per unit of the driver's coordinate to the power of the order) and
+        its place q. Derivatives are infinite at dead points, and so is the angle of a link that
+        goes round.
+    time_ratio : float or None
+        Of the way from one extreme to the other and back at constant speed: the longer time over
+        the shorter; None if the driver does not go round.
+    """
+
+    least: ValueAt
+    greatest: ValueAt
+    time_ratio: float | None
+
+    @property
+    def stroke(self) -> float:
+        """Difference of both: the stroke of a slide, the swing of a link."""
+        return self.greatest.value - self.least.value
+
+
+def coordinate(mechanism: Mechanism, name: Any) -> tuple[str, int, int]:
+    """Return what a coordinate is of, its index and component: "B.x", "rocker", "bore"."""
+    if not isinstance(name, str):
+        message = f"coordinate {short(name)}: a name is needed"
+        raise InputError(message)
+    joint, dot, axis = name.rpartition(".")
+    if dot:
+        if axis not in ("x", "y"):
+            message = f'coordinate {name!r}: "{joint}.x" or "{joint}.y" is needed'
+            raise InputError(message)
+        return ("joint", mechanism._core.require("joint", joint), "xy".index(axis))
+    if name in mechanism._joint_names:
+        message = f'coordinate {name!r} is a joint: "{name}.x" or "{name}.y" is needed'
+        raise InputError(message, joint=name)
+    kind = "slide" if name in mechanism.slides else "link"
+    return (kind, mechanism._core.require(kind, name), 0)
+
+
+def extremes(
+    mechanism: Mechanism, name: str, order: int, assembly: Mapping[str, int] | None
+) -> Extremes:
+    """See `Mechanism.extremes`."""
+    if mechanism.shape:
+        message = f"extremes() is for one design, this is a batch {mechanism.shape}: use sweep()"
+        raise InputError(message)
+    if mechanism._driver_count > 1:
+        message = f"extremes() is for one driver; this mechanism has {mechanism._driver_count}"
+        raise InputError(message)
+    if order not in (0, 1, 2):
+        message = f"order is {short(order)}: 0, 1 or 2 is needed"
+        raise InputError(message)
+    tracked = coordinate(mechanism, name)
+    if isinstance(assembly, Assembly):
+        drawn = drawn_in(mechanism, assembly)
+        mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
+    signs = checked_assembly(mechanism, assembly)
+    values = mechanism._values.tolist()
+    found = mechanism._core.extremes(values, signs, tracked, order)
+    if found is None:
+        message = "this assembly does not exist at any coordinate: other dimensions are needed"
+        raise PositionError(message)
+    least, greatest = ValueAt(*found[0]), ValueAt(*found[1])
+    limits = mechanism.limits(assembly)
+    ratio = None
+    if order == 0 and limits.period == 1 and math.isfinite(greatest.q - least.q):
+        there = (greatest.q - least.q) % math.tau
+        back = math.tau - there
+        ratio = max(there, back) / min(there, back) if min(there, back) > 0.0 else None
+    return Extremes(least, greatest, ratio)

@@ -1,0 +1,133 @@
+"""Where an assembly exists: intervals of the driver's coordinate, dead points, closing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypedDict
+
+import numpy as np
+
+from assur._validate import checked_index, checked_threads
+from assur.errors import InputError
+from assur.kinematics.assembly import Assembly, drawn_in
+from assur.kinematics.solve import checked_assembly
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.kinematics.mechanism import Mechanism
+
+__all__ = ["DeadPoint", "Limits"]
+
+
+class FoundLimits(TypedDict):
+    """What the core found: see `Limits`; `folds` are indices of `names`, −1 for none."""
+
+    count: int
+    intervals: Float
+    folds: npt.NDArray[np.int32]
+    period: Float
+    names: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class DeadPoint:
+    """A position beyond which the driver cannot turn an assembly.
+
+    Attributes
+    ----------
+    q : float
+        Coordinate of the driver, rad or m.
+    group : str or None
+        The dyad or group that is flat there; None if one of several groups above class II is.
+    """
+
+    q: float
+    group: str | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Limits:
+    """Where an assembly of one design, or of each of a batch, exists.
+
+    Attributes
+    ----------
+    intervals : ndarray
+        Intervals of q, shape S + (K, 2), rad or m; NaN where a design has fewer than K. In class
+        II all within a turn, each with its middle in (−π, π]; with a group above class II the one
+        that holds `q0`, in counted turns. (−inf, inf) if there is no limit.
+    full_rotation : bool or ndarray of bool
+        Whether the driver goes round and the motion closes.
+    period : int or None, or ndarray
+        Turns until the motion closes; None (NaN in a batch) if it does not.
+    """
+
+    intervals: Float
+    full_rotation: Any
+    period: Any
+    _folds: npt.NDArray[np.int32]
+    _names: tuple[str, ...]
+
+    @property
+    def dead_points(self) -> Any:
+        """Where the assembly ends, by q: a list of `DeadPoint`, nested in the shape of a batch."""
+        shape = self.intervals.shape[:-2]
+        if shape:
+            return [self[index].dead_points for index in range(shape[0])]
+        ends = zip(self.intervals.ravel().tolist(), self._folds.ravel().tolist(), strict=True)
+        finite = sorted({(q, fold) for q, fold in ends if np.isfinite(q)})
+        return [DeadPoint(q, self._names[fold] if fold >= 0 else None) for q, fold in finite]
+
+    def __getitem__(self, index: int | tuple[int, ...]) -> Limits:
+        """Return the limits of one design of a batch, or of some of it."""
+        shape = self.intervals.shape[:-2]
+        entry = (index,) if isinstance(index, int) else index
+        if len(entry) == len(shape):
+            entry = checked_index(index, shape, "limits")
+        rotation, period = self.full_rotation[entry], self.period[entry]
+        intervals, folds = self.intervals[entry], self._folds[entry]
+        if intervals.ndim == 2:
+            own = ~np.isnan(intervals[:, 0])
+            intervals, folds = intervals[own], folds[own]
+            rotation, period = bool(rotation), None if np.isnan(period) else int(period)
+        return Limits(intervals, rotation, period, folds, self._names)
+
+    def __repr__(self) -> str:
+        if self.intervals.ndim > 2:
+            return f"<assur.Limits of {self.intervals.shape[:-2]} designs>"
+        intervals = " ".join(f"[{low:.6g}, {high:.6g}]" for low, high in self.intervals.tolist())
+        closing = {None: "does not close", 1: "closes in 1 turn"}
+        period = closing.get(self.period, f"closes in {self.period} turns")
+        return f"<assur.Limits {intervals or 'nowhere'}, {period}>"
+
+
+def limits(mechanism: Mechanism, assembly: Mapping[str, int] | None, threads: int | None) -> Limits:
+    """See `Mechanism.limits`."""
+    if mechanism._driver_count > 1:
+        message = f"limits() is for one driver; this mechanism has {mechanism._driver_count}"
+        raise InputError(message)
+    if isinstance(assembly, Assembly):
+        drawn = drawn_in(mechanism, assembly)
+        mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
+    signs = checked_assembly(mechanism, assembly)
+    values = mechanism._values.ravel()
+    found = mechanism._core.limits(values, signs, checked_threads(threads))
+    shape = (*mechanism.shape, found["count"], 2)
+    period = found["period"].reshape(mechanism.shape)
+    names = tuple(found["names"])
+    batch = Limits(
+        _frozen(found["intervals"].reshape(shape)),
+        ~np.isnan(period),
+        period,
+        found["folds"].reshape(shape),
+        names,
+    )
+    return batch if mechanism.shape else batch[()]
+
+
+def _frozen(array: Float) -> Float:
+    array.flags.writeable = False
+    return array

@@ -1,0 +1,274 @@
+//! Extremes of a coordinate of the motion, or of a derivative of it, over all of an assembly's
+//! intervals.
+
+use std::f64::consts::{PI, TAU};
+
+use super::evaluator::{Evaluator, Queries};
+use super::limits::finder::{Interval, LimitsFinder, Tables};
+use crate::description::error::SolveError;
+use crate::math::derivatives::DerivativeTables;
+use crate::math::root::all_roots::{Sample, all_roots};
+use crate::math::trig::sin_cos;
+use crate::plan::mechanism::Mechanism;
+use crate::structure::closure::point_of_joint;
+
+/// Nodes for each turn (or size), and at least.
+const NODES: f64 = 96.0;
+/// Rounding of a derivative, relative to the greatest at a node.
+const NOISE: f64 = 1.0e-11;
+/// Nearest node to a dead point, as an angle.
+const NEAR_END: f64 = 1.0e-3;
+/// Step of a difference (as an angle) in place of a derivative of fourth order.
+const DIFFERENCE: f64 = 1.0e-5;
+
+/// A coordinate of the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tracked {
+    /// A joint's x (0) or y (1), m.
+    Joint(usize, usize),
+    /// A link's angle, rad.
+    Link(usize),
+    /// A slide's value, m.
+    Slide(usize),
+}
+
+/// A value and the coordinate of the driver where it is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ValueAt {
+    /// The value.
+    pub value: f64,
+    /// Where.
+    pub q: f64,
+}
+
+impl Mechanism {
+    /// The least and the greatest value of a derivative of order 0 to 2 of a coordinate; none if the
+    /// assembly does not exist. At a dead point derivatives are infinite, and so is the angle of a link
+    /// that goes round.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`LimitsFinder`], and an order above 2.
+    pub fn extremes(
+        &self,
+        dimensions: &[f64],
+        signs: &[i8],
+        tracked: Tracked,
+        order: usize,
+    ) -> Result<Option<[ValueAt; 2]>, SolveError> {
+        if order > 2 {
+            return Err(SolveError::Order(order));
+        }
+        let tables = Tables::default();
+        let limits = LimitsFinder::new(self, signs, &tables)?.limits(dimensions)?;
+        let derivatives = DerivativeTables::new(1, 3);
+        let evaluator = Evaluator::with_signs(
+            self,
+            (dimensions, signs),
+            &derivatives,
+            Queries::Any,
+            matches!(tracked, Tracked::Link(_)),
+        );
+        let mut curve = Curve { evaluator, tracked, order };
+        let turns = limits.period.map_or(1.0, f64::from);
+        let mut found: Option<[ValueAt; 2]> = None;
+        for interval in &limits.intervals {
+            for one in curve.candidates(self, interval, turns) {
+                found = Some(match found {
+                    None => [one; 2],
+                    Some([least, greatest]) => [
+                        if one.value < least.value { one } else { least },
+                        if one.value > greatest.value { one } else { greatest },
+                    ],
+                });
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// A coordinate along the branch.
+struct Curve<'m> {
+    evaluator: Evaluator<'m>,
+    tracked: Tracked,
+    order: usize,
+}
+
+/// An interval as a function of an angle from 0 to π: square roots at dead points are smooth in it.
+#[derive(Clone, Copy)]
+struct Window {
+    middle: f64,
+    half: f64,
+    folds: bool,
+}
+
+impl Window {
+    fn at(&self, angle: f64) -> f64 {
+        let part = if self.folds { -sin_cos(angle).1 } else { angle / (0.5 * PI) - 1.0 };
+        self.middle + self.half * part
+    }
+
+    /// First and second derivative.
+    fn rates(&self, angle: f64) -> [f64; 2] {
+        if self.folds {
+            let (sin, cos) = sin_cos(angle);
+            [self.half * sin, self.half * cos]
+        } else {
+            [self.half / (0.5 * PI), 0.0]
+        }
+    }
+}
+
+impl Curve<'_> {
+    /// The coordinate and its derivatives to order 3.
+    fn jet(&mut self, q: f64) -> Option<[f64; 4]> {
+        self.evaluator.solve(&[q]).ok()?;
+        let position = self.evaluator.position();
+        let (state, units) = (position.state, position.units);
+        let mut jet = [0.0; 4];
+        for (k, entry) in jet.iter_mut().enumerate() {
+            *entry = match self.tracked {
+                Tracked::Joint(joint, component) => {
+                    let point = state.pose.points[point_of_joint(joint) * state.len + k][0];
+                    let own = if component == 0 { point.x } else { point.y };
+                    let origin = if k == 0 { position.constants.origin[component] } else { 0.0 };
+                    own * units.length[k] + origin
+                }
+                Tracked::Slide(slide) => {
+                    state.pose.slides[slide * state.len + k][0] * units.length[k]
+                }
+                Tracked::Link(link) if k == 0 => position.angle(link),
+                Tracked::Link(link) => position.angle_rate(link, k),
+            };
+        }
+        jet.iter().all(|x| x.is_finite()).then_some(jet)
+    }
+
+    /// Values that may be extremes.
+    fn candidates(
+        &mut self,
+        mechanism: &Mechanism,
+        interval: &Interval,
+        turns: f64,
+    ) -> Vec<ValueAt> {
+        let q0 = mechanism.q0()[0];
+        let is_turn = mechanism.plan().driven_slide(0).is_none();
+        let folds = interval.folds.iter().any(Option::is_some);
+        let reach = if is_turn { PI * turns } else { self.evaluator.reach() };
+        let ends = [
+            if interval.ends[0].is_finite() { interval.ends[0] } else { q0 - reach },
+            if interval.ends[1].is_finite() { interval.ends[1] } else { q0 + reach },
+        ];
+        let window =
+            Window { middle: 0.5 * (ends[0] + ends[1]), half: 0.5 * (ends[1] - ends[0]), folds };
+        let unit = if is_turn { TAU } else { self.evaluator.unit(0) };
+        let count = (NODES * (ends[1] - ends[0]) / unit).max(NODES).ceil();
+        let margin = if folds { NEAR_END } else { 0.0 };
+        let node = |i: usize| margin + (PI - 2.0 * margin) * i as f64 / count;
+        let nodes: Vec<f64> = (0..=count as usize).map(node).collect();
+        let (mut values, mut greatest) = (Vec::new(), 0.0_f64);
+        for &angle in &nodes {
+            if let Some(jet) = self.jet(window.at(angle)) {
+                values.push(ValueAt { value: jet[self.order], q: window.at(angle) });
+                greatest = greatest.max((jet[self.order + 1] * window.rates(angle)[0]).abs());
+            }
+        }
+        let noise = NOISE * greatest;
+        let roots = all_roots(&nodes, |angle| {
+            let [value, slope] = self.rate(&window, angle)?;
+            Some(Sample { x: angle, value, slope, noise })
+        });
+        for root in &roots.isolated {
+            let q = window.at(root.at);
+            values.extend(self.jet(q).map(|jet| ValueAt { value: jet[self.order], q }));
+        }
+        for (side, &end) in ends.iter().enumerate() {
+            if interval.folds[side].is_some() {
+                values.extend(self.at_dead_point(&window, end, side == 0));
+            }
+        }
+        if let (Tracked::Link(_), 0, true) =
+            (self.tracked, self.order, interval.ends[0].is_infinite())
+            && let (Some(first), Some(last)) = (self.jet(ends[0]), self.jet(ends[1]))
+            && is_turn
+            && (last[0] - first[0]).abs() > PI
+        {
+            values.push(ValueAt { value: f64::NEG_INFINITY, q: f64::NAN });
+            values.push(ValueAt { value: f64::INFINITY, q: f64::NAN });
+        }
+        values
+    }
+
+    /// The derivative by the window's angle, and its own.
+    fn rate(&mut self, window: &Window, angle: f64) -> Option<[f64; 2]> {
+        let jet = self.jet(window.at(angle))?;
+        let [first, second] = window.rates(angle);
+        let value = jet[self.order + 1] * first;
+        if self.order < 2 {
+            return Some([
+                value,
+                jet[self.order + 2] * first * first + jet[self.order + 1] * second,
+            ]);
+        }
+        let mut beside = |angle: f64| {
+            let jet = self.jet(window.at(angle))?;
+            Some(jet[3] * window.rates(angle)[0])
+        };
+        let slope =
+            (beside(angle + DIFFERENCE)? - beside(angle - DIFFERENCE)?) / (2.0 * DIFFERENCE);
+        Some([value, slope])
+    }
+
+    /// The value at a dead point: of the coordinate extrapolated, of a derivative infinite.
+    fn at_dead_point(&mut self, window: &Window, end: f64, is_first: bool) -> Option<ValueAt> {
+        let at = |part: f64| if is_first { part } else { PI - part };
+        if self.order > 0 {
+            let [near, far] = [NEAR_END, 4.0 * NEAR_END].map(|part| self.jet(window.at(at(part))));
+            let [near, far] = [near?[self.order], far?[self.order]];
+            let grows = near.abs() > 2.0 * far.abs();
+            return grows.then(|| ValueAt { value: f64::INFINITY.copysign(near), q: end });
+        }
+        // Hermite interpolation at three nodes, of the sixth degree in the angle.
+        let nodes = [4.0, 8.0, 12.0].map(|part| part * NEAR_END);
+        let mut table = Vec::new();
+        for part in nodes {
+            let angle = at(part);
+            let jet = self.jet(window.at(angle))?;
+            let way = if is_first { 1.0 } else { -1.0 };
+            table.push((part, jet[0], way * jet[1] * window.rates(angle)[0]));
+        }
+        Some(ValueAt { value: hermite_at_zero(&table), q: end })
+    }
+}
+
+/// The value at 0 of the polynomial through values and slopes at nodes.
+fn hermite_at_zero(nodes: &[(f64, f64, f64)]) -> f64 {
+    let weight = |i: usize| {
+        let (own, ..) = nodes[i];
+        let others = nodes.iter().enumerate().filter(|(j, _)| *j != i);
+        let (mut basis, mut slope) = (1.0, 0.0);
+        for (_, &(other, ..)) in others {
+            basis *= -other / (own - other);
+            slope += 1.0 / (own - other);
+        }
+        (own, basis * basis, slope)
+    };
+    let term = |i: usize| {
+        let (own, square, slope) = weight(i);
+        let (_, value, rate) = nodes[i];
+        square * (value * (1.0 + 2.0 * own * slope) - rate * own)
+    };
+    (0..nodes.len()).map(term).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn interpolation_reproduces_a_polynomial() {
+        let of = |x: f64| (3.0 - x + 0.5 * x * x - x.powi(5), -1.0 + x - 5.0 * x.powi(4));
+        let nodes: Vec<_> = [0.1, 0.25, 0.4].map(|x| (x, of(x).0, of(x).1)).to_vec();
+        assert!((hermite_at_zero(&nodes) - 3.0).abs() < 1e-13);
+    }
+}

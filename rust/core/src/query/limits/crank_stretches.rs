@@ -1,0 +1,83 @@
+//! Stretches over which a dyad on a crank and the ground closes, in closed form.
+//!
+//! Between the crank's pin and the rocker's pivot there is a distance that varies as the cosine of the
+//! crank's angle from the ground line: least where they are in line on one side, greatest on the other.
+//! The dyad closes where it is between |a − b| and a + b. The distance of the pin from a standing guide
+//! varies as a sine, and must not exceed the rod. (J. J. Uicker, G. R. Pennock, J. E. Shigley, *Theory
+//! of Machines and Mechanisms*, 5th ed. 2017, ch. 1, Grashof's law.)
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::stretch::Stretch;
+use crate::branch::crank_dyad::CrankDyad;
+use crate::math::trig::asin;
+use crate::plan::constants::DesignConstants;
+use crate::plan::plan::Plan;
+
+/// Where the sine of half the angle is 1 or 0 but for rounding, the dyad is flat at a change point.
+const TOUCH: f64 = 64.0 * f64::EPSILON;
+
+/// The angles from the middle at which a dyad closes, both ways: from the first to the second. `None`:
+/// no limit.
+struct Reach {
+    middle: f64,
+    nearest: Option<f64>,
+    farthest: Option<f64>,
+}
+
+/// Stretches over which the dyad closes; `None` if its crank has no length.
+pub(crate) fn crank_stretches(
+    dyad: &CrankDyad,
+    plan: &Plan,
+    constants: &DesignConstants,
+    sign: usize,
+) -> Option<Vec<Stretch>> {
+    let Some(reach) = reach(dyad, plan, constants)? else { return Some(Vec::new()) };
+    let fold = Some(sign);
+    let stretch = |from: f64, to: f64| Stretch {
+        ends: [reach.middle + from, reach.middle + to],
+        folds: [fold; 2],
+    };
+    Some(match (reach.nearest, reach.farthest) {
+        (None, None) => vec![Stretch::WHOLE],
+        (None, Some(far)) => vec![stretch(-far, far)],
+        (Some(near), None) => vec![stretch(near, TAU - near)],
+        (Some(near), Some(far)) => vec![stretch(-far, -near), stretch(near, far)],
+    })
+}
+
+/// `None` if the crank has no length; `Some(None)` if the dyad closes nowhere.
+fn reach(dyad: &CrankDyad, plan: &Plan, constants: &DesignConstants) -> Option<Option<Reach>> {
+    let crank = constants.edge_vector[dyad.crank];
+    let frame = constants.fixed[dyad.ground] - constants.fixed[dyad.pivot];
+    let [a, b] = &constants.legs[dyad.dyad];
+    let turns = &plan.orientations[plan.edges[dyad.crank].orientation].turns;
+    let way = f64::from(turns[0]);
+    let radius = crank.norm();
+    // Squares of the sines of half the angles at which the dyad is flat.
+    let (direction, [outer, inner]) = if let Some(guide) = dyad.guide {
+        let line = frame + constants.edge_vector[guide];
+        let middle = constants.guide[guide].cross(line);
+        let half = |rod: f64| (radius - middle + rod) / (2.0 * radius);
+        (constants.guide[guide].angle() + FRAC_PI_2, [half(a.norm), half(-a.norm)])
+    } else {
+        let ground = frame.norm();
+        let half = |chord: f64| {
+            (chord - ground + radius) * (chord + ground - radius) / (4.0 * ground * radius)
+        };
+        (frame.angle(), [half(a.norm + b.norm), half((a.norm - b.norm).abs())])
+    };
+    if !(outer.is_finite() && inner.is_finite()) {
+        return None;
+    }
+    // Flat in its only position, it has no motion there.
+    if outer < TOUCH || inner > 1.0 - TOUCH {
+        return Some(None);
+    }
+    let angle = |half: f64| 2.0 * asin(half.sqrt());
+    Some(Some(Reach {
+        middle: way * (direction - crank.angle()),
+        nearest: (inner > TOUCH).then(|| angle(inner)),
+        farthest: (outer < 1.0 - TOUCH).then(|| angle(outer)),
+    }))
+}

@@ -1,0 +1,228 @@
+//! Limits of designs, one after another.
+
+use std::f64::consts::{PI, TAU};
+
+use super::crank_stretches::crank_stretches;
+use super::search::Search;
+use super::stretch::{Stretch, intersections, normalise};
+use crate::branch::branch::{CELLS_PER_TURN, MAX_TURNS};
+use crate::branch::crank_dyad::CrankDyad;
+use crate::branch::design::Design;
+use crate::description::error::SolveError;
+use crate::math::derivatives::DerivativeTables;
+use crate::plan::mechanism::Mechanism;
+
+/// Where an assembly of a design exists.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Limits {
+    /// Intervals of the coordinate, rad or m: without groups above class II all within a turn of the
+    /// driver, else the one that holds the drawing's.
+    pub intervals: Vec<Interval>,
+    /// Turns after which the motion closes; none if it does not, or the driver is a slide.
+    pub period: Option<u32>,
+}
+
+/// An interval of the coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// Where it begins and ends; infinite if it does not.
+    pub ends: [f64; 2],
+    /// What folds there, as an index of [`LimitsFinder::names`]; none where nothing does.
+    pub folds: [Option<usize>; 2],
+}
+
+impl Limits {
+    /// Whether the driver goes round: the motion closes after whole turns.
+    #[must_use]
+    pub fn full_rotation(&self) -> bool {
+        self.period.is_some()
+    }
+}
+
+/// Finds the limits of designs of a mechanism with one driver.
+pub struct LimitsFinder<'m> {
+    design: Design<'m>,
+    cranks: Option<Vec<CrankDyad>>,
+}
+
+impl std::fmt::Debug for LimitsFinder<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("LimitsFinder").finish_non_exhaustive()
+    }
+}
+
+impl Mechanism {
+    /// Names of what may fold: dyads in the order of the signs, then groups above class II.
+    #[must_use]
+    pub fn fold_names(&self) -> Vec<String> {
+        let dyads = self.plan().dyad_groups.iter().cloned();
+        dyads.chain(self.plan().groups().map(|group| group.name.clone())).collect()
+    }
+}
+
+impl<'m> LimitsFinder<'m> {
+    /// For designs in the assembly with these signs.
+    ///
+    /// # Errors
+    ///
+    /// Several drivers, or signs that do not fit.
+    pub fn new(
+        mechanism: &'m Mechanism,
+        signs: &[i8],
+        derivatives: &'m Tables,
+    ) -> Result<Self, SolveError> {
+        if mechanism.q0().len() != 1 {
+            return Err(SolveError::Shape("limits are those of one driver".into()));
+        }
+        mechanism.check(mechanism.drawing(), mechanism.q0(), signs)?;
+        let design = Design::new(mechanism, signs, &derivatives.0);
+        let plan = mechanism.plan();
+        let is_closed = plan.groups().next().is_none() && plan.driven_slide(0).is_none();
+        let cranks =
+            is_closed.then(|| plan.dyads().map(|dyad| CrankDyad::of(plan, dyad)).collect());
+        Ok(Self { design, cranks: cranks.flatten() })
+    }
+
+    /// The limits of one design; none at all if its dimensions are invalid.
+    ///
+    /// # Errors
+    ///
+    /// A wrong number of dimensions.
+    pub fn limits(&mut self, dimensions: &[f64]) -> Result<Limits, SolveError> {
+        let mechanism = self.design.mechanism;
+        if dimensions.len() != mechanism.dimensions().len() {
+            return Err(SolveError::Shape("the number of dimensions does not fit".into()));
+        }
+        if mechanism.dimensions().first_fault(dimensions).is_some() {
+            return Ok(Limits::default());
+        }
+        self.design.bind(dimensions);
+        let stretches = self.in_closed_form().unwrap_or_else(|| self.by_search());
+        let period = self.period(&stretches);
+        let unit = self.design.units.coordinate[0];
+        let interval = |stretch: Stretch| Interval {
+            ends: stretch.ends.map(|end| end / unit),
+            folds: stretch.folds,
+        };
+        Ok(Limits { intervals: stretches.into_iter().map(interval).collect(), period })
+    }
+
+    /// If all dyads are on a crank and the ground.
+    fn in_closed_form(&self) -> Option<Vec<Stretch>> {
+        let (plan, constants) = (self.design.mechanism.plan(), &self.design.constants);
+        let mut stretches = vec![Stretch::WHOLE];
+        for (crank, dyad) in self.cranks.as_ref()?.iter().zip(plan.dyads()) {
+            let Some(sign) = dyad.sign else { continue };
+            let own = crank_stretches(crank, plan, constants, sign)?;
+            stretches = intersections(&stretches, &own);
+        }
+        normalise(&mut stretches);
+        Some(stretches)
+    }
+
+    /// By roots of discriminants along the branch.
+    fn by_search(&mut self) -> Vec<Stretch> {
+        let mechanism = self.design.mechanism;
+        let is_turn = self.design.has_one_rotary_driver();
+        let size = self.design.constants.scale;
+        let reach = self.design.reach();
+        self.design.trace(&[-reach * size, reach * size]);
+        let branch = &self.design.branch;
+        if branch.covered.is_some_and(|[low, high]| low > high) {
+            return Vec::new();
+        }
+        let q0 = self.design.q0[0];
+        let groups = mechanism.plan().signs();
+        let single = mechanism.plan().groups().nth(1).is_none();
+        let fold = single.then_some(groups);
+        let turns = TAU * f64::from(MAX_TURNS);
+        let covered = branch.covered.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let half = 0.5 * branch.period.unwrap_or(TAU);
+        let is_periodic = is_turn && covered == [f64::NEG_INFINITY, f64::INFINITY];
+        let mut within = Stretch { ends: covered, folds: [None; 2] };
+        if is_periodic {
+            within.ends = [q0 - half, q0 + half];
+        } else {
+            for (side, end) in within.ends.iter_mut().enumerate() {
+                let beyond = if is_turn { turns } else { reach };
+                let is_fold =
+                    end.is_finite() && (*end - q0).abs() < turns && self.design.has_groups();
+                if is_fold {
+                    within.folds[side] = fold;
+                } else {
+                    *end = end.clamp(q0 - beyond, q0 + beyond);
+                }
+            }
+        }
+        let cell = if is_turn { TAU / f64::from(CELLS_PER_TURN) } else { 1.0 / 16.0 };
+        let design = &self.design;
+        let state = design.state(design.tracing_derivatives());
+        let mut stretches = Search { design, state, cell }.stretches(within);
+        if is_periodic {
+            join(&mut stretches, within);
+        }
+        if !is_turn {
+            // Beyond its own reach a slide has no limit.
+            for stretch in &mut stretches {
+                for (side, far) in [f64::NEG_INFINITY, f64::INFINITY].into_iter().enumerate() {
+                    if stretch.ends[side] == within.ends[side] && within.folds[side].is_none() {
+                        stretch.ends[side] = far;
+                    }
+                }
+            }
+        }
+        if design.has_groups() {
+            stretches.retain(|stretch| stretch.ends[0] <= q0 && q0 <= stretch.ends[1]);
+        } else if is_periodic && half <= PI {
+            normalise(&mut stretches);
+        }
+        stretches
+    }
+
+    /// Turns after which the motion over all coordinates closes.
+    fn period(&mut self, stretches: &[Stretch]) -> Option<u32> {
+        let [whole] = stretches else { return None };
+        if !whole.is_whole() || !self.design.has_one_rotary_driver() {
+            return None;
+        }
+        if let Some(cranks) = &self.cranks
+            && cranks.iter().all(|crank| crank.keeps_sign(&self.design.constants))
+        {
+            return Some(1);
+        }
+        if self.cranks.is_some() {
+            self.design.trace(&[]);
+        }
+        let branch = &self.design.branch;
+        match branch.period {
+            Some(period) => Some((period / TAU).round() as u32),
+            None => branch.is_plain().then_some(1),
+        }
+    }
+}
+
+/// Joins the parts at both ends of a period; all of it is without limits.
+fn join(stretches: &mut Vec<Stretch>, period: Stretch) {
+    let [from, to] = period.ends;
+    let begins = stretches.first().is_some_and(|first| first.ends[0] == from);
+    let ends = stretches.last().is_some_and(|last| last.ends[1] == to);
+    if !(begins && ends) {
+        return;
+    }
+    if stretches.len() == 1 {
+        stretches[0] = Stretch::WHOLE;
+    } else if let Some(last) = stretches.pop() {
+        stretches[0].ends[0] = last.ends[0] - (to - from);
+        stretches[0].folds[0] = last.folds[0];
+    }
+}
+
+/// Tables that a finder needs.
+#[derive(Debug)]
+pub struct Tables(DerivativeTables);
+
+impl Default for Tables {
+    fn default() -> Self {
+        Self(DerivativeTables::new(1, 0))
+    }
+}

@@ -1,0 +1,110 @@
+//! Stretches over which the dyads of a branch close, one dyad after another: roots of the squares of
+//! their discriminants, which are known also where they do not close.
+
+use std::f64::consts::PI;
+
+use super::stretch::Stretch;
+use crate::branch::design::Design;
+use crate::math::root::all_roots::{Sample, all_roots};
+use crate::math::trig::sin_cos;
+use crate::plan::dyad::{Dyad, Form};
+use crate::plan::plan::Step;
+use crate::state::state::{Context, State};
+
+/// Nodes for each cell of the branch, and at least.
+const NODES_PER_CELL: f64 = 2.0;
+const LEAST_NODES: f64 = 48.0;
+/// Rounding of a sample, relative to 1.
+const NOISE: f64 = 1.0e-14;
+/// Nearest node to the end of a stretch, as an angle: 5e-9 of its length.
+const NEAR_END: f64 = 2.0e-4;
+/// Step of a difference where the derivative is not known.
+const DIFFERENCE: f64 = 1.0e-6;
+
+/// A search on the branch of a design.
+pub(super) struct Search<'d, 'm> {
+    pub design: &'d Design<'m>,
+    pub state: State,
+    /// Width of a cell of the branch.
+    pub cell: f64,
+}
+
+impl Search<'_, '_> {
+    /// The parts of a stretch over which all dyads close.
+    pub(super) fn stretches(&mut self, within: Stretch) -> Vec<Stretch> {
+        let plan = self.design.mechanism.plan();
+        let mut found = vec![within];
+        for (step, of) in plan.steps.iter().enumerate() {
+            let Step::Dyad(dyad) = of else { continue };
+            // Two guides never fold, but where they are parallel their point is at infinity.
+            if dyad.sign.is_some() || dyad.form == Form::TwoLines {
+                found = found.iter().flat_map(|one| self.parts(*one, dyad, step)).collect();
+            }
+        }
+        found
+    }
+
+    /// The parts over which a dyad closes.
+    fn parts(&mut self, within: Stretch, dyad: &Dyad, step: usize) -> Vec<Stretch> {
+        let [from, to] = within.ends;
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        // Square roots at the ends, where earlier dyads are flat, are smooth in this angle.
+        let at = |angle: f64| middle - half * sin_cos(angle).1;
+        let count = (NODES_PER_CELL * 2.0 * half / self.cell).max(LEAST_NODES).ceil();
+        let inner = PI - 2.0 * NEAR_END;
+        let nodes: Vec<f64> =
+            (0..=count as usize).map(|node| NEAR_END + inner * node as f64 / count).collect();
+        let roots = all_roots(&nodes, |angle| {
+            let [value, rate] = self.sample(at(angle), dyad, step)?;
+            let slope = rate * half * sin_cos(angle).0;
+            let known = value.is_finite() && slope.is_finite();
+            known.then_some(Sample { x: angle, value, slope, noise: NOISE })
+        });
+        let crossings = roots.isolated.iter().filter(|root| root.signs[0] != root.signs[1]);
+        let mut ends: Vec<(f64, Option<usize>)> = vec![(from, within.folds[0])];
+        ends.extend(crossings.map(|root| (at(root.at), dyad.sign)));
+        ends.push((to, within.folds[1]));
+        let mut parts = Vec::new();
+        for pair in ends.windows(2) {
+            let ((start, first), (end, last)) = (pair[0], pair[1]);
+            let part = Stretch { ends: [start, end], folds: [first, last] };
+            let closes = dyad.form == Form::TwoLines
+                || self.sample(0.5 * (start + end), dyad, step).is_some_and(|[x, _]| x >= 0.0);
+            if start < end && closes {
+                parts.push(part);
+            }
+        }
+        parts
+    }
+
+    /// The square of a dyad's discriminant, and its derivative; of two guides the sine of the angle
+    /// between them.
+    fn sample(&mut self, q: f64, dyad: &Dyad, step: usize) -> Option<[f64; 2]> {
+        let [value, rate] = self.value(q, dyad, step)?;
+        if rate.is_nan() || dyad.form == Form::TwoLines {
+            let [ahead, _] = self.value(q + DIFFERENCE, dyad, step)?;
+            let [behind, _] = self.value(q - DIFFERENCE, dyad, step)?;
+            return Some([value, (ahead - behind) / (2.0 * DIFFERENCE)]);
+        }
+        Some([value, rate])
+    }
+
+    fn value(&mut self, q: f64, dyad: &Dyad, step: usize) -> Option<[f64; 2]> {
+        let Self { design, state, .. } = self;
+        let derivatives = design.tracing_derivatives();
+        let branch = &design.branch;
+        design.guess(0, state, branch, &branch.locate(q));
+        let cx = Context { signs: branch.signs(q), ..design.context(derivatives) };
+        state.solve(&cx, &[q]);
+        if state.has_failed() && state.fault.is_none_or(|fault| fault.step() < step) {
+            return None;
+        }
+        let op = &cx.tape.ops[cx.tape.dyads[dyad.index]];
+        let sample = state.sample(0, &cx, dyad, op);
+        Some(if dyad.form == Form::TwoLines {
+            [sample.side, f64::NAN]
+        } else {
+            [sample.square, sample.rate]
+        })
+    }
+}

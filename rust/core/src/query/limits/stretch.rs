@@ -1,0 +1,62 @@
+//! Stretches of a coordinate, with what ends them.
+
+use std::f64::consts::{PI, TAU};
+
+/// A stretch over which an assembly exists.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Stretch {
+    pub ends: [f64; 2],
+    /// What folds at each end: a sign's dyad, or after all signs a group; none if nothing does.
+    pub folds: [Option<usize>; 2],
+}
+
+impl Stretch {
+    /// All coordinates.
+    pub(crate) const WHOLE: Self =
+        Self { ends: [f64::NEG_INFINITY, f64::INFINITY], folds: [None; 2] };
+
+    pub(crate) fn is_whole(&self) -> bool {
+        self.ends == Self::WHOLE.ends
+    }
+
+    /// What it has in common with another.
+    fn intersection(&self, other: &Self, shift: f64) -> Option<Self> {
+        let moved = other.ends.map(|end| end + shift);
+        let later = moved[0] > self.ends[0];
+        let earlier = moved[1] < self.ends[1];
+        let choose = |other_first: bool, side: usize| {
+            if other_first {
+                (moved[side], other.folds[side])
+            } else {
+                (self.ends[side], self.folds[side])
+            }
+        };
+        let [(from, start), (to, end)] = [choose(later, 0), choose(earlier, 1)];
+        (from < to).then_some(Self { ends: [from, to], folds: [start, end] })
+    }
+}
+
+/// What two lists of stretches of an angle have in common.
+pub(crate) fn intersections(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
+    let mut common = Vec::new();
+    for a in one {
+        for b in other {
+            let shifts: &[f64] =
+                if a.is_whole() || b.is_whole() { &[0.0] } else { &[-TAU, 0.0, TAU] };
+            common.extend(shifts.iter().filter_map(|&shift| a.intersection(b, shift)));
+        }
+    }
+    common
+}
+
+/// Shifts stretches of an angle by whole turns so that their middles are in (−π, π], and sorts them.
+pub(crate) fn normalise(stretches: &mut [Stretch]) {
+    for stretch in stretches.iter_mut().filter(|stretch| !stretch.is_whole()) {
+        let middle = 0.5 * (stretch.ends[0] + stretch.ends[1]);
+        let turns = ((middle - PI) / TAU).ceil();
+        if turns != 0.0 {
+            stretch.ends = stretch.ends.map(|end| end - turns * TAU);
+        }
+    }
+    stretches.sort_by(|a, b| a.ends[0].total_cmp(&b.ends[0]));
+}

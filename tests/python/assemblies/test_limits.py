@@ -1,0 +1,226 @@
+"""Limits of motion against analytic ones, and against numbers found with forty digits."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import assur
+from test_numbers import six_bar, triad
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+INF = math.inf
+# Dead points are promised to this.
+DEAD_POINT = 1e-10
+
+
+def intervals(limits: assur.Limits, wanted: Sequence[Sequence[float]]) -> None:
+    assert limits.intervals.shape == (len(wanted), 2), limits
+    expected = np.reshape(wanted, (-1, 2))
+    np.testing.assert_allclose(limits.intervals, expected, rtol=0.0, atol=DEAD_POINT)
+
+
+@pytest.mark.parametrize(
+    ("lengths", "wanted"),
+    [
+        ((1, 4, 3, 4.5), [(-INF, INF)]),
+        ((3, 2.5, 2, 1), [(-INF, INF)]),
+        (
+            (3, 1, 2.5, 3.2),
+            [(-1.19817029881, -0.484525998168), (0.484525998168, 1.19817029881)],
+        ),
+        (
+            (3, 4, 1, 4.5),
+            [(-1.41273154688, -0.722734247813), (0.722734247813, 1.41273154688)],
+        ),
+        ((3, 2.5, 2, 4), [(-1.37156423955, 1.37156423955)]),
+        ((4, 2.5, 3, 2), [(-2.26610827325, 2.26610827325)]),
+        ((2, 4, 2.2, 3), [(0.620937577836, math.tau - 0.620937577836)]),
+        ((2, 2.5, 4, 3), [(0.460493425059, math.tau - 0.460493425059)]),
+        ((1, 1, 1, 5), []),
+    ],
+)
+def test_four_bars_of_every_class(
+    lengths: Sequence[float], wanted: Sequence[Sequence[float]]
+) -> None:
+    for mode in ("open", "crossed"):
+        limits = assur.FourBar(*lengths, mode=mode).limits()  # type: ignore[arg-type]
+        intervals(limits, wanted)
+        turns = wanted == [(-INF, INF)]
+        assert limits.full_rotation is turns
+        assert limits.period == (1 if turns else None)
+        assert {one.group for one in limits.dead_points} <= {"II(coupler, rocker)"}
+        assert [one.q for one in limits.dead_points] == sorted(
+            q for pair in limits.intervals.tolist() for q in pair if math.isfinite(q)
+        )
+
+
+@pytest.mark.parametrize(
+    ("lengths", "wanted"),
+    [
+        ((1, 3, 0.5), [(-INF, INF)]),
+        (
+            (2, 1.5, 0.3),
+            [
+                (-0.643501108793, 1.11976951500),
+                (math.pi - 1.11976951500, math.pi + 0.643501108793),
+            ],
+        ),
+        ((1, 1.2, 0.6), [(-0.643501108793, math.pi + 0.643501108793)]),
+    ],
+)
+def test_slider_cranks(lengths: Sequence[float], wanted: Sequence[Sequence[float]]) -> None:
+    intervals(assur.SliderCrank(*lengths).limits(), wanted)
+
+
+def test_random_four_bars_by_cosines() -> None:
+    rng = np.random.default_rng(5)
+    for a, b, c, d in rng.uniform(0.3, 3.0, (300, 4)):
+        outer = (a * a + d * d - (b + c) ** 2) / (2 * a * d)
+        inner = (a * a + d * d - (b - c) ** 2) / (2 * a * d)
+        limits = assur.FourBar(a, b, c, d).limits()
+        if outer > 1 or inner < -1:
+            wanted: list[tuple[float, float]] = []
+        elif outer <= -1 and inner >= 1:
+            wanted = [(-INF, INF)]
+        elif inner >= 1:
+            wanted = [(-math.acos(outer), math.acos(outer))]
+        elif outer <= -1:
+            wanted = [(math.acos(inner), math.tau - math.acos(inner))]
+        else:
+            near, far = math.acos(inner), math.acos(outer)
+            wanted = [(-far, -near), (near, far)]
+        assert limits.intervals.shape == (len(wanted), 2)
+        np.testing.assert_allclose(limits.intervals, np.reshape(wanted, (-1, 2)), atol=1e-9)
+
+
+def test_six_bar_whose_second_dyad_ends_the_motion() -> None:
+    limits = six_bar(9.0).limits()
+    intervals(limits, [(5.20792005806 - math.tau, 2.98320733986)])
+    assert {one.group for one in limits.dead_points} == {"II(bar, rocker2)"}
+    assert not limits.full_rotation
+
+
+def test_kite_closes_after_two_turns() -> None:
+    limits = assur.FourBar(1, 2, 2, 1).limits()
+    intervals(limits, [(-INF, INF)])
+    assert limits.full_rotation
+    assert limits.period == 2
+    assert not limits.dead_points
+
+
+def test_triad_that_never_returns() -> None:
+    mechanism = assur.Mechanism(
+        {
+            "O": (1.13, 1.22),
+            "A": (0.61, 1.75),
+            "P": (1.22, 0.71),
+            "Q": (2.79, 0),
+            "R": (0.44, 0.5),
+            "U": (1.02, 1.24),
+            "V": (1.37, 0.28),
+        },
+        {"ground": "OUV", "crank": "OA", "plate": "PQR", "l1": "AP", "l2": "UQ", "l3": "VR"},
+        "crank",
+    )
+    assert mechanism.q0 == pytest.approx(2.34667096860, abs=1e-11)
+    limits = mechanism.limits()
+    intervals(limits, [(-0.0302123439018, 13.0705099420)])
+    assert limits.period is None
+    assert not limits.full_rotation
+    assert {one.group for one in limits.dead_points} == {"III(plate, l1, l2, l3)"}
+
+
+def test_triad_that_closes_after_two_turns() -> None:
+    mechanism = assur.Mechanism(
+        {
+            "O": (2.63, 2.2),
+            "A": (0.38, 1.89),
+            "P": (2.58, 1.68),
+            "Q": (0.24, 1.5),
+            "R": (0.55, 0.03),
+            "U": (2.1, 2.05),
+            "V": (2.27, 0.82),
+        },
+        {"ground": "OUV", "crank": "OA", "plate": "PQR", "l1": "AP", "l2": "UQ", "l3": "VR"},
+        "crank",
+    )
+    limits = mechanism.limits()
+    intervals(limits, [(-INF, INF)])
+    assert limits.period == 2
+    assert limits.full_rotation
+
+
+def test_class_iii_of_order_four_that_closes_after_three_turns() -> None:
+    mechanism = assur.Mechanism(
+        {
+            "O": (1.39, 0.21),
+            "A": (1.78, 2.34),
+            "U": (0, 0),
+            "V": (1.79, 0),
+            "W": (1.69, -1.2),
+            "Q": (2.81, 0),
+            "R": (4.24, -1.49),
+            "M": (1.06, -1.92),
+            "T": (3.14, -2.34),
+            "P": (3.38, 0.65),
+        },
+        {
+            "ground": "OUVW",
+            "crank": "OA",
+            "one": "QRM",
+            "other": "MTP",
+            "l1": "UQ",
+            "l2": "VR",
+            "l3": "WT",
+            "l4": "AP",
+        },
+        "crank",
+    )
+    limits = mechanism.limits()
+    assert limits.period == 3
+    assert limits.full_rotation
+
+
+def test_batches_equal_single_designs_to_the_bit() -> None:
+    rng = np.random.default_rng(9)
+    lengths = rng.uniform(0.3, 3.0, (4, 20, 5))
+    batch = assur.FourBar(*lengths)
+    limits = batch.limits()
+    assert limits.intervals.shape[:2] == (20, 5)
+    assert limits.full_rotation.shape == (20, 5)
+    for index in np.ndindex(20, 5):
+        alone, own = batch.design(index).limits(), limits[index]
+        assert alone.intervals.tobytes() == own.intervals.tobytes()
+        assert (alone.full_rotation, alone.period) == (own.full_rotation, own.period)
+        assert alone.dead_points == own.dead_points
+    assert len(limits.dead_points) == 20
+    assert len(limits.dead_points[0]) == 5
+    mechanism = triad()
+    names = ["l1.length", "l2.length"]
+    stretch = rng.uniform(0.99, 1.01, (2, 6))
+    several = mechanism.with_dimensions(
+        {name: mechanism.dimensions[name] * by for name, by in zip(names, stretch, strict=True)}
+    )
+    for index in range(6):
+        alone, own = several.design(index).limits(), several.limits()[index]
+        assert alone.intervals.tobytes() == own.intervals.tobytes()
+
+
+def test_every_position_within_the_limits_exists_and_none_outside() -> None:
+    rng = np.random.default_rng(4)
+    for mechanism in (six_bar(9.0), six_bar(7.0), assur.FourBar(3, 1, 2.5, 3.2)):
+        for assembly in mechanism.assemblies(0.6):
+            limits = mechanism.limits(assembly)
+            q = rng.uniform(-math.pi, math.pi, 300)
+            motion = mechanism.solve(q, order=0, assembly=assembly, on_error="nan")
+            reached = motion.status <= assur.Status.SINGULAR
+            shifted = q[:, None, None] + math.tau * np.array([-1, 0, 1])[:, None]
+            low, high = limits.intervals[:, 0], limits.intervals[:, 1]
+            inside = ((low <= shifted) & (shifted <= high)).any(axis=(1, 2))
+            assert (inside == reached).all()
