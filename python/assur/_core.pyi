@@ -234,7 +234,15 @@ class Mechanism:
         signs: list[int],
         coordinate: tuple[str, int, int],
         order: int,
-    ) -> tuple[tuple[float, float], tuple[float, float]] | None: ...
+    ) -> list[tuple[float, float]] | None: ...
+    def stretches_beyond(
+        self,
+        dimensions: list[float],
+        signs: list[int],
+        coordinate: tuple[str, int, int],
+        order: int,
+        level: tuple[float, bool],
+    ) -> list[list[float]]: ...
     def limits(self, dimensions: _Float, signs: list[int], threads: int | None) -> FoundLimits: ...
     def drawn_in(
         self, dimensions: list[float], q: list[float], assembly: AssemblyNumbers

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from assur.dynamics.run import Run
     from assur.dynamics.steady import SteadyState
     from assur.flywheel import Flywheel
+    from assur.kinematics.assembly import Assembly
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
@@ -35,14 +36,18 @@ def _axes(ax: Any) -> Any:
     return plt.subplots(layout="constrained")[1]
 
 
-def mechanism_picture(mechanism: Mechanism, q: float | None, ax: Any) -> Any:
+def mechanism_picture(
+    mechanism: Mechanism, q: float | None, ax: Any, assembly: Assembly | None
+) -> Any:
     """See `Mechanism.plot`."""
     if mechanism.shape:
         message = (
             f"plot draws one mechanism, this is a batch {mechanism.shape}: take one with design(i)"
         )
         raise InputError(message)
-    motion = mechanism.solve(mechanism._q0_array() if q is None else q, order=0)
+    if q is None and assembly is not None:
+        q = assembly.q
+    motion = mechanism.solve(mechanism._q0_array() if q is None else q, 0, assembly=assembly)
     if motion.shape:
         message = f"plot draws one position: q has shape {motion.shape}"
         raise InputError(message)

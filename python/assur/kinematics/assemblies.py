@@ -35,7 +35,7 @@ def assemblies(mechanism: Mechanism, q: npt.ArrayLike, threads: int | None) -> A
     )
     designs = np.moveaxis(mechanism._values, 0, -1).reshape(-1, len(mechanism._values))
     each = max(len(found) // max(len(designs), 1), 1)
-    lists = []
+    lists: list[Any] = []
     for index, (one, row) in enumerate(zip(found, rows.tolist(), strict=True)):
         own = mechanism if not mechanism.shape else mechanism._with_values(designs[index // each])
         lists.append(_named(own, tuple(row), one))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from assur._arrays import short
+from assur._validate import real_number
 from assur.errors import InputError, PositionError
 from assur.kinematics.assembly import Assembly, drawn_in
 from assur.kinematics.solve import checked_assembly
@@ -44,11 +45,48 @@ class Extremes:
     least: ValueAt
     greatest: ValueAt
     time_ratio: float | None
+    # The design in its assembly, and the coordinate: for `dwells`.
+    _of: tuple[Mechanism, list[int], tuple[str, int, int], int]
 
     @property
     def stroke(self) -> float:
         """Difference of both: the stroke of a slide, the swing of a link."""
         return self.greatest.value - self.least.value
+
+    def dwells(self, tolerance: float) -> tuple[list[list[float]], list[list[float]]]:
+        """Return where the coordinate rests: stretches of q near its extremes.
+
+        Parameters
+        ----------
+        tolerance : float
+            How far the value may be from the extreme, m or rad.
+
+        Returns
+        -------
+        least, greatest : list of [float, float]
+            Stretches of q over which it stays that near to the least and to the greatest value.
+
+        Examples
+        --------
+        >>> import assur
+        >>> least, greatest = assur.SliderCrank(1.0, 3.0).extremes("bore").dwells(0.01)
+        >>> [[round(q, 4) for q in stretch] for stretch in greatest]
+        [[-0.1225, 0.1225]]
+        """
+        size = real_number(tolerance, "tolerance")
+        if not size > 0.0:
+            message = f"tolerance is {tolerance!r}: a positive number is needed"
+            raise InputError(message, value=size)
+        mechanism, signs, tracked, order = self._of
+        ends = ((self.least.value + size, False), (self.greatest.value - size, True))
+        values = mechanism._values.tolist()
+        least, greatest = (
+            mechanism._core.stretches_beyond(values, signs, tracked, order, end)
+            if math.isfinite(end[0])
+            else []
+            for end in ends
+        )
+        return least, greatest
 
 
 def coordinate(mechanism: Mechanism, name: Any) -> tuple[str, int, int]:
@@ -99,4 +137,4 @@ def extremes(
         there = (greatest.q - least.q) % math.tau
         back = math.tau - there
         ratio = max(there, back) / min(there, back) if min(there, back) > 0.0 else None
-    return Extremes(least, greatest, ratio)
+    return Extremes(least, greatest, ratio, (mechanism, signs, tracked, order))

@@ -69,7 +69,7 @@ def _driven_by(
         joint, axis = name if not dot else joint, "xy"
         mechanism._core.require("joint", joint)
     at = {key: (x, y) for key, x, y in own.joints}[joint]
-    taken = {key for key, *_ in (*own.joints, *own.links, *own.slides)}
+    taken = {one[0] for kind in (own.joints, own.links, own.slides) for one in kind}
     words = ("cross", "block", "along", "across", "centre")
     cross, block, along, across, centre = (_free(word, taken) for word in words)
     # A cross-slide moves along x, and a block on it along y, pinned at the joint.

@@ -630,15 +630,17 @@ class Mechanism:
         """
         return inverse.find(self, name, value)
 
-    def plot(self, q: float | None = None, ax: Any = None) -> Any:
+    def plot(self, q: float | None = None, ax: Any = None, assembly: Assembly | None = None) -> Any:
         """Draw the mechanism at one position (needs matplotlib).
 
         Parameters
         ----------
         q : float, optional
-            Coordinate; the drawing's by default.
+            Coordinate; the drawing's by default, or where the assembly was found.
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure by default.
+        assembly : Assembly, optional
+            As for `solve`; the drawing's by default.
 
         Returns
         -------
@@ -646,7 +648,7 @@ class Mechanism:
         """
         from assur._plot import mechanism_picture
 
-        return mechanism_picture(self, q, ax)
+        return mechanism_picture(self, q, ax, assembly)
 
 
 def _rebuild(description: Description, values: Float, place: Place | None = None) -> Mechanism:

@@ -68,6 +68,14 @@ pub(crate) struct GroupFields {
     slides: Vec<String>,
 }
 
+fn tracked((kind, index, component): &(String, usize, usize)) -> assur::Tracked {
+    match kind.as_str() {
+        "joint" => assur::Tracked::Joint(*index, *component),
+        "link" => assur::Tracked::Link(*index),
+        _ => assur::Tracked::Slide(*index),
+    }
+}
+
 fn described(
     joints: Vec<(String, f64, f64)>,
     links: Vec<(String, Vec<String>)>,
@@ -149,18 +157,31 @@ impl Mechanism {
         signs: Vec<i8>,
         coordinate: (String, usize, usize),
         order: usize,
-    ) -> PyResult<Option<((f64, f64), (f64, f64))>> {
-        let (kind, index, component) = coordinate;
-        let tracked = match kind.as_str() {
-            "joint" => assur::Tracked::Joint(index, component),
-            "link" => assur::Tracked::Link(index),
-            _ => assur::Tracked::Slide(index),
-        };
+    ) -> PyResult<Option<[(f64, f64); 2]>> {
+        let tracked = tracked(&coordinate);
         let small = self.inner.structure().class() <= 2;
         let found =
             detach::run(py, small, |_| self.inner.extremes(&dimensions, &signs, tracked, order))?;
         let pair = |one: assur::ValueAt| (one.value, one.q);
-        Ok(found.map_err(error_map::solve)?.map(|[least, most]| (pair(least), pair(most))))
+        Ok(found.map_err(error_map::solve)?.map(|both| both.map(pair)))
+    }
+
+    /// Stretches over which a coordinate is at least, or at most, at a level.
+    fn stretches_beyond(
+        &self,
+        py: Python<'_>,
+        dimensions: Vec<f64>,
+        signs: Vec<i8>,
+        coordinate: (String, usize, usize),
+        order: usize,
+        level: (f64, bool),
+    ) -> PyResult<Vec<[f64; 2]>> {
+        let asked = (tracked(&coordinate), order);
+        let small = self.inner.structure().class() <= 2;
+        let found = detach::run(py, small, |_| {
+            self.inner.stretches_beyond(&dimensions, &signs, asked, level)
+        })?;
+        found.map_err(error_map::solve)
     }
 
     /// Names of the dimensions, in order.

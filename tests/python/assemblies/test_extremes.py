@@ -232,3 +232,29 @@ def test_refusals() -> None:
     refused(assur.InputError, "one driver", lambda: five_bar().limits())
     missing = assur.FourBar(1.0, 1.0, 1.0, 5.0)
     refused(assur.PositionError, "does not exist", lambda: missing.extremes("C.x"))
+
+
+def test_dwells_of_a_slider_crank() -> None:
+    bore = assur.SliderCrank(1.0, 3.0).extremes("bore")
+    least, greatest = bore.dwells(0.01)
+    for stretches, level in ((least, 2.01), (greatest, 3.99)):
+        assert len(stretches) == 1
+        values = assur.SliderCrank(1.0, 3.0).solve(stretches[0]).slide("bore").value
+        np.testing.assert_allclose(values, level, atol=1e-12)
+    assert greatest[0][0] == pytest.approx(-greatest[0][1], abs=1e-12)
+    assert sum(least[0]) == pytest.approx(math.tau, abs=1e-12) or sum(least[0]) == pytest.approx(
+        -math.tau, abs=1e-12
+    )
+    refused(assur.InputError, "tolerance is 0", lambda: bore.dwells(0.0))
+
+
+def test_an_assembly_is_drawn() -> None:
+    plt = pytest.importorskip("matplotlib.pyplot")
+    mechanism = CASES["triad"][0](np.random.default_rng(3)).mechanism
+    for assembly in mechanism.assemblies(mechanism.q0):
+        ax = mechanism.plot(assembly=assembly)
+        drawn = np.concatenate([line.get_xydata() for line in ax.lines])
+        assert assembly.joints is not None
+        x, y = assembly.joints["R"]
+        assert np.hypot(drawn[:, 0] - x, drawn[:, 1] - y).min() < 1e-9
+        plt.close(ax.figure)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import pytest
@@ -48,8 +48,10 @@ def intervals(limits: assur.Limits, wanted: Sequence[Sequence[float]]) -> None:
 def test_four_bars_of_every_class(
     lengths: Sequence[float], wanted: Sequence[Sequence[float]]
 ) -> None:
-    for mode in ("open", "crossed"):
-        limits = assur.FourBar(*lengths, mode=mode).limits()  # type: ignore[arg-type]
+    crank, coupler, rocker, ground = lengths
+    modes: tuple[Literal["open", "crossed"], ...] = ("open", "crossed")
+    for mode in modes:
+        limits = assur.FourBar(crank, coupler, rocker, ground, mode).limits()
         intervals(limits, wanted)
         turns = wanted == [(-INF, INF)]
         assert limits.full_rotation is turns
@@ -207,8 +209,8 @@ def test_batches_equal_single_designs_to_the_bit() -> None:
     several = mechanism.with_dimensions(
         {name: mechanism.dimensions[name] * by for name, by in zip(names, stretch, strict=True)}
     )
-    for index in range(6):
-        alone, own = several.design(index).limits(), several.limits()[index]
+    for number in range(6):
+        alone, own = several.design(number).limits(), several.limits()[number]
         assert alone.intervals.tobytes() == own.intervals.tobytes()
 
 

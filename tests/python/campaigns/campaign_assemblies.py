@@ -1,4 +1,4 @@
-"""Counts the assemblies of all random groups of `assembly_models`."""
+"""Counts the assemblies of random groups of class III to V, and follows them along q."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import numpy as np
 
 from assembly_models import CASES
 from test_counts import expected
+from test_following import Followed, follow, random_cases
+
+FOLLOWED = 10_000
 
 
 def main(seed: int) -> int:
@@ -28,7 +31,14 @@ def main(seed: int) -> int:
                 print(f"{kind} {index}: {len(found)} of {found.complex_count}, scanned {wanted}")
         seconds = time.perf_counter() - start
         print(f"{kind}: {count}, at most {most} real, {doubtful} doubtful, {seconds:.0f} s")
-    return wrong
+    followed = Followed()
+    start = time.perf_counter()
+    for mechanism, q, other in random_cases(seed):
+        follow(mechanism, q, other, followed)
+        if followed.cases >= FOLLOWED:
+            break
+    print(f"{followed}, {time.perf_counter() - start:.0f} s")
+    return wrong + followed.wrong
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ fits. Nothing but plane geometry with NumPy.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from itertools import product
 from typing import TypeAlias
 
@@ -45,11 +46,21 @@ def carried(given: complex, base: complex, drawn: complex, at: Complex, tip: Com
     return at + (given - base) * (tip - at) / (drawn - base)
 
 
+@dataclass(frozen=True)
+class _Branch:
+    """The misfit with certain signs of the dyads."""
+
+    misfit: Misfit
+    signs: tuple[int, ...]
+
+    def __call__(self, turns: Float) -> Float:
+        return self.misfit(turns, self.signs)
+
+
 def count(misfit: Misfit, dyads: int, samples: int) -> int:
     """Number of assemblies found with so many samples a turn."""
-    branches = [
-        lambda turns, signs=signs: misfit(turns, signs) for signs in product((1, -1), repeat=dyads)
-    ]
+    every = product((1, -1), repeat=dyads)
+    branches = [_Branch(misfit, signs) for signs in every]
     turns = np.linspace(0.0, 2.0 * np.pi, samples + 1) + 0.123
     with np.errstate(invalid="ignore", divide="ignore"):
         for _ in range(2):
@@ -60,7 +71,7 @@ def count(misfit: Misfit, dyads: int, samples: int) -> int:
         )
 
 
-def _roots(of: Callable[[Float], Float], turns: Float) -> int:
+def _roots(of: _Branch, turns: Float) -> int:
     """Roots on a stretch: changes of sign, and pairs of them beside a smallest misfit."""
     values = of(turns)
     positive = values > 0.0
@@ -79,7 +90,7 @@ def _roots(of: Callable[[Float], Float], turns: Float) -> int:
     return changes + 2 * int(np.count_nonzero(least < 0.0))
 
 
-def _ends(of: Callable[[Float], Float], turns: Float) -> Float:
+def _ends(of: _Branch, turns: Float) -> Float:
     """Turns toward the ends of all stretches over which the dyads close, ends included."""
     closes = np.isfinite(of(turns))
     edges = np.flatnonzero(closes[1:] != closes[:-1])

@@ -88,7 +88,7 @@ impl Mechanism {
             },
             places: Vec::new(),
         };
-        search.from(0, false)?;
+        search.complete(0, false)?;
         let mut found = search.found;
         if !design.has_groups() {
             for assembly in &mut found.found {
@@ -163,7 +163,7 @@ struct Search<'s> {
 
 impl Search<'_> {
     /// Completes the choices from the one at `index` on.
-    fn from(&mut self, index: usize, is_double: bool) -> Result<(), SolveError> {
+    fn complete(&mut self, index: usize, is_double: bool) -> Result<(), SolveError> {
         if self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
             return Err(SolveError::Interrupted);
         }
@@ -177,12 +177,12 @@ impl Search<'_> {
                 for value in [1.0, -1.0] {
                     self.signs[sign] = value;
                     if index + 1 == self.choices.len() || self.reaches(index + 1) {
-                        self.from(index + 1, is_double)?;
+                        self.complete(index + 1, is_double)?;
                     }
                 }
                 self.signs[sign] = 1.0;
             }
-            Choice::Group { group, .. } => self.from_group(index, group, is_double)?,
+            Choice::Group { group, .. } => self.complete_group(index, group, is_double)?,
         }
         Ok(())
     }
@@ -211,7 +211,7 @@ impl Search<'_> {
         self.state.solve(&cx, self.scaled);
     }
 
-    fn from_group(
+    fn complete_group(
         &mut self,
         index: usize,
         group: &Group,
@@ -245,7 +245,7 @@ impl Search<'_> {
                 }
                 continue;
             }
-            self.from(index + 1, is_double || is_multiple)?;
+            self.complete(index + 1, is_double || is_multiple)?;
         }
         Ok(())
     }

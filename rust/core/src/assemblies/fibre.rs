@@ -69,7 +69,7 @@ fn finite_solutions(system: &Homotopy, half: usize, random: &mut Random) -> Vec<
     let there = system.transformed([&coordinates[0], &coordinates[1]]);
     let mut form = || -> Vec<Vector> { (0..n).map(|_| random.complex()).collect() };
     let products: Vec<[Vec<Vector>; 2]> = system.forms.iter().map(|_| [form(), form()]).collect();
-    let way = there.from_products(&products, random.direction());
+    let way = there.beginning_at(&products, random.direction());
     let starts: Vec<Vec<Vector>> = (0..1_usize << products.len())
         .filter(|choice| choice.count_ones() as usize == half)
         .map(|choice| start(&there, &products, choice))

@@ -111,7 +111,7 @@ impl Homotopy {
     }
 
     /// The way from products of two linear forms, each times `factor`, to this system.
-    pub(super) fn from_products(&self, products: &[[Vec<Vector>; 2]], factor: Vector) -> Self {
+    pub(super) fn beginning_at(&self, products: &[[Vec<Vector>; 2]], factor: Vector) -> Self {
         let n = self.variables + 1;
         let mut homotopy = self.clone();
         for (matrix, [left, right]) in homotopy.forms.iter_mut().zip(products) {

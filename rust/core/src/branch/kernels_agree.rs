@@ -4,7 +4,7 @@
 use super::design::Design;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, CLOSURE_PER_CONDITION};
-use crate::plan::mechanism::Mechanism;
+use crate::plan::mechanism::{Flat, Mechanism};
 use crate::plan::tape::Op;
 use crate::state::state::State;
 use crate::state::status::Status;
@@ -87,7 +87,7 @@ fn scotch_yoke() -> Description {
 }
 
 fn mechanism(description: &Description) -> Mechanism {
-    Mechanism::compile(description, None).unwrap_or_else(|error| panic!("{error}"))
+    Mechanism::compile(description, Flat::Refused, None).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Dimensions up to 1 % above those of the drawing.

@@ -6,6 +6,7 @@ use std::f64::consts::{PI, TAU};
 use super::evaluator::{Evaluator, Queries};
 use super::limits::finder::{Interval, LimitsFinder, Tables};
 use crate::description::error::SolveError;
+use crate::math::angle::whole_part;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::root::all_roots::{Sample, all_roots};
 use crate::math::trig::sin_cos;
@@ -56,6 +57,54 @@ impl Mechanism {
         tracked: Tracked,
         order: usize,
     ) -> Result<Option<[ValueAt; 2]>, SolveError> {
+        let mut found: Option<[ValueAt; 2]> = None;
+        self.over_intervals((dimensions, signs), tracked, order, |curve, window| {
+            for one in curve.candidates(window) {
+                found = Some(match found {
+                    None => [one; 2],
+                    Some([least, greatest]) => [
+                        if one.value < least.value { one } else { least },
+                        if one.value > greatest.value { one } else { greatest },
+                    ],
+                });
+            }
+        })?;
+        Ok(found)
+    }
+
+    /// Stretches of q over which a derivative of order 0 to 2 of a coordinate is at least `level`, or
+    /// at most.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::extremes`].
+    pub fn stretches_beyond(
+        &self,
+        dimensions: &[f64],
+        signs: &[i8],
+        (tracked, order): (Tracked, usize),
+        (level, at_least): (f64, bool),
+    ) -> Result<Vec<[f64; 2]>, SolveError> {
+        let mut found = Vec::new();
+        let sign = if at_least { 1.0 } else { -1.0 };
+        self.over_intervals((dimensions, signs), tracked, order, |curve, window| {
+            let mut own = curve.stretches(window, |value| sign * (value - level));
+            if window.is_period {
+                join(&mut own, window.ends());
+            }
+            found.extend(own);
+        })?;
+        Ok(found)
+    }
+
+    /// Hands every interval of an assembly to `visit`.
+    fn over_intervals(
+        &self,
+        (dimensions, signs): (&[f64], &[i8]),
+        tracked: Tracked,
+        order: usize,
+        mut visit: impl FnMut(&mut Curve<'_>, &Window),
+    ) -> Result<(), SolveError> {
         if order > 2 {
             return Err(SolveError::Order(order));
         }
@@ -71,19 +120,22 @@ impl Mechanism {
         );
         let mut curve = Curve { evaluator, tracked, order };
         let turns = limits.period.map_or(1.0, f64::from);
-        let mut found: Option<[ValueAt; 2]> = None;
         for interval in &limits.intervals {
-            for one in curve.candidates(self, interval, turns) {
-                found = Some(match found {
-                    None => [one; 2],
-                    Some([least, greatest]) => [
-                        if one.value < least.value { one } else { least },
-                        if one.value > greatest.value { one } else { greatest },
-                    ],
-                });
-            }
+            let window = Window::of(self, &curve.evaluator, interval, turns);
+            visit(&mut curve, &window);
         }
-        Ok(found)
+        Ok(())
+    }
+}
+
+/// Joins the first and the last stretch if they are one, over the end of a period.
+fn join(stretches: &mut Vec<[f64; 2]>, [from, to]: [f64; 2]) {
+    if let [[first, _], .., [_, last]] = stretches[..]
+        && first == from
+        && last == to
+        && let Some([start, _]) = stretches.pop()
+    {
+        stretches[0][0] = start - (to - from);
     }
 }
 
@@ -95,22 +147,64 @@ struct Curve<'m> {
 }
 
 /// An interval as a function of an angle from 0 to π: square roots at dead points are smooth in it.
-#[derive(Clone, Copy)]
 struct Window {
     middle: f64,
     half: f64,
-    folds: bool,
+    /// Which ends are dead points.
+    folds: [bool; 2],
+    /// Whether it is one period of a motion that closes.
+    is_period: bool,
+    /// Turns of the driver, or its way in sizes.
+    length: f64,
 }
 
 impl Window {
+    fn of(
+        mechanism: &Mechanism,
+        evaluator: &Evaluator<'_>,
+        interval: &Interval,
+        turns: f64,
+    ) -> Self {
+        let q0 = mechanism.q0()[0];
+        let is_turn = mechanism.plan().driven_slide(0).is_none();
+        let reach = if is_turn { PI * turns } else { evaluator.reach() };
+        let [low, high] = interval.ends;
+        let low = if low.is_finite() { low } else { q0 - reach };
+        let high = if high.is_finite() { high } else { q0 + reach };
+        let unit = if is_turn { TAU } else { evaluator.unit(0) };
+        Self {
+            middle: 0.5 * (low + high),
+            half: 0.5 * (high - low),
+            folds: interval.folds.map(|fold| fold.is_some()),
+            is_period: is_turn && interval.ends[0].is_infinite(),
+            length: (high - low) / unit,
+        }
+    }
+
+    fn ends(&self) -> [f64; 2] {
+        [self.middle - self.half, self.middle + self.half]
+    }
+
+    fn has_folds(&self) -> bool {
+        self.folds[0] || self.folds[1]
+    }
+
+    /// Angles from end to end.
+    fn nodes(&self) -> Vec<f64> {
+        let count = (NODES * self.length).max(NODES).ceil();
+        let margin = if self.has_folds() { NEAR_END } else { 0.0 };
+        let node = |i: usize| margin + (PI - 2.0 * margin) * i as f64 / count;
+        (0..=whole_part(count)).map(node).collect()
+    }
+
     fn at(&self, angle: f64) -> f64 {
-        let part = if self.folds { -sin_cos(angle).1 } else { angle / (0.5 * PI) - 1.0 };
+        let part = if self.has_folds() { -sin_cos(angle).1 } else { angle / (0.5 * PI) - 1.0 };
         self.middle + self.half * part
     }
 
     /// First and second derivative.
     fn rates(&self, angle: f64) -> [f64; 2] {
-        if self.folds {
+        if self.has_folds() {
             let (sin, cos) = sin_cos(angle);
             [self.half * sin, self.half * cos]
         } else {
@@ -145,27 +239,8 @@ impl Curve<'_> {
     }
 
     /// Values that may be extremes.
-    fn candidates(
-        &mut self,
-        mechanism: &Mechanism,
-        interval: &Interval,
-        turns: f64,
-    ) -> Vec<ValueAt> {
-        let q0 = mechanism.q0()[0];
-        let is_turn = mechanism.plan().driven_slide(0).is_none();
-        let folds = interval.folds.iter().any(Option::is_some);
-        let reach = if is_turn { PI * turns } else { self.evaluator.reach() };
-        let ends = [
-            if interval.ends[0].is_finite() { interval.ends[0] } else { q0 - reach },
-            if interval.ends[1].is_finite() { interval.ends[1] } else { q0 + reach },
-        ];
-        let window =
-            Window { middle: 0.5 * (ends[0] + ends[1]), half: 0.5 * (ends[1] - ends[0]), folds };
-        let unit = if is_turn { TAU } else { self.evaluator.unit(0) };
-        let count = (NODES * (ends[1] - ends[0]) / unit).max(NODES).ceil();
-        let margin = if folds { NEAR_END } else { 0.0 };
-        let node = |i: usize| margin + (PI - 2.0 * margin) * i as f64 / count;
-        let nodes: Vec<f64> = (0..=count as usize).map(node).collect();
+    fn candidates(&mut self, window: &Window) -> Vec<ValueAt> {
+        let nodes = window.nodes();
         let (mut values, mut greatest) = (Vec::new(), 0.0_f64);
         for &angle in &nodes {
             if let Some(jet) = self.jet(window.at(angle)) {
@@ -175,28 +250,62 @@ impl Curve<'_> {
         }
         let noise = NOISE * greatest;
         let roots = all_roots(&nodes, |angle| {
-            let [value, slope] = self.rate(&window, angle)?;
+            let [value, slope] = self.rate(window, angle)?;
             Some(Sample { x: angle, value, slope, noise })
         });
         for root in &roots.isolated {
             let q = window.at(root.at);
             values.extend(self.jet(q).map(|jet| ValueAt { value: jet[self.order], q }));
         }
-        for (side, &end) in ends.iter().enumerate() {
-            if interval.folds[side].is_some() {
-                values.extend(self.at_dead_point(&window, end, side == 0));
+        for (side, end) in window.ends().into_iter().enumerate() {
+            if window.folds[side] {
+                values.extend(self.at_dead_point(window, end, side == 0));
             }
         }
-        if let (Tracked::Link(_), 0, true) =
-            (self.tracked, self.order, interval.ends[0].is_infinite())
-            && let (Some(first), Some(last)) = (self.jet(ends[0]), self.jet(ends[1]))
-            && is_turn
+        let [first, last] = window.ends();
+        if window.is_period
+            && matches!(self.tracked, Tracked::Link(_))
+            && self.order == 0
+            && let (Some(first), Some(last)) = (self.jet(first), self.jet(last))
             && (last[0] - first[0]).abs() > PI
         {
             values.push(ValueAt { value: f64::NEG_INFINITY, q: f64::NAN });
             values.push(ValueAt { value: f64::INFINITY, q: f64::NAN });
         }
         values
+    }
+
+    /// Stretches over which a linear function of the value is not negative.
+    fn stretches(&mut self, window: &Window, of: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+        let nodes = window.nodes();
+        let slope_of = of(1.0) - of(0.0);
+        let mut size = 0.0_f64;
+        for &angle in &nodes {
+            size = size.max(self.jet(window.at(angle)).map_or(0.0, |jet| jet[self.order].abs()));
+        }
+        let noise = NOISE * size;
+        let roots = all_roots(&nodes, |angle| {
+            let jet = self.jet(window.at(angle))?;
+            let slope = slope_of * jet[self.order + 1] * window.rates(angle)[0];
+            Some(Sample { x: angle, value: of(jet[self.order]), slope, noise })
+        });
+        let [first, last] = window.ends();
+        let mut ends = vec![first];
+        ends.extend(roots.isolated.iter().map(|root| window.at(root.at)));
+        ends.push(last);
+        let mut found: Vec<[f64; 2]> = Vec::new();
+        for pair in ends.windows(2) {
+            let inside = self.jet(0.5 * (pair[0] + pair[1]));
+            if !inside.is_some_and(|jet| of(jet[self.order]) >= 0.0) {
+                continue;
+            }
+            match found.last_mut() {
+                // A value that only touches the level ends nothing.
+                Some(last) if last[1] == pair[0] => last[1] = pair[1],
+                _ => found.push([pair[0], pair[1]]),
+            }
+        }
+        found
     }
 
     /// The derivative by the window's angle, and its own.

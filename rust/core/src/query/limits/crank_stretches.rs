@@ -17,12 +17,15 @@ use crate::plan::plan::Plan;
 /// Where the sine of half the angle is 1 or 0 but for rounding, the dyad is flat at a change point.
 const TOUCH: f64 = 64.0 * f64::EPSILON;
 
-/// The angles from the middle at which a dyad closes, both ways: from the first to the second. `None`:
-/// no limit.
-struct Reach {
-    middle: f64,
-    nearest: Option<f64>,
-    farthest: Option<f64>,
+/// Where a dyad closes.
+enum Reach {
+    Nowhere,
+    /// From the first to the second angle from the middle, both ways; `None`: no limit.
+    Between {
+        middle: f64,
+        nearest: Option<f64>,
+        farthest: Option<f64>,
+    },
 }
 
 /// Stretches over which the dyad closes; `None` if its crank has no length.
@@ -32,13 +35,13 @@ pub(crate) fn crank_stretches(
     constants: &DesignConstants,
     sign: usize,
 ) -> Option<Vec<Stretch>> {
-    let Some(reach) = reach(dyad, plan, constants)? else { return Some(Vec::new()) };
-    let fold = Some(sign);
-    let stretch = |from: f64, to: f64| Stretch {
-        ends: [reach.middle + from, reach.middle + to],
-        folds: [fold; 2],
+    let Reach::Between { middle, nearest, farthest } = reach(dyad, plan, constants)? else {
+        return Some(Vec::new());
     };
-    Some(match (reach.nearest, reach.farthest) {
+    let fold = Some(sign);
+    let stretch =
+        |from: f64, to: f64| Stretch { ends: [middle + from, middle + to], folds: [fold; 2] };
+    Some(match (nearest, farthest) {
         (None, None) => vec![Stretch::WHOLE],
         (None, Some(far)) => vec![stretch(-far, far)],
         (Some(near), None) => vec![stretch(near, TAU - near)],
@@ -46,8 +49,8 @@ pub(crate) fn crank_stretches(
     })
 }
 
-/// `None` if the crank has no length; `Some(None)` if the dyad closes nowhere.
-fn reach(dyad: &CrankDyad, plan: &Plan, constants: &DesignConstants) -> Option<Option<Reach>> {
+/// `None` if the crank has no length.
+fn reach(dyad: &CrankDyad, plan: &Plan, constants: &DesignConstants) -> Option<Reach> {
     let crank = constants.edge_vector[dyad.crank];
     let frame = constants.fixed[dyad.ground] - constants.fixed[dyad.pivot];
     let [a, b] = &constants.legs[dyad.dyad];
@@ -72,12 +75,12 @@ fn reach(dyad: &CrankDyad, plan: &Plan, constants: &DesignConstants) -> Option<O
     }
     // Flat in its only position, it has no motion there.
     if outer < TOUCH || inner > 1.0 - TOUCH {
-        return Some(None);
+        return Some(Reach::Nowhere);
     }
     let angle = |half: f64| 2.0 * asin(half.sqrt());
-    Some(Some(Reach {
+    Some(Reach::Between {
         middle: way * (direction - crank.angle()),
         nearest: (inner > TOUCH).then(|| angle(inner)),
         farthest: (outer < 1.0 - TOUCH).then(|| angle(outer)),
-    }))
+    })
 }

@@ -9,6 +9,7 @@ use crate::branch::branch::{CELLS_PER_TURN, MAX_TURNS};
 use crate::branch::crank_dyad::CrankDyad;
 use crate::branch::design::Design;
 use crate::description::error::SolveError;
+use crate::math::angle::whole_part;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
 
@@ -195,7 +196,7 @@ impl<'m> LimitsFinder<'m> {
         }
         let branch = &self.design.branch;
         match branch.period {
-            Some(period) => Some((period / TAU).round() as u32),
+            Some(period) => u32::try_from(whole_part((period / TAU).round())).ok(),
             None => branch.is_plain().then_some(1),
         }
     }

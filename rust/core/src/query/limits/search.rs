@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use super::stretch::Stretch;
 use crate::branch::design::Design;
+use crate::math::angle::whole_part;
 use crate::math::root::all_roots::{Sample, all_roots};
 use crate::math::trig::sin_cos;
 use crate::plan::dyad::{Dyad, Form};
@@ -53,7 +54,7 @@ impl Search<'_, '_> {
         let count = (NODES_PER_CELL * 2.0 * half / self.cell).max(LEAST_NODES).ceil();
         let inner = PI - 2.0 * NEAR_END;
         let nodes: Vec<f64> =
-            (0..=count as usize).map(|node| NEAR_END + inner * node as f64 / count).collect();
+            (0..=whole_part(count)).map(|node| NEAR_END + inner * node as f64 / count).collect();
         let roots = all_roots(&nodes, |angle| {
             let [value, rate] = self.sample(at(angle), dyad, step)?;
             let slope = rate * half * sin_cos(angle).0;
