@@ -31,6 +31,7 @@ from assur.errors import (
     StructureError,
 )
 from assur.kinematics.assembly import Assemblies, Assembly
+from assur.kinematics.configuration import ConfigurationCurve
 from assur.kinematics.limits import DeadPoint, Limits
 from assur.kinematics.mechanism import Mechanism
 from assur.kinematics.motion import Motion
@@ -70,6 +71,7 @@ __all__ = [
     "AssurWarning",
     "Body",
     "ClassIV",
+    "ConfigurationCurve",
     "ConstantTorque",
     "Damper",
     "DeadPoint",

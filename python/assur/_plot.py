@@ -45,9 +45,10 @@ def mechanism_picture(
             f"plot draws one mechanism, this is a batch {mechanism.shape}: take one with design(i)"
         )
         raise InputError(message)
-    if q is None and assembly is not None:
-        q = assembly.q
-    motion = mechanism.solve(mechanism._q0_array() if q is None else q, 0, assembly=assembly)
+    found = None if assembly is None else assembly.q
+    places = (q, found, mechanism._q0_array())
+    at = next(place for place in places if place is not None)
+    motion = mechanism.solve(at, order=0, assembly=assembly)
     if motion.shape:
         message = f"plot draws one position: q has shape {motion.shape}"
         raise InputError(message)

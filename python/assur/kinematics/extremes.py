@@ -71,7 +71,7 @@ class Extremes:
         >>> import assur
         >>> least, greatest = assur.SliderCrank(1.0, 3.0).extremes("bore").dwells(0.01)
         >>> [[round(q, 4) for q in stretch] for stretch in greatest]
-        [[-0.1225, 0.1225]]
+        [[-0.1226, 0.1226]]
         """
         size = real_number(tolerance, "tolerance")
         if not size > 0.0:

@@ -17,6 +17,7 @@ from assur.description import encode
 from assur.description.structure import Group, Structure
 from assur.errors import InputError
 from assur.kinematics import assemblies as assembly_search
+from assur.kinematics import configuration as curves
 from assur.kinematics import extremes as extreme_search
 from assur.kinematics import find as inverse
 from assur.kinematics import limits as limit_search
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from assur.description.encode import Description, DriverLike
     from assur.description.words import Slide
     from assur.kinematics.assembly import Place
+    from assur.kinematics.configuration import ConfigurationCurve
     from assur.kinematics.extremes import Extremes
     from assur.kinematics.limits import Limits
     from assur.kinematics.motion import Motion
@@ -629,6 +631,26 @@ class Mechanism:
         [(-1.403348, {'B': 1}), (1.403348, {'B': 1})]
         """
         return inverse.find(self, name, value)
+
+    def configuration_curve(self, positions: int = 32) -> ConfigurationCurve:
+        """Return all positions of a design as a curve: branches, folds, circuits.
+
+        All assemblies are found at a fan of coordinates, and followed to the dead points; where
+        these do not explain how many assemblies two neighbours have, the fan is refined.
+
+        Parameters
+        ----------
+        positions : int
+            Coordinates of the fan, evenly spaced over a turn, or over all that a slide can reach.
+
+        Examples
+        --------
+        >>> import assur
+        >>> curve = assur.FourBar(3.0, 2.5, 2.0, 4.0).configuration_curve()
+        >>> len(curve.circuits), [round(fold.q, 6) for fold in curve.folds]
+        (1, [-1.371564, 1.371564])
+        """
+        return curves.configuration_curve(self, positions)
 
     def plot(self, q: float | None = None, ax: Any = None, assembly: Assembly | None = None) -> Any:
         """Draw the mechanism at one position (needs matplotlib).

@@ -245,7 +245,7 @@ def test_dwells_of_a_slider_crank() -> None:
     assert sum(least[0]) == pytest.approx(math.tau, abs=1e-12) or sum(least[0]) == pytest.approx(
         -math.tau, abs=1e-12
     )
-    refused(assur.InputError, "tolerance is 0", lambda: bore.dwells(0.0))
+    refused(assur.InputError, "tolerance is 0.0", lambda: bore.dwells(0.0))
 
 
 def test_an_assembly_is_drawn() -> None:

@@ -1,0 +1,133 @@
+"""Circuits, branches and folds, against numbers found by tracing with forty digits."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import assur
+from refusals import refused
+from test_numbers import six_bar, triad
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+FOLD = 1e-9
+
+
+def folds(curve: assur.ConfigurationCurve, wanted: Sequence[float]) -> None:
+    found = sorted(fold.q % math.tau for fold in curve.folds)
+    np.testing.assert_allclose(found, sorted(wanted), rtol=0.0, atol=FOLD)
+
+
+def test_triad_with_three_circuits() -> None:
+    curve = triad().configuration_curve()
+    folds(
+        curve,
+        [1.50368157887, 2.21404579285, 2.46560438246, 3.18655732609, 3.90409418670, 5.90120723802],
+    )
+    assert all(circuit.is_closed for circuit in curve.circuits)
+    kinds = sorted((len(circuit.branches), abs(circuit.turns)) for circuit in curve.circuits)
+    assert kinds == [(1, 1), (1, 1), (6, 0)]
+    assert {fold.group for fold in curve.folds} == {"III(plate, l1, l2, l3)"}
+
+
+def test_triad_with_four_circuits() -> None:
+    mechanism = assur.Mechanism(
+        {
+            "O": (0.69, 0.7),
+            "A": (0.33, 0.39),
+            "P": (2.28, 1.12),
+            "Q": (0.97, 1.91),
+            "R": (0.56, 0.32),
+            "U": (2.09, 2.27),
+            "V": (0.89, 1.91),
+        },
+        {"ground": "OUV", "crank": "OA", "plate": "PQR", "l1": "AP", "l2": "UQ", "l3": "VR"},
+        "crank",
+    )
+    curve = mechanism.configuration_curve()
+    folds(curve, [2.66029249227, 4.91886687515, 1.00126174941, 2.61635402629])
+    kinds = sorted((len(circuit.branches), abs(circuit.turns)) for circuit in curve.circuits)
+    assert kinds == [(1, 1), (1, 1), (2, 0), (2, 0)]
+
+
+@pytest.mark.parametrize(
+    ("lengths", "circuits", "count"),
+    [
+        ((1, 4, 3, 4.5), 2, 0),
+        ((3, 2.5, 2, 1), 2, 0),
+        ((3, 1, 2.5, 3.2), 2, 4),
+        ((3, 4, 1, 4.5), 2, 4),
+        ((3, 2.5, 2, 4), 1, 2),
+        ((4, 2.5, 3, 2), 1, 2),
+        ((2, 4, 2.2, 3), 1, 2),
+    ],
+)
+def test_four_bars_have_two_circuits_if_a_link_goes_round(
+    lengths: Sequence[float], circuits: int, count: int
+) -> None:
+    crank, coupler, rocker, ground = lengths
+    curve = assur.FourBar(crank, coupler, rocker, ground).configuration_curve()
+    assert (len(curve.circuits), len(curve.folds)) == (circuits, count)
+    assert all(circuit.is_closed for circuit in curve.circuits)
+
+
+def test_kite_is_one_circuit_of_two_turns() -> None:
+    curve = assur.FourBar(1, 2, 2, 1).configuration_curve()
+    assert next((len(c.branches), c.turns) for c in curve.circuits) == (1, 2)
+
+
+def test_six_bars() -> None:
+    # On each circuit of the crank-rocker the second dyad always closes, or over one arc.
+    whole = six_bar(7.0).configuration_curve()
+    assert not whole.folds
+    assert len(whole.circuits) == 4
+    arcs = six_bar(9.0).configuration_curve()
+    assert len(arcs.folds) == 2 * len([c for c in arcs.circuits if c.turns == 0])
+    assert {fold.group for fold in arcs.folds} == {"II(bar, rocker2)"}
+
+
+def test_motion_past_dead_points() -> None:
+    curve = triad().configuration_curve()
+    (index,) = (i for i, c in enumerate(curve.circuits) if len(c.branches) == 6)
+    motion = curve.motion(index, samples=400)
+    plate = motion.joints["R"]
+    assert np.isfinite(plate).all()
+    steps = np.hypot(*np.diff(plate, axis=0).T)
+    assert steps.max() < 0.1
+    # It closes, and every position is one of the mechanism.
+    np.testing.assert_allclose(plate[0], plate[-1], atol=1e-5)
+    lengths = np.hypot(*(motion.joints["P"] - motion.joints["R"]).T)
+    assert np.ptp(lengths) < 1e-12
+    assert np.abs(np.diff(motion.links["plate"])).max() < 0.1
+    assert len(set(motion.branch.tolist())) == 6
+
+
+def test_every_assembly_is_on_a_branch() -> None:
+    mechanism = triad()
+    curve = mechanism.configuration_curve()
+    for assembly in mechanism.assemblies(0.77):
+        assert assembly.joints is not None
+        wanted = assembly.joints["R"]
+        on = []
+        for branch in curve.branches:
+            for turn in range(-2, 3):
+                q = 0.77 + math.tau * turn
+                if not branch.low <= q <= branch.high or (branch.period and turn):
+                    continue
+                motion = mechanism.solve(q, order=0, assembly=branch.assembly)
+                if np.allclose(motion.joint("R").value, wanted, atol=1e-7):
+                    on.append(branch)
+        assert len(on) == 1
+
+
+def test_refusals() -> None:
+    four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    batch = four_bar.with_dimensions({"coupler.length": [3.0, 3.1]})
+    refused(assur.InputError, "one design", batch.configuration_curve)
+    refused(assur.InputError, "at least 2", lambda: four_bar.configuration_curve(1))
+    refused(assur.InputError, "circuit", lambda: four_bar.configuration_curve().motion(7))
