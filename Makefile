@@ -97,7 +97,7 @@ campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(CAMPAIGN) --higher --count 10000 --out docs/campaign-higher.md
 	$(CAMPAIGN) --mixed --count 100000 --out docs/campaign-mixed.md
 	$(CAMPAIGN) --machines --count 10000 --out docs/campaign-machines.md
-	PYTHONPATH=tests/python/assemblies:tests/python/models:tests/python/oracles \
+	PYTHONPATH=tests/python/models:tests/python/oracles \
 		$(PY) -W ignore tests/python/campaigns/campaign_assemblies.py
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/net/test_function_of_q.py \
 	  tests/python/net/test_careful.py tests/python/dynamics/test_friction_random.py

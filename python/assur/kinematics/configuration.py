@@ -18,11 +18,13 @@ from assur._validate import checked_index
 from assur.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from assur._arrays import Float
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.mechanism import Mechanism
 
-__all__ = ["Branch", "Circuit", "CircuitMotion", "ConfigurationCurve", "Fold"]
+__all__ = ["Branch", "Circuit", "CircuitMotion", "ConfigurationCurve", "Defects", "Fold"]
 
 # How near (relative to the size) positions of one assembly are.
 SAME = 1e-6
@@ -123,6 +125,28 @@ class CircuitMotion:
     slides: dict[str, Float]
 
 
+@dataclass(frozen=True, slots=True)
+class Defects:
+    """What keeps a design from going through given positions (Chase and Mirth 1993).
+
+    Attributes
+    ----------
+    circuit : bool
+        Whether they lie on different circuits: it would have to be taken apart.
+    branch : bool
+        Whether they lie on different branches: the driver cannot lead from one to another.
+    order : bool
+        Whether one circuit goes through all of them, but in another order, whichever way round.
+    branches : tuple of int
+        The branch of each.
+    """
+
+    circuit: bool
+    branch: bool
+    order: bool
+    branches: tuple[int, ...]
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class ConfigurationCurve:
     """All positions of a design, as a curve.
@@ -145,6 +169,32 @@ class ConfigurationCurve:
     circuits: tuple[Circuit, ...]
     fan: Float
     _mechanism: Mechanism
+
+    def defects(self, places: Sequence[tuple[float, Assembly]]) -> Defects:
+        """Return what keeps a design from going through given positions one after another.
+
+        Parameters
+        ----------
+        places : sequence of (q, Assembly)
+            The positions in the wanted order, as `Mechanism.find` gives them.
+
+        Examples
+        --------
+        >>> import assur
+        >>> four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+        >>> curve = four_bar.configuration_curve()
+        >>> one, other = four_bar.assemblies(1.0)
+        >>> curve.defects([(0.5, one), (1.0, other)]).circuit
+        True
+        >>> curve.defects([(0.5, one), (1.0, one), (2.0, one)])
+        Defects(circuit=False, branch=False, order=False, branches=(0, 0, 0))
+        """
+        found = [_located(self, float(q), assembly) for q, assembly in places]
+        homes = {number: i for i, c in enumerate(self.circuits) for number, _ in c.branches}
+        branches = tuple(number for number, _ in found)
+        on_one = len({homes[number] for number in branches}) <= 1
+        order = on_one and bool(found) and not _is_in_order(self, homes[branches[0]], found)
+        return Defects(not on_one, len(set(branches)) > 1, order, branches)
 
     def motion(self, circuit: int = 0, samples: int = 180) -> CircuitMotion:
         """Return positions along a circuit.
@@ -375,6 +425,50 @@ def _unexplained(search: _Search, folds: list[Fold]) -> list[float]:
         if change != counts[i + 1] - counts[i] and high - low > SAME * search.size:
             middles.append(0.5 * (low + high))
     return middles
+
+
+def _located(curve: ConfigurationCurve, q: float, assembly: Assembly) -> tuple[int, float]:
+    """Return the branch of a position, and its q in the branch's counted turns."""
+    mechanism = curve._mechanism
+    names = mechanism._joint_names
+    motion = mechanism.solve(q, order=0, assembly=assembly)
+    own = np.array([motion.joint(name).value for name in names])
+    size = float(np.ptp(own, axis=0).max())
+    driver = mechanism._description.drivers[0]
+    is_angle = not isinstance(driver, str) or driver not in mechanism.slides
+    for number, branch in enumerate(curve.branches):
+        low, high = _ends(branch, mechanism)
+        turns = range(math.ceil((low - q) / math.tau), math.floor((high - q) / math.tau) + 1)
+        for turn in turns if is_angle else [0]:
+            there = q + math.tau * turn
+            if not low <= there <= high:
+                continue
+            motion = mechanism.solve(there, order=0, assembly=branch.assembly, on_error="nan")
+            at = np.array([motion.joint(name).value for name in names])
+            if np.abs(at - own).max() <= SAME * size:
+                return number, there
+    message = f"no branch goes through q = {q!r} in {assembly!r}: give the curve more positions"
+    raise InputError(message, value=q)
+
+
+def _is_in_order(curve: ConfigurationCurve, circuit: int, found: list[tuple[int, float]]) -> bool:
+    """Whether a circuit goes through positions in their order, one way round or the other."""
+    ways = curve.circuits[circuit].branches
+    places = []
+    for number, q in found:
+        step = next(i for i, (own, _) in enumerate(ways) if own == number)
+        low, high = _ends(curve.branches[number], curve._mechanism)
+        part = (q - low) / (high - low)
+        places.append(step + (part if ways[step][1] > 0 else 1.0 - part))
+    steps = np.diff(np.array([*places, places[0]]))
+    if not curve.circuits[circuit].is_closed:
+        steps = steps[:-1]
+        return bool((steps > 0.0).all() or (steps < 0.0).all())
+    # Round the circuit once: the steps, each in the direction of the motion, make one round.
+    around = len(ways)
+    return any(
+        abs(float((np.sign(way) * steps % around).sum()) - around) < 0.5 for way in (1.0, -1.0)
+    )
 
 
 def _circuits(branches: list[Branch], folds: list[Fold]) -> list[Circuit]:

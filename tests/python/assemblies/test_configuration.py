@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -123,6 +124,33 @@ def test_every_assembly_is_on_a_branch() -> None:
                 if np.allclose(motion.joint("R").value, wanted, atol=1e-7):
                     on.append(branch)
         assert len(on) == 1
+
+
+def test_defects_of_a_crank_rocker() -> None:
+    four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    curve = four_bar.configuration_curve()
+    one, other = four_bar.assemblies(1.0)
+    good = curve.defects([(0.5, one), (1.0, one), (2.0, one), (5.0, one)])
+    assert (good.circuit, good.branch, good.order) == (False, False, False)
+    # Backward is an order, too; not back and forth.
+    assert not curve.defects([(5.0, one), (2.0, one), (1.0, one)]).order
+    assert curve.defects([(0.5, one), (2.0, one), (1.0, one), (5.0, one)]).order
+    assert curve.defects([(0.5, one), (2.0, other)]).circuit
+    refused(assur.InputError, "no branch", lambda: _without_branches(curve).defects([(0.5, one)]))
+
+
+def _without_branches(curve: assur.ConfigurationCurve) -> assur.ConfigurationCurve:
+    return replace(curve, branches=())
+
+
+def test_defects_of_a_double_rocker() -> None:
+    # Driven by the long link both assemblies are branches of one circuit.
+    four_bar = assur.FourBar(3.0, 2.5, 2.0, 4.0)
+    curve = four_bar.configuration_curve()
+    one, other = four_bar.assemblies(0.3)
+    found = curve.defects([(-0.5, one), (0.3, one), (0.3, other)])
+    assert (found.circuit, found.branch, found.order) == (False, True, False)
+    assert curve.defects([(-0.5, one), (0.3, other), (0.3, one), (-0.2, other)]).order
 
 
 def test_refusals() -> None:

@@ -5,24 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assembly_models import CASES, Case
-from scan import count
+from assembly_checks import expected
+from assembly_models import CASES
 
 # The sample of each kind; `make campaign` counts all.
 SAMPLE = 12
-
-
-def expected(case: Case) -> int:
-    """The number that two scans agree on."""
-    samples = 1500
-    last = count(case.misfit, case.dyads, samples)
-    while samples < 200_000:
-        samples = 2 * samples + 1
-        found = count(case.misfit, case.dyads, samples)
-        if found == last and samples > 6000:
-            return found
-        last = found
-    raise AssertionError("the scans do not agree")
 
 
 @pytest.mark.parametrize("kind", CASES)

@@ -4,68 +4,23 @@ from __future__ import annotations
 
 import copy
 import pickle
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 import assur
+from assembly_checks import Followed, follow, places, random_cases
 from assembly_models import CASES, triad
 from refusals import refused
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from numpy.typing import NDArray
 
     Float = NDArray[np.float64]
 
-# Positions of one assembly, relative to the size, times its condition.
-SAME = 1e-9
 # The sample; `make campaign` follows ten thousand.
 FOLLOWED = 150
-
-
-@dataclass
-class Followed:
-    """How many assemblies were followed to another coordinate, and which arrived at none."""
-
-    cases: int = 0
-    lost: int = 0
-    wrong: int = 0
-
-
-def places(mechanism: assur.Mechanism, found: assur.Assemblies) -> Float:
-    return np.array(
-        [[one.joints[name] for name in mechanism.joints] for one in found if one.joints]
-    )
-
-
-def follow(mechanism: assur.Mechanism, q: float, other: float, followed: Followed) -> None:
-    """Follow every assembly at one coordinate to another."""
-    there = mechanism.assemblies(other)
-    known = places(mechanism, there)
-    for assembly in mechanism.assemblies(q):
-        followed.cases += 1
-        motion = mechanism.solve(other, order=0, assembly=assembly, on_error="nan")
-        if motion.status > assur.Status.SINGULAR:
-            followed.lost += 1
-            continue
-        at = np.array([motion.joint(name).value for name in mechanism.joints])
-        size = float(np.ptp(at, axis=0).max())
-        errors = np.abs(known - at).max(axis=(1, 2)) if len(known) else np.array([np.inf])
-        bound = SAME * size * max(float(motion.condition), 1.0)
-        followed.wrong += not errors.min() <= bound
-
-
-def random_cases(seed: int) -> Iterator[tuple[assur.Mechanism, float, float]]:
-    rng = np.random.default_rng(seed)
-    makers = [make for make, _ in CASES.values()]
-    while True:
-        mechanism = makers[rng.integers(len(makers))](rng).mechanism
-        q = float(mechanism.q0) + float(rng.uniform(-0.5, 0.5))
-        yield mechanism, q, q + float(rng.uniform(-2.0, 2.0))
 
 
 def test_following_arrives_at_an_assembly() -> None:

@@ -7,9 +7,8 @@ import time
 
 import numpy as np
 
+from assembly_checks import Followed, expected, follow, random_cases
 from assembly_models import CASES
-from test_counts import expected
-from test_following import Followed, follow, random_cases
 
 FOLLOWED = 10_000
 

@@ -8,7 +8,6 @@ from typing import Any
 
 import assur
 import higher_models
-from assembly_models import ring
 from assur import DimensionError, InputError, PositionError, StructureError
 from error_case import Case
 from mechanism_data import arguments
@@ -23,6 +22,7 @@ from refusals import (
     slide,
 )
 from refused_structures import REFUSED
+from rings import ring
 
 nan = math.nan
 

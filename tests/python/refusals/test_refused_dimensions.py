@@ -112,7 +112,7 @@ def test_designs_that_are_there() -> None:
     assert BATCH.design(-2) == BATCH.design(5) == BATCH.design(np.int64(5))  # type: ignore[arg-type]
     name = "coupler.length"
     refused(assur.DimensionError, f"{name} NaN", lambda: BATCH.design(1), dimension=name, value=nan)
-    refused(assur.InputError, "assemblies design (7,)", lambda: BATCH.assemblies(1.0))
+    refused(assur.InputError, "configuration_curve (7,)", BATCH.configuration_curve)
 
 
 def test_an_empty_batch() -> None:

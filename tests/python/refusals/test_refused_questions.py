@@ -102,7 +102,6 @@ def test_names_that_are_not_there(kind: str, name: str) -> None:
             {"joint": "C"},
         ),
         (lambda: M.assemblies("x"), "q 'x' real numbers", {}),
-        (lambda: M.assemblies([1.0, 2.0]), "q (2,) one position", {}),
         (lambda: M.plot([1.0, 2.0]), "one position q (2,)", {}),  # type: ignore[arg-type]
     ],
 )

@@ -279,9 +279,14 @@ impl Search<'_> {
         let is_same = |other: &Vec<Vector>| {
             place.iter().zip(other).all(|(&a, &b)| (a - b).size() <= DOUBLE * size)
         };
+        let mut is_double = is_double;
         if let Some(known) = self.places.iter().position(is_same) {
             self.found.found[known].is_double = true;
-            return;
+            if self.design.has_groups() {
+                return;
+            }
+            // The signs tell them apart elsewhere.
+            is_double = true;
         }
         let assembly = self.assembly(is_double);
         self.found.found.push(assembly);
