@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from assur._arrays import short
@@ -46,7 +46,7 @@ class Extremes:
     greatest: ValueAt
     time_ratio: float | None
     # The design in its assembly, and the coordinate: for `dwells`.
-    _of: tuple[Mechanism, list[int], tuple[str, int, int], int]
+    _of: tuple[Mechanism, list[int], tuple[str, int, int], int] = field(repr=False, compare=False)
 
     @property
     def stroke(self) -> float:
