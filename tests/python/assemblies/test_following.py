@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import copy
+import os
 import pickle
+import subprocess
+import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +23,7 @@ if TYPE_CHECKING:
 
     Float = NDArray[np.float64]
 
+TESTS = Path(__file__).parents[1]
 # The sample; `make campaign` follows ten thousand.
 FOLLOWED = 150
 
@@ -145,3 +150,23 @@ def test_refusals() -> None:
     refused(assur.InputError, "another mechanism", lambda: other.solve(1.0, assembly=found[0]))
     refused(assur.InputError, "finite", lambda: mechanism.assemblies(float("nan")))
     refused(assur.InputError, "no opposite", lambda: -found[0])
+
+
+def test_every_level_of_instructions_gives_the_same_bits() -> None:
+    code = (
+        "import numpy as np\n"
+        "from assembly_models import CASES\n"
+        "for kind in ('triad', 'IV', 'triad, two blocks'):\n"
+        "    m = CASES[kind][0](np.random.default_rng(5)).mechanism\n"
+        "    for q in (0.0, 0.7):\n"
+        "        for one in m.assemblies(m.q0 + q):\n"
+        "            print([[x.hex() for x in at] for at in one.joints.values()])\n"
+    )
+    path = os.pathsep.join(str(TESTS / name) for name in ("models", "oracles"))
+    texts = set()
+    for level in ("portable", "baseline", "avx2", "avx512"):
+        env = {**os.environ, "ASSUR_SIMD": level, "PYTHONPATH": path}
+        command = [sys.executable, "-c", code]
+        texts.add(subprocess.run(command, env=env, capture_output=True, check=True).stdout)
+    assert len(texts) == 1
+    assert texts.pop()

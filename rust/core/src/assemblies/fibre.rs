@@ -74,7 +74,7 @@ fn finite_solutions(system: &Homotopy, half: usize, random: &mut Random) -> Vec<
         .filter(|choice| choice.count_ones() as usize == half)
         .map(|choice| start(&there, &products, choice))
         .collect();
-    let ends = follow(&way, &starts, Tightness::LOOSE, NEAR_END, Simd::best());
+    let ends = follow(&way, &starts, Tightness::LOOSE, NEAR_END, Simd::default());
     let finished = Homotopy { ..way };
     let Ends { points, last, .. } = super::follow::refine(&finished, &ends.points, ROUNDS);
     let mut found = Vec::new();

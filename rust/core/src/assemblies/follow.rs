@@ -30,7 +30,7 @@ pub(super) fn follow(
 /// Newton's iteration at s = 1.
 pub(super) fn refine(homotopy: &Homotopy, points: &[Vec<Vector>], rounds: usize) -> Ends {
     let tightness = Tightness::LOOSE;
-    at_level(Simd::best(), Follow { homotopy, starts: points, tightness, end: 1.0, rounds })
+    at_level(Simd::default(), Follow { homotopy, starts: points, tightness, end: 1.0, rounds })
 }
 
 struct Follow<'f> {

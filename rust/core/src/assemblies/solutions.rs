@@ -130,7 +130,7 @@ impl Solutions {
         tightness: Tightness,
     ) -> Self {
         let homotopy = Homotopy::between(forms, &fibre.parameters, parameters);
-        let ends = follow(&homotopy, &fibre.points, tightness, 1.0, Simd::best());
+        let ends = follow(&homotopy, &fibre.points, tightness, 1.0, Simd::default());
         let mut solutions = Self::default();
         for (point, &at) in ends.points.into_iter().zip(&ends.at) {
             let size = point.iter().map(|x| x.norm()).fold(0.0, f64::max);

@@ -28,7 +28,7 @@ pub struct Limits {
 pub struct Interval {
     /// Where it begins and ends; infinite if it does not.
     pub ends: [f64; 2],
-    /// What folds there, as an index of [`LimitsFinder::names`]; none where nothing does.
+    /// What folds there, as an index of [`Mechanism::fold_names`]; none where nothing does.
     pub folds: [Option<usize>; 2],
 }
 
