@@ -34,7 +34,7 @@ def main(seed: int) -> int:
     start = time.perf_counter()
     for mechanism, q, other in random_cases(seed):
         follow(mechanism, q, other, followed)
-        if followed.cases >= FOLLOWED:
+        if followed.cases - followed.lost >= FOLLOWED:
             break
     print(f"{followed}, {time.perf_counter() - start:.0f} s")
     return wrong + followed.wrong
