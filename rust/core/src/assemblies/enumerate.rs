@@ -9,6 +9,7 @@ use super::assembly::{Assemblies, Assembly, PathFailure};
 use super::forms::GroupForms;
 use super::parameters::parameters;
 use super::solutions::{GroupFibres, PathEnd, unknowns};
+use crate::branch::constant_signs::SignConstancy;
 use crate::branch::design::Design;
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
@@ -91,12 +92,15 @@ impl Mechanism {
         search.complete(0, false)?;
         let mut found = search.found;
         if !design.has_groups() {
+            let mut constancy = SignConstancy::new(&mut design);
             for assembly in &mut found.found {
                 if cancel.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
                     return Err(SolveError::Interrupted);
                 }
                 let signs: Vec<f64> = assembly.signs.iter().map(|&sign| f64::from(sign)).collect();
-                assembly.signs = design.signs_at_drawing(&signs, &scaled);
+                if !constancy.holds(&signs) {
+                    assembly.signs = constancy.design.signs_at_drawing(&signs, &scaled);
+                }
             }
         }
         Ok(found)

@@ -4,6 +4,7 @@
 pub(crate) mod branch;
 pub(crate) mod change_interpolant;
 pub(crate) mod change_point;
+pub(crate) mod constant_signs;
 mod crank_angles;
 pub(crate) mod crank_dyad;
 pub(crate) mod design;

@@ -1,0 +1,35 @@
+//! Whether the signs of an assembly are the same all around: then they need not be traced back to the
+//! drawing.
+
+use super::design::Design;
+use super::lanes::uniform::{Traced, UniformTracer};
+use crate::math::pair::Pair;
+use crate::state::kernel::BLOCK;
+use crate::state::kernel::portable::Portable;
+
+/// A design with the work space for it.
+pub(crate) struct SignConstancy<'d, 'm> {
+    pub design: &'d mut Design<'m>,
+    uniform: UniformTracer<Pair<f64>, { BLOCK / 2 }>,
+}
+
+impl<'d, 'm> SignConstancy<'d, 'm> {
+    pub(crate) fn new(design: &'d mut Design<'m>) -> Self {
+        let uniform = design.uniform_tracer();
+        Self { design, uniform }
+    }
+
+    /// Whether an assembly with these signs certainly passes no change point; if false, it may.
+    pub(crate) fn holds(&mut self, signs: &[f64]) -> bool {
+        let Self { design, uniform } = self;
+        if !(design.closed_forms && design.has_one_rotary_driver()) {
+            return false;
+        }
+        design.signs.clear();
+        design.signs.extend_from_slice(signs);
+        let traced = design.trace_in_closed_form(&[], None) == Traced::Whole
+            || design.trace_in_lanes::<Portable, _>(uniform, &[], None, [f64::NAN; 2])
+                == Traced::Whole;
+        traced && design.has_constant_signs()
+    }
+}
