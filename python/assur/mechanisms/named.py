@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -114,13 +115,16 @@ def _copy_from(mechanism: Mechanism, drawing: Any, dimensions: dict[str, npt.Arr
 
 
 def _where_it_exists(mechanism: Mechanism) -> Mechanism:
-    """Return one design, drawn in the middle of its motion if it does not reach the drawing's q."""
-    intervals = mechanism.limits().intervals
-    q0 = mechanism.q0
-    if not len(intervals) or ((intervals[:, 0] <= q0) & (q0 <= intervals[:, 1])).any():
+    """Return one design, drawn within its motion if that does not reach the drawing's q."""
+    intervals = mechanism.limits().intervals.tolist()
+    q0 = float(mechanism.q0)
+    if not intervals or any(low <= q0 <= high for low, high in intervals):
         return mechanism
-    middle = float(intervals[-1].mean())
-    for assembly in mechanism.assemblies(middle):
+    # A quarter of the way from the nearest end: change points are in the middle, if anywhere.
+    inward = [(end, other) for low, high in intervals for end, other in ((low, high), (high, low))]
+    end, other = min(inward, key=lambda ends: abs(math.remainder(ends[0] - q0, math.tau)))
+    place_q = end + 0.25 * (other - end)
+    for assembly in mechanism.assemblies(place_q):
         place = assembly._place
         if assembly == mechanism.assembly and place is not None:
             core = mechanism._core.drawn_in(

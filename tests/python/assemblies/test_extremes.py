@@ -219,6 +219,19 @@ def test_four_bars_are_drawn_where_they_exist() -> None:
     assert none.limits().intervals.shape == (0, 2)
 
 
+def test_a_change_point_in_the_middle_of_the_motion() -> None:
+    # Crank + coupler = rocker + ground: flat at q = 0; the crank does not reach 90 degrees.
+    four_bar = assur.FourBar(2.2, 1.2, 0.9, 2.5)
+    assert not four_bar.limits().full_rotation
+    for q in (0.3, -0.3, 6.1):
+        found = four_bar.assemblies(q)
+        assert len(found) == 2
+        for assembly in found:
+            assert assembly.joints is not None
+            solved = four_bar.solve(q, order=0, assembly=assembly).joint("C").value
+            np.testing.assert_allclose(solved, assembly.joints["C"], atol=1e-9)
+
+
 def test_refusals() -> None:
     four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.2)
     batch = four_bar.with_dimensions({"coupler.length": [3.0, 3.1]})
