@@ -45,7 +45,7 @@ def mechanism_picture(
             f"plot draws one mechanism, this is a batch {mechanism.shape}: take one with design(i)"
         )
         raise InputError(message)
-    found = None if assembly is None else assembly.q
+    found = getattr(assembly, "q", None)
     places = (q, found, mechanism._q0_array())
     at = next(place for place in places if place is not None)
     motion = mechanism.solve(at, order=0, assembly=assembly)

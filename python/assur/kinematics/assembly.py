@@ -206,11 +206,14 @@ class Assembly(Mapping[str, int]):
         return f"<assur.Assembly {signs}q={q}, {list(self.joints or ())[-1]}=({x:.4g}, {y:.4g})>"
 
 
-def drawn_in(mechanism: Mechanism, assembly: Assembly) -> Mechanism:
+def drawn_in(mechanism: Mechanism, assembly: Mapping[str, int]) -> Mechanism:
     """Return the mechanism drawn where an assembly of a group above class II was found.
 
     Any other assembly is given by its signs: the mechanism itself is returned.
     """
+    if not isinstance(assembly, Assembly):
+        # Signs by name.
+        return mechanism
     place = assembly._place
     if place is None or not place.is_traced:
         return mechanism

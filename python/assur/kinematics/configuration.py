@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._arrays import short
 from assur._trig import sin_cos
-from assur._validate import checked_index
+from assur._validate import checked_index, real_number, whole_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -32,6 +33,8 @@ SAME = 1e-6
 # near (relative to the size) two extrapolations of one fold are.
 BESIDE = 1e-6
 SAME_FOLD = 1e-4
+# Of positions and samples.
+NEEDED = "a whole number of at least 2 is needed"
 # Halvings of the fan where folds do not explain a change of the count.
 MOST_HALVINGS = 12
 
@@ -189,7 +192,11 @@ class ConfigurationCurve:
         >>> curve.defects([(0.5, one), (1.0, one), (2.0, one)])
         Defects(circuit=False, branch=False, order=False, branches=(0, 0, 0))
         """
-        found = [_located(self, float(q), assembly) for q, assembly in places]
+        pairs: list[Any] = list(places)
+        if not all(isinstance(one, tuple | list) and len(one) == 2 for one in pairs):
+            message = f"places is {short(places)}: pairs (q, assembly) are needed, as find() gives"
+            raise InputError(message)
+        found = [_located(self, real_number(q, "q"), assembly) for q, assembly in pairs]
         homes = {number: i for i, c in enumerate(self.circuits) for number, _ in c.branches}
         branches = tuple(number for number, _ in found)
         on_one = len({homes[number] for number in branches}) <= 1
@@ -214,9 +221,7 @@ class ConfigurationCurve:
         array([-1.371564,  0.      ,  1.371564,  0.      , -1.371564])
         """
         (index,) = checked_index(circuit, (len(self.circuits),), "circuit")
-        if samples < 2:
-            message = f"samples is {samples!r}: at least 2 are needed"
-            raise InputError(message)
+        samples = whole_number(samples, "samples", 2, needed=NEEDED)
         parts = []
         for number, direction in self.circuits[index].branches:
             branch = self.branches[number]
@@ -313,9 +318,7 @@ def configuration_curve(mechanism: Mechanism, positions: int) -> ConfigurationCu
         count = mechanism._driver_count
         message = f"configuration_curve() is for one driver; this mechanism has {count}"
         raise InputError(message)
-    if positions < 2:
-        message = f"positions is {positions!r}: at least 2 are needed"
-        raise InputError(message)
+    positions = whole_number(positions, "positions", 2, needed=NEEDED)
     driver = mechanism._description.drivers[0]
     is_angle = not isinstance(driver, str) or driver not in mechanism.slides
     names = mechanism._core.dimension_names
@@ -460,7 +463,10 @@ def _is_in_order(curve: ConfigurationCurve, circuit: int, found: list[tuple[int,
         low, high = _ends(curve.branches[number], curve._mechanism)
         part = (q - low) / (high - low)
         places.append(step + (part if ways[step][1] > 0 else 1.0 - part))
-    steps = np.diff(np.array([*places, places[0]]))
+    # Rounded, so that the same place twice is no step backward by a whole round.
+    steps = np.diff(np.array([*places, places[0]]).round(9))
+    if len(places) < 3 or not steps.any():
+        return True
     if not curve.circuits[circuit].is_closed:
         steps = steps[:-1]
         return bool((steps > 0.0).all() or (steps < 0.0).all())

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from assur._arrays import short
-from assur._validate import real_number
+from assur._validate import real_number, whole_number
 from assur.errors import InputError, PositionError
 from assur.kinematics.assembly import Assembly, drawn_in
 from assur.kinematics.solve import checked_assembly
@@ -117,9 +117,7 @@ def extremes(
     if mechanism._driver_count > 1:
         message = f"extremes() is for one driver; this mechanism has {mechanism._driver_count}"
         raise InputError(message)
-    if order not in (0, 1, 2):
-        message = f"order is {short(order)}: 0, 1 or 2 is needed"
-        raise InputError(message)
+    order = whole_number(order, "order", 0, 2, needed="0, 1 or 2 is needed")
     tracked = coordinate(mechanism, name)
     if isinstance(assembly, Assembly):
         drawn = drawn_in(mechanism, assembly)

@@ -58,7 +58,7 @@ class Limits:
     intervals : ndarray
         Intervals of q, shape S + (K, 2), rad or m; NaN where a design has fewer than K. In class
         II all within a turn, each with its middle in (−π, π]; with a group above class II the one
-        that holds `q0`, in counted turns. (−inf, inf) if there is no limit.
+        that holds `q0`, in counted turns. (−inf, inf) where nothing ends it.
     full_rotation : bool or ndarray of bool
         Whether the driver goes round and the motion closes.
     period : int or None, or ndarray
@@ -84,9 +84,12 @@ class Limits:
     def __getitem__(self, index: int | tuple[int, ...]) -> Limits:
         """Return the limits of one design of a batch, or of some of it."""
         shape = self.intervals.shape[:-2]
-        entry = (index,) if isinstance(index, int) else index
-        if len(entry) == len(shape):
-            entry = checked_index(index, shape, "limits")
+        if index == () and not isinstance(self.full_rotation, bool):
+            entry: tuple[int, ...] = ()
+        else:
+            entry = index if isinstance(index, tuple) else (index,)
+            # Fewer indices than axes choose a part of the batch.
+            entry = checked_index(entry, shape[: len(entry)], "limits")
         rotation, period = self.full_rotation[entry], self.period[entry]
         intervals, folds = self.intervals[entry], self._folds[entry]
         if intervals.ndim == 2:

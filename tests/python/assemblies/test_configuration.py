@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -153,9 +154,31 @@ def test_defects_of_a_double_rocker() -> None:
     assert curve.defects([(-0.5, one), (0.3, other), (0.3, one), (-0.2, other)]).order
 
 
+def test_one_or_two_positions_are_in_order() -> None:
+    four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    curve, one = four_bar.configuration_curve(), four_bar.assemblies(1.0)[0]
+    assert not curve.defects([(0.5, one)]).order
+    assert not curve.defects([(0.5, one), (2.0, one)]).order
+    assert not curve.defects([(0.5, one), (0.5, one), (2.0, one)]).order
+
+
 def test_refusals() -> None:
     four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.2)
     batch = four_bar.with_dimensions({"coupler.length": [3.0, 3.1]})
     refused(assur.InputError, "one design", batch.configuration_curve)
     refused(assur.InputError, "at least 2", lambda: four_bar.configuration_curve(1))
     refused(assur.InputError, "circuit", lambda: four_bar.configuration_curve().motion(7))
+    curve = four_bar.configuration_curve()
+    strange: list[Any] = ["x", 2.5, math.nan, True]
+    for count in strange:
+        ask = partial(four_bar.configuration_curve, count)
+        refused(assur.InputError, "positions", ask)
+        refused(assur.InputError, "samples", partial(curve.motion, samples=count))
+    places: Any = "abc"
+    refused(assur.InputError, "pairs", lambda: curve.defects(places))
+    word: Any = "x"
+    refused(assur.InputError, "mapping", lambda: four_bar.with_assembly(word))
+    refused(assur.InputError, "outside", lambda: batch.limits()[5])
+    refused(assur.InputError, "limits", lambda: four_bar.limits()[0])
+    part: Any = slice(0, 1)
+    refused(assur.InputError, "limits", lambda: batch.limits()[part])

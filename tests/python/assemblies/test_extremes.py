@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import pickle
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -201,8 +202,9 @@ def test_a_named_mechanism_whose_drawing_is_flat_for_the_driver() -> None:
 
 
 def test_four_bars_are_drawn_where_they_exist() -> None:
-    for mode, sign in (("open", 1), ("crossed", -1)):
-        four_bar = assur.FourBar(3.0, 1.0, 2.5, 3.2, mode=mode)  # type: ignore[arg-type]
+    modes: tuple[tuple[Literal["open", "crossed"], int], ...] = (("open", 1), ("crossed", -1))
+    for mode, sign in modes:
+        four_bar = assur.FourBar(3.0, 1.0, 2.5, 3.2, mode=mode)
         low, high = four_bar.limits().intervals[1]
         assert low < four_bar.q0 < high
         assert all(math.isfinite(x) for at in four_bar.joints.values() for x in at)
