@@ -16,11 +16,11 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
     #[inline(always)]
     pub(super) fn locate(&mut self) {
         let branch = &self.design.branch;
-        // Uniform branches have the same knots for all designs.
-        if branch.inverse_width.is_none() || !self.space.locations_even {
+        // Uniform branches with as many knots have the same for all designs.
+        if branch.inverse_width.is_none() || self.space.locations_width != branch.inverse_width {
             self.space.locations.clear();
         }
-        self.space.locations_even = branch.inverse_width.is_some();
+        self.space.locations_width = branch.inverse_width;
         if branch.at.is_empty() {
             // There is nothing to locate.
             self.space

@@ -32,8 +32,8 @@ pub(super) struct WorkSpace<R: Real, const G: usize> {
     pub(super) coordinates: CoordinateRegisters<R, G>,
     /// Location of each of their registers on the branch.
     pub(super) locations: Vec<BranchLocation<R>>,
-    /// Whether these are locations on a uniform branch.
-    pub(super) locations_even: bool,
+    /// Of a uniform branch on which these are locations, the knots per unit.
+    pub(super) locations_width: Option<f64>,
     /// The operations that the request needs.
     pub(super) tape: Tape,
     /// The tape that traces its designs; a worker's design holds it during a call. None with groups.
@@ -79,7 +79,7 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
             lifted: vec![[R::ZERO; G]; plan.classes],
             coordinates: CoordinateRegisters::new(plan, derivatives.len()),
             locations: Vec::new(),
-            locations_even: false,
+            locations_width: None,
             tape: Tape::new(plan, needs),
             tracing_tape: plan.has_closed_forms().then(|| Tape::for_dyads(plan, &writer.wanted)),
             design: DesignMemory::default(),

@@ -96,8 +96,12 @@ impl Design<'_> {
         range: [f64; 2],
     ) -> Traced {
         let Some(grid) = self.grid(range) else { return Traced::No };
-        if self.has_groups() && !uniform.has_reference(|| self.reference_branch()) {
-            return Traced::No;
+        let mut goes_wide = false;
+        if self.has_groups() {
+            let Some(reference) = uniform.reference(|| self.reference_branch()) else {
+                return Traced::No;
+            };
+            goes_wide = reference.goes_wide;
         }
         let start = &self.mechanism.class_angle[..];
         let cx = Context {
@@ -131,6 +135,12 @@ impl Design<'_> {
                 return Traced::Surveyed;
             }
             turns_fully &= plain.is_some();
+        }
+        if goes_wide {
+            uniform.solve_knots::<L>(&cx, Grid::wide_turn(grid.from), with_angles);
+            if uniform.trace(&cx, classes, start, branch) {
+                return Traced::Whole;
+            }
         }
         let follows_slide = with_angles && !grid.is_turn;
         let up_and_down = if follows_slide { self.rays(range) } else { Some([grid, Grid::NONE]) };
@@ -188,12 +198,17 @@ impl Design<'_> {
         drawing.signs.clone_from(&self.signs);
         drawing.bind(self.mechanism.drawing());
         drawing.trace(&[]);
-        ReferenceBranch::new(
-            self.mechanism.plan(),
-            &drawing.branch,
-            drawing.q0[0],
-            drawing.constants.scale,
-        )
+        let (plan, q0, scale) = (self.mechanism.plan(), drawing.q0[0], drawing.constants.scale);
+        let mut reference = ReferenceBranch::new(plan, &drawing.branch, q0, scale)?;
+        // Between knots farther apart the sign of a dyad might change unseen.
+        if plan.signs() == 0 {
+            let mut uniform = drawing.uniform_tracer::<Pair<f64>, { BLOCK / 2 }>();
+            uniform.reference(|| ReferenceBranch::new(plan, &drawing.branch, q0, scale));
+            let (start, cx) = (&self.mechanism.class_angle, drawing.tracing_context());
+            uniform.solve_knots::<Portable>(&cx, Grid::wide_turn(q0), false);
+            reference.goes_wide = uniform.trace(&cx, &[], start, &mut Branch::default());
+        }
+        Some(reference)
     }
 
     /// Traces the branch over the coordinates `q` (all positions, rad or m), as a batch would.

@@ -13,6 +13,11 @@ const _: () = assert!(KNOTS <= BLOCK, "the knots of a turn are solved at once");
 /// Width of a cell.
 pub(crate) const CELL: f64 = TAU / CELLS_PER_TURN as f64;
 
+/// Cells of a turn where nothing but groups above class II is followed: these say themselves, by their
+/// predictions, whether the cells are narrow enough.
+const WIDE_CELLS_PER_TURN: u32 = 15;
+const _: () = assert!((WIDE_CELLS_PER_TURN as usize + 1).is_multiple_of(LANES), "whole registers");
+
 /// Greatest width of a cell along a slide, in units of the scale: about [`CELL`] in rad.
 const MAX_CELL: f64 = 0.2;
 
@@ -37,6 +42,18 @@ impl Grid {
     /// A turn from the drawing's angle on.
     pub(in crate::branch) fn turn(q0: f64) -> Self {
         Self { from: q0, cell: CELL, count: KNOTS, home: 0, is_turn: true }
+    }
+
+    /// A turn in wide cells.
+    pub(in crate::branch) fn wide_turn(q0: f64) -> Self {
+        let cells = WIDE_CELLS_PER_TURN;
+        let (cell, count) = (TAU / f64::from(cells), cells as usize + 1);
+        Self { from: q0, cell, count, home: 0, is_turn: true }
+    }
+
+    /// Whether this is a turn in wide cells.
+    pub(in crate::branch) fn is_wide(&self) -> bool {
+        self.is_turn && self.count < KNOTS
     }
 
     /// Knots over a range that contains the drawing's coordinate; `None` if the range is empty or too
@@ -67,12 +84,12 @@ impl Grid {
     }
 }
 
-/// A register of knots of a turn from `q0`, beginning with knot `first`.
+/// A register of knots of a turn, beginning with knot `first`.
 #[inline(always)]
-pub(crate) fn knots_at<R: Real>(q0: f64, first: usize) -> R {
+pub(in crate::branch) fn knots_at<R: Real>(turn: &Grid, first: usize) -> R {
     R::from_lanes(|lane| {
-        let turns = ((first + lane) as f64) / f64::from(CELLS_PER_TURN);
-        q0 + TAU * turns
+        let turns = ((first + lane) as f64) / ((turn.count - 1) as f64);
+        turn.from + TAU * turns
     })
 }
 

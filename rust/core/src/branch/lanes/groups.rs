@@ -1,6 +1,5 @@
 //! Groups at the knots of a uniform branch: their first guess, and the polynomials between knots.
 
-use super::grid::{CELL, KNOTS};
 use super::uniform::UniformTracer;
 use crate::branch::branch::Branch;
 use crate::branch::hermite::{HermiteCell, coefficients};
@@ -18,7 +17,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         let inverse_scale = R::splat(1.0 / cx.constants.scale);
         let groups = self.state.groups.min(G);
         let unknowns = cx.plan.groups().flat_map(|group| &group.unknowns);
-        for (&unknown, knots) in unknowns.zip(&reference.unknowns) {
+        for (&unknown, knots) in unknowns.zip(reference.unknowns_at(&self.grid())) {
             match unknown {
                 Unknown::Class(class) => {
                     self.state.pose.class[class][..groups].copy_from_slice(&knots[..groups]);
@@ -41,6 +40,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             branch.cells.clear();
             return true;
         };
+        let grid = self.grid();
+        let registers = (grid.count / R::LANES).min(G);
         let state = &self.state;
         let is_near = |step: R, max: f64| step.lane(0) <= max;
         if !(is_near(state.work.first_step[0], MAX_FIRST_STEP)
@@ -49,17 +50,17 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             return false;
         }
         for (groups, &expected) in state.work.determinants.iter().zip(&reference.det_signs) {
-            if groups[..KNOTS / R::LANES]
+            if groups[..registers]
                 .iter()
                 .any(|lanes| (0..R::LANES).any(|lane| (lanes.lane(lane) > 0.0) != expected))
             {
                 return false;
             }
         }
-        let count = reference.unknowns.len();
+        let count = reference.unknowns_at(&grid).len();
         let classes = self.last_angles.len();
         let cell = HermiteCell { coefficients: [0.0; 6], unit: Vector::ONE };
-        branch.cells.resize(KNOTS * count, cell);
+        branch.cells.resize(grid.count * count, cell);
         let unknowns = cx.plan.groups().flat_map(|group| &group.unknowns);
         for (index, &unknown) in unknowns.enumerate() {
             let (jet, mut values) = match unknown {
@@ -70,23 +71,23 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                 }
             };
             if let Unknown::Class(class) = unknown {
-                for group in 0..(KNOTS / R::LANES).min(G) {
+                for group in 0..registers {
                     values[group] = R::from_lanes(|lane| {
                         branch.angles[(group * R::LANES + lane) * classes + class]
                     });
                 }
             }
             let taylor = [&values, &jet[1], &jet[2]];
-            for group in 0..(KNOTS / R::LANES).min(G) {
+            for group in 0..registers {
                 let here = taylor.map(|knots| knots[group]);
-                let next = taylor.map(|knots| one_on(knots, group));
+                let next = taylor.map(|knots| one_on(knots, group, registers));
                 // The last knot has no next one.
-                let own = (KNOTS - 1 - group * R::LANES).min(R::LANES);
-                let failed = prediction_failed(&here, &next, CELL).bits() & ((1 << own) - 1);
+                let own = (grid.count - 1 - group * R::LANES).min(R::LANES);
+                let failed = prediction_failed(&here, &next, grid.cell).bits() & ((1 << own) - 1);
                 if failed != 0 {
                     return false;
                 }
-                let polynomial = coefficients(here, next, CELL);
+                let polynomial = coefficients(here, next, grid.cell);
                 let mut unit = Vector::ONE;
                 if let Unknown::Class(class) = unknown {
                     unit = state.pose.class[class][group];
@@ -103,7 +104,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                     }
                 }
             }
-            let last = values[KNOTS / R::LANES - 1].lane(R::LANES - 1);
+            let last = values[registers - 1].lane(R::LANES - 1);
             if !closes(unknown, values[0].lane(0), last) {
                 return false;
             }
@@ -114,8 +115,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
 
 /// The knot after each of a register; 0 after the last of all.
 #[inline(always)]
-fn one_on<R: Real>(knots: &[R], group: usize) -> R {
-    let after = if (group + 1) * R::LANES < KNOTS { knots[group + 1].lane(0) } else { 0.0 };
+fn one_on<R: Real>(knots: &[R], group: usize, registers: usize) -> R {
+    let after = if group + 1 < registers { knots[group + 1].lane(0) } else { 0.0 };
     let here = knots[group];
     R::from_lanes(|lane| if lane + 1 < R::LANES { here.lane(lane + 1) } else { after })
 }

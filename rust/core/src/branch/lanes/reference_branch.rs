@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::grid::knots_at;
+use super::grid::{Grid, knots_at};
 use crate::branch::branch::Branch;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -12,10 +12,12 @@ use crate::plan::plan::Plan;
 /// Unknowns of groups at the knots of the drawing's branch.
 #[derive(Debug)]
 pub(crate) struct ReferenceBranch<R, const G: usize> {
-    /// Rotations; of slides the value (m) as x.
-    pub(in crate::branch) unknowns: Vec<[Vector<R>; G]>,
+    /// Rotations; of slides the value (m) as x. At the knots of a turn, and of one in wide cells.
+    unknowns: [Vec<[Vector<R>; G]>; 2],
     /// Whether each group's determinant is positive.
     pub(in crate::branch) det_signs: Vec<bool>,
+    /// Whether wide cells are narrow enough for the drawing.
+    pub(in crate::branch) goes_wide: bool,
 }
 
 impl<R: Real, const G: usize> ReferenceBranch<R, G> {
@@ -26,10 +28,10 @@ impl<R: Real, const G: usize> ReferenceBranch<R, G> {
             return None;
         }
         let list: Vec<Unknown> = plan.groups().flat_map(|g| g.unknowns.clone()).collect();
-        let at_knots = |(index, &unknown): (usize, &Unknown)| {
+        let at_knots = |turn: &Grid, index: usize, unknown: Unknown| {
             std::array::from_fn(|group| {
                 let at_lane = |lane: usize| {
-                    let location = branch.locate(knots_at::<f64>(q0, group * R::LANES + lane));
+                    let location = branch.locate(knots_at::<f64>(turn, group * R::LANES + lane));
                     match unknown {
                         Unknown::Class(_) => branch.rotation(&location, index, list.len()),
                         Unknown::Slide(_) => {
@@ -41,7 +43,14 @@ impl<R: Real, const G: usize> ReferenceBranch<R, G> {
                 Vector::new(x, R::from_lanes(|lane| at_lane(lane).y))
             })
         };
-        let unknowns = list.iter().enumerate().map(at_knots).collect();
-        Some(Self { unknowns, det_signs: branch.det_signs.clone() })
+        let unknowns = [Grid::turn(q0), Grid::wide_turn(q0)].map(|turn| {
+            list.iter().enumerate().map(|(index, &u)| at_knots(&turn, index, u)).collect()
+        });
+        Some(Self { unknowns, det_signs: branch.det_signs.clone(), goes_wide: false })
+    }
+
+    /// The unknowns at the knots of a turn.
+    pub(in crate::branch) fn unknowns_at(&self, turn: &Grid) -> &[[Vector<R>; G]] {
+        &self.unknowns[usize::from(turn.is_wide())]
     }
 }

@@ -5,12 +5,13 @@
 //! With groups above class II, a design near the drawing moves much like the drawing. So the
 //! iteration starts at all knots at once from the drawing's unknowns. Its results must pass the
 //! same checks as the tracer's knots: each is predicted from the one before, and the first must be
-//! near the drawing's.
+//! near the drawing's. How far a prediction may be off does not depend on the distance of the knots: where
+//! there are only groups, half as many knots are tried first.
 
 use std::cell::OnceCell;
 use std::f64::consts::{PI, TAU};
 
-use super::grid::{CELL, Grid, KNOTS, knots_at, previous};
+use super::grid::{Grid, KNOTS, knots_at, previous};
 use super::reference_branch::ReferenceBranch;
 use crate::branch::branch::Branch;
 use crate::branch::knot::{SignInterval, may_touch};
@@ -54,10 +55,10 @@ pub(crate) struct UniformTracer<R: Real, const G: usize> {
     is_angle: bool,
     /// The knots that were solved last.
     grid: Grid,
-    /// Drawing's angle for which the knots of a turn below are set; the same for all designs.
+    /// Drawing's angle for which the knots of turns below are set; the same for all designs.
     q0: f64,
-    /// Angles of the driver and their unit vectors.
-    knots: Vec<(R, Vector<R>)>,
+    /// Angles of the driver and their unit vectors: of a turn, and of one in wide cells.
+    knots: [Vec<(R, Vector<R>)>; 2],
     /// Square of the discriminant of every dyad with a sign at the last knot, and its rate.
     squares: Vec<(f64, f64)>,
     /// Angle of every class at the last knot, and its whole turns up to there.
@@ -80,7 +81,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             is_angle: plan.driven_slide(0).is_none(),
             grid: Grid::turn(f64::NAN),
             q0: f64::NAN,
-            knots: Vec::new(),
+            knots: [const { Vec::new() }; 2],
             squares: vec![(0.0, 0.0); plan.signs()],
             last_angles: vec![(0.0, 0.0); plan.classes],
             unwrapped: Vec::new(),
@@ -89,12 +90,12 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
     }
 
-    /// Whether the drawing has a branch from which others can start.
-    pub(crate) fn has_reference(
+    /// The drawing's branch, if others can start from it.
+    pub(in crate::branch) fn reference(
         &self,
         make: impl FnOnce() -> Option<ReferenceBranch<R, G>>,
-    ) -> bool {
-        self.reference.get_or_init(make).is_some()
+    ) -> Option<&ReferenceBranch<R, G>> {
+        self.reference.get_or_init(make).as_ref()
     }
 
     /// The knots that were solved last.
@@ -116,7 +117,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             if self.q0 != grid.from {
                 self.set_knots(grid.from);
             }
-            for (group, &(at, unit)) in self.knots.iter().enumerate().take(G) {
+            let knots = &self.knots[usize::from(grid.is_wide())];
+            for (group, &(at, unit)) in knots.iter().enumerate().take(G) {
                 self.state.pose.q[0][group] = at;
                 self.state.pose.unit[0][group] = unit;
             }
@@ -235,20 +237,22 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     ) -> bool {
         self.guide_sides.clear();
         branch.at.clear();
-        branch.angles.resize(KNOTS * start.len(), 0.0);
+        let (count, cell) = (self.grid.count, self.grid.cell);
+        branch.angles.resize(count * start.len(), 0.0);
         // Before the first knot there is only the drawing.
         self.squares.fill((0.0, 0.0));
         for (last, &angle) in self.last_angles.iter_mut().zip(start) {
             *last = (angle, 0.0);
         }
-        for group in 0..(KNOTS / R::LANES).min(G) {
+        for group in 0..(count / R::LANES).min(G) {
             if !(self.check_knots(cx, group) && self.unwrap(group, classes, &mut branch.angles)) {
                 return false;
             }
             if with_others && !self.others_turn_slowly(group, classes) {
                 return false;
             }
-            branch.at.extend((0..R::LANES).map(|lane| self.knots[group].0.lane(lane)));
+            let at = self.state.pose.q[0][group];
+            branch.at.extend((0..R::LANES).map(|lane| at.lane(lane)));
         }
         if !self.build_cells(cx, branch) {
             return false;
@@ -256,11 +260,11 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         let classes = start.len();
         branch.gain.clear();
         for class in 0..classes {
-            let (a, b) = (branch.angles[class], branch.angles[(KNOTS - 1) * classes + class]);
+            let (a, b) = (branch.angles[class], branch.angles[(count - 1) * classes + class]);
             branch.gain.push(TAU * whole_turns(b - a));
         }
         branch.reached.clear();
-        branch.reached.resize(KNOTS, true);
+        branch.reached.resize(count, true);
         branch.changes.clear();
         branch.sign_intervals.resize_with(1, SignInterval::default);
         branch.sign_intervals[0].from = f64::NEG_INFINITY;
@@ -268,17 +272,19 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         branch.sign_intervals[0].signs.extend_from_slice(cx.signs);
         branch.period = Some(TAU);
         branch.covered = None;
-        branch.inverse_width = Some(1.0 / CELL);
+        branch.inverse_width = Some(1.0 / cell);
         true
     }
 
     #[inline(always)]
     fn set_knots(&mut self, q0: f64) {
         self.q0 = q0;
-        self.knots.clear();
-        for first in (0..KNOTS).step_by(R::LANES) {
-            let at = knots_at(q0, first);
-            self.knots.push((at, Vector::at_angle(at)));
+        for (knots, turn) in self.knots.iter_mut().zip([Grid::turn(q0), Grid::wide_turn(q0)]) {
+            knots.clear();
+            for first in (0..turn.count).step_by(R::LANES) {
+                let at = knots_at(&turn, first);
+                knots.push((at, Vector::at_angle(at)));
+            }
         }
     }
 
@@ -393,7 +399,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             let end = R::LANES - 1;
             let before =
                 Vector::new(previous(last.x.lane(end), unit.x), previous(last.y.lane(end), unit.y));
-            let rate = self.state.pose.theta[self.state.len * class + 1][group] * R::splat(CELL);
+            let rate =
+                self.state.pose.theta[self.state.len * class + 1][group] * R::splat(self.grid.cell);
             slow = slow
                 .and(R::splat(COS_MAX_TURN).le(before.dot(unit)))
                 .and(rate.abs().le(R::splat(KNOT_MAX_TURN)));
@@ -419,7 +426,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             let before = previous(last, angle);
             let turns = turns_between(angle, before);
             let step = (angle + R::splat(TAU) * turns) - before;
-            let rate = self.state.pose.theta[self.state.len * class + 1][group] * R::splat(CELL);
+            let rate =
+                self.state.pose.theta[self.state.len * class + 1][group] * R::splat(self.grid.cell);
             fast = fast.or(max_turn.lt(step.abs())).or(R::splat(KNOT_MAX_TURN).lt(rate.abs()));
             let unwrapped = angle + R::splat(TAU * whole_turns);
             let passes_half = turns.abs().le(R::ZERO).not().any();
