@@ -23,8 +23,11 @@ use crate::sweep::{self, Found};
 use crate::{assemblies, error, error_map, limits};
 
 /// Positions below which a call with one driver takes only milliseconds and need not check for
-/// signals. (With several drivers a single position may take as long.)
+/// signals. With several drivers each position is followed from the drawing: this many knots.
 const FEW_POSITIONS: usize = 100_000;
+const FEW_KNOTS: f64 = 10_000.0;
+/// Knots per rad or size on that way.
+const KNOTS_PER_UNIT: f64 = 16.0;
 /// Dyads with two solutions below which finding all assemblies need not check for signals.
 const FEW_SIGNS: usize = 12;
 /// Positions whose assemblies take only milliseconds then.
@@ -48,6 +51,20 @@ pub(crate) fn is_short(mechanism: &assur::Mechanism, designs: usize, positions: 
     };
     let cost = designs.saturating_mul(positions.saturating_add(per_branch));
     mechanism.q0().len() == 1 && cost < FEW_POSITIONS
+}
+
+/// Whether positions of several drivers are so few and so near the drawing that no signal need be
+/// heard meanwhile.
+fn is_near(mechanism: &assur::Mechanism, request: &Request<'_>, designs: usize) -> bool {
+    let (Coordinates::Shared(q) | Coordinates::PerDesign(q)) = request.coordinates;
+    let q0 = mechanism.q0();
+    let size = request.dimensions.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+    let far = |place: &[f64]| {
+        let apart = place.iter().zip(q0).map(|(q, q0)| (q - q0).abs());
+        // NaN is refused at once.
+        1.0 + KNOTS_PER_UNIT * apart.fold(0.0, f64::max) / size.min(1.0)
+    };
+    designs as f64 * q.chunks(q0.len()).map(far).sum::<f64>() < FEW_KNOTS
 }
 
 /// An array for each column, or one for all of a small result; statuses; the first failure.
@@ -352,7 +369,8 @@ impl Mechanism {
         };
         request.check_arrays(&self.inner, &arrays).map_err(error_map::solve)?;
         let arrays = Mutex::new(Some(arrays));
-        let small = is_short(&self.inner, designs, positions);
+        let small =
+            is_short(&self.inner, designs, positions) || is_near(&self.inner, &request, designs);
         if let Some(buffers) = &buffers {
             buffers.setattr("complete", false)?;
         }

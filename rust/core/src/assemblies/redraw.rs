@@ -40,7 +40,9 @@ impl Mechanism {
     ///
     /// Those of [`Mechanism::new`] but for flat dyads.
     pub fn new_for_pose(description: &Description) -> Result<Self, StructureError> {
-        Self::compile(description, Flat::Positive, None)
+        let mut mechanism = Self::compile(description, Flat::Positive, None)?;
+        mechanism.examine_chords();
+        Ok(mechanism)
     }
 
     /// The coordinates of the drivers in a pose, and the assembly that it shows.

@@ -22,14 +22,16 @@ impl<'d, 'm> SignConstancy<'d, 'm> {
     /// Whether an assembly with these signs certainly passes no change point; if false, it may.
     pub(crate) fn holds(&mut self, signs: &[f64]) -> bool {
         let Self { design, uniform } = self;
-        if !(design.closed_forms && design.has_one_rotary_driver()) {
+        let several = design.q0.len() > 1;
+        if !(design.closed_forms && (several || design.has_one_rotary_driver())) {
             return false;
         }
         design.signs.clear();
         design.signs.extend_from_slice(signs);
         let traced = design.trace_in_closed_form(&[], None) == Traced::Whole
-            || design.trace_in_lanes::<Portable, _>(uniform, &[], None, [f64::NAN; 2])
-                == Traced::Whole;
+            || !several
+                && design.trace_in_lanes::<Portable, _>(uniform, &[], None, [f64::NAN; 2])
+                    == Traced::Whole;
         traced && design.has_constant_signs()
     }
 }

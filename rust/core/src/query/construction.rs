@@ -39,17 +39,22 @@ impl Mechanism {
         cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
         let mut mechanism = Self::compile(description, Flat::Refused, cancel)?;
-        if mechanism.q0().len() > 1 {
-            let derivatives = DerivativeTables::new(mechanism.q0().len(), 1);
-            let mut drawing = Design::new(&mechanism, mechanism.signs(), &derivatives);
-            drawing.bind(mechanism.drawing());
-            let may_change = drawing.may_change();
-            mechanism.set_may_change(may_change);
-        }
+        mechanism.examine_chords();
         let constants =
             DesignConstants::new(mechanism.plan(), &mechanism.slots, mechanism.drawing());
         mechanism.check_redundancy_along_motion(constants.scale)?;
         Ok(mechanism)
+    }
+
+    /// With several drivers, finds which dyads can pass change points.
+    pub(crate) fn examine_chords(&mut self) {
+        if self.q0().len() > 1 {
+            let derivatives = DerivativeTables::new(self.q0().len(), 1);
+            let mut drawing = Design::new(self, self.signs(), &derivatives);
+            drawing.bind(self.drawing());
+            let may_change = drawing.may_change();
+            self.set_may_change(may_change);
+        }
     }
 
     /// Refuses a drawing whose redundant links fit near it but not along all of its motion: its
