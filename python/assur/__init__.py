@@ -31,7 +31,7 @@ from assur.errors import (
     StructureError,
 )
 from assur.kinematics.assembly import Assemblies, Assembly
-from assur.kinematics.configuration import ConfigurationCurve
+from assur.kinematics.curve.curve import ConfigurationCurve
 from assur.kinematics.limits import DeadPoint, Limits
 from assur.kinematics.mechanism import Mechanism
 from assur.kinematics.motion import Motion
@@ -58,6 +58,9 @@ if TYPE_CHECKING:
     from assur.dynamics.motors import ConstantTorque, InductionMotor, LinearMotor
     from assur.dynamics.run import Run
     from assur.dynamics.steady import SteadyState
+    from assur.kinematics.curve.design_defects import Defect
+    from assur.kinematics.loci.maps import DesignMap
+    from assur.kinematics.loci.singular import SingularLocus, Workspace
     from assur.papers import crank_rocker, slider_crank
     from assur.sweeps.grid import Grid
     from assur.sweeps.measures import Measures
@@ -75,6 +78,8 @@ __all__ = [
     "ConstantTorque",
     "Damper",
     "DeadPoint",
+    "Defect",
+    "DesignMap",
     "DimensionError",
     "Drive",
     "Force",
@@ -95,6 +100,7 @@ __all__ = [
     "PositionError",
     "Run",
     "Sensitivity",
+    "SingularLocus",
     "Slide",
     "SlideFriction",
     "SliderCrank",
@@ -107,6 +113,7 @@ __all__ = [
     "Torque",
     "TorsionDamper",
     "TorsionSpring",
+    "Workspace",
     "__version__",
     "balance",
     "crank_rocker",
@@ -138,6 +145,9 @@ _LATER = {
     "assur.dynamics.motors": ("ConstantTorque", "InductionMotor", "LinearMotor"),
     "assur.dynamics.run": ("Run",),
     "assur.dynamics.steady": ("SteadyState",),
+    "assur.kinematics.curve.design_defects": ("Defect",),
+    "assur.kinematics.loci.maps": ("DesignMap",),
+    "assur.kinematics.loci.singular": ("SingularLocus", "Workspace"),
     "assur.papers": ("crank_rocker", "slider_crank"),
     "assur.sweeps.grid": ("Grid",),
     "assur.sweeps.measures": ("Measures",),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from cases import (
+    assemblies,
     chains,
     classes,
     construction,
@@ -41,6 +42,7 @@ MAKERS = (
     growth.positions,
     threads.case,
     construction.case,
+    assemblies.case,
     forces.case,
     flywheels.case,
     runs.case,

@@ -19,7 +19,7 @@ from assur.kinematics.extremes import coordinate
 from assur.kinematics.pose import Pose, bare_core
 
 if TYPE_CHECKING:
-    from assur.description.encode import Description
+    from assur.description.encode import Description, DriverLike
     from assur.kinematics.assembly import AssemblyNumbers
     from assur.kinematics.mechanism import Mechanism
 
@@ -38,13 +38,7 @@ def find(mechanism: Mechanism, name: str, value: Any) -> list[tuple[Any, Assembl
         need = "a finite number" if drivers == 1 else "finite numbers (x, y) of a joint"
         message = f"value is {value!r}: with {drivers} drivers {need} is needed"
         raise InputError(message)
-    description, coordinates = _driven_by(mechanism, name, wanted)
-    # Its own drawing need not show an assembly: all of them are asked for.
-    core = bare_core(description)
-    own = dict(zip(mechanism._core.dimension_names, mechanism._values.tolist(), strict=True))
-    drawn = zip(core.dimension_names, core.drawing, strict=True)
-    values = np.array([own.get(name, value) for name, value in drawn])
-    other = mechanism._make(description, values, core)
+    other, coordinates = _driven_by(mechanism, name, wanted)
     found = []
     for assembly in other.assemblies(coordinates):
         place = assembly._place
@@ -54,26 +48,57 @@ def find(mechanism: Mechanism, name: str, value: Any) -> list[tuple[Any, Assembl
     return sorted(known, key=lambda one: np.ravel(one[0]).tolist())
 
 
+def driven_by_joint(
+    mechanism: Mechanism, joint: str, held: list[DriverLike]
+) -> tuple[Mechanism, tuple[float, float]]:
+    """Return the design driven by a joint's x and y before other drivers, and both in the drawing.
+
+    They are measured from there, m.
+    """
+    description, drawn = _with_cross_slide(mechanism._description, joint, "xy")
+    description = description._replace(drivers=(*description.drivers, *held))
+    return _redriven(mechanism, description), (drawn[0], drawn[1])
+
+
 def _driven_by(
     mechanism: Mechanism, name: str, wanted: Any
-) -> tuple[Description, float | list[float]]:
-    """Return the linkage driven by a coordinate, and the driver's coordinate of the value."""
+) -> tuple[Mechanism, float | list[float]]:
+    """Return the design driven by a coordinate, and the driver's coordinate of the value."""
     own = mechanism._description
     if mechanism._driver_count == 1 and "." not in name:
         coordinate(mechanism, name)
-        return own._replace(drivers=encode.drivers(name), assembly=()), float(wanted[0])
+        description = own._replace(drivers=encode.drivers(name), assembly=())
+        return _redriven(mechanism, description), float(wanted[0])
     joint, dot, axis = name.rpartition(".")
     if mechanism._driver_count == 1:
         coordinate(mechanism, name)
     else:
         joint, axis = name if not dot else joint, "xy"
         mechanism._core.require("joint", joint)
+    description, drawn = _with_cross_slide(own, joint, axis)
+    steps = [float(value - start) for value, start in zip(wanted, drawn, strict=False)]
+    return _redriven(mechanism, description), steps[0] if len(steps) == 1 else steps
+
+
+def _redriven(mechanism: Mechanism, description: Description) -> Mechanism:
+    """Return the design with another description, whose drawing need not show an assembly."""
+    core = bare_core(description)
+    own = dict(zip(mechanism._core.dimension_names, mechanism._values.tolist(), strict=True))
+    drawn = zip(core.dimension_names, core.drawing, strict=True)
+    values = np.array([own.get(name, value) for name, value in drawn])
+    return mechanism._make(description, values, core)
+
+
+def _with_cross_slide(
+    own: Description, joint: str, axes: str
+) -> tuple[Description, tuple[float, ...]]:
+    """Return a description driven by a joint's x, y or both, and their values in the drawing."""
     at = {key: (x, y) for key, x, y in own.joints}[joint]
     taken = {one[0] for kind in (own.joints, own.links, own.slides) for one in kind}
     words = ("cross", "block", "along", "across", "centre")
     cross, block, along, across, centre = (_free(word, taken) for word in words)
     # A cross-slide moves along x, and a block on it along y, pinned at the joint.
-    first = axis != "y"
+    first = axes != "y"
     way, other = (0.0, 0.5 * np.pi) if first else (0.5 * np.pi, 0.0)
     slides = (
         (along, Slide(cross, on="ground", angle=way)),
@@ -81,7 +106,7 @@ def _driven_by(
     )
     links = ((cross, (centre,)), (block, (joint,)))
     drawn = (at[0], at[1]) if first else (at[1], at[0])
-    drivers = (along,) if len(wanted) == 1 else (along, across)
+    drivers = (along,) if len(axes) == 1 else (along, across)
     description = own._replace(
         joints=(*own.joints, (centre, *at)),
         links=(*own.links, *links),
@@ -89,8 +114,7 @@ def _driven_by(
         drivers=drivers,
         assembly=(),
     )
-    steps = [float(value - start) for value, start in zip(wanted, drawn, strict=False)]
-    return description, steps[0] if len(steps) == 1 else steps
+    return description, drawn
 
 
 def _free(word: str, taken: set[str]) -> str:

@@ -17,12 +17,12 @@ from assur.description import encode
 from assur.description.structure import Group, Structure
 from assur.errors import InputError
 from assur.kinematics import assemblies as assembly_search
-from assur.kinematics import configuration as curves
 from assur.kinematics import extremes as extreme_search
 from assur.kinematics import find as inverse
 from assur.kinematics import limits as limit_search
 from assur.kinematics import solve as solver
 from assur.kinematics.assembly import Assembly, drawn_in
+from assur.kinematics.curve import search as curves
 from assur.kinematics.pose import redrive
 
 if TYPE_CHECKING:
@@ -32,9 +32,11 @@ if TYPE_CHECKING:
     from assur.description.encode import Description, DriverLike
     from assur.description.words import Slide
     from assur.kinematics.assembly import Place
-    from assur.kinematics.configuration import ConfigurationCurve
+    from assur.kinematics.curve.curve import ConfigurationCurve
     from assur.kinematics.extremes import Extremes
     from assur.kinematics.limits import Limits
+    from assur.kinematics.loci.maps import DesignMap
+    from assur.kinematics.loci.singular import SingularLocus, Workspace
     from assur.kinematics.motion import Motion
 
 __all__ = ["Mechanism"]
@@ -651,6 +653,169 @@ class Mechanism:
         (1, [-1.371564, 1.371564])
         """
         return curves.configuration_curve(self, positions)
+
+    def defects(self, q: npt.ArrayLike, joints: Mapping[str, npt.ArrayLike]) -> Any:
+        """Return what keeps designs from going through given positions one after another.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates of the driver at K positions, in the wanted order, rad or m; shape (K,) for
+            all designs, or S + (K,).
+        joints : mapping of str to array_like
+            Where joints are then, m, shape S + (K, 2): they tell the assembly.
+
+        Returns
+        -------
+        Defect or ndarray of uint8
+            Of each design, shape S: flags of `Defect`, 0 for none. Of one design a `Defect`.
+
+        Examples
+        --------
+        The second design reaches the two positions in different assemblies only:
+
+        >>> import assur, numpy as np
+        >>> m = assur.FourBar(1.0, 3.0, 2.5, 3.2).with_dimensions({"rocker.length": [2.5, 2.6]})
+        >>> open, crossed = m.solve([0.5, 2.0]), m.solve([0.5, 2.0], assembly={"C": -1})
+        >>> c = open.joint("C").value.copy()
+        >>> c[1, 1] = crossed.joint("C").value[1, 1]
+        >>> m.defects([0.5, 2.0], {"C": c})
+        array([0, 3], dtype=uint8)
+        >>> assur.Defect(3)
+        <Defect.CIRCUIT|BRANCH: 3>
+        """
+        from assur.kinematics.curve.design_defects import design_defects
+
+        return design_defects(self, q, joints)
+
+    def singular_loci(
+        self,
+        joint: str | None = None,
+        drivers: Sequence[DriverLike] | None = None,
+        positions: int = 48,
+    ) -> tuple[SingularLocus, ...]:
+        """Return the curves of singular positions of a mechanism with two drivers or more.
+
+        All assemblies are found on a grid of the drivers' coordinates; where two neighbours have
+        not the same number, the fold between them is found and traced by arc length. A curve that
+        lies between neighbours with the same numbers is missed: a closer grid shows it.
+
+        Parameters
+        ----------
+        joint : str, optional
+            With it, also those of the first kind, where the joint, locked, does not hold the
+            mechanism.
+        drivers : sequence of str or Drive, optional
+            With more than two drivers the two that move; the others are held at `q0`.
+        positions : int
+            Coordinates of the grid along each axis: over a turn of an angle; of a slide over the
+            sum of all lengths, both ways.
+
+        Returns
+        -------
+        tuple of SingularLocus
+            Those of the second kind (dead points: the locked drivers do not hold the mechanism),
+            then those of the first.
+
+        References
+        ----------
+        .. [1] C. Gosselin and J. Angeles, "Singularity analysis of closed-loop kinematic chains",
+           IEEE Trans. Robotics and Automation 6 (1990) 281-290.
+
+        Examples
+        --------
+        Of a five-bar, the distal links are in line:
+
+        >>> import assur, numpy as np
+        >>> five_bar = assur.Mechanism(
+        ...     joints={"A": (0, 0), "B": (0, 1), "P": (0.7, 1.2), "D": (1.4, 0.6), "E": (1, 0)},
+        ...     links={"ground": "AE", "left": "AB", "rod": "BP", "arm": "DP", "right": "ED"},
+        ...     driver=("left", "right"),
+        ... )
+        >>> locus = five_bar.singular_loci(positions=16)[0]
+        >>> apart = np.linalg.norm(locus.joints["B"] - locus.joints["D"], axis=1)
+        >>> lengths = [five_bar.dimensions[f"{name}.length"] for name in ("rod", "arm")]
+        >>> bool(np.allclose(apart, sum(lengths), atol=1e-9))
+        True
+        """
+        from assur.kinematics.loci.singular import singular_loci
+
+        return singular_loci(self, joint, drivers, positions)
+
+    def workspace(
+        self, joint: str, drivers: Sequence[DriverLike] | None = None, positions: int = 48
+    ) -> Workspace:
+        """Return where a joint of a mechanism with two drivers or more can be.
+
+        Parameters
+        ----------
+        joint : str
+            The joint.
+        drivers : sequence of str or Drive, optional
+            As for `singular_loci`.
+        positions : int
+            Coordinates of the grids, of the drivers and of the joint, along each axis.
+
+        Returns
+        -------
+        Workspace
+            In how many ways the joint reaches each node of a grid, and the curves where that
+            number changes: `singular_loci` of the first kind.
+
+        Examples
+        --------
+        >>> import assur
+        >>> five_bar = assur.Mechanism(
+        ...     joints={"A": (0, 0), "B": (0, 1), "P": (0.7, 1.2), "D": (1.4, 0.6), "E": (1, 0)},
+        ...     links={"ground": "AE", "left": "AB", "rod": "BP", "arm": "DP", "right": "ED"},
+        ...     driver=("left", "right"),
+        ... )
+        >>> five_bar.workspace("P", positions=16).contains([[0.5, 1.2], [0.5, 3.0]])
+        array([ True, False])
+        """
+        from assur.kinematics.loci.singular import workspace
+
+        return workspace(self, joint, drivers, positions)
+
+    def map(
+        self, of: str, dimensions: Mapping[str, npt.ArrayLike], q: npt.ArrayLike | None = None
+    ) -> DesignMap:
+        """Return a number of every design over two dimensions, and where it changes.
+
+        Parameters
+        ----------
+        of : {"full_rotation", "assemblies"}
+            Whether the driver goes round and the motion closes (1 or 0), as `limits` says; or how
+            many assemblies there are at `q`.
+        dimensions : mapping of str to array_like
+            Two names of dimensions, each with ascending values, m or rad.
+        q : float or array_like, optional
+            Coordinate for ``"assemblies"``; the drawing's by default.
+
+        Returns
+        -------
+        DesignMap
+            Values on the grid, and boundaries as curves (each point to a billionth of the distance
+            of two neighbours; what lies within one cell is missed).
+
+        Examples
+        --------
+        Grashof's limit of a four-bar with crank 1 and coupler 3:
+
+        >>> import assur, numpy as np
+        >>> four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+        >>> over = {"rocker.length": [1.5, 2.5, 3.5], "ground.D.x": [1.7, 2.7, 3.7]}
+        >>> rotates = four_bar.map("full_rotation", over)
+        >>> rotates.values
+        array([[0, 1, 0],
+               [1, 1, 1],
+               [1, 1, 1]])
+        >>> rotates.boundaries[0].points.round(6).tolist()
+        [[2.3, 1.7], [1.5, 2.5]]
+        """
+        from assur.kinematics.loci.maps import design_map
+
+        return design_map(self, of, dimensions, q)
 
     def plot(self, q: float | None = None, ax: Any = None, assembly: Assembly | None = None) -> Any:
         """Draw the mechanism at one position (needs matplotlib).

@@ -1,0 +1,165 @@
+"""The configuration curve, and motion along it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assur._trig import sin_cos
+from assur._validate import checked_index, whole_number
+from assur.kinematics.curve.defects import defects_of
+from assur.kinematics.curve.parts import ends_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from assur._arrays import Float
+    from assur.kinematics.assembly import Assembly
+    from assur.kinematics.curve.defects import Defects
+    from assur.kinematics.curve.parts import Branch, Circuit, Fold
+    from assur.kinematics.mechanism import Mechanism
+
+__all__ = ["CircuitMotion", "ConfigurationCurve"]
+
+# Of samples.
+NEEDED = "a whole number of at least 2 is needed"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CircuitMotion:
+    """Positions along a circuit, also past dead points of the driver.
+
+    Attributes
+    ----------
+    q : ndarray
+        Coordinate of the driver, shape (N,); it turns back at folds.
+    branch : ndarray of int
+        The branch of each position.
+    joints : mapping of str to ndarray
+        Positions of the joints, m, shape (N, 2).
+    links : mapping of str to ndarray
+        Angles of the links, rad, continuous.
+    slides : mapping of str to ndarray
+        Values of the slides, m.
+    """
+
+    q: Float
+    branch: Float
+    joints: dict[str, Float]
+    links: dict[str, Float]
+    slides: dict[str, Float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ConfigurationCurve:
+    """All positions of a design, as a curve.
+
+    Attributes
+    ----------
+    branches : tuple of Branch
+        Stretches between dead points.
+    folds : tuple of Fold
+        Dead points.
+    circuits : tuple of Circuit
+        What is connected.
+    fan : ndarray
+        Coordinates at which all assemblies were found, rad or m. A circuit that turns back between
+        two neighbours at both of its ends may have been missed.
+    """
+
+    branches: tuple[Branch, ...]
+    folds: tuple[Fold, ...]
+    circuits: tuple[Circuit, ...]
+    fan: Float
+    _mechanism: Mechanism
+
+    def defects(self, places: Sequence[tuple[float, Assembly]]) -> Defects:
+        """Return what keeps a design from going through given positions one after another.
+
+        Parameters
+        ----------
+        places : sequence of (q, Assembly)
+            The positions in the wanted order, as `Mechanism.find` gives them.
+
+        Examples
+        --------
+        >>> import assur
+        >>> four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+        >>> curve = four_bar.configuration_curve()
+        >>> one, other = four_bar.assemblies(1.0)
+        >>> curve.defects([(0.5, one), (1.0, other)]).circuit
+        True
+        >>> curve.defects([(0.5, one), (1.0, one), (2.0, one)])
+        Defects(circuit=False, branch=False, order=False, branches=(0, 0, 0))
+        """
+        return defects_of(self, places)
+
+    def motion(self, circuit: int = 0, samples: int = 180) -> CircuitMotion:
+        """Return positions along a circuit.
+
+        Parameters
+        ----------
+        circuit : int
+            Index of the circuit.
+        samples : int
+            Positions of each branch, closer together toward dead points.
+
+        Examples
+        --------
+        >>> import assur
+        >>> curve = assur.FourBar(3.0, 2.5, 2.0, 4.0).configuration_curve()
+        >>> curve.motion(samples=3).q.round(6) + 0.0
+        array([-1.371564,  0.      ,  1.371564,  0.      , -1.371564])
+        """
+        (index,) = checked_index(circuit, (len(self.circuits),), "circuit")
+        samples = whole_number(samples, "samples", 2, needed=NEEDED)
+        parts = []
+        for number, direction in self.circuits[index].branches:
+            branch = self.branches[number]
+            low, high = ends_of(branch, self._mechanism)
+            part = 0.5 - 0.5 * sin_cos(np.linspace(0.0, np.pi, samples))[1]
+            if not branch.folds[0] and not branch.folds[1] and branch.period:
+                part = np.linspace(0.0, 1.0, samples)
+            q = low + (high - low) * part
+            parts.append((number, q if direction > 0 else q[::-1]))
+        return _along(self._mechanism, self.branches, parts)
+
+
+def _along(
+    mechanism: Mechanism, branches: tuple[Branch, ...], parts: list[tuple[int, Float]]
+) -> CircuitMotion:
+    names = mechanism._joint_names, tuple(mechanism.links), tuple(mechanism.slides)
+    rows: list[tuple[Float, Float, list[list[Float]]]] = []
+    for index, (number, part) in enumerate(parts):
+        # The end of one branch is the beginning of the next.
+        q = part if index == 0 else part[1:]
+        branch = branches[number]
+        inside = q
+        if branch.period is None:
+            # Beside a dead point, not on it: there rounding decides whether the position exists.
+            margin = 1e-13 * max(abs(branch.low), abs(branch.high), 1.0)
+            inside = np.clip(q, branch.low + margin, branch.high - margin)
+        motion = mechanism.solve(inside, order=0, assembly=branch.assembly, on_error="nan")
+        values = [
+            [motion.joint(name).value for name in names[0]],
+            [motion.link(name).value for name in names[1]],
+            [motion.slide(name).value for name in names[2]],
+        ]
+        rows.append((q, np.full(len(q), number), values))
+
+    def joined(kind: int) -> dict[str, Float]:
+        own = names[kind]
+        return {
+            name: np.concatenate([values[kind][i] for _, _, values in rows])
+            for i, name in enumerate(own)
+        }
+
+    return CircuitMotion(
+        np.concatenate([q for q, _, _ in rows]),
+        np.concatenate([number for _, number, _ in rows]),
+        joined(0),
+        {name: np.unwrap(angle) for name, angle in joined(1).items()},
+        joined(2),
+    )

@@ -1,0 +1,103 @@
+"""Defects of designs in a batch that are to go through given positions."""
+
+from __future__ import annotations
+
+from enum import IntFlag
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._validate import real_array
+from assur.errors import InputError
+from assur.kinematics.curve.search import curve_through, require_one_driver
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.kinematics.assembly import Assembly
+    from assur.kinematics.mechanism import Mechanism
+
+__all__ = ["Defect"]
+
+# How near (relative to the size) the joints of an assembly must be to those that are given.
+THERE = 1e-6
+
+
+class Defect(IntFlag):
+    """What keeps a design from going through given positions; several may."""
+
+    NONE = 0
+    """It goes through all of them, in their order."""
+    CIRCUIT = 1
+    """They lie on different circuits: it would have to be taken apart."""
+    BRANCH = 2
+    """They lie on different branches: the driver cannot lead from one to another."""
+    ORDER = 4
+    """One circuit goes through all of them, but in another order, whichever way round."""
+    MISSING = 8
+    """At one of them no assembly has the joints where they are wanted."""
+
+
+def design_defects(
+    mechanism: Mechanism, q: npt.ArrayLike, joints: Mapping[str, npt.ArrayLike]
+) -> Any:
+    """See `Mechanism.defects`."""
+    require_one_driver(mechanism, "defects")
+    if not joints:
+        message = "joints is empty: positions of one joint or more are needed"
+        raise InputError(message)
+    coordinates = real_array(q, "q")
+    wanted = {name: real_array(places, name) for name, places in joints.items()}
+    for name in wanted:
+        mechanism._core.require("joint", name)
+    try:
+        shape = np.broadcast_shapes(
+            (*mechanism.shape, 1), coordinates.shape, *(at.shape[:-1] for at in wanted.values())
+        )
+        rows = np.broadcast_to(coordinates, shape)
+        there = {name: np.broadcast_to(at, (*shape, 2)) for name, at in wanted.items()}
+    except ValueError as error:
+        shapes = ", ".join(f"{name} {at.shape}" for name, at in wanted.items())
+        message = f"q {coordinates.shape}, {shapes} do not broadcast to {mechanism.shape} + (K, 2)"
+        raise InputError(message) from error
+    if len(shape) != len(mechanism.shape) + 1 or shape[:-1] != mechanism.shape:
+        message = f"q and joints have shape {shape}: {mechanism.shape} + (K,) is needed"
+        raise InputError(message)
+    if not np.isfinite(rows).all():
+        message = "q: finite coordinates are needed"
+        raise InputError(message)
+    found = np.empty(mechanism.shape, dtype=np.uint8)
+    for index in np.ndindex(mechanism.shape):
+        own = mechanism._with_values(mechanism._values[(slice(None), *index)])
+        places = {name: at[index] for name, at in there.items()}
+        found[index] = _of_one(own, rows[index].tolist(), places)
+    return found if mechanism.shape else Defect(int(found))
+
+
+def _of_one(mechanism: Mechanism, q: list[float], wanted: dict[str, Float]) -> Defect:
+    places = []
+    for k, at in enumerate(q):
+        assembly = _nearest(mechanism, at, {name: points[k] for name, points in wanted.items()})
+        if assembly is None:
+            return Defect.MISSING
+        places.append((at, assembly))
+    found = curve_through(mechanism, places).defects(places)
+    defect = Defect.CIRCUIT if found.circuit else Defect.NONE
+    defect |= Defect.BRANCH if found.branch else Defect.NONE
+    return defect | (Defect.ORDER if found.order else Defect.NONE)
+
+
+def _nearest(mechanism: Mechanism, q: float, wanted: dict[str, Float]) -> Assembly | None:
+    """Return the assembly whose joints are where they are wanted."""
+    best, least = None, np.inf
+    for assembly in mechanism.assemblies(q):
+        joints = assembly.joints
+        assert joints is not None
+        size = float(np.ptp(np.array(list(joints.values())), axis=0).max())
+        apart = max(float(np.abs(np.array(joints[name]) - at).max()) for name, at in wanted.items())
+        if apart <= THERE * size and apart < least:
+            best, least = assembly, apart
+    return best

@@ -1,0 +1,95 @@
+"""What a configuration curve consists of."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from assur.kinematics.assembly import Assembly
+    from assur.kinematics.mechanism import Mechanism
+
+__all__ = ["Branch", "Circuit", "Fold"]
+
+# How near (relative to the size) positions of one assembly are.
+SAME = 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Branch:
+    """A stretch of the curve between two dead points of the driver.
+
+    Attributes
+    ----------
+    assembly : Assembly
+        Leads to every position of it: ``solve(q, assembly=branch.assembly)``.
+    low, high : float
+        Where it ends, rad (in counted turns) or m; infinite if the driver goes round.
+    period : int or None
+        Turns after which it closes, if the driver goes round.
+    folds : tuple of int or None
+        Indices of the folds at its low and its high end.
+    """
+
+    assembly: Assembly
+    low: float
+    high: float
+    period: int | None
+    folds: tuple[int | None, int | None] = (None, None)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fold:
+    """A dead point of the driver, where two branches meet.
+
+    Attributes
+    ----------
+    q : float
+        Coordinate of the driver, rad or m.
+    group : str or None
+        The dyad or group that is flat there.
+    branches : tuple of int
+        Indices of the branches.
+    is_greatest : bool
+        Whether q is greatest there on both branches, or least.
+    """
+
+    q: float
+    group: str | None
+    branches: tuple[int, int]
+    is_greatest: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Circuit:
+    """All positions that can be reached without taking the mechanism apart.
+
+    Attributes
+    ----------
+    branches : tuple of (int, int)
+        Indices of its branches in the order of the motion, each with the direction of q (+1 or −1).
+    turns : int
+        Turns of the driver when the motion closes: 0 if it swings between dead points.
+    is_closed : bool
+        Whether the motion closes; if not, it ends where a joint goes to infinity.
+    """
+
+    branches: tuple[tuple[int, int], ...]
+    turns: int
+    is_closed: bool
+
+
+def ends_of(branch: Branch, mechanism: Mechanism) -> tuple[float, float]:
+    if branch.period is None:
+        return branch.low, branch.high
+    q0 = float(np.ravel(mechanism.q0)[0])
+    return q0, q0 + math.tau * branch.period
+
+
+def has_driven_angle(mechanism: Mechanism) -> bool:
+    """Whether the driver is an angle, not a slide."""
+    driver = mechanism._description.drivers[0]
+    return not isinstance(driver, str) or driver not in mechanism.slides

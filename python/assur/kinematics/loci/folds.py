@@ -1,0 +1,134 @@
+"""Where the number of assemblies changes over the plane of two drivers.
+
+All assemblies are found on a grid. Between two neighbours that have not the same number, folds are
+found by bisection: the two assemblies that meet there lie beside each other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assur.kinematics.loci.bisection import Edge, bisected
+from assur.kinematics.pose import Pose
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.kinematics.assembly import FoundAssemblies
+    from assur.kinematics.loci.chart import Surface
+
+# Halvings of an edge: the two assemblies are then about a thousandth of it apart.
+HALVINGS = 20
+# How far apart (rad, or sizes) two assemblies beside a fold may be.
+NEAR = 0.05
+# Edges whose folds do not explain the change of the count are searched again, this often.
+MOST_PASSES = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """All assemblies at the nodes of a grid.
+
+    Attributes
+    ----------
+    axes : (ndarray, ndarray)
+        Coordinates of the two drivers, rad or m.
+    poses : list of list of list of Pose
+        By both axes.
+    is_angle : (bool, bool)
+        Of each axis: its last value is a neighbour of its first.
+    """
+
+    axes: tuple[Float, Float]
+    poses: list[list[list[Pose]]]
+    is_angle: tuple[bool, bool]
+
+    @property
+    def counts(self) -> npt.NDArray[np.intp]:
+        """Number of assemblies at each node."""
+        return np.array([[len(poses) for poses in row] for row in self.poses], dtype=np.intp)
+
+
+def all_poses(surface: Surface, places: Float) -> list[list[Pose]]:
+    """Return all poses at coordinates of the two free drivers, shape (N, 2)."""
+    own = surface.mechanism
+    q = np.tile(np.array(surface.q), (len(places), 1))
+    q[:, surface.free] = places
+    found: list[FoundAssemblies] = own._core.assemblies(own._values.ravel(), q.ravel(), False, None)
+    return [[Pose.found(numbers) for numbers in one["assemblies"]] for one in found]
+
+
+def grid_of(surface: Surface, axes: tuple[Float, Float], is_angle: tuple[bool, bool]) -> Grid:
+    """Find all assemblies on a grid."""
+    places = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+    flat = all_poses(surface, places)
+    width = len(axes[1])
+    rows = [flat[i : i + width] for i in range(0, len(flat), width)]
+    return Grid(axes, rows, is_angle)
+
+
+def poses_beside_folds(surface: Surface, grid: Grid) -> list[Pose]:
+    """Return poses beside folds: on every edge of the grid whose ends' counts differ."""
+    edges = [edge for edge in _edges(grid) if _changes(edge)]
+    starts: list[Pose] = []
+    for _ in range(MOST_PASSES):
+        if not edges:
+            break
+        edges, rest = bisected(edges, lambda at: all_poses(surface, at), len, HALVINGS)
+        for edge in edges:
+            starts.extend(_meetings(surface, edge))
+        edges = [edge for edge in rest if _changes(edge)]
+    return starts
+
+
+def _changes(edge: Edge) -> bool:
+    return len(edge.found[0]) != len(edge.found[1])
+
+
+def _edges(grid: Grid) -> list[Edge]:
+    edges = []
+    counts = [len(axis) for axis in grid.axes]
+    for along in (0, 1):
+        for i, j in np.ndindex(counts[0], counts[1]):
+            next_one = [i, j]
+            next_one[along] += 1
+            end = np.array([grid.axes[0][i], grid.axes[1][j]])
+            other = end.copy()
+            if next_one[along] == counts[along]:
+                if not grid.is_angle[along]:
+                    continue
+                next_one[along] = 0
+                other[along] = grid.axes[along][0] + 2.0 * np.pi
+            else:
+                other[along] = grid.axes[along][next_one[along]]
+            poses = [grid.poses[i][j], grid.poses[next_one[0]][next_one[1]]]
+            edges.append(Edge(np.array([end, other]), poses))
+    return edges
+
+
+def _meetings(surface: Surface, edge: Edge) -> list[Pose]:
+    """Return one pose of every two that meet at a bisected edge."""
+    fewer, more = sorted(edge.found, key=len)
+    here = [surface.coordinates(pose) for pose in more]
+    for pose in fewer:
+        # What goes on is what is nearest on the other side.
+        there = surface.coordinates(pose)
+        gaps = [float(np.abs(surface.difference(one, there)).max()) for one in here]
+        nearest = int(np.argmin(gaps))
+        here.pop(nearest)
+        more = [one for i, one in enumerate(more) if i != nearest]
+    starts = []
+    while len(more) > 1:
+        pose, own = more.pop(0), here.pop(0)
+        gaps = [float(np.abs(surface.difference(one, own)).max()) for one in here]
+        nearest = int(np.argmin(gaps))
+        if gaps[nearest] > NEAR:
+            continue
+        more.pop(nearest)
+        here.pop(nearest)
+        starts.append(pose)
+    return starts

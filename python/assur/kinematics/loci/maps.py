@@ -1,0 +1,188 @@
+"""Maps over two dimensions: where a mechanism turns fully, and in how many ways it assembles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._validate import one_of, real_array
+from assur.errors import InputError
+from assur.kinematics.loci.bisection import Edge, bisected
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.kinematics.mechanism import Mechanism
+
+__all__ = ["Boundary", "DesignMap"]
+
+# Halvings of the distance of two neighbours, until boundaries are found to a billionth of it.
+HALVINGS = 30
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Boundary:
+    """A line between designs of different kinds.
+
+    Attributes
+    ----------
+    points : ndarray
+        Values of both dimensions along it, shape (N, 2), m or rad.
+    level : int
+        On one side the number is at least this, on the other less.
+    is_closed : bool
+        Whether the last point is the first; it ends at the edge of the map otherwise.
+    """
+
+    points: Float
+    level: int
+    is_closed: bool
+
+    def __repr__(self) -> str:
+        form = "closed" if self.is_closed else "open"
+        return f"<assur.Boundary at {self.level}, {form}, {len(self.points)} points>"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DesignMap:
+    """A number of every design over two dimensions.
+
+    Attributes
+    ----------
+    of : str
+        What was counted: ``"full_rotation"`` (1 or 0) or ``"assemblies"``.
+    names : (str, str)
+        The two dimensions.
+    x, y : ndarray
+        Their values, m or rad.
+    values : ndarray of int
+        Shape (len(x), len(y)).
+    boundaries : tuple of Boundary
+        Where the values change, each point to a billionth of the distance of two neighbours.
+    """
+
+    of: str
+    names: tuple[str, str]
+    x: Float
+    y: Float
+    values: npt.NDArray[np.intp]
+    boundaries: tuple[Boundary, ...]
+
+    def __repr__(self) -> str:
+        shape = " x ".join(str(n) for n in self.values.shape)
+        return f"<assur.DesignMap of {self.of}, {shape}, {len(self.boundaries)} boundaries>"
+
+
+def design_map(
+    mechanism: Mechanism, of: str, dimensions: Mapping[str, npt.ArrayLike], q: Any
+) -> DesignMap:
+    """See `Mechanism.map`."""
+    one_of(of, ("assemblies", "full_rotation"), "of")
+    if mechanism.shape:
+        message = f"map() is over dimensions of one design, this is a batch {mechanism.shape}"
+        raise InputError(message)
+    if len(dimensions) != 2:
+        message = f"map() is over two dimensions, {len(dimensions)} are given"
+        raise InputError(message)
+    (first, second), (x, y) = (
+        dimensions,
+        [_checked_axis(name, values) for name, values in dimensions.items()],
+    )
+
+    def look_at(places: Float) -> list[int]:
+        batch = mechanism.with_dimensions({first: places[:, 0], second: places[:, 1]})
+        if of == "full_rotation":
+            return [int(whole) for whole in batch.limits().full_rotation.tolist()]
+        where = mechanism.q0 if q is None else q
+        return [len(one) for one in batch.assemblies(where)]
+
+    places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
+    values = np.array(look_at(places.reshape(-1, 2)), dtype=np.intp).reshape(len(x), len(y))
+    boundaries = [
+        boundary
+        for level in np.unique(values)[1:].tolist()
+        for boundary in _boundaries(places, values, level, look_at)
+    ]
+    return DesignMap(of, (first, second), x, y, values, tuple(boundaries))
+
+
+def _checked_axis(name: str, values: npt.ArrayLike) -> Float:
+    axis = real_array(values, name)
+    if axis.ndim != 1 or len(axis) < 2 or not (np.diff(axis) > 0.0).all():
+        message = f"{name} has shape {axis.shape}: two or more ascending values are needed"
+        raise InputError(message)
+    return axis
+
+
+def _boundaries(
+    places: Float,
+    values: npt.NDArray[np.intp],
+    level: int,
+    look_at: Callable[[Float], list[int]],
+) -> list[Boundary]:
+    """Return the lines around designs whose number is at least a level: marching squares."""
+    inside = values >= level
+    sides, edges = [], []
+    for along in (0, 1):
+        here, there = (slice(None, -1), slice(1, None))
+        low = inside[here] if along == 0 else inside[:, here]
+        high = inside[there] if along == 0 else inside[:, there]
+        for i, j in np.argwhere(low != high).tolist():
+            end = (i + 1, j) if along == 0 else (i, j + 1)
+            sides.append((i, j, along))
+            edges.append(Edge(np.array([places[i, j], places[end]]), [values[i, j], values[end]]))
+    narrow, _ = bisected(edges, look_at, lambda found: found >= level, HALVINGS)
+    points = {side: edge.ends.mean(axis=0) for side, edge in zip(sides, narrow, strict=True)}
+    joined: dict[Any, list[Any]] = {side: [] for side in sides}
+    saddles = []
+    for i, j in np.ndindex(inside.shape[0] - 1, inside.shape[1] - 1):
+        around = [(i, j, 0), (i + 1, j, 1), (i, j + 1, 0), (i, j, 1)]
+        crossed = [side for side in around if side in points]
+        if len(crossed) == 4:
+            saddles.append((i, j, around))
+        elif crossed:
+            _join(joined, *crossed)
+    if saddles:
+        # Opposite corners are alike: the middle tells which of them are connected.
+        middles = np.array([places[i : i + 2, j : j + 2].mean(axis=(0, 1)) for i, j, _ in saddles])
+        for (i, j, around), found in zip(saddles, look_at(middles), strict=True):
+            bottom, right, top, left = around
+            if (found >= level) == inside[i, j]:
+                _join(joined, bottom, right)
+                _join(joined, top, left)
+            else:
+                _join(joined, bottom, left)
+                _join(joined, top, right)
+    return _lines(points, joined, level)
+
+
+def _join(joined: dict[Any, list[Any]], one: Any, other: Any) -> None:
+    joined[one].append(other)
+    joined[other].append(one)
+
+
+def _lines(points: dict[Any, Float], joined: dict[Any, list[Any]], level: int) -> list[Boundary]:
+    """Chain sides that are joined, open lines from their ends first."""
+    lines = []
+    free = dict.fromkeys(sorted(points, key=lambda side: len(joined[side])))
+    while free:
+        side = next(iter(free))
+        chain = [side]
+        del free[side]
+        while True:
+            side = next((other for other in joined[chain[-1]] if other in free), None)
+            if side is None:
+                break
+            chain.append(side)
+            del free[side]
+        is_closed = len(chain) > 2 and chain[0] in joined[chain[-1]]
+        along = [points[one] for one in chain]
+        lines.append(
+            Boundary(np.array([*along, along[0]] if is_closed else along), level, is_closed)
+        )
+    return lines

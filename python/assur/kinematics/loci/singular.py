@@ -1,0 +1,271 @@
+"""Singular loci of mechanisms with two drivers, and the workspace of a joint.
+
+Of the second kind are positions where the locked drivers do not hold the mechanism, of the first
+kind those where a locked joint does not (C. Gosselin and J. Angeles, IEEE Trans. Robotics and
+Automation 6 (1990) 281). Both are folds: of the assemblies over the plane of the drivers, and of
+those over the plane of the joint, which drives in their place.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._arrays import short
+from assur._validate import real_array, whole_number
+from assur.errors import AssurWarning, InputError
+from assur.kinematics.find import driven_by_joint
+from assur.kinematics.loci.chart import Surface
+from assur.kinematics.loci.folds import Grid, all_poses, grid_of, poses_beside_folds
+from assur.kinematics.loci.trace import start_beside, trace
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.description.encode import DriverLike
+    from assur.kinematics.loci.trace import Traced
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.pose import Pose
+
+__all__ = ["SingularLocus", "Workspace"]
+
+# How near (as a part of the step) a position must be to a locus to be one of it.
+ON_LOCUS = 0.05
+# How far beyond the positions seen from the grid of drivers that of a joint goes.
+MARGIN = 0.1
+# Where, as a part of a step, the grid begins: off the values that people draw at.
+OFF = 0.0123
+# Fewest positions of a grid along an axis.
+FEWEST = 4
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SingularLocus:
+    """A curve of singular positions.
+
+    Attributes
+    ----------
+    kind : {1, 2}
+        1: the joint, locked, does not hold the mechanism (the boundary of what it reaches).
+        2: the drivers, locked, do not hold it (dead points).
+    q : ndarray
+        Coordinates of the drivers, rad (continuous) or m, shape (N, n).
+    joints : mapping of str to ndarray
+        Positions of the joints, m, shape (N, 2).
+    is_closed : bool
+        Whether its last position is its first.
+    is_complete : bool
+        Whether it is closed, or ends where the range of a slide does. If not, it could not be
+        followed farther: it may have a point where it crosses itself.
+    """
+
+    kind: int
+    q: Float
+    joints: Mapping[str, Float]
+    is_closed: bool
+    is_complete: bool
+
+    def __repr__(self) -> str:
+        form = "closed" if self.is_closed else "open"
+        return f"<assur.SingularLocus of kind {self.kind}, {form}, {len(self.q)} positions>"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Workspace:
+    """Where a joint of a mechanism with two drivers can be.
+
+    Attributes
+    ----------
+    joint : str
+        The joint.
+    x, y : ndarray
+        Coordinates of a grid, m.
+    count : ndarray of int
+        In how many ways (coordinates of the drivers and assemblies) the joint reaches each node,
+        shape (len(x), len(y)).
+    boundary : tuple of SingularLocus
+        The loci of the first kind: where that number changes.
+    """
+
+    joint: str
+    x: Float
+    y: Float
+    count: npt.NDArray[np.intp]
+    boundary: tuple[SingularLocus, ...]
+    _surface: Surface
+    _drawn: tuple[float, float]
+
+    def contains(self, points: npt.ArrayLike) -> Any:
+        """Return whether the joint reaches points, shape (…, 2), m: an array of bool (…)."""
+        array = real_array(points, "points")
+        if array.shape[-1:] != (2,) or not np.isfinite(array).all():
+            message = f"points has shape {array.shape}: finite (x, y) are needed"
+            raise InputError(message)
+        flat = (array - np.array(self._drawn)).reshape(-1, 2)
+        found = [len(poses) > 0 for poses in all_poses(self._surface, flat)]
+        inside = np.array(found, dtype=bool).reshape(array.shape[:-1])
+        return bool(inside) if array.ndim == 1 else inside
+
+    def __repr__(self) -> str:
+        return f"<assur.Workspace of {self.joint}, {len(self.boundary)} curves of boundary>"
+
+
+def singular_loci(
+    mechanism: Mechanism,
+    joint: str | None,
+    drivers: Sequence[DriverLike] | None,
+    positions: int,
+) -> tuple[SingularLocus, ...]:
+    """See `Mechanism.singular_loci`."""
+    surface, grid = _over_drivers(mechanism, "singular_loci", drivers, positions)
+    found = _loci(surface, mechanism, grid, 2)
+    if joint is not None:
+        found += _workspace_of(surface, grid, joint).boundary
+    return found
+
+
+def workspace(
+    mechanism: Mechanism, joint: str, drivers: Sequence[DriverLike] | None, positions: int
+) -> Workspace:
+    """See `Mechanism.workspace`."""
+    mechanism._core.require("joint", joint)
+    surface, grid = _over_drivers(mechanism, "workspace", drivers, positions)
+    return _workspace_of(surface, grid, joint)
+
+
+def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
+    """Return the workspace, given all assemblies over the drivers."""
+    own = surface.mechanism
+    own._core.require("joint", joint)
+    index = own._joint_names.index(joint)
+    seen = np.array([pose.joints[index] for row in grid.poses for poses in row for pose in poses])
+    positions = len(grid.axes[0])
+    if not len(seen):
+        message = f"{joint!r}: none of {positions} x {positions} coordinates has an assembly"
+        raise InputError(message)
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    margin = MARGIN * np.maximum(high - low, 1e-3 * surface.size)
+    axes = [np.linspace(a, b, positions) for a, b in zip(low - margin, high + margin, strict=True)]
+    held = [i for i in range(own._driver_count) if i not in surface.free]
+    other, drawn = driven_by_joint(own, joint, [own._description.drivers[i] for i in held])
+    at = (0.0, 0.0, *(surface.q[i] for i in held))
+    inverse = Surface(other, (0, 1), at, surface.size)
+    over = grid_of(inverse, (axes[0] - drawn[0], axes[1] - drawn[1]), (False, False))
+    boundary = _loci(inverse, own, over, 1)
+    return Workspace(joint, axes[0], axes[1], over.counts, boundary, inverse, drawn)
+
+
+def _over_drivers(
+    mechanism: Mechanism, what: str, drivers: Sequence[DriverLike] | None, positions: int
+) -> tuple[Surface, Grid]:
+    if mechanism.shape:
+        message = f"{what}() is for one design, this is a batch {mechanism.shape}: use design(i)"
+        raise InputError(message)
+    free = _free_drivers(mechanism, what, drivers)
+    positions = whole_number(positions, "positions", FEWEST, needed="at least 4 are needed")
+    names = mechanism._core.dimension_names
+    values = zip(names, mechanism._values.tolist(), strict=True)
+    lengths = [abs(value) for name, value in values if not name.endswith("angle")]
+    own = mechanism._description.drivers
+    is_angle = [not isinstance(own[i], str) or own[i] not in mechanism.slides for i in free]
+    axes = []
+    for angle in is_angle:
+        reach = np.pi if angle else sum(lengths)
+        axes.append(-reach + 2.0 * reach * (np.arange(positions) + OFF) / positions)
+    q0 = tuple(np.atleast_1d(mechanism.q0).tolist())
+    surface = Surface(mechanism, free, q0, max(lengths))
+    return surface, grid_of(surface, (axes[0], axes[1]), (is_angle[0], is_angle[1]))
+
+
+def _free_drivers(
+    mechanism: Mechanism, what: str, drivers: Sequence[DriverLike] | None
+) -> tuple[int, int]:
+    """Return the indices of the two drivers that move."""
+    own = mechanism._description.drivers
+    if len(own) < 2:
+        message = f"{what}() is for two drivers or more; this mechanism has one: see limits()"
+        raise InputError(message)
+    if drivers is None and len(own) == 2:
+        return 0, 1
+    named = list(drivers) if drivers is not None and not isinstance(drivers, str) else []
+    indices = [own.index(one) for one in named if one in own]
+    if len(named) != 2 or len(set(indices)) != 2:
+        message = f"drivers is {short(drivers)}: name the two of {short(own)} that move"
+        raise InputError(message)
+    return indices[0], indices[1]
+
+
+def _loci(surface: Surface, own: Mechanism, grid: Grid, kind: int) -> tuple[SingularLocus, ...]:
+    """Return the loci of a surface, as positions of the mechanism."""
+    traced: list[Traced] = []
+    lost = 0
+    reach = 100.0 * surface.size
+    slides = list(surface.mechanism.slides)
+    ranges = {}
+    for i, axis, is_angle in zip(surface.free, grid.axes, grid.is_angle, strict=True):
+        driver = surface.mechanism._description.drivers[i]
+        if not is_angle and isinstance(driver, str):
+            ranges[slides.index(driver)] = (float(axis[0]), float(axis[-1]))
+
+    def is_inside(pose: Pose) -> bool:
+        near = bool(np.abs(np.array(pose.joints)).max() < reach)
+        return near and all(a <= pose.slides[i] <= b for i, (a, b) in ranges.items())
+
+    def is_known(pose: Pose) -> bool:
+        return any(_passes(surface, one, surface.coordinates(pose)) for one in traced)
+
+    for pose in poses_beside_folds(surface, grid):
+        if is_known(pose):
+            continue
+        start = start_beside(surface, pose)
+        if start is None:
+            lost += 1
+        elif not is_known(start.pose):
+            traced.append(trace(surface, start, is_inside))
+    lost += sum(not one.is_complete for one in traced)
+    if lost:
+        message = f"singular loci of kind {kind}: {lost} could not be followed to the end"
+        warnings.warn(message, AssurWarning, stacklevel=4)
+    return tuple(_named(own, one, kind) for one in traced)
+
+
+def _passes(surface: Surface, traced: Traced, there: Float) -> bool:
+    """Whether a locus goes through coordinates."""
+    along = traced.coordinates
+    if traced.is_closed:
+        along = np.vstack([along, along[:1]])
+    if len(along) < 2:
+        return False
+    steps = surface.difference(along[1:], along[:-1])
+    gaps = surface.difference(there[np.newaxis], along[:-1])
+    lengths2 = np.maximum((steps * steps).sum(axis=1), 1e-300)
+    parts = np.clip((gaps * steps).sum(axis=1) / lengths2, 0.0, 1.0)
+    beside2 = ((gaps - parts[:, np.newaxis] * steps) ** 2).sum(axis=1)
+    return bool((beside2 <= ON_LOCUS**2 * lengths2).any())
+
+
+def _named(mechanism: Mechanism, traced: Traced, kind: int) -> SingularLocus:
+    """Return a locus with the coordinates of the mechanism's drivers and its joints."""
+    poses = [*traced.poses, traced.poses[0]] if traced.is_closed else traced.poses
+    angles = np.unwrap([pose.angles for pose in poses], axis=0)
+    slides = np.array([pose.slides for pose in poses])
+    links = {name: angles[:, i] for i, name in enumerate(mechanism.links)}
+    values = {name: slides[:, i] for i, name in enumerate(mechanism.slides)}
+
+    def coordinate(driver: Any) -> Float:
+        if isinstance(driver, str):
+            return values[driver] if driver in values else links[driver]
+        one: Float = links[driver.link] - links[driver.relative_to]
+        return one
+
+    q = np.stack([coordinate(one) for one in mechanism._description.drivers], axis=-1)
+    joints = np.array([pose.joints for pose in poses])
+    named = {name: joints[:, i] for i, name in enumerate(mechanism._joint_names)}
+    return SingularLocus(kind, q, MappingProxyType(named), traced.is_closed, traced.is_complete)
