@@ -31,7 +31,14 @@ def case(quick: bool) -> Case:
         "a five-bar's workspace": partial(workspace, grid),
         f"full rotation over {grid} × {grid} dimensions": partial(rotation, grid),
     }
-    return Case("assemblies", "position, design or call", subjects, plotted=False, every_level=False, rounds=9)
+    return Case(
+        "assemblies",
+        "position, design or call",
+        subjects,
+        plotted=False,
+        every_level=False,
+        rounds=9,
+    )
 
 
 def six_bar() -> assur.Mechanism:
@@ -50,7 +57,7 @@ def triad() -> assur.Mechanism:
 def loom() -> assur.Mechanism:
     at = [(0, 0), (0.35, 0), (1.24, 0.99), (0.75, 1.91), (3.02, -0.73), (2.45, 1.02)]
     at += [(3.2, 2.24), (1.85, 2.35), (1.62, -1.11), (4.28, 1.52)]
-    return assur.ClassIV({str(i): place for i, place in enumerate(at)})
+    return assur.ClassIV({str(i): place for i, place in enumerate(at, start=1)})
 
 
 def five_bar() -> assur.Mechanism:
@@ -78,11 +85,13 @@ def limits(designs: int) -> Subject:
     )
 
     def answer(found: assur.Limits) -> Sequence[Any]:
-        return [found.full_rotation]
+        return [found.full_rotation.astype(float)]
 
     contenders = {
         OURS: Contender(batch.limits, answer, every_level=False),
-        "NumPy, four-bars only": Contender(lambda: closed_form(*lengths), lambda found: [found[0]]),
+        "NumPy, four-bars only": Contender(
+            lambda: closed_form(*lengths), lambda found: [found[0].astype(float)]
+        ),
     }
     return Subject(designs, 1, contenders)
 
