@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -167,6 +167,14 @@ class Results:
         """Return all arrays as the core wrote them, in its order."""
         held = self.joints, self.slides, self.links
         return [column for of in held if isinstance(of, Held) for column in of.columns()]
+
+    def each(self, change: Callable[[Float], Float]) -> Results:
+        """Return every array changed, without buffers."""
+        other = Results(None, None)
+        for kind in ("joint", "link", "slide"):
+            held = self._of(kind)
+            other._held[kind] = {n: tuple(map(change, arrays)) for n, arrays in held.items()}
+        return other
 
     def without_buffers(self, copy: bool) -> Results:
         """Return the same arrays, or copies of them, that the core cannot overwrite."""

@@ -26,7 +26,7 @@ from assur.kinematics.curve import search as curves
 from assur.kinematics.pose import redrive
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from assur._core import Mechanism as Core
     from assur.description.encode import Description, DriverLike
@@ -453,6 +453,36 @@ class Mechanism:
         np.float64(0.0)
         """
         return redrive(self, encode.drivers(driver), checked_signs(assembly, strict=False), q)
+
+    def __len__(self) -> int:
+        if not self.shape:
+            message = "one mechanism has no length: it is no batch of designs"
+            raise TypeError(message)
+        return self.shape[0]
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __iter__(self) -> Iterator[Mechanism]:
+        return (self[i] for i in range(len(self)))
+
+    def __getitem__(self, index: Any) -> Mechanism:
+        """Return some designs of a batch, or one.
+
+        They are chosen by an integer, a slice, a mask or indices for each axis of `shape`.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> m = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+        >>> batch = m.with_dimensions({"rocker.length": np.linspace(1.8, 2.6, 5)})
+        >>> turns = batch[batch.limits().full_rotation]
+        >>> len(batch), len(turns), turns[0].dimensions["rocker.length"]
+        (5, 5, 1.8)
+        """
+        from assur.kinematics.select import designs_of
+
+        return designs_of(self, index)
 
     def design(self, index: int | tuple[int, ...]) -> Mechanism:
         """Return one design of a batch as a single mechanism."""

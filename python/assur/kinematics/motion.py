@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from assur import _core
+from assur._arrays import short
 from assur._validate import checked_index, checked_name
 from assur.errors import InputError
 from assur.kinematics import transmission
@@ -15,7 +16,7 @@ from assur.kinematics.quantity import Analogues
 from assur.kinematics.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
     from assur._arrays import Float
     from assur.kinematics.held import Results
@@ -124,19 +125,81 @@ class Motion:
             raise InputError(message, **{kind: name})  # type: ignore[arg-type]
         return held[name]
 
-    def joint(self, name: str) -> Analogues:
-        """Return the position of a joint, m, with its analogues."""
-        return Analogues(name, self._find("joint", self._results.joints, name), self._drivers, True)
+    def joint(self, name: str | Sequence[str]) -> Analogues:
+        """Return the position of a joint, m, with its analogues.
 
-    def link(self, name: str) -> Analogues:
-        """Return the angle of a link, rad, continuous along q, with its analogues."""
-        return Analogues(name, self._find("link", self._results.links, name), self._drivers, False)
+        Of a sequence of names, arrays are stacked along a new first axis.
+        """
+        return self._quantity("joint", self._results.joints, name)
 
-    def slide(self, name: str) -> Analogues:
-        """Return the value of a slide, m, with its analogues."""
-        return Analogues(
-            name, self._find("slide", self._results.slides, name), self._drivers, False
-        )
+    def link(self, name: str | Sequence[str]) -> Analogues:
+        """Return the angle of a link, rad, continuous along q, with its analogues.
+
+        Of a sequence of names, arrays are stacked along a new first axis.
+        """
+        return self._quantity("link", self._results.links, name)
+
+    def slide(self, name: str | Sequence[str]) -> Analogues:
+        """Return the value of a slide, m, with its analogues.
+
+        Of a sequence of names, arrays are stacked along a new first axis.
+        """
+        return self._quantity("slide", self._results.slides, name)
+
+    def _quantity(
+        self, kind: str, held: Mapping[str, tuple[Float, ...]], name: str | Sequence[str]
+    ) -> Analogues:
+        is_point = kind == "joint"
+        if isinstance(name, str):
+            return Analogues(name, self._find(kind, held, name), self._drivers, is_point)
+        if not isinstance(name, list | tuple) or not name:
+            message = f"{kind}: {short(name)} is no name, nor a list of names"
+            raise InputError(message)
+        several = [self._find(kind, held, one) for one in name]
+        arrays = tuple(np.stack(order) for order in zip(*several, strict=True))
+        return Analogues(", ".join(name), arrays, self._drivers, is_point)
+
+    @overload
+    def __getitem__(self, index: str) -> Analogues: ...
+    @overload
+    def __getitem__(self, index: Any) -> Motion: ...
+    def __getitem__(self, index: Any) -> Analogues | Motion:
+        """Return a joint, link or slide by its name, or a part of the motion.
+
+        A part is chosen by an integer, a slice, a mask or indices for each axis of `shape`.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(np.linspace(0.0, 3.0, 7))
+        >>> motion["C"].value.shape
+        (7, 2)
+        >>> motion[::2].q
+        array([0., 1., 2., 3.])
+        """
+        if not isinstance(index, str):
+            from assur.kinematics.select import part_of
+
+            return part_of(self, index)
+        kinds = self.mechanism._indices
+        for names, of in zip(kinds, (self.joint, self.link, self.slide), strict=True):
+            if index in names:
+                return of(index)
+        known = ", ".join(repr(name) for kind in kinds for name in kind)
+        message = f"[{index!r}]: nothing is called so; there are {known}"
+        raise InputError(message)
+
+    def __len__(self) -> int:
+        if not self.shape:
+            message = "a motion of one position has no length"
+            raise TypeError(message)
+        return self.shape[0]
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __iter__(self) -> Iterator[Motion]:
+        return (self[i] for i in range(len(self)))
 
     def _held_indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
         """Return the core's indices of the joints, links and slides held."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
@@ -21,6 +23,17 @@ class Analogues:
     ----------
     value, d1, d2, d3 : numpy.ndarray
         Value and analogues of orders 1 to 3, up to the order of the motion.
+
+    Notes
+    -----
+    ``np.asarray`` of it is its value.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> pin = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve([0.5, 1.0]).joint("C")
+    >>> np.asarray(pin).shape, float(np.max(pin.d1) < 1.0)
+    ((2, 2), 1.0)
     """
 
     __slots__ = ("_arrays", "_drivers", "_name", "_point")
@@ -59,6 +72,11 @@ class Analogues:
     def d3(self) -> Float:
         """Third analogue."""
         return self._order(3)
+
+    def __array__(
+        self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
+    ) -> npt.NDArray[Any]:
+        return np.array(self.value, dtype=dtype, copy=copy)
 
     def velocity(self, omega: npt.ArrayLike) -> Float:
         """Return the velocity for a driver's speed: ``d1 ω``.

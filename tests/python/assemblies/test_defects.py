@@ -52,7 +52,7 @@ def test_a_triads_three_circuits() -> None:
     m = triad()
     curve = m.configuration_curve()
     homes = [{number for number, _ in circuit.branches} for circuit in curve.circuits]
-    q = m.q0
+    q = float(np.array(m.q0))
     found = list(m.assemblies(q))
     names = tuple(m.joints)
     for one in found[:2]:

@@ -1,0 +1,111 @@
+"""Choosing designs and positions: what stands in brackets behind a batch or a motion."""
+
+from __future__ import annotations
+
+import operator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._arrays import short
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
+
+FORMS = "an integer, a slice, a mask or indices are needed for each axis"
+
+
+def designs_of(mechanism: Mechanism, index: Any) -> Mechanism:
+    """See `Mechanism.__getitem__`."""
+    if not mechanism.shape:
+        message = f"[{short(index)}]: this is one mechanism, not a batch of designs"
+        raise InputError(message)
+    designs = np.moveaxis(mechanism._values, 0, -1)
+    if isinstance(index, np.ndarray) and index.dtype == np.bool_ and index.ndim > 1:
+        if index.shape != mechanism.shape:
+            message = f"a mask of shape {index.shape} for designs {mechanism.shape}"
+            raise InputError(message)
+        values = designs[index]
+    else:
+        values = _taken(designs, _entries(index, mechanism.shape))
+    if values.ndim == 1:
+        mechanism._core.check_dimensions(values.tolist())
+    return mechanism._with_values(np.array(np.moveaxis(values, -1, 0)))
+
+
+def part_of(motion: Motion, index: Any) -> Motion:
+    """See `Motion.__getitem__`."""
+    entries = _entries(index, motion.shape)
+    request, mechanism = motion._request, motion.mechanism
+    designs = entries[: len(mechanism.shape)]
+    positions = entries[len(designs) :]
+    if designs:
+        values = _taken(np.moveaxis(mechanism._values, 0, -1), designs)
+        mechanism = mechanism._with_values(np.array(np.moveaxis(values, -1, 0)))
+
+    def part(array: Any) -> Any:
+        return _own(_taken(array, entries))
+
+    q = part(motion.q) if request.per_design else _own(_taken(motion.q, positions))
+    is_one = not positions or isinstance(positions[0], int)
+    count = () if is_one else q.shape[len(mechanism.shape) * request.per_design :][:1]
+    request = replace(request, mechanism=mechanism, q=q, positions=count)
+    if not mechanism.shape:
+        request = replace(request, per_design=False)
+    own = object.__new__(type(motion))
+    own._replace_with(request, motion._results.each(part), part(motion.status))
+    if motion.kept is not None:
+        own.kept = _taken(motion.kept, designs)
+    return own
+
+
+def _own(array: Any) -> Any:
+    """Return a copy that nobody may write to: the core needs contiguous arrays."""
+    own = np.array(array, order="C")
+    own.flags.writeable = False
+    return own
+
+
+def _entries(index: Any, shape: tuple[int, ...]) -> tuple[Any, ...]:
+    """Return an integer, a slice or an array of indices for each axis."""
+    given = list(index) if isinstance(index, tuple) else [index]
+    dots = [i for i, one in enumerate(given) if one is Ellipsis]
+    if len(dots) > 1 or len(given) - len(dots) > len(shape):
+        message = f"[{short(index)}] has more entries than the shape {shape} has axes"
+        raise InputError(message)
+    at = dots[0] if dots else len(given)
+    given[at : at + 1] = [slice(None)] * (len(shape) - len(given) + len(dots))
+    return tuple(_entry(one, size, shape) for one, size in zip(given, shape, strict=True))
+
+
+def _entry(one: Any, size: int, shape: tuple[int, ...]) -> Any:
+    if isinstance(one, slice):
+        return one
+    array = np.asarray(one)
+    if array.dtype == np.bool_:
+        if array.shape != (size,):
+            message = f"a mask of shape {array.shape} for an axis of {size} of the shape {shape}"
+            raise InputError(message)
+        return np.flatnonzero(array)
+    if array.size == 0:
+        array = array.astype(np.intp)
+    if array.ndim > 1 or array.dtype.kind not in "ui":
+        message = f"[{short(one)}]: {FORMS}"
+        raise InputError(message)
+    outside = array[(array < -size) | (array >= size)]
+    if outside.size:
+        message = f"[{short(one)}]: {outside.flat[0]} is outside the shape {shape}"
+        raise InputError(message)
+    return operator.index(array[()]) if array.ndim == 0 else array
+
+
+def _taken(array: Any, entries: tuple[Any, ...]) -> Any:
+    """Index axes one after another, each by its own entry: a product, not NumPy's pairing."""
+    axis = 0
+    for entry in entries:
+        array = array[(*(slice(None),) * axis, entry)]
+        axis += not isinstance(entry, int)
+    return array
