@@ -17,6 +17,7 @@ from assur.kinematics.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
+    from os import PathLike
 
     from assur._arrays import Float
     from assur.kinematics.held import Results
@@ -369,16 +370,100 @@ class Motion:
         one = [q] if isinstance(q, float) else list(q)
         return self.mechanism._core.explain(values.tolist(), one, self._request.signs)
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(
+        self,
+        omega: npt.ArrayLike | None = None,
+        alpha: npt.ArrayLike = 0.0,
+        degrees: bool = False,
+        moving: bool = False,
+    ) -> Any:
         """Return a pandas DataFrame with one row per position (needs pandas).
 
-        Columns: the design's index, q, status, and every value and analogue held,
-        such as ``C.x``, ``C.x.d1``, ``coupler``, ``coupler.d1``. A link or slide whose name
-        is one of the first columns appears as ``link q`` or ``slide status``.
-        """
-        from assur.kinematics.dataframe import dataframe
+        Parameters
+        ----------
+        omega, alpha : array_like, optional
+            Speed and acceleration of the driver, as for `Analogues.velocity`. With them velocities
+            and accelerations stand in place of the analogues.
+        degrees : bool
+            Angles in degrees; angular velocities remain rad/s, analogues per rad.
+        moving : bool
+            Only what moves: no fixed joints, no ground.
 
-        return dataframe(self)
+        Returns
+        -------
+        pandas.DataFrame
+            The design's index, q, status, and everything held: values ``C.x``, ``coupler``,
+            ``bore``; their analogues ``C.x.d1``, ``coupler.d2`` or, with `omega`, ``C.vx``,
+            ``C.ax``, ``coupler.omega``, ``coupler.alpha``, ``bore.v``. A link or slide whose name
+            is one of the first columns appears as ``link q``. ``attrs["units"]`` has the units.
+
+        Examples
+        --------
+        >>> import assur
+        >>> motion = assur.SliderCrank(0.05, 0.2).solve([0.0, 1.0], outputs=["A", "bore"])
+        >>> list(motion.to_dataframe(omega=10.0, degrees=True))
+        ['q', 'status', 'A.x', 'A.y', 'A.vx', 'A.vy', 'A.ax', 'A.ay', 'bore', 'bore.v', 'bore.a']
+        """
+        from assur._table import frame
+        from assur.kinematics.table import Options, motion_columns
+
+        return frame(motion_columns(self, Options(omega, alpha, degrees, moving)))
+
+    def to_excel(
+        self,
+        path: str | PathLike[str],
+        omega: npt.ArrayLike | None = None,
+        alpha: npt.ArrayLike = 0.0,
+        degrees: bool = False,
+        moving: bool = True,
+    ) -> None:
+        """Write a workbook, a sheet for each joint, link and slide (needs openpyxl).
+
+        Parameters are those of `to_dataframe`. Units stand in the second row; cells without a
+        position are empty.
+        """
+        from assur._table import write_excel
+        from assur.kinematics.table import Options, motion_columns
+
+        write_excel(path, motion_columns(self, Options(omega, alpha, degrees, moving)))
+
+    def to_parquet(
+        self,
+        path: str | PathLike[str],
+        omega: npt.ArrayLike | None = None,
+        alpha: npt.ArrayLike = 0.0,
+        degrees: bool = False,
+        moving: bool = False,
+    ) -> None:
+        """Write `to_dataframe` as a Parquet file, units in its metadata (needs pandas, pyarrow)."""
+        from assur._table import write_parquet
+        from assur.kinematics.table import Options, motion_columns
+
+        write_parquet(path, motion_columns(self, Options(omega, alpha, degrees, moving)))
+
+    def to_xarray(self) -> Any:
+        """Return an xarray Dataset with named dimensions and units (needs xarray).
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables ``C``, ``C.d1``, ``coupler``, ``bore.d2`` …, each with its ``units``, over
+            the dimensions design, position, component (x, y of a joint) and, with several
+            drivers, driver0, driver1 … of each derivative. Coordinates: q, status, and the
+            dimensions that differ between designs.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> m = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+        >>> batch = m.with_dimensions({"rocker.length": np.linspace(2.4, 2.6, 3)})
+        >>> data = batch.solve(np.linspace(0.0, 6.0, 5)).to_xarray()
+        >>> dict(data["C"].sizes), data["C.d1"].attrs["units"]
+        ({'design': 3, 'position': 5, 'component': 2}, 'm/rad')
+        """
+        from assur.kinematics.table import dataset
+
+        return dataset(self)
 
     def plot(self, joint: str, ax: Any = None) -> Any:
         """Draw a joint's path with the mechanism at the first position (needs matplotlib)."""

@@ -1,0 +1,101 @@
+"""Tables of results: named columns with units, as a DataFrame, a workbook or a Parquet file."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from assur._arrays import short
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from os import PathLike
+
+    import numpy.typing as npt
+
+__all__ = ["Column", "frame", "write_excel", "write_parquet"]
+
+# Excel's own limits.
+MAX_ROWS = 1_048_576
+MAX_SHEET_NAME = 31
+
+
+class Column(NamedTuple):
+    """A column: `quantity` is what it belongs to, None for those that say which row it is."""
+
+    name: str
+    values: npt.NDArray[Any]
+    unit: str
+    quantity: str | None
+
+
+def frame(columns: Iterable[Column]) -> Any:
+    """Return a pandas DataFrame; its ``attrs["units"]`` maps columns to units."""
+    try:
+        import pandas as pd
+    except ImportError as error:  # pragma: no cover
+        message = "to_dataframe needs pandas: pip install assur[dataframe]"
+        raise ImportError(message) from error
+    listed = list(columns)
+    table = pd.DataFrame({column.name: column.values for column in listed})
+    table.attrs["units"] = {column.name: column.unit for column in listed if column.unit}
+    return table
+
+
+def write_excel(path: str | PathLike[str], columns: Iterable[Column]) -> None:
+    """Write a workbook: a sheet for each quantity, units in the second row."""
+    try:
+        from openpyxl import Workbook
+    except ImportError as error:  # pragma: no cover
+        message = "to_excel needs openpyxl: pip install assur[excel]"
+        raise ImportError(message) from error
+    listed = list(columns)
+    rows = max((len(column.values) for column in listed), default=0)
+    if rows + 2 > MAX_ROWS:
+        message = f"to_excel: {rows} rows; a sheet holds {MAX_ROWS - 2}: use to_parquet"
+        raise InputError(message)
+    common = [column for column in listed if column.quantity is None]
+    book = Workbook(write_only=True)
+    names: set[str] = set()
+    quantities = dict.fromkeys(column.quantity for column in listed if column.quantity is not None)
+    for quantity in quantities or {"table": None}:
+        own = [column for column in listed if column.quantity == quantity]
+        sheet = book.create_sheet(_sheet_name(quantity, names))
+        sheet.freeze_panes = "A3"
+        shown = [*common, *own]
+        sheet.append([column.name for column in shown])
+        sheet.append([column.unit for column in shown])
+        for row in zip(*(column.values.tolist() for column in shown), strict=True):
+            sheet.append([_cell(value) for value in row])
+    book.save(Path(path))
+
+
+def write_parquet(path: str | PathLike[str], columns: Iterable[Column]) -> None:
+    """Write one table; the units are in its metadata."""
+    if find_spec("pyarrow") is None:  # pragma: no cover
+        message = "to_parquet needs pyarrow: pip install assur[parquet]"
+        raise ImportError(message)
+    frame(columns).to_parquet(Path(path), index=False)
+
+
+def _sheet_name(quantity: str, names: set[str]) -> str:
+    """Return a name that Excel takes and no other sheet has."""
+    plain = "".join("_" if letter in r"[]:*?/\\" else letter for letter in quantity)
+    name, count = plain[:MAX_SHEET_NAME].strip("'") or "_", 1
+    while name.lower() in names:
+        count += 1
+        tail = f"~{count}"
+        name = plain[: MAX_SHEET_NAME - len(tail)] + tail
+    names.add(name.lower())
+    return name
+
+
+def _cell(value: Any) -> Any:
+    """Excel has no NaN and no infinity: an empty cell, and words."""
+    if isinstance(value, float) and not np.isfinite(value):
+        return None if np.isnan(value) else f"{value}"
+    return value if isinstance(value, int | float | str | bool | None) else short(value)

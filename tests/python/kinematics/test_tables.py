@@ -1,0 +1,135 @@
+"""Tables of motions: velocities, degrees, what moves, workbooks, Parquet and xarray."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from openpyxl import load_workbook
+
+import assur
+from refusals import refused
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+Q = np.linspace(0.2, 6.1, 8)
+
+
+def engine() -> assur.Motion:
+    return assur.SliderCrank(0.05, 0.2, 0.01).solve(Q, order=3)
+
+
+def test_velocities_in_place_of_analogues() -> None:
+    motion = engine()
+    table = motion.to_dataframe(omega=30.0, alpha=5.0)
+    pin, rod, bore = motion.joint("A"), motion.link("rod"), motion.slide("bore")
+    np.testing.assert_array_equal(table["A.vx"], pin.velocity(30.0)[:, 0])
+    np.testing.assert_array_equal(table["A.ay"], pin.acceleration(30.0, 5.0)[:, 1])
+    np.testing.assert_array_equal(table["A.jx"], pin.jerk(30.0, 5.0)[:, 0])
+    np.testing.assert_array_equal(table["rod.omega"], rod.velocity(30.0))
+    np.testing.assert_array_equal(table["rod.alpha"], rod.acceleration(30.0, 5.0))
+    np.testing.assert_array_equal(table["rod.jerk"], rod.jerk(30.0, 5.0))
+    np.testing.assert_array_equal(table["bore.v"], bore.velocity(30.0))
+    np.testing.assert_array_equal(table["bore.a"], bore.acceleration(30.0, 5.0))
+    np.testing.assert_array_equal(table["bore.j"], bore.jerk(30.0, 5.0))
+    units = table.attrs["units"]
+    assert [units[n] for n in ("q", "A.x", "rod.omega", "bore.a")] == ["rad", "m", "rad/s", "m/s2"]
+    assert not [name for name in table if ".d" in name]
+
+
+def test_a_speed_at_each_position() -> None:
+    motion = engine()
+    omega = np.linspace(1.0, 2.0, len(Q))
+    table = motion.to_dataframe(omega=omega)
+    np.testing.assert_array_equal(table["bore.v"], motion.slide("bore").d1 * omega)
+    refused(assur.InputError, "one speed", partial(motion.to_dataframe, omega=np.ones((3, 1))))
+
+
+def test_degrees_are_of_angles_only() -> None:
+    motion = engine()
+    table = motion.to_dataframe(omega=30.0, degrees=True)
+    np.testing.assert_array_equal(table["q"], np.degrees(Q))
+    np.testing.assert_array_equal(table["rod"], np.degrees(motion.link("rod").value))
+    np.testing.assert_array_equal(table["rod.omega"], motion.link("rod").velocity(30.0))
+    assert table.attrs["units"]["rod"] == "deg"
+    analogues = motion.to_dataframe(degrees=True)
+    np.testing.assert_array_equal(analogues["rod.d1"], motion.link("rod").d1)
+    assert analogues.attrs["units"]["rod.d2"] == "rad/rad/rad"
+    driven = assur.SliderCrank(0.05, 0.2, 0.01).with_driver("bore")
+    table = driven.solve(driven.q0, order=1).to_dataframe(degrees=True)
+    assert table["q"][0] == driven.q0
+    assert table.attrs["units"]["crank.d1"] == "rad/m"
+
+
+def test_only_what_moves() -> None:
+    names = list(engine().to_dataframe(omega=1.0, moving=True))
+    assert not [n for n in names if n.startswith(("O.", "ground", "piston"))]
+    assert {"A.x", "B.x", "crank", "rod", "bore"} <= set(names)
+    one = assur.SliderCrank(0.05, 0.2).solve(1.0).to_dataframe(moving=True)
+    assert "A.x" in one
+    assert "O.x" not in one
+
+
+def test_a_workbook_has_a_sheet_for_each_quantity(tmp_path: Path) -> None:
+    motion = assur.FourBar(3.0, 2.5, 2.0, 4.0).solve([0.0, 1.0, 3.0], on_error="nan")
+    motion.to_excel(tmp_path / "motion.xlsx", omega=10.0, degrees=True)
+    book = load_workbook(tmp_path / "motion.xlsx")
+    assert book.sheetnames == ["B", "C", "crank", "coupler", "rocker"]
+    rows = list(book["C"].iter_rows(values_only=True))
+    assert rows[0] == ("q", "status", "C.x", "C.y", "C.vx", "C.vy", "C.ax", "C.ay")
+    assert rows[1][:3] == ("deg", None, "m")
+    assert rows[2][2] == motion.joint("C").value[0, 0]
+    # Out of reach: an empty cell.
+    assert rows[4][1:3] == (3, None)
+
+
+def test_names_that_excel_refuses(tmp_path: Path) -> None:
+    long = "a" * 40
+    m = assur.Mechanism(
+        {"A": (0, 0), "B": (1, 0), "C": (4.1, 3.2), "D": (4.8, 0)},
+        {"ground": "AD", f"{long}1": "AB", f"{long}2": "BC", "b": "DC"},
+        f"{long}1",
+    )
+    m.solve(Q).to_excel(tmp_path / "long.xlsx")
+    names = load_workbook(tmp_path / "long.xlsx").sheetnames
+    # "b" and "B" are one name to Excel.
+    assert names == ["B", "C", "a" * 31, "a" * 29 + "~2", "b~2"]
+
+
+def test_parquet_keeps_bits_and_units(tmp_path: Path) -> None:
+    motion = engine()
+    motion.to_parquet(tmp_path / "motion.parquet", omega=30.0)
+    table, wanted = pd.read_parquet(tmp_path / "motion.parquet"), motion.to_dataframe(omega=30.0)
+    pd.testing.assert_frame_equal(table, wanted, check_exact=True)
+    assert table.attrs["units"]["bore.v"] == "m/s"
+
+
+def test_xarray_has_named_dimensions() -> None:
+    m = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    rocker, ground = np.linspace(2.3, 2.6, 3)[:, None], np.linspace(3.0, 3.3, 2)
+    batch = m.with_dimensions({"rocker.length": rocker, "ground.D.x": ground})
+    data = batch.solve(Q).to_xarray()
+    assert dict(data["C"].sizes) == {"design0": 3, "design1": 2, "position": 8, "component": 2}
+    np.testing.assert_array_equal(
+        data["C.d2"].sel(component="y").isel(design0=1), batch.solve(Q).joint("C").d2[1, ..., 1]
+    )
+    assert data["rocker"].attrs["units"] == "rad"
+    assert data["C.d2"].attrs["units"] == "m/rad/rad"
+    np.testing.assert_array_equal(data.coords["rocker.length"][:, 0], rocker[:, 0])
+    assert "coupler.length" not in data.coords
+    own = Q + np.zeros((3, 2, 1))
+    assert batch.solve(own).to_xarray()["q"].dims == ("design0", "design1", "position")
+    assert isinstance(m.solve(1.0).to_xarray(), xr.Dataset)
+
+
+def test_xarray_of_two_drivers() -> None:
+    joints = {"A": (0, 0), "B": (0, 1), "P": (0.7, 1.2), "D": (1.4, 0.6), "E": (1, 0)}
+    links = {"ground": "AE", "left": "AB", "rod": "BP", "arm": "DP", "right": "ED"}
+    m = assur.Mechanism(joints, links, ("left", "right"))
+    data = m.solve(np.array([m.q0, m.q0]), order=2).to_xarray()
+    assert data["q"].dims == ("position", "driver")
+    assert data["P.d2"].dims == ("position", "component", "driver0", "driver1")
