@@ -495,13 +495,15 @@ class Mechanism:
 
     def solve(
         self,
-        q: npt.ArrayLike,
+        q: npt.ArrayLike | None = None,
         order: int = 2,
         outputs: Iterable[str] | None = None,
         assembly: Mapping[str, int] | None = None,
         on_error: Literal["raise", "nan"] = "raise",
         threads: int | None = None,
         out: Motion | None = None,
+        *,
+        deg: npt.ArrayLike | None = None,
     ) -> Motion:
         """Solve positions and analogues.
 
@@ -510,6 +512,9 @@ class Mechanism:
         q : array_like
             Coordinate of the driver, rad or m: a scalar, ``(N,)`` or ``S + (N,)``;
             n drivers add a last axis of n.
+        deg : array_like, optional
+            The coordinate of a driven angle in degrees, in place of `q`. The motion's own q, and
+            everything else, remain in rad.
         order : {2, 0, 1, 3}
             Highest order of the analogues.
         outputs : iterable of str, optional
@@ -536,13 +541,24 @@ class Mechanism:
         PositionError, DimensionError, InputError
             With ``on_error="raise"``: for the first position that has no solution.
 
+        Warns
+        -----
+        AssurWarning
+            If coordinates of a driven angle look like degrees: whole numbers, some beyond two turns.
+
         Examples
         --------
         >>> import assur, numpy as np
         >>> motion = assur.SliderCrank(0.05, 0.2).solve(np.linspace(0, 2 * np.pi, 5))
         >>> motion.slide("bore").value.round(4)
         array([0.25  , 0.1936, 0.15  , 0.1936, 0.25  ])
+        >>> assur.SliderCrank(0.05, 0.2).solve(deg=[0, 180]).slide("bore").value.round(4)
+        array([0.25, 0.15])
         """
+        if deg is not None or q is None:
+            q = solver.in_radians(self, q, deg)
+        else:
+            solver.warn_if_degrees(self, q)
         return solver.solve(self, q, order, outputs, assembly, on_error, threads, out)
 
     def assemblies(self, q: npt.ArrayLike, threads: int | None = None) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy.typing as npt
 
 from assur._arrays import short
 from assur._validate import checked_order, checked_signs, checked_threads, one_of, real_array
-from assur.errors import InputError
+from assur.errors import AssurWarning, InputError
 from assur.kinematics.assembly import Assembly, drawn_in
 from assur.kinematics.motion import Motion
 from assur.kinematics.request import SolveRequest
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 Float: TypeAlias = npt.NDArray[np.float64]
 # Names and indices of joints, links, slides.
 Names: TypeAlias = tuple[dict[str, int], dict[str, int], dict[str, int]]
+
+# Whole numbers, some of them more than two turns from 0, look like degrees.
+LIKE_DEGREES = 4.0 * np.pi
 
 
 def solve(
@@ -63,6 +67,42 @@ def solve(
     if failure is not None:
         raise failure
     return motion
+
+
+def in_radians(mechanism: Mechanism, q: Any, deg: npt.ArrayLike | None) -> Float:
+    """Return the coordinates that are given in degrees."""
+    if q is not None or deg is None:
+        both = "both q and deg are" if q is not None else "neither q nor deg is"
+        message = f"solve(): {both} given: pass q in rad (or m), or deg in degrees"
+        raise InputError(message)
+    for driver in mechanism._description.drivers:
+        if isinstance(driver, str) and driver in mechanism.slides:
+            message = f"deg: the driver {driver!r} is a slide; its coordinate q is a length, m"
+            raise InputError(message)
+    return real_array(deg, "deg") * (np.pi / 180.0)
+
+
+def warn_if_degrees(mechanism: Mechanism, q: npt.ArrayLike) -> None:
+    """Warn if the coordinates of a driven angle look like degrees."""
+    last: Any = q
+    while isinstance(last, list | tuple) and last:
+        last = last[-1]
+    if isinstance(last, np.ndarray) and last.size:
+        last = last.flat[-1]
+    # Quickly, because every call comes here: few coordinates are whole numbers.
+    if not (isinstance(last, int | float | np.number) and float(last).is_integer()):
+        return
+    drivers = mechanism._description.drivers
+    if len(drivers) > 1 or (isinstance(drivers[0], str) and drivers[0] in mechanism.slides):
+        return
+    array = np.asarray(q)
+    if array.dtype.kind not in "uif" or not (np.abs(array) >= LIKE_DEGREES).any():
+        return
+    if (array == np.floor(array)).all():
+        most = float(array.flat[np.abs(array).argmax()])
+        turns = most / (2.0 * np.pi)
+        message = f"q = {most:g} is {most:g} rad, {turns:.3g} turns; for degrees: solve(deg=...)"
+        warnings.warn(message, AssurWarning, stacklevel=3)
 
 
 def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
