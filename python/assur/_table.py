@@ -12,12 +12,21 @@ from assur._arrays import short
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
     from os import PathLike
 
     import numpy.typing as npt
 
-__all__ = ["Column", "frame", "write_excel", "write_parquet"]
+__all__ = [
+    "Column",
+    "Tabular",
+    "angle_column",
+    "coordinate_columns",
+    "design_columns",
+    "frame",
+    "write_excel",
+    "write_parquet",
+]
 
 # Excel's own limits.
 MAX_ROWS = 1_048_576
@@ -99,3 +108,75 @@ def _cell(value: Any) -> Any:
     if isinstance(value, float) and not np.isfinite(value):
         return None if np.isnan(value) else f"{value}"
     return value if isinstance(value, int | float | str | bool | None) else short(value)
+
+
+class Tabular:
+    """What can be shown as a table: `_columns` returns its columns."""
+
+    def _columns(self, degrees: bool) -> Sequence[Column]:
+        raise NotImplementedError
+
+    def to_dataframe(self, degrees: bool = False) -> Any:
+        """Return a pandas DataFrame (needs pandas); its ``attrs["units"]`` has the units.
+
+        Parameters
+        ----------
+        degrees : bool
+            Angles in degrees; speeds remain rad/s.
+        """
+        return frame(self._columns(degrees))
+
+    def to_excel(self, path: str | PathLike[str], degrees: bool = False) -> None:
+        """Write a workbook, a sheet for each quantity, units in the second row (needs openpyxl)."""
+        write_excel(path, self._columns(degrees))
+
+    def to_parquet(self, path: str | PathLike[str], degrees: bool = False) -> None:
+        """Write `to_dataframe` as a Parquet file (needs pandas and pyarrow)."""
+        write_parquet(path, self._columns(degrees))
+
+    def to_xarray(self, degrees: bool = False) -> Any:
+        """Return `to_dataframe` as an xarray Dataset over its rows (needs xarray), with units."""
+        try:
+            import xarray as xr
+        except ImportError as error:  # pragma: no cover
+            message = "to_xarray needs xarray: pip install assur[xarray]"
+            raise ImportError(message) from error
+        columns = self._columns(degrees)
+        return xr.Dataset(
+            {one.name: ("row", one.values, {"units": one.unit}) for one in columns if one.quantity},
+            {
+                one.name: ("row", one.values, {"units": one.unit})
+                for one in columns
+                if not one.quantity
+            },
+        )
+
+
+def angle_column(name: str, values: npt.NDArray[Any], degrees: bool) -> Column:
+    """Return a column of angles that says which row it is, rad or deg."""
+    shown, unit = (np.degrees(values), "deg") if degrees else (values, "rad")
+    return Column(name, shown, unit, None)
+
+
+def design_columns(shape: tuple[int, ...], designs: int) -> list[Column]:
+    """Return the indices of designs, the first axes of a shape, for each row."""
+    columns = []
+    for axis in range(designs):
+        name = "design" if designs == 1 else f"design{axis}"
+        index = np.arange(shape[axis]).reshape((-1,) + (1,) * (len(shape) - axis - 1))
+        columns.append(Column(name, np.broadcast_to(index, shape).reshape(-1), "", None))
+    return columns
+
+
+def coordinate_columns(
+    q: npt.NDArray[Any], angles: Sequence[bool], shape: tuple[int, ...], degrees: bool
+) -> list[Column]:
+    """Return coordinates for each row; of several drivers q has a last axis."""
+    columns = []
+    for k, is_angle in enumerate(angles):
+        name = "q" if len(angles) == 1 else f"q{k}"
+        own = q if len(angles) == 1 else q[..., k]
+        values = np.broadcast_to(own, shape).reshape(-1)
+        is_length = Column(name, values, "m", None)
+        columns.append(angle_column(name, values, degrees) if is_angle else is_length)
+    return columns

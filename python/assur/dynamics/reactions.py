@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from assur._table import Column, Tabular, coordinate_columns, design_columns
 from assur._validate import checked_name
 from assur.description.words import Status
 from assur.dynamics import bearing as bearings
 from assur.errors import InputError
+from assur.kinematics.table import driven_angles
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -58,7 +60,7 @@ class SlideReaction(NamedTuple):
     friction: Any
 
 
-class Reactions:
+class Reactions(Tabular):
     """Forces in the pairs of a machine, by `Machine.reactions`.
 
     All arrays have the shape S + (N,), S the shape of the designs; forces have a last axis (x, y)
@@ -112,6 +114,36 @@ class Reactions:
         self._found = found
         self._again = again
         self.status = status
+
+    def _columns(self, degrees: bool) -> list[Column]:
+        """Return all forces: of a joint on every link but the first, which takes the rest."""
+        mechanism, shape = self._mechanism, self.status.shape
+        angles = driven_angles(mechanism)
+        columns = [
+            *design_columns(shape, len(mechanism.shape)),
+            *coordinate_columns(self.q, angles, shape, degrees),
+            Column("status", self.status.reshape(-1), "", None),
+        ]
+
+        def add(name: str, values: Any, unit: str, quantity: str) -> None:
+            columns.append(Column(name, np.broadcast_to(values, shape).reshape(-1), unit, quantity))
+
+        for k, is_angle in enumerate(angles):
+            tail, own = (f"{k}", self.driver[..., k]) if len(angles) > 1 else ("", self.driver)
+            add(f"driver{tail}", own, "N m" if is_angle else "N", "driver")
+        for joint, links in links_at(mechanism).items():
+            for link in links[1:]:
+                force = self.joint(joint, on=link)
+                add(f"{joint}.x on {link}", force[..., 0], "N", joint)
+                add(f"{joint}.y on {link}", force[..., 1], "N", joint)
+        for slide in mechanism.slides:
+            for name, values in self.slide(slide)._asdict().items():
+                unit = {"moment": "N m", "along": "m"}.get(name, "N")
+                add(f"{slide}.{name}", values, unit, slide)
+        add("shaking_force.x", self.shaking_force[..., 0], "N", "shaking")
+        add("shaking_force.y", self.shaking_force[..., 1], "N", "shaking")
+        add("shaking_moment", self.shaking_moment, "N m", "shaking")
+        return columns
 
     def __repr__(self) -> str:
         pins = [links for links in links_at(self._mechanism).values() if len(links) > 1]

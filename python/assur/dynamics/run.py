@@ -9,8 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, counted, real_array
+from assur._table import Column, Tabular, coordinate_columns
 from assur._validate import one_of
 from assur.errors import InputError, MotionError
+from assur.kinematics.table import driven_angles
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -141,7 +143,7 @@ class Statistics(NamedTuple):
     largest_step: float | None
 
 
-class Run:
+class Run(Tabular):
     """A motion of a machine.
 
     Made by `Machine.run`. Arrays have one row per step: (N,), with several drivers (N, n).
@@ -184,6 +186,7 @@ class Run:
     ) -> None:
         self._init_args = core, mechanism, drivers, events, along_q
         self._core, self._along_q, self._drivers = core, along_q, drivers
+        self._mechanism = mechanism
         self.t, *arrays = core.arrays()
         for array in (self.t, *arrays):
             array.flags.writeable = False
@@ -284,6 +287,24 @@ class Run:
             )
             raise MotionError(message, kind="not_finite", t=first)
         return Energy(kinetic, potential, work, total - total[0])
+
+    def _columns(self, degrees: bool) -> list[Column]:
+        """Return the ends of the steps: time, coordinates, speeds, energies."""
+        angles = driven_angles(self._mechanism) if self._mechanism else [True] * self._drivers
+        columns = [
+            Column("t", self.t, "s", None),
+            *coordinate_columns(self.q, angles, self.t.shape, degrees),
+        ]
+        for k, is_angle in enumerate(angles):
+            tail, unit = f"{k}" if len(angles) > 1 else "", "rad" if is_angle else "m"
+            speed, acceleration = (
+                one[:, k] if len(angles) > 1 else one for one in (self.speed, self.acceleration)
+            )
+            columns.append(Column(f"speed{tail}", speed, f"{unit}/s", "motion"))
+            columns.append(Column(f"acceleration{tail}", acceleration, f"{unit}/s2", "motion"))
+        for name, values in self.energy._asdict().items():
+            columns.append(Column(name, values, "J", "energy"))
+        return columns
 
     def plot(self, what: str = "speed", ax: Any = None) -> Any:
         """Draw a quantity over time.

@@ -9,6 +9,7 @@ import numpy as np
 
 from assur._arrays import finite_array
 from assur._extreme import Extreme
+from assur._table import Column, Tabular
 from assur.dynamics.run import Run
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ __all__ = ["SteadyState"]
 EXTREME = "extreme speed"
 
 
-class SteadyState:
+class SteadyState(Tabular):
     """A machine in periodic motion.
 
     Made by `Machine.steady_state`; that of a flywheel with the machine's own motor is its `steady`.
@@ -114,6 +115,10 @@ class SteadyState:
         whole = np.where(is_here, 0.0, np.round((x - first - rest) / (last - first)))
         state = self.run.at(q=np.where(is_here, x, np.clip(first + rest, low, high)))
         return state._replace(t=state.t + whole * self.period, q=x[()])
+
+    def _columns(self, degrees: bool) -> list[Column]:
+        """Return one period, as its `run`."""
+        return self.run._columns(degrees)
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the speed over the coordinate.

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, finite_array
+from assur._table import Column, Tabular, angle_column, design_columns
 from assur._validate import checked_index, one_of, whole_number
 from assur.errors import InputError
 
@@ -24,7 +25,7 @@ MEANS = ("extremes", "period")
 PLOT_POINTS = 721
 
 
-class Flywheel(ABC):
+class Flywheel(Tabular, ABC):
     """A machine with its flywheel in steady motion, whatever its motor.
 
     Made by `from_table` and `evaluate` (with a constant motor) and by `Machine.flywheel`. Numbers
@@ -187,6 +188,23 @@ class Flywheel(ABC):
         inertia = self.reduced_inertia(q)
         start = np.asarray(self.reduced_inertia(self._turn[0]) * np.square(self.speed0) / 2.0)
         return inertia, self.work(q) + start[..., np.newaxis]
+
+    def _columns(self, degrees: bool) -> list[Column]:
+        """Return one turn, row after row of the batch."""
+        q = np.linspace(*self._turn, PLOT_POINTS)
+        shape = (*self.shape, PLOT_POINTS)
+        columns = design_columns(shape, len(self.shape))
+        columns.append(angle_column("q", np.broadcast_to(q, shape).reshape(-1), degrees))
+        for name, curve, unit in (
+            ("time", self.time, "s"),
+            ("speed", self.speed, "rad/s"),
+            ("reduced_moment", self.reduced_moment, "N m"),
+            ("reduced_inertia", self.reduced_inertia, "kg m2"),
+            ("work", self.work, "J"),
+        ):
+            values = np.broadcast_to(curve(q), shape).reshape(-1)
+            columns.append(Column(name, values, unit, name))
+        return columns
 
     def plot(self, what: Literal["speed", "time", "energy-mass"] = "speed", ax: Any = None) -> Any:
         """Draw the speed over the turn or over the time, or the energy-mass diagram.

@@ -544,7 +544,7 @@ class Mechanism:
         Warns
         -----
         AssurWarning
-            If coordinates of a driven angle look like degrees: whole numbers, some beyond two turns.
+            If coordinates of a driven angle are whole numbers, some beyond two turns: degrees?
 
         Examples
         --------

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from assur._table import Column
+from assur._table import Column, coordinate_columns, design_columns
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
+    from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
     from assur.kinematics.quantity import Analogues
 
@@ -57,27 +58,18 @@ def motion_columns(motion: Motion, options: Options) -> list[Column]:
 
 def _rows(motion: Motion, degrees: bool) -> list[Column]:
     """Designs, coordinates and statuses."""
-    shape, columns = motion.shape, []
-    designs = len(motion.mechanism.shape)
-    for axis in range(designs):
-        name = "design" if designs == 1 else f"design{axis}"
-        index = np.arange(shape[axis]).reshape((-1,) + (1,) * (len(shape) - axis - 1))
-        columns.append(Column(name, np.broadcast_to(index, shape).reshape(-1), "", None))
-    drivers = motion._drivers
-    q = motion.q if drivers > 1 else motion.q[..., np.newaxis]
-    for k, is_angle in enumerate(driven_angles(motion)):
-        name = "q" if drivers == 1 else f"q{k}"
-        values = np.broadcast_to(q[..., k], shape).reshape(-1)
-        unit = ("deg" if degrees else "rad") if is_angle else "m"
-        columns.append(Column(name, np.degrees(values) if unit == "deg" else values, unit, None))
-    columns.append(Column("status", motion.status.reshape(-1), "", None))
-    return columns
+    angles = driven_angles(motion.mechanism)
+    return [
+        *design_columns(motion.shape, len(motion.mechanism.shape)),
+        *coordinate_columns(motion.q, angles, motion.shape, degrees),
+        Column("status", motion.status.reshape(-1), "", None),
+    ]
 
 
-def driven_angles(motion: Motion) -> list[bool]:
+def driven_angles(mechanism: Mechanism) -> list[bool]:
     """Whether each driver is an angle, not a slide."""
-    slides = motion.mechanism.slides
-    drivers = motion.mechanism._description.drivers
+    slides = mechanism.slides
+    drivers = mechanism._description.drivers
     return [not isinstance(one, str) or one not in slides for one in drivers]
 
 
@@ -115,7 +107,7 @@ def _analogues(motion: Motion, quantity: _Quantity, degrees: bool) -> Iterator[C
     drivers, size = motion._drivers, motion.status.size
     unit = "rad" if quantity.kind == "link" else "m"
     parts = _components(quantity.kind)
-    angles = driven_angles(motion)
+    angles = driven_angles(motion.mechanism)
     for order, array in enumerate(quantity.analogues._arrays):
         indices = list(product(range(drivers), repeat=order))
         flat = array.reshape(size, len(parts), len(indices))
@@ -173,7 +165,7 @@ def dataset(motion: Motion) -> Any:
     designs, drivers = len(motion.mechanism.shape), motion._drivers
     rows = ["design"] if designs == 1 else [f"design{axis}" for axis in range(designs)]
     rows += ["position"] * (len(motion.shape) - designs)
-    angles = driven_angles(motion)
+    angles = driven_angles(motion.mechanism)
     named: dict[str, Any] = {}
     units = ["rad" if angle else "m" for angle in angles]
     for quantity in _quantities(motion, {"q", "status", *rows, "component"}):
