@@ -58,9 +58,21 @@ class Structure:
     redundant : tuple of str
         Links and slides without which it moves the same; their closure is
         checked at every position.
+    moving_links, turning_pairs, sliding_pairs : int
+        What that formula counts: n, and p = turning + sliding. A joint of k links counts as k − 1
+        turning pairs.
     adjustment : float
         Greatest distance by which joints of the drawing were moved to make the
         redundant links fit, m; 0 if they fit as drawn.
+
+    Examples
+    --------
+    >>> import assur
+    >>> print(assur.SliderCrank(1.0, 3.0).structure)
+    I(crank) → II(rod, piston), class II
+    mobility 3n − 2p = 3·3 − 2·4 = 1  (n = 3 moving links, p = 3 turning + 1 sliding pairs)
+    group            class  order  kind  links        pairs
+    II(rod, piston)  II     2      RRP   rod, piston  A, B, bore
     """
 
     mobility: int
@@ -70,4 +82,43 @@ class Structure:
     formula: str
     groups: tuple[Group, ...]
     redundant: tuple[str, ...]
+    moving_links: int
+    turning_pairs: int
+    sliding_pairs: int
     adjustment: float = 0.0
+
+    def __str__(self) -> str:
+        n, turning, sliding = self.moving_links, self.turning_pairs, self.sliding_pairs
+        p = turning + sliding
+        pairs = f"p = {turning} turning + {sliding} sliding pairs"
+        counted = f"3n − 2p = 3·{n} − 2·{p} = {self.mobility_counted}"
+        lines = [
+            f"{self.formula}, class {roman(self.cls)}",
+            f"mobility {counted}  (n = {n} moving links, {pairs})",
+        ]
+        if self.mobility != self.mobility_counted:
+            lines.append(f"by the rank of the closures it is {self.mobility}")
+        if self.mobility_at_drawing != self.mobility:
+            lines.append(f"at the drawing, which is singular, {self.mobility_at_drawing}")
+        if self.redundant:
+            lines.append(f"redundant: {', '.join(self.redundant)}")
+        rows = [("group", "class", "order", "kind", "links", "pairs")]
+        for group in self.groups:
+            links = ", ".join(group.links)
+            pairs = ", ".join((*group.joints, *group.slides))
+            cls, kind = roman(group.cls), group.kind or ""
+            rows.append((f"{cls}({links})", cls, str(group.order), kind, links, pairs))
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        for row in rows if self.groups else ():
+            cells = [cell.ljust(width) for cell, width in zip(row, widths, strict=True)]
+            lines.append("  ".join(cells).rstrip())
+        return "\n".join(lines)
+
+
+def roman(number: int) -> str:
+    """Return a class as a Roman numeral."""
+    text = ""
+    for value, letters in ((10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I")):
+        count, number = divmod(number, value)
+        text += letters * count
+    return text

@@ -35,6 +35,16 @@ class State(NamedTuple):
     speed: Any
     acceleration: Any
 
+    def __repr__(self) -> str:
+        if np.ndim(self.t):
+            return f"<State at {np.size(self.t)} times>"
+        values = (f"{name}={_short_number(x)}" for name, x in self._asdict().items())
+        return f"<State {', '.join(values)}>"
+
+
+def _short_number(x: Any) -> str:
+    return f"{x:.6g}" if np.ndim(x) == 0 else "(" + ", ".join(f"{one:.6g}" for one in x) + ")"
+
 
 class NearChangePoint(str):
     """The event "near_change_point": a run reached a dyad that almost folds.

@@ -48,6 +48,11 @@ class Extremes:
     # The design in its assembly, and the coordinate: for `dwells`.
     _of: tuple[Mechanism, list[int], tuple[str, int, int], int] = field(repr=False, compare=False)
 
+    def __repr__(self) -> str:
+        ends = (f"{end.value:.6g} at q = {end.q:.6g}" for end in (self.least, self.greatest))
+        ratio = "" if self.time_ratio is None else f", time ratio {self.time_ratio:.6g}"
+        return f"<assur.Extremes {' … '.join(ends)}{ratio}>"
+
     @property
     def stroke(self) -> float:
         """Difference of both: the stroke of a slide, the swing of a link."""

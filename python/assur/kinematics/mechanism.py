@@ -312,6 +312,9 @@ class Mechanism:
                 )
                 for one in self._core.groups
             )
+            named = dict(self._description.links)
+            at_joints = [joint for on in named.values() for joint in on]
+            pins = [at_joints.count(joint) - 1 for joint in dict.fromkeys(at_joints)]
             structure = Structure(
                 mobility=real,
                 mobility_at_drawing=drawn,
@@ -320,6 +323,9 @@ class Mechanism:
                 formula=self._core.formula,
                 groups=groups,
                 redundant=(*links, *slides),
+                moving_links=len(named) - ("ground" in named),
+                turning_pairs=sum(pins),
+                sliding_pairs=len(self._description.slides),
                 adjustment=self._core.adjustment,
             )
             object.__setattr__(self, "_structure", structure)
