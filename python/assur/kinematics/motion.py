@@ -147,6 +147,31 @@ class Motion:
         """
         return self._quantity("slide", self._results.slides, name)
 
+    def point(self, link: str, local: npt.ArrayLike) -> Analogues:
+        """Return a point of a link that has no joint there, m, with its analogues.
+
+        Parameters
+        ----------
+        link : str
+            The link.
+        local : array_like
+            (x, y) in the link's frame: at its first joint, x toward the second (the ground's are
+            the drawing's axes); or several, shape (P, 2), stacked along a new first axis.
+
+        Examples
+        --------
+        The middle of a coupler:
+
+        >>> import assur
+        >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(1.0)
+        >>> middle = motion.point("coupler", (1.5, 0.0))
+        >>> bool((abs(middle.d1 - motion.joint(["B", "C"]).d1.mean(axis=0)) < 1e-15).all())
+        True
+        """
+        from assur.kinematics.point import point_of
+
+        return point_of(self, link, local)
+
     def _quantity(
         self, kind: str, held: Mapping[str, tuple[Float, ...]], name: str | Sequence[str]
     ) -> Analogues:

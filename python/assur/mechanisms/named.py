@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from assur import _core
-from assur._arrays import real_array
+from assur._arrays import real_array, short
 from assur._validate import one_of
 from assur.description.words import Slide
-from assur.errors import DimensionError
+from assur.errors import DimensionError, InputError
 from assur.kinematics.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -32,6 +32,8 @@ class FourBar(Mechanism):
         Lengths, m; arrays make a batch of designs.
     mode : {"open", "crossed"}
         Whether C is to the right or the left of the ray from D to B.
+    point : (array_like, array_like), optional
+        A coupler point P: x from B toward C, y to the left, m.
 
     Examples
     --------
@@ -40,6 +42,8 @@ class FourBar(Mechanism):
     >>> motion = m.solve(np.deg2rad(40))
     >>> np.rad2deg([motion.link("coupler").value, motion.link("rocker").value]).round(3)
     array([20.298, 57.325])
+    >>> assur.FourBar(1.0, 3.0, 2.5, 3.0, point=(1.5, 1.0)).links["coupler"]
+    ('B', 'C', 'P')
     """
 
     __slots__ = ()
@@ -51,23 +55,34 @@ class FourBar(Mechanism):
         rocker: npt.ArrayLike,
         ground: npt.ArrayLike,
         mode: Literal["open", "crossed"] = "open",
+        point: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
     ) -> None:
         length = real_array(ground, "ground")
         if length.ndim == 0 and length <= 0.0:
             message = f"ground is {ground!r}: a length must be positive"
             raise DimensionError(message, dimension="ground.D.x", value=float(length))
         one_of(mode, ("open", "crossed"), "mode")
-        _copy_from(
-            self,
-            _core.four_bar_drawing(mode),
-            {
-                "crank.length": crank,
-                "coupler.length": coupler,
-                "rocker.length": rocker,
-                # In a batch, designs without a ground get Status.BAD_DIMENSION.
-                "ground.D.x": np.where(length > 0.0, length, np.nan),
-            },
-        )
+        dimensions: dict[str, npt.ArrayLike] = {
+            "crank.length": crank,
+            "coupler.length": coupler,
+            "rocker.length": rocker,
+            # In a batch, designs without a ground get Status.BAD_DIMENSION.
+            "ground.D.x": np.where(length > 0.0, length, np.nan),
+        }
+        drawing = _core.four_bar_drawing(mode)
+        if point is not None:
+            dimensions |= _coupler_point(point)
+            joints, links = dict(drawing["joints"]), dict(drawing["links"])
+            joints["P"], links["coupler"] = joints["B"], [*links["coupler"], "P"]
+            drawing = {**drawing, "joints": list(joints.items()), "links": list(links.items())}
+        _copy_from(self, drawing, dimensions)
+
+
+def _coupler_point(point: Any) -> dict[str, npt.ArrayLike]:
+    if not isinstance(point, tuple | list | np.ndarray) or len(point) != 2:
+        message = f"point is {short(point)}: (x, y) in the coupler's frame is needed"
+        raise InputError(message)
+    return {"coupler.P.x": point[0], "coupler.P.y": point[1]}
 
 
 class SliderCrank(Mechanism):
