@@ -355,9 +355,8 @@ def hart() -> assur.Mechanism:
 def excavator() -> assur.Mechanism:
     """Arm of a 20 t excavator, three cylinders: boom, stick and bucket; q are their lengths.
 
-    Round numbers of the class (boom 5.5 m, stick 2.9 m, bucket 1.4 m). A cylinder is a barrel
-    and a rod of one joint each with a slide between them. The bucket hangs on a four-bar
-    (rocker, link) whose joint `knuckle` joins three links.
+    Round numbers of the class (boom 5.5 m, stick 2.9 m, bucket 1.4 m). The bucket hangs on a
+    four-bar (rocker, link) whose joint `knuckle` joins three links.
     """
     joints = {
         "foot": (0.0, 0.0),
@@ -374,11 +373,6 @@ def excavator() -> assur.Mechanism:
         "tip": (4.0, -2.15),
     }
 
-    def cylinder(name: str) -> assur.Slide:
-        (x, y), (u, v) = joints[f"{name}_base"], joints[ends[name]]
-        barrel = f"{name}_barrel"
-        return assur.Slide(f"{name}_rod", barrel, math.atan2(v - y, u - x), f"{name}_base")
-
     ends = {"boom": "boom_eye", "stick": "stick_eye", "bucket": "knuckle"}
     links = {
         "ground": ["foot", "boom_base"],
@@ -388,13 +382,15 @@ def excavator() -> assur.Mechanism:
         "link": ["knuckle", "bucket_eye"],
         "bucket": ["wrist", "bucket_eye", "tip"],
     }
-    for name, end in ends.items():
-        links[f"{name}_barrel"] = [f"{name}_base"]
-        links[f"{name}_rod"] = [end]
     return assur.Mechanism(
         joints=joints,
         links=links,
-        slides={f"{name}_cylinder": cylinder(name) for name in ends},
+        slides={
+            f"{name}_cylinder": assur.Cylinder(
+                f"{name}_base", end, barrel=f"{name}_barrel", rod=f"{name}_rod"
+            )
+            for name, end in ends.items()
+        },
         driver=[f"{name}_cylinder" for name in ends],
     )
 

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 
 from assur._core import version
 from assur.description.structure import Group, Structure
-from assur.description.words import Drive, Slide, Status
+from assur.description.words import Cylinder, Drive, Slide, Status
 from assur.errors import (
     AssurError,
     AssurWarning,
@@ -76,6 +76,7 @@ __all__ = [
     "ClassIV",
     "ConfigurationCurve",
     "ConstantTorque",
+    "Cylinder",
     "Damper",
     "DeadPoint",
     "Defect",

@@ -9,8 +9,9 @@ import numpy as np
 
 from assur._arrays import real_array, short
 from assur._core import Mechanism as Core
+from assur._trig import arctan2
 from assur._validate import checked_name
-from assur.description.words import Drive, Slide
+from assur.description.words import Cylinder, Drive, Slide
 from assur.errors import InputError
 
 DriverLike: TypeAlias = str | Drive
@@ -76,6 +77,28 @@ def slide(name: str, slide: Any) -> Slide:
         message = f"slide {name!r} has angle {short(slide.angle)}: a number (rad) is needed"
         raise InputError(message, slide=name)
     return Slide(slide.link, slide.on, float(angle), slide.origin)
+
+
+def cylinder(
+    name: str, cylinder: Cylinder, joints: Sequence[tuple[str, float, float]]
+) -> tuple[Slide, list[tuple[str, tuple[str, ...]]]]:
+    """Return the slide of a cylinder, and its two links."""
+    at = {joint: (x, y) for joint, x, y in joints}
+    for what, word in (("base", cylinder.base), ("end", cylinder.end)):
+        _checked(word, f"cylinder {name!r}, {what}", slide=name)
+        if word not in at:
+            message = f"cylinder {name!r}: its {what} {word!r} is no joint"
+            raise InputError(message, slide=name)
+    barrel = f"{name}_barrel" if cylinder.barrel is None else cylinder.barrel
+    rod = f"{name}_rod" if cylinder.rod is None else cylinder.rod
+    for what, word in (("barrel", barrel), ("rod", rod)):
+        _checked(word, f"cylinder {name!r}, {what}", slide=name)
+    (x, y), (u, v) = at[cylinder.base], at[cylinder.end]
+    if (x, y) == (u, v):
+        message = f"cylinder {name!r}: {cylinder.base!r} and {cylinder.end!r} are in one place"
+        raise InputError(message, slide=name)
+    own = Slide(rod, barrel, float(arctan2(v - y, u - x)), cylinder.base)
+    return own, [(barrel, (cylinder.base,)), (rod, (cylinder.end,))]
 
 
 def _checked(word: Any, what: str, **field: str) -> None:

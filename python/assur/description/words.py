@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 
-__all__ = ["Drive", "Slide", "Status"]
+__all__ = ["Cylinder", "Drive", "Slide", "Status"]
 
 
 class Status(IntEnum):
@@ -61,6 +61,42 @@ class Slide:
     on: str
     angle: float
     origin: str | None = None
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """A cylinder between two joints: a barrel on the one, a rod on the other, and their slide.
+
+    Given among the slides of a `Mechanism`; the slide's value is the distance of the joints, m.
+
+    Parameters
+    ----------
+    base : str
+        The joint of the barrel.
+    end : str
+        The joint of the rod.
+    barrel, rod : str, optional
+        Names of the two links; by default the cylinder's with ``_barrel`` and ``_rod``.
+
+    Examples
+    --------
+    A boom that a cylinder lifts:
+
+    >>> import assur
+    >>> boom = assur.Mechanism(
+    ...     joints={"foot": (0, 0), "eye": (2, 1), "base": (1, -1)},
+    ...     links={"ground": ["foot", "base"], "boom": ["foot", "eye"]},
+    ...     slides={"lift": assur.Cylinder("base", "eye")},
+    ...     driver="lift",
+    ... )
+    >>> boom.q0 == 5**0.5, boom.links["lift_rod"]
+    (True, ('eye',))
+    """
+
+    base: str
+    end: str
+    barrel: str | None = None
+    rod: str | None = None
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from assur._core import KnownSigns
 from assur._validate import checked_index, checked_name, checked_signs, real_array
 from assur.description import encode
 from assur.description.structure import Group, Structure
+from assur.description.words import Cylinder
 from assur.errors import InputError
 from assur.kinematics import assemblies as assembly_search
 from assur.kinematics import extremes as extreme_search
@@ -54,8 +55,8 @@ class Mechanism:
     driver : str, Drive or sequence of them
         A link (q is its angle, rad), a slide (q is its value, m) or a `Drive`;
         a sequence gives a mechanism of higher mobility.
-    slides : mapping of str to Slide, optional
-        Sliding pairs (prismatic joints).
+    slides : mapping of str to Slide or Cylinder, optional
+        Sliding pairs (prismatic joints); a `Cylinder` adds its two links.
     assembly : mapping of str to int, optional
         +1 or −1 by inner joint or slide, for dyads drawn with their links
         collinear: the drawing does not show their assembly.
@@ -116,18 +117,23 @@ class Mechanism:
         joints: Mapping[str, Sequence[float]],
         links: Mapping[str, Iterable[str]],
         driver: DriverLike | Sequence[DriverLike],
-        slides: Mapping[str, Slide] | None = None,
+        slides: Mapping[str, Slide | Cylinder] | None = None,
         assembly: Mapping[str, int] | None = None,
     ) -> None:
+        points = tuple(encode.joint(name, at) for name, at in encode.items(joints, "joints"))
+        members = [(name, encode.members(name, on)) for name, on in encode.items(links, "links")]
+        guides = []
+        for name, own in encode.items({} if slides is None else slides, "slides"):
+            if isinstance(own, Cylinder):
+                slide, parts = encode.cylinder(name, own, points)
+                members += parts
+            else:
+                slide = encode.slide(name, own)
+            guides.append((name, slide))
         description = encode.Description(
-            joints=tuple(encode.joint(name, at) for name, at in encode.items(joints, "joints")),
-            links=tuple(
-                (name, encode.members(name, on)) for name, on in encode.items(links, "links")
-            ),
-            slides=tuple(
-                (name, encode.slide(name, s))
-                for name, s in encode.items({} if slides is None else slides, "slides")
-            ),
+            joints=points,
+            links=tuple(members),
+            slides=tuple(guides),
             drivers=encode.drivers(driver),
             assembly=checked_signs(assembly, strict=False),
         )
