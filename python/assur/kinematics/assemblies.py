@@ -35,6 +35,12 @@ def assemblies(mechanism: Mechanism, q: npt.ArrayLike, threads: int | None) -> A
     )
     designs = np.moveaxis(mechanism._values, 0, -1).reshape(-1, len(mechanism._values))
     each = max(len(found) // max(len(designs), 1), 1)
+    if not found and shape:
+        # No positions, or no designs.
+        empty: Any = []
+        for size in reversed(shape[:-1]):
+            empty = [list(empty) for _ in range(size)]
+        return empty
     lists: list[Any] = []
     for index, (one, row) in enumerate(zip(found, rows.tolist(), strict=True)):
         own = mechanism if not mechanism.shape else mechanism._with_values(designs[index // each])

@@ -6,16 +6,19 @@ are the answers. Of a joint's x and y, sliders are added that carry it.
 
 from __future__ import annotations
 
+from dataclasses import astuple
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._validate import real_array
+from assur._arrays import counted
+from assur._validate import checked_name, real_array
 from assur.description import encode
 from assur.description.words import Slide
-from assur.errors import InputError
+from assur.errors import InputError, StructureError
 from assur.kinematics.assembly import Assembly, Place
 from assur.kinematics.extremes import coordinate
+from assur.kinematics.place import place_of, place_vector, size_of
 from assur.kinematics.pose import Pose, bare_core
 
 if TYPE_CHECKING:
@@ -23,41 +26,55 @@ if TYPE_CHECKING:
     from assur.kinematics.assembly import AssemblyNumbers
     from assur.kinematics.mechanism import Mechanism
 
-# Positions of the same assembly found in two ways, relative to the size.
+# Places of the same assembly found in two ways, in sizes. Beside a fold half of the digits are
+# lost; there the assemblies so far (rad, or in sizes) from it tell.
 SAME = 1e-6
+AT_FOLD = 1e-3
+BESIDE = 1e-9
 
 
 def find(mechanism: Mechanism, name: str, value: Any) -> list[tuple[Any, Assembly]]:
     """See `Mechanism.find`."""
+    checked_name(name, "find")
+    drivers = mechanism._driver_count
     if mechanism.shape:
         message = f"find() is for one design, this is a batch {mechanism.shape}: use design(i)"
         raise InputError(message)
+    if drivers > 2:
+        message = f"find() is for one driver or two; this mechanism has {drivers}"
+        raise InputError(message)
     wanted = np.atleast_1d(real_array(value, "value"))
-    drivers = mechanism._driver_count
-    if drivers > 2 or wanted.shape != (drivers,) or not np.isfinite(wanted).all():
+    if wanted.shape != (drivers,) or not np.isfinite(wanted).all():
         need = "a finite number" if drivers == 1 else "finite numbers (x, y) of a joint"
-        message = f"value is {value!r}: with {drivers} drivers {need} is needed"
+        message = f"value is {value!r}: with {counted(drivers, 'driver')} {need} is needed"
         raise InputError(message)
     other, coordinates = _driven_by(mechanism, name, wanted)
-    found = []
+    size = size_of(mechanism)
+    found: list[tuple[Any, Assembly]] = []
     for assembly in other.assemblies(coordinates):
         place = assembly._place
         assert place is not None
-        found.append(_of_original(mechanism, place.numbers))
-    known = [one for one in found if one is not None]
-    return sorted(known, key=lambda one: np.ravel(one[0]).tolist())
+        one = _of_original(mechanism, place.numbers, size)
+        if one is not None and not any(_is_same(one, known) for known in found):
+            found.append(one)
+    return sorted(found, key=lambda one: np.ravel(one[0]).tolist())
+
+
+def _is_same(one: tuple[Any, Assembly], other: tuple[Any, Assembly]) -> bool:
+    """Whether an answer is there already: a double one is found twice."""
+    gap = np.abs(np.ravel(one[0]) - np.ravel(other[0])).max()
+    return bool(gap == 0.0) and one[1] == other[1]
 
 
 def driven_by_joint(
     mechanism: Mechanism, joint: str, held: list[DriverLike]
 ) -> tuple[Mechanism, tuple[float, float]]:
-    """Return the design driven by a joint's x and y before other drivers, and both in the drawing.
-
-    They are measured from there, m.
-    """
-    description, drawn = _with_cross_slide(mechanism._description, joint, "xy")
+    """Return the design driven by a joint's x and y before other drivers, and where both are 0."""
+    description = _with_cross_slide(mechanism._description, joint, "xy")
     description = description._replace(drivers=(*description.drivers, *held))
-    return _redriven(mechanism, description), (drawn[0], drawn[1])
+    other = _redriven(mechanism, description, joint)
+    x, y = _base(other)
+    return other, (x, y)
 
 
 def _driven_by(
@@ -68,53 +85,74 @@ def _driven_by(
     if mechanism._driver_count == 1 and "." not in name:
         coordinate(mechanism, name)
         description = own._replace(drivers=encode.drivers(name), assembly=())
-        return _redriven(mechanism, description), float(wanted[0])
-    joint, dot, axis = name.rpartition(".")
+        return _redriven(mechanism, description, name), float(wanted[0])
     if mechanism._driver_count == 1:
+        joint, _, axes = name.rpartition(".")
         coordinate(mechanism, name)
     else:
-        joint, axis = name if not dot else joint, "xy"
+        joint, axes = name, "xy"
         mechanism._core.require("joint", joint)
-    description, drawn = _with_cross_slide(own, joint, axis)
-    steps = [float(value - start) for value, start in zip(wanted, drawn, strict=False)]
-    return _redriven(mechanism, description), steps[0] if len(steps) == 1 else steps
+    other = _redriven(mechanism, _with_cross_slide(own, joint, axes), name)
+    base = dict(zip("xy", _base(other), strict=True))
+    steps = [float(value - base[axis]) for value, axis in zip(wanted, axes, strict=True)]
+    return other, steps[0] if len(steps) == 1 else steps
 
 
-def _redriven(mechanism: Mechanism, description: Description) -> Mechanism:
+def _redriven(mechanism: Mechanism, description: Description, name: str) -> Mechanism:
     """Return the design with another description, whose drawing need not show an assembly."""
-    core = bare_core(description)
+    try:
+        core = bare_core(description)
+    except StructureError as error:
+        if "." not in name and name not in mechanism._joint_names:
+            raise
+        message = (
+            f"{name!r} cannot be set: the joint does not move, or along a curve only, or not "
+            f"without other drivers ({error.kind})"
+        )
+        raise InputError(message) from error
     own = dict(zip(mechanism._core.dimension_names, mechanism._values.tolist(), strict=True))
     drawn = zip(core.dimension_names, core.drawing, strict=True)
     values = np.array([own.get(name, value) for name, value in drawn])
     return mechanism._make(description, values, core)
 
 
-def _with_cross_slide(
-    own: Description, joint: str, axes: str
-) -> tuple[Description, tuple[float, ...]]:
-    """Return a description driven by a joint's x, y or both, and their values in the drawing."""
-    at = {key: (x, y) for key, x, y in own.joints}[joint]
+def _base(mechanism: Mechanism) -> tuple[float, float]:
+    """Return the ground's joint from which a cross-slide is measured."""
+    joint = next(slide.origin for _, slide in mechanism._description.slides[-2:])
+    values = mechanism.dimensions
+    return values[f"ground.{joint}.x"], values[f"ground.{joint}.y"]
+
+
+def _with_cross_slide(own: Description, joint: str, axes: str) -> Description:
+    """Return a description driven by a joint's x, y or both, from a joint of the ground on."""
+    at = {key: (x, y) for key, x, y in own.joints}
     taken = {one[0] for kind in (own.joints, own.links, own.slides) for one in kind}
-    words = ("cross", "block", "along", "across", "centre")
-    cross, block, along, across, centre = (_free(word, taken) for word in words)
-    # A cross-slide moves along x, and a block on it along y, pinned at the joint.
+    words = ("cross", "block", "along", "across", "centre", "base")
+    cross, block, along, across, centre, base = (_free(word, taken) for word in words)
+    joints, links = list(own.joints), dict(own.links)
+    grounded = links.setdefault("ground", ())
+    if grounded:
+        base = grounded[0]
+    else:
+        joints.append((base, 0.0, 0.0))
+        at[base], links["ground"] = (0.0, 0.0), (base,)
+    # A cross-slide moves along x from the base, and a block on it along y, pinned at the joint.
     first = axes != "y"
     way, other = (0.0, 0.5 * np.pi) if first else (0.5 * np.pi, 0.0)
+    middle = (at[joint][0], at[base][1]) if first else (at[base][0], at[joint][1])
+    joints.append((centre, *middle))
+    links[cross], links[block] = (centre,), (joint,)
     slides = (
-        (along, Slide(cross, on="ground", angle=way)),
+        (along, Slide(cross, on="ground", angle=way, origin=base)),
         (across, Slide(block, on=cross, angle=other, origin=centre)),
     )
-    links = ((cross, (centre,)), (block, (joint,)))
-    drawn = (at[0], at[1]) if first else (at[1], at[0])
-    drivers = (along,) if len(axes) == 1 else (along, across)
-    description = own._replace(
-        joints=(*own.joints, (centre, *at)),
-        links=(*own.links, *links),
+    return own._replace(
+        joints=tuple(joints),
+        links=tuple(links.items()),
         slides=(*own.slides, *slides),
-        drivers=drivers,
+        drivers=(along,) if len(axes) == 1 else (along, across),
         assembly=(),
     )
-    return description, drawn
 
 
 def _free(word: str, taken: set[str]) -> str:
@@ -124,27 +162,50 @@ def _free(word: str, taken: set[str]) -> str:
     return word
 
 
-def _of_original(mechanism: Mechanism, numbers: AssemblyNumbers) -> tuple[Any, Assembly] | None:
+def _of_original(
+    mechanism: Mechanism, numbers: AssemblyNumbers, size: float
+) -> tuple[Any, Assembly] | None:
     """Return the coordinate and assembly of a pose that was found with another driver."""
     links, slides = len(mechanism.links), len(mechanism.slides)
     pose = Pose.found(numbers)
-    core = bare_core(mechanism._description)
     joints = pose.joints[: len(mechanism._joint_names)]
-    q, own = core.at_pose(joints, pose.angles[:links], pose.slides[:slides])
-    drivers = mechanism._description.drivers
-    is_angle = [not isinstance(one, str) or one not in mechanism.slides for one in drivers]
-    reduced = [
-        float(x - np.ceil((x - np.pi) / (2.0 * np.pi)) * 2.0 * np.pi) if angle else x
-        for x, angle in zip(q, is_angle, strict=True)
-    ]
-    place = Place(mechanism, tuple(reduced), own)
-    coordinates = reduced[0] if len(reduced) == 1 else np.array(reduced)
-    if place.is_traced:
-        return coordinates, Assembly._found(place, ())
-    size = float(np.ptp(np.array(own["joints"]), axis=0).max())
-    for assembly in mechanism.assemblies(coordinates):
-        assert assembly._place is not None
-        there = np.array(assembly._place.numbers["joints"])
-        if np.abs(there - np.array(own["joints"])).max() <= SAME * size:
-            return coordinates, assembly
+    pose = Pose(joints, pose.angles[:links], pose.slides[:slides])
+    q = _coordinates(mechanism, pose)
+    coordinates = q[0] if len(q) == 1 else np.array(q)
+    if mechanism._core.cls > 2:
+        try:
+            _, own = bare_core(mechanism._description).at_pose(*astuple(pose))
+        except StructureError:
+            pass  # at a fold: the assembly is one of those beside it
+        else:
+            return coordinates, Assembly._found(Place(mechanism, tuple(q), own), ())
+    there = place_vector(np.array(pose.joints), np.array(pose.angles), np.array(pose.slides), size)
+    unit = size if mechanism._description.drivers[0] in mechanism.slides else 1.0
+    for beside, far in ((0.0, SAME), *((side * BESIDE * unit, AT_FOLD) for side in (1.0, -1.0))):
+        near = list(mechanism.assemblies(np.array(coordinates) + beside))
+        gaps = [float(np.abs(place_of(_numbers(one), size) - there).max()) for one in near]
+        if gaps and min(gaps) <= far:
+            return coordinates, near[int(np.argmin(gaps))]
     return None
+
+
+def _numbers(assembly: Assembly) -> AssemblyNumbers:
+    assert assembly._place is not None
+    return assembly._place.numbers
+
+
+def _coordinates(mechanism: Mechanism, pose: Pose) -> list[float]:
+    """Return the drivers' coordinates in a pose, of angles in (−π, π]."""
+    angles = dict(zip(mechanism.links, pose.angles, strict=True))
+    values = dict(zip(mechanism.slides, pose.slides, strict=True))
+    found = []
+    for driver in mechanism._description.drivers:
+        if isinstance(driver, str) and driver in values:
+            found.append(values[driver])
+            continue
+        link, base = (
+            (driver, None) if isinstance(driver, str) else (driver.link, driver.relative_to)
+        )
+        angle = angles[link] - (angles[base] if base is not None else 0.0)
+        found.append(float(angle - np.ceil((angle - np.pi) / (2.0 * np.pi)) * 2.0 * np.pi))
+    return found

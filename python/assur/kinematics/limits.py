@@ -13,7 +13,7 @@ from assur.kinematics.assembly import Assembly, drawn_in
 from assur.kinematics.solve import checked_assembly
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     import numpy.typing as npt
 
@@ -84,10 +84,8 @@ class Limits:
     def __getitem__(self, index: int | tuple[int, ...]) -> Limits:
         """Return the limits of one design of a batch, or of some of it."""
         shape = self.intervals.shape[:-2]
-        if index == () and not isinstance(self.full_rotation, bool):
-            entry: tuple[int, ...] = ()
-        else:
-            entry = index if isinstance(index, tuple) else (index,)
+        entry = index if isinstance(index, tuple) else (index,)
+        if entry or isinstance(self.full_rotation, bool):
             # Fewer indices than axes choose a part of the batch.
             entry = checked_index(entry, shape[: len(entry)], "limits")
         rotation, period = self.full_rotation[entry], self.period[entry]
@@ -97,6 +95,19 @@ class Limits:
             intervals, folds = intervals[own], folds[own]
             rotation, period = bool(rotation), None if np.isnan(period) else int(period)
         return Limits(intervals, rotation, period, folds, self._names)
+
+    def __len__(self) -> int:
+        shape = self.intervals.shape[:-2]
+        if not shape:
+            message = "the limits of one design have no length"
+            raise TypeError(message)
+        return int(shape[0])
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __iter__(self) -> Iterator[Limits]:
+        return (self[i] for i in range(len(self)))
 
     def __repr__(self) -> str:
         if self.intervals.ndim > 2:

@@ -68,7 +68,7 @@ def test_a_triads_three_circuits() -> None:
 def test_refusals() -> None:
     m = assur.FourBar(1.0, 3.0, 2.5, 3.2)
     c = m.solve([0.1, 0.2]).joint("C").value
-    refused(assur.InputError, "joints is empty", partial(m.defects, [0.1, 0.2], {}))
+    refused(assur.InputError, "joints names", partial(m.defects, [0.1, 0.2], {}))
     refused(assur.InputError, "Z", partial(m.defects, [0.1, 0.2], {"Z": c}))
     refused(assur.InputError, "broadcast", partial(m.defects, [0.1, 0.2, 0.3], {"C": c}))
     refused(assur.InputError, "finite", partial(m.defects, [0.1, np.nan], {"C": c}))

@@ -195,7 +195,7 @@ def test_refusals() -> None:
         assur.InputError, "see limits()", partial(assur.FourBar(1.0, 3.0, 2.5, 3.2).workspace, "C")
     )
     refused(assur.InputError, "Z", partial(m.workspace, "Z"))
-    refused(assur.InputError, "at least 4", partial(m.singular_loci, positions=2))
+    refused(assur.InputError, "positions from 4", partial(m.singular_loci, positions=2))
     refused(assur.InputError, "name the two", partial(m.singular_loci, drivers=("crank", "rod")))
     refused(
         assur.InputError,

@@ -9,8 +9,10 @@ import numpy as np
 
 from assur._trig import sin_cos
 from assur._validate import checked_index, whole_number
+from assur.description.words import Status
 from assur.kinematics.curve.defects import defects_of
-from assur.kinematics.curve.parts import ends_of
+from assur.kinematics.curve.parts import ends_of, has_driven_angle
+from assur.kinematics.place import size_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -20,10 +22,14 @@ if TYPE_CHECKING:
     from assur.kinematics.curve.defects import Defects
     from assur.kinematics.curve.parts import Branch, Circuit, Fold
     from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
 
 __all__ = ["CircuitMotion", "ConfigurationCurve"]
 
-# Of samples.
+# How far (rad, or in sizes) beside dead points, which are known to about as much.
+MARGINS = (1e-13, 1e-12, 1e-11, 1e-10, 1e-9)
+# Of samples; more would fill the memory.
+MAX_SAMPLES = 10_000_000
 NEEDED = "a whole number of at least 2 is needed"
 
 
@@ -114,17 +120,31 @@ class ConfigurationCurve:
         array([-1.371564,  0.      ,  1.371564,  0.      , -1.371564])
         """
         (index,) = checked_index(circuit, (len(self.circuits),), "circuit")
-        samples = whole_number(samples, "samples", 2, needed=NEEDED)
+        samples = whole_number(samples, "samples", 2, MAX_SAMPLES, needed=NEEDED)
         parts = []
         for number, direction in self.circuits[index].branches:
             branch = self.branches[number]
             low, high = ends_of(branch, self._mechanism)
             part = 0.5 - 0.5 * sin_cos(np.linspace(0.0, np.pi, samples))[1]
-            if not branch.folds[0] and not branch.folds[1] and branch.period:
+            if branch.period is not None:
                 part = np.linspace(0.0, 1.0, samples)
             q = low + (high - low) * part
             parts.append((number, q if direction > 0 else q[::-1]))
         return _along(self._mechanism, self.branches, parts)
+
+
+def _beside_dead_points(mechanism: Mechanism, branch: Branch, q: Float) -> Motion:
+    """Solve a branch, beside a dead point in place of on it: there rounding decides."""
+    unit = 1.0 if has_driven_angle(mechanism) else size_of(mechanism)
+    finite = [abs(end) for end in (branch.low, branch.high) if np.isfinite(end)]
+    motion = mechanism.solve(q, order=0, assembly=branch.assembly, on_error="nan")
+    for margin in MARGINS if branch.period is None else ():
+        beside = margin * max(unit, *finite)
+        inside = np.clip(q, branch.low + beside, branch.high - beside)
+        motion = mechanism.solve(inside, order=0, assembly=branch.assembly, on_error="nan")
+        if motion.status[0] < Status.UNREACHABLE and motion.status[-1] < Status.UNREACHABLE:
+            break
+    return motion
 
 
 def _along(
@@ -136,12 +156,7 @@ def _along(
         # The end of one branch is the beginning of the next.
         q = part if index == 0 else part[1:]
         branch = branches[number]
-        inside = q
-        if branch.period is None:
-            # Beside a dead point, not on it: there rounding decides whether the position exists.
-            margin = 1e-13 * max(abs(branch.low), abs(branch.high), 1.0)
-            inside = np.clip(q, branch.low + margin, branch.high - margin)
-        motion = mechanism.solve(inside, order=0, assembly=branch.assembly, on_error="nan")
+        motion = _beside_dead_points(mechanism, branch, q)
         values = [
             [motion.joint(name).value for name in names[0]],
             [motion.link(name).value for name in names[1]],

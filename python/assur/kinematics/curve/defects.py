@@ -12,6 +12,7 @@ from assur._arrays import short
 from assur._validate import real_number
 from assur.errors import InputError
 from assur.kinematics.curve.parts import SAME, ends_of, has_driven_angle
+from assur.kinematics.place import places_along, size_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -46,7 +47,7 @@ class Defects:
 
 def defects_of(curve: ConfigurationCurve, places: Sequence[tuple[float, Assembly]]) -> Defects:
     """See `ConfigurationCurve.defects`."""
-    pairs: list[Any] = list(places)
+    pairs: list[Any] = list(places) if hasattr(places, "__iter__") else [places]
     if not all(isinstance(one, tuple | list) and len(one) == 2 for one in pairs):
         message = f"places is {short(places)}: pairs (q, assembly) are needed, as find() gives"
         raise InputError(message)
@@ -61,21 +62,20 @@ def defects_of(curve: ConfigurationCurve, places: Sequence[tuple[float, Assembly
 def _located(curve: ConfigurationCurve, q: float, assembly: Assembly) -> tuple[int, float]:
     """Return the branch of a position, and its q in the branch's counted turns."""
     mechanism = curve._mechanism
-    names = mechanism._joint_names
-    motion = mechanism.solve(q, order=0, assembly=assembly)
-    own = np.array([motion.joint(name).value for name in names])
-    size = float(np.ptp(own, axis=0).max())
+    size = size_of(mechanism)
+    own = places_along(mechanism.solve(q, order=0, assembly=assembly), size)
     is_angle = has_driven_angle(mechanism)
     for number, branch in enumerate(curve.branches):
-        low, high = ends_of(branch, mechanism)
-        turns = range(math.ceil((low - q) / math.tau), math.floor((high - q) / math.tau) + 1)
-        for turn in turns if is_angle else [0]:
+        low, high = ends_of(branch, mechanism) if is_angle else (branch.low, branch.high)
+        turns = range(1)
+        if is_angle:
+            turns = range(math.ceil((low - q) / math.tau), math.floor((high - q) / math.tau) + 1)
+        for turn in turns:
             there = q + math.tau * turn
             if not low <= there <= high:
                 continue
             motion = mechanism.solve(there, order=0, assembly=branch.assembly, on_error="nan")
-            at = np.array([motion.joint(name).value for name in names])
-            if np.abs(at - own).max() <= SAME * size:
+            if np.abs(places_along(motion, size) - own).max() <= SAME:
                 return number, there
     message = f"no branch goes through q = {q!r} in {assembly!r}: give the curve more positions"
     raise InputError(message, value=q)

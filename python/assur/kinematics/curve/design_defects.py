@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import IntFlag
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._validate import real_array
+from assur._arrays import short
+from assur._validate import checked_name, real_array
 from assur.errors import InputError
 from assur.kinematics.curve.search import curve_through, require_one_driver
+from assur.kinematics.place import place_of, size_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     import numpy.typing as npt
 
     from assur._arrays import Float
@@ -24,6 +25,8 @@ __all__ = ["Defect"]
 
 # How near (relative to the size) the joints of an assembly must be to those that are given.
 THERE = 1e-6
+# How far apart assemblies are that such joints should tell.
+APART = 1e-3
 
 
 class Defect(IntFlag):
@@ -46,13 +49,18 @@ def design_defects(
 ) -> Any:
     """See `Mechanism.defects`."""
     require_one_driver(mechanism, "defects")
-    if not joints:
-        message = "joints is empty: positions of one joint or more are needed"
+    given: Any = joints
+    if not isinstance(given, Mapping) or not given:
+        message = f"joints is {short(joints)}: names of joints with their positions are needed"
         raise InputError(message)
     coordinates = real_array(q, "q")
+    for name in joints:
+        mechanism._core.require("joint", checked_name(name, "joints"))
     wanted = {name: real_array(places, name) for name, places in joints.items()}
-    for name in wanted:
-        mechanism._core.require("joint", name)
+    unknown = next((name for name, at in wanted.items() if not np.isfinite(at).all()), None)
+    if unknown is not None:
+        message = f"joint {unknown!r}: finite positions are needed"
+        raise InputError(message, joint=unknown)
     try:
         shape = np.broadcast_shapes(
             (*mechanism.shape, 1), coordinates.shape, *(at.shape[:-1] for at in wanted.values())
@@ -92,12 +100,16 @@ def _of_one(mechanism: Mechanism, q: list[float], wanted: dict[str, Float]) -> D
 
 def _nearest(mechanism: Mechanism, q: float, wanted: dict[str, Float]) -> Assembly | None:
     """Return the assembly whose joints are where they are wanted."""
-    best, least = None, np.inf
+    size = size_of(mechanism)
+    found: list[tuple[float, Assembly]] = []
     for assembly in mechanism.assemblies(q):
         joints = assembly.joints
         assert joints is not None
-        size = float(np.ptp(np.array(list(joints.values())), axis=0).max())
         apart = max(float(np.abs(np.array(joints[name]) - at).max()) for name, at in wanted.items())
-        if apart <= THERE * size and apart < least:
-            best, least = assembly, apart
-    return best
+        if apart <= THERE * size:
+            found.append((apart, assembly))
+    places = [place_of(one._place.numbers, size) for _, one in found if one._place is not None]
+    if any(np.abs(place - places[0]).max() > APART for place in places[1:]):
+        message = f"joints: {', '.join(wanted)} do not tell which assembly is meant: add others"
+        raise InputError(message, value=q)
+    return min(found, key=lambda one: one[0])[1] if found else None

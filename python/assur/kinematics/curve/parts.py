@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from assur.kinematics.place import lengths
+
 if TYPE_CHECKING:
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.mechanism import Mechanism
@@ -83,10 +85,17 @@ class Circuit:
 
 
 def ends_of(branch: Branch, mechanism: Mechanism) -> tuple[float, float]:
-    if branch.period is None:
-        return branch.low, branch.high
+    """Return where a branch begins and ends: one that closes at the drawing's coordinate.
+
+    A slide that nothing stops goes as far as the sum of all lengths from there.
+    """
     q0 = float(np.ravel(mechanism.q0)[0])
-    return q0, q0 + math.tau * branch.period
+    if branch.period is not None:
+        return q0, q0 + math.tau * branch.period
+    reach = sum(lengths(mechanism))
+    low = branch.low if math.isfinite(branch.low) else min(q0, branch.high) - reach
+    high = branch.high if math.isfinite(branch.high) else max(q0, branch.low) + reach
+    return low, high
 
 
 def has_driven_angle(mechanism: Mechanism) -> bool:

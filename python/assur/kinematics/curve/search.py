@@ -12,6 +12,7 @@ from assur._validate import whole_number
 from assur.errors import InputError
 from assur.kinematics.curve.curve import NEEDED, ConfigurationCurve
 from assur.kinematics.curve.parts import SAME, Branch, Circuit, Fold, has_driven_angle
+from assur.kinematics.place import lengths, place_of, places_along, size_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -38,11 +39,15 @@ class Search:
     branches: list[Branch] = field(default_factory=list)
     groups: list[tuple[str | None, str | None]] = field(default_factory=list)
 
-    def joints(self, assembly: Assembly, q: Float) -> Float:
-        """Return all joints of an assembly at coordinates."""
+    @property
+    def unit(self) -> float:
+        """What the driver's coordinate is measured in: rad, or for a slide the size."""
+        return 1.0 if self.is_angle else self.size
+
+    def places(self, assembly: Assembly, q: Float) -> Float:
+        """Return the places of an assembly at coordinates, shape (N, n)."""
         motion = self.mechanism.solve(q, order=0, assembly=assembly, on_error="nan")
-        names = self.mechanism._joint_names
-        return np.stack([motion.joint(name).value for name in names], axis=-2)
+        return places_along(motion, self.size)
 
     def at(self, branch: Branch, q: float) -> Float:
         """Return all positions of a branch at a coordinate, of an angle in any turn."""
@@ -55,15 +60,15 @@ class Search:
             last = math.floor((branch.high - q) / math.tau)
             inside = [q + math.tau * turn for turn in range(first, last + 1)]
         if not inside:
-            return np.empty((0, len(self.mechanism._joint_names), 2))
-        return self.joints(branch.assembly, np.array(inside))
+            return np.empty((0, 1))
+        return self.places(branch.assembly, np.array(inside))
 
     def is_known(self, assembly: Assembly, q: float) -> bool:
         """Whether a known branch goes through an assembly."""
-        own = _place(assembly)
+        own = _place(assembly, self.size)
         for branch in self.branches:
             there = self.at(branch, q)
-            if len(there) and (np.abs(there - own).max(axis=(1, 2)) <= SAME * self.size).any():
+            if len(there) and (np.abs(there - own).max(axis=1) <= SAME).any():
                 return True
         return False
 
@@ -91,9 +96,9 @@ class Search:
             self.add(assembly, q)
 
 
-def _place(assembly: Assembly) -> Float:
-    assert assembly.joints is not None
-    return np.array(list(assembly.joints.values()))
+def _place(assembly: Assembly, size: float) -> Float:
+    assert assembly._place is not None
+    return place_of(assembly._place.numbers, size)
 
 
 def configuration_curve(mechanism: Mechanism, positions: int) -> ConfigurationCurve:
@@ -104,7 +109,10 @@ def configuration_curve(mechanism: Mechanism, positions: int) -> ConfigurationCu
     require_one_driver(mechanism, "configuration_curve")
     positions = whole_number(positions, "positions", 2, needed=NEEDED)
     search = _search_of(mechanism)
-    reach = math.pi if search.is_angle else sum(_lengths(mechanism))
+    reach = math.pi if search.is_angle else sum(lengths(mechanism))
+    # The drawing's own circuit may be narrower than the fan.
+    for assembly in mechanism.assemblies(mechanism.q0):
+        search.add(assembly, float(np.array(mechanism.q0)))
     # Off the values that people draw at, where things may be special.
     for q in np.linspace(-reach, reach, positions, endpoint=False) + 0.0123 * reach:
         search.look_at(float(q))
@@ -134,16 +142,8 @@ def require_one_driver(mechanism: Mechanism, what: str) -> None:
         raise InputError(message)
 
 
-def _lengths(mechanism: Mechanism) -> list[float]:
-    named = zip(mechanism._core.dimension_names, mechanism._values.tolist(), strict=True)
-    return [abs(value) for name, value in named if not name.endswith("angle")]
-
-
 def _search_of(mechanism: Mechanism) -> Search:
-    corners = np.array(list(mechanism.joints.values()))
-    # NaN where the drawing's coordinate cannot be reached.
-    width = float(np.nan_to_num(np.ptp(corners, axis=0)).max())
-    return Search(mechanism, max(width, *_lengths(mechanism)), has_driven_angle(mechanism))
+    return Search(mechanism, size_of(mechanism), has_driven_angle(mechanism))
 
 
 def _curve_of(search: Search, folds: list[Fold]) -> ConfigurationCurve:
@@ -178,7 +178,7 @@ def _folds(search: Search) -> list[Fold]:
             if math.isfinite(q):
                 ends.append(_end(search, seen, side, q))
                 if not any(_meet(search, ends[-1], other) for other in ends[:-1]):
-                    beside = q + (1 - 2 * side) * BESIDE * _length(branch)
+                    beside = q + (1 - 2 * side) * BESIDE * _length(search, branch)
                     for assembly in search.mechanism.assemblies(beside):
                         search.add(assembly, beside)
         seen += 1
@@ -196,15 +196,15 @@ def _folds(search: Search) -> list[Fold]:
     return folds
 
 
-def _length(branch: Branch) -> float:
-    return min(branch.high - branch.low, 1.0)
+def _length(search: Search, branch: Branch) -> float:
+    return min(branch.high - branch.low, search.unit)
 
 
 def _end(search: Search, number: int, side: int, q: float) -> _End:
     """Extrapolate the place of a fold: joints go as the square root of the distance from it."""
     branch = search.branches[number]
-    step = (1 - 2 * side) * BESIDE * _length(branch)
-    near, far = search.joints(branch.assembly, np.array([q + step, q + 4.0 * step]))
+    step = (1 - 2 * side) * BESIDE * _length(search, branch)
+    near, far = search.places(branch.assembly, np.array([q + step, q + 4.0 * step]))
     return _End(number, side, q, 2.0 * near - far)
 
 
@@ -213,8 +213,8 @@ def _meet(search: Search, one: _End, other: _End) -> bool:
         return False
     gap = one.q - other.q
     gap = math.remainder(gap, math.tau) if search.is_angle else gap
-    is_near = np.abs(one.place - other.place).max() <= SAME_FOLD * search.size
-    return abs(gap) <= SAME and bool(is_near)
+    is_near = np.abs(one.place - other.place).max() <= SAME_FOLD
+    return abs(gap) <= SAME * search.unit and bool(is_near)
 
 
 def _unexplained(search: Search, folds: list[Fold]) -> list[float]:
@@ -230,7 +230,7 @@ def _unexplained(search: Search, folds: list[Fold]) -> list[float]:
                 q = low + (q - low) % math.tau
             if low < q < high:
                 change += -2 if fold.is_greatest else 2
-        if change != counts[i + 1] - counts[i] and high - low > SAME * search.size:
+        if change != counts[i + 1] - counts[i] and high - low > SAME * search.unit:
             middles.append(0.5 * (low + high))
     return middles
 

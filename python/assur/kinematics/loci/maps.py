@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._arrays import short
 from assur._validate import one_of, real_array
 from assur.errors import InputError
 from assur.kinematics.loci.bisection import Edge, bisected
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     import numpy.typing as npt
 
@@ -23,6 +25,9 @@ __all__ = ["Boundary", "DesignMap"]
 
 # Halvings of the distance of two neighbours, until boundaries are found to a billionth of it.
 HALVINGS = 30
+# Most values of a dimension, and beyond the greatest length that the core takes.
+MOST = 2000
+HUGE = 1e160
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,9 +91,11 @@ def design_map(
     if mechanism.shape:
         message = f"map() is over dimensions of one design, this is a batch {mechanism.shape}"
         raise InputError(message)
-    if len(dimensions) != 2:
-        message = f"map() is over two dimensions, {len(dimensions)} are given"
+    given: Any = dimensions
+    if not isinstance(given, Mapping) or len(given) != 2:
+        message = f"{short(given)}: two dimensions, each with ascending values, are needed"
         raise InputError(message)
+    where = _checked_place(mechanism, of, q)
     (first, second), (x, y) = (
         dimensions,
         [_checked_axis(name, values) for name, values in dimensions.items()],
@@ -98,7 +105,6 @@ def design_map(
         batch = mechanism.with_dimensions({first: places[:, 0], second: places[:, 1]})
         if of == "full_rotation":
             return [int(whole) for whole in batch.limits().full_rotation.tolist()]
-        where = mechanism.q0 if q is None else q
         return [len(one) for one in batch.assemblies(where)]
 
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
@@ -111,10 +117,25 @@ def design_map(
     return DesignMap(of, (first, second), x, y, values, tuple(boundaries))
 
 
+def _checked_place(mechanism: Mechanism, of: str, q: Any) -> Any:
+    """Return the coordinate at which assemblies are counted."""
+    if q is None:
+        return mechanism.q0
+    if of != "assemblies":
+        message = f"q is {short(q)}: full rotation is about all coordinates, q is for assemblies"
+        raise InputError(message)
+    where, drivers = real_array(q, "q"), mechanism._driver_count
+    if where.shape != ((drivers,) if drivers > 1 else ()) or not np.isfinite(where).all():
+        message = f"q is {short(q)}: one finite position is needed"
+        raise InputError(message)
+    return where
+
+
 def _checked_axis(name: str, values: npt.ArrayLike) -> Float:
-    axis = real_array(values, name)
-    if axis.ndim != 1 or len(axis) < 2 or not (np.diff(axis) > 0.0).all():
-        message = f"{name} has shape {axis.shape}: two or more ascending values are needed"
+    axis = real_array(values, str(name))
+    is_axis = axis.ndim == 1 and 2 <= len(axis) <= MOST and bool((np.abs(axis) < HUGE).all())
+    if not is_axis or not (np.diff(axis) > 0.0).all():
+        message = f"{name} is {short(values)}: from 2 to {MOST} ascending values are needed"
         raise InputError(message)
     return axis
 

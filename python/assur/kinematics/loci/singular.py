@@ -10,18 +10,19 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from assur._arrays import short
-from assur._validate import real_array, whole_number
+from assur._validate import checked_name, real_array, whole_number
+from assur.description.words import Drive
 from assur.errors import AssurWarning, InputError
 from assur.kinematics.find import driven_by_joint
 from assur.kinematics.loci.chart import Surface
 from assur.kinematics.loci.folds import Grid, all_poses, grid_of, poses_beside_folds
 from assur.kinematics.loci.trace import start_beside, trace
+from assur.kinematics.place import lengths, size_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -42,8 +43,11 @@ ON_LOCUS = 0.05
 MARGIN = 0.1
 # Where, as a part of a step, the grid begins: off the values that people draw at.
 OFF = 0.0123
-# Fewest positions of a grid along an axis.
+# In sizes, where no joint of a mechanism of turning pairs comes.
+FAR = 1000.0
+# Fewest and most positions of a grid along an axis.
 FEWEST = 4
+MOST = 2000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,17 +104,21 @@ class Workspace:
     count: npt.NDArray[np.intp]
     boundary: tuple[SingularLocus, ...]
     _surface: Surface
-    _drawn: tuple[float, float]
+    _base: tuple[float, float]
 
     def contains(self, points: npt.ArrayLike) -> Any:
         """Return whether the joint reaches points, shape (…, 2), m: an array of bool (…)."""
         array = real_array(points, "points")
         if array.shape[-1:] != (2,) or not np.isfinite(array).all():
-            message = f"points has shape {array.shape}: finite (x, y) are needed"
+            message = f"points is {short(points)}: finite (x, y) are needed, m"
             raise InputError(message)
-        flat = (array - np.array(self._drawn)).reshape(-1, 2)
-        found = [len(poses) > 0 for poses in all_poses(self._surface, flat)]
-        inside = np.array(found, dtype=bool).reshape(array.shape[:-1])
+        flat = (array - np.array(self._base)).reshape(-1, 2)
+        # Farther than all lengths together; the core follows nothing that far.
+        inside = np.abs(flat).max(axis=1, initial=0.0) <= FAR * self._surface.size
+        if self._surface.mechanism._description.slides[2:]:
+            inside[:] = True
+        inside[inside] = [len(poses) > 0 for poses in all_poses(self._surface, flat[inside])]
+        inside = inside.reshape(array.shape[:-1])
         return bool(inside) if array.ndim == 1 else inside
 
     def __repr__(self) -> str:
@@ -124,9 +132,11 @@ def singular_loci(
     positions: int,
 ) -> tuple[SingularLocus, ...]:
     """See `Mechanism.singular_loci`."""
+    if joint is not None:
+        mechanism._core.require("joint", checked_name(joint, "singular_loci"))
     surface, grid = _over_drivers(mechanism, "singular_loci", drivers, positions)
     found = _loci(surface, mechanism, grid, 2)
-    if joint is not None:
+    if joint is not None and grid.counts.any():
         found += _workspace_of(surface, grid, joint).boundary
     return found
 
@@ -135,7 +145,7 @@ def workspace(
     mechanism: Mechanism, joint: str, drivers: Sequence[DriverLike] | None, positions: int
 ) -> Workspace:
     """See `Mechanism.workspace`."""
-    mechanism._core.require("joint", joint)
+    mechanism._core.require("joint", checked_name(joint, "workspace"))
     surface, grid = _over_drivers(mechanism, "workspace", drivers, positions)
     return _workspace_of(surface, grid, joint)
 
@@ -143,7 +153,6 @@ def workspace(
 def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
     """Return the workspace, given all assemblies over the drivers."""
     own = surface.mechanism
-    own._core.require("joint", joint)
     index = own._joint_names.index(joint)
     seen = np.array([pose.joints[index] for row in grid.poses for poses in row for pose in poses])
     positions = len(grid.axes[0])
@@ -154,12 +163,12 @@ def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
     margin = MARGIN * np.maximum(high - low, 1e-3 * surface.size)
     axes = [np.linspace(a, b, positions) for a, b in zip(low - margin, high + margin, strict=True)]
     held = [i for i in range(own._driver_count) if i not in surface.free]
-    other, drawn = driven_by_joint(own, joint, [own._description.drivers[i] for i in held])
+    other, base = driven_by_joint(own, joint, [own._description.drivers[i] for i in held])
     at = (0.0, 0.0, *(surface.q[i] for i in held))
     inverse = Surface(other, (0, 1), at, surface.size)
-    over = grid_of(inverse, (axes[0] - drawn[0], axes[1] - drawn[1]), (False, False))
+    over = grid_of(inverse, (axes[0] - base[0], axes[1] - base[1]), (False, False))
     boundary = _loci(inverse, own, over, 1)
-    return Workspace(joint, axes[0], axes[1], over.counts, boundary, inverse, drawn)
+    return Workspace(joint, axes[0], axes[1], over.counts, boundary, inverse, base)
 
 
 def _over_drivers(
@@ -169,18 +178,16 @@ def _over_drivers(
         message = f"{what}() is for one design, this is a batch {mechanism.shape}: use design(i)"
         raise InputError(message)
     free = _free_drivers(mechanism, what, drivers)
-    positions = whole_number(positions, "positions", FEWEST, needed="at least 4 are needed")
-    names = mechanism._core.dimension_names
-    values = zip(names, mechanism._values.tolist(), strict=True)
-    lengths = [abs(value) for name, value in values if not name.endswith("angle")]
+    needed = f"from {FEWEST} to {MOST} are needed"
+    positions = whole_number(positions, "positions", FEWEST, MOST, needed)
     own = mechanism._description.drivers
     is_angle = [not isinstance(own[i], str) or own[i] not in mechanism.slides for i in free]
     axes = []
     for angle in is_angle:
-        reach = np.pi if angle else sum(lengths)
+        reach = np.pi if angle else sum(lengths(mechanism))
         axes.append(-reach + 2.0 * reach * (np.arange(positions) + OFF) / positions)
     q0 = tuple(np.atleast_1d(mechanism.q0).tolist())
-    surface = Surface(mechanism, free, q0, max(lengths))
+    surface = Surface(mechanism, free, q0, size_of(mechanism))
     return surface, grid_of(surface, (axes[0], axes[1]), (is_angle[0], is_angle[1]))
 
 
@@ -194,8 +201,8 @@ def _free_drivers(
         raise InputError(message)
     if drivers is None and len(own) == 2:
         return 0, 1
-    named = list(drivers) if drivers is not None and not isinstance(drivers, str) else []
-    indices = [own.index(one) for one in named if one in own]
+    named = list(drivers) if isinstance(drivers, list | tuple) else []
+    indices = [own.index(one) for one in named if isinstance(one, str | Drive) and one in own]
     if len(named) != 2 or len(set(indices)) != 2:
         message = f"drivers is {short(drivers)}: name the two of {short(own)} that move"
         raise InputError(message)
@@ -215,7 +222,7 @@ def _loci(surface: Surface, own: Mechanism, grid: Grid, kind: int) -> tuple[Sing
             ranges[slides.index(driver)] = (float(axis[0]), float(axis[-1]))
 
     def is_inside(pose: Pose) -> bool:
-        near = bool(np.abs(np.array(pose.joints)).max() < reach)
+        near = bool(np.ptp(np.array(pose.joints), axis=0).max() < reach)
         return near and all(a <= pose.slides[i] <= b for i, (a, b) in ranges.items())
 
     def is_known(pose: Pose) -> bool:
@@ -268,4 +275,4 @@ def _named(mechanism: Mechanism, traced: Traced, kind: int) -> SingularLocus:
     q = np.stack([coordinate(one) for one in mechanism._description.drivers], axis=-1)
     joints = np.array([pose.joints for pose in poses])
     named = {name: joints[:, i] for i, name in enumerate(mechanism._joint_names)}
-    return SingularLocus(kind, q, MappingProxyType(named), traced.is_closed, traced.is_complete)
+    return SingularLocus(kind, q, named, traced.is_closed, traced.is_complete)

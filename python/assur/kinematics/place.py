@@ -1,0 +1,71 @@
+"""Where everything of a mechanism is, as one vector in which assemblies can be compared."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assur._trig import sin_cos
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.kinematics.assembly import AssemblyNumbers
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
+
+
+def place_vector(joints: Float, angles: Float, slides: Float, size: float) -> Float:
+    """Return joints (…, J, 2), unit vectors of links (…, L) and slides (…, K), in sizes: (…, n).
+
+    Joints alone do not tell assemblies apart: a link of one joint may point either way.
+    """
+    sine, cosine = sin_cos(angles)
+    flat = joints.reshape((*joints.shape[:-2], -1)) / size
+    return np.concatenate([flat, sine, cosine, slides / size], axis=-1)
+
+
+def place_of(numbers: AssemblyNumbers, size: float) -> Float:
+    """Return the place of an assembly as the core knows it."""
+    joints, angles = np.array(numbers["joints"]), np.array(numbers["angles"])
+    return place_vector(joints, angles, np.array(numbers["slides"]), size)
+
+
+def places_along(motion: Motion, size: float) -> Float:
+    """Return the places of a motion of one design, shape (…, n)."""
+    own = motion.mechanism
+    shape = motion.shape
+
+    def stacked(values: list[Float], axis: int, tail: tuple[int, ...] = ()) -> Float:
+        return np.stack(values, axis=axis) if values else np.empty((*shape, 0, *tail))
+
+    return place_vector(
+        stacked([motion.joint(name).value for name in own._joint_names], -2, (2,)),
+        stacked([motion.link(name).value for name in own.links], -1),
+        stacked([motion.slide(name).value for name in own.slides], -1),
+        size,
+    )
+
+
+def lengths(mechanism: Mechanism) -> list[float]:
+    """Return the lengths of one design, wherever it stands: distances, not places on the ground."""
+    own = mechanism._description
+    free = {name for name, slide in own.slides if slide.on == "ground" and slide.origin is None}
+    found: list[float] = []
+    fixed: dict[str, list[float]] = {"x": [], "y": []}
+    values = zip(mechanism._core.dimension_names, mechanism._values.tolist(), strict=True)
+    for name, value in values:
+        thing, _, what = name.rpartition(".")
+        if thing.startswith("ground."):
+            fixed[what].append(value)
+        elif what != "angle" and not (what == "offset" and thing in free):
+            found.append(abs(value))
+    return [*found, *(max(axis) - min(axis) for axis in fixed.values() if axis)]
+
+
+def size_of(mechanism: Mechanism) -> float:
+    """Return a length of one design that its size is of the order of, m."""
+    known = [length for length in lengths(mechanism) if np.isfinite(length)]
+    at = np.array([point for _, *point in mechanism._description.joints])
+    drawn = float(np.ptp(at, axis=0).max()) if len(at) else 0.0
+    return max(known, default=0.0) or drawn or 1.0
