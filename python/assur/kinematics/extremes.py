@@ -10,6 +10,7 @@ from assur._arrays import short
 from assur._validate import real_number, whole_number
 from assur.errors import InputError, PositionError
 from assur.kinematics.assembly import Assembly, drawn_in
+from assur.kinematics.place import size_of
 from assur.kinematics.solve import checked_assembly
 
 if TYPE_CHECKING:
@@ -18,6 +19,12 @@ if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Extremes", "ValueAt"]
+
+
+# A coordinate stands that changes by less than this (rad, or sizes).
+STANDS = 1e-13
+# Least tolerance of a dwell, relative to the greatest value: the core's noise twice.
+FINEST = 2e-11
 
 
 class ValueAt(NamedTuple):
@@ -82,6 +89,11 @@ class Extremes:
         if not size > 0.0:
             message = f"tolerance is {tolerance!r}: a positive number is needed"
             raise InputError(message, value=size)
+        known = [abs(end.value) for end in (self.least, self.greatest) if math.isfinite(end.value)]
+        finest = FINEST * max(known, default=0.0)
+        if size < finest:
+            message = f"tolerance is {size!r}: rounding decides below {finest:.3g}"
+            raise InputError(message, value=size)
         mechanism, signs, tracked, order = self._of
         ends = ((self.least.value + size, False), (self.greatest.value - size, True))
         values = mechanism._values.tolist()
@@ -136,7 +148,9 @@ def extremes(
     least, greatest = ValueAt(*found[0]), ValueAt(*found[1])
     limits = mechanism.limits(assembly)
     ratio = None
-    if order == 0 and limits.period == 1 and math.isfinite(greatest.q - least.q):
+    unit = 1.0 if tracked[0] == "link" else size_of(mechanism)
+    moves = greatest.value - least.value > STANDS * unit
+    if order == 0 and moves and limits.period == 1 and math.isfinite(greatest.q - least.q):
         there = (greatest.q - least.q) % math.tau
         back = math.tau - there
         ratio = max(there, back) / min(there, back) if min(there, back) > 0.0 else None

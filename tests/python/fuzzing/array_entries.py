@@ -7,12 +7,15 @@ from __future__ import annotations
 
 import inspect
 import math
+import tempfile
 import types
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import pandas as pd
 
 import assur
 from assur import balance, crank_rocker, flywheel, slider_crank
@@ -131,6 +134,28 @@ def with_lengths(value: Any) -> Any:
     return FOUR_BAR.with_dimensions({"coupler.length": value}).solve(1.0, on_error="nan")
 
 
+def written(kind: str) -> Callable[..., Any]:
+    """A table of a motion, from a file too."""
+
+    def table(omega: npt.ArrayLike, alpha: npt.ArrayLike) -> Any:
+        if kind == "frame":
+            return MOTION.to_dataframe(omega, alpha).to_numpy()
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / f"motion.{kind}"
+            if kind == "xlsx":
+                MOTION.to_excel(path, omega, alpha)
+                return pd.read_excel(path, "C", skiprows=[1]).to_numpy()
+            MOTION.to_parquet(path, omega, alpha)
+            return pd.read_parquet(path).to_numpy()
+
+    return table
+
+
+TIMES = np.array([0.5, 1.0])
+PLACES = FOUR_BAR.solve(TIMES).joint("C").value
+ENDS = [2.0, 3.0]
+SPACE = FIVE_BAR.workspace("C", positions=4)
+
 LENGTHS = {"l1": 1.0, "l2": 9.0, "l3": 6.0, "l4": 10.0}
 SLIDER = {"phi": 0.0, "crank": 1.0, "rod": 5.0}
 COLUMNS = {"phi": PHI, "moment": MOMENT, "inertia": INERTIA}
@@ -158,6 +183,28 @@ ENTRIES: dict[str, Entry] = {
         lambda q: dict(assur.sweep(FOUR_BAR, {}, q, metrics=SWING)), numbers(0.5)
     ),
     "Mechanism.assemblies.q": Entry(FOUR_BAR.assemblies, numbers(1.0)),
+    "Mechanism.solve.deg": Entry(lambda deg: FOUR_BAR.solve(deg=deg), numbers(0.0)),
+    "Mechanism.defects.q": Entry(lambda q: FOUR_BAR.defects(q, {"C": PLACES}), (TIMES,)),
+    "Mechanism.defects.joints": Entry(lambda c: FOUR_BAR.defects(TIMES, {"C": c}), (PLACES,)),
+    "Mechanism.map.dimensions": Entry(
+        lambda one: FOUR_BAR.map("assemblies", {"rocker.length": one, "ground.D.x": [2.0, 3.0]}),
+        (np.array([1.0, 2.0, 3.0]),),
+    ),
+    "Mechanism.map.q": Entry(
+        lambda q: FOUR_BAR.map("assemblies", {"rocker.length": ENDS, "ground.D.x": ENDS}, q),
+        (np.array(1.0),),
+    ),
+    "Workspace.contains.points": Entry(SPACE.contains, (np.ones((3, 2)), np.ones(2))),
+    "Motion.point.local": Entry(
+        lambda at: MOTION.point("coupler", at)._arrays, (np.ones(2), np.ones((3, 2)))
+    ),
+    **each_of("Motion.to_dataframe", written("frame"), omega=2.0, alpha=1.0),
+    **each_of("Motion.to_excel", written("xlsx"), omega=2.0, alpha=1.0),
+    **each_of("Motion.to_parquet", written("parquet"), omega=2.0, alpha=1.0),
+    "FourBar.__init__.point": Entry(
+        lambda point: assur.FourBar(1.0, 3.0, 2.5, 3.2, point=point),
+        (np.ones(2), np.ones((2, 3))),
+    ),
     "Mechanism.with_driver.q": Entry(
         lambda q: FOUR_BAR.with_driver("rocker", q=q).q0, numbers(1.0)
     ),

@@ -9,17 +9,19 @@ use super::assembly::{Assemblies, Assembly, PathFailure};
 use super::forms::GroupForms;
 use super::parameters::parameters;
 use super::solutions::{GroupFibres, PathEnd, unknowns};
+use crate::batch::outputs::Outputs;
+use crate::batch::request::{Coordinates, Motion, Request, Series};
 use crate::branch::constant_signs::SignConstancy;
 use crate::branch::design::Design;
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::vector::Vector;
-use crate::plan::dyad::Unknown;
+use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::group::Group;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
 use crate::state::state::{Context, State};
-use crate::state::status::Status;
+use crate::state::status::{Fault, Status};
 use crate::structure::closure::point_of_joint;
 
 /// Greatest distance (relative to the size) of two assemblies that are one, where a dyad or group is
@@ -28,6 +30,11 @@ const DOUBLE: f64 = 1.0e-8;
 /// How far (rad, or in sizes) Newton's iteration may lead from the end of a path. Beside a dead point
 /// that end is good to half of all digits.
 const CONFIRMED: f64 = 1.0e-5;
+
+/// How near (rad, or relative to the size) the same assembly is that was found in two ways.
+const SAME: f64 = 1.0e-6;
+/// Most signs whose combinations are tried.
+const MOST_TRIED: usize = 8;
 
 /// The fibres of all groups of a mechanism, in order.
 struct Fibres(Vec<GroupFibres>);
@@ -99,11 +106,41 @@ impl Mechanism {
                 }
                 let signs: Vec<f64> = assembly.signs.iter().map(|&sign| f64::from(sign)).collect();
                 if !constancy.holds(&signs) {
-                    assembly.signs = constancy.design.signs_at_drawing(&signs, &scaled);
+                    let back = constancy.design.signs_at_drawing(&signs, &scaled);
+                    assembly.signs = self.leading_to(assembly, back, (dimensions, q))?;
                 }
             }
         }
         Ok(found)
+    }
+
+    /// The signs at the drawing that lead to an assembly: those traced back, unless rounding beside a
+    /// change point on the way decides otherwise on the way forward.
+    fn leading_to(
+        &self,
+        assembly: &Assembly,
+        back: Vec<i8>,
+        (dimensions, q): (&[f64], &[f64]),
+    ) -> Result<Vec<i8>, SolveError> {
+        let outputs = Outputs::all(self);
+        let lead = |signs: &[i8]| {
+            let coordinates = Coordinates::Shared(q);
+            let request =
+                Request { dimensions, coordinates, signs, order: 0, outputs: &outputs, by: None };
+            Ok(is_there(&self.solve(&request)?, assembly))
+        };
+        if lead(&back)? || back.len() > MOST_TRIED {
+            return Ok(back);
+        }
+        for choice in 1..1_u32 << back.len() {
+            let flipped =
+                |(i, &sign): (usize, &i8)| if choice >> i & 1 == 1 { -sign } else { sign };
+            let signs: Vec<i8> = back.iter().enumerate().map(flipped).collect();
+            if lead(&signs)? {
+                return Ok(signs);
+            }
+        }
+        Ok(back)
     }
 
     /// Those of random dimensions, found once.
@@ -132,6 +169,24 @@ impl Mechanism {
             },
         )
     }
+}
+
+/// Whether a motion of one position is in an assembly.
+fn is_there(motion: &Motion, assembly: &Assembly) -> bool {
+    let size = assembly.joints.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let near = |found: f64, wanted: f64| (found - wanted).abs() <= SAME * size;
+    let joint = |of: &Series| {
+        let [x, y] = assembly.joints[of.index];
+        near(of.derivatives[0][0], x) && near(of.derivatives[0][1], y)
+    };
+    let slide = |of: &Series| near(of.derivatives[0][0], assembly.slides[of.index]);
+    let link = |of: &Series| {
+        let gap = (of.derivatives[0][0] - assembly.angles[of.index]) / TAU;
+        (gap - gap.round()).abs() * TAU <= SAME
+    };
+    motion.joints.iter().all(joint)
+        && motion.slides.iter().all(slide)
+        && motion.links.iter().all(link)
 }
 
 fn choices(mechanism: &Mechanism) -> Vec<Choice<'_>> {
@@ -173,6 +228,7 @@ impl Search<'_> {
         }
         let Some(choice) = self.choices.get(index) else {
             self.solve();
+            self.note_loose();
             self.add(is_double);
             return Ok(());
         };
@@ -191,9 +247,23 @@ impl Search<'_> {
         Ok(())
     }
 
+    /// Notes a dyad whose outer joints coincide and whose links fit: it turns freely.
+    fn note_loose(&mut self) {
+        let Some(Fault::NotClosed { step, gap: 0.0 }) = self.state.fault else { return };
+        let mechanism = self.design.mechanism;
+        if let Step::Dyad(Dyad { sign: Some(sign), .. }) = mechanism.plan().steps[step] {
+            let group = mechanism.plan().dyad_groups[sign].clone();
+            let failure = PathFailure { group, end: PathEnd::Loose };
+            if !self.found.failures.contains(&failure) {
+                self.found.failures.push(failure);
+            }
+        }
+    }
+
     /// Solves the position as chosen; whether nothing fails before a choice.
     fn reaches(&mut self, index: usize) -> bool {
         self.solve();
+        self.note_loose();
         let step = self.choices[index].step();
         !self.state.has_failed() || self.state.fault.is_some_and(|fault| fault.step() >= step)
     }

@@ -22,6 +22,14 @@ const NEAR_END: f64 = 1.0e-3;
 /// Step of a difference (as an angle) in place of a derivative of fourth order.
 const DIFFERENCE: f64 = 1.0e-5;
 
+/// Halvings toward a pole, and how many times greater than at the nodes the value is there.
+const HALVINGS: usize = 40;
+const POLE: f64 = 1.0e6;
+/// How far (in halves of the window) a slide is followed to see where a value goes, and by what factor
+/// one grows that has no limit.
+const FAR: [f64; 2] = [1.0e2, 1.0e4];
+const GROWS: f64 = 10.0;
+
 /// A coordinate of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tracked {
@@ -152,6 +160,8 @@ struct Window {
     half: f64,
     /// Which ends are dead points.
     folds: [bool; 2],
+    /// Which ends are infinite: of a slide that nothing stops.
+    infinite: [bool; 2],
     /// Whether it is one period of a motion that closes.
     is_period: bool,
     /// Turns of the driver, or its way in sizes.
@@ -176,6 +186,7 @@ impl Window {
             middle: 0.5 * (low + high),
             half: 0.5 * (high - low),
             folds: interval.folds.map(|fold| fold.is_some()),
+            infinite: interval.ends.map(|end| end.is_infinite() && !is_turn),
             is_period: is_turn && interval.ends[0].is_infinite(),
             length: (high - low) / unit,
         }
@@ -242,11 +253,21 @@ impl Curve<'_> {
     fn candidates(&mut self, window: &Window) -> Vec<ValueAt> {
         let nodes = window.nodes();
         let (mut values, mut greatest) = (Vec::new(), 0.0_f64);
+        let mut last: Option<(f64, [f64; 2])> = None;
         for &angle in &nodes {
-            if let Some(jet) = self.jet(window.at(angle)) {
-                values.push(ValueAt { value: jet[self.order], q: window.at(angle) });
-                greatest = greatest.max((jet[self.order + 1] * window.rates(angle)[0]).abs());
+            let jet = self.jet(window.at(angle));
+            let here = jet.map(|jet| (window.at(angle), [jet[self.order], jet[self.order + 1]]));
+            if let Some((q, [value, rate])) = here {
+                values.push(ValueAt { value, q });
+                greatest = greatest.max((rate * window.rates(angle)[0]).abs());
             }
+            if let (Some(from), Some(to)) = (last, here)
+                && let Some(q) = self.pole(from, to)
+            {
+                values.push(ValueAt { value: f64::NEG_INFINITY, q });
+                values.push(ValueAt { value: f64::INFINITY, q });
+            }
+            last = here;
         }
         let noise = NOISE * greatest;
         let roots = all_roots(&nodes, |angle| {
@@ -260,6 +281,11 @@ impl Curve<'_> {
         for (side, end) in window.ends().into_iter().enumerate() {
             if window.folds[side] {
                 values.extend(self.at_dead_point(window, end, side == 0));
+            }
+        }
+        for side in [0, 1] {
+            if window.infinite[side] {
+                values.extend(self.at_infinity(window, side));
             }
         }
         let [first, last] = window.ends();
@@ -326,6 +352,41 @@ impl Curve<'_> {
         let slope =
             (beside(angle + DIFFERENCE)? - beside(angle - DIFFERENCE)?) / (2.0 * DIFFERENCE);
         Some([value, slope])
+    }
+
+    /// Where a value goes through infinity between two coordinates: it steps back although it grows at
+    /// both, or forward although it falls.
+    fn pole(
+        &mut self,
+        (mut from, [first, rate]): (f64, [f64; 2]),
+        (mut to, [last, later]): (f64, [f64; 2]),
+    ) -> Option<f64> {
+        let way = 1.0_f64.copysign(rate);
+        if rate * later <= 0.0 || way * (last - first) >= 0.0 {
+            return None;
+        }
+        let (mut above, mut below) = (first, last);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (from + to);
+            let value = self.jet(middle)?[self.order];
+            if way * (value - above) >= 0.0 {
+                (from, above) = (middle, value);
+            } else {
+                (to, below) = (middle, value);
+            }
+        }
+        let size = first.abs().max(last.abs());
+        (above.abs().min(below.abs()) > POLE * size).then_some(from)
+    }
+
+    /// Where the value goes as a slide goes on without end.
+    fn at_infinity(&mut self, window: &Window, side: usize) -> Option<ValueAt> {
+        let way = if side == 0 { -1.0 } else { 1.0 };
+        let [near, far] = FAR.map(|part| self.jet(window.middle + way * part * window.half));
+        let [near, far] = [near?[self.order], far?[self.order]];
+        let grows = far.abs() > GROWS * near.abs();
+        let value = if grows { f64::INFINITY.copysign(far) } else { far };
+        Some(ValueAt { value, q: way * f64::INFINITY })
     }
 
     /// The value at a dead point: of the coordinate extrapolated, of a derivative infinite.

@@ -13,6 +13,12 @@ use crate::math::angle::whole_part;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
 
+/// Where (rad) a turn is cut, off the drawing's opposite point: dead points may lie there.
+const OFF: f64 = 0.123_456_7;
+/// How often, and by what factor, the range of a slide is widened where nothing ends it.
+const WIDENINGS: usize = 3;
+const WIDENING: f64 = 8.0;
+
 /// Where an assembly of a design exists.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Limits {
@@ -142,7 +148,7 @@ impl<'m> LimitsFinder<'m> {
         let is_periodic = is_turn && covered == [f64::NEG_INFINITY, f64::INFINITY];
         let mut within = Stretch { ends: covered, folds: [None; 2] };
         if is_periodic {
-            within.ends = [q0 - half, q0 + half];
+            within.ends = [q0 - half + OFF, q0 + half + OFF];
         } else {
             for (side, end) in within.ends.iter_mut().enumerate() {
                 let beyond = if is_turn { turns } else { reach };
@@ -158,15 +164,28 @@ impl<'m> LimitsFinder<'m> {
         let cell = if is_turn { TAU / f64::from(CELLS_PER_TURN) } else { 1.0 / 16.0 };
         let design = &self.design;
         let state = design.state(design.tracing_derivatives());
-        let mut stretches = Search { design, state, cell }.stretches(within);
+        let mut search = Search { design, state, cell };
+        let mut stretches = search.stretches(within);
+        if !is_turn && !design.has_groups() {
+            // Guides that are nearly parallel carry a slide farther than all lengths together.
+            for _ in 0..WIDENINGS {
+                if !stretches.iter().any(|own| touches(own, &within).contains(&true)) {
+                    break;
+                }
+                let beyond = WIDENING * (within.ends[1] - within.ends[0]);
+                within.ends = [q0 - 0.5 * beyond, q0 + 0.5 * beyond];
+                stretches = search.stretches(within);
+            }
+        }
         if is_periodic {
             join(&mut stretches, within);
         }
         if !is_turn {
-            // Beyond its own reach a slide has no limit.
+            // What goes on so far has no limit.
             for stretch in &mut stretches {
+                let goes_on = touches(stretch, &within);
                 for (side, far) in [f64::NEG_INFINITY, f64::INFINITY].into_iter().enumerate() {
-                    if stretch.ends[side] == within.ends[side] && within.folds[side].is_none() {
+                    if goes_on[side] {
                         stretch.ends[side] = far;
                     }
                 }
@@ -200,6 +219,11 @@ impl<'m> LimitsFinder<'m> {
             None => branch.is_plain().then_some(1),
         }
     }
+}
+
+/// Whether a stretch goes on beyond each end of another.
+fn touches(own: &Stretch, within: &Stretch) -> [bool; 2] {
+    [0, 1].map(|side| own.ends[side] == within.ends[side] && within.folds[side].is_none())
 }
 
 /// Joins the parts at both ends of a period; all of it is without limits.
