@@ -139,6 +139,55 @@ class Mechanism:
         )
         self._initialise(description, None)
 
+    @classmethod
+    def from_lengths(
+        cls,
+        joints: Mapping[str, Sequence[float]],
+        links: Mapping[str, Iterable[str]],
+        driver: DriverLike | Sequence[DriverLike],
+        lengths: Mapping[Any, float],
+        slides: Mapping[str, Slide | Cylinder] | None = None,
+        assembly: Mapping[str, int] | None = None,
+    ) -> Mechanism:
+        """Return a mechanism from a rough sketch and lengths between its joints.
+
+        Parameters
+        ----------
+        joints, links, driver, slides, assembly
+            The sketch, as for the constructor.
+        lengths : mapping of (str, str) to float
+            Distances of two joints of one link, m: ``("B", "C")``, or ``"BC"`` of names of one
+            letter. What is not given remains as sketched; of a link with more joints, three
+            distances make a triangle on the sketch's side.
+
+        Returns
+        -------
+        Mechanism
+            At the sketch's q in the assembly that is nearest to it.
+
+        Raises
+        ------
+        InputError
+            A pair without a link, lengths that are no triangle, or that contradict each other.
+        PositionError
+            If the mechanism does not close at the sketch's q.
+
+        Examples
+        --------
+        >>> import assur
+        >>> m = assur.Mechanism.from_lengths(
+        ...     joints={"A": (0, 0), "B": (0, 1), "C": (3, 2), "D": (3, 0), "P": (2, 3)},
+        ...     links={"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
+        ...     driver="crank",
+        ...     lengths={"AD": 3.2, "AB": 1.0, "BC": 3.0, "BP": 2.0, "CP": 1.5, "DC": 2.5},
+        ... )
+        >>> m.dimensions["ground.D.x"], m.dimensions["coupler.length"], round(m.joints["P"][1], 6)
+        (3.2, 3.0, 2.632606)
+        """
+        from assur.kinematics.from_lengths import sized
+
+        return sized(Mechanism(joints, links, driver, slides, assembly), lengths)
+
     def _initialise(
         self, description: Description, values: Float | None, core: Core | None = None
     ) -> None:

@@ -1,0 +1,149 @@
+"""A mechanism from a rough sketch and lengths that are measured between its joints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._arrays import short
+from assur._validate import real_number
+from assur.errors import InputError, PositionError
+from assur.kinematics.place import size_of
+
+if TYPE_CHECKING:
+    from assur.kinematics.mechanism import Mechanism
+
+# How far (relative to the length) a distance that others decide may be from the one that is given.
+AGREES = 1e-6
+
+# The joints of a link in its own frame: complex numbers.
+Shape = dict[str, complex]
+
+
+def sized(sketch: Mechanism, lengths: Any) -> Mechanism:
+    """Return the sketched mechanism with lengths between joints, in the assembly nearest to it."""
+    given = _checked(sketch, lengths)
+    dimensions: dict[str, float] = {}
+    for link, joints in sketch.links.items():
+        own = {pair: length for pair, (of, length) in given.items() if of == link}
+        if own:
+            dimensions.update(_dimensions(sketch, link, joints, own))
+    return _nearest(sketch.with_dimensions(dimensions), sketch)
+
+
+def _checked(sketch: Mechanism, lengths: Any) -> dict[frozenset[str], tuple[str, float]]:
+    """Return for every pair of joints the link that has both, and the length."""
+    if not isinstance(lengths, Mapping):
+        message = f"lengths is {short(lengths)}: a mapping of pairs of joints to lengths is needed"
+        raise InputError(message)
+    found: dict[frozenset[str], tuple[str, float]] = {}
+    for pair, length in lengths.items():
+        names = tuple(pair) if isinstance(pair, str | tuple | list) else ()
+        if len(names) != 2 or not all(isinstance(name, str) for name in names):
+            message = f'lengths: {short(pair)} is no pair of joints: "AB" or ("A", "B") is needed'
+            raise InputError(message)
+        for name in names:
+            sketch._core.require("joint", name)
+        link = next((link for link, on in sketch.links.items() if set(names) <= set(on)), None)
+        if link is None or names[0] == names[1]:
+            message = f"lengths: no link has both joints {names[0]!r} and {names[1]!r}"
+            raise InputError(message)
+        value = real_number(length, f"length {names[0]}-{names[1]}")
+        if not (value > 0.0 and math.isfinite(value)):
+            message = f"length {names[0]}-{names[1]} is {value!r}: a positive length is needed"
+            raise InputError(message, value=value)
+        found[frozenset(names)] = (link, value)
+    return found
+
+
+def _dimensions(
+    sketch: Mechanism, link: str, joints: tuple[str, ...], lengths: dict[frozenset[str], float]
+) -> dict[str, float]:
+    """Return the dimensions of a link whose joints have some distances."""
+    at = {name: complex(x, y) for name, x, y in sketch._description.joints}
+    placed: Shape = {}
+    left = list(joints)
+    while left:
+        # The one with the most distances to those already placed; the sketch's first among equals.
+        def known(name: str) -> int:
+            return sum(frozenset((name, other)) in lengths for other in placed)
+
+        name = max(left, key=known)
+        left.remove(name)
+        placed[name] = _place(link, name, at, placed, lengths)
+    for pair, length in lengths.items():
+        one, other = sorted(pair)
+        found = abs(placed[one] - placed[other])
+        if abs(found - length) > AGREES * length:
+            message = (
+                f"link {link!r}: {one}-{other} cannot be {length:g} m; the other lengths make it "
+                f"{found:g} m"
+            )
+            raise InputError(message, link=link, value=length)
+    return _named(link, joints, placed)
+
+
+def _place(
+    link: str, name: str, at: Shape, placed: Shape, lengths: dict[frozenset[str], float]
+) -> complex:
+    """Place one more joint, on the side of the sketch."""
+    known = [(o, lengths[frozenset((name, o))]) for o in placed if frozenset((name, o)) in lengths]
+    if not placed:
+        return at[name]
+    base = next(iter(placed))
+    if not known:
+        return placed[base] + (at[name] - at[base])
+    (one, r), *others = known
+    towards = at[name] - at[one]
+    if not others:
+        return placed[one] + towards * (r / abs(towards) if towards else 0.0)
+    other, s = others[0]
+    chord = placed[other] - placed[one]
+    d = abs(chord)
+    along = (r * r - s * s + d * d) / (2.0 * d)
+    height2 = r * r - along * along
+    if height2 < -AGREES * r * r:
+        message = (
+            f"link {link!r}: {name}-{one} {r:g} m, {name}-{other} {s:g} m and {one}-{other} "
+            f"{d:g} m are no triangle"
+        )
+        raise InputError(message, link=link)
+    drawn = (at[other] - at[one]).conjugate() * towards
+    side = math.copysign(1.0, drawn.imag)
+    unit = chord / d
+    return placed[one] + unit * complex(along, side * math.sqrt(max(height2, 0.0)))
+
+
+def _named(link: str, joints: tuple[str, ...], placed: Shape) -> dict[str, float]:
+    """Return the dimensions of a link whose joints are placed."""
+    if link == "ground":
+        axes = (("x", "real"), ("y", "imag"))
+        return {f"ground.{n}.{x}": getattr(placed[n], part) for n in joints for x, part in axes}
+    first, second, *further = joints
+    axis = placed[second] - placed[first]
+    length = abs(axis)
+    found = {f"{link}.length": length}
+    for name in further:
+        local = (placed[name] - placed[first]) * axis.conjugate() / length
+        found |= {f"{link}.{name}.x": local.real, f"{link}.{name}.y": local.imag}
+    return found
+
+
+def _nearest(mechanism: Mechanism, sketch: Mechanism) -> Mechanism:
+    """Return the mechanism drawn in the assembly nearest to the sketch, at the sketch's q."""
+    wanted = np.array([at for _, *at in sketch._description.joints])
+    found = list(mechanism.assemblies(sketch.q0))
+    if not found:
+        where = mechanism.solve(sketch.q0, order=0, on_error="nan").explain()
+        message = f"these lengths do not fit the sketch's position: {where}"
+        raise PositionError(message)
+
+    def apart(index: int) -> float:
+        joints = found[index].joints
+        assert joints is not None
+        return float(np.abs(np.array(list(joints.values())) - wanted).max()) / size_of(mechanism)
+
+    return mechanism.with_assembly(found[min(range(len(found)), key=apart)])
