@@ -70,7 +70,7 @@ def driven_by_joint(
     mechanism: Mechanism, joint: str, held: list[DriverLike]
 ) -> tuple[Mechanism, tuple[float, float]]:
     """Return the design driven by a joint's x and y before other drivers, and where both are 0."""
-    description = _with_cross_slide(mechanism._description, joint, "xy")
+    description = _with_cross_slide(_to_size(mechanism), joint, "xy")
     description = description._replace(drivers=(*description.drivers, *held))
     other = _redriven(mechanism, description, joint)
     x, y = _base(other)
@@ -92,7 +92,7 @@ def _driven_by(
     else:
         joint, axes = name, "xy"
         mechanism._core.require("joint", joint)
-    other = _redriven(mechanism, _with_cross_slide(own, joint, axes), name)
+    other = _redriven(mechanism, _with_cross_slide(_to_size(mechanism), joint, axes), name)
     base = dict(zip("xy", _base(other), strict=True))
     steps = [float(value - base[axis]) for value, axis in zip(wanted, axes, strict=True)]
     return other, steps[0] if len(steps) == 1 else steps
@@ -114,6 +114,15 @@ def _redriven(mechanism: Mechanism, description: Description, name: str) -> Mech
     drawn = zip(core.dimension_names, core.drawing, strict=True)
     values = np.array([own.get(name, value) for name, value in drawn])
     return mechanism._make(description, values, core)
+
+
+def _to_size(mechanism: Mechanism) -> Description:
+    """Return the drawing in the size of the design: positions are followed from there."""
+    own = mechanism._description
+    ratio = size_of(mechanism) / size_of(mechanism, drawn=True)
+    if 0.5 <= ratio <= 2.0:
+        return own
+    return own._replace(joints=tuple((name, x * ratio, y * ratio) for name, x, y in own.joints))
 
 
 def _base(mechanism: Mechanism) -> tuple[float, float]:

@@ -47,14 +47,17 @@ def places_along(motion: Motion, size: float) -> Float:
     )
 
 
-def lengths(mechanism: Mechanism) -> list[float]:
-    """Return the lengths of one design, wherever it stands: distances, not places on the ground."""
+def lengths(mechanism: Mechanism, drawn: bool = False) -> list[float]:
+    """Return the lengths of one design, wherever it stands: distances, not places on the ground.
+
+    Or those of the drawing.
+    """
     own = mechanism._description
     free = {name for name, slide in own.slides if slide.on == "ground" and slide.origin is None}
     found: list[float] = []
     fixed: dict[str, list[float]] = {"x": [], "y": []}
-    values = zip(mechanism._core.dimension_names, mechanism._values.tolist(), strict=True)
-    for name, value in values:
+    values = mechanism._core.drawing if drawn else mechanism._values.tolist()
+    for name, value in zip(mechanism._core.dimension_names, values, strict=True):
         thing, _, what = name.rpartition(".")
         if thing.startswith("ground."):
             fixed[what].append(value)
@@ -63,9 +66,9 @@ def lengths(mechanism: Mechanism) -> list[float]:
     return [*found, *(max(axis) - min(axis) for axis in fixed.values() if axis)]
 
 
-def size_of(mechanism: Mechanism) -> float:
-    """Return a length of one design that its size is of the order of, m."""
-    known = [length for length in lengths(mechanism) if np.isfinite(length)]
+def size_of(mechanism: Mechanism, drawn: bool = False) -> float:
+    """Return a length of one design, or of the drawing, that its size is of the order of, m."""
+    known = [length for length in lengths(mechanism, drawn) if np.isfinite(length)]
     at = np.array([point for _, *point in mechanism._description.joints])
-    drawn = float(np.ptp(at, axis=0).max()) if len(at) else 0.0
-    return max(known, default=0.0) or drawn or 1.0
+    width = float(np.ptp(at, axis=0).max()) if len(at) else 0.0
+    return max(known, default=0.0) or width or 1.0

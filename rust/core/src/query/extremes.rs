@@ -29,6 +29,8 @@ const POLE: f64 = 1.0e6;
 /// one grows that has no limit.
 const FAR: [f64; 2] = [1.0e2, 1.0e4];
 const GROWS: f64 = 10.0;
+/// How near (in halves of the window) to an end without a fold a value is compared.
+const BESIDE_END: [f64; 2] = [1.0e-8, 1.0e-5];
 
 /// A coordinate of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -286,6 +288,8 @@ impl Curve<'_> {
         for side in [0, 1] {
             if window.infinite[side] {
                 values.extend(self.at_infinity(window, side));
+            } else if !window.folds[side] && !window.is_period {
+                values.extend(self.at_open_end(window, side));
             }
         }
         let [first, last] = window.ends();
@@ -377,6 +381,17 @@ impl Curve<'_> {
         }
         let size = first.abs().max(last.abs());
         (above.abs().min(below.abs()) > POLE * size).then_some(from)
+    }
+
+    /// Infinity, if the value grows without end toward where an interval ends without a fold: there a
+    /// joint is at infinity.
+    fn at_open_end(&mut self, window: &Window, side: usize) -> Option<ValueAt> {
+        let inward = if side == 0 { window.half } else { -window.half };
+        let end = window.ends()[side];
+        let [near, far] = BESIDE_END.map(|part| self.jet(end + inward * part));
+        let [near, far] = [near?[self.order], far?[self.order]];
+        let grows = near.abs() > GROWS * far.abs();
+        grows.then(|| ValueAt { value: f64::INFINITY.copysign(near), q: end })
     }
 
     /// Where the value goes as a slide goes on without end.
