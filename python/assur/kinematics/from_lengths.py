@@ -83,7 +83,7 @@ def _dimensions(
                 f"{found:g} m"
             )
             raise InputError(message, link=link, value=length)
-    return _named(link, joints, placed)
+    return _named(link, joints, placed, lengths)
 
 
 def _place(
@@ -117,7 +117,9 @@ def _place(
     return placed[one] + unit * complex(along, side * math.sqrt(max(height2, 0.0)))
 
 
-def _named(link: str, joints: tuple[str, ...], placed: Shape) -> dict[str, float]:
+def _named(
+    link: str, joints: tuple[str, ...], placed: Shape, lengths: dict[frozenset[str], float]
+) -> dict[str, float]:
     """Return the dimensions of a link whose joints are placed."""
     if link == "ground":
         axes = (("x", "real"), ("y", "imag"))
@@ -125,7 +127,8 @@ def _named(link: str, joints: tuple[str, ...], placed: Shape) -> dict[str, float
     first, second, *further = joints
     axis = placed[second] - placed[first]
     length = abs(axis)
-    found = {f"{link}.length": length}
+    # As it was given, to the last bit.
+    found = {f"{link}.length": lengths.get(frozenset((first, second)), length)}
     for name in further:
         local = (placed[name] - placed[first]) * axis.conjugate() / length
         found |= {f"{link}.{name}.x": local.real, f"{link}.{name}.y": local.imag}

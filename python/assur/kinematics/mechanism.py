@@ -182,7 +182,7 @@ class Mechanism:
         ...     lengths={"AD": 3.2, "AB": 1.0, "BC": 3.0, "BP": 2.0, "CP": 1.5, "DC": 2.5},
         ... )
         >>> m.dimensions["ground.D.x"], m.dimensions["coupler.length"], round(m.joints["P"][1], 6)
-        (3.2, 3.0, 2.632606)
+        (3.2, 3.0, 2.637603)
         """
         from assur.kinematics.from_lengths import sized
 
@@ -616,11 +616,10 @@ class Mechanism:
         >>> assur.SliderCrank(0.05, 0.2).solve(deg=[0, 180]).slide("bore").value.round(4)
         array([0.25, 0.15])
         """
+        is_typed = deg is None and q is not None
         if deg is not None or q is None:
             q = solver.in_radians(self, q, deg)
-        else:
-            solver.warn_if_degrees(self, q)
-        return solver.solve(self, q, order, outputs, assembly, on_error, threads, out)
+        return solver.solve(self, q, order, outputs, assembly, on_error, threads, out, is_typed)
 
     def assemblies(self, q: npt.ArrayLike, threads: int | None = None) -> Any:
         """Return every real assembly at a position, for use as ``solve(q, assembly=a)``.

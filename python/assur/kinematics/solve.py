@@ -25,8 +25,9 @@ Float: TypeAlias = npt.NDArray[np.float64]
 # Names and indices of joints, links, slides.
 Names: TypeAlias = tuple[dict[str, int], dict[str, int], dict[str, int]]
 
-# Whole numbers, some of them more than two turns from 0, look like degrees.
-LIKE_DEGREES = 4.0 * np.pi
+# Whole numbers, the greatest of them between two turns and those of a hundred in degrees, look like
+# degrees.
+LIKE_DEGREES = (4.0 * np.pi, 36_000.5)
 
 
 def solve(
@@ -38,8 +39,9 @@ def solve(
     on_error: str,
     threads: Any,
     out: Motion | None,
+    is_typed: bool = False,
 ) -> Motion:
-    """See `Mechanism.solve`."""
+    """See `Mechanism.solve`; `is_typed`: whether a user wrote the coordinates, in rad."""
     one_of(on_error, ("raise", "nan"), "on_error")
     order = checked_order(order)
     if isinstance(assembly, Assembly):
@@ -47,6 +49,8 @@ def solve(
         mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
     coordinates, positions, per_design = checked_coordinates(mechanism, q)
     coordinates.flags.writeable = False
+    if is_typed:
+        _warn_if_degrees(mechanism, coordinates)
     own_signs = assembly is None
     signs = mechanism._signs if own_signs else checked_assembly(mechanism, assembly)
     threads = checked_threads(threads)
@@ -82,27 +86,19 @@ def in_radians(mechanism: Mechanism, q: Any, deg: npt.ArrayLike | None) -> Float
     return real_array(deg, "deg") * (np.pi / 180.0)
 
 
-def warn_if_degrees(mechanism: Mechanism, q: npt.ArrayLike) -> None:
+def _warn_if_degrees(mechanism: Mechanism, q: Float) -> None:
     """Warn if the coordinates of a driven angle look like degrees."""
-    last: Any = q
-    while isinstance(last, list | tuple) and last:
-        last = last[-1]
-    if isinstance(last, np.ndarray) and last.size:
-        last = last.flat[-1]
     # Quickly, because every call comes here: few coordinates are whole numbers.
-    if not (isinstance(last, int | float | np.number) and float(last).is_integer()):
+    if not (q.size and float(q.flat[-1]).is_integer()):
         return
     drivers = mechanism._description.drivers
     if len(drivers) > 1 or (isinstance(drivers[0], str) and drivers[0] in mechanism.slides):
         return
-    array = np.asarray(q)
-    if array.dtype.kind not in "uif" or not (np.abs(array) >= LIKE_DEGREES).any():
-        return
-    if (array == np.floor(array)).all():
-        most = float(array.flat[np.abs(array).argmax()])
+    most = float(np.abs(q).max())
+    if LIKE_DEGREES[0] < most < LIKE_DEGREES[1] and bool((q == np.floor(q)).all()):
         turns = most / (2.0 * np.pi)
         message = f"q = {most:g} is {most:g} rad, {turns:.3g} turns; for degrees: solve(deg=...)"
-        warnings.warn(message, AssurWarning, stacklevel=3)
+        warnings.warn(message, AssurWarning, stacklevel=4)
 
 
 def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:

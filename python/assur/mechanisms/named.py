@@ -79,10 +79,15 @@ class FourBar(Mechanism):
 
 
 def _coupler_point(point: Any) -> dict[str, npt.ArrayLike]:
-    if not isinstance(point, tuple | list | np.ndarray) or len(point) != 2:
+    both = real_array(point, "point") if isinstance(point, np.ndarray) else point
+    if not isinstance(both, tuple | list | np.ndarray) or len(both) != 2:
         message = f"point is {short(point)}: (x, y) in the coupler's frame is needed"
         raise InputError(message)
-    return {"coupler.P.x": point[0], "coupler.P.y": point[1]}
+    x, y = (real_array(one, f"point, {axis}") for one, axis in zip(both, "xy", strict=True))
+    if x.ndim and y.ndim and x.shape != y.shape:
+        message = f"point: x has shape {x.shape} and y {y.shape}"
+        raise InputError(message)
+    return {"coupler.P.x": x, "coupler.P.y": y}
 
 
 class SliderCrank(Mechanism):

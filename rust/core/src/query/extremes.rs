@@ -30,7 +30,7 @@ const POLE: f64 = 1.0e6;
 const FAR: [f64; 2] = [1.0e2, 1.0e4];
 const GROWS: f64 = 10.0;
 /// How near (in halves of the window) to an end without a fold a value is compared.
-const BESIDE_END: [f64; 2] = [1.0e-8, 1.0e-5];
+const BESIDE_END: [f64; 2] = [1.0e-6, 1.0e-4];
 
 /// A coordinate of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
