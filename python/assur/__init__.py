@@ -41,7 +41,7 @@ from assur.mechanisms.class_iv import ClassIV
 from assur.mechanisms.named import FourBar, SliderCrank
 
 if TYPE_CHECKING:
-    from assur import balance, events, flywheel, metric
+    from assur import balance, events, flywheel, laws, metric
     from assur.dynamics.friction import JointFriction, SlideFriction
     from assur.dynamics.loads import (
         Body,
@@ -120,6 +120,7 @@ __all__ = [
     "crank_rocker",
     "events",
     "flywheel",
+    "laws",
     "metric",
     "slider_crank",
     "sweep",
@@ -129,7 +130,7 @@ __version__ = version()
 
 # Imported at first use: more than half of what `import assur` would take (PEP 562).
 _LATER = {
-    "assur": ("balance", "events", "flywheel", "metric"),
+    "assur": ("balance", "events", "flywheel", "laws", "metric"),
     "assur.dynamics.friction": ("JointFriction", "SlideFriction"),
     "assur.dynamics.loads": (
         "Body",

@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from assur.kinematics.loci.maps import DesignMap
     from assur.kinematics.loci.singular import SingularLocus, Workspace
     from assur.kinematics.motion import Motion
+    from assur.kinematics.timed import TimedMotion
+    from assur.laws import Law
 
 __all__ = ["Mechanism"]
 
@@ -620,6 +622,43 @@ class Mechanism:
         if deg is not None or q is None:
             q = solver.in_radians(self, q, deg)
         return solver.solve(self, q, order, outputs, assembly, on_error, threads, out, is_typed)
+
+    def follow(
+        self,
+        laws: Law | Sequence[Law | float],
+        t: npt.ArrayLike,
+        on_error: Literal["raise", "nan"] = "raise",
+    ) -> TimedMotion:
+        """Solve positions over time, the driver moving by an input law.
+
+        Parameters
+        ----------
+        laws : Law or sequence of Law or float
+            An input law (`assur.laws`); of several drivers one each, or the coordinate of one that
+            is held.
+        t : array_like
+            Times, s, shape (N,).
+        on_error : {"raise", "nan"}
+            As for `solve`.
+
+        Returns
+        -------
+        TimedMotion
+            Value, velocity, acceleration and jerk of everything over t.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> engine = assur.SliderCrank(0.05, 0.2)
+        >>> law = assur.laws.Cycloidal(0.0, np.pi, duration=0.5)
+        >>> moved = engine.follow(law, np.linspace(0.0, 0.5, 101))
+        >>> piston = moved.slide("bore")
+        >>> round(float(abs(piston.velocity).max()), 6), float(piston.velocity[-1])
+        (0.641267, 0.0)
+        """
+        from assur.kinematics.timed import follow
+
+        return follow(self, laws, t, on_error)
 
     def assemblies(self, q: npt.ArrayLike, threads: int | None = None) -> Any:
         """Return every real assembly at a position, for use as ``solve(q, assembly=a)``.

@@ -33,6 +33,7 @@ class Options(NamedTuple):
     alpha: npt.ArrayLike = 0.0
     degrees: bool = False
     moving: bool = False
+    beta: npt.ArrayLike = 0.0
 
 
 class _Quantity(NamedTuple):
@@ -137,7 +138,7 @@ def _velocities(motion: Motion, quantity: _Quantity, options: Options) -> Iterat
     if motion.order >= 2:
         rates.append(of.acceleration(omega, alpha))
     if motion.order >= 3:
-        rates.append(of.jerk(omega, alpha))
+        rates.append(of.jerk(omega, alpha, options.beta))
     for order, rate in enumerate(rates):
         if rate.shape != of.value.shape:
             message = (

@@ -184,6 +184,10 @@ ENTRIES: dict[str, Entry] = {
     ),
     "Mechanism.assemblies.q": Entry(FOUR_BAR.assemblies, numbers(1.0)),
     "Mechanism.solve.deg": Entry(lambda deg: FOUR_BAR.solve(deg=deg), numbers(0.0)),
+    "Mechanism.follow.t": Entry(
+        lambda t: FOUR_BAR.follow(assur.laws.Cycloidal(0.5, 1.5, 2.0), t).joint("C"),
+        (np.array(0.5), np.array([0.0, 0.5, 1.0])),
+    ),
     "Mechanism.defects.q": Entry(lambda q: FOUR_BAR.defects(q, {"C": PLACES}), (TIMES,)),
     "Mechanism.defects.joints": Entry(lambda c: FOUR_BAR.defects(TIMES, {"C": c}), (PLACES,)),
     "Mechanism.map.dimensions": Entry(

@@ -1,0 +1,131 @@
+"""A mechanism over time, its drivers moving by input laws."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from assur._arrays import real_array, short
+from assur._table import Column, Tabular
+from assur._validate import one_of
+from assur.errors import InputError
+from assur.kinematics.table import Options, motion_columns
+from assur.laws import Law
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
+    from assur.kinematics.quantity import Analogues
+
+__all__ = ["InTime", "TimedMotion"]
+
+
+class InTime(NamedTuple):
+    """A quantity over time.
+
+    Attributes
+    ----------
+    value, velocity, acceleration, jerk : ndarray
+        m, m/s, m/s², m/s³, or rad and so on; points with a last axis of 2.
+    """
+
+    value: Float
+    velocity: Float
+    acceleration: Float
+    jerk: Float
+
+
+class TimedMotion(Tabular):
+    """A motion over time; made by `Mechanism.follow`.
+
+    Attributes
+    ----------
+    t : ndarray
+        Times, s, shape (N,).
+    q, speed, acceleration, jerk : ndarray
+        Of the drivers: (N,), with n drivers (N, n).
+    motion : Motion
+        The positions and analogues at these coordinates.
+    """
+
+    def __init__(self, t: Float, course: tuple[Float, Float, Float, Float], motion: Motion) -> None:
+        self.t, self.motion = t, motion
+        self.q, self.speed, self.acceleration, self.jerk = course
+
+    def __repr__(self) -> str:
+        count = self.t.size
+        return f"<assur.TimedMotion of {self.motion.mechanism._core.formula}, {count} times>"
+
+    def joint(self, name: str | Sequence[str]) -> InTime:
+        """Return a joint over time (of several, stacked along a new first axis)."""
+        return self._in_time(self.motion.joint(name))
+
+    def link(self, name: str | Sequence[str]) -> InTime:
+        """Return a link's angle over time."""
+        return self._in_time(self.motion.link(name))
+
+    def slide(self, name: str | Sequence[str]) -> InTime:
+        """Return a slide's value over time."""
+        return self._in_time(self.motion.slide(name))
+
+    def point(self, link: str, local: npt.ArrayLike) -> InTime:
+        """Return a point of a link over time, as `Motion.point`."""
+        return self._in_time(self.motion.point(link, local))
+
+    def _in_time(self, of: Analogues) -> InTime:
+        omega, alpha, beta = self.speed, self.acceleration, self.jerk
+        return InTime(
+            of.value,
+            of.velocity(omega),
+            of.acceleration(omega, alpha),
+            of.jerk(omega, alpha, beta),
+        )
+
+    def _columns(self, degrees: bool) -> list[Column]:
+        """Return time, and values, velocities, accelerations and jerks of what moves."""
+        options = Options(self.speed, self.acceleration, degrees, moving=True, beta=self.jerk)
+        first, *rest = motion_columns(self.motion, options)
+        return [Column("t", self.t, "s", None), first, *rest]
+
+
+def follow(
+    mechanism: Mechanism, laws: Law | Sequence[Law | float], t: npt.ArrayLike, on_error: Any
+) -> TimedMotion:
+    """See `Mechanism.follow`."""
+    one_of(on_error, ("raise", "nan"), "on_error")
+    if mechanism.shape:
+        message = f"follow() is for one design, this is a batch {mechanism.shape}: use design(i)"
+        raise InputError(message)
+    drivers = mechanism._driver_count
+    listed: Any = [laws] if isinstance(laws, Law) else laws
+    if not isinstance(listed, list | tuple) or len(listed) != drivers:
+        message = f"laws is {short(laws)}: one law (assur.laws) for each driver is needed"
+        raise InputError(message)
+    times = np.atleast_1d(real_array(t, "t"))
+    if times.ndim > 1 or not np.isfinite(times).all():
+        message = f"t has shape {times.shape}: finite times (N,) are needed"
+        raise InputError(message)
+    each = [_course(law, times) for law in listed]
+    q, speed, acceleration, jerk = (
+        each[0][k] if drivers == 1 else np.stack([one[k] for one in each], axis=-1)
+        for k in range(4)
+    )
+    motion = mechanism.solve(q, order=3, on_error=on_error)
+    return TimedMotion(times, (q, speed, acceleration, jerk), motion)
+
+
+def _course(law: Any, t: Float) -> tuple[Float, Float, Float, Float]:
+    if isinstance(law, Law):
+        return law.at(t)
+    zero = np.zeros_like(t)
+    held = real_array(law, "law")
+    if held.ndim or not np.isfinite(held):
+        message = f"law is {short(law)}: an assur.laws law, or a number for a driver that is held"
+        raise InputError(message)
+    return zero + held, zero, zero, zero

@@ -1,0 +1,330 @@
+"""Input laws: how a driver moves over time from one coordinate to another.
+
+Each is a motion from `start` to `end` within `duration`, at rest before and after. With x from 0 to
+1 the part of the time, s(x) from 0 to 1 is the part of the way.
+
+References
+----------
+.. [1] R. L. Norton, Cam Design and Manufacturing Handbook, 2nd ed., Industrial Press 2009, ch. 3.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assur._arrays import Float, real_array
+from assur._trig import sin_cos
+from assur._validate import real_number
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+__all__ = [
+    "Cycloidal",
+    "Harmonic",
+    "Law",
+    "ModifiedSine",
+    "Polynomial345",
+    "Polynomial4567",
+    "Sequence",
+    "Trapezoidal",
+    "Uniform",
+]
+
+# The part of the way and its first three derivatives by the part of the time.
+Jet = tuple[Float, Float, Float, Float]
+
+
+class Law(ABC):
+    """A coordinate over time."""
+
+    @abstractmethod
+    def at(self, t: npt.ArrayLike) -> tuple[Float, Float, Float, Float]:
+        """Return the coordinate, its speed, acceleration and jerk at times, s."""
+
+    @property
+    @abstractmethod
+    def span(self) -> tuple[float, float]:
+        """When it begins and ends, s."""
+
+
+@dataclass(frozen=True)
+class Rise(Law):
+    """A motion from rest to rest.
+
+    Parameters
+    ----------
+    start, end : float
+        Coordinates, rad or m.
+    duration : float
+        Time that it takes, s.
+    begin : float
+        Time at which it begins, s.
+    """
+
+    start: float
+    end: float
+    duration: float
+    begin: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("start", "end", "duration", "begin"):
+            value = real_number(getattr(self, name), name)
+            if not math.isfinite(value) or (name == "duration" and value <= 0.0):
+                kind = "a positive number" if name == "duration" else "a finite number"
+                message = f"{type(self).__name__}: {name} is {value!r}: {kind} is needed"
+                raise InputError(message, value=value)
+            object.__setattr__(self, name, value)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """When it begins and ends, s."""
+        return self.begin, self.begin + self.duration
+
+    def at(self, t: npt.ArrayLike) -> tuple[Float, Float, Float, Float]:
+        """Return the coordinate, its speed, acceleration and jerk at times, s.
+
+        Before the beginning and after the end it is at rest.
+        """
+        times = _times(t)
+        part = (times - self.begin) / self.duration
+        x = np.clip(part, 0.0, 1.0)
+        # At both ends the derivatives are those within.
+        moves = (part >= 0.0) & (part <= 1.0)
+        way = self.end - self.start
+        s, *rates = self._jet(x)
+        found = [self.start + way * s]
+        for order, rate in enumerate(rates, start=1):
+            found.append(np.where(moves, way / self.duration**order * rate, 0.0))
+        return found[0], found[1], found[2], found[3]
+
+    @abstractmethod
+    def _jet(self, x: Float) -> Jet: ...
+
+
+def _times(t: npt.ArrayLike) -> Float:
+    times = real_array(t, "t")
+    if not np.isfinite(times).all():
+        message = "t: finite times are needed"
+        raise InputError(message)
+    return times
+
+
+class Uniform(Rise):
+    """A constant speed, with a jump of it at both ends.
+
+    Examples
+    --------
+    >>> import assur
+    >>> [float(one) for one in assur.laws.Uniform(0.0, 2.0, 4.0).at(1.0)]
+    [0.5, 0.5, 0.0, 0.0]
+    """
+
+    def _jet(self, x: Float) -> Jet:
+        zero = np.zeros_like(x)
+        return x, zero + 1.0, zero, zero
+
+
+class Harmonic(Rise):
+    """Simple harmonic: s = (1 − cos πx)/2; the acceleration jumps at both ends.
+
+    Examples
+    --------
+    >>> import assur
+    >>> float(assur.laws.Harmonic(0.0, 1.0, 1.0).at(0.5)[0].round(12))
+    0.5
+    """
+
+    def _jet(self, x: Float) -> Jet:
+        sine, cosine = sin_cos(math.pi * x)
+        half = 0.5 * math.pi
+        return 0.5 - 0.5 * cosine, half * sine, math.pi * half * cosine, -(math.pi**2) * half * sine
+
+
+class Cycloidal(Rise):
+    """s = x − sin(2πx)/2π: the acceleration begins and ends at 0.
+
+    Examples
+    --------
+    >>> import assur
+    >>> law = assur.laws.Cycloidal(0.0, 1.0, duration=2.0)
+    >>> [round(float(one), 6) for one in law.at(0.5)]
+    [0.090845, 0.5, 1.570796, 0.0]
+    """
+
+    def _jet(self, x: Float) -> Jet:
+        turn = 2.0 * math.pi
+        sine, cosine = sin_cos(turn * x)
+        return x - sine / turn, 1.0 - cosine, turn * sine, turn**2 * cosine
+
+
+class _Polynomial(Rise):
+    """A polynomial in x, by its coefficients, the highest first."""
+
+    _coefficients: tuple[float, ...] = ()
+
+    def _jet(self, x: Float) -> Jet:
+        own = np.array(self._coefficients)
+        found = []
+        for _ in range(4):
+            value = np.zeros_like(x)
+            for coefficient in own:
+                value = value * x + coefficient
+            found.append(value)
+            own = own[:-1] * np.arange(len(own) - 1, 0, -1)
+        return found[0], found[1], found[2], found[3]
+
+
+class Polynomial345(_Polynomial):
+    """s = 10x³ − 15x⁴ + 6x⁵: the acceleration begins and ends at 0.
+
+    Examples
+    --------
+    >>> import assur
+    >>> float(assur.laws.Polynomial345(0.0, 1.0, 1.0).at(0.5)[1])
+    1.875
+    """
+
+    _coefficients = (6.0, -15.0, 10.0, 0.0, 0.0, 0.0)
+
+
+class Polynomial4567(_Polynomial):
+    """s = 35x⁴ − 84x⁵ + 70x⁶ − 20x⁷: the jerk too begins and ends at 0.
+
+    Examples
+    --------
+    >>> import assur
+    >>> float(assur.laws.Polynomial4567(0.0, 1.0, 1.0).at(0.5)[1])
+    2.1875
+    """
+
+    _coefficients = (-20.0, 70.0, -84.0, 35.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Trapezoidal(Rise):
+    """A trapezoid of the speed: constant acceleration, constant speed, constant deceleration.
+
+    Parameters
+    ----------
+    start, end, duration, begin
+        As of every law.
+    ramp : float
+        Part of the time of each ramp, above 0 and at most 0.5.
+
+    Examples
+    --------
+    >>> import assur
+    >>> float(assur.laws.Trapezoidal(0.0, 1.0, 1.0, ramp=0.25).at(0.5)[1].round(12))
+    1.333333333333
+    """
+
+    ramp: float = 1.0 / 3.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        ramp = real_number(self.ramp, "ramp")
+        if not 0.0 < ramp <= 0.5:
+            message = f"Trapezoidal: ramp is {ramp!r}: a part above 0 and at most 0.5 is needed"
+            raise InputError(message, value=ramp)
+
+    def _jet(self, x: Float) -> Jet:
+        ramp, zero = self.ramp, np.zeros_like(x)
+        speed = 1.0 / (1.0 - ramp)
+        left = 1.0 - x
+        first, last = x < ramp, left < ramp
+        way = np.where(
+            first,
+            0.5 * speed / ramp * x * x,
+            np.where(last, 1.0 - 0.5 * speed / ramp * left * left, speed * (x - 0.5 * ramp)),
+        )
+        rate = speed * np.minimum(1.0, np.minimum(x, left) / ramp)
+        second = np.where(first, speed / ramp, np.where(last, -speed / ramp, 0.0))
+        return way, rate, second, zero
+
+
+class ModifiedSine(Rise):
+    """Sines of the acceleration of two frequencies, joined at an eighth of the time from both ends.
+
+    The greatest acceleration is 4π²/(4 + π) = 5.528, the greatest speed 4π/(4 + π) = 1.760.
+
+    Examples
+    --------
+    >>> import assur
+    >>> float(assur.laws.ModifiedSine(0.0, 1.0, 1.0).at(0.125)[2].round(6))
+    5.527957
+    """
+
+    def _jet(self, x: Float) -> Jet:
+        pi = math.pi
+        inside = (x > 0.125) & (x < 0.875)
+        # Inside, the frequency is a third of that at both ends.
+        slower = np.where(inside, 3.0, 1.0)
+        sine, cosine = sin_cos((4.0 * pi * x + np.where(inside, pi, 0.0)) / slower)
+        unit = 1.0 / (4.0 + pi)
+        base = np.where(inside, 2.0, np.where(x >= 0.875, 4.0, 0.0))
+        way = unit * (base + pi * x - 0.25 * slower**2 * sine)
+        rate = unit * pi * (1.0 - slower * cosine)
+        second = unit * 4.0 * pi**2 * sine
+        third = unit * 16.0 * pi**3 / slower * cosine
+        return way, rate, second, third
+
+
+@dataclass(frozen=True)
+class Sequence(Law):
+    """Laws one after another, with dwells where there is time between them.
+
+    Parameters
+    ----------
+    laws : tuple of Law
+        Ascending in time; each begins where the one before ends.
+
+    Examples
+    --------
+    Up, a dwell, and back:
+
+    >>> import assur
+    >>> up = assur.laws.Cycloidal(0.0, 1.0, 0.5)
+    >>> down = assur.laws.Cycloidal(1.0, 0.0, 0.5, begin=1.0)
+    >>> [round(float(assur.laws.Sequence((up, down)).at(t)[0]), 6) for t in (0.25, 0.7, 1.25)]
+    [0.5, 1.0, 0.5]
+    """
+
+    laws: tuple[Law, ...]
+
+    def __post_init__(self) -> None:
+        laws = tuple(self.laws)
+        if not laws or not all(isinstance(one, Law) for one in laws):
+            message = f"Sequence: {laws!r}: one law or more are needed"
+            raise InputError(message)
+        for one, other in itertools.pairwise(laws):
+            if other.span[0] < one.span[1]:
+                message = f"Sequence: a law begins at {other.span[0]:g} s, before {one.span[1]:g} s"
+                raise InputError(message)
+            gap = float(other.at(other.span[0])[0] - one.at(one.span[1])[0])
+            if abs(gap) > 1e-12 * (1.0 + abs(float(one.at(one.span[1])[0]))):
+                message = f"Sequence: the coordinate jumps by {gap:g} at {other.span[0]:g} s"
+                raise InputError(message, value=gap)
+        object.__setattr__(self, "laws", laws)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """When it begins and ends, s."""
+        return self.laws[0].span[0], self.laws[-1].span[1]
+
+    def at(self, t: npt.ArrayLike) -> tuple[Float, Float, Float, Float]:
+        """Return the coordinate, its speed, acceleration and jerk at times, s."""
+        times = _times(t)
+        found = [np.array(one) for one in self.laws[0].at(times)]
+        for law in self.laws[1:]:
+            here = times >= law.span[0]
+            for own, later in zip(found, law.at(times), strict=True):
+                own[here] = later[here]
+        return found[0], found[1], found[2], found[3]
