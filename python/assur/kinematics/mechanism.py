@@ -432,7 +432,7 @@ class Mechanism:
     # -- other mechanisms ---------------------------------------------------
 
     def with_dimensions(
-        self, dimensions: Mapping[str, npt.ArrayLike] | None = None, **by_name: npt.ArrayLike
+        self, dimensions: Mapping[str, npt.ArrayLike] | Any = None, **by_name: npt.ArrayLike
     ) -> Mechanism:
         """Return the mechanism with other dimensions; arrays make a batch of designs.
 
@@ -441,6 +441,7 @@ class Mechanism:
         dimensions : mapping of str to array_like
             New values, m or rad; arrays broadcast by NumPy's rules, with each
             other and with the designs of this mechanism, to the design shape S.
+            A pandas DataFrame has a design in each row, an xarray Dataset its variables.
         **by_name : array_like
             The same by keyword, for names without a dot.
 
@@ -465,10 +466,7 @@ class Mechanism:
         >>> m.with_dimensions({"coupler.length": np.linspace(2.8, 3.2, 5)}).shape
         (5,)
         """
-        given: Any = {} if dimensions is None else dimensions
-        if not isinstance(given, Mapping):
-            message = f"dimensions is {short(given)}: a mapping of names to values is needed"
-            raise InputError(message)
+        given = _by_name(dimensions)
         wanted = {**{checked_name(name, "dimensions"): v for name, v in given.items()}, **by_name}
         indices = [self._core.dimension(name) for name in wanted]
         new = [real_array(v, f"dimension {name!r}", copy=False) for name, v in wanted.items()]
@@ -981,6 +979,21 @@ class Mechanism:
         from assur._plot import mechanism_picture
 
         return mechanism_picture(self, q, ax, assembly)
+
+
+def _by_name(dimensions: Any) -> Mapping[Any, Any]:
+    """Return dimensions by name: of a mapping, a DataFrame's columns or a Dataset's variables."""
+    if dimensions is None:
+        return {}
+    # pandas and xarray need not be installed; a Dataset is a mapping, of its coordinates too.
+    if hasattr(dimensions, "data_vars"):
+        return {name: dimensions[name].to_numpy() for name in dimensions.data_vars}
+    if hasattr(dimensions, "columns") and hasattr(dimensions, "itertuples"):
+        return {name: dimensions[name].to_numpy() for name in dimensions.columns}
+    if isinstance(dimensions, Mapping):
+        return dimensions
+    message = f"dimensions is {short(dimensions)}: a mapping of names to values is needed"
+    raise InputError(message)
 
 
 def _rebuild(description: Description, values: Float, place: Place | None = None) -> Mechanism:

@@ -133,3 +133,15 @@ def test_xarray_of_two_drivers() -> None:
     data = m.solve(np.array([m.q0, m.q0]), order=2).to_xarray()
     assert data["q"].dims == ("position", "driver")
     assert data["P.d2"].dims == ("position", "component", "driver0", "driver1")
+
+
+def test_dimensions_from_tables() -> None:
+    m = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    columns = {"rocker.length": [2.4, 2.5, 2.6], "coupler.length": [2.9, 3.0, 3.1]}
+    wanted = m.with_dimensions({name: np.array(values) for name, values in columns.items()})
+    assert m.with_dimensions(pd.DataFrame(columns)) == wanted
+    rows = {name: ("design", values) for name, values in columns.items()}
+    assert m.with_dimensions(xr.Dataset(rows, {"design": [7, 8, 9]})) == wanted
+    refused(assur.InputError, "roker", partial(m.with_dimensions, pd.DataFrame({"roker": [1.0]})))
+    words = pd.DataFrame({"rocker.length": ["long"]})
+    refused(assur.InputError, "rocker.length", partial(m.with_dimensions, words))
