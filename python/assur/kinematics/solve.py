@@ -89,13 +89,16 @@ def in_radians(mechanism: Mechanism, q: Any, deg: npt.ArrayLike | None) -> Float
 def _warn_if_degrees(mechanism: Mechanism, q: Float) -> None:
     """Warn if the coordinates of a driven angle look like degrees."""
     # Quickly, because every call comes here: few coordinates are whole numbers.
-    if not (q.size and float(q.flat[-1]).is_integer()):
+    last = q.item(-1) if q.size else 0.5
+    if not last.is_integer():
+        return
+    most = float(np.abs(q).max()) if q.ndim else abs(last)
+    if not LIKE_DEGREES[0] < most < LIKE_DEGREES[1]:
         return
     drivers = mechanism._description.drivers
     if len(drivers) > 1 or (isinstance(drivers[0], str) and drivers[0] in mechanism.slides):
         return
-    most = float(np.abs(q).max())
-    if LIKE_DEGREES[0] < most < LIKE_DEGREES[1] and bool((q == np.floor(q)).all()):
+    if bool((q == np.floor(q)).all()):
         turns = most / (2.0 * np.pi)
         message = f"q = {most:g} is {most:g} rad, {turns:.3g} turns; for degrees: solve(deg=...)"
         warnings.warn(message, AssurWarning, stacklevel=4)
