@@ -71,9 +71,42 @@ def grid_of(surface: Surface, axes: tuple[Float, Float], is_angle: tuple[bool, b
     return Grid(axes, rows, is_angle)
 
 
-def poses_beside_folds(surface: Surface, grid: Grid) -> list[Pose]:
-    """Return poses beside folds: on every edge of the grid whose ends' counts differ."""
-    edges = [edge for edge in _edges(grid) if _changes(edge)]
+def changing_edges(grid: Grid) -> list[Edge]:
+    """Return the edges of the grid whose ends' counts differ."""
+    return [edge for edge in _edges(grid) if _changes(edge)]
+
+
+def crossings(grid: Grid, edges: list[Edge], along: Float) -> npt.NDArray[np.intp]:
+    """Return how often a curve of coordinates, shape (N, 2), crosses each edge."""
+    ends = np.array([edge.ends for edge in edges])
+    found = np.zeros(len(edges), dtype=np.intp)
+    for axis in (0, 1):
+        own = np.flatnonzero(ends[:, 0, axis] != ends[:, 1, axis])
+
+        def off(values: Float, of: int) -> Float:
+            return (
+                values - 2.0 * np.pi * np.round(values / (2.0 * np.pi))
+                if grid.is_angle[of]
+                else values
+            )
+
+        side = off(along[:, 1 - axis] - ends[own, 0, 1 - axis, None], 1 - axis)
+        one, other = side[:, :-1], side[:, 1:]
+        # Half a turn away a wrapped angle changes its sign too.
+        meets = ((one < 0.0) != (other < 0.0)) & (np.abs(other - one) < 0.5 * np.pi)
+        part = np.where(meets, one / np.where(meets, one - other, 1.0), 0.0)
+        step = np.diff(along[:, axis])
+        middle, half = (
+            ends[own, :, axis].mean(axis=1),
+            0.5 * np.abs(np.diff(ends[own, :, axis])[:, 0]),
+        )
+        at = along[:-1, axis] + part * step - middle[:, None]
+        found[own] = (meets & (np.abs(off(at, axis)) <= half[:, None])).sum(axis=1)
+    return found
+
+
+def poses_beside_folds(surface: Surface, edges: list[Edge]) -> list[Pose]:
+    """Return poses beside the folds between the ends of edges."""
     starts: list[Pose] = []
     for _ in range(MOST_PASSES):
         if not edges:

@@ -20,12 +20,19 @@ from assur.description.words import Drive
 from assur.errors import AssurWarning, InputError
 from assur.kinematics.find import driven_by_joint
 from assur.kinematics.loci.chart import Surface
-from assur.kinematics.loci.folds import Grid, all_poses, grid_of, poses_beside_folds
+from assur.kinematics.loci.folds import (
+    Grid,
+    all_poses,
+    changing_edges,
+    crossings,
+    grid_of,
+    poses_beside_folds,
+)
 from assur.kinematics.loci.trace import start_beside, trace
 from assur.kinematics.place import lengths, size_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     import numpy.typing as npt
 
@@ -37,6 +44,8 @@ if TYPE_CHECKING:
 
 __all__ = ["SingularLocus", "Workspace"]
 
+# Edges that are searched for folds before those curves are traced.
+AT_ONCE = 8
 # How near (as a part of the step) a position must be to a locus to be one of it.
 ON_LOCUS = 0.05
 # How far beyond the positions seen from the grid of drivers that of a joint goes.
@@ -211,8 +220,42 @@ def _free_drivers(
 
 def _loci(surface: Surface, own: Mechanism, grid: Grid, kind: int) -> tuple[SingularLocus, ...]:
     """Return the loci of a surface, as positions of the mechanism."""
+    traced, lost = _traced(surface, grid)
+    lost += sum(not one.is_complete for one in traced)
+    if lost:
+        message = f"singular loci of kind {kind}: {lost} could not be followed to the end"
+        warnings.warn(message, AssurWarning, stacklevel=4)
+    return tuple(_named(own, one, kind) for one in traced)
+
+
+def _traced(surface: Surface, grid: Grid) -> tuple[list[Traced], int]:
+    """Trace every locus that the grid shows; return too how many were not found again."""
     traced: list[Traced] = []
     lost = 0
+    is_inside = _within(surface, grid)
+    edges = changing_edges(grid)
+    changes = np.array([abs(len(one.found[0]) - len(one.found[1])) for one in edges], dtype=np.intp)
+    crossed = np.zeros_like(changes)
+    untried = np.full(len(edges), fill_value=True)
+    # At each crossing two assemblies meet: curves found before explain most edges.
+    while len(left := np.flatnonzero(untried & (2 * crossed != changes))):
+        some = left[:: max(1, len(left) // AT_ONCE)]
+        untried[some] = False
+        for pose in poses_beside_folds(surface, [edges[i] for i in some]):
+            if _is_known(surface, traced, pose):
+                continue
+            start = start_beside(surface, pose)
+            if start is None:
+                lost += 1
+            elif not _is_known(surface, traced, start.pose):
+                traced.append(trace(surface, start, is_inside))
+                along = _coordinates(surface.mechanism, traced[-1])[:, surface.free]
+                crossed += crossings(grid, edges, along)
+    return traced, lost
+
+
+def _within(surface: Surface, grid: Grid) -> Callable[[Pose], bool]:
+    """Return whether a pose is within the grid's range of the slides, and no joint is far away."""
     reach = 100.0 * surface.size
     slides = list(surface.mechanism.slides)
     ranges = {}
@@ -225,22 +268,12 @@ def _loci(surface: Surface, own: Mechanism, grid: Grid, kind: int) -> tuple[Sing
         near = bool(np.ptp(np.array(pose.joints), axis=0).max() < reach)
         return near and all(a <= pose.slides[i] <= b for i, (a, b) in ranges.items())
 
-    def is_known(pose: Pose) -> bool:
-        return any(_passes(surface, one, surface.coordinates(pose)) for one in traced)
+    return is_inside
 
-    for pose in poses_beside_folds(surface, grid):
-        if is_known(pose):
-            continue
-        start = start_beside(surface, pose)
-        if start is None:
-            lost += 1
-        elif not is_known(start.pose):
-            traced.append(trace(surface, start, is_inside))
-    lost += sum(not one.is_complete for one in traced)
-    if lost:
-        message = f"singular loci of kind {kind}: {lost} could not be followed to the end"
-        warnings.warn(message, AssurWarning, stacklevel=4)
-    return tuple(_named(own, one, kind) for one in traced)
+
+def _is_known(surface: Surface, traced: list[Traced], pose: Pose) -> bool:
+    there = surface.coordinates(pose)
+    return any(_passes(surface, one, there) for one in traced)
 
 
 def _passes(surface: Surface, traced: Traced, there: Float) -> bool:
@@ -258,9 +291,14 @@ def _passes(surface: Surface, traced: Traced, there: Float) -> bool:
     return bool((beside2 <= ON_LOCUS**2 * lengths2).any())
 
 
-def _named(mechanism: Mechanism, traced: Traced, kind: int) -> SingularLocus:
-    """Return a locus with the coordinates of the mechanism's drivers and its joints."""
-    poses = [*traced.poses, traced.poses[0]] if traced.is_closed else traced.poses
+def _round(traced: Traced) -> list[Pose]:
+    """Return the poses of a locus; of one that is closed the first again at the end."""
+    return [*traced.poses, traced.poses[0]] if traced.is_closed else traced.poses
+
+
+def _coordinates(mechanism: Mechanism, traced: Traced) -> Float:
+    """Return the coordinates of a mechanism's drivers along a locus, angles continuous."""
+    poses = _round(traced)
     angles = np.unwrap([pose.angles for pose in poses], axis=0)
     slides = np.array([pose.slides for pose in poses])
     links = {name: angles[:, i] for i, name in enumerate(mechanism.links)}
@@ -272,7 +310,12 @@ def _named(mechanism: Mechanism, traced: Traced, kind: int) -> SingularLocus:
         one: Float = links[driver.link] - links[driver.relative_to]
         return one
 
-    q = np.stack([coordinate(one) for one in mechanism._description.drivers], axis=-1)
-    joints = np.array([pose.joints for pose in poses])
+    return np.stack([coordinate(one) for one in mechanism._description.drivers], axis=-1)
+
+
+def _named(mechanism: Mechanism, traced: Traced, kind: int) -> SingularLocus:
+    """Return a locus with the coordinates of the mechanism's drivers and its joints."""
+    q = _coordinates(mechanism, traced)
+    joints = np.array([pose.joints for pose in _round(traced)])
     named = {name: joints[:, i] for i, name in enumerate(mechanism._joint_names)}
     return SingularLocus(kind, q, named, traced.is_closed, traced.is_complete)
