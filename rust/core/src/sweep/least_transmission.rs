@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::metric::{Growth, Metric, Need, Positions};
 use crate::batch::outputs::Quantity;
+use crate::math::lanes::LANES;
 use crate::math::trig::sin_cos;
 use crate::math::vector::Vector;
 use crate::query::metrics::acute;
@@ -69,11 +70,7 @@ impl Metric for LeastTransmission {
         let (a, b) = positions.values.split_at(first.count().min(positions.values.len()));
         let found = match (first, second, a, b) {
             (Line::Joints(_), Line::Joints(_), &[from, to], &[start, end]) => {
-                let along =
-                    |[from, to]: [&[f64; 2]; 2]| Vector::new(to[0] - from[0], to[1] - from[1]);
-                let ends = points(from).iter().zip(points(to));
-                let others = points(start).iter().zip(points(end));
-                self.least(ends.zip(others).map(|(u, v)| [along(u.into()), along(v.into())]))
+                self.least_of_lines([points(from), points(to)], [points(start), points(end)])
             }
             _ => self.least((0..positions.count()).map(|at| {
                 let own = positions.dimensions;
@@ -90,6 +87,33 @@ impl Metric for LeastTransmission {
 }
 
 impl LeastTransmission {
+    /// The same of lines between joints: as many positions side by side as are worth it.
+    fn least_of_lines(
+        &self,
+        [from, to]: [&[[f64; 2]]; 2],
+        [start, end]: [&[[f64; 2]]; 2],
+    ) -> Option<[Vector; 2]> {
+        let along = |[a, b]: [&[f64; 2]; 2]| Vector::new(b[0] - a[0], b[1] - a[1]);
+        let at = |at: usize| [along([&from[at], &to[at]]), along([&start[at], &end[at]])];
+        let count = from.len().min(to.len()).min(start.len()).min(end.len());
+        let (mut least, mut found) = (f64::INFINITY, None);
+        for first in (0..count).step_by(LANES) {
+            let own = LANES.min(count - first);
+            let mut squares = [f64::INFINITY; LANES];
+            for (lane, square) in squares[..own].iter_mut().enumerate() {
+                let [u, v] = at(first + lane);
+                let part = if self.complement { u.dot(v) } else { u.cross(v) };
+                *square = part * part / (u.norm2() * v.norm2());
+            }
+            for (lane, &square) in squares.iter().enumerate() {
+                if square < least {
+                    (least, found) = (square, Some(first + lane));
+                }
+            }
+        }
+        found.map(at)
+    }
+
     /// The directions whose angle is least.
     #[inline]
     fn least(&self, directions: impl Iterator<Item = [Vector; 2]>) -> Option<[Vector; 2]> {

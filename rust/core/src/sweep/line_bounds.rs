@@ -1,6 +1,8 @@
 //! How far stretches of a path are from a line, at least: from few points of each and from running
 //! sums, for all stretches side by side.
 
+use std::cell::Cell;
+
 use crate::batch::dispatch::{Entry, ForLevel, Task, at_level};
 use crate::math::lanes::{LANES, Real};
 use crate::math::simd::Simd;
@@ -18,9 +20,14 @@ const OF_THREE: usize = 7;
 const OF_SUMS: usize = 8;
 const ROWS: usize = 9;
 
+thread_local! {
+    /// The table of the last path: to make one takes as long as to fill it.
+    static TABLE: Cell<Vec<f64>> = const { Cell::new(Vec::new()) };
+}
+
 /// Squares of least distances of every stretch of a path with some number of points.
 pub(super) struct LineBounds {
-    /// One allocation: more would take as long as the work.
+    /// All rows, one after another.
     table: Vec<f64>,
     /// Length of a row: registers may read, and write, beyond the last number.
     width: usize,
@@ -35,8 +42,13 @@ impl LineBounds {
     pub(super) fn of(path: &[Vector], count: usize) -> Self {
         let width = path.len() + 1 + LANES;
         let starts = (path.len() + 1).saturating_sub(count);
-        let mut bounds =
-            Self { table: vec![0.0; ROWS * width], width, count, starts, rounding: 0.0 };
+        // Whatever is read is written before, but for the sums over no points.
+        let mut table = TABLE.take();
+        table.resize(ROWS * width, 0.0);
+        for k in 0..5 {
+            table[(SUMS + k) * width] = 0.0;
+        }
+        let mut bounds = Self { table, width, count, starts, rounding: 0.0 };
         bounds.add(path);
         at_level(Simd::best(), &mut bounds);
         bounds
@@ -87,6 +99,12 @@ impl LineBounds {
         for (lane, out) in out.iter_mut().enumerate() {
             *out = numbers.lane(lane);
         }
+    }
+}
+
+impl Drop for LineBounds {
+    fn drop(&mut self) {
+        TABLE.set(std::mem::take(&mut self.table));
     }
 }
 
