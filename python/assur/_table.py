@@ -67,8 +67,14 @@ def write_excel(path: str | PathLike[str], columns: Iterable[Column]) -> None:
     if rows + 2 > MAX_ROWS:
         message = f"to_excel: {rows} rows; a sheet holds {MAX_ROWS - 2}: use to_parquet"
         raise InputError(message)
+    # Opened first: what cannot be written is refused before sheets are made.
+    with Path(path).open("wb") as file:
+        _workbook(Workbook(write_only=True), listed).save(file)
+
+
+def _workbook(book: Any, listed: list[Column]) -> Any:
+    """Fill a workbook."""
     common = [column for column in listed if column.quantity is None]
-    book = Workbook(write_only=True)
     names: set[str] = set()
     quantities = dict.fromkeys(column.quantity for column in listed if column.quantity is not None)
     for quantity in quantities or {"table": None}:
@@ -80,7 +86,7 @@ def write_excel(path: str | PathLike[str], columns: Iterable[Column]) -> None:
         sheet.append([column.unit for column in shown])
         for row in zip(*(column.values.tolist() for column in shown), strict=True):
             sheet.append([_cell(value) for value in row])
-    book.save(Path(path))
+    return book
 
 
 def write_parquet(path: str | PathLike[str], columns: Iterable[Column]) -> None:

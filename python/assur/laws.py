@@ -38,6 +38,9 @@ __all__ = [
     "Uniform",
 ]
 
+# Shortest duration, s: its cube divides the jerk.
+SHORTEST = 1e-50
+
 # The part of the way and its first three derivatives by the part of the time.
 Jet = tuple[Float, Float, Float, Float]
 
@@ -82,6 +85,12 @@ class Rise(Law):
                 message = f"{type(self).__name__}: {name} is {value!r}: {kind} is needed"
                 raise InputError(message, value=value)
             object.__setattr__(self, name, value)
+        if self.duration < SHORTEST:
+            message = (
+                f"{type(self).__name__}: duration is {self.duration!r} s: at least {SHORTEST:g} s "
+                "is needed, else the jerk is beyond the greatest number"
+            )
+            raise InputError(message, value=self.duration)
 
     @property
     def span(self) -> tuple[float, float]:

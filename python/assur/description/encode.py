@@ -87,7 +87,7 @@ def cylinder(
     for what, word in (("base", cylinder.base), ("end", cylinder.end)):
         _checked(word, f"cylinder {name!r}, {what}", slide=name)
         if word not in at:
-            message = f"cylinder {name!r}: its {what} {word!r} is no joint"
+            message = f"cylinder {name!r}: its {what} {word!r} is not a joint"
             raise InputError(message, slide=name)
     barrel = f"{name}_barrel" if cylinder.barrel is None else cylinder.barrel
     rod = f"{name}_rod" if cylinder.rod is None else cylinder.rod

@@ -43,7 +43,9 @@ def _checked(sketch: Mechanism, lengths: Any) -> dict[frozenset[str], tuple[str,
     for pair, length in lengths.items():
         names = tuple(pair) if isinstance(pair, str | tuple | list) else ()
         if len(names) != 2 or not all(isinstance(name, str) for name in names):
-            message = f'lengths: {short(pair)} is no pair of joints: "AB" or ("A", "B") is needed'
+            message = (
+                f'lengths: {short(pair)} is not a pair of joints: "AB" or ("A", "B") is needed'
+            )
             raise InputError(message)
         for name in names:
             sketch._core.require("joint", name)
@@ -108,7 +110,7 @@ def _place(
     if height2 < -AGREES * r * r:
         message = (
             f"link {link!r}: {name}-{one} {r:g} m, {name}-{other} {s:g} m and {one}-{other} "
-            f"{d:g} m are no triangle"
+            f"{d:g} m do not make a triangle"
         )
         raise InputError(message, link=link)
     drawn = (at[other] - at[one]).conjugate() * towards

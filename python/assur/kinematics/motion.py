@@ -179,7 +179,7 @@ class Motion:
         if isinstance(name, str):
             return Analogues(name, self._find(kind, held, name), self._drivers, is_point)
         if not isinstance(name, list | tuple) or not name:
-            message = f"{kind}: {short(name)} is no name, nor a list of names"
+            message = f"{kind}: {short(name)} is not a name or a list of names"
             raise InputError(message)
         several = [self._find(kind, held, one) for one in name]
         arrays = tuple(np.stack(order) for order in zip(*several, strict=True))

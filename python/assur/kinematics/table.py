@@ -96,6 +96,9 @@ def _moves(analogues: Analogues) -> bool:
         first = np.take(value, [0], axis=-1 - point)
         if bool(((value != first) & ~np.isnan(value) & ~np.isnan(first)).any()):
             return True
+    elif len(analogues._arrays) == 1:
+        # One position without analogues does not tell.
+        return True
     rates = analogues._arrays[1:2]
     return any(bool((np.nan_to_num(rate) != 0.0).any()) for rate in rates)
 

@@ -71,6 +71,8 @@ def test_only_what_moves() -> None:
     assert {"A.x", "B.x", "crank", "rod", "bore"} <= set(names)
     one = assur.SliderCrank(0.05, 0.2).solve(1.0).to_dataframe(moving=True)
     assert "A.x" in one
+    # One position without analogues does not tell what moves.
+    assert "O.x" in assur.SliderCrank(0.05, 0.2).solve(1.0, 0).to_dataframe(moving=True)
     assert "O.x" not in one
 
 
