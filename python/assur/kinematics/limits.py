@@ -42,7 +42,7 @@ class DeadPoint:
     q : float
         Coordinate of the driver, rad or m.
     group : str or None
-        The dyad or group that is flat there; None if one of several groups above class II is.
+        The dyad or group that is flat there; None where two guides become parallel.
     """
 
     q: float

@@ -189,6 +189,46 @@ def test_class_iii_of_order_four_that_closes_after_three_turns() -> None:
     assert limits.full_rotation
 
 
+def two_triads(rng: np.random.Generator, in_series: bool) -> assur.Mechanism:
+    """Two triads on one crank, or the second on the plate of the first."""
+    first = triad()
+    moved = {name: tuple(rng.uniform(-1.0, 3.0, 2)) for name in ("P2", "Q2", "R2", "U2", "V2")}
+    return assur.Mechanism(
+        {**first.joints, **moved},
+        {
+            **first.links,
+            "ground": ["O", "U", "V", "U2", "V2"],
+            "plate2": ["P2", "Q2", "R2"],
+            "m1": ["R" if in_series else "A", "P2"],
+            "m2": ["U2", "Q2"],
+            "m3": ["V2", "R2"],
+        },
+        "crank",
+    )
+
+
+@pytest.mark.parametrize("in_series", [False, True])
+def test_the_group_that_folds_is_named(in_series: bool) -> None:
+    """Beside a fold the angles of the group that folds turn by far the fastest."""
+    rng = np.random.default_rng(11)
+    named = set()
+    for _ in range(12):
+        mechanism = two_triads(rng, in_series)
+        own, later = (group for group in mechanism.structure.groups if group.cls > 2)
+        limits = mechanism.limits()
+        for point in limits.dead_points:
+            beside = point.q + 1e-6 * (float(mechanism.q0) - point.q)
+            motion = mechanism.solve(beside, order=1)
+            rates = [abs(float(motion.link(group.links[0]).d1)) for group in (own, later)]
+            # A fold of the first carries the second with it.
+            folds = own if rates[0] > 100.0 else later
+            assert max(rates) > 100.0
+            named.add(folds.links)
+            assert point.group is not None
+            assert ("plate2" in point.group) == (folds is later)
+    assert len(named) == 2
+
+
 def test_batches_equal_single_designs_to_the_bit() -> None:
     rng = np.random.default_rng(9)
     lengths = rng.uniform(0.3, 3.0, (4, 20, 5))

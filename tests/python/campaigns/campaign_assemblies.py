@@ -37,7 +37,7 @@ def main(seed: int) -> int:
         if followed.cases - followed.lost >= FOLLOWED:
             break
     print(f"{followed}, {time.perf_counter() - start:.0f} s")
-    return wrong + followed.wrong
+    return wrong + followed.wrong + followed.refused
 
 
 if __name__ == "__main__":

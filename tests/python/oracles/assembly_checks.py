@@ -37,11 +37,15 @@ def expected(case: Case) -> int:
 
 @dataclass
 class Followed:
-    """How many assemblies were followed to another coordinate, and which arrived at none."""
+    """How many assemblies were followed to another coordinate, and which arrived at none.
+
+    `refused` counts mechanisms of which the assemblies are not found at all.
+    """
 
     cases: int = 0
     lost: int = 0
     wrong: int = 0
+    refused: int = 0
 
 
 def places(mechanism: assur.Mechanism, found: assur.Assemblies) -> Float:
@@ -52,9 +56,13 @@ def places(mechanism: assur.Mechanism, found: assur.Assemblies) -> Float:
 
 def follow(mechanism: assur.Mechanism, q: float, other: float, followed: Followed) -> None:
     """Follow every assembly at one coordinate to another."""
-    there = mechanism.assemblies(other)
+    try:
+        here, there = mechanism.assemblies(q), mechanism.assemblies(other)
+    except assur.InputError:
+        followed.refused += 1
+        return
     known = places(mechanism, there)
-    for assembly in mechanism.assemblies(q):
+    for assembly in here:
         followed.cases += 1
         motion = mechanism.solve(other, order=0, assembly=assembly, on_error="nan")
         if motion.status > assur.Status.SINGULAR:

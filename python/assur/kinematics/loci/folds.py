@@ -105,8 +105,8 @@ def crossings(grid: Grid, edges: list[Edge], along: Float) -> npt.NDArray[np.int
     return found
 
 
-def poses_beside_folds(surface: Surface, edges: list[Edge]) -> list[Pose]:
-    """Return poses beside the folds between the ends of edges."""
+def poses_beside_folds(surface: Surface, edges: list[Edge]) -> tuple[list[Pose], int]:
+    """Return poses beside the folds between the ends of edges, and how many edges they leave open."""
     starts: list[Pose] = []
     for _ in range(MOST_PASSES):
         if not edges:
@@ -115,7 +115,7 @@ def poses_beside_folds(surface: Surface, edges: list[Edge]) -> list[Pose]:
         for edge in edges:
             starts.extend(_meetings(surface, edge))
         edges = [edge for edge in rest if _changes(edge)]
-    return starts
+    return starts, len(edges)
 
 
 def _changes(edge: Edge) -> bool:
@@ -145,7 +145,7 @@ def _edges(grid: Grid) -> list[Edge]:
 
 def _meetings(surface: Surface, edge: Edge) -> list[Pose]:
     """Return one pose of every two that meet at a bisected edge."""
-    fewer, more = sorted(edge.found, key=len)
+    fewer, more = (list(poses) for poses in sorted(edge.found, key=len))
     here = [surface.coordinates(pose) for pose in more]
     for pose in fewer:
         # What goes on is what is nearest on the other side.

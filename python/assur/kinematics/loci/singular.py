@@ -241,7 +241,9 @@ def _traced(surface: Surface, grid: Grid) -> tuple[list[Traced], int]:
     while len(left := np.flatnonzero(untried & (2 * crossed != changes))):
         some = left[:: max(1, len(left) // AT_ONCE)]
         untried[some] = False
-        for pose in poses_beside_folds(surface, [edges[i] for i in some]):
+        poses, left_open = poses_beside_folds(surface, [edges[i] for i in some])
+        lost += left_open
+        for pose in poses:
             if _is_known(surface, traced, pose):
                 continue
             start = start_beside(surface, pose)

@@ -173,7 +173,16 @@ impl Mechanism {
 
 /// Whether a motion of one position is in an assembly.
 fn is_there(motion: &Motion, assembly: &Assembly) -> bool {
-    let size = assembly.joints.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+    // Their spread: where the drawing lies in its coordinates says nothing of its size.
+    let spread = |axis: usize| {
+        let values = assembly.joints.iter().map(|joint| joint[axis]);
+        let [least, most] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], x| {
+            [least.min(x), most.max(x)]
+        });
+        most - least
+    };
+    let slides = assembly.slides.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let size = spread(0).max(spread(1)).max(slides);
     let near = |found: f64, wanted: f64| (found - wanted).abs() <= SAME * size;
     let joint = |of: &Series| {
         let [x, y] = assembly.joints[of.index];

@@ -32,25 +32,31 @@ const REAL: f64 = 1.0e-6;
 /// Most loops of a group, half as many as its links: the 924 paths of six take seconds, those of seven a
 /// minute.
 const MOST_LOOPS: usize = 6;
-/// Seeds of the random parameters.
-const SEEDS: [u64; 2] = [0x6173_7375_7221_0001, 0x6173_7375_7221_0002];
+/// Seeds of the random parameters: as many as are tried until two agree on the number of assemblies.
+const SEEDS: std::ops::Range<u64> = 0x6173_7375_7221_0001..0x6173_7375_7221_0009;
 
 /// What is known of a group once for all its designs.
 #[derive(Debug)]
 pub(super) struct GroupFibres {
     pub forms: GroupForms,
-    /// From several parameters; none if the group is beyond the method.
+    /// From two sets of parameters; none if the group is beyond the method.
     pub fibres: Vec<Fibre>,
 }
 
 impl GroupFibres {
     pub(super) fn new(forms: GroupForms, drawing: &Parameters) -> Self {
-        let new = |&seed: &u64| Fibre::new(&forms, drawing, seed);
+        let mut found: Vec<Fibre> = Vec::new();
         let can_be_followed = forms.half() <= MOST_LOOPS;
-        let fibres: Vec<Fibre> = SEEDS.iter().filter(|_| can_be_followed).filter_map(new).collect();
-        // Their numbers are a property of the group.
-        let agree = fibres.windows(2).all(|two| two[0].points.len() == two[1].points.len());
-        Self { forms, fibres: if agree { fibres } else { Vec::new() } }
+        for seed in SEEDS.filter(|_| can_be_followed) {
+            let Some(fibre) = Fibre::new(&forms, drawing, seed) else { continue };
+            // Their number is a property of the group.
+            let agrees = |other: &Fibre| other.points.len() == fibre.points.len();
+            if let Some(index) = found.iter().position(agrees) {
+                return Self { forms, fibres: vec![found.swap_remove(index), fibre] };
+            }
+            found.push(fibre);
+        }
+        Self { forms, fibres: Vec::new() }
     }
 
     /// The number of complex assemblies of random dimensions.

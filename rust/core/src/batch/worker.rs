@@ -141,6 +141,12 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         true
     }
 
+    /// See [`Design::lengths_miss_position`].
+    pub(crate) fn lengths_miss_position(&self, design: DesignRow<'_>, step: f64) -> bool {
+        design.is_valid
+            && self.design.lengths_miss_position(&self.space.tape, design.dimensions, step)
+    }
+
     /// See [`Design::misses_position`].
     pub(crate) fn misses_position(&self, step: f64) -> bool {
         self.design.misses_position(&self.space.tape, step)

@@ -61,22 +61,13 @@ impl CrankDyad {
         let crank = constants.edge_vector[self.crank].norm();
         let frame = constants.fixed[self.ground] - constants.fixed[self.pivot];
         let [a, b] = &constants.legs[self.dyad];
-        // From the extreme to the position nearest to it the crank turns by half a step at most. No
-        // cosine is less than this.
-        let squeeze = 0.125 * step * step;
         if let Some(guide) = self.guide {
             let line = frame + constants.edge_vector[guide];
             let middle = constants.guide[guide].cross(line);
             let near = NEAR * (crank + middle.abs() + a.norm);
-            return middle.abs() + crank * (1.0 - squeeze) > a.norm + near;
+            return middle.abs() + crank * (1.0 - squeeze(step)) > a.norm + near;
         }
-        let frame = frame.norm();
-        let nearer = 2.0 * squeeze * crank * frame;
-        let (longest, shortest) = (frame + crank, frame - crank);
-        let near = NEAR * (longest + a.norm + b.norm);
-        let (most, least) = (a.norm + b.norm + near, (a.norm - b.norm).abs() - near);
-        longest * longest - nearer > most * most
-            || least > 0.0 && shortest * shortest + nearer < least * least
+        chord_misses(crank, frame.norm(), [a.norm, b.norm], step)
     }
 
     /// Whether the dyad is nowhere near flat at the extremes, so that its sign never changes.
@@ -105,6 +96,25 @@ impl CrankDyad {
             && !is_flat(longest)
             && !is_flat(shortest)
     }
+}
+
+/// How far the cosine of the crank's angle to an extreme falls below 1 at most: from the extreme to the
+/// position nearest to it the crank turns by half a step at most, and no cosine is less than this.
+fn squeeze(step: f64) -> f64 {
+    0.125 * step * step
+}
+
+/// Whether two legs certainly do not reach across the chord at one of the positions that go round in
+/// even steps. The chord is between the pin of a crank and a point at the distance `frame` from its
+/// pivot.
+pub(super) fn chord_misses(crank: f64, frame: f64, legs: [f64; 2], step: f64) -> bool {
+    let [a, b] = legs;
+    let nearer = 2.0 * squeeze(step) * crank * frame;
+    let (longest, shortest) = (frame + crank, frame - crank);
+    let near = NEAR * (longest + a + b);
+    let (most, least) = (a + b + near, (a - b).abs() - near);
+    longest * longest - nearer > most * most
+        || least > 0.0 && shortest * shortest + nearer < least * least
 }
 
 /// The edge of the guide, if it stands still and nothing else turns or slides.
@@ -212,7 +222,9 @@ mod tests {
         };
         let solved = mechanism.solve(&request).unwrap_or_else(|error| panic!("{error}"));
         let fails = solved.status.contains(&(Status::Unreachable as u8));
-        [design.misses_position(&mechanism.plan().tape, q[1] - q[0]), fails]
+        let (tape, step) = (&mechanism.plan().tape, q[1] - q[0]);
+        let lengths_miss = design.lengths_miss_position(tape, &dimensions, step);
+        [lengths_miss || design.misses_position(tape, step), fails]
     }
 
     /// A crank-rocker turned in its frame, and an offset slider-crank with a tilted guide; each link

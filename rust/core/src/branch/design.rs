@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::branch::Branch;
 use super::change_interpolant::{ChangeInterpolant, ChangeWindow};
 use super::crank_dyad::CrankDyad;
+use super::crank_lengths::CrankLengths;
 use super::knot::Taylor2;
 use super::lanes::lane_tracer::LaneTracer;
 use super::lanes::uniform::UniformTracer;
@@ -49,6 +50,8 @@ pub(crate) struct Design<'a> {
     pub(crate) closed_forms: bool,
     /// For every dyad: where it is attached, if it is on a crank and the ground.
     pub(super) crank_dyads: Vec<Option<CrankDyad>>,
+    /// For every one of those, where its lengths stand, if they decide alone whether it closes.
+    crank_lengths: Vec<Option<CrankLengths>>,
     /// For every dyad of the present design, whether its sign is known to be constant.
     pub(super) settled: Vec<bool>,
     pub(super) lane_tracer: Box<LaneTracer>,
@@ -96,6 +99,7 @@ impl<'a> Design<'a> {
             serves_all: false,
             closed_forms: mechanism.plan().has_closed_forms(),
             crank_dyads: crank_dyads(mechanism.plan()),
+            crank_lengths: crank_lengths(mechanism),
             settled: Vec::new(),
             lane_tracer: Box::default(),
             change_window: ChangeWindow::SHORT,
@@ -168,10 +172,19 @@ impl<'a> Design<'a> {
     /// Whether a dyad that the tape solves certainly does not close at one of the positions of a turn in
     /// even steps (rad). If false, it may close or not.
     pub(crate) fn misses_position(&self, tape: &Tape, step: f64) -> bool {
-        self.crank_dyads.iter().flatten().any(|dyad| {
-            let op = &tape.ops[tape.dyads[dyad.dyad]];
-            let is_used = matches!(op, Op::TwoLegs(op) | Op::StandingGuide(op) if op.is_used);
-            is_used && dyad.misses_position(&self.constants, step)
+        self.crank_dyads.iter().zip(&self.crank_lengths).any(|(dyad, lengths)| {
+            let Some(dyad) = dyad else { return false };
+            lengths.is_none()
+                && is_solved(tape, dyad.dyad)
+                && dyad.misses_position(&self.constants, step)
+        })
+    }
+
+    /// The same of a design that is not bound yet, where its lengths alone show it.
+    pub(crate) fn lengths_miss_position(&self, tape: &Tape, values: &[f64], step: f64) -> bool {
+        self.crank_lengths.iter().enumerate().any(|(dyad, lengths)| {
+            let Some(lengths) = lengths else { return false };
+            is_solved(tape, dyad) && lengths.miss_position(values, step)
         })
     }
 
@@ -217,6 +230,17 @@ impl<'a> Design<'a> {
     pub(crate) fn has_groups(&self) -> bool {
         self.mechanism.plan().groups().next().is_some()
     }
+}
+
+/// Whether the positions asked for need this dyad.
+fn is_solved(tape: &Tape, dyad: usize) -> bool {
+    matches!(&tape.ops[tape.dyads[dyad]], Op::TwoLegs(op) | Op::StandingGuide(op) if op.is_used)
+}
+
+fn crank_lengths(mechanism: &Mechanism) -> Vec<Option<CrankLengths>> {
+    let plan = mechanism.plan();
+    let lengths = |dyad| CrankLengths::of(&CrankDyad::of(plan, dyad)?, dyad, &mechanism.slots);
+    plan.dyads().map(lengths).collect()
 }
 
 fn crank_dyads(plan: &Plan) -> Vec<Option<CrankDyad>> {

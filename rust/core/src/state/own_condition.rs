@@ -19,14 +19,17 @@ impl State {
                 let of = self.condition2_of(dyad.unknowns[0]);
                 Some((index, of / self.upstream_of_dyad(cx, dyad)))
             }
-            Step::Group(group) => {
-                let of = self.condition2_of(*group.unknowns.first()?);
-                Some((index, of / self.upstream_of_group(cx, group)))
-            }
+            Step::Group(group) => Some((index, self.own_condition2_of_group(cx, group)?)),
             _ => None,
         });
         let worst = conditions.max_by(|a, b| a.1.total_cmp(&b.1))?;
         Some((worst.0, worst.1.sqrt()))
+    }
+
+    /// Square of the condition of a group above class II on its own.
+    pub(crate) fn own_condition2_of_group(&self, cx: &Context<'_>, group: &Group) -> Option<f64> {
+        let of = self.condition2_of(*group.unknowns.first()?);
+        Some(of / self.upstream_of_group(cx, group))
     }
 
     fn condition2_of(&self, unknown: Unknown) -> f64 {

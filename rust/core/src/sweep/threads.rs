@@ -76,10 +76,13 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
         found: &mut [f64],
     ) -> Outcome {
         let (all, q, probes) = (batch.q, batch.course.q, &batch.probes.q[..]);
+        let step = batch.course.turn.map(|turn| turn / batch.course.count() as f64);
+        if step.is_some_and(|step| self.worker.lengths_miss_position(row, step)) {
+            return Outcome::Fails(Status::Unreachable as u8);
+        }
         if !self.worker.bind(row, &mut rows.job(all, design)) {
             return batch.judge(rows, (row, q), false, found);
         }
-        let step = batch.course.turn.map(|turn| turn / batch.course.count() as f64);
         if step.is_some_and(|step| self.worker.misses_position(step)) {
             return Outcome::Fails(Status::Unreachable as u8);
         }

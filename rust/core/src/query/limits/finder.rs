@@ -15,6 +15,9 @@ use crate::plan::mechanism::Mechanism;
 
 /// Where (rad) a turn is cut, off the drawing's opposite point: dead points may lie there.
 const OFF: f64 = 0.123_456_7;
+/// Where the group is told that folds at the end of a branch: before it by this part of the way from
+/// the drawing, where its condition is about three thousand.
+const BEFORE_FOLD: f64 = 1.0e-7;
 /// How often, and by what factor, the range of a slide is widened where nothing ends it.
 const WIDENINGS: usize = 3;
 const WIDENING: f64 = 8.0;
@@ -139,32 +142,29 @@ impl<'m> LimitsFinder<'m> {
             return Vec::new();
         }
         let q0 = self.design.q0[0];
-        let groups = mechanism.plan().signs();
-        let single = mechanism.plan().groups().nth(1).is_none();
-        let fold = single.then_some(groups);
         let turns = TAU * f64::from(MAX_TURNS);
         let covered = branch.covered.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
         let half = 0.5 * branch.period.unwrap_or(TAU);
         let is_periodic = is_turn && covered == [f64::NEG_INFINITY, f64::INFINITY];
         let mut within = Stretch { ends: covered, folds: [None; 2] };
+        let cell = if is_turn { TAU / f64::from(CELLS_PER_TURN) } else { 1.0 / 16.0 };
+        let design = &self.design;
+        let state = design.state(design.tracing_derivatives());
+        let mut search = Search { design, state, cell };
         if is_periodic {
             within.ends = [q0 - half + OFF, q0 + half + OFF];
         } else {
             for (side, end) in within.ends.iter_mut().enumerate() {
                 let beyond = if is_turn { turns } else { reach };
-                let is_fold =
-                    end.is_finite() && (*end - q0).abs() < turns && self.design.has_groups();
+                let is_fold = end.is_finite() && (*end - q0).abs() < turns && design.has_groups();
                 if is_fold {
-                    within.folds[side] = fold;
+                    let group = search.folding_group(*end + BEFORE_FOLD * (q0 - *end));
+                    within.folds[side] = group.map(|group| mechanism.plan().signs() + group);
                 } else {
                     *end = end.clamp(q0 - beyond, q0 + beyond);
                 }
             }
         }
-        let cell = if is_turn { TAU / f64::from(CELLS_PER_TURN) } else { 1.0 / 16.0 };
-        let design = &self.design;
-        let state = design.state(design.tracing_derivatives());
-        let mut search = Search { design, state, cell };
         let mut stretches = search.stretches(within);
         if !is_turn && !design.has_groups() {
             // Guides that are nearly parallel carry a slide farther than all lengths together.

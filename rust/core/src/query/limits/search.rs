@@ -30,7 +30,7 @@ pub(super) struct Search<'d, 'm> {
     pub cell: f64,
 }
 
-impl Search<'_, '_> {
+impl<'d> Search<'d, '_> {
     /// The parts of a stretch over which all dyads close.
     pub(super) fn stretches(&mut self, within: Stretch) -> Vec<Stretch> {
         let plan = self.design.mechanism.plan();
@@ -90,13 +90,31 @@ impl Search<'_, '_> {
         Some([value, rate])
     }
 
-    fn value(&mut self, q: f64, dyad: &Dyad, step: usize) -> Option<[f64; 2]> {
+    /// The group above class II that folds at an end of the branch, as an index of the groups: just
+    /// before it, at `q`, its condition is by far the greatest.
+    pub(super) fn folding_group(&mut self, q: f64) -> Option<usize> {
+        let cx = self.solve(q);
+        let groups = cx.plan.groups().filter_map(|group| {
+            let condition2 = self.state.own_condition2_of_group(&cx, group)?;
+            Some((group.index, condition2)).filter(|_| condition2.is_finite())
+        });
+        groups.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+    }
+
+    /// Solves a position of the branch.
+    fn solve(&mut self, q: f64) -> Context<'d> {
         let Self { design, state, .. } = self;
-        let derivatives = design.tracing_derivatives();
         let branch = &design.branch;
         design.guess(0, state, branch, &branch.locate(q));
-        let cx = Context { signs: branch.signs(q), ..design.context(derivatives) };
+        let own = design.context(design.tracing_derivatives());
+        let cx = Context { signs: branch.signs(q), ..own };
         state.solve(&cx, &[q]);
+        cx
+    }
+
+    fn value(&mut self, q: f64, dyad: &Dyad, step: usize) -> Option<[f64; 2]> {
+        let cx = self.solve(q);
+        let state = &mut self.state;
         if state.has_failed() && state.fault.is_none_or(|fault| fault.step() < step) {
             return None;
         }
