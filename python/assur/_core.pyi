@@ -263,6 +263,7 @@ def instant_centre(
     a: tuple[_Float, _Float, _Float],
     b: tuple[_Float, _Float, _Float],
 ) -> _Float: ...
+def spline_pieces(knots: _Float, values: _Float, ends: Spline) -> _Float: ...
 
 @final
 class Flywheels:

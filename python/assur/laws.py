@@ -13,14 +13,16 @@ from __future__ import annotations
 import itertools
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import Float, real_array
+from assur._arrays import Float, real_array, require_finite
+from assur._core import spline_pieces
+from assur._splines import SPLINES, Spline
 from assur._trig import sin_cos
-from assur._validate import real_number
+from assur._validate import one_of, real_number, require_rows
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -34,6 +36,7 @@ __all__ = [
     "Polynomial345",
     "Polynomial4567",
     "Sequence",
+    "Tabulated",
     "Trapezoidal",
     "Uniform",
 ]
@@ -284,6 +287,83 @@ class ModifiedSine(Rise):
         second = unit * 4.0 * pi**2 * sine
         third = unit * 16.0 * pi**3 / slower * cosine
         return way, rate, second, third
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Tabulated(Law):
+    """A coordinate given at times: a cubic spline through the points.
+
+    Before the first point and after the last one it is at rest.
+
+    Parameters
+    ----------
+    t : array_like
+        Times, s, ascending, shape (N,).
+    value : array_like
+        Coordinates there, rad or m, shape (N,).
+    spline : {"clamped", "natural", "not-a-knot", "periodic", "linear"}
+        How the curve ends: with "clamped" at rest, with the others the speed jumps there. "linear"
+        joins the points by straight lines.
+
+    Examples
+    --------
+    >>> import assur
+    >>> law = assur.laws.Tabulated([0.0, 1.0, 2.0], [0.0, 0.5, 1.0])
+    >>> [round(float(one), 6) for one in law.at(1.0)]
+    [0.5, 0.75, 0.0, -1.5]
+    """
+
+    t: Float
+    value: Float
+    spline: Spline
+    _pieces: Float = field(repr=False)
+
+    def __init__(self, t: npt.ArrayLike, value: npt.ArrayLike, spline: Spline = "clamped") -> None:
+        one_of(spline, SPLINES, "Tabulated spline")
+        t, value = real_array(t, "Tabulated t"), real_array(value, "Tabulated value")
+        if t.ndim != 1 or t.shape != value.shape:
+            message = f"Tabulated: t has shape {t.shape}, value {value.shape}: two lists are needed"
+            raise InputError(message)
+        require_rows(t.size, 3 if spline == "periodic" else 2, "Tabulated: it")
+        require_finite(t, "Tabulated t")
+        require_finite(value, "Tabulated value")
+        back = np.flatnonzero(np.diff(t) <= 0.0)
+        if back.size:
+            row = int(back[0]) + 1
+            message = f"Tabulated: t[{row}] = {t[row]!s} is not above t[{row - 1}] = {t[row - 1]!s}"
+            raise InputError(message, value=float(t[row]))
+        with np.errstate(over="ignore", invalid="ignore"):
+            pieces = spline_pieces(t, value, spline).reshape(-1, 4)
+        if not np.isfinite(pieces).all():
+            message = "Tabulated: the speed is beyond the greatest number: are times in seconds?"
+            raise InputError(message)
+        for column in (t, value, pieces):
+            column.flags.writeable = False
+        own = {"t": t, "value": value, "spline": spline, "_pieces": pieces}
+        for name, one in own.items():
+            object.__setattr__(self, name, one)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.t, self.value, self.spline)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """When it begins and ends, s."""
+        return float(self.t[0]), float(self.t[-1])
+
+    def at(self, t: npt.ArrayLike) -> tuple[Float, Float, Float, Float]:
+        """Return the coordinate, its speed, acceleration and jerk at times, s."""
+        times = _times(t)
+        first, last = self.span
+        within = np.clip(times, first, last)
+        piece = np.clip(np.searchsorted(self.t, within, side="right") - 1, 0, len(self.t) - 2)
+        x = within - self.t[piece]
+        a, b, c, d = (self._pieces[piece, k] for k in range(4))
+        moves = (times >= first) & (times <= last)
+        value = np.where(times >= last, self.value[-1], ((d * x + c) * x + b) * x + a)
+        rates = ((3.0 * d * x + 2.0 * c) * x + b, 6.0 * d * x + 2.0 * c, 6.0 * d)
+        speed, acceleration, jerk = (np.where(moves, rate, 0.0) for rate in rates)
+        return value, speed, acceleration, jerk
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,9 @@ fluctuation in Mathcad*, equations 1 to 6. F. Wittenbauer, *Graphische Dynamik* 
 """
 
 from assur._extreme import Extreme
+from assur._splines import SPLINES, Spline
 from assur.flywheel.result import MEANS, Flywheel, Mean
-from assur.flywheel.sizing import SPLINES, Spline, evaluate, from_table
+from assur.flywheel.sizing import evaluate, from_table
 from assur.flywheel.table_file import ReducedTable, read_table
 
 __all__ = [

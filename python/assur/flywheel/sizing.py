@@ -11,16 +11,14 @@ import numpy.typing as npt
 from assur import _core
 from assur._arrays import Float, real_array
 from assur._extreme import Extreme
+from assur._splines import SPLINES, Spline
 from assur._validate import checked_threads, one_of, require_rows
 from assur.errors import AssurWarning, InputError
 from assur.flywheel.result import MEANS, Curve, Flywheel, Mean
 
-Spline: TypeAlias = Literal["not-a-knot", "natural", "clamped", "periodic", "linear"]
-
 # The requirement besides the mean or initial speed; "mean speed" and "initial speed": a flywheel.
 Task: TypeAlias = Literal["fluctuation", "mean speed", "initial speed"]
 
-SPLINES = ("not-a-knot", "natural", "clamped", "periodic", "linear")
 # Tables are typed with four digits: their period may differ by this fraction from whole turns.
 WHOLE_TURNS_RTOL = 1e-3
 

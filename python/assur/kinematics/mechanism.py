@@ -24,6 +24,7 @@ from assur.kinematics import limits as limit_search
 from assur.kinematics import solve as solver
 from assur.kinematics.assembly import Assembly, drawn_in
 from assur.kinematics.curve import search as curves
+from assur.kinematics.dimensions import Dimensions
 from assur.kinematics.pose import redrive
 
 if TYPE_CHECKING:
@@ -43,6 +44,9 @@ if TYPE_CHECKING:
     from assur.laws import Law
 
 __all__ = ["Mechanism"]
+
+# Four units in the last place: by so much a solved place differs from the drawing's by rounding.
+TYPED = 1e-15
 
 
 class Mechanism:
@@ -290,7 +294,10 @@ class Mechanism:
                 motion = self.solve(self._q0_array(), order=0, on_error="nan")
                 arrays = {name: motion.joint(name).value for name in drawn}
                 single = not self.shape
-                drawn = {n: tuple(a.tolist()) if single else a for n, a in arrays.items()}
+                drawn = {
+                    name: _as_typed(at, drawn[name]) if single else at
+                    for name, at in arrays.items()
+                }
             object.__setattr__(self, "_joints", MappingProxyType(drawn))
         assert self._joints is not None
         return self._joints
@@ -427,7 +434,7 @@ class Mechanism:
         """
         names = self._core.dimension_names
         values = self._values if self.shape else self._values.tolist()
-        return MappingProxyType(dict(zip(names, values, strict=True)))
+        return Dimensions(dict(zip(names, values, strict=True)))
 
     # -- other mechanisms ---------------------------------------------------
 
@@ -1003,3 +1010,12 @@ def _rebuild(description: Description, values: Float, place: Place | None = None
     own = place.mechanism
     core = own._core.drawn_in(own._values.tolist(), list(place.q), place.numbers)
     return mechanism._drawn_at(place, core)
+
+
+def _as_typed(solved: Float, drawn: tuple[float, float]) -> tuple[float, ...]:
+    """Return a place; coordinates that differ from the drawing's by rounding alone are those."""
+    size = float(np.abs(solved).max())
+    return tuple(
+        own if abs(x - own) <= TYPED * size else x
+        for x, own in zip(solved.tolist(), drawn, strict=True)
+    )

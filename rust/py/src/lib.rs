@@ -20,6 +20,7 @@ mod parallel_map;
 mod reactions;
 mod run;
 mod slider_crank;
+mod spline;
 mod sweep;
 #[cfg(feature = "test-hooks")]
 mod test_hooks;
@@ -58,6 +59,8 @@ mod _core {
         slider_crank_greatest_acceleration, slider_crank_greatest_speed, slider_crank_rod_angle,
         slider_crank_rod_point, slider_crank_series, slider_crank_stroke,
     };
+    #[pymodule_export]
+    use super::spline::spline_pieces;
     #[pymodule_export]
     #[cfg(feature = "test-hooks")]
     use super::test_hooks::{panic_in_chunk, start_threads_at_once};

@@ -188,6 +188,10 @@ ENTRIES: dict[str, Entry] = {
         lambda t: FOUR_BAR.follow(assur.laws.Cycloidal(0.5, 1.5, 2.0), t).joint("C"),
         (np.array(0.5), np.array([0.0, 0.5, 1.0])),
     ),
+    "Tabulated.t": Entry(lambda t: assur.laws.Tabulated(t, PLACES[0]).at(0.5), (TIMES[:2],)),
+    "Tabulated.value": Entry(
+        lambda value: assur.laws.Tabulated(TIMES[:2], value).at(0.5), (PLACES[0],)
+    ),
     "Mechanism.defects.q": Entry(lambda q: FOUR_BAR.defects(q, {"C": PLACES}), (TIMES,)),
     "Mechanism.defects.joints": Entry(lambda c: FOUR_BAR.defects(TIMES, {"C": c}), (PLACES,)),
     "Mechanism.map.dimensions": Entry(

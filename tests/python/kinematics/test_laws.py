@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+import pickle
+import re
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import assur
 from assur import laws
@@ -136,3 +139,50 @@ def test_refusals() -> None:
     refused(assur.InputError, "times", partial(engine.follow, law, [[0.0]]))
     batch = engine.with_dimensions({"rod.length": [0.2, 0.3]})
     refused(assur.InputError, "batch", partial(batch.follow, law, [0.0]))
+
+
+@pytest.mark.parametrize("ends", ["clamped", "natural", "not-a-knot", "periodic"])
+def test_a_table_is_the_spline_that_scipy_draws(ends: Literal["clamped", "natural"]) -> None:
+    times = np.array([0.5, 0.9, 1.0, 1.8, 2.5, 3.0])
+    places = np.array([0.2, 0.7, 0.6, -0.4, 0.1, 0.2])
+    law = laws.Tabulated(times, places, ends)
+    spline = CubicSpline(times, places, bc_type=ends)
+    t = np.linspace(0.5, 3.0, 101)[:-1]
+    for order, found in enumerate(law.at(t)):
+        wanted = spline(t, order)
+        np.testing.assert_allclose(found, wanted, rtol=0.0, atol=1e-12 * np.abs(wanted).max())
+
+
+def test_a_table_rests_outside_its_times() -> None:
+    law = laws.Tabulated([1.0, 2.0, 4.0], [0.3, 0.8, 0.5], spline="linear")
+    assert law.span == (1.0, 4.0)
+    for t, place in ((0.0, 0.3), (9.0, 0.5)):
+        assert [float(one) for one in law.at(t)] == [place, 0.0, 0.0, 0.0]
+    assert float(law.at(3.0)[0]) == pytest.approx(0.65, rel=1e-15)
+    assert float(law.at(4.0)[0]) == 0.5
+    again = pickle.loads(pickle.dumps(law))
+    assert np.array_equal(again.at([1.5, 3.3]), law.at([1.5, 3.3]))
+
+
+def test_a_table_drives_a_mechanism_through_its_points() -> None:
+    engine = assur.SliderCrank(1.0, 3.0)
+    times, angles = np.array([0.0, 0.4, 1.0]), np.array([0.3, 0.9, 2.0])
+    motion = engine.follow(laws.Tabulated(times, angles), times)
+    rod = np.sqrt(9.0 - np.sin(angles) ** 2)
+    np.testing.assert_allclose(motion.slide("bore").value, np.cos(angles) + rod, rtol=1e-14)
+    np.testing.assert_allclose(motion.slide("bore").velocity[[0, 2]], 0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("t", "value", "words"),
+    [
+        ([0.0, 1.0], [0.0], "t has shape (2,), value (1,)"),
+        ([0.0], [0.0], "1 row: at least 2"),
+        ([0.0, 0.0], [0.0, 1.0], "t[1] = 0.0 is not above t[0] = 0.0"),
+        ([0.0, math.nan], [0.0, 1.0], "Tabulated t has nan"),
+        ([0.0, 1e-300], [0.0, 1e300], "beyond the greatest number"),
+    ],
+)
+def test_bad_tables_are_refused(t: list[float], value: list[float], words: str) -> None:
+    with pytest.raises(assur.InputError, match=re.escape(words)):
+        laws.Tabulated(t, value)

@@ -106,7 +106,7 @@ def crossings(grid: Grid, edges: list[Edge], along: Float) -> npt.NDArray[np.int
 
 
 def poses_beside_folds(surface: Surface, edges: list[Edge]) -> tuple[list[Pose], int]:
-    """Return poses beside the folds between the ends of edges, and how many edges they leave open."""
+    """Return poses beside the folds on edges, and how many edges they do not explain."""
     starts: list[Pose] = []
     for _ in range(MOST_PASSES):
         if not edges:

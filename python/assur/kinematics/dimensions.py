@@ -1,0 +1,70 @@
+"""The dimensions of a mechanism by name, printed as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["Dimensions"]
+
+# A difference of two typed coordinates carries their rounding; one digit less hides it.
+SHOWN = ".15g"
+
+
+class Dimensions(Mapping[str, Any]):
+    """Dimensions by name, m or rad: floats, or arrays of the shape of the designs.
+
+    Values are the numbers that are computed with; only the printed table rounds them.
+
+    Examples
+    --------
+    >>> import assur
+    >>> print(assur.SliderCrank(0.05, 0.2).dimensions)
+    ground.O.x      0  m
+    ground.O.y      0  m
+    crank.length  0.05  m
+    rod.length    0.2  m
+    bore.angle      0  rad
+    bore.offset     0  m
+    """
+
+    __slots__ = ("_values",)
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        self._values = dict(values)
+
+    def __getitem__(self, name: str) -> Any:
+        """Return a dimension."""
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the names."""
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        """Return the number of dimensions."""
+        return len(self._values)
+
+    def __repr__(self) -> str:
+        names = max(map(len, self._values), default=0)
+        numbers = {name: _shown(value) for name, value in self._values.items()}
+        width = max(map(len, numbers.values()), default=0)
+        return "\n".join(
+            f"{name:<{names}}  {number:>{width}}  {'rad' if name.endswith('angle') else 'm'}"
+            for name, number in numbers.items()
+        )
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, float):
+        return format(value, SHOWN)
+    values = np.asarray(value)
+    if not values.size:
+        return f"shape {values.shape}"
+    least, most = values.min(), values.max()
+    return f"{least:.6g}" if least == most else f"{least:.6g} … {most:.6g}"

@@ -1,0 +1,25 @@
+//! Splines through tables, for laws over time.
+
+use assur::dynamics::{EndCondition, spline};
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::convert::word::Word;
+use crate::detach::catch_panic;
+use crate::error_map;
+
+/// The pieces of a spline: for each its value and derivatives, divided by 1, 1, 2, 6, at its first
+/// knot (flat).
+#[pyfunction]
+pub(crate) fn spline_pieces<'py>(
+    py: Python<'py>,
+    knots: PyReadonlyArray1<'py, f64>,
+    values: PyReadonlyArray1<'py, f64>,
+    ends: Word<EndCondition>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let (knots, values) = (knots.as_slice()?, values.as_slice()?);
+    let pieces = catch_panic(|| {
+        spline(knots, values, ends.0).map_err(|error| error_map::table(&error, "the table", None))
+    })?;
+    Ok(PyArray1::from_vec(py, pieces.concat()))
+}
