@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, settings
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-settings.register_profile("fast", deadline=None, derandomize=True, max_examples=200)
+settings.register_profile("fast", deadline=None, derandomize=True, max_examples=100)
 settings.register_profile(
     "slow",
     deadline=None,

@@ -9,7 +9,7 @@ import bits
 import design_spaces
 
 # Random mechanisms, each with a space of 24 designs at 40 coordinates.
-COUNT = 200 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 24
+COUNT = 200 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 12
 
 
 def test_careful_path_gives_the_same_bits() -> None:
