@@ -1,0 +1,141 @@
+"""Linkages of other programs: PMKS, PMKS+, pylinkage, pyslvs, Linkage.
+
+>>> from assur import importers
+>>> found = importers.read('''
+... ground crank R 0 0 0 ffft
+... crank rod R 0 1
+... rod block R 3 0
+... ground block P 3 0 0
+... ''')
+>>> found.format, found.mechanism.structure.formula
+('pmks', 'I(crank) → II(rod, block)')
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+from assur._validate import one_of
+from assur.importers import linkage2, pmks, pmks_plus, pylinkage, pyslvs
+from assur.importers.build import Imported
+from assur.importers.source import ENDINGS, open_source
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from assur.importers.source import SourceLike
+
+__all__ = [
+    "FORMATS",
+    "Imported",
+    "detect",
+    "linkage2",
+    "pmks",
+    "pmks_plus",
+    "pylinkage",
+    "pyslvs",
+    "read",
+]
+
+FORMATS = ("pmks", "pmks_plus", "pylinkage", "pyslvs", "linkage2")
+
+
+def read(
+    source: SourceLike,
+    format: str | None = None,
+    *,
+    scale: float = 1.0,
+    drivers: Sequence[tuple[int, int]] | None = None,
+) -> Imported:
+    """Read a linkage of another program.
+
+    Parameters
+    ----------
+    source : str or path-like
+        A file, a text or an address.
+    format : str, optional
+        One of `FORMATS`; without it the text tells.
+    scale : float
+        The file's unit of length, m.
+    drivers : sequence of (int, int), optional
+        The drivers of an expression of pyslvs: see `pyslvs.read`.
+
+    Returns
+    -------
+    Imported
+        The mechanism, and what does not carry over.
+
+    Raises
+    ------
+    InputError
+        A file that cannot be read, with its line or part; what cannot be described.
+    StructureError
+        A linkage that is no mechanism.
+
+    Examples
+    --------
+    >>> from assur import importers
+    >>> found = importers.read(
+    ...     "M[J[R, P[0, 0], L[ground, crank]], J[R, P[0, 1], L[crank, rod]], "
+    ...     "J[RP, A[0], P[3, 0], L[ground, rod]]]", drivers=[(0, 1)])
+    >>> found.format, found.mechanism.driver
+    ('pyslvs', 'crank')
+    """
+    opened = open_source(source)
+    if format is None:
+        format = detect(opened.name, opened.text)
+        if format is None:
+            known = ", ".join(FORMATS)
+            raise opened.error("", f"the text is of no known format: {known} are read")
+    else:
+        one_of(format, FORMATS, "format")
+    if format == "pyslvs":
+        return pyslvs.read(opened, () if drivers is None else drivers, scale=scale)
+    if drivers is not None:
+        raise opened.error("", f"drivers are for pyslvs: a file of {format} names its own")
+    readers: dict[str, Any] = {
+        "pmks": pmks.read,
+        "pmks_plus": pmks_plus.read,
+        "pylinkage": pylinkage.read,
+        "linkage2": linkage2.read,
+    }
+    found: Imported = readers[format](opened, scale=scale)
+    return found
+
+
+def detect(path: Any, text: str) -> str | None:
+    """Return the format of a text, or None.
+
+    Parameters
+    ----------
+    path : str, path-like or None
+        The file it is from: its ending tells where it is a program's own.
+    text : str
+        The text.
+
+    Returns
+    -------
+    str or None
+        One of `FORMATS`.
+
+    Examples
+    --------
+    >>> from assur import importers
+    >>> importers.detect("press.linkage2", ""), importers.detect(None, "Hello")
+    ('linkage2', None)
+    """
+    ending = PurePath(path or "").suffix.lower()
+    if ENDINGS.get(ending):
+        return ENDINGS[ending]
+    start = text.lstrip("\ufeff \t\r\n")
+    if start.startswith("{"):
+        return "pmks" if '"Joints"' in text else "pylinkage" if '"joints"' in text else None
+    if re.search(r"<linkage2\b", start[:10_000]):
+        return "linkage2"
+    if pyslvs.is_text(start):
+        return "pyslvs"
+    if pmks_plus.is_text(start):
+        return "pmks_plus"
+    return "pmks" if pmks.is_text(start) else None

@@ -1,0 +1,255 @@
+"""Linkage (by David Rector): ``.linkage2`` files (XML).
+
+connector
+    id, name, x, y, anchor, input with rpm, slider with two ``slidelimit``, slideradius, fasten
+Link
+    id, name, its connectors, actuator with throw and cpm, gear, fasten
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from assur._arrays import short
+from assur._trig import arctan2
+from assur.importers.build import finish
+from assur.importers.names import listed
+from assur.importers.sketch import GROUND, Input, Sketch
+from assur.importers.source import open_source
+from assur.importers.xml_text import Element, parse_xml
+
+if TYPE_CHECKING:
+    from assur.importers.build import Imported
+    from assur.importers.source import Source, SourceLike
+
+__all__ = ["read"]
+
+# The layer of mechanisms; others hold labels and lines.
+MECHANISM = 16
+UNITS = {"millimeters": 0.001, "centimeters": 0.01, "meters": 1.0, "inches": 0.0254, "feet": 0.3048}
+RPM = math.tau / 60.0
+
+
+def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
+    """Read a linkage of Linkage.
+
+    Parameters
+    ----------
+    source : str or path-like
+        A file, or its text.
+    scale : float
+        The file's unit of length, m.
+
+    Returns
+    -------
+    Imported
+        Joints and links have their names, or c and L with their number. An actuator is a cylinder.
+        Positive rpm is clockwise in Linkage, so the speed is negative.
+
+    Raises
+    ------
+    InputError
+        What is no such text, with its line; gears, curved slots.
+    StructureError
+        What is no mechanism.
+
+    Examples
+    --------
+    >>> from assur import importers
+    >>> found = importers.linkage2.read('''<linkage2>
+    ... <connector id="0" x="0" y="0" anchor="true" input="true" rpm="15"/>
+    ... <connector id="1" x="0" y="10"/>
+    ... <connector id="2" x="30" y="20"/>
+    ... <connector id="3" x="40" y="0" anchor="true"/>
+    ... <Link id="0"><connector id="0"/><connector id="1"/></Link>
+    ... <Link id="1"><connector id="1"/><connector id="2"/></Link>
+    ... <Link id="2"><connector id="2"/><connector id="3"/></Link>
+    ... </linkage2>''')
+    >>> found.mechanism.structure.formula
+    'I(L0) → II(L1, L2)'
+    """
+    opened = open_source(source)
+    root = parse_xml(opened)
+    if root.tag != "linkage2":
+        raise opened.error(root.place, f"<{root.tag[:40]}> is not <linkage2>")
+    return _Reader(opened, root).read(scale)
+
+
+class _Reader:
+    """One file."""
+
+    def __init__(self, source: Source, root: Element) -> None:
+        self._source, self._root = source, root
+        self._sketch = Sketch()
+        self._connectors: dict[str, Element] = {}
+        # Joints by the ids of connectors, links by those of links.
+        self._joints: dict[str, str] = {}
+        self._links: dict[str, str] = {}
+
+    def read(self, scale: float) -> Imported:
+        """Make the mechanism."""
+        connectors = [one for one in self._root.children if one.tag == "connector"]
+        links = [one for one in self._root.children if one.tag in ("Link", "element")]
+        self._source.require_few(len(connectors))
+        self._source.require_few(len(links), "links")
+        for one in connectors:
+            self._add_connector(one)
+        decoration = [self._add_link(one) for one in links]
+        drawn = [name for name in decoration if name]
+        if drawn:
+            self._sketch.omitted.append(f"Drawing {listed(drawn)} is left out.")
+        for one in (*connectors, *links):
+            self._fasten(one)
+        for identifier, one in self._connectors.items():
+            if one.is_true("slider"):
+                self._add_slider(identifier, one)
+        for identifier, one in self._connectors.items():
+            if one.is_true("input"):
+                self._add_input(identifier, one)
+        self._refuse_gears()
+        self._say_unit(scale)
+        return finish(self._source, self._sketch, "linkage2", scale)
+
+    def _add_connector(self, one: Element) -> None:
+        identifier = self._id(one)
+        if not _is_mechanism(one):
+            return
+        if identifier in self._connectors:
+            raise self._source.error(one.place, f"a second connector {identifier}")
+        self._connectors[identifier] = one
+        name = self._name(one, f"c{identifier}", self._sketch.joints)
+        self._joints[identifier] = name
+        x, y = (self._source.number(one.attributes.get(what), one.place, what) for what in "xy")
+        self._sketch.joints[name] = (x, y)
+        if one.is_true("anchor"):
+            self._sketch.connect(name, GROUND)
+
+    def _add_link(self, one: Element) -> str:
+        """Add a link; return its name if it only decorates."""
+        identifier = self._id(one)
+        members = [c for c in map(self._id, one.named("connector")) if c in self._joints]
+        name = self._name(one, f"L{identifier}", {**self._sketch.links, **self._sketch.cylinders})
+        if not _is_mechanism(one) or one.is_true("measurementelement"):
+            return name
+        self._links.setdefault(identifier, name)
+        joints = list(dict.fromkeys(self._joints[member] for member in members))
+        if not one.is_true("actuator"):
+            self._sketch.links[name] = joints
+            return ""
+        if len(joints) != 2:
+            problem = f"actuator {name} has {len(joints)} connectors: two are needed"
+            raise self._source.error(one.place, problem, link=name)
+        self._sketch.cylinders[name] = (joints[0], joints[1])
+        stroke, cycles = (
+            self._source.number(one.attributes.get(what, "0"), one.place, what)
+            for what in ("throw", "cpm")
+        )
+        # Forth and back a cycle.
+        speed = 2.0 * stroke * cycles / 60.0 or None
+        self._sketch.inputs.append(Input(one.place, slide=name, speed=speed))
+        self._sketch.omitted.append(f"The throw {stroke:g} of actuator {name} is no limit here.")
+        return ""
+
+    def _fasten(self, one: Element) -> None:
+        """Weld what is fastened: a connector or a link to a link."""
+        attributes = one.attributes
+        to = attributes.get("fastenlink") or attributes.get("fasten")
+        own = one.attributes.get("id", "").strip()
+        is_link = one.tag != "connector"
+        if to and to.strip() in self._links:
+            link = self._links[to.strip()]
+            mine = self._links.get(own) if is_link else self._joints.get(own)
+            if mine is None or link not in self._sketch.links:
+                return
+            if is_link and mine in self._sketch.links:
+                self._sketch.welds.append(("", [link, mine]))
+            elif not is_link:
+                self._sketch.connect(mine, link)
+        elif attributes.get("fastenconnector") and is_link and own in self._links:
+            problem = f"link {self._links[own]} is fastened to a connector: fasten it to a link"
+            raise self._source.error(one.place, problem, link=self._links[own])
+
+    def _add_slider(self, identifier: str, one: Element) -> None:
+        name = self._joints[identifier]
+        radius = self._source.number(one.attributes.get("slideradius", "0"), one.place, "slideradius")
+        if radius != 0.0:
+            problem = f"joint {name} slides in a curved slot: only straight ones can be described"
+            raise self._source.error(one.place, problem, joint=name, value=radius)
+        ends = [self._joints.get(self._id(limit), "") for limit in one.named("slidelimit")][:2]
+        if len(ends) < 2 or "" in ends or ends[0] == ends[1]:
+            self._sketch.omitted.append(f"Slider {name} has no two limits: it is a pin.")
+            return
+        links = self._sketch.links
+        both = [link for link in links if set(ends) <= set(links[link])]
+        if not both:
+            problem = f"joint {name} slides between {listed(ends)}, which are on different links"
+            raise self._source.error(one.place, problem, joint=name)
+        carrier = GROUND if GROUND in both else both[0]
+        (x, y), (u, v) = (self._sketch.joints[end] for end in ends)
+        if (x, y) == (u, v) or name in links[carrier]:
+            problem = f"joint {name} cannot slide between {listed(ends)}"
+            raise self._source.error(one.place, problem, joint=name)
+        riders = self._sketch.links_at(name)
+        self._sketch.add_slot(name, carrier, riders, float(arctan2(v - y, u - x)), turns=True)
+
+    def _add_input(self, identifier: str, one: Element) -> None:
+        name = self._joints[identifier]
+        links = [link for link in self._sketch.links_at(name) if link != GROUND]
+        if not links:
+            self._sketch.omitted.append(f"Input {name} has no link: left out.")
+            return
+        if not one.is_true("anchor"):
+            problem = f"input {name} is no anchor: Linkage turns links about anchors only"
+            raise self._source.error(one.place, problem, joint=name)
+        rpm = self._source.number(one.attributes.get("rpm", "15"), one.place, "rpm")
+        speed = -rpm * RPM
+        self._sketch.inputs.append(Input(one.place, joint=name, base=GROUND, speed=speed))
+        if one.attributes.get("limitangle", "0").strip("0. "):
+            self._sketch.omitted.append(f"Input {name} turns to and fro: its limit is left out.")
+
+    def _refuse_gears(self) -> None:
+        for ratios in self._root.named("ratios"):
+            for ratio in ratios.named("ratio"):
+                pair = [self._links.get(self._id(link), "") for link in ratio.named("link")]
+                if len(pair) > 1 and all(pair):
+                    kind = ratio.attributes.get("type", "gears")[:20]
+                    problem = f"links {listed(pair)} are joined by {kind}: they cannot be described"
+                    raise self._source.error(ratio.place, problem, link=pair[0])
+
+    def _say_unit(self, scale: float) -> None:
+        for program in self._root.named("program"):
+            unit = program.attributes.get("units", "")
+            metres = UNITS.get(unit.lower())
+            factor = self._source.number(
+                program.attributes.get("scalefactor", "1"), program.place, "scalefactor"
+            )
+            if metres is not None and scale == 1.0 and metres * factor != 1.0:
+                self._sketch.omitted.append(
+                    f"Lengths are shown in {unit.lower()} and read as they stand: "
+                    f"scale={metres * factor:g} makes them m."
+                )
+
+    def _name(self, one: Element, plain: str, taken: object) -> str:
+        """Return the given name, or the letter and number, once."""
+        given = one.attributes.get("name", "").strip()
+        names = set(taken) if isinstance(taken, dict) else set()
+        unique, count = given or plain, 1
+        while unique in names:
+            count += 1
+            unique = f"{given or plain}_{count}"
+        return unique
+
+    def _id(self, one: Element) -> str:
+        identifier = one.attributes.get("id", "").strip()
+        if not identifier.isascii() or not identifier.isdigit() or len(identifier) > 9:
+            problem = f"<{one.tag[:40]}> has the id {short(identifier)}: a whole number is needed"
+            raise self._source.error(one.place, problem)
+        return str(int(identifier))
+
+
+def _is_mechanism(one: Element) -> bool:
+    layer = one.attributes.get("layer", "0").strip()
+    if not layer.isascii() or not layer.isdigit() or len(layer) > 12:
+        return True
+    return int(layer) in (0,) or bool(int(layer) & MECHANISM)
