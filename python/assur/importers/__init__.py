@@ -23,7 +23,7 @@ from assur.importers.build import Imported
 from assur.importers.source import ENDINGS, open_source
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from assur.importers.source import SourceLike
 
@@ -44,10 +44,11 @@ FORMATS = ("pmks", "pmks_plus", "pylinkage", "pyslvs", "linkage2")
 
 def read(
     source: SourceLike,
-    format: str | None = None,
+    format: str | None = None,  # noqa: A002
     *,
     scale: float = 1.0,
     drivers: Sequence[tuple[int, int]] | None = None,
+    assembly: Mapping[str, int] | None = None,
 ) -> Imported:
     """Read a linkage of another program.
 
@@ -61,6 +62,8 @@ def read(
         The file's unit of length, m.
     drivers : sequence of (int, int), optional
         The drivers of an expression of pyslvs: see `pyslvs.read`.
+    assembly : mapping of str to int, optional
+        For dyads drawn with their links collinear: see `Mechanism`.
 
     Returns
     -------
@@ -84,25 +87,23 @@ def read(
     ('pyslvs', 'crank')
     """
     opened = open_source(source)
-    if format is None:
-        format = detect(opened.name, opened.text)
-        if format is None:
-            known = ", ".join(FORMATS)
-            raise opened.error("", f"the text is of no known format: {known} are read")
-    else:
-        one_of(format, FORMATS, "format")
-    if format == "pyslvs":
-        return pyslvs.read(opened, () if drivers is None else drivers, scale=scale)
+    found = detect(opened.name, opened.text) if format is None else format
+    if found is None:
+        known = ", ".join(FORMATS)
+        raise opened.error("", f"the text is of no known format: {known} are read")
+    one_of(found, FORMATS, "format")
+    if found == "pyslvs":
+        pairs = () if drivers is None else drivers
+        return pyslvs.read(opened, pairs, scale=scale, assembly=assembly)
     if drivers is not None:
-        raise opened.error("", f"drivers are for pyslvs: a file of {format} names its own")
-    readers: dict[str, Any] = {
+        raise opened.error("", f"drivers are for pyslvs: a file of {found} names its own")
+    readers = {
         "pmks": pmks.read,
         "pmks_plus": pmks_plus.read,
         "pylinkage": pylinkage.read,
         "linkage2": linkage2.read,
     }
-    found: Imported = readers[format](opened, scale=scale)
-    return found
+    return readers[found](opened, scale=scale, assembly=assembly)
 
 
 def detect(path: Any, text: str) -> str | None:

@@ -14,7 +14,7 @@ from assur.importers.tidy import tidy
 from assur.kinematics.mechanism import Mechanism
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
     from typing import Any
 
     from assur.importers.sketch import Input, Sketch
@@ -44,7 +44,13 @@ class Imported:
     input_speed: float | tuple[float | None, ...] | None
 
 
-def finish(source: Source, sketch: Sketch, format: str, scale: float) -> Imported:
+def finish(
+    source: Source,
+    sketch: Sketch,
+    source_format: str,
+    scale: float,
+    assembly: Mapping[str, int] | None,
+) -> Imported:
     """Make the mechanism of a sketch; `scale` is the file's unit of length in m."""
     scale = real_number(scale, "scale")
     if not 1e-50 < scale < 1e50:
@@ -59,14 +65,19 @@ def finish(source: Source, sketch: Sketch, format: str, scale: float) -> Importe
         why = "what its input drives is left out" if given else "no joint is marked as its input"
         left = " ".join(sketch.omitted)
         raise source.error("", f"the linkage has no driver: {why}. {left}".rstrip())
-    return _build(source, sketch, format, scale)
+    return _build(source, sketch, source_format, scale, assembly)
 
 
-def _build(source: Source, sketch: Sketch, format: str, scale: float) -> Imported:
+def _build(
+    source: Source,
+    sketch: Sketch,
+    source_format: str,
+    scale: float,
+    assembly: Mapping[str, int] | None,
+) -> Imported:
     names = _Mapping(sketch)
     links = {GROUND: _named(sketch.links[GROUND], names.joints)}
     slides: dict[str, Slide | Cylinder] = {}
-    drivers: list[str | Drive] = []
     turned = {driven.link: driven.joint for driven in sketch.inputs if driven.link}
     for link, members in sketch.links.items():
         # The angle of a driven link is that of the ray from its axis.
@@ -86,16 +97,16 @@ def _build(source: Source, sketch: Sketch, format: str, scale: float) -> Importe
         barrel, rod = names.tubes[name]
         ends = names.joints[base], names.joints[end]
         slides[names.slides[name]] = Cylinder(*ends, barrel=barrel, rod=rod)
-    for driven in sketch.inputs:
-        drivers.append(_driver(driven, names))
+    drivers = [_driver(driven, names) for driven in sketch.inputs]
     joints = {
         names.joints[joint]: (x * scale, y * scale) for joint, (x, y) in sketch.joints.items()
     }
-    mechanism = Mechanism(joints, links, drivers[0] if len(drivers) == 1 else drivers, slides)
+    driver = drivers[0] if len(drivers) == 1 else drivers
+    mechanism = Mechanism(joints, links, driver, slides, assembly)
     speeds = tuple(_speed(driven, scale) for driven in sketch.inputs)
     told = any(speed is not None for speed in speeds)
     speed = speeds[0] if len(speeds) == 1 else speeds if told else None
-    return Imported(mechanism, format, (*sketch.omitted, *names.changed), speed)
+    return Imported(mechanism, source_format, (*sketch.omitted, *names.changed), speed)
 
 
 def _driver(driven: Input, names: _Mapping) -> str | Drive:

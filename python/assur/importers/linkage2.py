@@ -20,6 +20,8 @@ from assur.importers.source import open_source
 from assur.importers.xml_text import Element, parse_xml
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from assur.importers.build import Imported
     from assur.importers.source import Source, SourceLike
 
@@ -31,7 +33,9 @@ UNITS = {"millimeters": 0.001, "centimeters": 0.01, "meters": 1.0, "inches": 0.0
 RPM = math.tau / 60.0
 
 
-def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
+def read(
+    source: SourceLike, *, scale: float = 1.0, assembly: Mapping[str, int] | None = None
+) -> Imported:
     """Read a linkage of Linkage.
 
     Parameters
@@ -40,6 +44,8 @@ def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
         A file, or its text.
     scale : float
         The file's unit of length, m.
+    assembly : mapping of str to int, optional
+        For dyads drawn with their links collinear: see `Mechanism`.
 
     Returns
     -------
@@ -73,7 +79,7 @@ def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
     root = parse_xml(opened)
     if root.tag != "linkage2":
         raise opened.error(root.place, f"<{root.tag[:40]}> is not <linkage2>")
-    return _Reader(opened, root).read(scale)
+    return _Reader(opened, root).read(scale, assembly)
 
 
 class _Reader:
@@ -87,7 +93,7 @@ class _Reader:
         self._joints: dict[str, str] = {}
         self._links: dict[str, str] = {}
 
-    def read(self, scale: float) -> Imported:
+    def read(self, scale: float, assembly: Mapping[str, int] | None) -> Imported:
         """Make the mechanism."""
         connectors = [one for one in self._root.children if one.tag == "connector"]
         links = [one for one in self._root.children if one.tag in ("Link", "element")]
@@ -109,7 +115,7 @@ class _Reader:
                 self._add_input(identifier, one)
         self._refuse_gears()
         self._say_unit(scale)
-        return finish(self._source, self._sketch, "linkage2", scale)
+        return finish(self._source, self._sketch, "linkage2", scale, assembly)
 
     def _add_connector(self, one: Element) -> None:
         identifier = self._id(one)
@@ -172,7 +178,8 @@ class _Reader:
 
     def _add_slider(self, identifier: str, one: Element) -> None:
         name = self._joints[identifier]
-        radius = self._source.number(one.attributes.get("slideradius", "0"), one.place, "slideradius")
+        given = one.attributes.get("slideradius", "0")
+        radius = self._source.number(given, one.place, "slideradius")
         if radius != 0.0:
             problem = f"joint {name} slides in a curved slot: only straight ones can be described"
             raise self._source.error(one.place, problem, joint=name, value=radius)
@@ -252,4 +259,4 @@ def _is_mechanism(one: Element) -> bool:
     layer = one.attributes.get("layer", "0").strip()
     if not layer.isascii() or not layer.isdigit() or len(layer) > 12:
         return True
-    return int(layer) in (0,) or bool(int(layer) & MECHANISM)
+    return int(layer) == 0 or bool(int(layer) & MECHANISM)

@@ -43,9 +43,7 @@ def on_two_circles(
     return _nearest(one, (u / d, v / d), along, across, hint)
 
 
-def on_line(
-    centre: Point, radius: float, line: tuple[Point, Point], hint: Point
-) -> Point | float:
+def on_line(centre: Point, radius: float, line: tuple[Point, Point], hint: Point) -> Point | float:
     """Return the crossing of a circle and a line nearest to a place, or by how much they miss."""
     (x, y), (u, v) = line
     d = math.sqrt((u - x) ** 2 + (v - y) ** 2)
@@ -58,9 +56,7 @@ def on_line(
     return _nearest(centre, (-ey, ex), off, along, hint)
 
 
-def _nearest(
-    origin: Point, axis: Point, along: float, across: float, hint: Point
-) -> Point:
+def _nearest(origin: Point, axis: Point, along: float, across: float, hint: Point) -> Point:
     """Return the nearer of two points that mirror each other in an axis."""
     (x, y), (ex, ey) = origin, axis
     foot = x + along * ex, y + along * ey

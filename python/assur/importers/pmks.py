@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote
 
-from assur._arrays import short
+from assur._arrays import counted, short
 from assur.importers.build import finish
 from assur.importers.json_text import items_of, parse_json, words_of
 from assur.importers.names import listed
@@ -20,6 +20,8 @@ from assur.importers.sketch import GROUND, Input, Sketch
 from assur.importers.source import open_source
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from assur.importers.build import Imported
     from assur.importers.source import Source, SourceLike
 
@@ -29,10 +31,13 @@ TYPES = ("R", "P", "RP", "G")
 FLAGS = re.compile(r"[tf+-]{1,4}", re.IGNORECASE)
 # So PMKS writes and reads the frame.
 FRAME = re.compile(r"ground.*|0|gnd|grnd|grond|gound|groud", re.IGNORECASE | re.DOTALL)
+SETTINGS = ("set=", "ts=")
 RPM = math.tau / 60.0
 
 
-def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
+def read(
+    source: SourceLike, *, scale: float = 1.0, assembly: Mapping[str, int] | None = None
+) -> Imported:
     """Read a linkage of PMKS.
 
     Parameters
@@ -41,6 +46,8 @@ def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
         A file, or its text; an address of PMKS with ``mech=``.
     scale : float
         The file's unit of length, m.
+    assembly : mapping of str to int, optional
+        For dyads drawn with their links collinear: see `Mechanism`.
 
     Returns
     -------
@@ -70,14 +77,16 @@ def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
     sketch = Sketch()
     is_json = opened.text.lstrip().startswith("{")
     _read_json(opened, sketch) if is_json else _read_text(opened, sketch)
-    return finish(opened, sketch, "pmks", scale)
+    return finish(opened, sketch, "pmks", scale, assembly)
 
 
 def is_text(text: str) -> bool:
     """Whether the first line of a text is a joint of PMKS, or holds joints after mech=."""
     if "mech=" in text:
         return True
-    words = re.split(r"[,\s]+", re.split(r"[\n|]", text.strip(), maxsplit=1)[0].strip())
+    lines = (line for line in re.split(r"[\n|]", text[:10_000]) if line.strip())
+    joints = (line for line in lines if not line.startswith(SETTINGS))
+    words = re.split(r"[,\s]+", next(joints, "").strip())
     kinds = [i for i, word in enumerate(words) if word.upper() in TYPES and i]
     return bool(kinds) and len(words) > kinds[-1] + 2
 
@@ -129,7 +138,7 @@ def _lines(source: Source) -> tuple[list[tuple[int, str]], float | None]:
         head = unquote(head)
     lines = []
     for number, line in enumerate(body.split("\n"), first):
-        if line.startswith(("set=", "ts=")):
+        if line.startswith(SETTINGS):
             head += f"\n{line}"
             continue
         lines += [(number, part) for part in line.split("|") if part.strip(" ,\r\t")]
@@ -153,7 +162,8 @@ def _record(
     if rest and FLAGS.fullmatch(rest[-1]):
         flags = rest.pop().lower()
     if not 2 <= len(rest) <= 3:
-        problem = f"joint of {listed(links)} has {len(rest)} numbers: x, y and perhaps an angle"
+        numbers = counted(len(rest), "number")
+        problem = f"joint of {listed(links)} has {numbers}: x, y and perhaps an angle are needed"
         raise source.error(place, problem)
     x, y = (source.number(word, place, what) for word, what in zip(rest, "xy", strict=False))
     angle = source.number(rest[2], place, "the angle") if len(rest) > 2 else 0.0

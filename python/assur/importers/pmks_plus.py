@@ -29,6 +29,8 @@ from assur.importers.sketch import GROUND, Input, Sketch
 from assur.importers.source import open_source
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from assur.importers.build import Imported
     from assur.importers.source import Source, SourceLike
 
@@ -61,7 +63,9 @@ class _Link:
     joints: list[str] = field(default_factory=list)
 
 
-def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
+def read(
+    source: SourceLike, *, scale: float = 1.0, assembly: Mapping[str, int] | None = None
+) -> Imported:
     """Read a linkage of PMKS+.
 
     Parameters
@@ -70,6 +74,8 @@ def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
         An address, or what follows its question mark, or a file with it.
     scale : float
         The file's unit of length, m.
+    assembly : mapping of str to int, optional
+        For dyads drawn with their links collinear: see `Mechanism`.
 
     Returns
     -------
@@ -88,7 +94,7 @@ def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
     >>> from assur import importers
     >>> found = importers.pmks_plus.read(
     ...     "0.Fe.A,0.2111.6A,,0,0,0.0B,,0,Fe,0.0C,,k_,VG,0.4D,,k_,0,0.."
-    ...     "YRAB,,0,0,0,0,,A,B,,.YRBC,,0,0,0,0,,B,C,,.YRCD,,0,0,0,0,,C,D,,..N_R")
+    ...     "YRAB,,0,0,0,0,,A,B,,.YRBC,,0,0,0,0,,B,C,,.YRCD,,0,0,0,0,,C,D,,..N_1")
     >>> found.mechanism.structure.formula
     'I(AB) → II(BC, CD)'
     """
@@ -98,7 +104,9 @@ def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
     speeds = _settings(opened, sketch, parts, scale)
     records = _sections(opened, parts[4:])
     joints = [_joint(opened, f"joint {i}", text) for i, text in enumerate(records[0], 1)]
-    links = [link for i, text in enumerate(records[1], 1) for link in _link(opened, f"link {i}", text)]
+    links = []
+    for count, text in enumerate(records[1], 1):
+        links += _link(opened, f"link {count}", text)
     _check(opened, joints, links)
     _connect(opened, sketch, joints, links)
     _drive(opened, sketch, joints, links, speeds)
@@ -107,7 +115,7 @@ def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
     if records[2]:
         names = [text.split(",")[0][1:] for text in records[2]]
         sketch.omitted.append(f"Forces are left out: {listed(names)}.")
-    return finish(opened, sketch, "pmks_plus", scale)
+    return finish(opened, sketch, "pmks_plus", scale, assembly)
 
 
 def payload(text: str) -> str:
@@ -215,13 +223,15 @@ def _check(source: Source, joints: list[_Joint], links: list[_Link]) -> None:
     for link in links:
         missing = [name for name in link.joints if name not in known]
         if missing:
-            problem = f"link {short(link.id)} has the joint {short(missing[0])}, which does not exist"
+            joint_id = short(missing[0])
+            problem = f"link {short(link.id)} has the joint {joint_id}, which does not exist"
             raise source.error("", problem, link=link.id)
     carriers = {link.id: link for link in links if not link.block}
     for joint in joints:
         carrier = carriers.get(joint.slot[0]) if joint.slot else None
         if joint.slot and (carrier is None or not set(joint.slot[1:]) <= set(carrier.joints)):
-            problem = f"slot of joint {short(joint.id)}: no link has both joints {listed(joint.slot[1:])}"
+            both = listed(joint.slot[1:])
+            problem = f"slot of joint {short(joint.id)}: no link has both joints {both}"
             raise source.error(joint.place, problem, joint=joint.id)
 
 

@@ -22,6 +22,8 @@ from assur.importers.sketch import GROUND, Input, Sketch
 from assur.importers.source import open_source
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from assur.importers.build import Imported
     from assur.importers.source import Source, SourceLike
 
@@ -32,7 +34,9 @@ TYPES = ("ground", "revolute", "prismatic", "tracker")
 ON_LINE = 1e-9
 
 
-def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
+def read(
+    source: SourceLike, *, scale: float = 1.0, assembly: Mapping[str, int] | None = None
+) -> Imported:
     """Read a linkage of pylinkage.
 
     Parameters
@@ -41,6 +45,8 @@ def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
         A file, or its text.
     scale : float
         The file's unit of length, m.
+    assembly : mapping of str to int, optional
+        For dyads drawn with their links collinear: see `Mechanism`.
 
     Returns
     -------
@@ -79,27 +85,13 @@ def read(source: SourceLike, *, scale: float = 1.0) -> Imported:
         _read_links(opened, sketch, data, joints)
     if any(driven.speed is not None for driven in sketch.inputs):
         sketch.omitted.append("The speed is in rad a step: pylinkage has no time.")
-    return finish(opened, sketch, "pylinkage", scale)
+    return finish(opened, sketch, "pylinkage", scale, assembly)
 
 
 def _read_links(
     source: Source, sketch: Sketch, data: dict[str, Any], joints: list[dict[str, Any]]
 ) -> None:
-    kinds: dict[str, dict[str, Any]] = {}
-    for index, joint in enumerate(joints):
-        place = f"joints[{index}]"
-        name = word_of(source, joint, "id", place)
-        kind = joint.get("type", "revolute")
-        if kind not in TYPES:
-            problem = f"joint {short(name)} is of type {short(kind)}: {', '.join(TYPES)} are known"
-            raise source.error(place, problem, joint=name)
-        if name in kinds:
-            raise source.error(place, f"a second joint {short(name)}", joint=name)
-        kinds[name] = joint
-        if kind != "tracker":
-            sketch.joints[name] = point_of(source, joint, "position", place)
-        if kind == "ground":
-            sketch.connect(name, GROUND)
+    kinds = _add_joints(source, sketch, joints)
     links = items_of(source, data, "links")
     source.require_few(len(links), "links")
     seen: set[str] = set()
@@ -115,6 +107,28 @@ def _read_links(
             _add_slider(source, sketch, f"joints[{index}]", name, joint)
         if joint.get("type") == "tracker":
             _add_tracker(source, sketch, f"joints[{index}]", name, joint)
+
+
+def _add_joints(
+    source: Source, sketch: Sketch, joints: list[dict[str, Any]]
+) -> dict[str, dict[str, Any]]:
+    """Place the joints; return them by name."""
+    kinds: dict[str, dict[str, Any]] = {}
+    for index, joint in enumerate(joints):
+        place = f"joints[{index}]"
+        name = word_of(source, joint, "id", place)
+        kind = joint.get("type", "revolute")
+        if kind not in TYPES:
+            problem = f"joint {short(name)} is of type {short(kind)}: {', '.join(TYPES)} are known"
+            raise source.error(place, problem, joint=name)
+        if name in kinds:
+            raise source.error(place, f"a second joint {short(name)}", joint=name)
+        kinds[name] = joint
+        if kind != "tracker":
+            sketch.joints[name] = point_of(source, joint, "position", place)
+        if kind == "ground":
+            sketch.connect(name, GROUND)
+    return kinds
 
 
 def _add_link(

@@ -52,7 +52,8 @@ def read_dyads(source: Source, sketch: Sketch, joints: list[dict[str, Any]]) -> 
         name = word_of(source, joint, "name", place)
         kind = joint.get("type")
         if not isinstance(kind, str) or kind not in PARENTS:
-            problem = f"joint {short(name)} is of type {short(kind)}: {', '.join(PARENTS)} are known"
+            known = ", ".join(PARENTS)
+            problem = f"joint {short(name)} is of type {short(kind)}: {known} are known"
             raise source.error(place, problem, joint=name)
         if name in names:
             raise source.error(place, f"a second joint {short(name)}", joint=name)
@@ -131,7 +132,8 @@ class _Dyad:
         radii = self._length("distance0"), self._length("distance1")
         at = on_two_circles(self._at(one), self._at(other), radii, self._hint(one))
         if isinstance(at, float):
-            raise self._error(f"the links of joint {short(self._name)} miss each other by {at:g}", at)
+            problem = f"the links of joint {short(self._name)} miss each other by {at:g}"
+            raise self._error(problem, at)
         self._bar(one, at)
         self._bar(other, at)
 

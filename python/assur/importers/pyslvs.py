@@ -18,7 +18,7 @@ from assur.importers.sketch import GROUND, Input, Sketch
 from assur.importers.source import open_source
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from assur.importers.build import Imported
     from assur.importers.source import Source, SourceLike
@@ -30,7 +30,11 @@ TOKEN = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*|[-+.0-9][-+.0-9eE]*|[\[\](),]")
 
 
 def read(
-    source: SourceLike, drivers: Sequence[tuple[int, int]] = (), *, scale: float = 1.0
+    source: SourceLike,
+    drivers: Sequence[tuple[int, int]] = (),
+    *,
+    scale: float = 1.0,
+    assembly: Mapping[str, int] | None = None,
 ) -> Imported:
     """Read an expression of pyslvs.
 
@@ -43,6 +47,8 @@ def read(
         turns, counted from 0; twice the same joint drives the slide there.
     scale : float
         The unit of length, m.
+    assembly : mapping of str to int, optional
+        For dyads drawn with their links collinear: see `Mechanism`.
 
     Returns
     -------
@@ -80,7 +86,7 @@ def read(
     if not sketch.inputs:
         problem = "an expression of pyslvs names no driver: give drivers=[(0, 1)], or as it may be"
         raise opened.error("", problem)
-    return finish(opened, sketch, "pyslvs", scale)
+    return finish(opened, sketch, "pyslvs", scale, assembly)
 
 
 def is_text(text: str) -> bool:
@@ -96,7 +102,8 @@ def _pairs(drivers: Any, count: int) -> list[tuple[int, int]]:
     for pair in pairs:
         whole = all(isinstance(i, int) and not isinstance(i, bool) for i in pair)
         if len(pair) != 2 or not whole or not all(0 <= i < count for i in pair):
-            message = f"drivers is {short(drivers)}: pairs of joints from 0 to {count - 1} are needed"
+            needed = f"pairs of joints from 0 to {count - 1} are needed"
+            message = f"drivers is {short(drivers)}: {needed}"
             raise InputError(message)
     return [(base, joint) for base, joint in pairs]
 
@@ -172,9 +179,7 @@ class _Reader:
         """The line of the present token."""
         return self._text.count("\n", 0, self._start) + 1
 
-    def joints(self) -> Iterator[
-        tuple[int, str, float | None, tuple[float, float], list[str]]
-    ]:
+    def joints(self) -> Iterator[tuple[int, str, float | None, tuple[float, float], list[str]]]:
         """Return line, type, angle, place and links of every joint."""
         self._open("M")
         while self._token != "]":

@@ -96,7 +96,9 @@ class Sketch:
         """Return the links that have a joint."""
         return [link for link, members in self.links.items() if joint in members]
 
-    def add_slot(self, joint: str, carrier: str, riders: list[str], angle: float, turns: bool) -> str:
+    def add_slot(
+        self, joint: str, carrier: str, riders: list[str], angle: float, turns: bool
+    ) -> str:
         """Add a slot in which a joint slides; return its name."""
         name = f"{joint}_slide"
         while name in self.slots:

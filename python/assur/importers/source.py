@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from assur._arrays import short
@@ -49,10 +50,8 @@ class Source:
         if isinstance(word, str) and len(word) <= LONGEST_NUMBER and word.isascii():
             # float() also reads "nan", "infinity" and "1_000".
             plain = not set(word.strip()) - set("0123456789+-.eE")
-            try:
+            with suppress(ValueError):
                 word = float(word) if plain else word
-            except ValueError:
-                pass
         if isinstance(word, bool) or not isinstance(word, int | float):
             raise self.error(place, f"{what} is {short(word)}: a number is needed")
         # An integer may be beyond every float.
@@ -106,7 +105,8 @@ def _read(path: Any) -> tuple[str, str]:
         with file.open("rb") as stream:
             data = stream.read(LARGEST_FILE * 4 + 1)
     except (OSError, TypeError, ValueError) as error:
-        message = f"{short(path)} cannot be read as a file: {_reason(error)}"
+        named = str(path) if isinstance(path, str | PurePath) else short(path)
+        message = f"{named[:500]} cannot be read as a file: {_reason(error)}"
         raise InputError(message) from error
     try:
         text = data.decode("utf-8")

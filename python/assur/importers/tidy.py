@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 def tidy(source: Source, sketch: Sketch) -> None:
     """Make the sketch one connected mechanism; say what this changes."""
     _weld(sketch)
+    _fix(source, sketch)
     for driven in sketch.inputs:
         _resolve(source, sketch, driven)
     _merge_joints(sketch)
@@ -52,6 +53,9 @@ def _resolve(source: Source, sketch: Sketch, driven: Input) -> None:
     if driven.link is None:
         others = [link for link in links if link != driven.base]
         if len(others) > 1:
+            # Links of one joint only mark it.
+            others = [link for link in others if len(sketch.links[link]) > 1] or others
+        if len(others) > 1:
             problem = (
                 f"input joint {joint!r} has several links, {listed(others)}: "
                 "the file does not say which of them it turns"
@@ -84,7 +88,8 @@ def _fix(source: Source, sketch: Sketch) -> None:
         fixed = [
             link
             for link, members in sketch.links.items()
-            if link != GROUND and len(frame.intersection(members)) > 1
+            if link != GROUND
+            and len({sketch.joints[joint] for joint in frame.intersection(members)}) > 1
         ]
         for link in fixed:
             for driven in sketch.inputs:
@@ -114,7 +119,8 @@ def _leave_out_unconnected(sketch: Sketch) -> None:
         for ends in sketch.cylinders.values():
             if joints.intersection(ends):
                 joints.update(ends)
-    _remove(sketch, [link for link in sketch.links if link not in found], "not connected with the frame")
+    loose = [link for link in sketch.links if link not in found]
+    _remove(sketch, loose, "not connected with the frame")
 
 
 def _leave_out_hanging(sketch: Sketch) -> bool:
@@ -136,7 +142,7 @@ def _leave_out_hanging(sketch: Sketch) -> bool:
     ]
     for name in idle:
         slot = sketch.slots.pop(name)
-        sketch.omitted.append(f"Joint {slot.joint} slides freely and carries no link: it is left out.")
+        sketch.omitted.append(f"Joint {slot.joint} slides and carries no link: left out.")
         _remove_inputs(sketch)
     return bool(hanging or idle)
 
