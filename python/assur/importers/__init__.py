@@ -18,7 +18,16 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 from assur._validate import one_of
-from assur.importers import linkage2, pmks, pmks_plus, pylinkage, pyslvs
+from assur.importers import (
+    linkage2,
+    pmks,
+    pmks_plus,
+    pmks_plus_records,
+    pmks_text,
+    pylinkage,
+    pyslvs,
+    pyslvs_expression,
+)
 from assur.importers.build import Imported
 from assur.importers.source import ENDINGS, open_source
 
@@ -135,8 +144,8 @@ def detect(path: Any, text: str) -> str | None:
         return "pmks" if '"Joints"' in text else "pylinkage" if '"joints"' in text else None
     if re.search(r"<linkage2\b", start[:10_000]):
         return "linkage2"
-    if pyslvs.is_text(start):
+    if pyslvs_expression.is_text(start):
         return "pyslvs"
-    if pmks_plus.is_text(start):
+    if pmks_plus_records.is_text(start):
         return "pmks_plus"
-    return "pmks" if pmks.is_text(start) else None
+    return "pmks" if pmks_text.is_text(start) else None

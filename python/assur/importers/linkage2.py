@@ -29,7 +29,6 @@ __all__ = ["read"]
 
 # The layer of mechanisms; others hold labels and lines.
 MECHANISM = 16
-UNITS = {"millimeters": 0.001, "centimeters": 0.01, "meters": 1.0, "inches": 0.0254, "feet": 0.3048}
 RPM = math.tau / 60.0
 
 
@@ -225,17 +224,12 @@ class _Reader:
                     raise self._source.error(ratio.place, problem, link=pair[0])
 
     def _say_unit(self, scale: float) -> None:
-        for program in self._root.named("program"):
-            unit = program.attributes.get("units", "")
-            metres = UNITS.get(unit.lower())
-            factor = self._source.number(
-                program.attributes.get("scalefactor", "1"), program.place, "scalefactor"
+        """The file does not tell what its coordinates are in, only what the program shows."""
+        units = [one.attributes.get("units", "") for one in self._root.named("program")]
+        if units[:1] not in ([], [""]) and scale == 1.0:
+            self._sketch.omitted.append(
+                f"Linkage shows {units[0][:20].lower()}; coordinates are read as they stand."
             )
-            if metres is not None and scale == 1.0 and metres * factor != 1.0:
-                self._sketch.omitted.append(
-                    f"Lengths are shown in {unit.lower()} and read as they stand: "
-                    f"scale={metres * factor:g} makes them m."
-                )
 
     def _name(self, one: Element, plain: str, taken: object) -> str:
         """Return the given name, or the letter and number, once."""

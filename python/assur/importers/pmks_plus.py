@@ -1,30 +1,15 @@
-"""PMKS+ (PMKSWeb): addresses that hold a linkage after their question mark.
-
-Parts are parted by dots: flags, decimals, whole numbers, units, then a record a joint, an empty
-part, a record a link, an empty part, a record a force, and the selection with a letter that checks
-the length.
-
-joint
-    a digit of flags (slides, input, frame, welded, path, cylinder), its id, name, x, y, angle in
-    rad; if it slides on a link also that link and two joints that give the direction; a speed
-link
-    Y or N, R or P (a block of a slide), its id, name, mass, inertia, centre of mass, colour,
-    joints, an empty word, the links that it is welded of
-"""
+"""PMKS+ (PMKSWeb): addresses that hold a linkage after their question mark."""
 
 from __future__ import annotations
 
-import math
-import re
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
-from urllib.parse import unquote
 
 from assur._arrays import short
 from assur._trig import arctan2
-from assur.importers.base64_numbers import DIGITS, decimal, is_checked, whole
+from assur.importers import pmks_plus_records as records
 from assur.importers.build import finish
 from assur.importers.names import listed
+from assur.importers.pmks_plus_records import RPM, Joint, Link
 from assur.importers.sketch import GROUND, Input, Sketch
 from assur.importers.source import open_source
 
@@ -35,32 +20,6 @@ if TYPE_CHECKING:
     from assur.importers.source import Source, SourceLike
 
 __all__ = ["read"]
-
-# First letters of a link's record: it is a link of its own, or one that is welded into another.
-ROOTS, PARTS = "YAMG0123", "Namg4567"
-UNITS = {0: ("inches", 0.0254), 1: ("cm", 0.01), 2: ("m", 1.0)}
-RPM = math.tau / 60.0
-
-
-@dataclass
-class _Joint:
-    place: str
-    id: str
-    at: tuple[float, float]
-    angle: float
-    slides: bool
-    is_input: bool
-    fixed: bool
-    welded: bool
-    slot: list[str]
-    speed: float | None
-
-
-@dataclass
-class _Link:
-    id: str
-    block: bool
-    joints: list[str] = field(default_factory=list)
 
 
 def read(
@@ -99,143 +58,26 @@ def read(
     'I(AB) → II(BC, CD)'
     """
     opened = open_source(source)
-    parts = _parts(opened)
+    parts = records.parts(opened)
     sketch = Sketch()
-    speeds = _settings(opened, sketch, parts, scale)
-    records = _sections(opened, parts[4:])
-    joints = [_joint(opened, f"joint {i}", text) for i, text in enumerate(records[0], 1)]
-    links = []
-    for count, text in enumerate(records[1], 1):
-        links += _link(opened, f"link {count}", text)
-    _check(opened, joints, links)
+    speeds = records.settings(opened, sketch, parts, scale)
+    sections = records.sections(opened, parts[4:])
+    joints = [records.joint_of(opened, f"joint {i}", text) for i, text in enumerate(sections[0], 1)]
+    links: list[Link] = []
+    for count, text in enumerate(sections[1], 1):
+        links += records.links_of(opened, f"link {count}", text)
+    records.check(opened, joints, links)
     _connect(opened, sketch, joints, links)
     _drive(opened, sketch, joints, links, speeds)
     if links:
         sketch.omitted.append("Masses, inertias and centres of mass are left out.")
-    if records[2]:
-        names = [text.split(",")[0][1:] for text in records[2]]
+    if sections[2]:
+        names = [text.split(",")[0][1:] for text in sections[2]]
         sketch.omitted.append(f"Forces are left out: {listed(names)}.")
     return finish(opened, sketch, "pmks_plus", scale, assembly)
 
 
-def payload(text: str) -> str:
-    """Return what an address holds."""
-    text = text.strip()
-    if "?" in text:
-        text = text.partition("?")[2]
-    return unquote(text.partition("#")[0])
-
-
-def is_text(text: str) -> bool:
-    """Whether a text is a linkage of PMKS+."""
-    held = payload(text[:100_000])
-    return bool(re.match(r"[0-9A-Za-z_-]{1,4}\.[0-9A-Za-z_,-]+\.[0-9A-Za-z_,-]+\.\d", held))
-
-
-def _parts(source: Source) -> list[str]:
-    held = payload(source.text)
-    if any(letter.isspace() for letter in held) and "\n" in held:
-        raise source.error("", "an address is one line: give one linkage")
-    if not is_checked(held):
-        problem = "the last letter does not agree with the length: the address was cut or changed"
-        raise source.error("", problem)
-    parts = held[:-1].split(".")
-    if len(parts) < 6:
-        raise source.error("", f"{len(parts)} parts: settings, joints and links are needed")
-    source.require_few(len(parts) // 3, "records")
-    return parts
-
-
-def _settings(
-    source: Source, sketch: Sketch, parts: list[str], scale: float
-) -> tuple[float, float | None]:
-    """Return the speed of a crank, rad/s, and of a slide; say the unit of length."""
-    clockwise = whole(source, parts[0], "settings", "the flags") & 1
-    decimals = parts[1].split(",")
-    speed = whole(source, parts[2].split(",")[0], "settings", "the input speed")
-    unit = UNITS.get(DIGITS.find(parts[3][:1]))
-    if unit is not None and unit[1] != 1.0 and scale == 1.0:
-        sketch.omitted.append(
-            f"Lengths are in {unit[0]} and read as they stand: scale={unit[1]:g} makes them m."
-        )
-    linear = decimal(source, decimals[1], "settings", "the speed of a slide") if decimals[1:] else 0
-    return (-speed if clockwise else speed) * RPM, linear or None
-
-
-def _sections(source: Source, parts: list[str]) -> list[list[str]]:
-    """Return the records of joints, links and forces, each ended by an empty part."""
-    sections: list[list[str]] = []
-    for what in ("joints", "links", "forces"):
-        if "" not in parts:
-            if what != "forces":
-                raise source.error("", f"the records of {what} have no end")
-            sections.append(parts[:-1])
-            return sections
-        end = parts.index("")
-        sections.append(parts[:end])
-        parts = parts[end + 1 :]
-    return sections
-
-
-def _joint(source: Source, place: str, text: str) -> _Joint:
-    words = text.split(",")
-    if len(words) < 5 or not words[0][1:]:
-        needed = "flags, id, name, x, y and angle are needed"
-        raise source.error(place, f"{short(text)} is no joint: {needed}")
-    flags = DIGITS.find(words[0][0])
-    if flags < 0:
-        raise source.error(place, f"the flags {words[0][0]!r} are no digit")
-    x, y, angle = (
-        decimal(source, word, place, what)
-        for word, what in zip(words[2:5], ("x", "y", "the angle"), strict=True)
-    )
-    slot = [word for word in words[5:8] if word]
-    if slot and (len(slot) != 3 or slot[1] == slot[2] or flags & 4 or not flags & 1):
-        problem = "the slot needs a link and two of its joints, and no place on the frame"
-        raise source.error(place, f"{problem}: {listed(slot)}", joint=words[0][1:])
-    own = decimal(source, words[8], place, "the speed") if words[8:9] not in ([], [""]) else 0.0
-    bits = [bool(flags >> bit & 1) for bit in range(4)]
-    angle = math.remainder(angle, math.tau)
-    return _Joint(place, words[0][1:], (x, y), angle, *bits, slot, own or None)
-
-
-def _link(source: Source, place: str, text: str) -> list[_Link]:
-    """Return the link, or none if it is welded into another."""
-    words = text.split(",")
-    if len(words) < 8 or len(words[0]) < 3 or words[0][0] not in ROOTS + PARTS:
-        needed = "kind, id, name, mass, inertia, centre, colour and joints are needed"
-        raise source.error(place, f"{short(text)} is no link: {needed}")
-    if words[0][1] not in "RP":
-        raise source.error(place, f"the kind {words[0][1]!r} is neither R nor P")
-    if words[0][0] in PARTS:
-        return []
-    joints = words[7:]
-    joints = joints[: joints.index("")] if "" in joints else joints
-    return [_Link(words[0][2:], words[0][1] == "P", joints)]
-
-
-def _check(source: Source, joints: list[_Joint], links: list[_Link]) -> None:
-    known = {joint.id: joint for joint in joints}
-    if len(known) != len(joints) or len({link.id for link in links}) != len(links):
-        twice = [one.id for one in (*joints, *links)]
-        name = next(name for name in twice if twice.count(name) > 1)
-        raise source.error("", f"two records have the id {short(name)}")
-    for link in links:
-        missing = [name for name in link.joints if name not in known]
-        if missing:
-            joint_id = short(missing[0])
-            problem = f"link {short(link.id)} has the joint {joint_id}, which does not exist"
-            raise source.error("", problem, link=link.id)
-    carriers = {link.id: link for link in links if not link.block}
-    for joint in joints:
-        carrier = carriers.get(joint.slot[0]) if joint.slot else None
-        if joint.slot and (carrier is None or not set(joint.slot[1:]) <= set(carrier.joints)):
-            both = listed(joint.slot[1:])
-            problem = f"slot of joint {short(joint.id)}: no link has both joints {both}"
-            raise source.error(joint.place, problem, joint=joint.id)
-
-
-def _connect(source: Source, sketch: Sketch, joints: list[_Joint], links: list[_Link]) -> None:
+def _connect(source: Source, sketch: Sketch, joints: list[Joint], links: list[Link]) -> None:
     known = {joint.id: joint for joint in joints}
     for joint in joints:
         if not joint.slides:
@@ -256,7 +98,7 @@ def _connect(source: Source, sketch: Sketch, joints: list[_Joint], links: list[_
 
 
 def _slide(
-    source: Source, sketch: Sketch, joint: _Joint, known: dict[str, _Joint], links: list[_Link]
+    source: Source, sketch: Sketch, joint: Joint, known: dict[str, Joint], links: list[Link]
 ) -> None:
     """A joint that slides: alone, or in a block with the pin that it guides."""
     block = next((link for link in links if link.block and joint.id in link.joints), None)
@@ -284,8 +126,8 @@ def _slide(
 def _drive(
     source: Source,
     sketch: Sketch,
-    joints: list[_Joint],
-    links: list[_Link],
+    joints: list[Joint],
+    links: list[Link],
     speeds: tuple[float, float | None],
 ) -> None:
     """Inputs: of a block either joint may be marked."""
@@ -296,6 +138,7 @@ def _drive(
             continue
         names = {joint.id, *blocks.get(joint.id, ())}
         slides = [key for key, slot in sketch.slots.items() if slot.joint in names]
+        speed: float | None
         if not slides:
             speed = speeds[0] if joint.speed is None else joint.speed * RPM
             sketch.inputs.append(Input(joint.place, joint=joint.id, speed=speed))

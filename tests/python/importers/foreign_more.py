@@ -259,7 +259,7 @@ LINKAGE = {
             "Link L4 is not connected with the frame",
             "Link L6 is held by a single joint",
             "Joints c6 and c7 are on no link",
-            "scale=0.001 makes them m",
+            "Linkage shows millimeters; coordinates are read as they stand.",
             "Joint 'left & low' is called left_&_low.",
             "Link 'rod (long)' is called rod__long_.",
         ),

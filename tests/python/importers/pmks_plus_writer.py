@@ -39,7 +39,7 @@ class Link:
     """A record of a link."""
 
     id: str
-    joints: str
+    joints: str | tuple[str, ...]
     root: bool = True
     parts: tuple[str, ...] = ()
     kind: str = "R"
@@ -50,7 +50,7 @@ class Link:
         return ",".join([*words, *self.joints, "", *self.parts])
 
 
-def Block(id: str, joints: str) -> Link:  # noqa: A002
+def Block(id: str, joints: str | tuple[str, ...]) -> Link:  # noqa: A002
     """A record of a block."""
     return Link(id, joints, kind="P")
 

@@ -199,6 +199,19 @@ REFUSED = {
         "is no anchor",
     ),
     "a second connector": (XML.replace('id="4" x=', 'id="3" x='), "line 4: a second connector 3"),
+    "a link on a connector": (
+        LINKAGE["actuator, fastened links"].text.replace(
+            '"1" fastenlink="0"', '"1" fastenconnector="0"'
+        ),
+        "line 6: link L1 is fastened to a connector: fasten it to a link",
+    ),
+    "a slider of its own link": (
+        LINKAGE["actuator, fastened links"].text.replace(
+            'x="4" y="4"/>',
+            'x="4" y="4" slider="true"><slidelimit id="1"/><slidelimit id="3"/></connector>',
+        ),
+        "line 3: joint c3 cannot slide between c1 and c3",
+    ),
     "an id of letters": (XML.replace('id="4" x=', 'id="d" x='), "<connector> has the id 'd'"),
     "unclosed XML": (XML.replace("</linkage2>", ""), "this is not XML: no element found"),
     "another XML": ("<linkage3><linkage2/></linkage3>", "<linkage3> is not <linkage2>"),
@@ -232,7 +245,7 @@ def test_refused_with_the_place_and_the_reason(name: str) -> None:
 MECHANICALLY_WRONG = {
     "a truss": (BAR + "a c R 1 2", "mobility"),
     "too loose": (
-        BAR.replace("b c R 3 2", "b c R 3 2\nb d R 5 5\nd e R 6 5\ne ground R 7 7"),
+        BAR.replace("b c R 3 2", "b c R 3 2\nb d R 5 5\nd e R 6 5\ne f R 6 8\nf ground R 7 7"),
         "mobility",
     ),
 }
