@@ -33,7 +33,7 @@ def items_of(source: Source, data: dict[str, Any], key: str) -> list[dict[str, A
     """Return a list of objects."""
     found = data.get(key)
     if not isinstance(found, list) or not found:
-        raise source.error("", f"{key!r} must be a list of objects, not {short(found)}")
+        raise source.wrong("", repr(key), found, "a list of objects")
     for index, item in enumerate(found):
         if not isinstance(item, dict):
             raise source.error(f"{key}[{index}]", f"an object is needed, not {short(item)}")
@@ -44,7 +44,7 @@ def words_of(source: Source, item: dict[str, Any], key: str, place: str) -> list
     """Return a list of names that is not empty."""
     found = item.get(key)
     if not isinstance(found, list) or not found or not all(isinstance(w, str) for w in found):
-        raise source.error(place, f"{key!r} must be a list of names, not {short(found)}")
+        raise source.wrong(place, repr(key), found, "a list of names")
     return found
 
 
@@ -52,7 +52,7 @@ def word_of(source: Source, item: dict[str, Any], key: str, place: str) -> str:
     """Return a name."""
     found = item.get(key)
     if not isinstance(found, str):
-        raise source.error(place, f"{key!r} must be a name, not {short(found)}")
+        raise source.wrong(place, repr(key), found, "a name")
     return found
 
 
@@ -60,6 +60,6 @@ def point_of(source: Source, item: dict[str, Any], key: str, place: str) -> tupl
     """Return two numbers."""
     found = item.get(key)
     if not isinstance(found, list) or len(found) != 2:
-        raise source.error(place, f"{key!r} must be two numbers, not {short(found)}")
+        raise source.wrong(place, repr(key), found, "a list of two numbers")
     x, y = (source.number(number, place, key) for number in found)
     return x, y

@@ -24,8 +24,7 @@ def read_json(source: Source, sketch: Sketch) -> None:
         links = words_of(source, joint, "Links", place)
         kind = joint.get("TypeOfJoint")
         if not isinstance(kind, str) or kind.upper() not in TYPES:
-            problem = f"TypeOfJoint is {short(kind)}: R, P or RP is needed"
-            raise source.error(place, problem)
+            raise source.wrong(place, "TypeOfJoint", kind, "R, P or RP")
         x, y = (source.number(joint.get(what), place, what) for what in "XY")
         kinds.append(kind.upper())
         angle = _json_angle(source, joint, place, links, kinds[-1])

@@ -119,8 +119,8 @@ def _add_joints(
         name = word_of(source, joint, "id", place)
         kind = joint.get("type", "revolute")
         if kind not in TYPES:
-            problem = f"joint {short(name)} is of type {short(kind)}: {', '.join(TYPES)} are known"
-            raise source.error(place, problem, joint=name)
+            known = f"one of {', '.join(TYPES)}"
+            raise source.wrong(place, f"the type of joint {short(name)}", kind, known, joint=name)
         if name in kinds:
             raise source.error(place, f"a second joint {short(name)}", joint=name)
         kinds[name] = joint
@@ -141,7 +141,8 @@ def _add_link(
 ) -> None:
     kind = link.get("type", "link")
     if kind not in ("ground", "driver", "arc_driver", "link"):
-        raise source.error(place, f"link {short(name)} is of type {short(kind)}", link=name)
+        known = "ground, driver, arc_driver or link"
+        raise source.wrong(place, f"the type of link {short(name)}", kind, known, link=name)
     key = GROUND if kind == "ground" else f"{name} " if name == GROUND else name
     for joint in words_of(source, link, "joints", place):
         if joint not in kinds:

@@ -52,9 +52,8 @@ def read_dyads(source: Source, sketch: Sketch, joints: list[dict[str, Any]]) -> 
         name = word_of(source, joint, "name", place)
         kind = joint.get("type")
         if not isinstance(kind, str) or kind not in PARENTS:
-            known = ", ".join(PARENTS)
-            problem = f"joint {short(name)} is of type {short(kind)}: {known} are known"
-            raise source.error(place, problem, joint=name)
+            known = f"one of {', '.join(PARENTS)}"
+            raise source.wrong(place, f"the type of joint {short(name)}", kind, known, joint=name)
         if name in names:
             raise source.error(place, f"a second joint {short(name)}", joint=name)
         names.add(name)
@@ -194,7 +193,8 @@ class _Dyad:
         if isinstance(data, str):
             return data
         if not isinstance(data, dict):
-            raise self._error(f"joint {short(self._name)} has no {key}: {short(data)}")
+            what = f"{key} of joint {short(self._name)}"
+            raise self._source.wrong(self._place, what, data, 'a parent {"ref": "..."}')
         if not data.get("inline"):
             return word_of(self._source, data, "ref", f"{self._place}, {key}")
         name = f"{self._name}_{key}"

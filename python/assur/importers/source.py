@@ -40,6 +40,11 @@ class Source:
         where = ", ".join(part for part in (self.name, place) if part)
         return InputError(f"{where}: {problem}" if where else problem, **fields)
 
+    def wrong(self, place: str, what: str, value: Any, needed: str, **fields: Any) -> InputError:
+        """Return the error for a value that is missing (None) or of the wrong kind."""
+        found = "missing" if value is None else short(value)
+        return self.error(place, f"{what} is {found}: {needed} is needed", **fields)
+
     def require_few(self, count: int, what: str = "joints") -> None:
         """Refuse what no linkage has so many of; the steps that follow may take their square."""
         if count > MOST_PARTS:
@@ -53,7 +58,7 @@ class Source:
             with suppress(ValueError):
                 word = float(word) if plain else word
         if isinstance(word, bool) or not isinstance(word, int | float):
-            raise self.error(place, f"{what} is {short(word)}: a number is needed")
+            raise self.wrong(place, what, word, "a number")
         # An integer may be beyond every float.
         if not -LARGEST_NUMBER <= word <= LARGEST_NUMBER:
             value = float(word) if isinstance(word, float) else math.copysign(math.inf, word)

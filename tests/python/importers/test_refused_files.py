@@ -62,7 +62,9 @@ REFUSED = {
     ),
     "no text": (JSON.replace('"X": 6.0', '"X": "6"x'), "line 7: this is not JSON"),
     "infinity": (JSON.replace('"X": 6.0', '"X": Infinity'), "Infinity is not a number"),
-    "joints that are no list": ('{"Joints": 5}', "'Joints' must be a list of objects, not 5"),
+    "joints that are no list": ('{"Joints": 5}', "'Joints' is 5: a list of objects is needed"),
+    "a missing place": (JSON.replace('"X": 6.0,', ""), "Joints[5]: X is missing: a number is"),
+    "missing links": (JSON.replace('"Links": ["ground", "d"]', '"L": 1'), "'Links' is missing"),
     # PMKS+
     "a cut address": (
         PMKS_PLUS["four-bar, clockwise"].text[:-40],
@@ -107,7 +109,7 @@ REFUSED = {
     ),
     "a type that is not known": (
         BARS.replace('"revolute"', '"cam"', 1),
-        "joint 'A' is of type 'cam'",
+        "the type of joint 'A' is 'cam': one of ground, revolute",
     ),
     "a tracker between links": (
         BARS.replace('"ref_joint2_id": "B"', '"ref_joint2_id": "C"'),
@@ -150,6 +152,14 @@ REFUSED = {
     "no driver in a file": (
         BARS.replace('"driver"', '"link"'),
         "the linkage has no driver: no joint is marked as its input",
+    ),
+    "a dyad without a parent": (
+        DYADS % CRANK.replace("joint0", "joint5"),
+        "joints[1]: joint0 of joint 'A' is missing",
+    ),
+    "a place of three numbers": (
+        BARS.replace("[4, 0]", "[4, 0, 0]"),
+        "joints[3]: 'position' is [4, 0, 0]: a list of two numbers is needed",
     ),
     # pyslvs
     "an expression without drivers": (EXPRESSION % "", "give drivers=[(0, 1)]"),

@@ -127,13 +127,13 @@ def pylinkage(linkage: Linkage) -> str:
         if guide:
             one |= {"axis": [math.cos(guide.angle), math.sin(guide.angle)], "line_point": place}
         joints.append(one)
-    links = [
+    bars = [
         {"id": name, "type": "driver" if name == "L1" else "link", "joints": members}
         | ({"motor_joint": "c0"} if name == "L1" else {})
         for name, members in linkage.links.items()
         if name != "ground"
     ]
-    return json.dumps({"joints": joints, "links": links})
+    return json.dumps({"joints": joints, "links": bars})
 
 
 def linkage2(linkage: Linkage) -> str:
@@ -167,8 +167,8 @@ def linkage2(linkage: Linkage) -> str:
 def pmks_plus(linkage: Linkage) -> str:
     joints, blocks = [], []
     for joint, place in linkage.joints.items():
-        links, guide = at(linkage, joint)
-        flags = ("frame " if "ground" in links else "") + ("input" if joint == "c0" else "")
+        at_joint, guide = at(linkage, joint)
+        flags = ("frame " if "ground" in at_joint else "") + ("input" if joint == "c0" else "")
         joints.append(Joint(joint, place, flags))
         if guide:
             slot = (guide.on, *guide.between) if guide.between else ()
