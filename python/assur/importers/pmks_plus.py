@@ -68,7 +68,7 @@ def read(
         links += records.links_of(opened, f"link {count}", text)
     records.check(opened, joints, links)
     _connect(opened, sketch, joints, links)
-    _drive(opened, sketch, joints, links, speeds)
+    _drive(sketch, joints, links, speeds)
     if links:
         sketch.omitted.append("Masses, inertias and centres of mass are left out.")
     if sections[2]:
@@ -124,7 +124,6 @@ def _slide(
 
 
 def _drive(
-    source: Source,
     sketch: Sketch,
     joints: list[Joint],
     links: list[Link],
@@ -146,5 +145,3 @@ def _drive(
             driven.add(slides[0])
             speed = speeds[1] if joint.speed is None else joint.speed
             sketch.inputs.append(Input(joint.place, slide=slides[0], speed=speed))
-    if not joints:
-        raise source.error("", "no joint is there")

@@ -57,6 +57,7 @@ class Link:
     id: str
     block: bool
     joints: list[str] = field(default_factory=list)
+    parts: list[str] = field(default_factory=list)
 
 
 def payload(text: str) -> str:
@@ -161,13 +162,17 @@ def links_of(source: Source, place: str, text: str) -> list[Link]:
         raise source.error(place, f"the kind {words[0][1]!r} is neither R nor P")
     if words[0][0] in PARTS:
         return []
-    joints = words[7:]
-    joints = joints[: joints.index("")] if "" in joints else joints
-    return [Link(words[0][2:], words[0][1] == "P", joints)]
+    joints, parts = words[7:], []
+    if "" in joints:
+        end = joints.index("")
+        joints, parts = joints[:end], joints[end + 1 :]
+    return [Link(words[0][2:], words[0][1] == "P", joints, parts)]
 
 
 def check(source: Source, joints: list[Joint], links: list[Link]) -> None:
     """Refuse records of one id, and references to what does not exist."""
+    if not joints:
+        raise source.error("", "no joint is there")
     known = {joint.id: joint for joint in joints}
     twice: list[str] = []
     if len(known) != len(joints) or len({link.id for link in links}) != len(links):
@@ -182,7 +187,10 @@ def check(source: Source, joints: list[Joint], links: list[Link]) -> None:
             problem = f"link {short(link.id)} has the joint {joint_id}, which does not exist"
             raise source.error("", problem, link=link.id)
     carriers = {link.id: link for link in links if not link.block}
+    whole_of = {part: link.id for link in links for part in link.parts}
     for joint in joints:
+        # A slot may be on a link that is now part of another.
+        joint.slot[:1] = [whole_of.get(name, name) for name in joint.slot[:1]]
         carrier = carriers.get(joint.slot[0]) if joint.slot else None
         if joint.slot and (carrier is None or not set(joint.slot[1:]) <= set(carrier.joints)):
             both = listed(joint.slot[1:])

@@ -215,7 +215,7 @@ PMKS_PLUS = {
                 Joint("C", (3, -1), "frame"),
                 Joint("D", (2, 3)),
                 Joint("E", (4, 3), "weld"),
-                Joint("P", (1, 0.5), "slides", slot=("CDE", "C", "D")),
+                Joint("P", (1, 0.5), "slides", slot=("CD", "C", "D")),
             ],
             [
                 Link("AB", "AB"),
