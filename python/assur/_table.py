@@ -129,19 +129,60 @@ class Tabular:
         ----------
         degrees : bool
             Angles in degrees; speeds remain rad/s.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Examples
+        --------
+        >>> import assur
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> table = machine.reactions([0.0, 1.0], speed=10.0).to_dataframe(degrees=True)
+        >>> len(table), table.attrs["units"]["q"]
+        (2, 'deg')
+        >>> list(table)[:6]
+        ['q', 'status', 'driver', 'O.x on crank', 'O.y on crank', 'A.x on rod']
         """
         return frame(self._columns(degrees))
 
     def to_excel(self, path: str | PathLike[str], degrees: bool = False) -> None:
-        """Write a workbook, a sheet for each quantity, units in the second row (needs openpyxl)."""
+        """Write a workbook, a sheet for each quantity, units in the second row (needs openpyxl).
+
+        Examples
+        --------
+        >>> import assur, pathlib, tempfile
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> found = machine.reactions([0.0, 1.0], speed=10.0)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     found.to_excel(pathlib.Path(folder, "forces.xlsx"), degrees=True)
+        """
         write_excel(path, self._columns(degrees))
 
     def to_parquet(self, path: str | PathLike[str], degrees: bool = False) -> None:
-        """Write `to_dataframe` as a Parquet file (needs pandas and pyarrow)."""
+        """Write `to_dataframe` as a Parquet file (needs pandas and pyarrow).
+
+        Examples
+        --------
+        >>> import assur, pathlib, tempfile
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> found = machine.reactions([0.0, 1.0], speed=10.0)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     found.to_parquet(pathlib.Path(folder, "forces.parquet"))
+        """
         write_parquet(path, self._columns(degrees))
 
     def to_xarray(self, degrees: bool = False) -> Any:
-        """Return `to_dataframe` as an xarray Dataset over its rows (needs xarray), with units."""
+        """Return `to_dataframe` as an xarray Dataset over its rows (needs xarray), with units.
+
+        Examples
+        --------
+        >>> import assur
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> data = machine.reactions([0.0, 1.0], speed=10.0).to_xarray()
+        >>> dict(data.sizes), data["driver"].attrs["units"]
+        ({'row': 2}, 'N m')
+        """
         try:
             import xarray as xr
         except ImportError as error:  # pragma: no cover

@@ -38,6 +38,17 @@ class AssurError(Exception):
         The time, s.
     value : float or None
         The wrong number, or by how much something fails.
+
+    Examples
+    --------
+    Read the fields rather than the message:
+
+    >>> import assur
+    >>> try:
+    ...     assur.FourBar(1.0, 9.0, 2.5, 3.0).solve(0.5)
+    ... except assur.AssurError as error:
+    ...     print(error.kind, error.joint, error.q)
+    not_closed C 0.5
     """
 
     def __init__(
@@ -76,24 +87,98 @@ class AssurError(Exception):
 
 
 class StructureError(AssurError, ValueError):
-    """An invalid linkage, or one whose mobility differs from its number of drivers."""
+    """An invalid linkage, or one whose mobility differs from its number of drivers.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.Mechanism(
+    ...     joints={"A": (0, 0), "B": (1, 0), "C": (0, 1)},
+    ...     links={"ground": "AC", "crank": "AB", "rod": "BC"},
+    ...     driver="crank",
+    ... )
+    Traceback (most recent call last):
+    ...
+    assur.errors.StructureError: the linkage cannot move (mobility 0, counted 0 by ...
+    """
 
 
 class DimensionError(AssurError, ValueError):
-    """A dimension that is not finite or out of range, or a length that is not positive."""
+    """A dimension that is not finite or out of range, or a length that is not positive.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.FourBar(1.0, -3.0, 2.5, 3.0)
+    Traceback (most recent call last):
+    ...
+    assur.errors.DimensionError: dimension "coupler.length" is -3: a length must be positive
+    """
 
 
 class InputError(AssurError, ValueError):
-    """A wrong argument: an unknown name, a shape, an order, a NaN."""
+    """A wrong argument: an unknown name, a shape, an order, a NaN.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(0.0, order=4)
+    Traceback (most recent call last):
+    ...
+    assur.errors.InputError: order is 4: 0, 1, 2 or 3
+    """
 
 
 class PositionError(AssurError, ArithmeticError):
-    """A position that this assembly cannot reach, or without the analogues needed."""
+    """A position that this assembly cannot reach, or without the analogues needed.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.FourBar(1.0, 9.0, 2.5, 3.0).solve(0.5)
+    Traceback (most recent call last):
+    ...
+    assur.errors.PositionError: at q = 0.5, dyad "C" cannot be assembled: its links miss ...
+    """
 
 
 class MotionError(AssurError, ArithmeticError):
-    """A motion in time that does not exist: a stall, a runaway, no balance, no periodic motion."""
+    """A motion in time that does not exist: a stall, a runaway, no balance, no periodic motion.
+
+    Examples
+    --------
+    A motor that is too weak for its load:
+
+    >>> import assur
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4),
+    ...     bodies={"crank": assur.Body(inertia=0.5)},
+    ...     loads=[assur.Torque("crank", -3.0)],
+    ...     motor=assur.LinearMotor(stall=1.0, no_load=10.0),
+    ... )
+    >>> machine.steady_state()
+    Traceback (most recent call last):
+    ...
+    assur.errors.MotionError: the motor cannot carry the load: even at 10 rad/s the machine ...
+    """
 
 
 class AssurWarning(UserWarning):
-    """Worth knowing; the computation continues."""
+    """Worth knowing; the computation continues.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import assur
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4),
+    ...     bodies={"piston": assur.Body(mass=20.0)},
+    ...     loads=[assur.Torque("crank", -3.0)],
+    ...     motor=assur.ConstantTorque(5.0),
+    ... )
+    >>> with warnings.catch_warnings(record=True) as found:
+    ...     warnings.simplefilter("always", assur.AssurWarning)
+    ...     flywheel = machine.flywheel(fluctuation=0.05, mean_speed=20.0)
+    >>> print(found[0].message)
+    the motor gives the driver 5 N·m, the loads take 3 on average: the flywheel is sized for ...
+    """

@@ -1,7 +1,7 @@
 """Input laws: how a driver moves over time from one coordinate to another.
 
 Each is a motion from `start` to `end` within `duration`, at rest before and after. With x from 0 to
-1 the part of the time, s(x) from 0 to 1 is the part of the way.
+1 the part of the time, s(x) from 0 to 1 is the part of the way [1]_.
 
 References
 ----------

@@ -39,6 +39,14 @@ class MomentBounds:
     ----------
     x, y : (float, float)
         Least and greatest mass × coordinate from the link's first joint, kg·m; infinite: no bound.
+
+    Examples
+    --------
+    At most 0.5 kg·m opposite the crank's pin:
+
+    >>> import assur
+    >>> assur.balance.MomentBounds(x=(-0.5, 0.0))
+    MomentBounds(x=(-0.5, 0.0), y=(-inf, inf))
     """
 
     x: tuple[float, float] = (-math.inf, math.inf)

@@ -33,6 +33,14 @@ class Harmonics:
     cosine, sine : ndarray
         Coefficients of cos n q and sin n q, (..., count + 1), in the quantity's unit; the mean is
         `cosine[..., 0]`.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 36, endpoint=False)
+    >>> found = assur.balance.harmonics(q, 5.0 + 3.0 * np.cos(q) + 4.0 * np.sin(q), count=2)
+    >>> found.amplitude.round(6)
+    array([5., 5., 0.])
     """
 
     cosine: Float
@@ -60,6 +68,17 @@ class RotatingParts:
         of n = 0 is the mean force, `backward` of n = 0 is 0.
     forward_angle, backward_angle : ndarray
         Their directions at q = 0, rad.
+
+    Examples
+    --------
+    A force that rotates with the driver, as of a weight on the crank:
+
+    >>> import assur, numpy as np
+    >>> q = np.linspace(0, 2 * np.pi, 36, endpoint=False)
+    >>> force = 7.0 * np.stack([np.cos(q), np.sin(q)], axis=-1)
+    >>> found = assur.balance.rotating_parts(q, force, count=2)
+    >>> found.forward.round(6), found.backward.round(6)
+    (array([0., 7., 0.]), array([0., 0., 0.]))
     """
 
     forward: Float
@@ -143,9 +162,9 @@ def rotating_parts(q: npt.ArrayLike, force: npt.ArrayLike, count: int = 6) -> Ro
 
     Notes
     -----
-    Each harmonic draws an ellipse with the semi-axes forward + backward and |forward − backward|. A
-    rotating counterweight can take away a forward part; backward ones take shafts that turn
-    against the driver (F. W. Lanchester's).
+    Each harmonic draws an ellipse with the semi-axes forward + backward and
+    ``|forward − backward|``. A rotating counterweight can take away a forward part;
+    backward ones take shafts that turn against the driver (F. W. Lanchester's).
 
     Examples
     --------

@@ -25,6 +25,13 @@ class Group:
         Its links.
     joints, slides : tuple of str
         The joints and slides of its pairs, inner and outer.
+
+    Examples
+    --------
+    >>> import assur
+    >>> group = assur.SliderCrank(1.0, 3.0).structure.groups[0]
+    >>> group.cls, group.order, group.kind, group.links
+    (2, 2, 'RRP', ('rod', 'piston'))
     """
 
     cls: int

@@ -9,7 +9,15 @@ __all__ = ["Cylinder", "Drive", "Slide", "Status"]
 
 
 class Status(IntEnum):
-    """Result of solving one position; the codes of ``Motion.status``."""
+    """Result of solving one position; the codes of ``Motion.status``.
+
+    Examples
+    --------
+    >>> import assur
+    >>> motion = assur.FourBar(3.0, 2.5, 2.0, 4.0).solve([0.0, 2.0], on_error="nan")
+    >>> [assur.Status(code).name for code in motion.status]
+    ['OK', 'UNREACHABLE']
+    """
 
     OK = 0
     """Solved."""

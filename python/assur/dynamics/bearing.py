@@ -39,6 +39,15 @@ class Bearing:
         three links or more, unless `against` names one.
     q : ndarray
         Coordinates, S + (N,); with n drivers (..., n).
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> force = assur.Force("B", (-1000.0, 0.0), on="piston")
+    >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+    >>> pin = machine.reactions([0.0, np.pi / 2], speed=10.0).bearing("B", on="piston")
+    >>> pin.size.round(6), pin.relative_speed.round(6)  # N, rad/s
+    (array([1000., 1250.]), array([6., 0.]))
     """
 
     angle: Any
@@ -70,6 +79,20 @@ class Bearing:
         ----------
         diameter, width : float
             Of the bearing, m.
+
+        Returns
+        -------
+        ndarray
+            Pa, S + (N,).
+
+        Examples
+        --------
+        >>> import assur
+        >>> force = assur.Force("B", (-1000.0, 0.0), on="piston")
+        >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+        >>> pin = machine.reactions(0.0, speed=10.0).bearing("B", on="piston")
+        >>> pin.pressure(diameter=0.02, width=0.05).round(1)  # Pa
+        np.float64(1000000.0)
         """
         d, b = (
             real_number(positive_number(value, name), name)
@@ -89,7 +112,7 @@ class Bearing:
         Returns
         -------
         ndarray
-            Pressure × |relative speed| × diameter / 2, S + (N,).
+            ``pressure × |relative speed| × diameter / 2``, S + (N,).
 
         Raises
         ------
@@ -101,6 +124,15 @@ class Bearing:
         ----------
         J. E. Shigley, C. R. Mischke, *Mechanical Engineering Design*, on boundary-lubricated
         bearings.
+
+        Examples
+        --------
+        >>> import assur
+        >>> force = assur.Force("B", (-1000.0, 0.0), on="piston")
+        >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+        >>> pin = machine.reactions(0.0, speed=10.0).bearing("B", on="piston")
+        >>> pin.pv(diameter=0.02, width=0.05).round(1)  # 1e6 Pa at 6 rad/s · 0.01 m
+        np.float64(60000.0)
         """
         pressure = self.pressure(diameter, width)
         if self.relative_speed is None:

@@ -79,12 +79,30 @@ class Counterweight:
         return self.moment / self.mass if self.mass > 0.0 else 0.0
 
     def with_radius(self, radius: float) -> Counterweight:
-        """Return this weight with the mass that it needs at a radius, m."""
+        """Return this weight with the mass that it needs at a radius, m.
+
+        Examples
+        --------
+        >>> import assur
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> (weight,) = assur.balance.slider_crank(machine, fraction=0.5)
+        >>> weight.with_radius(0.2).mass  # kg
+        5.0
+        """
         at = real_number(positive_number(radius, "radius"), "radius")
         return replace(self, mass=self.moment / at)
 
     def with_mass(self, mass: float) -> Counterweight:
-        """Return this weight with a mass, kg, at the radius that it then needs."""
+        """Return this weight with a mass, kg, at the radius that it then needs.
+
+        Examples
+        --------
+        >>> import assur
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> (weight,) = assur.balance.slider_crank(machine, fraction=0.5)
+        >>> weight.with_mass(10.0).radius  # m
+        0.1
+        """
         return replace(self, mass=real_number(positive_number(mass, "mass"), "mass"))
 
 

@@ -62,6 +62,17 @@ class Duty(NamedTuple):
     efficiency : float or ndarray
         1 − lost/max(energy, lost − energy): what comes out of what goes in, whichever way energy
         flows over the cycle; NaN if none flows.
+
+    Examples
+    --------
+    A constant force takes as much on the way out as it gives on the way back:
+
+    >>> import assur, numpy as np
+    >>> force = assur.Force("B", (-1000.0, 0.0))
+    >>> machine = assur.Machine(assur.SliderCrank(crank=0.1, rod=0.4), loads=[force])
+    >>> duty = machine.duty(np.linspace(0, 2 * np.pi, 72, endpoint=False), speed=10.0)
+    >>> round(float(duty.work_in), 2), round(float(duty.work_out), 2)  # J: 1000 N · 0.2 m
+    (200.0, 200.0)
     """
 
     effort: Any

@@ -43,6 +43,23 @@ class Equilibria(NamedTuple):
     indifferent : ndarray
         Ends of the intervals within which the moment is zero to rounding (a balanced crank: the
         whole turn), (L, 2). No q within them is listed.
+
+    Examples
+    --------
+    A pendulum hangs, or stands where it falls at the least push:
+
+    >>> import assur, numpy as np
+    >>> pendulum = assur.Mechanism(
+    ...     joints={"O": (0, 0), "A": (0.2, 0)},
+    ...     links={"ground": ["O"], "rod": ["O", "A"]},
+    ...     driver="rod",
+    ... )
+    >>> bob = assur.Body(mass=3.0, at="A")
+    >>> rest = assur.Machine(pendulum, {"rod": bob}, [assur.Gravity()]).equilibria()
+    >>> rest.q.round(6), rest.stable
+    (array([-1.570796,  1.570796]), array([ True, False]))
+    >>> rest.frequency[0].round(6), np.sqrt(9.81 / 0.2).round(6)  # rad/s
+    (np.float64(7.003571), np.float64(7.003571))
     """
 
     q: Float

@@ -25,8 +25,8 @@ class JointFriction:
     """Friction of the journals at a joint.
 
     The pin is fast in the first link of the description that has the joint; each other one rubs on
-    it with the whole force F on it: the moment is coefficient · radius · |F| against the turning,
-    tangent to the friction circle.
+    it with the whole force F on it: the moment is coefficient · radius · ``|F|`` against the
+    turning, tangent to the friction circle.
 
     Parameters
     ----------
@@ -66,8 +66,8 @@ class SlideFriction:
 
     It touches the guide at both ends of a length that is centred on the sliding point and moves
     with the sliding link. With the normal force N and the moment M about that point the ends bear
-    N/2 ± M/length, so the force of friction is coefficient · max(|N|, 2 |M|/length): the link lies
-    on one side of the guide, or tilts and touches both.
+    N/2 ± M/length, so the force of friction is coefficient · ``max(|N|, 2 |M|/length)``: the link
+    lies on one side of the guide, or tilts and touches both.
 
     Parameters
     ----------

@@ -37,6 +37,14 @@ class LoadExtremes(NamedTuple):
         N or N·m, (N,).
     least_x, greatest_x : ndarray
         Distance from the first joint, m, (N,).
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> force = assur.Force("B", (-1000.0, 0.0), on="piston")
+    >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+    >>> machine.internal_loads("rod", np.pi / 2).extremes("axial").least.round(6)  # N
+    np.float64(-1250.0)
     """
 
     least: Any
@@ -61,6 +69,17 @@ class InternalLoads:
         where a load acts, all three are those just beyond it (at the end just before it).
     q : ndarray
         Coordinates of the positions.
+
+    Examples
+    --------
+    A rod that is pressed along its line carries neither shear nor bending:
+
+    >>> import assur, numpy as np
+    >>> force = assur.Force("B", (-1000.0, 0.0), on="piston")
+    >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+    >>> inside = machine.internal_loads("rod", np.pi / 2)
+    >>> inside.axial[..., 0].round(6), inside.shear[..., 0].round(6)  # N: −1000 · 5/4
+    (np.float64(-1250.0), np.float64(0.0))
     """
 
     def __init__(
@@ -95,6 +114,16 @@ class InternalLoads:
         -------
         LoadExtremes
             Exact: not of the places `x`, but where the slope vanishes, or at a load.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> rod = assur.Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), {"rod": rod})
+        >>> inside = machine.internal_loads("rod", np.pi / 2, speed=100.0)
+        >>> found = inside.extremes("moment")
+        >>> print(f"{found.least:.2f} N·m at {found.least_x:.3f} m")
+        -23.77 N·m at 0.144 m
         """
         one_of(quantity, QUANTITIES, "quantity")
         found = (part.reshape(self._shape)[()] for part in self._beam.extremes(quantity))
@@ -121,6 +150,16 @@ class InternalLoads:
         ------
         InputError
             No position with a value.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> rod = assur.Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), {"rod": rod})
+        >>> inside = machine.internal_loads("rod", np.linspace(0.0, np.pi, 37), speed=100.0)
+        >>> peak = inside.peak("moment")
+        >>> print(f"{peak.value:.2f} N·m at {peak.x:.3f} m, {np.degrees(peak.q):.1f}°")
+        -28.12 N·m at 0.152 m, 61.4°
         """
         one_of(quantity, QUANTITIES, "quantity")
         one_of(of, MEASURES, "of")

@@ -40,6 +40,21 @@ class SelfLocking(NamedTuple):
     holding : ndarray
         Ends of those in which the loads would drive the machine without friction, but friction
         holds it: the drive must help, (K, 2).
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> press = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4),
+    ...     loads=[assur.Force("B", (-1000.0, 0.0))],
+    ...     friction={name: assur.JointFriction(0.1, radius=0.03) for name in "OAB"},
+    ... )
+
+    The force alone starts nothing within:
+
+    >>> np.degrees(press.self_locking().holding).round(2)
+    array([[  0.  ,   3.1 ],
+           [175.98, 180.  ]])
     """
 
     locked: Float

@@ -347,13 +347,14 @@ class Machine(MachineModel):
         -----
         The effort between positions is the cubic through the four nearest; so are its square over
         the speed, for the rms, and 1/speed, for the time. Means are over time. With steps h an
-        extreme is off by up to h⁴ |f⁗|/42 (in the first and last step of an open range h⁴ |f⁗|/24),
-        and by up to h |f′| where loads are not smooth. If the positions cover whole turns and the
-        effort ends as it began, the cubics go on across the ends; with even steps the energy is
-        then that of the trapezoidal rule, which for smooth periodic functions converges faster than
-        any power of h (L. N. Trefethen and J. A. C. Weideman, SIAM Review 56 (2014) 385). Even
-        steps may leave out the end of the turn, as `np.linspace(0, 2 * np.pi, n, endpoint=False)`
-        does: its position is added. Otherwise all numbers are over the range of the positions.
+        extreme is off by up to ``h⁴ |f⁗|/42`` (in the first and last step of an open range
+        ``h⁴ |f⁗|/24``), and by up to ``h |f′|`` where loads are not smooth. If the positions cover
+        whole turns and the effort ends as it began, the cubics go on across the ends; with even
+        steps the energy is then that of the trapezoidal rule, which for smooth periodic functions
+        converges faster than any power of h (L. N. Trefethen and J. A. C. Weideman, SIAM Review 56
+        (2014) 385). Even steps may leave out the end of the turn, as `np.linspace(0, 2 * np.pi, n,
+        endpoint=False)` does: its position is added. Otherwise all numbers are over the range of
+        the positions.
         The steps of a run or steady state are uneven and long: the energy has about four digits. It
         has more at closer positions: ``machine.duty(run.at(times))``, or
         ``machine.duty(steady.at(angles))``.

@@ -52,6 +52,17 @@ class SlideReaction(NamedTuple):
         moment / normal, m.
     friction : ndarray
         Force of friction along the guide, N; 0 without.
+
+    Examples
+    --------
+    A force beside the piston's pin tilts the piston:
+
+    >>> import assur, numpy as np
+    >>> force = assur.Force(("piston", (0.0, 0.01)), (-1000.0, 0.0))
+    >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+    >>> bore = machine.reactions(np.pi / 2).slide("bore")
+    >>> bore.normal.round(6), bore.moment.round(6), bore.along.round(6)  # N, N·m, m
+    (np.float64(750.0), np.float64(-10.0), np.float64(0.386667))
     """
 
     normal: Any
@@ -99,6 +110,17 @@ class Reactions(Tabular):
         By what all coefficients of friction can be multiplied before the solution ends to which
         friction leads as it grows from nothing: below 1 where this one does not follow from it. At
         most 1e6.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+    >>> found = machine.reactions([np.pi / 3, np.pi / 2], speed=10.0)
+    >>> found.shaking_force.round(3)  # N
+    array([[ 75.022,   0.   ],
+           [-51.64 ,   0.   ]])
+    >>> found.driver.round(3)  # N·m
+    array([ 7.329, -5.164])
     """
 
     def __init__(
@@ -257,6 +279,20 @@ class Reactions(Tabular):
         ------
         InputError
             A joint or link that does not exist, or a link without this joint.
+
+        Examples
+        --------
+        A pin of 0.02 m with f = 0.1 that bears 1000 N:
+
+        >>> import assur
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4),
+        ...     loads=[assur.Force("B", (-1000.0, 0.0), on="piston")],
+        ...     friction={"B": assur.JointFriction(0.1, radius=0.02)},
+        ... )
+        >>> found = machine.reactions(0.0, speed=10.0)
+        >>> found.joint_moment("B", on="rod").round(3)  # N·m
+        np.float64(2.0)
         """
         key = key_of_joint(self._mechanism, checked_name(name, "joint"), checked_name(on, "on"))
         moment = self._found.get(Key("joint moment", key.index, key.on))
@@ -284,6 +320,16 @@ class Reactions(Tabular):
         ------
         InputError
             A joint or link that does not exist, or a link without this joint.
+
+        Examples
+        --------
+        What the rod does to the piston, the crank to the rod:
+
+        >>> import assur
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> found = machine.reactions(0.0, speed=10.0)
+        >>> found.joint("B", on="piston"), found.joint("A", on="rod")  # N
+        (array([-250.,   -0.]), array([-250.,   -0.]))
         """
         core = self._mechanism._core
         key = key_of_joint(self._mechanism, checked_name(name, "joint"), checked_name(on, "on"))
@@ -352,6 +398,14 @@ class Reactions(Tabular):
         SlideReaction
             Normal force and moment about the sliding point on the sliding link, where on the guide
             their resultant acts, and friction.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> force = assur.Force("B", (-1000.0, 0.0))
+        >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+        >>> machine.reactions(np.pi / 2).slide("bore").normal.round(6)  # N: 1000 · 3/4
+        np.float64(750.0)
         """
         index = self._mechanism._core.require("slide", checked_name(name, "slide"))
         normal, moment, along = (

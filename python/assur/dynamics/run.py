@@ -28,7 +28,16 @@ END_ULPS = 4.0
 
 
 class State(NamedTuple):
-    """The motion at one or more times: time, coordinate, speed and acceleration of the driver."""
+    """The motion at one or more times: time, coordinate, speed and acceleration of the driver.
+
+    Examples
+    --------
+    >>> import assur
+    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> run = machine.run(t_end=1.0, q0=0.0, speed0=3.0)
+    >>> run.at(0.5).q.round(6), run.at(0.5).speed  # rad, rad/s
+    (np.float64(1.5), np.float64(3.0))
+    """
 
     t: Any
     q: Any
@@ -95,6 +104,15 @@ class EventRecord(NamedTuple):
         if the mechanism itself ended the run.
     t, q, speed
         Time, s, and the driver's coordinate and speed.
+
+    Examples
+    --------
+    >>> import assur
+    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> run = machine.run(t_end=1.0, q0=0.0, speed0=3.0, events=[assur.events.Position(1.5)])
+    >>> event = run.events[0]
+    >>> event.event, round(event.t, 6), event.speed
+    (Position(q=1.5, stop=True, driver=0, direction='either'), 0.5, 3.0)
     """
 
     event: Any
@@ -114,6 +132,14 @@ class Energy(NamedTuple):
         Work since the start of all other loads, of motors and dampers.
     balance : ndarray
         kinetic + potential − work, minus its initial value: 0 but for integration errors.
+
+    Examples
+    --------
+    >>> import assur
+    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> energy = machine.run(t_end=1.0, q0=0.0, speed0=3.0).energy
+    >>> energy.kinetic[-1].round(6), bool(abs(energy.balance).max() < 1e-12)  # J
+    (np.float64(2.25), True)
     """
 
     kinetic: Float
@@ -143,6 +169,14 @@ class Statistics(NamedTuple):
         Restarts at knots of tables, breaks and corners.
     smallest_step, largest_step : float or None
         Step sizes, s (over q: rad or m).
+
+    Examples
+    --------
+    >>> import assur
+    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> statistics = machine.run(t_end=1.0, q0=0.0, speed0=3.0).statistics
+    >>> statistics.steps > 0, statistics.rejected, statistics.restarts
+    (True, 0, 0)
     """
 
     steps: int
@@ -248,6 +282,18 @@ class Run(Tabular):
         ------
         InputError
             A time (or coordinate) outside the run; the run may have ended early.
+
+        Examples
+        --------
+        >>> import assur
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4),
+        ...     bodies={"crank": assur.Body(inertia=0.5)},
+        ...     loads=[assur.Torque("crank", 2.0)],
+        ... )
+        >>> run = machine.run(t_end=1.0, q0=0.0)
+        >>> run.at([0.5, 1.0]).speed.round(6)  # rad/s: 4 rad/s² for t
+        array([2., 4.])
         """
         own, other, name = (q, t, "q") if self._along_q else (t, q, "t")
         if own is None or other is not None:
@@ -329,6 +375,14 @@ class Run(Tabular):
         Returns
         -------
         matplotlib axes
+
+        Examples
+        --------
+        >>> import assur
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+        >>> axes = machine.run(t_end=1.0, q0=0.0, speed0=3.0).plot("q")
+        >>> axes.get_xlabel(), axes.get_ylabel()
+        ('t, s', 'q, rad')
         """
         from assur._plot import run_picture
 

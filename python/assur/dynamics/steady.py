@@ -59,6 +59,19 @@ class SteadyState(Tabular):
         Constant moment added to keep the required speed, N·m; 0 if the motor sets the speed.
     inertia : float
         Moment of inertia of the flywheel added, kg·m².
+
+    Examples
+    --------
+    >>> import assur
+    >>> driven = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4),
+    ...     bodies={"piston": assur.Body(mass=20.0), "crank": assur.Body(inertia=0.5)},
+    ...     loads=[assur.Torque("crank", -20.0)],
+    ...     motor=assur.LinearMotor(stall=50.0, no_load=15.0),
+    ... )
+    >>> steady = driven.steady_state()
+    >>> print(f"{steady.mean_speed:.4f} rad/s, δ = {steady.delta:.4f}, {steady.period:.4f} s")
+    9.0317 rad/s, δ = 0.1743, 0.7006 s
     """
 
     def __init__(
@@ -105,6 +118,19 @@ class SteadyState(Tabular):
         -------
         State
             t (0 at the start of the period), q, speed and acceleration, of the shape of q.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> driven = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4),
+        ...     bodies={"piston": assur.Body(mass=20.0), "crank": assur.Body(inertia=0.5)},
+        ...     loads=[assur.Torque("crank", -20.0)],
+        ...     motor=assur.LinearMotor(stall=50.0, no_load=15.0),
+        ... )
+        >>> steady = driven.steady_state()
+        >>> steady.at([0.0, 2 * np.pi]).speed.round(6)  # rad/s: the same a period later
+        array([9.79407, 9.79407])
         """
         x = finite_array(q, "q")
         first, last = float(self.q[0]), float(self.q[-1])
@@ -131,6 +157,19 @@ class SteadyState(Tabular):
         Returns
         -------
         matplotlib axes
+
+        Examples
+        --------
+        >>> import assur
+        >>> driven = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4),
+        ...     bodies={"piston": assur.Body(mass=20.0), "crank": assur.Body(inertia=0.5)},
+        ...     loads=[assur.Torque("crank", -20.0)],
+        ...     motor=assur.LinearMotor(stall=50.0, no_load=15.0),
+        ... )
+        >>> axes = driven.steady_state().plot()
+        >>> axes.get_xlabel(), axes.get_ylabel()
+        ('q, rad', 'ω, rad/s')
         """
         from assur._plot import steady_picture
 

@@ -248,6 +248,15 @@ class Assemblies(list[Assembly]):
     is_complete : bool
         Whether no assembly can be missing: failures, if any, are at infinity or where two
         assemblies meet.
+
+    Examples
+    --------
+    >>> import assur
+    >>> found = assur.FourBar(1.0, 3.0, 2.5, 3.0).assemblies(1.0)
+    >>> len(found), found.complex_count, found.is_complete
+    (2, (), True)
+    >>> [tuple(round(x, 4) for x in assembly.joints["C"]) for assembly in found]  # m
+    [(3.0404, 2.4997), (1.5008, -2.0006)]
     """
 
     __slots__ = ("complex_count", "failures", "is_complete")

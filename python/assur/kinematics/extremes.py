@@ -28,7 +28,14 @@ FINEST = 2e-11
 
 
 class ValueAt(NamedTuple):
-    """A value, and the driver's coordinate where it is taken."""
+    """A value, and the driver's coordinate where it is taken.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.SliderCrank(1.0, 3.0).extremes("bore").greatest
+    ValueAt(value=4.0, q=0.0)
+    """
 
     value: float
     q: float
@@ -47,6 +54,15 @@ class Extremes:
     time_ratio : float or None
         Of the way from one extreme to the other and back at constant speed: the longer time over
         the shorter; None if the driver does not go round.
+
+    Examples
+    --------
+    The stroke of a slider-crank with an offset, and how much quicker its way back is:
+
+    >>> import assur
+    >>> bore = assur.SliderCrank(1.0, 3.0, 0.5).extremes("bore")
+    >>> round(bore.stroke, 6), round(bore.time_ratio, 6)
+    (2.032135, 1.084501)
     """
 
     least: ValueAt

@@ -43,6 +43,14 @@ class DeadPoint:
         Coordinate of the driver, rad or m.
     group : str or None
         The dyad or group that is flat there; None where two guides become parallel.
+
+    Examples
+    --------
+    >>> import assur
+    >>> for point in assur.FourBar(3.0, 2.5, 2.0, 4.0).limits().dead_points:
+    ...     print(f"{point.q:.5f} rad, {point.group}")
+    -1.37156 rad, II(coupler, rocker)
+    1.37156 rad, II(coupler, rocker)
     """
 
     q: float
@@ -63,6 +71,15 @@ class Limits:
         Whether the driver goes round and the motion closes.
     period : int or None, or ndarray
         Turns until the motion closes; None (NaN in a batch) if it does not.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.FourBar(3.0, 2.5, 2.0, 4.0).limits().intervals.round(5)
+    array([[-1.37156,  1.37156]])
+    >>> turning = assur.FourBar(1.0, 3.0, 2.5, 3.0).limits()
+    >>> turning.full_rotation, turning.period
+    (True, 1)
     """
 
     intervals: Float

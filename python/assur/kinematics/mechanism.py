@@ -553,7 +553,25 @@ class Mechanism:
         return designs_of(self, index)
 
     def design(self, index: int | tuple[int, ...]) -> Mechanism:
-        """Return one design of a batch as a single mechanism."""
+        """Return one design of a batch as a single mechanism.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Index into `shape`.
+
+        Returns
+        -------
+        Mechanism
+            One design, of shape ().
+
+        Examples
+        --------
+        >>> import assur
+        >>> batch = assur.FourBar(crank=1.0, coupler=[2.8, 3.0, 3.2], rocker=2.5, ground=3.0)
+        >>> batch.shape, batch.design(2).dimensions["coupler.length"]
+        ((3,), 3.2)
+        """
         entry = checked_index(index, self.shape, "design")
         values = np.array(np.moveaxis(self._values, 0, -1)[entry])
         self._core.check_dimensions(values.tolist())
@@ -982,6 +1000,13 @@ class Mechanism:
         Returns
         -------
         matplotlib.axes.Axes
+
+        Examples
+        --------
+        >>> import assur
+        >>> axes = assur.FourBar(1.0, 3.0, 2.5, 3.0).plot(q=1.0)
+        >>> axes.get_xlabel(), axes.get_aspect()
+        ('x, m', 1.0)
         """
         from assur._plot import mechanism_picture
 

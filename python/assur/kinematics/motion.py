@@ -39,6 +39,15 @@ class Motion:
         Highest order of the analogues.
     kept : numpy.ndarray or None
         After a sweep with ``on_error="drop"``: indices of its designs among all.
+
+    Examples
+    --------
+    >>> import assur
+    >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve([0.0, 1.0, 2.0])
+    >>> motion.shape, motion.order
+    ((3,), 2)
+    >>> motion["rocker"].value.round(6)  # rad
+    array([1.696124, 1.554646, 1.894736])
     """
 
     def __init__(
@@ -130,6 +139,24 @@ class Motion:
         """Return the position of a joint, m, with its analogues.
 
         Of a sequence of names, arrays are stacked along a new first axis.
+
+        Parameters
+        ----------
+        name : str or sequence of str
+            The joint, or several.
+
+        Returns
+        -------
+        Analogues
+            Values of shape S + (N, 2).
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> motion = assur.SliderCrank(crank=0.1, rod=0.4).solve([0.0, np.pi / 2])
+        >>> motion.joint("A").value  # m
+        array([[0.1, 0. ],
+               [0. , 0.1]])
         """
         return self._quantity("joint", self._results.joints, name)
 
@@ -137,6 +164,23 @@ class Motion:
         """Return the angle of a link, rad, continuous along q, with its analogues.
 
         Of a sequence of names, arrays are stacked along a new first axis.
+
+        Parameters
+        ----------
+        name : str or sequence of str
+            The link, or several.
+
+        Returns
+        -------
+        Analogues
+            Values of shape S + (N,).
+
+        Examples
+        --------
+        >>> import assur
+        >>> motion = assur.SliderCrank(crank=0.1, rod=0.4).solve([0.0, 7.0])
+        >>> motion.link("crank").value  # rad; not reduced to a turn
+        array([0., 7.])
         """
         return self._quantity("link", self._results.links, name)
 
@@ -144,6 +188,23 @@ class Motion:
         """Return the value of a slide, m, with its analogues.
 
         Of a sequence of names, arrays are stacked along a new first axis.
+
+        Parameters
+        ----------
+        name : str or sequence of str
+            The slide, or several.
+
+        Returns
+        -------
+        Analogues
+            Values of shape S + (N,).
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> motion = assur.SliderCrank(crank=0.1, rod=0.4).solve([0.0, np.pi])
+        >>> motion.slide("bore").value  # m
+        array([0.5, 0.3])
         """
         return self._quantity("slide", self._results.slides, name)
 
@@ -253,6 +314,24 @@ class Motion:
         """Return the curvature of a joint's path, 1/m, positive where it turns left as q grows.
 
         NaN where the joint stands still (a cusp or a dwell).
+
+        Parameters
+        ----------
+        joint : str
+            The joint.
+
+        Returns
+        -------
+        ndarray
+            1/m, S + (N,).
+
+        Examples
+        --------
+        A crank's pin goes round a circle of 0.1 m:
+
+        >>> import assur
+        >>> assur.SliderCrank(crank=0.1, rod=0.4).solve([0.0, 1.0]).curvature("A")
+        array([10., 10.])
         """
         self._require_one_driver("curvature")
         point = self.joint(joint)
@@ -264,6 +343,25 @@ class Motion:
 
         Infinite where the relative motion is a translation, NaN where there is
         none.
+
+        Parameters
+        ----------
+        link, other : str
+            The links.
+
+        Returns
+        -------
+        ndarray
+            m, S + (N, 2).
+
+        Examples
+        --------
+        At a dead point the rod turns about the piston's pin:
+
+        >>> import assur
+        >>> motion = assur.SliderCrank(crank=3.0, rod=5.0).solve(0.0)
+        >>> motion.instant_centre("rod")
+        array([8., 0.])
         """
         self._require_one_driver("instant_centre")
         parts = [
@@ -281,6 +379,25 @@ class Motion:
 
         Input and output power are equal, so it is the inverse of the output's first
         analogue: infinite where the output is at rest.
+
+        Parameters
+        ----------
+        name : str
+            The link or slide.
+
+        Returns
+        -------
+        ndarray
+            S + (N,); of a link without unit, of a slide 1/m.
+
+        Examples
+        --------
+        With the crank at a right angle to the bore 1 N·m presses with 10 N:
+
+        >>> import assur, numpy as np
+        >>> motion = assur.SliderCrank(crank=0.1, rod=0.4).solve(np.pi / 2)
+        >>> motion.mechanical_advantage("bore").round(6)
+        np.float64(-10.0)
         """
         self._require_one_driver("mechanical_advantage")
         is_slide = checked_name(name, "mechanical_advantage") in self.mechanism.slides
@@ -373,7 +490,25 @@ class Motion:
         return self._diagnostics
 
     def coordinate(self, index: int | tuple[int, ...]) -> float | tuple[float, ...]:
-        """Return the driver's coordinate at an index into `shape`; a tuple for several drivers."""
+        """Return the driver's coordinate at an index into `shape`; a tuple for several drivers.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Index into `shape`.
+
+        Returns
+        -------
+        float or tuple of float
+            rad or m.
+
+        Examples
+        --------
+        >>> import assur
+        >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve([0.0, 1.0, 2.0])
+        >>> motion.coordinate(2)
+        2.0
+        """
         entry = checked_index(index, self.shape, "index")
         designs = 0 if self._request.per_design else len(self.mechanism.shape)
         q = self.q[entry[designs:]] if self._request.positions else self.q
@@ -446,6 +581,13 @@ class Motion:
 
         Parameters are those of `to_dataframe`. Units stand in the second row; cells without a
         position are empty.
+
+        Examples
+        --------
+        >>> import assur, pathlib, tempfile
+        >>> motion = assur.SliderCrank(0.05, 0.2).solve([0.0, 1.0])
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     motion.to_excel(pathlib.Path(folder, "press.xlsx"), omega=10.0, degrees=True)
         """
         from assur._table import write_excel
         from assur.kinematics.table import Options, motion_columns
@@ -460,7 +602,15 @@ class Motion:
         degrees: bool = False,
         moving: bool = False,
     ) -> None:
-        """Write `to_dataframe` as a Parquet file, units in its metadata (needs pandas, pyarrow)."""
+        """Write `to_dataframe` as a Parquet file, units in its metadata (needs pandas, pyarrow).
+
+        Examples
+        --------
+        >>> import assur, pathlib, tempfile
+        >>> motion = assur.SliderCrank(0.05, 0.2).solve([0.0, 1.0])
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     motion.to_parquet(pathlib.Path(folder, "press.parquet"), omega=10.0)
+        """
         from assur._table import write_parquet
         from assur.kinematics.table import Options, motion_columns
 
@@ -491,7 +641,27 @@ class Motion:
         return dataset(self)
 
     def plot(self, joint: str, ax: Any = None) -> Any:
-        """Draw a joint's path with the mechanism at the first position (needs matplotlib)."""
+        """Draw a joint's path with the mechanism at the first position (needs matplotlib).
+
+        Parameters
+        ----------
+        joint : str
+            The joint.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure by default.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(np.linspace(0, 6.0, 61))
+        >>> axes = motion.plot("C")
+        >>> axes.get_xlabel(), axes.get_ylabel()
+        ('x, m', 'y, m')
+        """
         from assur._plot import path_picture
 
         return path_picture(self, joint, ax)

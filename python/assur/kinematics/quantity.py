@@ -105,7 +105,27 @@ class Analogues:
             return self._contract(self.d1, w)
 
     def acceleration(self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0) -> Float:
-        """Return the acceleration for a driver's speed and acceleration: ``d2 ω² + d1 α``."""
+        """Return the acceleration for a driver's speed and acceleration: ``d2 ω² + d1 α``.
+
+        Parameters
+        ----------
+        omega, alpha : array_like
+            Speed and acceleration of the driver, as for `velocity`: rad/s, rad/s² or m/s, m/s².
+
+        Returns
+        -------
+        ndarray
+            m/s² or rad/s².
+
+        Examples
+        --------
+        At constant speed a crank's pin is drawn to the centre by r ω²:
+
+        >>> import assur
+        >>> pin = assur.SliderCrank(crank=0.1, rod=0.4).solve(0.0).joint("A")
+        >>> pin.acceleration(omega=10.0)
+        array([-10.,   0.])
+        """
         w, a = self._speeds(omega=omega, alpha=alpha)
         with in_range("acceleration"):
             return self._contract(self.d2, w, w) + self._contract(self.d1, a)
@@ -113,7 +133,25 @@ class Analogues:
     def jerk(
         self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0, beta: npt.ArrayLike = 0.0
     ) -> Float:
-        """Return the jerk: ``d3 ω³ + 3 d2 ω α + d1 β``, with β the driver's jerk."""
+        """Return the jerk: ``d3 ω³ + 3 d2 ω α + d1 β``, with β the driver's jerk.
+
+        Parameters
+        ----------
+        omega, alpha, beta : array_like
+            Speed, acceleration and jerk of the driver, as for `velocity`.
+
+        Returns
+        -------
+        ndarray
+            m/s³ or rad/s³.
+
+        Examples
+        --------
+        >>> import assur
+        >>> pin = assur.SliderCrank(crank=0.1, rod=0.4).solve(0.0, order=3).joint("A")
+        >>> pin.jerk(omega=10.0)
+        array([   0., -100.])
+        """
         w, a, b = self._speeds(omega=omega, alpha=alpha, beta=beta)
         with in_range("jerk"):
             mixed = self._contract(self.d2, w, a)

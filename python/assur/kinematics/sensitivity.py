@@ -27,6 +27,13 @@ class Sensitivity:
         Name of the dimension.
     status : numpy.ndarray of uint8
         `Status` of each position, as for the motion.
+
+    Examples
+    --------
+    >>> import assur
+    >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(1.0)
+    >>> motion.sensitivity("coupler.length").link("rocker").value.round(6)  # rad per m
+    np.float64(-0.485247)
     """
 
     def __init__(self, motion: Motion, dimension: str) -> None:
@@ -37,15 +44,45 @@ class Sensitivity:
         self._results, self.status, _ = motion._request.arrays(*outputs, dimension=index)
 
     def joint(self, name: str) -> Analogues:
-        """Return derivatives of a joint's position and analogues, m/m or m/rad, S + (N, 2)."""
+        """Return derivatives of a joint's position and analogues, m/m or m/rad, S + (N, 2).
+
+        Examples
+        --------
+        The pin B of the crank moves outward by as much as the crank grows:
+
+        >>> import assur
+        >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(0.0)
+        >>> motion.sensitivity("crank.length").joint("B").value
+        array([1., 0.])
+        """
         return Analogues(name, self._of("joint", self._results.joints, name), self._drivers, True)
 
     def link(self, name: str) -> Analogues:
-        """Return derivatives of a link's angle and its analogues, rad/m or rad/rad."""
+        """Return derivatives of a link's angle and its analogues, rad/m or rad/rad.
+
+        Examples
+        --------
+        The crank's angle is q, whatever its length:
+
+        >>> import assur
+        >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(1.0)
+        >>> motion.sensitivity("crank.length").link("crank").value
+        array(0.)
+        """
         return Analogues(name, self._of("link", self._results.links, name), self._drivers, False)
 
     def slide(self, name: str) -> Analogues:
-        """Return derivatives of a slide's value and its analogues, m/m or m/rad."""
+        """Return derivatives of a slide's value and its analogues, m/m or m/rad.
+
+        Examples
+        --------
+        At its far dead point the piston is crank + rod from the centre:
+
+        >>> import assur
+        >>> motion = assur.SliderCrank(crank=0.1, rod=0.4).solve(0.0)
+        >>> motion.sensitivity("rod.length").slide("bore").value
+        array(1.)
+        """
         return Analogues(name, self._of("slide", self._results.slides, name), self._drivers, False)
 
     def _of(self, kind: str, held: Arrays, name: str) -> tuple[npt.NDArray[np.float64], ...]:

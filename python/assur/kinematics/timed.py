@@ -52,6 +52,14 @@ class TimedMotion(Tabular):
         Of the drivers: (N,), with n drivers (N, n).
     motion : Motion
         The positions and analogues at these coordinates.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> law = assur.laws.Cycloidal(0.0, np.pi, duration=0.5)
+    >>> moved = assur.SliderCrank(0.05, 0.2).follow(law, np.linspace(0.0, 0.5, 101))
+    >>> moved.q[[0, 50, 100]].round(6), moved.speed.max().round(6)  # rad, rad/s
+    (array([0.      , 1.570796, 3.141593]), np.float64(12.566371))
     """
 
     def __init__(self, t: Float, course: tuple[Float, Float, Float, Float], motion: Motion) -> None:
@@ -63,19 +71,58 @@ class TimedMotion(Tabular):
         return f"<assur.TimedMotion of {self.motion.mechanism._core.formula}, {count} times>"
 
     def joint(self, name: str | Sequence[str]) -> InTime:
-        """Return a joint over time (of several, stacked along a new first axis)."""
+        """Return a joint over time (of several, stacked along a new first axis).
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> law = assur.laws.Harmonic(0.0, np.pi, duration=0.5)
+        >>> moved = assur.SliderCrank(0.05, 0.2).follow(law, np.linspace(0.0, 0.5, 101))
+        >>> moved.joint("A").value.shape, moved.joint("A").velocity[50].round(6)  # m/s
+        ((101, 2), array([-0.49348,  0.     ]))
+        """
         return self._in_time(self.motion.joint(name))
 
     def link(self, name: str | Sequence[str]) -> InTime:
-        """Return a link's angle over time."""
+        """Return a link's angle over time.
+
+        Examples
+        --------
+        >>> import assur
+        >>> law = assur.laws.Uniform(0.0, 1.0, duration=0.5)
+        >>> moved = assur.SliderCrank(0.05, 0.2).follow(law, [0.1, 0.2])
+        >>> moved.link("crank").velocity  # rad/s
+        array([2., 2.])
+        """
         return self._in_time(self.motion.link(name))
 
     def slide(self, name: str | Sequence[str]) -> InTime:
-        """Return a slide's value over time."""
+        """Return a slide's value over time.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> law = assur.laws.Harmonic(0.0, np.pi, duration=0.5)
+        >>> moved = assur.SliderCrank(0.05, 0.2).follow(law, [0.0, 0.5])
+        >>> moved.slide("bore").value  # m: the stroke is twice the crank
+        array([0.25, 0.15])
+        """
         return self._in_time(self.motion.slide(name))
 
     def point(self, link: str, local: npt.ArrayLike) -> InTime:
-        """Return a point of a link over time, as `Motion.point`."""
+        """Return a point of a link over time, as `Motion.point`.
+
+        Examples
+        --------
+        The middle of the rod goes half as far as the piston:
+
+        >>> import assur, numpy as np
+        >>> law = assur.laws.Harmonic(0.0, np.pi, duration=0.5)
+        >>> moved = assur.SliderCrank(0.05, 0.2).follow(law, [0.0, 0.5])
+        >>> moved.point("rod", (0.1, 0.0)).value.round(6)  # m
+        array([[0.15, 0.  ],
+               [0.05, 0.  ]])
+        """
         return self._in_time(self.motion.point(link, local))
 
     def _in_time(self, of: Analogues) -> InTime:

@@ -106,8 +106,8 @@ class ClassIV(Mechanism):
     def paper_equations(self, motion: Motion) -> npt.NDArray[np.float64]:
         """Return the residuals of the paper's four equations at every position of a motion, m².
 
-        |5−9|² through 3 and through 6, |7−10|² through 8 and through 6, each minus the length
-        squared.
+        ``|5−9|²`` through 3 and through 6, ``|7−10|²`` through 8 and through 6, each minus the
+        length squared.
 
         Parameters
         ----------
@@ -122,6 +122,18 @@ class ClassIV(Mechanism):
         References
         ----------
         V. M. Dvorzhak, Computer study of plane mechanisms of the fourth class (in Ukrainian).
+
+        Examples
+        --------
+        >>> import assur
+        >>> loom = assur.ClassIV(joints={
+        ...     "1": (0, 0), "2": (0.35, 0), "3": (1.24, 0.99), "4": (0.75, 1.91),
+        ...     "5": (3.02, -0.73), "6": (2.45, 1.02), "7": (3.2, 2.24), "8": (1.85, 2.35),
+        ...     "9": (1.62, -1.11), "10": (4.28, 1.52),
+        ... })
+        >>> residuals = loom.paper_equations(loom.solve([0.0, 0.5, 1.0]))
+        >>> residuals.shape, bool((abs(residuals) < 1e-13).all())
+        ((3, 4), True)
         """
         at = {name: _complex(motion.joint(name).value) for name in JOINTS}
         turn = {

@@ -49,6 +49,13 @@ class CircuitMotion:
         Angles of the links, rad, continuous.
     slides : mapping of str to ndarray
         Values of the slides, m.
+
+    Examples
+    --------
+    >>> import assur
+    >>> motion = assur.FourBar(3.0, 2.5, 2.0, 4.0).configuration_curve().motion(samples=90)
+    >>> motion.joints["C"].shape, sorted({int(branch) for branch in motion.branch})
+    ((179, 2), [0, 1])
     """
 
     q: Float
@@ -73,6 +80,15 @@ class ConfigurationCurve:
     fan : ndarray
         Coordinates at which all assemblies were found, rad or m. A circuit that turns back between
         two neighbours at both of its ends may have been missed.
+
+    Examples
+    --------
+    A double rocker swings between its dead points in either assembly, in one circuit:
+
+    >>> import assur
+    >>> curve = assur.FourBar(3.0, 2.5, 2.0, 4.0).configuration_curve()
+    >>> len(curve.branches), len(curve.folds), len(curve.circuits)
+    (2, 2, 1)
     """
 
     branches: tuple[Branch, ...]

@@ -37,6 +37,17 @@ class Defects:
         Whether one circuit goes through all of them, but in another order, whichever way round.
     branches : tuple of int
         The branch of each.
+
+    Examples
+    --------
+    The two assemblies of a crank-rocker lie on different circuits:
+
+    >>> import assur
+    >>> m = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+    >>> places = [(assembly.q, assembly) for assembly in m.assemblies(1.0)]
+    >>> defects = m.configuration_curve().defects(places)
+    >>> defects.circuit, defects.branches
+    (True, (0, 1))
     """
 
     circuit: bool

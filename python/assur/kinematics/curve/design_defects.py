@@ -30,7 +30,15 @@ APART = 1e-3
 
 
 class Defect(IntFlag):
-    """What keeps a design from going through given positions; several may."""
+    """What keeps a design from going through given positions; several may.
+
+    Examples
+    --------
+    >>> import assur
+    >>> found = assur.Defect.BRANCH | assur.Defect.ORDER
+    >>> bool(found & assur.Defect.BRANCH), bool(found & assur.Defect.CIRCUIT)
+    (True, False)
+    """
 
     NONE = 0
     """It goes through all of them, in their order."""

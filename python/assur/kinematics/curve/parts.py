@@ -34,6 +34,13 @@ class Branch:
         Turns after which it closes, if the driver goes round.
     folds : tuple of int or None
         Indices of the folds at its low and its high end.
+
+    Examples
+    --------
+    >>> import assur
+    >>> branch = assur.FourBar(3.0, 2.5, 2.0, 4.0).configuration_curve().branches[0]
+    >>> round(branch.low, 6), round(branch.high, 6), branch.period
+    (-1.371564, 1.371564, None)
     """
 
     assembly: Assembly
@@ -57,6 +64,13 @@ class Fold:
         Indices of the branches.
     is_greatest : bool
         Whether q is greatest there on both branches, or least.
+
+    Examples
+    --------
+    >>> import assur
+    >>> folds = assur.FourBar(3.0, 2.5, 2.0, 4.0).configuration_curve().folds
+    >>> [(round(fold.q, 6), fold.group, fold.is_greatest) for fold in folds]
+    [(-1.371564, 'II(coupler, rocker)', False), (1.371564, 'II(coupler, rocker)', True)]
     """
 
     q: float
@@ -77,6 +91,13 @@ class Circuit:
         Turns of the driver when the motion closes: 0 if it swings between dead points.
     is_closed : bool
         Whether the motion closes; if not, it ends where a joint goes to infinity.
+
+    Examples
+    --------
+    >>> import assur
+    >>> circuit = assur.FourBar(3.0, 2.5, 2.0, 4.0).configuration_curve().circuits[0]
+    >>> circuit.branches, circuit.turns, circuit.is_closed
+    (((0, 1), (1, -1)), 0, True)
     """
 
     branches: tuple[tuple[int, int], ...]

@@ -42,6 +42,15 @@ class Boundary:
         On one side the number is at least this, on the other less.
     is_closed : bool
         Whether the last point is the first; it ends at the edge of the map otherwise.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> lengths = np.linspace(1.5, 3.5, 5)
+    >>> over = {"rocker.length": lengths, "ground.D.x": lengths}
+    >>> edge = assur.FourBar(1.0, 3.0, 2.5, 3.0).map("full_rotation", over).boundaries[0]
+    >>> edge.points.shape[1], edge.level, edge.is_closed
+    (2, 1, False)
     """
 
     points: Float
@@ -69,6 +78,18 @@ class DesignMap:
         Shape (len(x), len(y)).
     boundaries : tuple of Boundary
         Where the values change, each point to a billionth of the distance of two neighbours.
+
+    Examples
+    --------
+    Where a four-bar's crank goes round, by Grashof's rule:
+
+    >>> import assur
+    >>> over = {"rocker.length": [1.5, 2.5, 3.5], "ground.D.x": [1.5, 3.0]}
+    >>> found = assur.FourBar(1.0, 3.0, 2.5, 3.0).map("full_rotation", over)
+    >>> found.values
+    array([[0, 1],
+           [1, 1],
+           [1, 1]])
     """
 
     of: str

@@ -77,6 +77,23 @@ class SingularLocus:
     is_complete : bool
         Whether it is closed, or ends where the range of a slide does. If not, it could not be
         followed farther: it may have a point where it crosses itself.
+
+    Examples
+    --------
+    The edge of what an arm of two links reaches, where they are in line:
+
+    >>> import assur, numpy as np
+    >>> arm = assur.Mechanism(
+    ...     joints={"O": (0, 0), "A": (1, 0), "P": (1.5, 0.5)},
+    ...     links={"ground": "O", "upper": "OA", "fore": "AP"},
+    ...     driver=("upper", "fore"),
+    ... )
+    >>> locus = arm.workspace("P", positions=8).boundary[0]
+    >>> locus.kind, locus.is_closed
+    (1, True)
+    >>> x, y = locus.joints["P"].T
+    >>> np.hypot(x, y).round(6)[:3]  # m from O
+    array([1.707107, 1.707107, 1.707107])
     """
 
     kind: int
@@ -105,6 +122,18 @@ class Workspace:
         shape (len(x), len(y)).
     boundary : tuple of SingularLocus
         The loci of the first kind: where that number changes.
+
+    Examples
+    --------
+    >>> import assur
+    >>> arm = assur.Mechanism(
+    ...     joints={"O": (0, 0), "A": (1, 0), "P": (1.5, 0.5)},
+    ...     links={"ground": "O", "upper": "OA", "fore": "AP"},
+    ...     driver=("upper", "fore"),
+    ... )
+    >>> reach = arm.workspace("P", positions=8)
+    >>> reach.joint, reach.count.shape == (len(reach.x), len(reach.y))
+    ('P', True)
     """
 
     joint: str
@@ -116,7 +145,31 @@ class Workspace:
     _base: tuple[float, float]
 
     def contains(self, points: npt.ArrayLike) -> Any:
-        """Return whether the joint reaches points, shape (…, 2), m: an array of bool (…)."""
+        """Return whether the joint reaches points, shape (…, 2), m: an array of bool (…).
+
+        Parameters
+        ----------
+        points : array_like
+            Shape (…, 2), m.
+
+        Returns
+        -------
+        bool or ndarray of bool
+            Shape (…).
+
+        Examples
+        --------
+        An arm of 1 m and 0.7071 m reaches a ring:
+
+        >>> import assur
+        >>> arm = assur.Mechanism(
+        ...     joints={"O": (0, 0), "A": (1, 0), "P": (1.5, 0.5)},
+        ...     links={"ground": "O", "upper": "OA", "fore": "AP"},
+        ...     driver=("upper", "fore"),
+        ... )
+        >>> arm.workspace("P", positions=8).contains([[0.1, 0.0], [1.0, 1.0], [1.5, 1.5]])
+        array([False,  True, False])
+        """
         array = real_array(points, "points")
         if array.shape[-1:] != (2,) or not np.isfinite(array).all():
             message = f"points is {short(points)}: finite (x, y) are needed, m"
