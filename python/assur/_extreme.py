@@ -14,6 +14,12 @@ class Extreme(NamedTuple):
         The driver's coordinate (of a slider-crank the crank's angle), rad.
     value : float or array
         The value there.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.slider_crank.greatest_speed(3.0).at.round(6)  # rad
+    np.float64(1.27715)
     """
 
     at: Any

@@ -55,6 +55,14 @@ class Position:
         See `Rest`.
     direction : {"either", "rising", "falling"}
         Direction of the crossing.
+
+    Examples
+    --------
+    >>> import assur
+    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> run = machine.run(t_end=9.0, q0=0.0, speed0=2.0, events=[assur.events.Position(3.0)])
+    >>> round(run.events[0].t, 6)  # s
+    1.5
     """
 
     q: float
@@ -65,7 +73,20 @@ class Position:
 
 @dataclass(frozen=True)
 class Speed:
-    """A driver's speed reaches a value, rad/s or m/s; other parameters as for `Position`."""
+    """A driver's speed reaches a value, rad/s or m/s; other parameters as for `Position`.
+
+    Examples
+    --------
+    >>> import assur
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4),
+    ...     bodies={"crank": assur.Body(inertia=0.5)},
+    ...     loads=[assur.Torque("crank", 2.0)],
+    ... )
+    >>> run = machine.run(t_end=9.0, q0=0.0, events=[assur.events.Speed(10.0)])
+    >>> round(run.events[0].t, 6)  # s: 4 rad/s² from rest
+    2.5
+    """
 
     speed: float
     stop: bool = True
@@ -89,6 +110,16 @@ class TransmissionAngle:
         Whether the run ends there.
     direction : {"falling", "rising", "either"}
         Direction of the crossing.
+
+    Examples
+    --------
+    >>> import assur
+    >>> linkage = assur.FourBar(1.0, 4.5, 1.5, 4.8)
+    >>> machine = assur.Machine(linkage, {"crank": assur.Body(inertia=0.5)})
+    >>> event = assur.events.TransmissionAngle("C", limit=0.7)
+    >>> run = machine.run(t_end=9.0, q0=1.0, speed0=1.0, events=[event])
+    >>> linkage.solve(run.q[-1]).transmission_angle("C").round(6)  # rad
+    np.float64(0.7)
     """
 
     name: str
@@ -111,6 +142,20 @@ class Crossing:
         Whether the run ends there.
     direction : {"either", "rising", "falling"}
         Direction of the crossing.
+
+    Examples
+    --------
+    Where the piston is 0.45 m from the crank's centre:
+
+    >>> import assur
+    >>> press = assur.SliderCrank(0.1, 0.4)
+    >>> def height(t, q, speed):
+    ...     return float(press.solve(q).slide("bore").value) - 0.45
+    >>> machine = assur.Machine(press, {"crank": assur.Body(inertia=0.5)})
+    >>> event = assur.events.Crossing(height, stop=True)
+    >>> run = machine.run(t_end=9.0, q0=0.0, speed0=1.0, events=[event])
+    >>> press.solve(run.q[-1]).slide("bore").value.round(6)  # m
+    np.float64(0.45)
     """
 
     function: Function

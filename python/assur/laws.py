@@ -49,11 +49,27 @@ Jet = tuple[Float, Float, Float, Float]
 
 
 class Law(ABC):
-    """A coordinate over time."""
+    """A coordinate over time.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.laws.Cycloidal(0.0, 1.0, duration=2.0).span  # s
+    (0.0, 2.0)
+    """
 
     @abstractmethod
     def at(self, t: npt.ArrayLike) -> tuple[Float, Float, Float, Float]:
-        """Return the coordinate, its speed, acceleration and jerk at times, s."""
+        """Return the coordinate, its speed, acceleration and jerk at times, s.
+
+        Examples
+        --------
+        >>> import assur
+        >>> law = assur.laws.Uniform(0.0, 3.0, duration=2.0)
+        >>> q, speed, acceleration, jerk = law.at([0.5, 1.0])
+        >>> q, speed  # rad, rad/s
+        (array([0.75, 1.5 ]), array([1.5, 1.5]))
+        """
 
     @property
     @abstractmethod

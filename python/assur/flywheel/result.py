@@ -56,6 +56,15 @@ class Flywheel(Tabular, ABC):
         Shape of the batch; () for one table or machine.
     steady : SteadyState or None
         The integrated motion, if the machine's own motor sets the speed.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assur import flywheel
+    >>> phi = np.linspace(0.0, 2 * np.pi, 49)
+    >>> f = flywheel.from_table(phi, 100.0 * np.sin(phi), fluctuation=0.1, mean_speed=10.0)
+    >>> round(f.inertia, 3), round(f.delta, 6)  # kg·m²: 200 J / (0.1 · (10 rad/s)²)
+    (20.0, 0.1)
     """
 
     def __init__(
@@ -124,15 +133,45 @@ class Flywheel(Tabular, ABC):
         return self._curve("speed", finite_array(q, "q"))
 
     def time(self, q: npt.ArrayLike) -> Any:
-        """Return the time at which coordinates are reached, s; 0 at the start of the turn."""
+        """Return the time at which coordinates are reached, s; 0 at the start of the turn.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assur import flywheel
+        >>> phi = np.linspace(0.0, 2 * np.pi, 49)
+        >>> f = flywheel.from_table(phi, 100.0 * np.sin(phi), fluctuation=0.1, mean_speed=10.0)
+        >>> f.time([0.0, 2 * np.pi]).round(6), round(f.period, 6)  # s
+        (array([0.      , 0.628712]), 0.628712)
+        """
         return self._curve("time", finite_array(q, "q"))
 
     def coordinate(self, t: npt.ArrayLike) -> Any:
-        """Return the coordinate at times t (s), rad; the inverse of `time`."""
+        """Return the coordinate at times t (s), rad; the inverse of `time`.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assur import flywheel
+        >>> phi = np.linspace(0.0, 2 * np.pi, 49)
+        >>> f = flywheel.from_table(phi, 100.0 * np.sin(phi), fluctuation=0.1, mean_speed=10.0)
+        >>> f.coordinate(f.time([1.0, 2.0])).round(6)  # rad
+        array([1., 2.])
+        """
         return self._curve("coordinate", finite_array(t, "t"))
 
     def speed_at(self, t: npt.ArrayLike) -> Any:
-        """Return the speed at times t (s), rad/s."""
+        """Return the speed at times t (s), rad/s.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assur import flywheel
+        >>> phi = np.linspace(0.0, 2 * np.pi, 49)
+        >>> f = flywheel.from_table(phi, 100.0 * np.sin(phi), fluctuation=0.1, mean_speed=10.0)
+        >>> f.speed_at(f.time([0.0, np.pi])).round(4)  # rad/s: least and greatest
+        array([ 9.5, 10.5])
+        """
         if self.shape:
             message = "speed_at is for one table: take one of the batch by evaluating it by itself"
             raise InputError(message)
@@ -142,15 +181,44 @@ class Flywheel(Tabular, ABC):
         """Return the reduced moment of the loads at coordinates, N·m, without the motor.
 
         Of a `Machine` the loads are those at the mean speed, or with its own motor at `speed(q)`.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assur import flywheel
+        >>> phi = np.linspace(0.0, 2 * np.pi, 49)
+        >>> f = flywheel.from_table(phi, 100.0 * np.sin(phi), fluctuation=0.1, mean_speed=10.0)
+        >>> round(f.reduced_moment(np.pi / 2), 6)  # N·m
+        100.0
         """
         return self._curve("moment", finite_array(q, "q"))
 
     def reduced_inertia(self, q: npt.ArrayLike) -> Any:
-        """Return the reduced inertia at coordinates, kg·m², without the flywheel."""
+        """Return the reduced inertia at coordinates, kg·m², without the flywheel.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assur import flywheel
+        >>> phi = np.linspace(0.0, 2 * np.pi, 49)
+        >>> f = flywheel.evaluate(phi, 100 * np.sin(phi), np.full(49, 2.0), 8.0, mean_speed=10.0)
+        >>> round(f.reduced_inertia(1.0), 6)  # kg·m², without the flywheel's 8
+        2.0
+        """
         return self._curve("inertia", finite_array(q, "q"))
 
     def work(self, q: npt.ArrayLike) -> Any:
-        """Return the work of loads and motor since the start of the turn, J."""
+        """Return the work of loads and motor since the start of the turn, J.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assur import flywheel
+        >>> phi = np.linspace(0.0, 2 * np.pi, 49)
+        >>> f = flywheel.from_table(phi, 100.0 * np.sin(phi), fluctuation=0.1, mean_speed=10.0)
+        >>> round(f.work(np.pi), 2)  # J
+        200.0
+        """
         return self._curve("work", finite_array(q, "q"))
 
     def explain(self, index: Any = ()) -> str:
@@ -160,6 +228,20 @@ class Flywheel(Tabular, ABC):
         ----------
         index : int or tuple of int
             Index into the batch; omit it for one flywheel.
+
+        Returns
+        -------
+        str
+            A sentence.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assur import flywheel
+        >>> phi = np.linspace(0.0, 2 * np.pi, 49)
+        >>> f = flywheel.from_table(phi, 100.0 * np.sin(phi), fluctuation=0.1, mean_speed=10.0)
+        >>> f.explain()
+        'a flywheel of 19.9999925 kg·m², δ = 0.1'
         """
         entry = checked_index(index, self.shape, "explain")
         problem = self._problem(entry)
@@ -182,6 +264,16 @@ class Flywheel(Tabular, ABC):
             Reduced inertia without the flywheel, kg·m², and the kinetic energy minus that of the
             flywheel at the start, J. The tangents with slopes ω²/2 at the extreme speeds meet at
             (−I_f, −I_f ω0²/2).
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assur import flywheel
+        >>> phi = np.linspace(0.0, 2 * np.pi, 49)
+        >>> f = flywheel.evaluate(phi, 100 * np.sin(phi), np.full(49, 2.0), 8.0, mean_speed=10.0)
+        >>> inertia, energy = f.energy_mass(points=5)
+        >>> inertia.round(6), (energy - energy[0]).round(2)  # kg·m², J
+        (array([2., 2., 2., 2., 2.]), array([  0., 100., 200., 100.,   0.]))
         """
         needed = "a whole number of at least 2 is needed"
         q = np.linspace(*self._turn, whole_number(points, "points", 2, needed=needed))
@@ -220,6 +312,16 @@ class Flywheel(Tabular, ABC):
         -------
         matplotlib.axes.Axes
             The axes drawn on.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assur import flywheel
+        >>> phi = np.linspace(0.0, 2 * np.pi, 49)
+        >>> f = flywheel.from_table(phi, 100.0 * np.sin(phi), fluctuation=0.1, mean_speed=10.0)
+        >>> axes = f.plot("time")
+        >>> axes.get_xlabel(), axes.get_ylabel()
+        ('t, s', 'ω, rad/s')
         """
         from assur._plot import flywheel_picture
 

@@ -26,6 +26,16 @@ class ReducedTable(NamedTuple):
         Coordinates, rad.
     moment, inertia : ndarray
         Reduced moment, N·m, and reduced inertia, kg·m², there.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from assur import flywheel
+    >>> phi = np.linspace(0.0, 2 * np.pi, 5)
+    >>> table = flywheel.ReducedTable(phi, 100.0 * np.sin(phi), np.full(5, 2.0))
+    >>> f = flywheel.from_table(*table, fluctuation=0.05, mean_speed=10.0)
+    >>> round(f.delta, 6)
+    0.05
     """
 
     phi: Float
@@ -54,6 +64,19 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> ReducedTable
     InputError
         A file that cannot be read or has fewer than two rows, or a row that is not three numbers
         (the message gives its line).
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> import numpy as np
+    >>> from assur import flywheel
+    >>> rows = [(0, 0, 2), (90, 100, 2), (180, 0, 2), (270, -100, 2), (360, 0, 2)]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder, "table.csv")
+    ...     np.savetxt(path, rows, delimiter=",")
+    ...     table = flywheel.read_table(path, degrees=True)
+    >>> table.phi.round(4), table.moment  # rad, N·m
+    (array([0.    , 1.5708, 3.1416, 4.7124, 6.2832]), array([   0.,  100.,    0., -100.,    0.]))
     """
     try:
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()

@@ -49,6 +49,14 @@ class JammingEvent:
         dl₄/dt, m/s, and the angular speed of rocker or rod, rad/s, before and after.
     text : str
         The event as a sentence.
+
+    Examples
+    --------
+    >>> import assur
+    >>> run = assur.crank_rocker.run(1.0, 4.5, 1.5, ground=4.995, gamma_min=0.2)
+    >>> event = run.events[0]
+    >>> event.kind, event.side, round(event.phi1, 6)  # rad
+    ('jam', 'outer', 6.078212)
     """
 
     kind: Kind
@@ -75,6 +83,13 @@ class JammingRun:
         Positions of the joints, m, shape (n, 2).
     events : tuple of JammingEvent
         In order; their times are among `t`.
+
+    Examples
+    --------
+    >>> import assur
+    >>> run = assur.crank_rocker.run(1.0, 4.5, 1.5, ground=4.995, gamma_min=0.2)
+    >>> [event.kind for event in run.events], run.C.shape == (len(run.t), 2)
+    (['jam', 'return'], True)
     """
 
     t: Float

@@ -51,6 +51,12 @@ class Deviation(NamedTuple):
 
     `relative` is a fraction of the exact value (undefined for the acceleration analogue, which
     passes through zero), `absolute` is per crank length.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.slider_crank.deviation(1 / 3, 1).relative.round(6)
+    np.float64(0.004725)
     """
 
     relative: Any

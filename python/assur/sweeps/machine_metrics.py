@@ -253,6 +253,21 @@ def rms_reaction(
     """The root of the mean square of the force in a joint over the positions, N.
 
     See `peak_reaction`.
+
+    Returns
+    -------
+    Metric
+        For ``assur.sweep(machine, ...)``.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> gas = assur.Force("B", (-800.0, 0.0), on="piston")
+    >>> engine = assur.Machine(assur.SliderCrank(0.1, 0.35), loads=[gas])
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> asked = {"A": assur.metric.rms_reaction("A")}
+    >>> assur.sweep(engine, {"rod.length": [0.3, 0.4]}, q, metrics=asked)["A"].round(1)  # N
+    array([823.9, 813. ])
     """
     return _joint_force("rms", joint, on, speed, acceleration)
 
@@ -289,12 +304,43 @@ def rms_effort(speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) ->
     """The root of the mean square of the torque or force of the drive, N·m or N.
 
     See `peak_effort`.
+
+    Returns
+    -------
+    Metric
+        For ``assur.sweep(machine, ...)``.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> gas = assur.Force("B", (-800.0, 0.0), on="piston")
+    >>> engine = assur.Machine(assur.SliderCrank(0.1, 0.35), loads=[gas])
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> asked = {"torque": assur.metric.rms_effort()}
+    >>> found = assur.sweep(engine, {"crank.length": [0.1, 0.2]}, q, metrics=asked)
+    >>> found["torque"].round(2)  # N·m
+    array([ 57.17, 118.58])
     """
     return Effort("rms", *_motion(speed, acceleration))
 
 
 def greatest_inertia() -> Metric:
-    """The greatest reduced inertia, kg·m² (driven slide: kg), of a machine with one driver."""
+    """The greatest reduced inertia, kg·m² (driven slide: kg), of a machine with one driver.
+
+    Returns
+    -------
+    Metric
+        For ``assur.sweep(machine, ...)``.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> press = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> asked = {"J": assur.metric.greatest_inertia()}
+    >>> assur.sweep(press, {"rod.length": [0.3, 0.4]}, q, metrics=asked)["J"]  # kg·m²
+    array([0.5, 0.5])
+    """
     return Inertia()
 
 
@@ -319,6 +365,18 @@ def flywheel_inertia(
     ------
     InputError
         Here for wrong arguments; by `assur.sweep` for what `Machine.flywheel` refuses.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> press = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4), loads=[assur.Force("B", (-1000.0, 0.0))]
+    ... )
+    >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+    >>> asked = {"J": assur.metric.flywheel_inertia(0.1, mean_speed=10.0)}
+    >>> found = assur.sweep(press, {"crank.length": [0.1, 0.2]}, q, metrics=asked)
+    >>> found["J"].round(3)  # kg·m²: 1000 N · stroke / (0.1 · (10 rad/s)²)
+    array([20., 40.])
     """
     one_of(mean, ("extremes", "period"), "mean")
     speed = None if mean_speed is None else real_number(mean_speed, "mean_speed")

@@ -40,6 +40,18 @@ class Measures(Mapping[str, Float]):
     kept : numpy.ndarray
         Indices (of designs in C order) of those that move over all of q and meet all
         conditions, ascending.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> found = assur.sweep(
+    ...     assur.SliderCrank(0.1, 0.4),
+    ...     {"crank.length": [0.1, 0.2, 0.5]},
+    ...     np.linspace(0, 2 * np.pi, 72, endpoint=False),
+    ...     metrics={"stroke": assur.metric.span("bore")},
+    ... )
+    >>> found["stroke"].round(6), found.kept, found.status
+    (array([0.2, 0.4, nan]), array([0, 1]), array([0, 0, 3], dtype=uint8))
     """
 
     def __init__(
@@ -184,6 +196,18 @@ class Measures(Mapping[str, Float]):
         Columns: the design's index (one for each axis of S), the dimensions that the sweep
         changes, status, whether it is kept, and every metric. A metric named like one of the
         other columns appears as ``metric status``.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> found = assur.sweep(
+        ...     assur.SliderCrank(0.1, 0.4),
+        ...     {"crank.length": [0.1, 0.2]},
+        ...     np.linspace(0, 2 * np.pi, 72, endpoint=False),
+        ...     metrics={"stroke": assur.metric.span("bore")},
+        ... )
+        >>> list(found.to_dataframe())
+        ['design', 'crank.length', 'status', 'kept', 'stroke']
         """
         try:
             import pandas as pd

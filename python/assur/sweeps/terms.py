@@ -23,7 +23,14 @@ Part: TypeAlias = tuple[float, float] | None
 
 @dataclass(frozen=True)
 class Condition:
-    """A metric compared with a limit: ``where=`` drops designs for which it is false."""
+    """A metric compared with a limit: ``where=`` drops designs for which it is false.
+
+    Examples
+    --------
+    >>> from assur import metric
+    >>> metric.least_transmission("C") > 0.7
+    least_transmission('C') > 0.7
+    """
 
     metric: Metric
     relation: str
@@ -40,7 +47,15 @@ class Condition:
         raise InputError(message)
 
     def holds(self, values: Float) -> npt.NDArray[np.bool_]:
-        """Whether values meet it; NaN does not."""
+        """Whether values meet it; NaN does not.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assur import metric
+        >>> (metric.span("C.x") < 2.0).holds(np.array([1.0, 3.0, np.nan]))
+        array([ True, False, False])
+        """
         compare = {
             "<": np.less,
             "<=": np.less_equal,
@@ -52,17 +67,39 @@ class Condition:
 
 
 class Metric:
-    """One number of a motion; metrics add, subtract, multiply, divide and compare."""
+    """One number of a motion; metrics add, subtract, multiply, divide and compare.
+
+    Examples
+    --------
+    >>> from assur import metric
+    >>> metric.span("C.x") / metric.span("C.y")
+    (span('C.x') / span('C.y'))
+    """
 
     # An array on the left would make an array of metrics.
     __array_ufunc__ = None
 
     def leaves(self) -> Iterator[Single]:
-        """The metrics that it is made of."""
+        """The metrics that it is made of.
+
+        Examples
+        --------
+        >>> from assur import metric
+        >>> list((metric.span("C.x") / metric.span("C.y")).leaves())
+        [span('C.x'), span('C.y')]
+        """
         raise NotImplementedError
 
     def value(self, of: Callable[[Single], Float]) -> Float:
-        """Its values, given those of its leaves."""
+        """Its values, given those of its leaves.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from assur import metric
+        >>> (2.0 * metric.span("C.x")).value(lambda leaf: np.array([1.0, 3.0]))
+        array([2., 6.])
+        """
         raise NotImplementedError
 
     def __add__(self, other: object) -> Metric:
