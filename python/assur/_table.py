@@ -133,6 +133,7 @@ class Tabular:
         Returns
         -------
         pandas.DataFrame
+            A row for each position, time or event of the result.
 
         Examples
         --------
@@ -149,6 +150,13 @@ class Tabular:
     def to_excel(self, path: str | PathLike[str], degrees: bool = False) -> None:
         """Write a workbook, a sheet for each quantity, units in the second row (needs openpyxl).
 
+        Parameters
+        ----------
+        path : path-like
+            The file.
+        degrees : bool
+            As for `to_dataframe`.
+
         Examples
         --------
         >>> import assur, pathlib, tempfile
@@ -162,6 +170,13 @@ class Tabular:
     def to_parquet(self, path: str | PathLike[str], degrees: bool = False) -> None:
         """Write `to_dataframe` as a Parquet file (needs pandas and pyarrow).
 
+        Parameters
+        ----------
+        path : path-like
+            The file.
+        degrees : bool
+            As for `to_dataframe`.
+
         Examples
         --------
         >>> import assur, pathlib, tempfile
@@ -174,6 +189,16 @@ class Tabular:
 
     def to_xarray(self, degrees: bool = False) -> Any:
         """Return `to_dataframe` as an xarray Dataset over its rows (needs xarray), with units.
+
+        Parameters
+        ----------
+        degrees : bool
+            As for `to_dataframe`.
+
+        Returns
+        -------
+        xarray.Dataset
+            Over the dimension row.
 
         Examples
         --------

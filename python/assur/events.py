@@ -75,6 +75,15 @@ class Position:
 class Speed:
     """A driver's speed reaches a value, rad/s or m/s; other parameters as for `Position`.
 
+    Parameters
+    ----------
+    speed : float
+        rad/s or m/s.
+    stop, driver
+        See `Rest`.
+    direction : {"either", "rising", "falling"}
+        Direction of the crossing.
+
     Examples
     --------
     >>> import assur

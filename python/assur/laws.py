@@ -62,6 +62,16 @@ class Law(ABC):
     def at(self, t: npt.ArrayLike) -> tuple[Float, Float, Float, Float]:
         """Return the coordinate, its speed, acceleration and jerk at times, s.
 
+        Parameters
+        ----------
+        t : array_like
+            Times, s.
+
+        Returns
+        -------
+        q, speed, acceleration, jerk : ndarray
+            Each of the shape of t: rad or m, and so on per s.
+
         Examples
         --------
         >>> import assur
@@ -120,6 +130,16 @@ class Rise(Law):
         """Return the coordinate, its speed, acceleration and jerk at times, s.
 
         Before the beginning and after the end it is at rest.
+
+        Parameters
+        ----------
+        t : array_like
+            Times, s.
+
+        Returns
+        -------
+        q, speed, acceleration, jerk : ndarray
+            Each of the shape of t: rad or m, and so on per s.
         """
         times = _times(t)
         part = (times - self.begin) / self.duration
@@ -148,6 +168,15 @@ def _times(t: npt.ArrayLike) -> Float:
 class Uniform(Rise):
     """A constant speed, with a jump of it at both ends.
 
+    Parameters
+    ----------
+    start, end : float
+        Coordinates, rad or m.
+    duration : float
+        Time that it takes, s.
+    begin : float
+        Time at which it begins, s.
+
     Examples
     --------
     >>> import assur
@@ -162,6 +191,15 @@ class Uniform(Rise):
 
 class Harmonic(Rise):
     """Simple harmonic: s = (1 − cos πx)/2; the acceleration jumps at both ends.
+
+    Parameters
+    ----------
+    start, end : float
+        Coordinates, rad or m.
+    duration : float
+        Time that it takes, s.
+    begin : float
+        Time at which it begins, s.
 
     Examples
     --------
@@ -178,6 +216,15 @@ class Harmonic(Rise):
 
 class Cycloidal(Rise):
     """s = x − sin(2πx)/2π: the acceleration begins and ends at 0.
+
+    Parameters
+    ----------
+    start, end : float
+        Coordinates, rad or m.
+    duration : float
+        Time that it takes, s.
+    begin : float
+        Time at which it begins, s.
 
     Examples
     --------
@@ -213,6 +260,15 @@ class _Polynomial(Rise):
 class Polynomial345(_Polynomial):
     """s = 10x³ − 15x⁴ + 6x⁵: the acceleration begins and ends at 0.
 
+    Parameters
+    ----------
+    start, end : float
+        Coordinates, rad or m.
+    duration : float
+        Time that it takes, s.
+    begin : float
+        Time at which it begins, s.
+
     Examples
     --------
     >>> import assur
@@ -225,6 +281,15 @@ class Polynomial345(_Polynomial):
 
 class Polynomial4567(_Polynomial):
     """s = 35x⁴ − 84x⁵ + 70x⁶ − 20x⁷: the jerk too begins and ends at 0.
+
+    Parameters
+    ----------
+    start, end : float
+        Coordinates, rad or m.
+    duration : float
+        Time that it takes, s.
+    begin : float
+        Time at which it begins, s.
 
     Examples
     --------
@@ -282,6 +347,15 @@ class ModifiedSine(Rise):
     """Sines of the acceleration of two frequencies, joined at an eighth of the time from both ends.
 
     The greatest acceleration is 4π²/(4 + π) = 5.528, the greatest speed 4π/(4 + π) = 1.760.
+
+    Parameters
+    ----------
+    start, end : float
+        Coordinates, rad or m.
+    duration : float
+        Time that it takes, s.
+    begin : float
+        Time at which it begins, s.
 
     Examples
     --------
@@ -425,7 +499,18 @@ class Sequence(Law):
         return self.laws[0].span[0], self.laws[-1].span[1]
 
     def at(self, t: npt.ArrayLike) -> tuple[Float, Float, Float, Float]:
-        """Return the coordinate, its speed, acceleration and jerk at times, s."""
+        """Return the coordinate, its speed, acceleration and jerk at times, s.
+
+        Parameters
+        ----------
+        t : array_like
+            Times, s.
+
+        Returns
+        -------
+        q, speed, acceleration, jerk : ndarray
+            Each of the shape of t: rad or m, and so on per s.
+        """
         times = _times(t)
         found = [np.array(one) for one in self.laws[0].at(times)]
         for law in self.laws[1:]:

@@ -81,6 +81,16 @@ class Counterweight:
     def with_radius(self, radius: float) -> Counterweight:
         """Return this weight with the mass that it needs at a radius, m.
 
+        Parameters
+        ----------
+        radius : float
+            Distance from `about`, m.
+
+        Returns
+        -------
+        Counterweight
+            A new one.
+
         Examples
         --------
         >>> import assur
@@ -94,6 +104,16 @@ class Counterweight:
 
     def with_mass(self, mass: float) -> Counterweight:
         """Return this weight with a mass, kg, at the radius that it then needs.
+
+        Parameters
+        ----------
+        mass : float
+            Its mass, kg.
+
+        Returns
+        -------
+        Counterweight
+            A new one.
 
         Examples
         --------

@@ -73,6 +73,11 @@ class Body:
 class Gravity:
     """Gravitational acceleration (x, y), m/s²; gives every body its weight.
 
+    Parameters
+    ----------
+    acceleration : (float, float)
+        (x, y), m/s².
+
     Examples
     --------
     Along the drawing's −y by default; for a drawing that is turned by 30°:

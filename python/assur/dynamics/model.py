@@ -109,6 +109,7 @@ class MachineModel:
         Returns
         -------
         Machine
+            A new one.
 
         Examples
         --------
@@ -216,6 +217,7 @@ class MachineModel:
         Returns
         -------
         Machine
+            A new one.
 
         Examples
         --------

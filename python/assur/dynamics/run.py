@@ -30,6 +30,13 @@ END_ULPS = 4.0
 class State(NamedTuple):
     """The motion at one or more times: time, coordinate, speed and acceleration of the driver.
 
+    Attributes
+    ----------
+    t : float or ndarray
+        Time, s.
+    q, speed, acceleration : float or ndarray
+        Of the driver, rad or m, and so on per s; with n drivers (..., n).
+
     Examples
     --------
     >>> import assur
@@ -375,6 +382,7 @@ class Run(Tabular):
         Returns
         -------
         matplotlib axes
+            Those drawn on.
 
         Examples
         --------

@@ -157,6 +157,7 @@ class SteadyState(Tabular):
         Returns
         -------
         matplotlib axes
+            Those drawn on.
 
         Examples
         --------

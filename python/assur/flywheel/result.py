@@ -135,6 +135,16 @@ class Flywheel(Tabular, ABC):
     def time(self, q: npt.ArrayLike) -> Any:
         """Return the time at which coordinates are reached, s; 0 at the start of the turn.
 
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, rad.
+
+        Returns
+        -------
+        float or ndarray
+            Times, s, of the shape of the batch + that of q.
+
         Examples
         --------
         >>> import numpy as np
@@ -149,6 +159,16 @@ class Flywheel(Tabular, ABC):
     def coordinate(self, t: npt.ArrayLike) -> Any:
         """Return the coordinate at times t (s), rad; the inverse of `time`.
 
+        Parameters
+        ----------
+        t : array_like
+            Times, s.
+
+        Returns
+        -------
+        float or ndarray
+            Coordinates, rad, of the shape of the batch + that of t.
+
         Examples
         --------
         >>> import numpy as np
@@ -162,6 +182,16 @@ class Flywheel(Tabular, ABC):
 
     def speed_at(self, t: npt.ArrayLike) -> Any:
         """Return the speed at times t (s), rad/s.
+
+        Parameters
+        ----------
+        t : array_like
+            Times, s.
+
+        Returns
+        -------
+        float or ndarray
+            Speeds, rad/s, of the shape of the batch + that of t.
 
         Examples
         --------
@@ -182,6 +212,16 @@ class Flywheel(Tabular, ABC):
 
         Of a `Machine` the loads are those at the mean speed, or with its own motor at `speed(q)`.
 
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, rad.
+
+        Returns
+        -------
+        float or ndarray
+            Moments, N·m, of the shape of the batch + that of q.
+
         Examples
         --------
         >>> import numpy as np
@@ -196,6 +236,16 @@ class Flywheel(Tabular, ABC):
     def reduced_inertia(self, q: npt.ArrayLike) -> Any:
         """Return the reduced inertia at coordinates, kg·m², without the flywheel.
 
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, rad.
+
+        Returns
+        -------
+        float or ndarray
+            Inertias, kg·m², of the shape of the batch + that of q.
+
         Examples
         --------
         >>> import numpy as np
@@ -209,6 +259,16 @@ class Flywheel(Tabular, ABC):
 
     def work(self, q: npt.ArrayLike) -> Any:
         """Return the work of loads and motor since the start of the turn, J.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, rad.
+
+        Returns
+        -------
+        float or ndarray
+            Work, J, of the shape of the batch + that of q.
 
         Examples
         --------

@@ -30,6 +30,13 @@ FINEST = 2e-11
 class ValueAt(NamedTuple):
     """A value, and the driver's coordinate where it is taken.
 
+    Attributes
+    ----------
+    value : float
+        m or rad, per unit of q to the power of the order.
+    q : float
+        rad or m.
+
     Examples
     --------
     >>> import assur

@@ -406,6 +406,16 @@ class Mechanism:
 
         With a group above class II its `q0` is where the assembly was found.
 
+        Parameters
+        ----------
+        assembly : Assembly
+            One of `assemblies`.
+
+        Returns
+        -------
+        Mechanism
+            A new one.
+
         Examples
         --------
         >>> import assur
@@ -509,6 +519,11 @@ class Mechanism:
         q : float or array_like, optional
             Coordinate of the present driver, for one design: the new mechanism is drawn at that
             position, which with the assembly is kept. By default it is `q0`.
+
+        Returns
+        -------
+        Mechanism
+            A new one.
 
         Examples
         --------
@@ -766,6 +781,11 @@ class Mechanism:
         assembly : mapping of str to int, optional
             As for `solve`; the drawing's by default.
 
+        Returns
+        -------
+        Extremes
+            The least and the greatest value, the stroke and the time ratio.
+
         Examples
         --------
         >>> import assur
@@ -812,6 +832,11 @@ class Mechanism:
         ----------
         positions : int
             Coordinates of the fan, evenly spaced over a turn, or over all that a slide can reach.
+
+        Returns
+        -------
+        ConfigurationCurve
+            Its branches, folds and circuits.
 
         Examples
         --------
@@ -1000,6 +1025,7 @@ class Mechanism:
         Returns
         -------
         matplotlib.axes.Axes
+            Those drawn on.
 
         Examples
         --------

@@ -219,6 +219,11 @@ class Motion:
             (x, y) in the link's frame: at its first joint, x toward the second (the ground's are
             the drawing's axes); or several, shape (P, 2), stacked along a new first axis.
 
+        Returns
+        -------
+        Analogues
+            Values of shape S + (N, 2).
+
         Examples
         --------
         The middle of a coupler:
@@ -517,6 +522,16 @@ class Motion:
     def explain(self, index: int | tuple[int, ...] = ()) -> str:
         """Return the status of one position as a sentence, as ``on_error="raise"`` words it.
 
+        Parameters
+        ----------
+        index : int or tuple of int
+            Index into `shape`.
+
+        Returns
+        -------
+        str
+            A sentence.
+
         Examples
         --------
         >>> import assur
@@ -582,6 +597,13 @@ class Motion:
         Parameters are those of `to_dataframe`. Units stand in the second row; cells without a
         position are empty.
 
+        Parameters
+        ----------
+        path : path-like
+            The file.
+        omega, alpha, degrees, moving
+            As for `to_dataframe`.
+
         Examples
         --------
         >>> import assur, pathlib, tempfile
@@ -603,6 +625,13 @@ class Motion:
         moving: bool = False,
     ) -> None:
         """Write `to_dataframe` as a Parquet file, units in its metadata (needs pandas, pyarrow).
+
+        Parameters
+        ----------
+        path : path-like
+            The file.
+        omega, alpha, degrees, moving
+            As for `to_dataframe`.
 
         Examples
         --------
@@ -653,6 +682,7 @@ class Motion:
         Returns
         -------
         matplotlib.axes.Axes
+            Those drawn on.
 
         Examples
         --------

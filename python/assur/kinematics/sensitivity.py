@@ -46,6 +46,16 @@ class Sensitivity:
     def joint(self, name: str) -> Analogues:
         """Return derivatives of a joint's position and analogues, m/m or m/rad, S + (N, 2).
 
+        Parameters
+        ----------
+        name : str
+            The joint.
+
+        Returns
+        -------
+        Analogues
+            Values of shape S + (N, 2).
+
         Examples
         --------
         The pin B of the crank moves outward by as much as the crank grows:
@@ -60,6 +70,16 @@ class Sensitivity:
     def link(self, name: str) -> Analogues:
         """Return derivatives of a link's angle and its analogues, rad/m or rad/rad.
 
+        Parameters
+        ----------
+        name : str
+            The link.
+
+        Returns
+        -------
+        Analogues
+            Values of shape S + (N,).
+
         Examples
         --------
         The crank's angle is q, whatever its length:
@@ -73,6 +93,16 @@ class Sensitivity:
 
     def slide(self, name: str) -> Analogues:
         """Return derivatives of a slide's value and its analogues, m/m or m/rad.
+
+        Parameters
+        ----------
+        name : str
+            The slide.
+
+        Returns
+        -------
+        Analogues
+            Values of shape S + (N,).
 
         Examples
         --------

@@ -33,6 +33,14 @@ class InTime(NamedTuple):
     ----------
     value, velocity, acceleration, jerk : ndarray
         m, m/s, m/s², m/s³, or rad and so on; points with a last axis of 2.
+
+    Examples
+    --------
+    >>> import assur
+    >>> law = assur.laws.Uniform(0.0, 1.0, duration=0.5)
+    >>> crank = assur.SliderCrank(0.05, 0.2).follow(law, [0.1, 0.2]).link("crank")
+    >>> crank.value, crank.velocity  # rad, rad/s
+    (array([0.2, 0.4]), array([2., 2.]))
     """
 
     value: Float
@@ -73,6 +81,16 @@ class TimedMotion(Tabular):
     def joint(self, name: str | Sequence[str]) -> InTime:
         """Return a joint over time (of several, stacked along a new first axis).
 
+        Parameters
+        ----------
+        name : str or sequence of str
+            The joint, or several.
+
+        Returns
+        -------
+        InTime
+            Its value, velocity, acceleration and jerk, m, m/s, m/s², m/s³, each (N, 2).
+
         Examples
         --------
         >>> import assur, numpy as np
@@ -85,6 +103,16 @@ class TimedMotion(Tabular):
 
     def link(self, name: str | Sequence[str]) -> InTime:
         """Return a link's angle over time.
+
+        Parameters
+        ----------
+        name : str or sequence of str
+            The link, or several.
+
+        Returns
+        -------
+        InTime
+            Its value, velocity, acceleration and jerk, rad, rad/s, rad/s², rad/s³, each (N,).
 
         Examples
         --------
@@ -99,6 +127,16 @@ class TimedMotion(Tabular):
     def slide(self, name: str | Sequence[str]) -> InTime:
         """Return a slide's value over time.
 
+        Parameters
+        ----------
+        name : str or sequence of str
+            The slide, or several.
+
+        Returns
+        -------
+        InTime
+            Its value, velocity, acceleration and jerk, m, m/s, m/s², m/s³, each (N,).
+
         Examples
         --------
         >>> import assur, numpy as np
@@ -111,6 +149,18 @@ class TimedMotion(Tabular):
 
     def point(self, link: str, local: npt.ArrayLike) -> InTime:
         """Return a point of a link over time, as `Motion.point`.
+
+        Parameters
+        ----------
+        link : str
+            The link.
+        local : array_like
+            (x, y) in the link's frame, m.
+
+        Returns
+        -------
+        InTime
+            Its value, velocity, acceleration and jerk, m, m/s, m/s², m/s³, each (N, 2).
 
         Examples
         --------

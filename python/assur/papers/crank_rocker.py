@@ -105,6 +105,15 @@ class Solution:
 class Table1(NamedTuple):
     """Table 1: crank angles, degrees; grounds; transmission angles, rad (angles × grounds).
 
+    Attributes
+    ----------
+    phi1_deg : ndarray
+        Crank angles, degrees, (13,).
+    l4 : ndarray
+        Grounds, in crank lengths, (5,).
+    printed, true : ndarray
+        Transmission angles, rad, (13, 5): as printed, and with the true π.
+
     Examples
     --------
     >>> import assur
@@ -213,6 +222,18 @@ def crank_turns(
     The margins (a last axis of 3) are l2 + l3 − l1 − l4, l3 + l4 − l1 − l2 and l2 + l4 − l1 − l3:
     for a ground longer than the crank it turns if and only if all are positive. The paper prints
     the first two.
+
+    Parameters
+    ----------
+    l1, l2, l3, l4 : array_like
+        Lengths of crank, coupler, rocker and ground, m.
+
+    Returns
+    -------
+    turns : bool or ndarray of bool
+        Whether it turns.
+    margins : ndarray
+        By how much each inequality holds, m, (..., 3).
 
     Examples
     --------
@@ -325,6 +346,11 @@ def least_transmission_angle(
         s = −1: arcsin((ρ_D + s ρ_C)/l₃) + arcsin((ρ_B ± s ρ_C)/l₂), + on the outer side. The crank
         passes if γ at the extreme is greater than both.
 
+    Returns
+    -------
+    float
+        The angle, rad.
+
     Raises
     ------
     InputError
@@ -384,6 +410,16 @@ def transmission_extremes(
     In closed form: γ₂₃ is extreme where crank and ground are collinear (φ₁ = 0 and π). NaN in
     arrays where the crank does not turn fully.
 
+    Parameters
+    ----------
+    l1, l2, l3, l4 : array_like
+        Lengths of crank, coupler, rocker and ground, m.
+
+    Returns
+    -------
+    least, greatest : float or ndarray
+        The transmission angles, rad.
+
     Raises
     ------
     InputError
@@ -413,6 +449,18 @@ def blocked(
     There γ < γ_min: around φ₁ = 0 (γ₂₃ near π; the interval begins below 0) and around φ₁ = π
     (γ₂₃ near 0). The list is empty if the mechanism is never blocked.
 
+    Parameters
+    ----------
+    l1, l2, l3, l4 : float
+        Lengths of crank, coupler, rocker and ground, m.
+    gamma_min : float
+        Least transmission angle at which the rocker still moves, rad.
+
+    Returns
+    -------
+    list of (float, float)
+        Where each interval begins and ends, rad.
+
     Examples
     --------
     >>> import assur, numpy as np
@@ -433,6 +481,11 @@ def table1() -> Table1:
     """Return Table 1, as printed (with π = 3.14) and with the true π.
 
     Transmission angles for l1 = 1, l2 = 4.5, l3 = 1.5, every 30°.
+
+    Returns
+    -------
+    Table1
+        Both, with the angles and grounds that they are of.
 
     Examples
     --------

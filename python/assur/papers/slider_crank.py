@@ -52,6 +52,13 @@ class Deviation(NamedTuple):
     `relative` is a fraction of the exact value (undefined for the acceleration analogue, which
     passes through zero), `absolute` is per crank length.
 
+    Attributes
+    ----------
+    relative, relative_at : float or ndarray
+        Fraction of the exact value, and where, rad.
+    absolute, absolute_at : float or ndarray
+        Per crank length, and where, rad.
+
     Examples
     --------
     >>> import assur
@@ -171,6 +178,18 @@ def coordinate(phi: npt.ArrayLike, crank: npt.ArrayLike, rod: npt.ArrayLike) -> 
 
     The papers' other convention: x = crank + rod − stroke, so analogues have the opposite sign.
 
+    Parameters
+    ----------
+    phi : array_like
+        Crank angles, rad.
+    crank, rod : array_like
+        Lengths, m, broadcast to phi.
+
+    Returns
+    -------
+    Analogues
+        The coordinate, m, and its derivatives by phi.
+
     Examples
     --------
     >>> import assur
@@ -188,6 +207,18 @@ def rod_angle(phi: npt.ArrayLike, crank: npt.ArrayLike, rod: npt.ArrayLike) -> A
     """Return the angle of the rod to the slider's axis, rad, with two analogues.
 
     φ₂ = −δ, sin δ = (crank / rod) sin φ: negative while the crank's pin is above the axis.
+
+    Parameters
+    ----------
+    phi : array_like
+        Crank angles, rad.
+    crank, rod : array_like
+        Lengths, m, broadcast to phi.
+
+    Returns
+    -------
+    Analogues
+        The angle, rad, and its derivatives by phi.
 
     References
     ----------
@@ -363,6 +394,18 @@ def deviation(
 
 def contour(phi: float, crank: float, rod: float) -> Float:
     """Return the closed vector contour at one position: O, A, B and O again, m, shape (4, 2).
+
+    Parameters
+    ----------
+    phi : float
+        Crank angle, rad.
+    crank, rod : float
+        Lengths, m.
+
+    Returns
+    -------
+    ndarray
+        Points, m, (4, 2).
 
     References
     ----------

@@ -254,6 +254,11 @@ def rms_reaction(
 
     See `peak_reaction`.
 
+    Parameters
+    ----------
+    joint, on, speed, acceleration
+        As for `peak_reaction`.
+
     Returns
     -------
     Metric
@@ -304,6 +309,11 @@ def rms_effort(speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) ->
     """The root of the mean square of the torque or force of the drive, N·m or N.
 
     See `peak_effort`.
+
+    Parameters
+    ----------
+    speed, acceleration
+        As for `peak_effort`.
 
     Returns
     -------

@@ -143,6 +143,11 @@ class Measures(Mapping[str, Float]):
             Indices of designs in C order, as in `kept`; a tuple is an index into S, an entry for
             each axis; an array of bool of shape S chooses.
 
+        Returns
+        -------
+        Mechanism or Machine
+            One design, or a batch of several.
+
         Raises
         ------
         InputError
@@ -196,6 +201,11 @@ class Measures(Mapping[str, Float]):
         Columns: the design's index (one for each axis of S), the dimensions that the sweep
         changes, status, whether it is kept, and every metric. A metric named like one of the
         other columns appears as ``metric status``.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Units are those of the metrics.
 
         Examples
         --------

@@ -25,6 +25,15 @@ Part: TypeAlias = tuple[float, float] | None
 class Condition:
     """A metric compared with a limit: ``where=`` drops designs for which it is false.
 
+    Parameters
+    ----------
+    metric : Metric
+        What is compared.
+    relation : {"<", "<=", ">", ">="}
+        How.
+    limit : float
+        With what, in the metric's unit.
+
     Examples
     --------
     >>> from assur import metric
@@ -48,6 +57,16 @@ class Condition:
 
     def holds(self, values: Float) -> npt.NDArray[np.bool_]:
         """Whether values meet it; NaN does not.
+
+        Parameters
+        ----------
+        values : ndarray
+            Values of the metric, of any shape.
+
+        Returns
+        -------
+        ndarray of bool
+            Of the same shape.
 
         Examples
         --------
@@ -92,6 +111,16 @@ class Metric:
 
     def value(self, of: Callable[[Single], Float]) -> Float:
         """Its values, given those of its leaves.
+
+        Parameters
+        ----------
+        of : callable
+            Gives the values of a leaf.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of the leaves' values.
 
         Examples
         --------

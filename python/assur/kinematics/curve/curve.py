@@ -105,6 +105,11 @@ class ConfigurationCurve:
         places : sequence of (q, Assembly)
             The positions in the wanted order, as `Mechanism.find` gives them.
 
+        Returns
+        -------
+        Defects
+            Of circuit, branch and order.
+
         Examples
         --------
         >>> import assur
@@ -127,6 +132,11 @@ class ConfigurationCurve:
             Index of the circuit.
         samples : int
             Positions of each branch, closer together toward dead points.
+
+        Returns
+        -------
+        CircuitMotion
+            Positions in the order of the motion.
 
         Examples
         --------
