@@ -58,7 +58,8 @@ check: lint-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m mypy
 	$(PY) tools/error_page --check
 	$(PY) -m pytest -q -n auto tests/python/net/test_digests.py tests/python/description \
-	  tests/python/papers tests/python/package/test_readme.py
+	  tests/python/papers tests/python/package/test_readme.py \
+	  tests/python/package/test_examples_in_docstrings.py
 
 test: lint-tools rust-test python-test
 	@echo "All checks passed."

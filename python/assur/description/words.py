@@ -9,7 +9,7 @@ __all__ = ["Cylinder", "Drive", "Slide", "Status"]
 
 
 class Status(IntEnum):
-    """Result of solving one position; the codes of ``Motion.status``.
+    """Result of solving one position; the codes of `Motion.status`.
 
     Examples
     --------

@@ -27,7 +27,7 @@ __all__ = ["Motion"]
 
 
 class Motion:
-    """Positions and analogues of a mechanism; made by ``Mechanism.solve``.
+    """Positions and analogues of a mechanism; made by `Mechanism.solve`.
 
     Attributes
     ----------

@@ -19,7 +19,7 @@ __all__ = ["Sensitivity"]
 
 
 class Sensitivity:
-    """Derivatives of a motion by one dimension; made by ``Motion.sensitivity``.
+    """Derivatives of a motion by one dimension; made by `Motion.sensitivity`.
 
     Attributes
     ----------
