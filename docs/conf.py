@@ -58,7 +58,7 @@ myst_heading_anchors = 3
 
 # Docstrings state types and shapes; annotations name what only type checkers import.
 autodoc_typehints = "none"
-autodoc_member_order = "groupwise"
+autodoc_member_order = "bysource"
 toc_object_entries_show_parents = "hide"
 autosummary_generate = True
 autosummary_context = {

@@ -5,7 +5,7 @@ Each is a motion from `start` to `end` within `duration`, at rest before and aft
 
 References
 ----------
-.. [1] R. L. Norton, Cam Design and Manufacturing Handbook, 2nd ed., Industrial Press 2009, ch. 3.
+.. [1] Norton, R. L., Cam Design and Manufacturing Handbook, 2nd ed., Industrial Press 2009, ch. 3.
 """
 
 from __future__ import annotations
