@@ -36,6 +36,16 @@ class Imported:
         way.
     input_speed : float, tuple of float or None or None
         Speed of the driver, rad/s or m/s, where the file gives one; a tuple for several drivers.
+
+    Examples
+    --------
+    A line of PMKS a joint: its links, the pair, the place, flags:
+
+    >>> from assur import importers
+    >>> text = "ground crank R 0 0 0 ffft|crank rod R 0 1|rod block R 3 0|ground block P 3 0 0"
+    >>> found = importers.read(text)
+    >>> found.format, found.mechanism.structure.formula, found.omitted
+    ('pmks', 'I(crank) → II(rod, block)', ())
     """
 
     mechanism: Mechanism
