@@ -41,7 +41,7 @@ from assur.mechanisms.class_iv import ClassIV
 from assur.mechanisms.named import FourBar, SliderCrank
 
 if TYPE_CHECKING:
-    from assur import balance, events, flywheel, importers, laws, metric
+    from assur import balance, events, examples, flywheel, importers, laws, metric
     from assur.dynamics.friction import JointFriction, SlideFriction
     from assur.dynamics.loads import (
         Body,
@@ -119,6 +119,7 @@ __all__ = [
     "balance",
     "crank_rocker",
     "events",
+    "examples",
     "flywheel",
     "importers",
     "laws",
@@ -131,7 +132,7 @@ __version__ = version()
 
 # Imported at first use: more than half of what `import assur` would take (PEP 562).
 _LATER = {
-    "assur": ("balance", "events", "flywheel", "importers", "laws", "metric"),
+    "assur": ("balance", "events", "examples", "flywheel", "importers", "laws", "metric"),
     "assur.dynamics.friction": ("JointFriction", "SlideFriction"),
     "assur.dynamics.loads": (
         "Body",

@@ -6,10 +6,10 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from higher_library import loom, triad
 
 import ours
 import spaces
+from assur.examples import loom, triad
 from subject import Case, Contender, Subject, installed, turn
 
 if TYPE_CHECKING:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from library import jansen_leg
 
 import memory
 import ours
 import spaces
+from assur.examples import jansen_leg
 from rivals import closed_form
 from subject import Case, Contender, Subject, turn
 

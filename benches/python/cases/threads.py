@@ -6,11 +6,11 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
-from higher_library import loom
 
 import assur
 import spaces
 from assur import metric
+from assur.examples import loom
 from subject import OURS, Case, Contender, Subject, installed, turn
 
 if TYPE_CHECKING:

@@ -200,7 +200,7 @@ def jansen(
 ) -> tuple[Float, ...]:
     """Jansen's leg by intersections of circles: M, T, W, L, K, F, each as x and y.
 
-    The dimensions are those of `library.jansen_leg`, in their order.
+    The dimensions are those of `assur.examples.jansen_leg`, in their order.
     """
     b = bx, by
     m = ox + crank * np.cos(q), oy + crank * np.sin(q)

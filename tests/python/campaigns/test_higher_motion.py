@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from higher_library import loom
 
 import assur
 import campaign_cases as cases
 import campaign_checks as checks
 import higher_models
 from assur import Status
+from assur.examples import loom
 from campaign_geometry import Geometry, Sample
 from mechanism_data import arguments
 

@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-import higher_library
-import library
 import numpy as np
 
 import assur
+from assur import examples
 from assur.description.structure import roman
 
 
 def test_mobility_is_counted_term_by_term() -> None:
-    for make in (library.jansen_leg, library.shaper, library.excavator, higher_library.loom):
+    for make in (examples.jansen_leg, examples.shaper, examples.excavator, examples.loom):
         structure = make().structure
         pairs = structure.turning_pairs + structure.sliding_pairs
         assert 3 * structure.moving_links - 2 * pairs == structure.mobility_counted
 
 
 def test_a_structure_prints_as_a_table() -> None:
-    lines = str(higher_library.loom().structure).splitlines()
+    lines = str(examples.loom().structure).splitlines()
     assert lines[0].endswith("class IV")
     assert "3·7 − 2·10 = 1" in lines[1]
     assert len(lines) == 4

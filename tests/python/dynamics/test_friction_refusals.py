@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from higher_library import loom
 
 import assur
 from assur import Body, JointFriction, Machine, SlideFriction, Torque
+from assur.examples import loom
 
 FOUR_BAR = assur.FourBar(1.0, 3.0, 2.5, 3.2)
 PIN = {"C": JointFriction(0.1, 0.2)}

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from higher_library import loom
 
 import assur
 import oracle
@@ -26,6 +25,7 @@ from assur import (
     flywheel,
     slider_crank,
 )
+from assur.examples import loom
 from interruptions import is_heard
 from machines import cylinder, five_bar, four_bar
 from mechanism_data import described

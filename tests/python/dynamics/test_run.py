@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from higher_library import loom
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
 import assur
 from assur import Body, Damper, Force, Gravity, Spring, Torque, TorsionDamper, TorsionSpring, events
+from assur.examples import loom
 from machines import five_bar, four_bar, pendulum
 from oracle_dae import Dae
 

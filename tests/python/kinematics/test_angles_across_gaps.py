@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import library
 import numpy as np
 import numpy.typing as npt
 import pytest
@@ -10,6 +9,7 @@ import pytest
 import assur
 import bits
 import design_spaces
+import named_drawings
 
 # Positions of a turn: an island of a hundredth of a degree shows.
 SAMPLES = 36_001
@@ -30,7 +30,7 @@ def designs(name: str) -> assur.Mechanism:
     kind, seed = name.split()
     if kind == "crank":
         return design_spaces.crank_space(int(seed))
-    m = bits.random(int(seed)) if kind == "seed" else library.LIBRARY[kind]()
+    m = bits.random(int(seed)) if kind == "seed" else named_drawings.CLASS_II[kind]()
     return design_spaces.space(m, np.random.default_rng(int(seed)))
 
 

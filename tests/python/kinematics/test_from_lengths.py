@@ -6,11 +6,11 @@ from functools import partial
 from itertools import combinations
 from typing import Any
 
-import higher_library
 import numpy as np
 import pytest
 
 import assur
+from assur import examples
 from refusals import refused
 
 SKETCH = {"A": (0, 0), "B": (0.2, 1), "C": (3, 2.2), "D": (3.1, 0), "P": (2, 3)}
@@ -43,7 +43,7 @@ def test_what_is_not_given_remains() -> None:
 
 def test_a_rough_sketch_of_a_loom_finds_its_assembly() -> None:
     """All distances of the true drawing, from joints that are off by up to a tenth."""
-    true = higher_library.loom()
+    true = examples.loom()
     names = list(true.joints)
     at = {name: np.array(true.joints[name]) for name in names}
     random = np.random.default_rng(3)

@@ -11,7 +11,6 @@ import random
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-import library
 import numpy as np
 import pytest
 from hypothesis import Phase, given, settings
@@ -21,6 +20,7 @@ import agreement
 import assur
 import dyad_models
 import mixed_models
+import named_drawings
 import named_models
 from assur import Status
 from mechanism_data import GROUND, Description, arguments
@@ -249,9 +249,9 @@ def library_motions(
     name: str, scale: float, make: Callable[[assur.Mechanism, float], assur.Mechanism]
 ) -> tuple[assur.Motion, assur.Motion]:
     """Sixty positions over the range and the drawing's, in metres and in other units."""
-    drawn = library.LIBRARY[name]()
+    drawn = named_drawings.CLASS_II[name]()
     one, two = make(drawn, 1.0), make(drawn, scale)
-    low, high = (np.asarray(end) for end in library.RANGES[name])
+    low, high = (np.asarray(end) for end in named_drawings.RANGES[name])
     t = np.linspace(0.0, 1.0, 60).reshape(-1, *(1,) * low.ndim)
     q = np.concatenate([low + t * (high - low), [one.q0]])
     drivers = {one.driver} if isinstance(one.driver, (str, assur.Drive)) else set(one.driver)
@@ -273,8 +273,8 @@ def per_q(m: assur.Mechanism) -> int:
 of_library = pytest.mark.parametrize(
     ("name", "make"),
     [
-        *((name, drawn_larger) for name in library.LIBRARY),
-        *((name, larger) for name in library.LIBRARY if name != "excavator"),
+        *((name, drawn_larger) for name in named_drawings.CLASS_II),
+        *((name, larger) for name in named_drawings.CLASS_II if name != "excavator"),
     ],
 )
 

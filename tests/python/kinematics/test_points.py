@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-import library
 import numpy as np
 
 import assur
+from assur import examples
 from refusals import refused
 
 ORDERS = ("value", "d1", "d2", "d3")
@@ -53,7 +53,7 @@ def test_of_a_sliding_link_and_of_the_ground() -> None:
     np.testing.assert_array_equal(motion.point("ground", (0.3, 0.1)).value, [(0.3, 0.1)] * 2)
     np.testing.assert_array_equal(motion.point("ground", (0.3, 0.1)).d1, 0.0)
     # The whole library: the first two joints of a link, by its frame.
-    m = library.jansen_leg()
+    m = examples.jansen_leg()
     leg = m.solve(m.q0)
     for link, joints in m.links.items():
         if link != "ground" and len(joints) > 1:

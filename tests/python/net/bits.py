@@ -14,13 +14,13 @@ import subprocess
 import sys
 from typing import TYPE_CHECKING, TypeAlias
 
-import library
 import numpy as np
 import numpy.typing as npt
 
 import assur
 import dyad_models
 import mechanism_data
+import named_drawings
 import named_models
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ def elsewhere(program: str, count: int, **variables: str) -> subprocess.Popen[st
 def named(name: str) -> assur.Mechanism:
     kind, _, own = name.partition(" ")
     if kind == "library":
-        return library.LIBRARY[own]()
+        return named_drawings.CLASS_II[own]()
     return assur.Mechanism(**mechanism_data.arguments(named_models.NAMED[own]()))
 
 
@@ -49,7 +49,8 @@ def random(seed: int) -> assur.Mechanism:
     return assur.Mechanism(**mechanism_data.arguments(case.description))
 
 
-NAMES = [f"library {n}" for n in library.LIBRARY] + [f"model {n}" for n in named_models.NAMED]
+NAMES = [f"library {n}" for n in named_drawings.CLASS_II]
+NAMES += [f"model {n}" for n in named_models.NAMED]
 
 
 def few(m: assur.Mechanism) -> int:
@@ -65,7 +66,7 @@ def coordinates(m: assur.Mechanism, rng: np.random.Generator, count: int, name: 
     q0 = np.asarray(m.q0)
     drivers = m.driver if isinstance(m.driver, tuple) else (m.driver,)
     reach = np.reshape([1.0 if d in m.slides else math.pi for d in drivers], q0.shape)
-    used = library.RANGES.get(name.removeprefix("library "), (q0 - reach, q0 + reach))
+    used = named_drawings.RANGES.get(name.removeprefix("library "), (q0 - reach, q0 + reach))
     low, high = (np.asarray(end) for end in used)
     inside = (high - low) / 2 * rng.uniform(-1.0, 1.0, (count, *q0.shape))
     beyond = rng.choice([1.0, 1.2, 2.0 if q0.ndim else 100.0], (count, *[1] * q0.ndim))

@@ -11,12 +11,12 @@ import json
 import sys
 from typing import TYPE_CHECKING
 
-import library
 import numpy as np
 
 import assur
 import bits
 import campaign_cases
+import named_drawings
 from mechanism_data import arguments
 
 if TYPE_CHECKING:
@@ -141,7 +141,7 @@ def digest_of(batch: assur.Mechanism, q: bits.Float) -> tuple[str, str]:
 def digests(seeds: int) -> Iterator[tuple[str, tuple[str, str]]]:
     for name in NAMED:
         for seed in range(4):
-            yield f"{name} {seed}", digest(library.LIBRARY[name](), seed)
+            yield f"{name} {seed}", digest(named_drawings.CLASS_II[name](), seed)
     for name in bits.NAMES:
         if np.ndim(bits.named(name).q0):
             for seed in range(4):

@@ -8,13 +8,13 @@ import warnings
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import higher_library
 import numpy as np
 
 import assur
 import dyad_models
 import machine_models
 import mixed_models
+import named_drawings
 from assur import events, flywheel
 from digest_kinematics import again, made
 
@@ -109,7 +109,7 @@ def press(motor: Any = None, *loads: Any) -> assur.Machine:
 
 def pumped() -> assur.Machine:
     """A mechanism of class III with bodies."""
-    m = again(higher_library.HIGHER["triad"]())
+    m = again(named_drawings.HIGHER["triad"]())
     bodies = {name: assur.Body(1.0, 0.2) for name in m.links if name != "ground"}
     return assur.Machine(m, bodies, [assur.Gravity()])
 

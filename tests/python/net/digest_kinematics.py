@@ -6,8 +6,6 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import higher_library
-import library
 import numpy as np
 
 import assur
@@ -15,6 +13,7 @@ import bits
 import dyad_models
 import higher_models
 import mixed_models
+import named_drawings
 import named_models
 import redundant_models
 from mechanism_data import Description, arguments
@@ -51,10 +50,10 @@ def made(d: Description) -> assur.Mechanism:
 
 
 def mechanisms() -> Iterator[tuple[str, assur.Mechanism]]:
-    for name in library.LIBRARY:
-        yield f"library {name}", again(library.LIBRARY[name]())
-    for name in higher_library.HIGHER:
-        yield f"higher library {name}", again(higher_library.HIGHER[name]())
+    for name in named_drawings.CLASS_II:
+        yield f"library {name}", again(named_drawings.CLASS_II[name]())
+    for name in named_drawings.HIGHER:
+        yield f"higher library {name}", again(named_drawings.HIGHER[name]())
     for name in named_models.NAMED:
         yield f"model {name}", made(named_models.NAMED[name]())
     for seed in RANDOM:
@@ -120,5 +119,5 @@ def results() -> Iterator[tuple[str, Any]]:
     q = np.concatenate([np.arange(-720, 721, 45) * (math.pi / 180), [1e3, -1e5]])
     for name, m in change_points():
         yield f"change points, {name}", bits.solve(m, q)
-    paper = higher_library.HIGHER["quadrilateral"]()
+    paper = named_drawings.HIGHER["quadrilateral"]()
     yield "far turns", bits.solve(again(paper), np.array([0.1, 20.0, -60.0, 300.0]))

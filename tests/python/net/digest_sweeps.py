@@ -6,12 +6,11 @@ from contextlib import suppress
 from itertools import product
 from typing import TYPE_CHECKING, Any, Literal
 
-import higher_library
-import library
 import numpy as np
 
 import assur
 import design_spaces
+import named_drawings
 from assur import metric
 from digest_kinematics import again
 
@@ -58,15 +57,15 @@ def of_coordinate(name: str, m: assur.Mechanism, is_turn: bool) -> dict[str, met
 
 
 def results() -> Iterator[tuple[str, Any]]:
-    named = {**library.LIBRARY, **higher_library.HIGHER}
+    named = {**named_drawings.CLASS_II, **named_drawings.HIGHER}
     for seed, (name, make) in enumerate(named.items()):
         m = again(make())
         is_crank = np.ndim(m.q0) == 0 and m.driver not in m.slides
-        low, high = library.RANGES.get(name, (0.0, 2 * np.pi))
+        low, high = named_drawings.RANGES.get(name, (0.0, 2 * np.pi))
         is_turn = is_crank and high == 2 * np.pi
         if is_turn:
             q = m.q0 + TURN
-        elif name in library.RANGES:
+        elif name in named_drawings.RANGES:
             q = np.linspace(low, high, POSITIONS)
         else:
             q = np.add.outer(0.002 * np.arange(POSITIONS), m.q0)

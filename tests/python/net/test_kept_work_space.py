@@ -6,18 +6,18 @@ import pickle
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import higher_library
 import numpy as np
 import pytest
 
 import bits
+import named_drawings
 
 if TYPE_CHECKING:
     import assur
     from bits import Float
 
 CALLS = 40
-HIGHER = tuple(f"higher {name}" for name in higher_library.HIGHER)
+HIGHER = tuple(f"higher {name}" for name in named_drawings.HIGHER)
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def requests(m: assur.Mechanism, rng: np.random.Generator, name: str) -> list[Re
 
 def mechanism(name: str) -> assur.Mechanism:
     kind, _, own = name.partition(" ")
-    return higher_library.HIGHER[own]() if kind == "higher" else bits.named(name)
+    return named_drawings.HIGHER[own]() if kind == "higher" else bits.named(name)
 
 
 @pytest.mark.parametrize("name", [*bits.NAMES, *HIGHER])

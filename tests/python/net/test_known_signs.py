@@ -5,13 +5,13 @@ from __future__ import annotations
 import pickle
 from concurrent.futures import ThreadPoolExecutor
 
-import library
 import numpy as np
 import pytest
 
 import assur
 import bits
 import design_spaces
+import named_drawings
 from assur import _core
 
 NAMES = ("crank_rocker", "watt_six_bar", "stephenson_six_bar", "jansen_leg")
@@ -39,7 +39,7 @@ def answers(batch: assur.Mechanism, q: bits.Float) -> list[bits.Bits]:
 
 def space(name: str, rng: np.random.Generator) -> assur.Mechanism:
     if name in NAMES:
-        return design_spaces.space(library.LIBRARY[name](), rng, 300)
+        return design_spaces.space(named_drawings.CLASS_II[name](), rng, 300)
     kind, _, seed = name.partition(" ")
     if kind == "slide":
         return design_spaces.slide_space(int(seed), 60)

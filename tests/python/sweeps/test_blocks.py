@@ -5,13 +5,13 @@ from __future__ import annotations
 from concurrent.futures import Future, ProcessPoolExecutor
 from typing import TYPE_CHECKING, Any
 
-import library
 import numpy as np
 import pytest
 
 import assur
 import bits
 import design_spaces
+import named_drawings
 from assur import metric
 from assur.sweeps import measuring
 
@@ -57,7 +57,7 @@ def processes() -> Iterator[ProcessPoolExecutor]:
 
 
 def batch(name: str = "stephenson_six_bar") -> assur.Mechanism:
-    return design_spaces.space(library.LIBRARY[name](), np.random.default_rng(3), COUNT)
+    return design_spaces.space(named_drawings.CLASS_II[name](), np.random.default_rng(3), COUNT)
 
 
 def height(motion: assur.Motion) -> Any:
@@ -115,8 +115,8 @@ def test_motions(on_error: Any, q: Any) -> None:
 
 @pytest.mark.usefixtures("small_blocks")
 def test_several_drivers_and_grids() -> None:
-    press = library.LIBRARY["excavator"]()
-    q = np.linspace(*library.RANGES["excavator"], 24)
+    press = named_drawings.CLASS_II["excavator"]()
+    q = np.linspace(*named_drawings.RANGES["excavator"], 24)
     lengths = press.dimensions["bucket.length"] * np.linspace(0.9, 1.1, 10)
     grid = assur.Grid({"bucket.length": lengths, "link.length": [0.6, 0.65, 0.7]})
     for given in (q, q[0], np.broadcast_to(q, (10, 3, *q.shape)) + 0.01):

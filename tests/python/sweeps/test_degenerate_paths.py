@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import library
 import numpy as np
 import pytest
 
 import assur
+import named_drawings
 import textbook
 from assur import metric
 
@@ -57,8 +57,8 @@ def test_a_straight_line(angle: float, part: float) -> None:
 
 
 def test_peaucellier_draws_lines_and_circles() -> None:
-    m = library.LIBRARY["peaucellier"]()
-    low, high = library.RANGES["peaucellier"]
+    m = named_drawings.CLASS_II["peaucellier"]()
+    low, high = named_drawings.RANGES["peaucellier"]
     q = np.linspace(low, high, 61)
     path = m.solve(q, order=0)
     for joint in m.joints:

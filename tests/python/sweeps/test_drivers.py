@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-import library
 import numpy as np
 import numpy.typing as npt
 import pytest
 
 import assur
+import named_drawings
 import textbook
 from assur import metric
 
@@ -23,8 +23,8 @@ FIVE_BAR = assur.Mechanism(
 # Mechanism, its coordinates, a point, a link, a slide, where transmission is measured.
 MECHANISMS = {
     "excavator": (
-        library.LIBRARY["excavator"](),
-        np.linspace(*library.RANGES["excavator"], 23),
+        named_drawings.CLASS_II["excavator"](),
+        np.linspace(*named_drawings.RANGES["excavator"], 23),
         "tip",
         "stick",
         "stick",

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import library
 import numpy as np
 import numpy.typing as npt
 import pytest
 
 import assur
 import design_spaces
+import named_drawings
 import textbook
 from assur import metric
 
@@ -24,7 +24,7 @@ MECHANISMS = ["crank_rocker", "engine", "whitworth", "stephenson_six_bar"]
 
 
 def space(name: str) -> assur.Mechanism:
-    return design_spaces.space(library.LIBRARY[name](), np.random.default_rng(5), 300)
+    return design_spaces.space(named_drawings.CLASS_II[name](), np.random.default_rng(5), 300)
 
 
 def coordinate(motion: assur.Motion, name: str, order: int = 0) -> Float:
@@ -40,7 +40,7 @@ def coordinate(motion: assur.Motion, name: str, order: int = 0) -> Float:
 
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_metrics_are_those_of_the_motion(name: str) -> None:
-    one, batch = library.LIBRARY[name](), space(name)
+    one, batch = named_drawings.CLASS_II[name](), space(name)
     names = [j for j in one.joints if j not in one.links["ground"]]
     links = [link for link in one.links if link != "ground"]
     of = [f"{names[-1]}.x", f"{names[0]}.y", links[-1], *one.slides]

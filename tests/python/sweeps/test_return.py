@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import higher_library
 import numpy as np
 import pytest
 
 import assur
 import design_spaces
+import higher_drawings
 import textbook
 from assur import metric
 
@@ -60,7 +60,7 @@ def test_an_angle_that_goes_on_does_not_return() -> None:
 
 def test_higher_classes() -> None:
     """Most are where they were; some have a gap between the last position and the next turn."""
-    every = design_spaces.space(higher_library.triad_two_guides(), np.random.default_rng(1), 1500)
+    every = design_spaces.space(higher_drawings.triad_two_guides(), np.random.default_rng(1), 1500)
     asked = {"off": metric.deviation("D", part=0.5), "ratio": metric.time_ratio("D.y")}
     batch = assur.sweep(every, {}, Q, metrics=asked).designs([*range(30), 498, 660, 999])
     here, after = (batch.solve(q, order=0, on_error="nan") for q in (Q, Q + 2 * np.pi))

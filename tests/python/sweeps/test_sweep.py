@@ -6,13 +6,13 @@ import copy
 import pickle
 from typing import Any
 
-import higher_library
-import library
 import numpy as np
 import pytest
 
 import assur
 import design_spaces
+import higher_drawings
+import named_drawings
 from assur import metric
 from assur.sweeps import measuring
 
@@ -60,7 +60,9 @@ def test_a_grid_makes_every_combination() -> None:
 
 
 def test_designs_that_do_not_move_are_dropped() -> None:
-    batch = design_spaces.space(library.LIBRARY["stephenson_six_bar"](), np.random.default_rng(3))
+    batch = design_spaces.space(
+        named_drawings.CLASS_II["stephenson_six_bar"](), np.random.default_rng(3)
+    )
     whole = batch.solve(Q, order=1, on_error="nan")
     moves = (whole.status < assur.Status.UNREACHABLE).all(axis=-1)
     assert 0 < moves.sum() < moves.size
@@ -80,7 +82,7 @@ def test_designs_that_do_not_move_are_dropped() -> None:
 def test_neighbours_blocks_and_threads_do_not_matter(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    batch = design_spaces.space(library.LIBRARY[name](), np.random.default_rng(4), 200)
+    batch = design_spaces.space(named_drawings.CLASS_II[name](), np.random.default_rng(4), 200)
     asked: dict[str, metric.Metric] = {
         "span": metric.span(f"{[j for j in batch.joints if j not in batch.links['ground']][-1]}.x"),
         "turn": metric.span([link for link in batch.links if link != "ground"][-1], order=1),
@@ -109,14 +111,14 @@ def test_bad_designs_keep_their_places() -> None:
 
 
 def test_higher_classes_and_several_drivers() -> None:
-    press = library.LIBRARY["excavator"]()
-    from_, to = (np.asarray(end, dtype=np.float64) for end in library.RANGES["excavator"])
+    press = named_drawings.CLASS_II["excavator"]()
+    from_, to = (np.asarray(end, dtype=np.float64) for end in named_drawings.RANGES["excavator"])
     q = np.linspace(from_, to, 9)
     joint = [j for j in press.joints if j not in press.links["ground"]][-1]
     found = assur.sweep(press, {}, q, metrics={"reach": metric.greatest(f"{joint}.x")})
     expected = press.solve(q, order=0).joint(joint).value[:, 0].max()
     assert found["reach"] == expected
-    of_class_iv = higher_library.quadrilateral()
+    of_class_iv = higher_drawings.quadrilateral()
     batch = design_spaces.space(of_class_iv, np.random.default_rng(2), 50)
     motion = batch.solve(Q, order=1, on_error="nan")
     moves = (motion.status < assur.Status.SINGULAR).all(axis=-1)

@@ -6,9 +6,10 @@ import itertools
 import math
 from typing import TYPE_CHECKING, TypeAlias
 
-import library
 import numpy as np
 import numpy.typing as npt
+
+import named_drawings
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,7 +30,7 @@ def diagonals(drivers: int) -> Iterator[tuple[bool, ...]]:
 
 def coordinates(name: str, count: int = 241) -> Float:
     """Over the whole range: (N,), or (N, n) for n drivers: along its diagonals."""
-    low, high = (np.array(end) for end in library.RANGES[name])
+    low, high = (np.array(end) for end in named_drawings.RANGES[name])
     if low.ndim == 0:
         return np.linspace(float(low), float(high), count)
     paths = []

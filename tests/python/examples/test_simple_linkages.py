@@ -1,16 +1,16 @@
-"""Four-bars, slider-cranks and guides of the library against their closed forms."""
+"""Four-bars, slider-cranks and guides against their closed forms."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING, TypeAlias
 
-import library
 import numpy as np
 import numpy.typing as npt
 import pytest
 
-from library_checks import EXACT, STRAIGHT, TURN, coordinates
+from assur import examples
+from example_checks import EXACT, STRAIGHT, TURN, coordinates
 
 if TYPE_CHECKING:
     import assur
@@ -21,7 +21,7 @@ Float: TypeAlias = npt.NDArray[np.float64]
 def test_crank_rocker() -> None:
     """Freudenstein's equation (1954): K1 cos ψ − K2 cos φ + K3 = cos(φ − ψ)."""
     a, b, c, d = 0.04, 0.12, 0.08, 0.1
-    motion = library.crank_rocker().solve(TURN, order=1)
+    motion = examples.crank_rocker().solve(TURN, order=1)
     psi = motion.link("rocker").value
     k1, k2, k3 = d / a, d / c, (a * a - b * b + c * c + d * d) / (2 * a * c)
     misfit = k1 * np.cos(psi) - k2 * np.cos(TURN) + k3 - np.cos(TURN - psi)
@@ -29,7 +29,7 @@ def test_crank_rocker() -> None:
     # it swings between the positions with crank and coupler in one line
     ends = [math.pi - math.acos((c * c + d * d - (b + e) ** 2) / (2 * c * d)) for e in (a, -a)]
     assert [psi.min(), psi.max()] == pytest.approx(sorted(ends), abs=1e-4)  # between samples
-    forty = library.crank_rocker().solve(math.radians(40), order=0)
+    forty = examples.crank_rocker().solve(math.radians(40), order=0)
     angles = [math.degrees(forty.link(n).value) for n in ("coupler", "rocker")]
     # The triangle of B, C and D by the law of cosines, to three decimals.
     assert angles == pytest.approx([20.298, 57.325], abs=5e-4)
@@ -38,7 +38,7 @@ def test_crank_rocker() -> None:
 def test_chebyshev_lambda() -> None:
     """P from the right angle BDP; a straight half, and x as even as Chebyshev has it."""
     unit = 0.05
-    motion = library.chebyshev_lambda().solve(TURN, order=1)
+    motion = examples.chebyshev_lambda().solve(TURN, order=1)
     b = np.stack([unit * np.cos(TURN), unit * np.sin(TURN)], axis=-1) - [2 * unit, 0.0]
     s = np.hypot(*b.T)
     up = np.sqrt((5 * unit - s) * (5 * unit + s)) / s
@@ -53,7 +53,7 @@ def test_chebyshev_lambda() -> None:
 
 def test_engine() -> None:
     r, rod = 0.045, 0.15
-    motion = library.engine().solve(TURN)
+    motion = examples.engine().solve(TURN)
     s = r * np.sin(TURN)
     bore, cos_delta = motion.slide("bore"), np.sqrt(1 - (s / rod) ** 2)
     sin_delta = s / rod
@@ -79,7 +79,7 @@ def time_ratio(mechanism: assur.Mechanism) -> float:
 
 def test_whitworth() -> None:
     r, d, e, rod = 0.1, 0.05, 0.15, 0.39
-    mechanism = library.whitworth()
+    mechanism = examples.whitworth()
     motion = mechanism.solve(TURN)
     beta = lever_angle(r, d)
     lever = motion.link("lever")
@@ -101,7 +101,7 @@ def test_whitworth() -> None:
 
 def test_shaper() -> None:
     r, d, e, rod = 0.1, 0.2, 0.4, 0.15
-    mechanism = library.shaper()
+    mechanism = examples.shaper()
     motion = mechanism.solve(TURN)
     beta = lever_angle(r, d)
     assert np.max(np.abs(motion.link("lever").value - beta)) <= EXACT * 10
@@ -123,7 +123,7 @@ def test_shaper() -> None:
 def test_scotch_yoke() -> None:
     r = 0.05
     q = np.concatenate([TURN, -3 * TURN])
-    motion = library.scotch_yoke().solve(q, order=3)
+    motion = examples.scotch_yoke().solve(q, order=3)
     bed, c, s = motion.slide("bed"), r * np.cos(q), r * np.sin(q)
     for got, want in ((bed.value, c), (bed.d1, -s), (bed.d2, -c), (bed.d3, s)):
         assert np.max(np.abs(got - want)) <= EXACT * r
@@ -134,7 +134,7 @@ def test_scotch_yoke() -> None:
 def test_tangent_generator() -> None:
     h = 0.1
     q = coordinates("tangent_generator")
-    mechanism = library.tangent_generator()
+    mechanism = examples.tangent_generator()
     motion = mechanism.solve(q, order=3)
     rail, t = motion.slide("rail"), np.tan(q)
     g = 1 + t * t  # its own derivative: 2 t g
@@ -150,14 +150,14 @@ def test_tangent_generator() -> None:
 
 def test_trammel() -> None:
     """An ellipse: half axes BP and AP; the bar's middle runs on a circle."""
-    motion = library.trammel().solve(TURN)
+    motion = examples.trammel().solve(TURN)
     x, y = motion.joint("P").value.T
     assert np.max(np.abs((x / 0.2) ** 2 + (y / 0.08) ** 2 - 1)) <= EXACT
     assert np.max(np.abs(x - 0.2 * np.cos(TURN))) <= EXACT * 0.2
     assert np.max(np.abs(y - 0.08 * np.sin(TURN))) <= EXACT * 0.2
     assert np.max(np.abs(motion.slide("x").value - 0.12 * np.cos(TURN))) <= EXACT * 0.2
     assert np.max(np.abs(motion.slide("y").value + 0.12 * np.sin(TURN))) <= EXACT * 0.2
-    by_slide = library.trammel().with_driver("x").solve(np.linspace(-0.119, 0.119, 101), order=0)
+    by_slide = examples.trammel().with_driver("x").solve(np.linspace(-0.119, 0.119, 101), order=0)
     x, y = by_slide.joint("P").value.T
     assert np.max(np.abs((x / 0.2) ** 2 + (y / 0.08) ** 2 - 1)) <= EXACT
     assert np.all(y < 0)  # as drawn

@@ -1,19 +1,19 @@
-"""Six-bars, walking, drawing, digging and pressing linkages of the library."""
+"""Six-bars, walking, drawing, digging and pressing linkages."""
 
 from __future__ import annotations
 
 import math
 from typing import TypeAlias
 
-import library
 import numpy as np
 import numpy.typing as npt
 import pytest
 
 import assur
+import named_drawings
 import named_models
-from assur import Status
-from library_checks import EXACT, STRAIGHT, TURN, coordinates, distance, span
+from assur import Status, examples
+from example_checks import EXACT, STRAIGHT, TURN, coordinates, distance, span
 from mechanism_data import arguments
 
 Float: TypeAlias = npt.NDArray[np.float64]
@@ -43,7 +43,7 @@ def carried(a: Float, b: Float, drawn: tuple[tuple[float, float], ...]) -> Float
 @pytest.mark.parametrize("name", ["watt_six_bar", "stephenson_six_bar"])
 def test_six_bars(name: str) -> None:
     """Both dyads by the law of cosines; the ternary links of Watt's chain share a joint."""
-    mechanism = library.LIBRARY[name]()
+    mechanism = named_drawings.CLASS_II[name]()
     drawn, links = mechanism.joints, mechanism.links
     motion = mechanism.solve(TURN, order=0)
     pin = 0.04 * np.stack([np.cos(TURN), np.sin(TURN)], axis=-1)
@@ -64,7 +64,7 @@ def test_six_bars(name: str) -> None:
 
 def test_jansen_leg() -> None:
     """The known foot; lengths are the holy numbers."""
-    mechanism = library.jansen_leg()
+    mechanism = examples.jansen_leg()
     foot = mechanism.solve(0.0).joint("F").value
     assert foot == pytest.approx([-0.43170055, -0.91753226], abs=5e-9)  # given to 1e-8 m
     holy = {
@@ -93,9 +93,9 @@ def test_jansen_leg() -> None:
 def test_klann_leg() -> None:
     """The patent's two positions; a closed path with half a turn flat."""
     stride = 0.5
-    foot = library.klann_leg().solve(TURN).joint("F").value / stride
+    foot = examples.klann_leg().solve(TURN).joint("F").value / stride
     assert foot[0] == pytest.approx(foot[-1], abs=EXACT)
-    at = library.klann_leg().solve([math.pi, 0.0]).joint("F").value / stride
+    at = examples.klann_leg().solve([math.pi, 0.0]).joint("F").value / stride
     assert at[0] == pytest.approx([0.0, 0.0], abs=EXACT)
     assert at[1] == pytest.approx([1.0, 0.0], abs=1e-3)  # the patent's three decimals
     half = len(TURN) // 2
@@ -108,7 +108,7 @@ def test_klann_leg() -> None:
 
 
 def test_peaucellier() -> None:
-    mechanism = library.peaucellier()
+    mechanism = examples.peaucellier()
     motion = mechanism.solve(coordinates("peaucellier"))
     pen = motion.joint("P")
     assert np.max(np.abs(pen.value[:, 0] - 0.28)) <= STRAIGHT * 0.28
@@ -121,7 +121,7 @@ def test_peaucellier() -> None:
 
 
 def test_hart() -> None:
-    mechanism = library.hart()
+    mechanism = examples.hart()
     motion = mechanism.solve(coordinates("hart"))
     pen = motion.joint("Q")
     assert np.max(np.abs(pen.value[:, 0] - 0.055)) <= STRAIGHT * 0.2
@@ -150,7 +150,7 @@ def turned(place: tuple[float, float], by: float) -> tuple[float, float]:
 
 def test_excavator() -> None:
     """Cylinders as long as q; every joint by triangles alone, one link after another."""
-    mechanism = library.excavator()
+    mechanism = examples.excavator()
     q = coordinates("excavator", 9)
     motion = mechanism.solve(q, order=1)
     ends = {"boom": "boom_eye", "stick": "stick_eye", "bucket": "knuckle"}
@@ -205,7 +205,7 @@ def test_excavator() -> None:
 def test_toggle_press() -> None:
     """Ram from two circles; force without bound at the toggle, as statics have it."""
     side = 0.2
-    mechanism = library.toggle_press()
+    mechanism = examples.toggle_press()
     q = np.delete(TURN, len(TURN) // 2)  # the toggle itself is below
     motion = mechanism.solve(q, order=3)
     crank = np.stack([0.3 + 0.05 * np.cos(q), -0.2 + 0.05 * np.sin(q)], axis=-1)

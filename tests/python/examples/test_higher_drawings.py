@@ -5,18 +5,17 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import higher_library
 import numpy as np
 import pytest
-from higher_library import HIGHER
 
 import agreement
 import assur
 import oracle
 import oracle_guess
 from agreement_law import along, check_law, solve, whole_turns
-from assur import Status
+from assur import Status, examples
 from mechanism_data import arguments, described
+from named_drawings import HIGHER
 
 CLASSES = {
     "triad": (3, 3),
@@ -111,7 +110,7 @@ def past(m: assur.Mechanism, q: float) -> assur.Motion:
 
 def test_past_a_dead_point_by_another_driver_and_back() -> None:
     """The triad's crank turns back at its dead point; along a rocker the motion goes on."""
-    triad = higher_library.triad()
+    triad = examples.triad()
     links = {n: list(js) for n, js in triad.links.items()}
     # With a crank twice as long it has one.
     m = assur.Mechanism(joints={**triad.joints, "A": (0.6, 0.4)}, links=links, driver="crank")

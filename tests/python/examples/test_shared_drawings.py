@@ -1,4 +1,4 @@
-"""The library of named mechanisms (examples/library.py): what holds for all of them."""
+"""Drawings of class II that many tests share: structure, ranges, analogues by differences."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import itertools
 import math
 from typing import TypeAlias
 
-import library
 import numpy as np
 import numpy.typing as npt
 import pytest
 
+import named_drawings
 from assur import Status
-from library_checks import coordinates, distance, span
+from example_checks import coordinates, distance, span
 
 Float: TypeAlias = npt.NDArray[np.float64]
 Group: TypeAlias = tuple[str, ...]
@@ -54,21 +54,21 @@ STRUCTURE: dict[str, tuple[str, Group]] = {
 }
 
 
-@pytest.fixture(params=list(library.LIBRARY))
+@pytest.fixture(params=list(named_drawings.CLASS_II))
 def name(request: pytest.FixtureRequest) -> str:
     return str(request.param)
 
 
 def test_all_are_described() -> None:
-    assert list(STRUCTURE) == list(library.LIBRARY) == list(library.RANGES)
+    assert list(STRUCTURE) == list(named_drawings.CLASS_II) == list(named_drawings.RANGES)
     assert {kind for _, kinds in STRUCTURE.values() for kind in kinds} == {RRR, RRP, RPR, PRP, RPP}
-    for make in library.LIBRARY.values():
+    for make in named_drawings.CLASS_II.values():
         assert make.__doc__
         assert make() == make()
 
 
 def test_structure(name: str) -> None:
-    mechanism = library.LIBRARY[name]()
+    mechanism = named_drawings.CLASS_II[name]()
     structure = mechanism.structure
     drivers = np.size(mechanism.q0)
     assert structure.mobility == structure.mobility_counted == drivers
@@ -82,7 +82,7 @@ def test_structure(name: str) -> None:
 
 def test_range(name: str) -> None:
     """Solved everywhere, rigid, and on the drawing at its own coordinate."""
-    mechanism = library.LIBRARY[name]()
+    mechanism = named_drawings.CLASS_II[name]()
     motion = mechanism.solve(coordinates(name), order=0)
     assert np.all(motion.status == Status.OK)
     allowed = POSITION * motion.condition * span(mechanism)
@@ -99,7 +99,7 @@ def test_range(name: str) -> None:
 
 def test_analogues_against_differences(name: str) -> None:
     """First analogues against central differences of the positions."""
-    mechanism = library.LIBRARY[name]()
+    mechanism = named_drawings.CLASS_II[name]()
     q = coordinates(name, 61)
     motion = mechanism.solve(q, order=3)
     drivers = np.size(mechanism.q0)

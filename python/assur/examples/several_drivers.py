@@ -1,0 +1,266 @@
+"""Several drivers: pantograph and five-bar with two, excavator and platforms with three."""
+
+from __future__ import annotations
+
+import math
+
+import assur
+from assur._trig import arctan2
+
+__all__ = ["excavator", "five_bar", "pantograph", "platform_on_cranks", "platform_on_cylinders"]
+
+RIGHT_ANGLE = math.pi / 2
+
+
+def pantograph() -> assur.Mechanism:
+    """Pantograph: the pen P draws three times as large what the tracer T follows.
+
+    O is the fixed pole. OA = 150 mm, OB = 450 mm, and ABCT is a parallelogram, so that O, T and P
+    are always in line, OP = 3 · OT. Two slides lead the tracer: q is its place (x, y).
+
+    Returns
+    -------
+    Mechanism
+        Class II, two drivers; q are the coordinates of T, m.
+
+    References
+    ----------
+    C. Scheiner, *Pantographice seu ars delineandi* (1631); own dimensions.
+
+    Examples
+    --------
+    >>> import assur
+    >>> motion = assur.examples.pantograph().solve([[0.18, 0.05], [0.12, 0.1]])
+    >>> motion.joint("P").value.round(9)
+    array([[0.54, 0.15],
+           [0.36, 0.3 ]])
+    """
+    return assur.Mechanism(
+        joints={
+            "O": (0, 0),
+            "A": (0.09, 0.12),
+            "B": (0.27, 0.36),
+            "C": (0.36, 0.24),
+            "T": (0.18, 0),
+            "P": (0.54, 0),
+        },
+        links={
+            "ground": "O",
+            "arm": "OAB",
+            "pen_arm": "BCP",
+            "inner": "AT",
+            "outer": "CT",
+            "carriage": "",
+            "tracer": "T",
+        },
+        slides={
+            "x": assur.Slide("carriage", on="ground", angle=0.0, origin="O"),
+            "y": assur.Slide("tracer", on="carriage", angle=RIGHT_ANGLE),
+        },
+        driver=("x", "y"),
+    )
+
+
+def five_bar() -> assur.Mechanism:
+    """Symmetrical five-bar: two cranks lead the point P over a plane.
+
+    Cranks 250 mm, rods 300 mm, pivots 220 mm apart. The pick-and-place robots of this form have
+    both motors on the ground. Where the rods are in line the cranks no longer hold P
+    (``singular_loci``).
+
+    Returns
+    -------
+    Mechanism
+        Class II, two drivers; q are the angles of the cranks, rad.
+
+    References
+    ----------
+    X.-J. Liu, J. Wang and G. Pritschow, "Kinematics, singularity and workspace of planar 5R
+    symmetrical parallel mechanisms", *Mechanism and Machine Theory* 41 (2006); own dimensions.
+
+    Examples
+    --------
+    >>> import assur
+    >>> point = assur.examples.five_bar().solve(deg=[90, 90]).joint("P").value
+    >>> point.round(6)                                                  # y = 0.25 + √(0.3² − 0.11²)
+    array([0.11    , 0.529106])
+    """
+    return assur.Mechanism(
+        joints={
+            "A": (0, 0),
+            "B": (-0.07, 0.24),
+            "P": (0.11, 0.48),
+            "D": (0.29, 0.24),
+            "E": (0.22, 0),
+        },
+        links={
+            "ground": "AE",
+            "left": "AB",
+            "left_rod": "BP",
+            "right_rod": "DP",
+            "right": "ED",
+        },
+        driver=("left", "right"),
+    )
+
+
+def excavator() -> assur.Mechanism:
+    """Arm of a 20 t excavator on three cylinders: boom, stick and bucket.
+
+    Boom 5.5 m, stick 2.9 m, bucket 1.4 m: round numbers of the class. The bucket hangs on a
+    four-bar (rocker, link) whose joint ``knuckle`` joins three links. Look at the path of the tip
+    while one cylinder after the other moves.
+
+    Returns
+    -------
+    Mechanism
+        Class II, three drivers; q are the lengths of the cylinders, m.
+
+    References
+    ----------
+    Own dimensions, of the size of makers' data sheets.
+
+    Examples
+    --------
+    >>> import assur
+    >>> m = assur.examples.excavator()
+    >>> m.structure.mobility, m.q0.round(3)
+    (3, array([2.843, 2.558, 2.148]))
+    """
+    joints = {
+        "foot": (0.0, 0.0),
+        "boom_base": (0.55, -0.45),
+        "boom_eye": (2.35, 1.75),
+        "elbow": (5.2, 1.9),
+        "stick_base": (2.9, 2.75),
+        "stick_eye": (5.45, 2.55),
+        "wrist": (4.6, -0.9),
+        "bucket_base": (5.65, 1.75),
+        "rocker_pin": (4.75, -0.45),
+        "knuckle": (5.2, -0.35),
+        "bucket_eye": (5.0, -0.95),
+        "tip": (4.0, -2.15),
+    }
+    ends = {"boom": "boom_eye", "stick": "stick_eye", "bucket": "knuckle"}
+    links = {
+        "ground": ["foot", "boom_base"],
+        "boom": ["foot", "elbow", "boom_eye", "stick_base"],
+        "stick": ["elbow", "wrist", "stick_eye", "bucket_base", "rocker_pin"],
+        "rocker": ["rocker_pin", "knuckle"],
+        "link": ["knuckle", "bucket_eye"],
+        "bucket": ["wrist", "bucket_eye", "tip"],
+    }
+    return assur.Mechanism(
+        joints=joints,
+        links=links,
+        slides={
+            f"{name}_cylinder": assur.Cylinder(
+                f"{name}_base", end, barrel=f"{name}_barrel", rod=f"{name}_rod"
+            )
+            for name, end in ends.items()
+        },
+        driver=[f"{name}_cylinder" for name in ends],
+    )
+
+
+def platform_on_cylinders() -> assur.Mechanism:
+    """The planar platform on three cylinders (3-RPR): up to six assemblies for given lengths.
+
+    Base A, B, C of some 2 m, platform D, E, F of some 0.7 m. With the lengths of the legs given,
+    legs and platform are a triad.
+
+    Returns
+    -------
+    Mechanism
+        Class III, three drivers; q are the lengths of the legs, m.
+
+    References
+    ----------
+    C. M. Gosselin and J. Sefrioui, "Polynomial solutions for the direct kinematic problem of planar
+    three-degree-of-freedom parallel manipulators", *5th International Conference on Advanced
+    Robotics* (1991); own dimensions.
+
+    Examples
+    --------
+    >>> import assur
+    >>> m = assur.examples.platform_on_cylinders()
+    >>> m.assemblies(m.q0).complex_count                                # Gosselin and Sefrioui: 6
+    (6,)
+    """
+    joints = {
+        "A": (0, 0),
+        "B": (2.2, 0.1),
+        "C": (1.0, 1.9),
+        "D": (0.8, 0.7),
+        "E": (1.5, 0.75),
+        "F": (1.1, 1.25),
+    }
+    directions = arctan2([0.7, 0.65, -0.65], [0.8, -0.7, 0.1])
+    return assur.Mechanism(
+        joints=joints,
+        links={
+            "ground": "ABC",
+            "tube1": "A",
+            "tube2": "B",
+            "tube3": "C",
+            "rod1": "D",
+            "rod2": "E",
+            "rod3": "F",
+            "platform": "DEF",
+        },
+        slides={
+            "leg1": assur.Slide("rod1", on="tube1", angle=float(directions[0]), origin="A"),
+            "leg2": assur.Slide("rod2", on="tube2", angle=float(directions[1]), origin="B"),
+            "leg3": assur.Slide("rod3", on="tube3", angle=float(directions[2]), origin="C"),
+        },
+        driver=["leg1", "leg2", "leg3"],
+    )
+
+
+def platform_on_cranks() -> assur.Mechanism:
+    """The planar manipulator on three cranks (3-RRR).
+
+    Base A, B, C of some 2.4 m, cranks of some 0.6 m, platform D, E, F of some 0.7 m. With the
+    cranks given, rods and platform are a triad.
+
+    Returns
+    -------
+    Mechanism
+        Class III, three drivers; q are the angles of the cranks, rad.
+
+    References
+    ----------
+    C. M. Gosselin and J. Angeles, "The optimum kinematic design of a planar
+    three-degree-of-freedom parallel manipulator", *Journal of Mechanisms, Transmissions, and
+    Automation in Design* 110 (1988); own dimensions.
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.examples.platform_on_cranks().structure.formula
+    'I(crank1, crank2, crank3) → III(rod1, rod2, rod3, platform)'
+    """
+    return assur.Mechanism(
+        joints={
+            "A": (0, 0),
+            "B": (2.4, 0),
+            "C": (1.2, 2.1),
+            "a": (0.1, 0.6),
+            "b": (2.0, 0.45),
+            "c": (1.7, 1.75),
+            "D": (0.8, 0.7),
+            "E": (1.5, 0.75),
+            "F": (1.1, 1.25),
+        },
+        links={
+            "ground": "ABC",
+            "crank1": "Aa",
+            "crank2": "Bb",
+            "crank3": "Cc",
+            "rod1": "aD",
+            "rod2": "bE",
+            "rod3": "cF",
+            "platform": "DEF",
+        },
+        driver=["crank1", "crank2", "crank3"],
+    )
