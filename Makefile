@@ -57,6 +57,7 @@ check: lint-tools $(EXTENSION) $(DEV_STAMP)
 	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) -m mypy
 	$(PY) tools/error_page --check
+	$(PY) tools/examples_page --check
 	$(PY) -m pytest -q -n auto tests/python/net/test_digests.py tests/python/description \
 	  tests/python/papers tests/python/package/test_readme.py \
 	  tests/python/package/test_examples_in_docstrings.py
@@ -79,6 +80,7 @@ python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m mypy
 	$(PY) -m mypy.stubtest --mypy-config-file pyproject.toml assur._core
 	$(PY) tools/error_page --check
+	$(PY) tools/examples_page --check
 	$(PY) -m pytest -q -n auto
 
 # Warnings are errors: of broken links and of names without a page, too.

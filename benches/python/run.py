@@ -13,22 +13,17 @@ From the root of the repository::
 from __future__ import annotations
 
 import argparse
-import sys
 import warnings
 from dataclasses import asdict
-from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "examples")]
-
-import figures  # noqa: E402 (the path comes first)
-import page  # noqa: E402
-import table  # noqa: E402
-from cases import cases  # noqa: E402
-from levels import sides  # noqa: E402
-from rounds import measure  # noqa: E402
+import figures
+import page
+import table
+from cases import cases
+from levels import sides
+from rounds import measure
 
 
 def parsed() -> argparse.Namespace:

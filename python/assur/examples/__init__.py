@@ -104,8 +104,8 @@ RANGES: Mapping[str, tuple[Coordinate, Coordinate]] = MappingProxyType(
         "pantograph": ((0.1, -0.1), (0.22, 0.12)),
         "five_bar": ((1.4, 0.84), (2.3, 1.74)),
         "excavator": ((2.5, 2.0, 2.0), (3.3, 2.9, 2.65)),
-        "platform_on_cylinders": ((0.9, 0.8, 0.5), (1.2, 1.1, 0.8)),
-        "platform_on_cranks": ((1.1, 2.0, -1.0), (1.7, 2.6, -0.4)),
+        "platform_on_cylinders": ((1.1, 1.0, 0.7), (1.5, 1.4, 1.1)),
+        "platform_on_cranks": ((0.7, 2.3, -1.2), (1.3, 2.9, -0.6)),
         "stephenson_reversed": (-0.2, 1.0),
         "pentagon": (-0.7, 2.6),
     }

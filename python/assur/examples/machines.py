@@ -54,8 +54,10 @@ def andrews_squeezer() -> assur.Machine:
 
     Seven bodies K1 … K7 of 4 to 71 g on the pivots O, A and B, the largest 40 mm long; a spring of
     4530 N/m from C to D on K3; a motor with the constant torque 0.033 N·m on K1; no weight. From
-    rest it makes two and a half turns in 0.03 s. As the source solves it, it has seven coordinates
-    and six constraints; here it is a crank with three dyads, one equation of motion.
+    rest it makes two and a half turns in 0.03 s. As the sources solve it, it has seven coordinates
+    and six constraints; here it is a crank with three dyads, one equation of motion. At 0.03 s the
+    angles agree with the printed reference to 10 digits, and with a solution of the sources'
+    equations by another program to 12.
 
     Returns
     -------

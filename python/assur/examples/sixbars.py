@@ -125,8 +125,8 @@ def stephenson_1() -> assur.Mechanism:
 def stephenson_2() -> assur.Mechanism:
     """Stephenson II: one ternary link turns on the ground, the other is the crank's coupler.
 
-    Crank 40 mm, ground 200 mm. Driven by the binary crank the other four links have no dyad: class
-    IV, a quadrilateral that changes its form between plate and rocker. The crank turns fully.
+    Crank 40 mm, ground 200 mm, rocker DE 103 mm. Driven by the binary crank the other four links
+    have no dyad: class IV, a quadrilateral C, E, G, F that changes its form. The crank turns fully.
 
     Returns
     -------
@@ -149,11 +149,11 @@ def stephenson_2() -> assur.Mechanism:
         joints={
             "A": (0, 0),
             "B": (0, 0.04),
-            "C": (0.07, 0.03),
-            "F": (0.04, 0.11),
+            "C": (0.1, 0.03),
+            "F": (0.06, 0.11),
             "D": (0.2, 0),
-            "E": (0.17, 0.12),
-            "G": (0.18, 0.09),
+            "E": (0.15, 0.09),
+            "G": (0.2, 0.11),
         },
         links={
             "ground": "AD",

@@ -90,6 +90,17 @@ def test_jansen_leg() -> None:
     assert np.max(np.abs(gap)) <= STRAIGHT
 
 
+def test_jansen_foot() -> None:
+    """A closed path, flat to a centimetre for two fifths of the turn, passed in one direction."""
+    foot = examples.jansen_leg().solve(TURN, order=1).joint("F")
+    assert foot.value[0] == pytest.approx(foot.value[-1], abs=STRAIGHT)
+    flat = foot.value[:, 1] < foot.value[:, 1].min() + 0.01
+    assert np.mean(flat) > 0.4
+    along = foot.d1[flat, 0]
+    assert np.all(along > 0.0) or np.all(along < 0.0)
+    assert np.ptp(foot.value[flat, 0]) > 0.85 * np.ptp(foot.value[:, 0])
+
+
 def test_klann_leg() -> None:
     """The patent's two positions; a closed path with half a turn flat."""
     stride = 0.5

@@ -1,20 +1,20 @@
-"""Helpers for the tests of the library of named mechanisms."""
+"""Helpers for the tests of the examples."""
 
 from __future__ import annotations
 
 import itertools
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+import assur
 import named_drawings
+from assur import examples
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-
-    import assur
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
@@ -28,9 +28,9 @@ def diagonals(drivers: int) -> Iterator[tuple[bool, ...]]:
     return itertools.product((False,), *[(False, True)] * (drivers - 1))
 
 
-def coordinates(name: str, count: int = 241) -> Float:
-    """Over the whole range: (N,), or (N, n) for n drivers: along its diagonals."""
-    low, high = (np.array(end) for end in named_drawings.RANGES[name])
+def between(ends: Any, count: int) -> Float:
+    """From the one end to the other: (N,), or (N, n) for n drivers: along its diagonals."""
+    low, high = (np.array(end) for end in ends)
     if low.ndim == 0:
         return np.linspace(float(low), float(high), count)
     paths = []
@@ -38,6 +38,20 @@ def coordinates(name: str, count: int = 241) -> Float:
         start, stop = np.where(backwards, high, low), np.where(backwards, low, high)
         paths.append(start + np.linspace(0.0, 1.0, count)[:, np.newaxis] * (stop - start))
     return np.concatenate(paths)
+
+
+def coordinates(name: str, count: int = 241) -> Float:
+    """Over the whole range of a shared drawing of class II."""
+    return between(named_drawings.RANGES[name], count)
+
+
+def over_range(name: str, count: int = 241) -> Float:
+    """Over the whole range of an example."""
+    return between(examples.RANGES[name], count)
+
+
+def mechanism_of(example: assur.Mechanism | assur.Machine) -> assur.Mechanism:
+    return example.mechanism if isinstance(example, assur.Machine) else example
 
 
 def distance(motion: assur.Motion, a: str, b: str) -> Float:

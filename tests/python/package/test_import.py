@@ -68,7 +68,7 @@ LATE = """
 import sys
 import assur
 
-late = ("assur.dynamics", "assur.events", "assur.flywheel", "assur.papers")
+late = ("assur.dynamics", "assur.events", "assur.examples", "assur.flywheel", "assur.papers")
 assert not [name for name in sys.modules if name.startswith(late)]
 assert not [name for name in set(assur.__all__) - set(dir(assur))]
 assert assur.Machine is sys.modules["assur.dynamics.machine"].Machine
