@@ -117,8 +117,8 @@ def loom() -> assur.Mechanism:
 
     References
     ----------
-    V. M. Dvorzhak, *Computer study of plane mechanisms of the fourth class* (in Ukrainian); its
-    joints, m.
+    V. M. Dvorzhak, *Computer study of plane mechanisms of the fourth class* (in Ukrainian), which
+    prints no lengths; own dimensions.
 
     Examples
     --------

@@ -10,8 +10,8 @@ __all__ = ["jansen_leg", "klann_leg"]
 def jansen_leg() -> assur.Mechanism:
     """Leg of Theo Jansen's beach animals; foot F.
 
-    His "holy numbers" (crank 15, a 38, b 41.5, …), here cm, as a drawing rounded to a tenth of a
-    millimetre. Look at the path of F, flat for almost half of the turn. The lower dyad does not
+    His "holy numbers" in cm (crank 15 cm, a 38 cm, b 41.5 cm, …), as a drawing rounded to a tenth
+    of a millimetre. Look at the path of F, flat to 1 cm for two fifths of the turn. The lower dyad does not
     depend on the upper one.
 
     Returns
