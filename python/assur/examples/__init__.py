@@ -22,14 +22,9 @@ from assur.examples.fourbars import crank_rocker, locomotive
 from assur.examples.higher_classes import loom, pentagon, stephenson_reversed, triad
 from assur.examples.legs import jansen_leg, klann_leg
 from assur.examples.machines import andrews_squeezer, toggle_press
+from assur.examples.platforms import platform_on_cranks, platform_on_cylinders
 from assur.examples.quick_returns import shaper, whitworth
-from assur.examples.several_drivers import (
-    excavator,
-    five_bar,
-    pantograph,
-    platform_on_cranks,
-    platform_on_cylinders,
-)
+from assur.examples.several_drivers import excavator, five_bar, pantograph
 from assur.examples.sixbars import stephenson_1, stephenson_2, stephenson_3, watt_1, watt_2
 from assur.examples.sliders import engine, oldham, scotch_yoke, tangent_generator, trammel
 from assur.examples.straight_lines import chebyshev_lambda, hart, peaucellier
@@ -87,7 +82,8 @@ ALL: Mapping[str, Example] = MappingProxyType(
             *(watt_1, watt_2, stephenson_1, stephenson_2, stephenson_3),
             *(jansen_leg, klann_leg),
             *(chebyshev_lambda, peaucellier, hart),
-            *(pantograph, five_bar, excavator, platform_on_cylinders, platform_on_cranks),
+            *(pantograph, five_bar, excavator),
+            *(platform_on_cylinders, platform_on_cranks),
             *(triad, stephenson_reversed, loom, pentagon),
             *(toggle_press, andrews_squeezer),
         )

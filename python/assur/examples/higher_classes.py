@@ -1,7 +1,7 @@
 """Classes III, IV and V with one driver.
 
 A group above class II has no dyad in it: take away any of its links and all of it is loose.
-`stephenson_2` of the six-bars and the platforms of several drivers have such groups too.
+`stephenson_2` of the six-bars and the `platforms` have such groups too.
 """
 
 from __future__ import annotations

@@ -11,8 +11,8 @@ def jansen_leg() -> assur.Mechanism:
     """Leg of Theo Jansen's beach animals; foot F.
 
     His "holy numbers" in cm (crank 15 cm, a 38 cm, b 41.5 cm, …), as a drawing rounded to a tenth
-    of a millimetre. Look at the path of F, flat to 1 cm for two fifths of the turn. The lower dyad does not
-    depend on the upper one.
+    of a millimetre. Look at the path of F, flat to 1 cm for two fifths of the turn. The lower dyad
+    does not depend on the upper one.
 
     Returns
     -------

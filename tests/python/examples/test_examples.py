@@ -23,37 +23,53 @@ RRR, RRP, RPR, PRP, RPP = ((2, 2, kind) for kind in ("RRR", "RRP", "RPR", "PRP",
 TRIAD, TETRAD = (3, 3, None), (4, 2, None)  # Assur's groups by their closed contours
 # As the literature has them: dyads by Artobolevsky's kinds; Stephenson's chain is of class III
 # where the driver is outside of its four-bar loop, and has the tetrad where it is on Stephenson II.
-GROUPS: dict[str, Groups] = {
-    "crank_rocker": (RRR,),
-    "locomotive": (RRR, RRP),
-    "engine": (RRP,),
-    "scotch_yoke": (RPP,),
-    "tangent_generator": (PRP,),
-    "trammel": (PRP,),
-    "oldham": (RPP,),
-    "whitworth": (RPR, RRP),
-    "shaper": (RPR, RRP),
-    "watt_1": (RRR, RRR),
-    "watt_2": (RRR, RRR),
-    "stephenson_1": (RRR, RRR),
-    "stephenson_2": (TETRAD,),
-    "stephenson_3": (RRR, RRR),
-    "jansen_leg": (RRR, RRR, RRR),
-    "klann_leg": (RRR, RRR),
-    "chebyshev_lambda": (RRR,),
-    "peaucellier": (RRR, RRR, RRR),
-    "hart": (RRR, RRR),
-    "pantograph": (RRR, RRR),
-    "five_bar": (RRR,),
-    "excavator": (RRR, RRR, RRR, RRR),
-    "platform_on_cylinders": (TRIAD,),
-    "platform_on_cranks": (TRIAD,),
-    "triad": (TRIAD,),
-    "stephenson_reversed": (TRIAD,),
-    "loom": ((4, 3, None),),
-    "pentagon": ((5, 3, None),),
-    "toggle_press": (RRR, RRP),
-    "andrews_squeezer": (RRR, RRR, RRR),
+STRUCTURE: dict[str, tuple[str, Groups]] = {
+    "crank_rocker": ("I(crank) → II(coupler, rocker)", (RRR,)),
+    "locomotive": ("I(wheel2) → II(wheel1, coupling_rod) → II(main_rod, crosshead)", (RRR, RRP)),
+    "engine": ("I(crank) → II(rod, piston)", (RRP,)),
+    "scotch_yoke": ("I(crank) → II(block, yoke)", (RPP,)),
+    "tangent_generator": ("I(lever) → II(block, cursor)", (PRP,)),
+    "trammel": ("I(bar) → II(x_block, y_block)", (PRP,)),
+    "oldham": ("I(shaft1) → II(disc, shaft2)", (RPP,)),
+    "whitworth": ("I(crank) → II(block, lever) → II(rod, ram)", (RPR, RRP)),
+    "shaper": ("I(crank) → II(block, lever) → II(rod, ram)", (RPR, RRP)),
+    "watt_1": ("I(crank) → II(coupler, rocker) → II(link, arm)", (RRR, RRR)),
+    "watt_2": ("I(crank) → II(coupler, lever) → II(link, rocker)", (RRR, RRR)),
+    "stephenson_1": ("I(crank) → II(coupler, rocker) → II(link1, link2)", (RRR, RRR)),
+    "stephenson_2": ("I(crank) → IV(plate, rocker, lower, upper)", (TETRAD,)),
+    "stephenson_3": ("I(crank) → II(coupler, rocker) → II(link, lever)", (RRR, RRR)),
+    "jansen_leg": (
+        "I(crank) → II(upper_rod, upper) → II(lower_rod, lower_rocker) → II(link, foot)",
+        (RRR, RRR, RRR),
+    ),
+    "klann_leg": ("I(crank) → II(rod, lower_rocker) → II(upper_rocker, leg)", (RRR, RRR)),
+    "chebyshev_lambda": ("I(crank) → II(coupler, rocker)", (RRR,)),
+    "peaucellier": (
+        "I(crank) → II(arm1, side1) → II(arm2, side2) → II(side3, side4)",
+        (RRR, RRR, RRR),
+    ),
+    "hart": ("I(crank) → II(short1, long1) → II(short2, long2)", (RRR, RRR)),
+    "pantograph": ("I(x, y) → II(arm, inner) → II(pen_arm, outer)", (RRR, RRR)),
+    "five_bar": ("I(left, right) → II(left_rod, right_rod)", (RRR,)),
+    "excavator": (
+        (
+            "I(boom_cylinder, stick_cylinder, bucket_cylinder) → "
+            "II(boom, boom_barrel, boom_rod) → II(stick, stick_barrel, stick_rod) → "
+            "II(rocker, bucket_barrel, bucket_rod) → II(link, bucket)"
+        ),
+        (RRR, RRR, RRR, RRR),
+    ),
+    "platform_on_cylinders": (
+        "I(leg1, leg2, leg3) → III(tube1, tube2, tube3, rod1, rod2, rod3, platform)",
+        (TRIAD,),
+    ),
+    "platform_on_cranks": ("I(crank1, crank2, crank3) → III(rod1, rod2, rod3, platform)", (TRIAD,)),
+    "triad": ("I(crank) → III(rod, plate, right, left)", (TRIAD,)),
+    "stephenson_reversed": ("I(input) → III(rod, coupler, crank, rocker)", (TRIAD,)),
+    "loom": ("I(crank) → IV(l234, l365, l48, l876, l95, l107)", ((4, 3, None),)),
+    "pentagon": ("I(crank) → V(rod, left, right, lower, plate, upper)", ((5, 3, None),)),
+    "toggle_press": ("I(crank) → II(rod, upper) → II(lower, ram)", (RRR, RRP)),
+    "andrews_squeezer": ("I(K1) → II(K2, K3) → II(K4, K5) → II(K6, K7)", (RRR, RRR, RRR)),
 }
 DRIVERS = {"pantograph": 2, "five_bar": 2, "excavator": 3}
 DRIVERS |= {"platform_on_cylinders": 3, "platform_on_cranks": 3}
@@ -76,7 +92,7 @@ def name(request: pytest.FixtureRequest) -> str:
 
 
 def test_all_are_listed() -> None:
-    assert list(GROUPS) == list(examples.ALL) == list(examples.RANGES)
+    assert list(STRUCTURE) == list(examples.ALL) == list(examples.RANGES)
     assert {*examples.__all__} == {*examples.ALL, "ALL", "RANGES"}
     own = {
         function.__name__
@@ -95,14 +111,17 @@ def test_docstring(name: str) -> None:
     assert re.search(r"\d (mm|cm|m)\b", text)  # dimensions with their unit
     stated = re.search(r"^    Class (\w+)", text, re.MULTILINE)
     assert stated is not None
-    assert {"II": 2, "III": 3, "IV": 4, "V": 5}[stated[1]] == max(c for c, _, _ in GROUPS[name])
+    assert {"II": 2, "III": 3, "IV": 4, "V": 5}[stated[1]] == max(
+        c for c, _, _ in STRUCTURE[name][1]
+    )
 
 
 def test_structure(name: str) -> None:
     made = examples.ALL[name]()
     structure = mechanism_of(made).structure
     assert structure.mobility == DRIVERS.get(name, 1) == np.size(mechanism_of(made).q0)
-    assert tuple((g.cls, g.order, g.kind) for g in structure.groups) == GROUPS[name]
+    groups = tuple((g.cls, g.order, g.kind) for g in structure.groups)
+    assert (structure.formula, groups) == STRUCTURE[name]
     redundant = ("wheel3",) if name == "locomotive" else ()
     assert structure.redundant == redundant
     assert structure.mobility_counted == structure.mobility - len(redundant)
