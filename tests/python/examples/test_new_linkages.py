@@ -176,7 +176,7 @@ def test_platforms() -> None:
         assert np.max(np.abs(distance(motion, *ends) - q[:, i])) <= STRAIGHT
     turned = over_range("platform_on_cranks", 31)
     motion = cranks.solve(turned, order=0)
-    for i, (pivot, pin) in enumerate(("Aa", "Bb", "Cc")):
+    for i, (pivot, pin) in enumerate([("A", "a"), ("B", "b"), ("C", "c")]):
         arm = at(motion, pin) - complex(*cranks.joints[pivot])
         reach = math.dist(cranks.joints[pivot], cranks.joints[pin])
         assert np.max(np.abs(arm - reach * np.exp(1j * turned[:, i]))) <= STRAIGHT

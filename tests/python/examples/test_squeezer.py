@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 import assur
 import squeezer_equations
 from assur import examples
+from example_checks import mechanism_of
 
 Float: TypeAlias = npt.NDArray[np.float64]
 
@@ -77,8 +78,7 @@ def whole_turns(found: Float, want: Float) -> Float:
 
 
 def test_initial_position() -> None:
-    machine = examples.andrews_squeezer()
-    m = machine.mechanism
+    m = mechanism_of(examples.andrews_squeezer())
     assert np.max(np.abs(squeezer_equations.constraints(START))) <= ROUNDING
     motion = m.solve(m.q0, order=2)
     start = whole_turns(as_printed(motion, 0.0, 0.0), np.stack([START] * 3, axis=-1))
@@ -91,10 +91,10 @@ def test_initial_position() -> None:
 def test_initial_acceleration_and_force() -> None:
     """Accelerations and the two multipliers that are not 0: the force between K2 and K3 at E."""
     machine = examples.andrews_squeezer()
-    q0 = float(machine.mechanism.q0)
+    q0 = float(mechanism_of(machine).q0)
     run = machine.run(t_end=1e-6, q0=q0, speed0=0.0)
     assert run.acceleration[0] == pytest.approx(FIRST[0], rel=1e-14)
-    motion = machine.mechanism.solve(q0, order=2)
+    motion = mechanism_of(machine).solve(q0, order=2)
     found = as_printed(motion, 0.0, float(run.acceleration[0]))[:, 2]
     assert np.max(np.abs(found - FIRST)) <= 1e-13 * FIRST[0]
     force = machine.reactions(q0, 0.0, run.acceleration[0]).joint("E", on="K3")
@@ -104,8 +104,8 @@ def test_initial_acceleration_and_force() -> None:
 def test_reference_solution() -> None:
     """At 0.03 s, two and a half turns later, all angles, rates and accelerations."""
     machine = examples.andrews_squeezer()
-    run = machine.run(t_end=0.03, q0=machine.mechanism.q0, speed0=0.0, rtol=1e-13)
-    motion = machine.mechanism.solve(run.q[-1], order=2)
+    run = machine.run(t_end=0.03, q0=mechanism_of(machine).q0, speed0=0.0, rtol=1e-13)
+    motion = mechanism_of(machine).solve(run.q[-1], order=2)
     found = whole_turns(as_printed(motion, run.speed[-1], run.acceleration[-1]), END)
     size = np.max(np.abs(END), axis=0)
     assert np.all(np.max(np.abs(found - END), axis=0) <= PRINTED * size)

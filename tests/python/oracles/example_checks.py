@@ -51,7 +51,9 @@ def over_range(name: str, count: int = 241) -> Float:
 
 
 def mechanism_of(example: assur.Mechanism | assur.Machine) -> assur.Mechanism:
-    return example.mechanism if isinstance(example, assur.Machine) else example
+    found = example.mechanism if isinstance(example, assur.Machine) else example
+    assert found is not None
+    return found
 
 
 def distance(motion: assur.Motion, a: str, b: str) -> Float:
